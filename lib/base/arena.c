@@ -19,51 +19,51 @@
 
 // The stress build starts from blocks that hold next to nothing, so that every path crosses a block boundary.
 #ifdef PETRI_STRESS
-enum { FIRST_BLOCK = 64, LARGEST_BLOCK = 1024 };
+enum { MIN_BLOCK_SIZE = 64, MAX_BLOCK_SIZE = 1024 };
 #else
-enum { FIRST_BLOCK = 16 << 10, LARGEST_BLOCK = 4 << 20 };
+enum { MIN_BLOCK_SIZE = 16 << 10, MAX_BLOCK_SIZE = 4 << 20 };
 #endif
 
-void arena_init(Arena *arena, const char *name, size_t budget) {
-    *arena = (Arena){.budget = budget, .name = name};
+void arena_init(Arena *arena, const char *name, size_t limit) {
+    *arena = (Arena){.limit = limit, .name = name};
 }
 
-static void free_blocks(Meter *meter, ArenaBlock *block) {
+static void free_blocks(Budget *budget, ArenaBlock *block) {
     for (ArenaBlock *next; block; block = next) {
         next = block->next;
         UNPOISON(block->bytes, block->capacity);
-        meter_give(meter, sizeof *block + block->capacity);
-        heap_give(block);
+        budget_release(budget, sizeof *block + block->capacity);
+        heap_free(block);
     }
 }
 
 void arena_free(Arena *arena) {
-    free_blocks(arena->meter, arena->first);
+    free_blocks(arena->budget, arena->first);
     arena->first = arena->current = NULL;
     arena->used = 0;
 }
 
 void arena_retire(Arena *arena) {
-    Meter *meter = arena->meter;
-    for (ArenaBlock *block = arena->first, *next; block && meter && meter->keeps; block = next) {
+    Budget *budget = arena->budget;
+    for (ArenaBlock *block = arena->first, *next; block && budget && budget->retains; block = next) {
         next = block->next;
-        block->next = meter->kept;
-        meter->kept = block;
+        block->next = budget->retained;
+        budget->retained = block;
         arena->first = next;
     }
     arena_free(arena);
 }
 
-void arena_drop_kept(Meter *meter) {
-    ArenaBlock *kept = meter->kept;
-    meter->kept = NULL;
-    free_blocks(meter, kept);
+void arena_free_retained(Budget *budget) {
+    ArenaBlock *retained = budget->retained;
+    budget->retained = NULL;
+    free_blocks(budget, retained);
 }
 
-void arena_release(Arena *arena) {
+void arena_detach_budget(Arena *arena) {
     for (const ArenaBlock *block = arena->first; block; block = block->next)
-        meter_give(arena->meter, sizeof *block + block->capacity);
-    arena->meter = NULL;
+        budget_release(arena->budget, sizeof *block + block->capacity);
+    arena->budget = NULL;
 }
 
 static void block_truncate(ArenaBlock *block, size_t fill) {
@@ -97,48 +97,48 @@ ArenaMark arena_mark(const Arena *arena) {
     return (ArenaMark){arena->current, arena->current ? arena->current->fill : 0, arena->used};
 }
 
-_Noreturn void arena_leave(const Arena *arena, ArenaEnd end) {
+_Noreturn void arena_escape(const Arena *arena, ArenaOutcome end) {
     if (arena->escape)
         longjmp(*arena->escape, (int)end);
     fprintf(stderr, "petri: out of memory (%s)\n", arena->name);
     abort();
 }
 
-void arena_look(Arena *arena, MeterAnswer answer) {
+void arena_check(Arena *arena, BudgetOutcome answer) {
     if (arena->escape)
-        arena_leave(arena, answer == METER_WORK ? ARENA_WORK : ARENA_INTERRUPTED);
+        arena_escape(arena, answer == BUDGET_EXCEEDED ? ARENA_WORK_LIMIT : ARENA_INTERRUPTED);
 }
 
 _Noreturn void arena_exhausted(const Arena *arena) {
-    arena_leave(arena, ARENA_MEMORY);
+    arena_escape(arena, ARENA_OUT_OF_MEMORY);
 }
 
 // A function of its own, so that no variable of the caller is one that longjmp may lose.
-static ArenaEnd call_with(jmp_buf *escape, void (*call)(void *context), void *context) {
+static ArenaOutcome call_with(jmp_buf *escape, void (*call)(void *context), void *context) {
     switch (setjmp(*escape)) {
     case 0:
         call(context);
-        return ARENA_DONE;
-    case ARENA_MEMORY:
-        return ARENA_MEMORY;
-    case ARENA_BUDGET:
-        return ARENA_BUDGET;
-    case ARENA_WORK:
-        return ARENA_WORK;
+        return ARENA_OK;
+    case ARENA_OUT_OF_MEMORY:
+        return ARENA_OUT_OF_MEMORY;
+    case ARENA_MEMORY_LIMIT:
+        return ARENA_MEMORY_LIMIT;
+    case ARENA_WORK_LIMIT:
+        return ARENA_WORK_LIMIT;
     default:
         return ARENA_INTERRUPTED;
     }
 }
 
-ArenaEnd arena_protect(Arena *const arenas[], size_t count, void (*call)(void *context), void *context) {
-    jmp_buf escape, *outer[ARENA_MOST_PROTECTED] = {NULL};
-    assert(count <= ARENA_MOST_PROTECTED);
+ArenaOutcome arena_protect(Arena *const arenas[], size_t count, void (*call)(void *context), void *context) {
+    jmp_buf escape, *outer[ARENA_MAX_PROTECTED] = {NULL};
+    assert(count <= ARENA_MAX_PROTECTED);
     for (size_t i = 0; i < count; i++)
         if (arenas[i]) {
             outer[i] = arenas[i]->escape;
             arenas[i]->escape = &escape;
         }
-    ArenaEnd end = call_with(&escape, call, context);
+    ArenaOutcome end = call_with(&escape, call, context);
     for (size_t i = count; i-- > 0;) // backwards: one may be there twice
         if (arenas[i])
             arenas[i]->escape = outer[i];
@@ -151,14 +151,14 @@ typedef struct Attempt {
     void *bytes;
 } Attempt;
 
-static void attempt(void *context) {
+static void call_arena_alloc(void *context) {
     Attempt *this = context;
     this->bytes = arena_alloc(this->arena, this->size);
 }
 
 void *arena_try_alloc(Arena *arena, size_t size) {
     Attempt this = {arena, size, NULL};
-    return arena_protect(&arena, 1, attempt, &this) == ARENA_DONE ? this.bytes : NULL;
+    return arena_protect(&arena, 1, call_arena_alloc, &this) == ARENA_OK ? this.bytes : NULL;
 }
 
 // Makes `current` a block with room for `size` bytes: the next kept one that is large enough, or a new one after it.
@@ -171,16 +171,16 @@ static void arena_next_block(Arena *arena, size_t size) {
             return;
         }
     }
-    size_t capacity = last ? last->capacity * 2 : FIRST_BLOCK;
-    if (capacity > LARGEST_BLOCK)
-        capacity = LARGEST_BLOCK;
+    size_t capacity = last ? last->capacity * 2 : MIN_BLOCK_SIZE;
+    if (capacity > MAX_BLOCK_SIZE)
+        capacity = MAX_BLOCK_SIZE;
     if (capacity < size)
         capacity = size;
-    if (!meter_take(arena->meter, sizeof(ArenaBlock) + capacity))
-        arena_leave(arena, ARENA_BUDGET);
-    ArenaBlock *block = heap_take(sizeof(ArenaBlock) + capacity);
+    if (!budget_reserve(arena->budget, sizeof(ArenaBlock) + capacity))
+        arena_escape(arena, ARENA_MEMORY_LIMIT);
+    ArenaBlock *block = heap_alloc(sizeof(ArenaBlock) + capacity);
     if (!block) {
-        meter_give(arena->meter, sizeof(ArenaBlock) + capacity);
+        budget_release(arena->budget, sizeof(ArenaBlock) + capacity);
         arena_exhausted(arena);
     }
     *block = (ArenaBlock){.capacity = capacity};
@@ -193,8 +193,8 @@ static void arena_next_block(Arena *arena, size_t size) {
 }
 
 void *arena_alloc_slow(Arena *arena, size_t size) {
-    if (size > SIZE_MAX / 2 || size > arena->budget || arena->used > arena->budget - size)
-        arena_leave(arena, ARENA_BUDGET);
+    if (size > SIZE_MAX / 2 || size > arena->limit || arena->used > arena->limit - size)
+        arena_escape(arena, ARENA_MEMORY_LIMIT);
     size_t rounded = (size + ARENA_ALIGNMENT - 1) & ~(size_t)(ARENA_ALIGNMENT - 1);
     ArenaBlock *block = arena->current;
     if (!block || block->capacity - block->fill < rounded) {
@@ -210,8 +210,8 @@ void *arena_alloc_slow(Arena *arena, size_t size) {
 
 void *arena_alloc_array(Arena *arena, size_t count, size_t size) {
     if (size && count > SIZE_MAX / size)
-        arena_leave(arena, ARENA_BUDGET);
-    arena_charge(arena, count * size / METER_BYTES);
+        arena_escape(arena, ARENA_MEMORY_LIMIT);
+    arena_charge(arena, count * size / BUDGET_BYTES);
     return arena_alloc(arena, count * size);
 }
 
@@ -227,8 +227,8 @@ void *arena_grow(Arena *arena, void *bytes, size_t old_size, size_t new_size) {
     size_t new_rounded = (new_size + ARENA_ALIGNMENT - 1) & ~(size_t)(ARENA_ALIGNMENT - 1);
     ArenaBlock *block = arena->current;
     if (block && old_rounded <= block->fill && (unsigned char *)bytes == block->bytes + block->fill - old_rounded &&
-        block->capacity - block->fill >= new_rounded - old_rounded && new_size <= arena->budget &&
-        arena->used <= arena->budget - (new_rounded - old_rounded)) {
+        block->capacity - block->fill >= new_rounded - old_rounded && new_size <= arena->limit &&
+        arena->used <= arena->limit - (new_rounded - old_rounded)) {
         UNPOISON(bytes, new_size);
         block->fill += new_rounded - old_rounded;
         arena->used += new_rounded - old_rounded;
@@ -240,7 +240,7 @@ void *arena_grow(Arena *arena, void *bytes, size_t old_size, size_t new_size) {
     return larger;
 }
 
-void *arena_room(Arena *arena, void *items, uint32_t count, uint32_t *capacity, size_t size) {
+void *arena_grow_array(Arena *arena, void *items, uint32_t count, uint32_t *capacity, size_t size) {
     if (count < *capacity)
         return items;
     uint32_t larger = *capacity ? *capacity * 2 : 8;

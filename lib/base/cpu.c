@@ -8,26 +8,26 @@
 
 static const char *const names[CPU_LEVELS] = {"scalar", "avx2", "avx512"};
 
-Cpu cpu_here;
+Cpu cpu_detected;
 
 // Before main, so that it is constant for all that follows.
-__attribute__((constructor)) static void look(void) {
+__attribute__((constructor)) static void detect_cpu(void) {
 #if defined(__x86_64__)
     __builtin_cpu_init();
     bool wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
                 __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw");
-    cpu_here.level = !__builtin_cpu_supports("avx2") ? CPU_SCALAR : wide ? CPU_AVX512 : CPU_AVX2;
-    cpu_choose(getenv("PETRI_CPU"), &cpu_here.level);
-    cpu_here.fma = cpu_here.level > CPU_SCALAR && __builtin_cpu_supports("fma");
+    cpu_detected.level = !__builtin_cpu_supports("avx2") ? CPU_SCALAR : wide ? CPU_AVX512 : CPU_AVX2;
+    cpu_choose(getenv("PETRI_CPU"), &cpu_detected.level);
+    cpu_detected.fma = cpu_detected.level > CPU_SCALAR && __builtin_cpu_supports("fma");
 #endif
 }
 
-bool cpu_choose(const char *wish, CpuLevel *level) {
-    *level = cpu_here.level;
-    if (!wish || !*wish)
+bool cpu_choose(const char *requested, CpuLevel *level) {
+    *level = cpu_detected.level;
+    if (!requested || !*requested)
         return true;
     for (int i = 0; i < CPU_LEVELS; i++) {
-        if (strcmp(wish, names[i]))
+        if (strcmp(requested, names[i]))
             continue;
         if ((CpuLevel)i < *level)
             *level = (CpuLevel)i;

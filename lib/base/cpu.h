@@ -13,11 +13,11 @@ typedef struct Cpu {
     CpuLevel level; // the highest
     bool fma;       // fused multiply-add may be used to find results: the level is above scalar, the processor has it
 } Cpu;
-extern Cpu cpu_here;
+extern Cpu cpu_detected;
 
-// `wish` ("scalar", "avx2" or "avx512", as in PETRI_CPU), lowered to cpu_here.level. NULL or an empty text stand for no
-// wish. False if there is no such level; *level is then cpu_here.level.
-bool cpu_choose(const char *wish, CpuLevel *level);
+// `wish` ("scalar", "avx2" or "avx512", as in PETRI_CPU), lowered to cpu_detected.level. NULL or an empty text stand
+// for no wish. False if there is no such level; *level is then cpu_detected.level.
+bool cpu_choose(const char *requested, CpuLevel *level);
 const char *cpu_name(CpuLevel level);
 
 // Processors that this process may run on; at least 1.

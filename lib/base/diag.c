@@ -6,29 +6,29 @@ DiagSink diag_sink_new(Arena *arena, uint32_t limit) {
 }
 
 void diag_sink_free(DiagSink *sink) {
-    index_free(&sink->index);
+    hash_index_free(&sink->index);
     *sink = (DiagSink){.arena = sink->arena, .limit = sink->limit};
 }
 
-static bool diag_same(const void *owner, uint32_t entry, const void *key) {
+static bool is_same_diag(const void *owner, uint32_t entry, const void *key) {
     const Diag *a = &((const DiagSink *)owner)->items[entry], *b = key;
     return a->source == b->source && a->span.start == b->span.start && str_equal(a->text, b->text);
 }
 
 bool diag_report(DiagSink *sink, const Diag *diag) {
     uint64_t hash = hash_bytes(diag->span.start, diag->text.bytes, diag->text.len);
-    if (index_find(&sink->index, hash, diag_same, sink, diag) != INDEX_NONE)
+    if (hash_index_find(&sink->index, hash, is_same_diag, sink, diag) != HASH_INDEX_NONE)
         return false;
     if (sink->count >= sink->limit) {
         sink->dropped++;
         return false;
     }
-    sink->items = arena_room(sink->arena, sink->items, sink->count, &sink->capacity, sizeof *sink->items);
-    Diag *kept = &sink->items[sink->count];
-    *kept = *diag;
-    kept->text = str_copy(sink->arena, diag->text);
-    kept->hint = str_copy(sink->arena, diag->hint);
-    if (!index_add(&sink->index, hash, sink->count))
+    sink->items = arena_grow_array(sink->arena, sink->items, sink->count, &sink->capacity, sizeof *sink->items);
+    Diag *stored = &sink->items[sink->count];
+    *stored = *diag;
+    stored->text = str_copy(sink->arena, diag->text);
+    stored->hint = str_copy(sink->arena, diag->hint);
+    if (!hash_index_add(&sink->index, hash, sink->count))
         arena_exhausted(sink->arena);
     sink->count++;
     sink->error_count += diag->level == DIAG_ERROR;
@@ -40,15 +40,15 @@ static const char *const level_colours[] = {"\033[1;31m", "\033[1;35m", "\033[1;
 
 // The part of a long line around the column, so that a line of ten megabytes prints as one of a hundred characters.
 static Str excerpt(Str line, uint32_t *column) {
-    enum { WIDEST = 160, LEAD = 60 };
-    if (utf8_length(line) <= WIDEST)
+    enum { MAX_WIDTH = 160, CONTEXT_WIDTH = 60 };
+    if (utf8_length(line) <= MAX_WIDTH)
         return line;
-    uint32_t skip = *column > LEAD ? *column - LEAD : 0;
+    uint32_t skip = *column > CONTEXT_WIDTH ? *column - CONTEXT_WIDTH : 0;
     size_t start = 0, end;
     for (uint32_t i = 0; i < skip && start < line.len; i++)
         utf8_next(line, &start);
     end = start;
-    for (int i = 0; i < WIDEST && end < line.len; i++)
+    for (int i = 0; i < MAX_WIDTH && end < line.len; i++)
         utf8_next(line, &end);
     *column -= skip;
     return (Str){line.bytes + start, end - start};
@@ -79,7 +79,7 @@ static void add_printable(Text *out, Str text) {
 }
 
 Str diag_text(const Diag *diag) {
-    return str_cut(diag->text, 400); // a script may have names of megabytes
+    return str_truncate(diag->text, 400); // a script may have names of megabytes
 }
 
 static void add_text(Text *out, const Diag *diag) {
@@ -92,12 +92,12 @@ static void add_text(Text *out, const Diag *diag) {
 void diag_format(Text *out, const Diag *diag, bool colour) {
     const char *bold = colour ? "\033[1m" : "", *plain = colour ? "\033[0m" : "";
     const char *tint = colour ? level_colours[diag->level] : "";
-    SourcePlace place = {0};
+    SourcePosition position = {0};
     if (diag->source) {
-        place = source_locate(diag->source, diag->span.start);
+        position = source_locate(diag->source, diag->span.start);
         text_add_c(out, bold);
         add_printable(out, diag->source->name);
-        text_add_format(out, ":%u:%u:%s ", place.line, place.column, plain);
+        text_add_format(out, ":%u:%u:%s ", position.line, position.column, plain);
     }
     text_add_format(out, "%s%s:%s ", tint, level_names[diag->level], plain);
     add_text(out, diag);
@@ -105,8 +105,8 @@ void diag_format(Text *out, const Diag *diag, bool colour) {
         text_add_format(out, " [%s]", diag->code);
     text_add_char(out, '\n');
     if (diag->source) {
-        uint32_t column = place.column;
-        Str line = excerpt(place.text, &column);
+        uint32_t column = position.column;
+        Str line = excerpt(position.text, &column);
         size_t len = diag->span.end > diag->span.start ? diag->span.end - diag->span.start : 1;
         size_t left = diag->source->text.len - diag->span.start;
         size_t width = utf8_length((Str){diag->source->text.bytes + diag->span.start, len < left ? len : left});
@@ -126,8 +126,8 @@ Str diag_one_line(Arena *arena, const Diag *diag) {
     Text out = text_new(arena);
     add_text(&out, diag);
     if (diag->source) {
-        SourcePlace place = source_locate(diag->source, diag->span.start);
-        text_add_format(&out, " (%.*s:%u)", STR_ARGS(diag->source->name), place.line);
+        SourcePosition position = source_locate(diag->source, diag->span.start);
+        text_add_format(&out, " (%.*s:%u)", STR_ARGS(diag->source->name), position.line);
     }
     return text_str(&out);
 }

@@ -5,8 +5,8 @@
 #ifndef PETRI_BASE_DIAG_H
 #define PETRI_BASE_DIAG_H
 
+#include "base/hash_index.h"
 #include "base/source.h"
-#include "base/table.h"
 
 typedef enum DiagLevel { DIAG_ERROR, DIAG_WARNING, DIAG_NOTE } DiagLevel;
 
@@ -26,7 +26,7 @@ typedef struct DiagSink {
     uint32_t count;
     uint32_t capacity;
     uint32_t error_count;
-    Index index;
+    HashIndex index;
     uint32_t limit; // entries kept at the most; later ones are only counted
     uint32_t dropped;
 } DiagSink;

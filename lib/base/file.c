@@ -27,21 +27,21 @@ static Str version_of_bytes(Arena *arena, Str bytes) {
     return str_format(arena, "%p %zu", (const void *)bytes.bytes, bytes.len);
 }
 
-bool file_version(Arena *arena, const Reach *reach, const char *path, Str *version) {
+bool file_version(Arena *arena, const FileAccess *file_access, const char *path, Str *version) {
     Str bytes;
-    if (reach && reach->read) {
-        bool there = reach_read(reach, path, &bytes);
-        if (there)
+    if (file_access && file_access->read_file) {
+        bool exists = file_access_read(file_access, path, &bytes);
+        if (exists)
             *version = version_of_bytes(arena, bytes);
-        return there;
+        return exists;
     }
-    if (reach_unsaved(reach, path, &bytes)) {
+    if (file_access_read_unsaved(file_access, path, &bytes)) {
         *version = version_of_bytes(arena, bytes);
         return true;
     }
     struct stat info;
-    int file = reach ? reach_open(reach, path, O_RDONLY | O_NONBLOCK) : -1;
-    bool found = reach ? file >= 0 && fstat(file, &info) == 0 : stat(path, &info) == 0;
+    int file = file_access ? file_access_open(file_access, path, O_RDONLY | O_NONBLOCK) : -1;
+    bool found = file_access ? file >= 0 && fstat(file, &info) == 0 : stat(path, &info) == 0;
     if (file >= 0)
         close(file);
     if (found)
@@ -82,49 +82,50 @@ static void read_all(void *context) {
     reading->bytes = (Str){buffer, len};
 }
 
-static bool take_given(Arena *arena, Str given, size_t limit, Str *bytes, Str *version, const char **problem) {
-    *problem = given.len > limit ? "it is too large" : NULL;
+static bool copy_host_file(Arena *arena, Str host_bytes, size_t limit, Str *bytes, Str *version, const char **problem) {
+    *problem = host_bytes.len > limit ? "it is too large" : NULL;
     if (*problem)
         return false;
     if (version)
-        *version = version_of_bytes(arena, given);
-    *bytes = str_copy(arena, given);
+        *version = version_of_bytes(arena, host_bytes);
+    *bytes = str_copy(arena, host_bytes);
     return true;
 }
 
-bool file_read(Arena *arena, const Reach *reach, const char *path, bool regular, size_t limit, Str *bytes, Str *version,
-               const char **problem) {
-    Str given;
-    if (reach && reach->read && !reach_read(reach, path, &given)) {
+bool file_read(Arena *arena, const FileAccess *file_access, const char *path, bool regular, size_t limit, Str *bytes,
+               Str *version, const char **problem) {
+    Str host_bytes;
+    if (file_access && file_access->read_file && !file_access_read(file_access, path, &host_bytes)) {
         *problem = strerror(errno);
         return false;
     }
-    if (reach && (reach->read || reach_unsaved(reach, path, &given)))
-        return take_given(arena, given, limit, bytes, version, problem);
-    int file = reach_open(reach, path, O_RDONLY | (regular ? O_NONBLOCK : 0)); // opening a pipe must not wait
+    if (file_access && (file_access->read_file || file_access_read_unsaved(file_access, path, &host_bytes)))
+        return copy_host_file(arena, host_bytes, limit, bytes, version, problem);
+    int file =
+        file_access_open(file_access, path, O_RDONLY | (regular ? O_NONBLOCK : 0)); // opening a pipe must not wait
     struct stat info;
     if (file < 0 || fstat(file, &info) != 0) {
-        *problem = reach && errno == EXDEV ? reach_refusal(arena, reach, REACH_READ, path) : strerror(errno);
+        *problem = file_access && errno == EXDEV ? file_access_reason(arena, file_access, FILE_ACCESS_READ, path)
+                                                 : strerror(errno);
         if (file >= 0)
             close(file);
         return false;
     }
     Reading reading = {arena, file, info.st_size > 0 ? (size_t)info.st_size + 1 : 4096, limit, {0}, NULL};
-    ArenaEnd end = ARENA_DONE;
+    ArenaOutcome outcome = ARENA_OK;
     if (version)
         *version = (Str){0};
-    if (S_ISDIR(info.st_mode)) {
+    if (S_ISDIR(info.st_mode))
         reading.problem = "it is a directory";
-    } else if (regular && !S_ISREG(info.st_mode)) {
+    else if (regular && !S_ISREG(info.st_mode))
         reading.problem = "it is not a regular file";
-    } else if (info.st_size > 0 && (size_t)info.st_size > limit) {
+    else if (info.st_size > 0 && (size_t)info.st_size > limit)
         reading.problem = "it is too large";
-    } else {
-        end = arena_protect(&arena, 1, read_all, &reading);
-    }
+    else
+        outcome = arena_protect(&arena, 1, read_all, &reading);
     close(file);
-    if (end != ARENA_DONE)
-        arena_leave(arena, end); // now that the file is closed
+    if (outcome != ARENA_OK)
+        arena_escape(arena, outcome); // now that the file is closed
     if (version && !reading.problem)
         *version = version_of(arena, &info);
     *bytes = reading.bytes;
@@ -153,7 +154,7 @@ bool file_write(int file, const char *bytes, size_t len) {
     return true;
 }
 
-bool file_cut(int file, size_t len) {
+bool file_truncate(int file, size_t len) {
     int result;
     do
         result = ftruncate(file, (off_t)len);
@@ -172,18 +173,18 @@ const char *file_finish(Replacement *replacement, Str bytes) {
     if (file_write(replacement->file, bytes.bytes, bytes.len))
         return replace_commit(replacement) ? NULL : strerror(errno);
     const char *problem = strerror(errno);
-    replace_abandon(replacement);
+    replace_abort(replacement);
     return problem;
 }
 
 bool file_resolve(const char *path, char resolved[PATH_MAX]) {
-    enum { MOST_LINKS = 40 };
+    enum { MAX_LINKS = 40 };
     char at[PATH_MAX], link[PATH_MAX];
     if (snprintf(at, sizeof at, "%s", path) >= PATH_MAX) {
         errno = ENAMETOOLONG;
         return false;
     }
-    for (int i = 0; i < MOST_LINKS; i++) {
+    for (int i = 0; i < MAX_LINKS; i++) {
         if (realpath(at, resolved))
             return true;
         // The last part may be missing, or a link to something that is.
@@ -216,9 +217,9 @@ bool file_resolve(const char *path, char resolved[PATH_MAX]) {
     return false;
 }
 
-Str file_canonical(Arena *arena, const Reach *reach, const char *path) {
+Str file_canonical(Arena *arena, const FileAccess *file_access, const char *path) {
     char resolved[PATH_MAX];
-    if (reach && reach->read)
-        return str_copy(arena, str_from(reach_normal(path, resolved) ? resolved : path));
+    if (file_access && file_access->read_file)
+        return str_copy(arena, str_from(file_access_normalise(path, resolved) ? resolved : path));
     return str_copy(arena, str_from(realpath(path, resolved) ? resolved : path));
 }

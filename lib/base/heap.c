@@ -7,55 +7,57 @@
 
 // The one thing that changes and is no session's: blocks are asked for where none is at hand (a number is read, a
 // program of the GPU is shared by painters).
-static HeapSource memory;  // `take` is NULL: the C library
-static atomic_size_t held; // blocks
+static HeapAllocator current_allocator; // `take` is NULL: the C library
+static atomic_size_t block_count;       // blocks
 
-static void *counted(void *block) {
+static void *count_block(void *block) {
     if (block)
-        atomic_fetch_add_explicit(&held, 1, memory_order_relaxed);
+        atomic_fetch_add_explicit(&block_count, 1, memory_order_relaxed);
     return block;
 }
 
-bool heap_from(const HeapSource *source) {
-    if (atomic_load(&held) > 0)
+bool heap_set_allocator(const HeapAllocator *allocator) {
+    if (atomic_load(&block_count) > 0)
         return false;
-    memory = source ? *source : (HeapSource){0};
+    current_allocator = allocator ? *allocator : (HeapAllocator){0};
     return true;
 }
 
-void *heap_take(size_t size) {
+void *heap_alloc(size_t size) {
     if (size == 0)
         size = 1;
-    return counted(memory.take ? memory.take(memory.host, size) : malloc(size));
+    return count_block(current_allocator.allocate ? current_allocator.allocate(current_allocator.user_data, size)
+                                                  : malloc(size));
 }
 
-void *heap_zeroed(size_t count, size_t size) {
-    if (!memory.take)
-        return counted(calloc(count ? count : 1, size ? size : 1)); // the kernel's pages are cleared already
+void *heap_calloc(size_t count, size_t size) {
+    if (!current_allocator.allocate)
+        return count_block(calloc(count ? count : 1, size ? size : 1)); // the kernel's pages are cleared already
     if (size && count > SIZE_MAX / size)
         return NULL;
-    void *block = heap_take(count * size);
+    void *block = heap_alloc(count * size);
     return block ? memset(block, 0, count * size) : NULL;
 }
 
 void *heap_resize(void *block, size_t size) {
     if (!block)
-        return heap_take(size);
-    return memory.take ? memory.resize(memory.host, block, size) : realloc(block, size);
+        return heap_alloc(size);
+    return current_allocator.allocate ? current_allocator.resize(current_allocator.user_data, block, size)
+                                      : realloc(block, size);
 }
 
-void heap_give(void *block) {
+void heap_free(void *block) {
     if (!block)
         return;
-    atomic_fetch_sub_explicit(&held, 1, memory_order_relaxed);
-    if (memory.take)
-        memory.give(memory.host, block);
+    atomic_fetch_sub_explicit(&block_count, 1, memory_order_relaxed);
+    if (current_allocator.allocate)
+        current_allocator.release(current_allocator.user_data, block);
     else
         free(block);
 }
 
-char *heap_text(const char *bytes, size_t length) {
-    char *copy = length < SIZE_MAX ? heap_take(length + 1) : NULL;
+char *heap_strndup(const char *bytes, size_t length) {
+    char *copy = length < SIZE_MAX ? heap_alloc(length + 1) : NULL;
     if (!copy)
         return NULL;
     if (length)

@@ -23,7 +23,7 @@ static void replace_char(char *text, char from, char to) {
 
 double number_parse(Str digits) {
     char local[128];
-    char *copy = digits.len < sizeof local ? local : heap_take(digits.len + 1);
+    char *copy = digits.len < sizeof local ? local : heap_alloc(digits.len + 1);
     if (!copy)
         return NAN;
     size_t len = 0;
@@ -34,7 +34,7 @@ double number_parse(Str digits) {
     replace_char(copy, '.', decimal_point());
     double x = strtod(copy, NULL);
     if (copy != local)
-        heap_give(copy);
+        heap_free(copy);
     return x;
 }
 
@@ -58,9 +58,9 @@ static void drop_zeros(Decimal *decimal) {
 
 __extension__ typedef unsigned __int128 Product;
 
-enum { MOST_DIGITS = 17 };
-#define LEAST_FRACTION 1e-5           // its scale is 21, and 5^21 has 49 bits
-#define LEAST_MOST 10000000000000000u // of 17 digits
+enum { MAX_DIGITS = 17 };
+#define MIN_FRACTION 1e-5                // its scale is 21, and 5^21 has 49 bits
+#define MIN_17_DIGITS 10000000000000000u // of 17 digits
 
 // x = significand * 2^exponent, in units of 10^-scale: product * 2^-shift, without any rounding. Below 2^53 and from
 // LEAST_FRACTION on the product is below 2^53 * 5^21 < 2^102.
@@ -101,16 +101,16 @@ static bool shortest_of_fraction(double x, Decimal *decimal) {
     uint64_t significand = (uint64_t)ldexp(frexp(x, &exponent), 53);
     exponent -= 53;
     // A power of two has a nearer neighbour below than above.
-    if (!(x >= LEAST_FRACTION && x < 9007199254740992.0) || significand == UINT64_C(1) << 52)
+    if (!(x >= MIN_FRACTION && x < 9007199254740992.0) || significand == UINT64_C(1) << 52)
         return false;
     // 78913 / 2^18 is the decimal logarithm of 2: the estimate is right or one too low.
     int first = (int)floor((exponent + 52) * (78913.0 / 262144));
     Scaled scaled;
-    if (!scale_by(&scaled, significand, exponent, MOST_DIGITS - 1 - first))
+    if (!scale_by(&scaled, significand, exponent, MAX_DIGITS - 1 - first))
         return false;
-    if (scaled.product >> scaled.shift >= (Product)10 * LEAST_MOST) {
+    if (scaled.product >> scaled.shift >= (Product)10 * MIN_17_DIGITS) {
         first++;
-        if (!scale_by(&scaled, significand, exponent, MOST_DIGITS - 1 - first))
+        if (!scale_by(&scaled, significand, exponent, MAX_DIGITS - 1 - first))
             return false;
     }
     uint64_t units = 0, unit = 100;
@@ -119,11 +119,11 @@ static bool shortest_of_fraction(double x, Decimal *decimal) {
         if (unit == 1 || reads_back(&scaled, units))
             break;
     }
-    if (units < LEAST_MOST || units >= 10 * LEAST_MOST)
+    if (units < MIN_17_DIGITS || units >= 10 * MIN_17_DIGITS)
         return false;
-    decimal->count = MOST_DIGITS;
+    decimal->count = MAX_DIGITS;
     decimal->exponent = first;
-    for (int i = MOST_DIGITS - 1; i >= 0; i--, units /= 10)
+    for (int i = MAX_DIGITS - 1; i >= 0; i--, units /= 10)
         decimal->digits[i] = (char)('0' + units % 10);
     drop_zeros(decimal);
     return true;

@@ -26,6 +26,11 @@ static inline double number_floor(double x) {
     return whole == x ? x : whole - (whole > x);
 }
 
+// Returns first + n, or `first` itself if n is 0: -0 + 0 would be 0.
+static inline double number_counted(double first, uint32_t n) {
+    return n ? first + n : first;
+}
+
 static inline uint64_t number_bits(double x) {
     uint64_t bits;
     memcpy(&bits, &x, sizeof bits);

@@ -21,7 +21,7 @@
 // Names of new files, until they have their own: a prefix, 16 hexadecimal digits, a suffix.
 #define PREFIX ".petri-"
 #define SUFFIX ".tmp"
-enum { PREFIX_LENGTH = sizeof PREFIX - 1, DIGITS = 16, MOST_TRIES = 100, MOST_SWEPT = 4096 };
+enum { PREFIX_LENGTH = sizeof PREFIX - 1, DIGITS = 16, MAX_TRIES = 100, MAX_SCANNED_ENTRIES = 4096 };
 
 // By hand, for a signal handler may need it.
 static bool make_name(char name[NAME_MAX + 1]) {
@@ -35,20 +35,21 @@ static bool make_name(char name[NAME_MAX + 1]) {
     return true;
 }
 
-static bool is_ours(const char *name) {
+static bool is_temporary_name(const char *name) {
     return strlen(name) == PREFIX_LENGTH + DIGITS + sizeof SUFFIX - 1 && memcmp(name, PREFIX, PREFIX_LENGTH) == 0 &&
            strspn(name + PREFIX_LENGTH, "0123456789abcdef") == DIGITS &&
            strcmp(name + PREFIX_LENGTH + DIGITS, SUFFIX) == 0;
 }
 
 // Removes what a process left that was killed at the wrong moment: nobody has it locked.
-static void sweep(int folder) {
+static void remove_stale_files(int folder) {
     int again = file_open_at(folder, ".", O_RDONLY | O_DIRECTORY, 0);
     DIR *entries = again < 0 ? NULL : fdopendir(again);
     const struct dirent *entry;
-    for (int i = 0; entries && i < MOST_SWEPT && (entry = readdir(entries)); i++) {
-        int file =
-            is_ours(entry->d_name) ? file_open_at(folder, entry->d_name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK, 0) : -1;
+    for (int i = 0; entries && i < MAX_SCANNED_ENTRIES && (entry = readdir(entries)); i++) {
+        int file = is_temporary_name(entry->d_name)
+                       ? file_open_at(folder, entry->d_name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK, 0)
+                       : -1;
         if (file >= 0 && flock(file, LOCK_EX | LOCK_NB) == 0)
             unlinkat(folder, entry->d_name, 0);
         if (file >= 0)
@@ -61,7 +62,7 @@ static void sweep(int folder) {
 }
 
 // Only who holds the lock is at work on a file. Where there are no locks, nobody sweeps either.
-static bool lock(int file) {
+static bool lock_file(int file) {
     return flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
 }
 
@@ -90,7 +91,7 @@ static bool open_unnamed(Replacement *r) {
     r->file = file_open_at(r->folder, ".", O_TMPFILE | O_WRONLY, 0666);
     if (r->file < 0)
         return false;
-    if (lock(r->file) && link_file(r, NULL))
+    if (lock_file(r->file) && link_file(r, NULL))
         return true;
     close(r->file);
     r->file = -1;
@@ -100,23 +101,23 @@ static bool open_unnamed(Replacement *r) {
 
 static bool open_named(Replacement *r) {
     struct stat info;
-    for (int i = 0; i < MOST_TRIES && make_name(r->beside); i++) {
-        r->file = file_open_at(r->folder, r->beside, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, 0666);
+    for (int i = 0; i < MAX_TRIES && make_name(r->temporary_name); i++) {
+        r->file = file_open_at(r->folder, r->temporary_name, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, 0666);
         if (r->file < 0 && errno != EEXIST)
             break;
         // Who sweeps may have been faster than the lock.
-        if (r->file >= 0 && lock(r->file) && fstat(r->file, &info) == 0 && info.st_nlink > 0)
+        if (r->file >= 0 && lock_file(r->file) && fstat(r->file, &info) == 0 && info.st_nlink > 0)
             return true;
         if (r->file >= 0)
             close(r->file);
         r->file = -1;
     }
-    r->beside[0] = '\0';
+    r->temporary_name[0] = '\0';
     return false;
 }
 
-static bool give_up(Replacement *r, int error) {
-    replace_abandon(r);
+static bool abort_with_error(Replacement *r, int error) {
+    replace_abort(r);
     errno = error;
     return false;
 }
@@ -124,19 +125,19 @@ static bool give_up(Replacement *r, int error) {
 bool replace_begin_in(Replacement *r, int folder, const char *name, unsigned flags) {
     struct stat info;
     size_t length = strlen(name);
-    *r = (Replacement){.file = -1, .folder = folder, .only_new = flags & REPLACE_NONE};
+    *r = (Replacement){.file = -1, .folder = folder, .only_new = flags & REPLACE_CREATE_ONLY};
     if (length == 0 || length > NAME_MAX)
-        return give_up(r, length == 0 ? ENOENT : ENAMETOOLONG);
+        return abort_with_error(r, length == 0 ? ENOENT : ENAMETOOLONG);
     memcpy(r->name, name, length + 1);
     bool exists = fstatat(folder, name, &info, AT_SYMLINK_NOFOLLOW) == 0;
     if (exists && r->only_new)
-        return give_up(r, EEXIST);
+        return abort_with_error(r, EEXIST);
     if (exists && !S_ISREG(info.st_mode))
-        return give_up(r, S_ISLNK(info.st_mode) ? ELOOP : S_ISDIR(info.st_mode) ? EISDIR : ENXIO);
+        return abort_with_error(r, S_ISLNK(info.st_mode) ? ELOOP : S_ISDIR(info.st_mode) ? EISDIR : ENXIO);
     bool named = flags & REPLACE_NAMED || !open_unnamed(r);
     if (exists || named)
-        sweep(folder);
-    return !named || open_named(r) || give_up(r, errno);
+        remove_stale_files(folder);
+    return !named || open_named(r) || abort_with_error(r, errno);
 }
 
 // Of our own streams, by whatever name, or -1.
@@ -152,7 +153,7 @@ bool replace_begin(Replacement *r, const char *path, unsigned flags) {
     char target[PATH_MAX];
     struct stat info;
     *r = (Replacement){.file = -1, .folder = -1};
-    if (flags & REPLACE_NONE && lstat(path, &info) == 0) {
+    if (flags & REPLACE_CREATE_ONLY && lstat(path, &info) == 0) {
         errno = EEXIST;
         return false;
     }
@@ -188,32 +189,32 @@ bool replace_sync(int file) {
 }
 
 // A link is only made where nothing is; a new name is put over what is there.
-static bool put_in_place(Replacement *r, bool exists) {
-    bool named = r->beside[0] != '\0';
+static bool link_or_rename(Replacement *r, bool exists) {
+    bool named = r->temporary_name[0] != '\0';
     if (!named && (r->only_new || !exists)) {
         if (link_file(r, r->name))
             return true;
         if (errno != EEXIST || r->only_new)
             return false;
     }
-    for (int i = 0; !named && i < MOST_TRIES && make_name(r->beside); i++) {
-        named = link_file(r, r->beside);
+    for (int i = 0; !named && i < MAX_TRIES && make_name(r->temporary_name); i++) {
+        named = link_file(r, r->temporary_name);
         if (!named && errno != EEXIST)
             break;
     }
     if (!named) {
-        r->beside[0] = '\0';
+        r->temporary_name[0] = '\0';
         return false;
     }
-    if (r->only_new) // the temporary name goes with replace_abandon
-        return linkat(r->folder, r->beside, r->folder, r->name, 0) == 0;
+    if (r->only_new) // the temporary name goes with replace_abort
+        return linkat(r->folder, r->temporary_name, r->folder, r->name, 0) == 0;
     int result;
     do
-        result = renameat(r->folder, r->beside, r->folder, r->name);
+        result = renameat(r->folder, r->temporary_name, r->folder, r->name);
     while (result != 0 && errno == EINTR);
     if (result != 0)
         return false;
-    r->beside[0] = '\0';
+    r->temporary_name[0] = '\0';
     return true;
 }
 
@@ -221,21 +222,21 @@ bool replace_flush(Replacement *r) {
     struct stat info;
     if (!r->direct && fstatat(r->folder, r->name, &info, AT_SYMLINK_NOFOLLOW) == 0) {
         if (!S_ISREG(info.st_mode))
-            return give_up(r, EEXIST);
+            return abort_with_error(r, EEXIST);
         (void)!fchown(r->file, info.st_uid, info.st_gid);
         (void)!fchmod(r->file, info.st_mode & 07777);
     }
-    return replace_sync(r->file) || r->direct || give_up(r, errno);
+    return replace_sync(r->file) || r->direct || abort_with_error(r, errno);
 }
 
-bool replace_put(Replacement *r) {
+bool replace_rename(Replacement *r) {
     struct stat info;
     if (r->direct)
         return true;
     bool exists = fstatat(r->folder, r->name, &info, AT_SYMLINK_NOFOLLOW) == 0;
     if (exists && !S_ISREG(info.st_mode))
-        return give_up(r, EEXIST);
-    return put_in_place(r, exists) || give_up(r, errno);
+        return abort_with_error(r, EEXIST);
+    return link_or_rename(r, exists) || abort_with_error(r, errno);
 }
 
 bool replace_end(Replacement *r) {
@@ -245,22 +246,22 @@ bool replace_end(Replacement *r) {
         return close(file) == 0 || errno == EINTR;
     }
     if (!replace_sync(r->folder)) // the name, too, must reach the disk
-        return give_up(r, errno);
-    replace_abandon(r);
+        return abort_with_error(r, errno);
+    replace_abort(r);
     return true;
 }
 
 bool replace_commit(Replacement *r) {
-    return replace_flush(r) && replace_put(r) && replace_end(r);
+    return replace_flush(r) && replace_rename(r) && replace_end(r);
 }
 
-void replace_abandon(Replacement *r) {
-    if (r->beside[0] != '\0')
-        unlinkat(r->folder, r->beside, 0);
+void replace_abort(Replacement *r) {
+    if (r->temporary_name[0] != '\0')
+        unlinkat(r->folder, r->temporary_name, 0);
     if (r->file >= 0)
         close(r->file);
     if (r->folder >= 0)
         close(r->folder);
     r->file = r->folder = -1;
-    r->beside[0] = '\0';
+    r->temporary_name[0] = '\0';
 }

@@ -12,8 +12,8 @@
 #include <stdbool.h>
 
 typedef enum ReplaceFlags {
-    REPLACE_NONE = 1,  // only if nothing is there, a link neither
-    REPLACE_NAMED = 2, // the new file has a name from the start
+    REPLACE_CREATE_ONLY = 1, // only if nothing is there, a link neither
+    REPLACE_NAMED = 2,       // the new file has a name from the start
 } ReplaceFlags;
 
 typedef struct Replacement {
@@ -21,12 +21,12 @@ typedef struct Replacement {
     int folder;  // the target's
     bool direct; // `file` is the target itself, which is no regular file
     bool only_new;
-    char name[NAME_MAX + 1];   // the target's in its folder
-    char beside[NAME_MAX + 1]; // the new file's meanwhile; "": none
+    char name[NAME_MAX + 1];           // the target's in its folder
+    char temporary_name[NAME_MAX + 1]; // the new file's meanwhile; "": none
 } Replacement;
 
 // Each is false with errno set if it failed; what is begun is to be ended by replace_commit, replace_end or
-// replace_abandon.
+// replace_abort.
 bool replace_begin(Replacement *replacement, const char *path, unsigned flags);
 // The same in an open folder, which it takes and closes in any case; `name` has no slash. Refuses what is there and no
 // regular file, symbolic links too.
@@ -35,9 +35,9 @@ bool replace_begin_in(Replacement *replacement, int folder, const char *name, un
 bool replace_commit(Replacement *replacement);
 // The same in three steps: all is brought to the disk; it is put in its place; so is its name, and what was begun ends.
 bool replace_flush(Replacement *replacement);
-bool replace_put(Replacement *replacement);
+bool replace_rename(Replacement *replacement);
 bool replace_end(Replacement *replacement);
-void replace_abandon(Replacement *replacement);
+void replace_abort(Replacement *replacement);
 // Brings a file or folder to the disk. True where the file system cannot do that.
 bool replace_sync(int file);
 // What ends a replacement, and this, may be called from a signal handler.

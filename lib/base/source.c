@@ -63,13 +63,13 @@ uint32_t source_line(const Source *source, uint32_t offset) {
     return low + 1;
 }
 
-SourcePlace source_locate(const Source *source, uint32_t offset) {
+SourcePosition source_locate(const Source *source, uint32_t offset) {
     if (offset >= source->text.len)
         offset = (uint32_t)source->text.len - 1;
     uint32_t number = source_line(source, offset), start = source->line_starts[number - 1];
     const char *line = source->text.bytes + start;
     size_t len = (size_t)((const char *)memchr(line, '\n', source->text.len - start) - line);
-    return (SourcePlace){number, (uint32_t)utf8_length((Str){line, offset - start}) + 1, {line, len}};
+    return (SourcePosition){number, (uint32_t)utf8_length((Str){line, offset - start}) + 1, {line, len}};
 }
 
 Str path_directory(Str path) {

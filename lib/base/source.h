@@ -27,18 +27,18 @@ typedef struct Origin {
     Span span;
 } Origin;
 
-typedef struct SourcePlace {
+typedef struct SourcePosition {
     uint32_t line;   // from 1
     uint32_t column; // in characters, from 1
     Str text;        // the line without its LF
-} SourcePlace;
+} SourcePosition;
 
 // Copies everything into the arena, leaves a byte-order mark out, turns CR LF and CR into LF and ends the last line.
 // Text must be below 4 GiB.
 const Source *source_new(Arena *arena, Str name, Str path, Str text);
 // CR LF and CR become LF, in place; returns the length then.
 size_t source_unify_lines(char *bytes, size_t len);
-SourcePlace source_locate(const Source *source, uint32_t offset);
+SourcePosition source_locate(const Source *source, uint32_t offset);
 // The number of the line alone, which takes no longer where lines are long.
 uint32_t source_line(const Source *source, uint32_t offset);
 // The part of a path up to and including the last slash.

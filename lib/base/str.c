@@ -42,12 +42,12 @@ bool str_ends_with(Str text, Str suffix) {
            (text.len >= suffix.len && str_equal((Str){text.bytes + (text.len - suffix.len), suffix.len}, suffix));
 }
 
-Str str_cut(Str text, size_t most) {
-    if (text.len <= most)
+Str str_truncate(Str text, size_t max_bytes) {
+    if (text.len <= max_bytes)
         return text;
-    while (most > 0 && ((unsigned char)text.bytes[most] & 0xc0) == 0x80)
-        most--;
-    return (Str){text.bytes, most};
+    while (max_bytes > 0 && ((unsigned char)text.bytes[max_bytes] & 0xc0) == 0x80)
+        max_bytes--;
+    return (Str){text.bytes, max_bytes};
 }
 
 int str_word_number(Str word, const char *list) {
@@ -72,12 +72,12 @@ Str str_trim(Str text) {
     return text;
 }
 
-int str_distance(Str a, Str b) {
-    enum { LONGEST = 64 };
-    if (a.len > LONGEST || b.len > LONGEST)
-        return LONGEST;
+int str_edit_distance(Str a, Str b) {
+    enum { MAX_LENGTH = 64 };
+    if (a.len > MAX_LENGTH || b.len > MAX_LENGTH)
+        return MAX_LENGTH;
     // Optimal string alignment: three rows of the classic table.
-    int rows[3][LONGEST + 1];
+    int rows[3][MAX_LENGTH + 1];
     int *before = rows[0], *above = rows[1], *row = rows[2];
     for (size_t j = 0; j <= b.len; j++)
         above[j] = (int)j;
@@ -103,7 +103,7 @@ int str_distance(Str a, Str b) {
 }
 
 bool str_try_nearest(StrNearest *nearest, Str name) {
-    int distance = str_distance(nearest->wanted, name);
+    int distance = str_edit_distance(nearest->wanted, name);
     if (distance >= nearest->limit)
         return false;
     nearest->limit = distance;
@@ -229,8 +229,8 @@ int32_t utf8_next(Str text, size_t *at) {
             return -1;
         code_point = code_point << 6 | (bytes[i] & 0x3f);
     }
-    static const int32_t least[4] = {0, 0x80, 0x800, 0x10000};
-    if (code_point < least[more] || code_point > 0x10ffff || (code_point >= 0xd800 && code_point <= 0xdfff))
+    static const int32_t min_code_point[4] = {0, 0x80, 0x800, 0x10000};
+    if (code_point < min_code_point[more] || code_point > 0x10ffff || (code_point >= 0xd800 && code_point <= 0xdfff))
         return -1;
     *at += (size_t)more;
     return code_point;

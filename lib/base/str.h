@@ -28,7 +28,7 @@ char *str_to_c(Arena *arena, Str text);
 bool str_starts_with(Str text, Str prefix);
 bool str_ends_with(Str text, Str suffix);
 // The text, or as many whole characters of it as `most` bytes hold.
-Str str_cut(Str text, size_t most);
+Str str_truncate(Str text, size_t max_bytes);
 // Which of the words of a list, which spaces part, it is, from 0; -1 if it is none.
 int str_word_number(Str word, const char *list);
 // Text without white space (space, tab, CR, LF, VT, FF) at both ends.
@@ -36,7 +36,7 @@ Str str_trim(Str text);
 
 // Number of edits (insert, delete, replace, swap of neighbours) that turn a into b, for "did you mean"; names longer
 // than 64 bytes are taken as far apart.
-int str_distance(Str a, Str b);
+int str_edit_distance(Str a, Str b);
 
 // The nearest of some names to one that is not there. `limit` is a distance that is too far, at first.
 typedef struct StrNearest {

@@ -15,8 +15,8 @@ struct DrawNode {
     uint32_t child_count;
     const AttrValue *attrs; // as they were written: transforms are applied in this order
     const DrawNode *const *children;
-    Str tags;     // of nodes among pictures, which tell them apart: names with a space behind each, in order
-    Origin place; // its program's text, or the node; who tells of it sees to it that the source is still there
+    Str tags;      // of nodes among pictures, which tell them apart: names with a space behind each, in order
+    Origin origin; // its program's text, or the node; who tells of it sees to it that the source is still there
 };
 
 // The attribute, or NULL.
@@ -30,17 +30,17 @@ static inline const AttrValue *draw_attr(const DrawNode *node, AttrName name) {
 // A number, or its default.
 static inline double draw_number(const DrawNode *node, AttrName name) {
     const AttrValue *attr = draw_attr(node, name);
-    return attr ? attr->as.numbers[0] : schema_row((NodeKind)node->kind, name)->fallback.value;
+    return attr ? attr->as.numbers[0] : schema_row((NodeKind)node->kind, name)->default_value.value;
 }
 
 static inline bool draw_flag(const DrawNode *node, AttrName name) {
     const AttrValue *attr = draw_attr(node, name);
-    return attr ? attr->as.flag : schema_row((NodeKind)node->kind, name)->fallback.value != 0;
+    return attr ? attr->as.flag : schema_row((NodeKind)node->kind, name)->default_value.value != 0;
 }
 
 static inline int draw_word(const DrawNode *node, AttrName name) {
     const AttrValue *attr = draw_attr(node, name);
-    return attr ? attr->as.word : (int)schema_row((NodeKind)node->kind, name)->fallback.value;
+    return attr ? attr->as.word : (int)schema_row((NodeKind)node->kind, name)->default_value.value;
 }
 
 // Two numbers; false, and 0;0, without the attribute.
@@ -48,7 +48,7 @@ static inline bool draw_pair(const DrawNode *node, AttrName name, double pair[2]
     const AttrValue *attr = draw_attr(node, name);
     pair[0] = attr ? attr->as.numbers[0] : 0;
     pair[1] = attr ? attr->as.numbers[1] : 0;
-    return attr != NULL;
+    return attr;
 }
 
 #endif

@@ -2,7 +2,7 @@
 #include "canvas/read.h"
 
 #include "base/source.h"
-#include "value/run.h"
+#include "value/node_batch.h"
 
 #include <errno.h>
 
@@ -11,34 +11,34 @@ static void report_misplaced(const Reader *reader, const Node *child, bool known
     Str name = child->kind->name;
     text_add_format(&out, "'!%.*s' ", STR_ARGS(name));
     text_add_c(&out, known ? "has no effect here; it is left out" : "is not drawn; it is left out");
-    bool exists = !known && schema_is_undrawn(name);
+    bool exists = !known && schema_is_unsupported(name);
     if (!known && !exists)
         schema_add_nearest_kind(&out, name, PLACE_TOP, "'!", "'");
     reader_report_at(reader,
                      known    ? "misplaced-node"
-                     : exists ? "undrawn-node"
+                     : exists ? "unsupported-node"
                               : "unknown-node",
-                     node_place(child, NULL), name, text_str(&out));
+                     node_origin(child, NULL), name, text_str(&out));
 }
 
 // A file out of reach is told here, where the place is known; who is to write it finds out again.
-static bool may_use_file(const Reader *reader, const DrawNode *node) {
-    const Reach *reach = reader->schema->reach;
+static bool can_use_file(const Reader *reader, const DrawNode *node) {
+    const FileAccess *reach = reader->schema->file_access;
     const AttrValue *name = reach && schema_row(reader->kind, ATTR_FILENAME) ? draw_attr(node, ATTR_FILENAME) : NULL;
     bool writes = reader->kind == KIND_RECORD;
-    ReachKind kind = writes ? REACH_WRITE : REACH_READ;
+    FileAccessKind kind = writes ? FILE_ACCESS_WRITE : FILE_ACCESS_READ;
     char resolved[PATH_MAX];
     if (!name || name->as.text.len == 0)
         return true;
     const char *path = str_to_c(reader->arena, path_join(reader->arena, reach->directory, name->as.text));
-    if (reach_resolve(reach, kind, path, resolved) || errno != EXDEV)
+    if (file_access_resolve(reach, kind, path, resolved) || errno != EXDEV)
         return true;
-    const SchemaHost *host = &reader->schema->host;
-    Origin place = node_place(reader->node, reader->schema->slots[name->row].name);
-    host->report(host->host, writes ? DIAG_ERROR : DIAG_WARNING, writes ? "cannot-write" : "cannot-read", &place,
+    const SchemaSink *host = &reader->schema->sink;
+    Origin place = node_origin(reader->node, reader->schema->slots[name->row].name);
+    host->report(host->user_data, writes ? DIAG_ERROR : DIAG_WARNING, writes ? "cannot-write" : "cannot-read", &place,
                  str_format(reader->arena, "!%s", schema_kinds[reader->kind].name), STR("filename"),
                  str_format(reader->arena, "cannot %s '%s': %s", writes ? "write" : "read", name->as.text.bytes,
-                            reach_refusal(reader->arena, reach, kind, path)));
+                            file_access_reason(reader->arena, reach, kind, path)));
     return writes;
 }
 
@@ -46,10 +46,10 @@ static const DrawNode *read_node(Schema *schema, Arena *arena, const Node *node,
 
 // `!blend` and the like are sources, and filters too: what is inside tells.
 static bool holds_filters(const Reader *reader, const Node *node, int depth) {
-    enum { DEEPEST = 100 };
+    enum { MAX_DEPTH = 100 };
     const Schema *schema = reader->schema;
     arena_charge(reader->arena, 1 + node->child_count);
-    for (uint32_t i = 0; i < node->child_count && depth < DEEPEST; i++) {
+    for (uint32_t i = 0; i < node->child_count && depth < MAX_DEPTH; i++) {
         const Node *child = node->children[i];
         NodeKind kind = schema_kind_in(schema, child, PLACE_SOURCE);
         if (kind == KIND_COUNT ? schema_kind_in(schema, child, PLACE_FILTER) != KIND_COUNT
@@ -59,7 +59,7 @@ static bool holds_filters(const Reader *reader, const Node *node, int depth) {
     return false;
 }
 
-static NodeKind kind_of(const Reader *reader, const Node *node) {
+static NodeKind child_kind(const Reader *reader, const Node *node) {
     NodeKind kind = schema_kind_in(reader->schema, node, schema_kinds[reader->kind].children);
     bool open = schema_kinds[reader->kind].children == PLACE_DRAWING;
     return kind == KIND_BLEND && open && holds_filters(reader, node, 0) ? KIND_FILTER_BLEND : kind;
@@ -72,7 +72,7 @@ static void read_children(const Reader *reader, DrawNode *out) {
         return;
     const DrawNode **children = arena_alloc_array(reader->arena, count, sizeof *children);
     for (uint32_t i = 0; i < count; i++) {
-        NodeKind child = kind_of(reader, nodes[i]);
+        NodeKind child = child_kind(reader, nodes[i]);
         if (child == KIND_COUNT) {
             report_misplaced(reader, nodes[i], schema_window_kind(reader->schema, nodes[i]) != KIND_COUNT);
             continue;
@@ -96,7 +96,7 @@ enum { NODE_WORK = 8, STOPS_A_UNIT = 16 };
 // NULL if the node is left out. The depth is limited by NODE_MAX_HEIGHT.
 static const DrawNode *read_node(Schema *schema, Arena *arena, const Node *node, NodeKind kind) {
     Reader reader = {schema, arena, node, kind, 1};
-    schema->at = node;
+    schema->current_node = node;
     uint64_t count = node_child_count(node);
     arena_charge(arena, NODE_WORK + node->attr_count + count / 4);
     if (kind == KIND_GRADIENT) // drawing libraries sort its stops one by one
@@ -104,12 +104,12 @@ static const DrawNode *read_node(Schema *schema, Arena *arena, const Node *node,
     DrawNode *out = arena_alloc(arena, sizeof *out);
     AttrValue *attrs = arena_alloc_array(arena, node->attr_count, sizeof *attrs);
     const Symbol *program = schema->slots[ROW_SHADER_FRAGMENT].name;
-    *out = (DrawNode){.kind = (uint8_t)kind, .attrs = attrs, .place = node_place(node, program)};
+    *out = (DrawNode){.kind = (uint8_t)kind, .attrs = attrs, .origin = node_origin(node, program)};
     if (node->tag_count > 0 && schema_kinds[kind].place <= PLACE_PICTURE)
         out->tags = join_tags(arena, node);
     if (!reader_list(&reader, attrs, &out->attr_count) && schema_kinds[kind].place != PLACE_TOP)
         return NULL;
-    if (!may_use_file(&reader, out))
+    if (!can_use_file(&reader, out))
         return NULL;
     read_children(&reader, out);
     return out;

@@ -9,9 +9,9 @@
 const Node *canvas_next_window(const Schema *schema, Value tree, uint32_t *at);
 // How many nodes are looked at before a window is read. One node may stand in a tree in very many places, by few words;
 // with more than these the answer is yes, and reading finds the limits of work and memory.
-enum { CANVAS_LOOK = 1 << 22 };
+enum { CANVAS_MAX_CHECKED = 1 << 22 };
 // Has it a `!canvas` or something else that makes a picture?
-bool canvas_in_window(const Schema *schema, const Node *window);
+bool canvas_window_has_picture(const Schema *schema, const Node *window);
 
 // Copies a `!window` or `!offscreen` into the arena. What is unknown, misplaced or malformed is reported and left out.
 const DrawNode *canvas_read(Schema *schema, Arena *arena, const Node *window);

@@ -17,20 +17,20 @@ static bool is_source(NodeKind kind) {
            kind == KIND_NOISE || kind == KIND_SHADER;
 }
 
-static bool has_source(const Schema *schema, const Node *node, int depth, uint32_t *left) {
-    enum { DEEPEST = 100 }; // nobody draws what is deeper
-    for (uint32_t i = 0; i < node->child_count && depth < DEEPEST; i++) {
+static bool has_source(const Schema *schema, const Node *node, int depth, uint32_t *remaining) {
+    enum { MAX_DEPTH = 100 }; // nobody draws what is deeper
+    for (uint32_t i = 0; i < node->child_count && depth < MAX_DEPTH; i++) {
         NodeKind kind = schema_kind_in(schema, node->children[i], PLACE_PICTURES);
-        if (*left == 0 || (kind < KIND_COUNT && is_source(kind)))
+        if (*remaining == 0 || (kind < KIND_COUNT && is_source(kind)))
             return true;
-        --*left;
-        if (kind < KIND_COUNT && has_source(schema, node->children[i], depth + 1, left))
+        --*remaining;
+        if (kind < KIND_COUNT && has_source(schema, node->children[i], depth + 1, remaining))
             return true;
     }
     return false;
 }
 
-bool canvas_in_window(const Schema *schema, const Node *window) {
-    uint32_t left = CANVAS_LOOK;
-    return has_source(schema, window, 0, &left);
+bool canvas_window_has_picture(const Schema *schema, const Node *window) {
+    uint32_t remaining = CANVAS_MAX_CHECKED;
+    return has_source(schema, window, 0, &remaining);
 }

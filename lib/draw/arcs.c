@@ -7,16 +7,16 @@
 
 static const double TURN = 6.283185307179586;
 
-int arcs_of_ellipse(const double n[6], double scale, double start[2], double curves[ARCS_MOST][6]) {
+int arcs_of_ellipse(const double n[6], double scale, double start[2], double curves[ARCS_MAX][6]) {
     double x = n[0], y = n[1], rx = n[2], ry = n[3], turns = fmin(fmax(n[5], -1), 1);
-    double largest = fmax(rx, ry) * scale;
-    int pieces = (int)ceil(fabs(turns) * (largest < 64 ? 4 : 8));
-    double from = (n[4] - floor(n[4])) * TURN, step = turns * TURN / (pieces ? pieces : 1);
+    double max_radius = fmax(rx, ry) * scale;
+    int count = (int)ceil(fabs(turns) * (max_radius < 64 ? 4 : 8));
+    double from = (n[4] - floor(n[4])) * TURN, step = turns * TURN / (count ? count : 1);
     double handle = 4.0 / 3 * maths_tan(step / 4);
     double c = maths_cos(from), s = maths_sin(from);
     start[0] = x + rx * c;
     start[1] = y + ry * s;
-    for (int i = 1; i <= pieces; i++) {
+    for (int i = 1; i <= count; i++) {
         double c2 = maths_cos(from + i * step), s2 = maths_sin(from + i * step), *curve = curves[i - 1];
         curve[0] = x + rx * (c - handle * s);
         curve[1] = y + ry * (s + handle * c);
@@ -27,11 +27,11 @@ int arcs_of_ellipse(const double n[6], double scale, double start[2], double cur
         c = c2;
         s = s2;
     }
-    return pieces;
+    return count;
 }
 
 // As SVG has it (its appendix on implementing arcs): on the unit circle, the middle is found from the chord.
-int arcs_to_point(const double start[2], const double n[7], double curves[ARCS_MOST][6]) {
+int arcs_to_point(const double start[2], const double n[7], double curves[ARCS_MAX][6]) {
     double x = n[5], y = n[6], c = maths_cos(n[2] * TURN), s = maths_sin(n[2] * TURN);
     double rx = n[0], ry = n[1], dx = (x - start[0]) / 2, dy = (y - start[1]) / 2;
     double a = (c * dx + s * dy) / rx, b = (c * dy - s * dx) / ry; // half the chord
@@ -43,9 +43,9 @@ int arcs_to_point(const double start[2], const double n[7], double curves[ARCS_M
     double mx = -b * height * side, my = a * height * side; // from the middle of the chord to that of the circle
     double from = maths_atan2(-b - my, -a - mx), to = maths_atan2(b - my, a - mx);
     double sweep = to - from + (n[4] != 0 && to < from ? TURN : n[4] == 0 && to > from ? -TURN : 0);
-    int pieces = (int)ceil(fabs(sweep) / (TURN / 8));
-    double step = sweep / (pieces ? pieces : 1), handle = 4.0 / 3 * maths_tan(step / 4);
-    for (int i = 1; i <= pieces; i++) {
+    int count = (int)ceil(fabs(sweep) / (TURN / 8));
+    double step = sweep / (count ? count : 1), handle = 4.0 / 3 * maths_tan(step / 4);
+    for (int i = 1; i <= count; i++) {
         double at = from + (i - 1) * step, next = from + i * step;
         double c1 = maths_cos(at), s1 = maths_sin(at), c2 = maths_cos(next), s2 = maths_sin(next);
         const double circle[3][2] = {
@@ -56,5 +56,5 @@ int arcs_to_point(const double start[2], const double n[7], double curves[ARCS_M
             curves[i - 1][2 * k + 1] = (start[1] + y) / 2 + s * u + c * v;
         }
     }
-    return pieces;
+    return count;
 }

@@ -10,8 +10,8 @@ typedef struct Colour {
 } Colour;
 
 static const Colour GROUND = {0.06, 0.07, 0.09};
-static const double MARGIN = 0.04;    // of a panel, on each side
-static const double LEAST_RADIUS = 2; // pixels
+// Radii in pixels: of a panel, of the device.
+static const double MIN_RADIUS = 2, LEAST_SEEN = 1.5;
 // The eye is 0.45 radians to the right and 0.35 above.
 static const double COS_YAW = 0.9004471023526769, SIN_YAW = 0.43496553411123023;
 static const double COS_PITCH = 0.9393727128473789, SIN_PITCH = 0.34289780745545134;
@@ -28,9 +28,10 @@ typedef struct Panel {
     double width;
     double height;
     double pixel; // the size of a pixel in the picture's units
+    double least; // the smallest radius
 } Panel;
 
-static Colour mix(Colour a, Colour b, double part) {
+static Colour mix_colours(Colour a, Colour b, double part) {
     return (Colour){a.r + (b.r - a.r) * part, a.g + (b.g - a.g) * part, a.b + (b.b - a.b) * part};
 }
 
@@ -39,8 +40,8 @@ static Colour shade_colour(const AutoSystem *system, double shade) {
     static const Colour negative = {0.25, 0.55, 1}, neutral = {0.85, 0.87, 0.9}, positive = {1, 0.5, 0.15};
     static const Colour slow = {0.2, 0.35, 0.75}, middle = {0.2, 0.75, 0.7}, fast = {1, 0.95, 0.6};
     if (system->charged)
-        return shade < 0 ? mix(neutral, negative, -shade) : mix(neutral, positive, shade);
-    return shade < 0.5 ? mix(slow, middle, shade * 2) : mix(middle, fast, shade * 2 - 1);
+        return shade < 0 ? mix_colours(neutral, negative, -shade) : mix_colours(neutral, positive, shade);
+    return shade < 0.5 ? mix_colours(slow, middle, shade * 2) : mix_colours(middle, fast, shade * 2 - 1);
 }
 
 static void set_colour(cairo_t *cr, Colour c, double alpha) {
@@ -48,43 +49,43 @@ static void set_colour(cairo_t *cr, Colour c, double alpha) {
 }
 
 // A point of a system in its panel. `depth` grows away from the eye, and `size` is the scale at that depth.
-typedef struct Seen {
+typedef struct Projected {
     double x;
     double y;
     double depth;
     double size;
-} Seen;
+} Projected;
 
-static Seen see(const Panel *panel, const double position[3]) {
+static Projected project_point(const Panel *panel, const double position[3]) {
     const AutoFrame *frame = &panel->system->frame;
     double x = (position[0] - frame->middle[0]) / frame->half, y = (position[1] - frame->middle[1]) / frame->half;
     if (panel->system->dimensions < 3)
-        return (Seen){panel->x + x * panel->side, panel->y - y * panel->side, 0, panel->scale};
+        return (Projected){panel->x + x * panel->side, panel->y - y * panel->side, 0, panel->scale};
     double z = (position[2] - frame->middle[2]) / frame->half;
     double right = x * COS_YAW - z * SIN_YAW, towards = x * SIN_YAW + z * COS_YAW;
     double up = y * COS_PITCH - towards * SIN_PITCH;
     double depth = -(y * SIN_PITCH + towards * COS_PITCH);
     double nearness = EYE / fmax(EYE + depth, 0.1);
-    return (Seen){panel->x + right * panel->side * nearness, panel->y - up * panel->side * nearness, depth,
-                  panel->scale * nearness};
+    return (Projected){panel->x + right * panel->side * nearness, panel->y - up * panel->side * nearness, depth,
+                       panel->scale * nearness};
 }
 
 // Far things fade into the ground.
-static Colour in_mist(const Panel *panel, Colour colour, double depth) {
-    return panel->system->dimensions < 3 ? colour : mix(colour, GROUND, fmin(fmax(0.3 + 0.3 * depth, 0), 0.8));
+static Colour fade_with_depth(const Panel *panel, Colour colour, double depth) {
+    return panel->system->dimensions < 3 ? colour : mix_colours(colour, GROUND, fmin(fmax(0.3 + 0.3 * depth, 0), 0.8));
 }
 
-static void circle(Canvas *canvas, double x, double y, double radius) {
-    draw_tame(canvas, &x, &y);
+static void add_circle(Canvas *canvas, double x, double y, double radius) {
+    draw_clamp_point(canvas, &x, &y);
     draw_ellipse_path(canvas, x, y, radius, radius, 0, 1, false);
     cairo_close_path(canvas->cr);
 }
 
 // A ball: light from the upper left.
-static void set_ball(cairo_t *cr, const Seen *seen, double radius, Colour colour) {
+static void set_ball(cairo_t *cr, const Projected *seen, double radius, Colour colour) {
     cairo_pattern_t *ball = cairo_pattern_create_radial(seen->x - radius * 0.35, seen->y - radius * 0.4, radius * 0.05,
                                                         seen->x - radius * 0.1, seen->y - radius * 0.1, radius * 1.15);
-    Colour light = mix(colour, (Colour){1, 1, 1}, 0.5), dark = mix(colour, (Colour){0, 0, 0}, 0.65);
+    Colour light = mix_colours(colour, (Colour){1, 1, 1}, 0.5), dark = mix_colours(colour, (Colour){0, 0, 0}, 0.65);
     cairo_pattern_add_color_stop_rgb(ball, 0, light.r, light.g, light.b);
     cairo_pattern_add_color_stop_rgb(ball, 0.45, colour.r, colour.g, colour.b);
     cairo_pattern_add_color_stop_rgb(ball, 1, dark.r, dark.g, dark.b);
@@ -93,44 +94,44 @@ static void set_ball(cairo_t *cr, const Seen *seen, double radius, Colour colour
 }
 
 // What it costs to paint: as one colour, or as one of a gradient.
-static const ListPaint PLAIN = {.composite = COMPOSITE_OVER, .source = LIST_NONE},
-                       SHADED = {.composite = COMPOSITE_OVER};
+static const DisplayPaint PLAIN = {.composite = COMPOSITE_OVER, .source = DISPLAY_NONE},
+                          SHADED = {.composite = COMPOSITE_OVER};
 
-static void draw_body(const Panel *panel, const AutoBody *body, const Seen *seen) {
+static void draw_body(const Panel *panel, const AutoBody *body, const Projected *seen) {
     cairo_t *cr = panel->canvas->cr;
     double radius = body->radius * seen->size;
-    double shown = fmin(fmax(radius, LEAST_RADIUS * panel->pixel), 4 * (panel->width + panel->height));
-    Colour colour = in_mist(panel, shade_colour(panel->system, body->shade), seen->depth);
+    double shown = fmin(fmax(radius, panel->least), 4 * (panel->width + panel->height));
+    Colour colour = fade_with_depth(panel, shade_colour(panel->system, body->shade), seen->depth);
     if (body->anchor) {
         double line = 1.5 * panel->pixel;
-        circle(panel->canvas, seen->x, seen->y, fmax(shown - line / 2, 3 * panel->pixel));
+        add_circle(panel->canvas, seen->x, seen->y, fmax(shown - line / 2, fmax(panel->least, 3 * panel->pixel)));
         cairo_set_line_width(cr, line);
         set_colour(cr, colour, 1);
         cairo_stroke(cr);
         return;
     }
-    bool ball = panel->system->dimensions == 3 && shown > 2 * panel->pixel;
+    bool small = shown <= panel->least, ball = panel->system->dimensions == 3 && !small;
     draw_forget_path(panel->canvas);
-    circle(panel->canvas, seen->x, seen->y, shown);
-    if (!draw_spend_figure(panel->canvas, ball ? &SHADED : &PLAIN, true, false)) {
+    add_circle(panel->canvas, seen->x, seen->y, shown);
+    if (!draw_charge_path(panel->canvas, ball ? &SHADED : &PLAIN, true, false)) {
         cairo_new_path(cr);
     } else if (ball) {
         set_ball(cr, seen, shown, colour);
         cairo_fill(cr);
     } else {
-        set_colour(cr, colour, shown > 2 * panel->pixel ? 0.85 : 1);
+        set_colour(cr, colour, small ? 1 : 0.85);
         cairo_fill(cr);
     }
 }
 
 // The order from the farthest to the nearest; of equal ones the first first.
-typedef struct Place {
-    Seen seen;
+typedef struct DepthEntry {
+    Projected seen;
     uint32_t body;
-} Place;
+} DepthEntry;
 
-static int compare_places(const void *a, const void *b) {
-    const Place *x = a, *y = b;
+static int compare_depth(const void *a, const void *b) {
+    const DepthEntry *x = a, *y = b;
     if (x->seen.depth != y->seen.depth)
         return x->seen.depth < y->seen.depth ? 1 : -1;
     return (x->body > y->body) - (x->body < y->body);
@@ -139,18 +140,18 @@ static int compare_places(const void *a, const void *b) {
 static void draw_bodies(const Panel *panel) {
     const AutoSystem *system = panel->system;
     Arena *arena = &panel->canvas->painter->arena;
-    Place *places = arena_alloc_array(arena, system->body_count, sizeof *places);
+    DepthEntry *places = arena_alloc_array(arena, system->body_count, sizeof *places);
     for (uint32_t i = 0; i < system->body_count; i++)
-        places[i] = (Place){see(panel, system->bodies[i].position), i};
+        places[i] = (DepthEntry){project_point(panel, system->bodies[i].position), i};
     if (system->dimensions == 3)
-        qsort(places, system->body_count, sizeof *places, compare_places);
+        qsort(places, system->body_count, sizeof *places, compare_depth);
     for (uint32_t i = 0; i < system->body_count; i++)
         draw_body(panel, &system->bodies[places[i].body], &places[i].seen);
 }
 
-static void line(Canvas *canvas, double x1, double y1, double x2, double y2) {
-    draw_tame(canvas, &x1, &y1);
-    draw_tame(canvas, &x2, &y2);
+static void add_line(Canvas *canvas, double x1, double y1, double x2, double y2) {
+    draw_clamp_point(canvas, &x1, &y1);
+    draw_clamp_point(canvas, &x2, &y2);
     cairo_move_to(canvas->cr, x1, y1);
     cairo_line_to(canvas->cr, x2, y2);
 }
@@ -160,10 +161,10 @@ static void draw_links(const Panel *panel) {
     cairo_t *cr = panel->canvas->cr;
     cairo_set_line_width(cr, panel->pixel);
     for (uint32_t i = 0; i < system->link_count; i++) {
-        Seen from = see(panel, system->bodies[system->links[i].from].position);
-        Seen to = see(panel, system->bodies[system->links[i].to].position);
-        line(panel->canvas, from.x, from.y, to.x, to.y);
-        set_colour(cr, in_mist(panel, (Colour){0.6, 0.65, 0.7}, (from.depth + to.depth) / 2), 0.4);
+        Projected from = project_point(panel, system->bodies[system->links[i].from].position);
+        Projected to = project_point(panel, system->bodies[system->links[i].to].position);
+        add_line(panel->canvas, from.x, from.y, to.x, to.y);
+        set_colour(cr, fade_with_depth(panel, (Colour){0.6, 0.65, 0.7}, (from.depth + to.depth) / 2), 0.4);
         cairo_stroke(cr);
     }
 }
@@ -173,10 +174,10 @@ static const Colour WALL = {0.75, 0.7, 0.55};
 // In two dimensions a line, with the side behind it shaded; in one a line across.
 static void draw_wall(const Panel *panel, const AutoBarrier *barrier) {
     cairo_t *cr = panel->canvas->cr;
-    Seen at = see(panel, barrier->position);
+    Projected at = project_point(panel, barrier->position);
     double nx = barrier->normal[0], ny = panel->system->dimensions == 1 ? 0 : -barrier->normal[1];
     double length = maths_hypot(nx, ny), far = panel->width + panel->height;
-    if (!(length > 0) || !isfinite(length) || !draw_spend_box(panel->canvas, &PLAIN, far, far, 1))
+    if (!(length > 0) || !isfinite(length) || !draw_charge_box(panel->canvas, &PLAIN, far, far, 1))
         return;
     nx /= length;
     ny /= length;
@@ -225,8 +226,8 @@ static void draw_grid(const Panel *panel, const AutoBarrier *barrier) {
                 one[k] = foot[k] + a[k] * part + b[k] * frame->half;
                 two[k] = foot[k] + a[k] * part - b[k] * frame->half;
             }
-            Seen from = see(panel, one), to = see(panel, two);
-            line(panel->canvas, from.x, from.y, to.x, to.y);
+            Projected from = project_point(panel, one), to = project_point(panel, two);
+            add_line(panel->canvas, from.x, from.y, to.x, to.y);
         }
     set_colour(cr, WALL, 0.3);
     cairo_stroke(cr);
@@ -240,6 +241,38 @@ static void draw_barriers(const Panel *panel) {
             draw_wall(panel, &panel->system->barriers[i]);
 }
 
+static const Colour MARK = {0.5, 0.55, 0.6};
+
+// Lines through the origin along the axes, as far as they are in the frame or near it.
+static void draw_origin(const Panel *panel) {
+    const AutoFrame *frame = &panel->system->frame;
+    uint32_t axes = panel->system->dimensions == 3 ? 3 : 2;
+    const double far = 2 * (panel->width + panel->height) / panel->scale;
+    for (uint32_t k = 0; k < axes; k++) {
+        double from[3] = {0}, to[3] = {0}, length = axes == 3 ? frame->half : far;
+        from[k] = (axes == 3 ? 0 : frame->middle[k]) - length;
+        to[k] = (axes == 3 ? 0 : frame->middle[k]) + length;
+        Projected a = project_point(panel, from), b = project_point(panel, to);
+        add_line(panel->canvas, a.x, a.y, b.x, b.y);
+    }
+    cairo_set_line_width(panel->canvas->cr, panel->pixel);
+    set_colour(panel->canvas->cr, MARK, 0.25);
+    cairo_stroke(panel->canvas->cr);
+}
+
+static void draw_scale(const Panel *panel) {
+    const AutoSystem *system = panel->system;
+    double left = panel->x - panel->width / 2, bottom = panel->y + panel->height / 2, pixel = panel->pixel;
+    for (uint32_t i = 0; i < system->scale_count; i++) {
+        const AutoLine *at = &system->scale[i];
+        add_line(panel->canvas, left + at->x1 * pixel, bottom - at->y1 * pixel, left + at->x2 * pixel,
+                 bottom - at->y2 * pixel);
+    }
+    cairo_set_line_width(panel->canvas->cr, 1.5 * pixel);
+    set_colour(panel->canvas->cr, MARK, 0.8);
+    cairo_stroke(panel->canvas->cr);
+}
+
 static void draw_panel(Panel *panel) {
     cairo_t *cr = panel->canvas->cr;
     double left = panel->x - panel->width / 2, top = panel->y - panel->height / 2;
@@ -248,16 +281,19 @@ static void draw_panel(Panel *panel) {
     cairo_clip(cr);
     set_colour(cr, GROUND, 1);
     cairo_paint(cr);
+    draw_origin(panel);
     draw_barriers(panel);
     if (panel->system->dimensions == 1) { // the line that everything lies on
         double middle[3] = {panel->system->frame.middle[0], 0, 0};
-        line(panel->canvas, left, see(panel, middle).y, left + panel->width, see(panel, middle).y);
+        add_line(panel->canvas, left, project_point(panel, middle).y, left + panel->width,
+                 project_point(panel, middle).y);
         cairo_set_line_width(cr, panel->pixel);
-        set_colour(cr, (Colour){0.5, 0.55, 0.6}, 0.5);
+        set_colour(cr, MARK, 0.5);
         cairo_stroke(cr);
     }
     draw_links(panel);
     draw_bodies(panel);
+    draw_scale(panel);
     cairo_restore(cr);
 }
 
@@ -272,7 +308,7 @@ void draw_automatic(Canvas *canvas, const AutoPicture *picture) {
     cairo_paint(canvas->cr);
     for (uint32_t i = 0; i < picture->count; i++) {
         const AutoSystem *system = &picture->systems[i];
-        double side = fmin(width, height) / 2 * (1 - 2 * MARGIN);
+        double side = fmin(width, height) / 2 * (1 - 2 * AUTO_MARGIN);
         Panel panel = {.canvas = canvas,
                        .system = system,
                        .x = (i % columns + 0.5) * width,
@@ -281,7 +317,8 @@ void draw_automatic(Canvas *canvas, const AutoPicture *picture) {
                        .scale = side / system->frame.half,
                        .width = width,
                        .height = height,
-                       .pixel = fmin(width, height) / 540};
+                       .pixel = fmin(width, height) / AUTO_PANEL};
+        panel.least = fmax(MIN_RADIUS * panel.pixel, LEAST_SEEN / draw_scale_of(canvas->cr));
         draw_panel(&panel);
     }
 }

@@ -1,8 +1,11 @@
 // automatic.h: the picture of particle systems by themselves, for scripts that do not draw.
 //
 // Each system gets a panel of its own. One and two dimensions are seen from above (y upwards, as in physics), three in
-// perspective from the front, a little to the right and above. What is framed changes only when it must: it grows as
-// soon as particles leave it, and shrinks when they need less than half of it.
+// perspective from the front, a little to the right and above.
+//
+// The frame is chosen from the first frame that has particles, and grows about its middle when particles leave it, so
+// it depends only on the particles of the frames that auto_frame was called for, and never shrinks. Lines through the
+// origin, and a bar with its length, show what moved.
 #ifndef PETRI_DRAW_AUTOMATIC_H
 #define PETRI_DRAW_AUTOMATIC_H
 
@@ -11,6 +14,7 @@
 
 typedef struct AutoBody {
     double position[3]; // finite
+    double velocity[3];
     double radius;
     double shade; // -1 … 1: charge, or 0 … 1: speed
     bool anchor;
@@ -25,6 +29,15 @@ typedef struct AutoBarrier {
     double position[3];
     double normal[3];
 } AutoBarrier;
+
+// Sides in pixels: a panel's shorter side has AUTO_PANEL, of which AUTO_MARGIN on each side stays free.
+enum { AUTO_PANEL = 540 };
+#define AUTO_MARGIN 0.04
+
+// In pixels to the right and up from the lower left corner of the panel.
+typedef struct AutoLine {
+    double x1, y1, x2, y2;
+} AutoLine;
 
 // What of space is shown: a box around a middle.
 typedef struct AutoFrame {
@@ -43,6 +56,8 @@ typedef struct AutoSystem {
     AutoBarrier *barriers;
     uint32_t barrier_count;
     AutoFrame frame;
+    AutoLine *scale;
+    uint32_t scale_count;
 } AutoSystem;
 
 typedef struct AutoPicture {
@@ -50,7 +65,9 @@ typedef struct AutoPicture {
     uint32_t count;
 } AutoPicture;
 
-// Chooses what is shown of a system, given what was shown of it before. The arena is for temporaries.
+// Chooses the frame of a system, or extends it. Without bodies it stays as it is. The arena is for temporaries.
 void auto_frame(Arena *arena, AutoFrame *frame, const AutoSystem *system);
+// Makes the lines of the scale for the system's frame.
+void auto_scale(Arena *arena, AutoSystem *system);
 
 #endif

@@ -70,36 +70,36 @@ static float luminance(const float c[3]) {
     return 0.3f * c[0] + 0.59f * c[1] + 0.11f * c[2];
 }
 
-static float spread(const float c[3]) {
+static float saturation_of(const float c[3]) {
     return fmaxf(fmaxf(c[0], c[1]), c[2]) - fminf(fminf(c[0], c[1]), c[2]);
 }
 
 // Gives a colour another luminance, and draws it back to grey where that leads out of 0 to 1.
 static void set_luminance(float c[3], float wanted) {
-    float change = wanted - luminance(c), share = 1;
+    float change = wanted - luminance(c), scale = 1;
     for (int k = 0; k < 3; k++)
         c[k] += change;
-    float least = fminf(fminf(c[0], c[1]), c[2]), most = fmaxf(fmaxf(c[0], c[1]), c[2]);
-    share *= least < 0 && wanted > least ? wanted / (wanted - least) : 1;
-    share *= most > 1 && most > wanted ? (1 - wanted) / (most - wanted) : 1;
+    float min = fminf(fminf(c[0], c[1]), c[2]), max = fmaxf(fmaxf(c[0], c[1]), c[2]);
+    scale *= min < 0 && wanted > min ? wanted / (wanted - min) : 1;
+    scale *= max > 1 && max > wanted ? (1 - wanted) / (max - wanted) : 1;
     for (int k = 0; k < 3; k++)
-        c[k] = wanted + (c[k] - wanted) * share;
+        c[k] = wanted + (c[k] - wanted) * scale;
 }
 
 // Stretches a colour so that its greatest and least parts lie so far apart.
-static void set_spread(float c[3], float wanted) {
-    float least = fminf(fminf(c[0], c[1]), c[2]), now = spread(c);
+static void set_saturation(float c[3], float wanted) {
+    float min = fminf(fminf(c[0], c[1]), c[2]), now = saturation_of(c);
     for (int k = 0; k < 3; k++)
-        c[k] = now > 0 ? (c[k] - least) * wanted / now : 0;
+        c[k] = now > 0 ? (c[k] - min) * wanted / now : 0;
 }
 
 static void blend_whole(CompositeMode mode, const float s[3], const float d[3], float out[3]) {
     bool hue_of_s = mode == COMPOSITE_HUE || mode == COMPOSITE_COLOR;
     memcpy(out, hue_of_s ? s : d, 3 * sizeof *out);
     if (mode == COMPOSITE_HUE)
-        set_spread(out, spread(d));
+        set_saturation(out, saturation_of(d));
     else if (mode == COMPOSITE_SATURATION)
-        set_spread(out, spread(s));
+        set_saturation(out, saturation_of(s));
     set_luminance(out, luminance(mode == COMPOSITE_LUMINOSITY ? s : d));
 }
 

@@ -11,13 +11,13 @@
 #include <jpeglib.h>
 
 bool encode_add(Encoded *out, const void *bytes, size_t length) {
-    if (length > out->room - out->length) {
-        size_t room = out->length + length > 2 * out->room ? out->length + length : 2 * out->room;
-        unsigned char *grown = heap_resize(out->bytes, room);
+    if (length > out->capacity - out->length) {
+        size_t capacity = out->length + length > 2 * out->capacity ? out->length + length : 2 * out->capacity;
+        unsigned char *grown = heap_resize(out->bytes, capacity);
         if (!grown)
             return false;
         out->bytes = grown;
-        out->room = room;
+        out->capacity = capacity;
     }
     if (length > 0)
         memcpy(out->bytes + out->length, bytes, length);
@@ -26,7 +26,7 @@ bool encode_add(Encoded *out, const void *bytes, size_t length) {
 }
 
 // r, g, b and perhaps a as bytes.
-static void spread(const uint32_t *pixels, size_t count, bool alpha, unsigned char *byte) {
+static void unpack_rows(const uint32_t *pixels, size_t count, bool alpha, unsigned char *byte) {
     for (size_t i = 0; i < count; i++, byte += alpha ? 4 : 3) {
         byte[0] = (unsigned char)(pixels[i] >> 16);
         byte[1] = (unsigned char)(pixels[i] >> 8);
@@ -41,16 +41,16 @@ static void add_bytes(png_structp png, png_bytep bytes, size_t length) {
         png_error(png, "memory");
 }
 
-static void be_done(png_structp png) {
+static void ignore_flush(png_structp png) {
     (void)png;
 }
 
-static _Noreturn void leave(png_structp png, const char *text) {
+static _Noreturn void abort_png(png_structp png, const char *text) {
     (void)text;
     png_longjmp(png, 1);
 }
 
-static void ignore(png_structp png, const char *text) {
+static void ignore_warning(png_structp png, const char *text) {
     (void)png;
     (void)text;
 }
@@ -75,7 +75,7 @@ static bool write_png(PngFile *file, const uint32_t *pixels, int width, int heig
     png_set_filter(file->png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
     png_write_info(file->png, file->info);
     for (int y = 0; y < height; y++) {
-        spread(pixels + (size_t)y * (size_t)width, (size_t)width, alpha, file->row);
+        unpack_rows(pixels + (size_t)y * (size_t)width, (size_t)width, alpha, file->row);
         png_write_row(file->png, file->row);
     }
     png_write_end(file->png, file->info);
@@ -83,44 +83,44 @@ static bool write_png(PngFile *file, const uint32_t *pixels, int width, int heig
 }
 
 bool encode_png_pixels(Encoded *out, const uint32_t *pixels, int width, int height, bool alpha) {
-    PngFile file = {.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, leave, ignore)};
+    PngFile file = {.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, abort_png, ignore_warning)};
     if (!file.png)
         return false;
     file.info = png_create_info_struct(file.png);
-    file.row = heap_take((size_t)width * 4);
-    png_set_write_fn(file.png, out, add_bytes, be_done);
+    file.row = heap_alloc((size_t)width * 4);
+    png_set_write_fn(file.png, out, add_bytes, ignore_flush);
     bool good = write_png(&file, pixels, width, height, alpha);
     png_destroy_write_struct(&file.png, &file.info);
-    heap_give(file.row);
+    heap_free(file.row);
     return good;
 }
 
-typedef struct Trouble {
+typedef struct JpegError {
     struct jpeg_error_mgr manager;
     jmp_buf escape;
-} Trouble;
+} JpegError;
 
-static _Noreturn void give_up(j_common_ptr info) {
-    longjmp(((Trouble *)(void *)info->err)->escape, 1);
+static _Noreturn void abort_jpeg(j_common_ptr info) {
+    longjmp(((JpegError *)(void *)info->err)->escape, 1);
 }
 
-static void be_quiet(j_common_ptr info) {
+static void ignore_message(j_common_ptr info) {
     (void)info;
 }
 
 // To be freed by the caller even after a failure.
 typedef struct JpegFile {
     struct jpeg_compress_struct jpeg;
-    Trouble trouble;
+    JpegError trouble;
     unsigned char *bytes;
     unsigned long length;
 } JpegFile;
 
-static bool compress(JpegFile *file, unsigned char *rows, int width, int height, int quality) {
+static bool compress_jpeg(JpegFile *file, unsigned char *rows, int width, int height, int quality) {
     struct jpeg_compress_struct *jpeg = &file->jpeg;
     jpeg->err = jpeg_std_error(&file->trouble.manager);
-    file->trouble.manager.error_exit = give_up;
-    file->trouble.manager.output_message = be_quiet;
+    file->trouble.manager.error_exit = abort_jpeg;
+    file->trouble.manager.output_message = ignore_message;
     if (setjmp(file->trouble.escape))
         return false;
     jpeg_create_compress(jpeg);
@@ -143,13 +143,13 @@ static bool compress(JpegFile *file, unsigned char *rows, int width, int height,
 bool encode_jpeg_pixels(Encoded *out, const uint32_t *pixels, int width, int height, int quality) {
     JpegFile file = {.bytes = NULL};
     size_t count = (size_t)width * (size_t)height;
-    unsigned char *rows = heap_take(count * 3);
+    unsigned char *rows = heap_alloc(count * 3);
     if (rows)
-        spread(pixels, count, false, rows);
-    bool good = rows && compress(&file, rows, width, height, quality < 1 ? 1 : quality > 100 ? 100 : quality);
+        unpack_rows(pixels, count, false, rows);
+    bool good = rows && compress_jpeg(&file, rows, width, height, quality < 1 ? 1 : quality > 100 ? 100 : quality);
     jpeg_destroy_compress(&file.jpeg);
     good = good && encode_add(out, file.bytes, file.length);
-    heap_give(file.bytes);
-    heap_give(rows);
+    heap_free(file.bytes);
+    heap_free(rows);
     return good;
 }

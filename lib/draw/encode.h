@@ -10,7 +10,7 @@
 // not be left by a jump. `bytes` is to be freed by whoever has it, even after a failure.
 typedef struct Encoded {
     unsigned char *bytes;
-    size_t length, room;
+    size_t length, capacity;
 } Encoded;
 
 // False if memory is used up; then nothing has changed.

@@ -1,111 +1,112 @@
 // filters.c: what is drawn through a filter (spec canvas.md 6): drawn on a transparent sheet, which is then changed.
-#include "draw/sheets.h"
-
-#include "draw/light.h"
+#include "draw/float_image.h"
+#include "draw/hdr_composite.h"
 
 #include <math.h>
 
-enum { MOST_SHEET = 1 << 26 };       // pixels
-static const double FARTHEST = 2000; // that something is moved, pixels
+enum { MAX_PIXELS = 1 << 26 };         // pixels
+static const double MAX_OFFSET = 2000; // that something is moved, pixels
 
 // Where filters are applied.
-typedef struct Room {
+typedef struct FilterContext {
     Canvas *canvas;
     cairo_matrix_t matrix; // of what is drawn
     double x;              // of the sheets on the target
     double y;
-    const Sheet *drawn;
-} Room;
+    const FloatImage *drawn;
+} FilterContext;
 
 static double scale_in(const cairo_matrix_t *m, int axis) {
     return axis ? sqrt(m->xy * m->xy + m->yy * m->yy) : sqrt(m->xx * m->xx + m->yx * m->yx);
 }
 
-static void report_widest(Canvas *canvas, const ListFilter *filter, const double radius[2]) {
-    if (fmax(radius[0], radius[1]) > SHEET_WIDEST)
-        draw_fault_at(canvas, &filter->place, DIAG_WARNING, "blur-limit",
-                      "!%s: a radius of more than %d pixels counts as one of so many",
-                      filter->kind == FILTER_BLUR ? "blur" : "shadow", SHEET_WIDEST);
+static void report_blur_limit(Canvas *canvas, const DisplayFilter *filter, const double radius[2]) {
+    if (fmax(radius[0], radius[1]) > FLOAT_IMAGE_MAX_SIGMA)
+        draw_report_canvas_at(canvas, &filter->place, DIAG_WARNING, "blur-limit",
+                              "!%s: a radius of more than %d pixels counts as one of so many",
+                              filter->kind == FILTER_BLUR ? "blur" : "shadow", FLOAT_IMAGE_MAX_SIGMA);
 }
 
-static Sheet apply(const Room *room, uint32_t number);
+static FloatImage apply_filter(const FilterContext *context, uint32_t number);
 
 // A new sheet with the paint everywhere.
-static Sheet paint_all(const Room *room, const ListPaint *paint) {
-    Canvas *canvas = room->canvas;
-    if (canvas->wide.pixels && paint->source == LIST_NONE) {
-        Sheet plain = sheet_new(canvas, room->drawn->width, room->drawn->height);
-        sheet_fill(&plain, paint->color);
+static FloatImage paint_all(const FilterContext *context, const DisplayPaint *paint) {
+    Canvas *canvas = context->canvas;
+    if (canvas->hdr_target.pixels && paint->source == DISPLAY_NONE) {
+        FloatImage plain = float_image_new(canvas, context->drawn->width, context->drawn->height);
+        float_image_fill(&plain, paint->color);
         return plain;
     }
-    cairo_surface_t *surface = draw_begin_apart(canvas, room->drawn->width, room->drawn->height, room->x, room->y);
-    Sheet sheet = {0};
+    cairo_surface_t *surface =
+        draw_push_offscreen(canvas, context->drawn->width, context->drawn->height, context->x, context->y);
+    FloatImage image = {0};
     if (!surface)
-        return sheet;
-    cairo_set_matrix(canvas->cr, &room->matrix);
+        return image;
+    cairo_set_matrix(canvas->cr, &context->matrix);
     draw_set_source(canvas, paint);
     cairo_paint(canvas->cr);
-    sheet = sheet_take(canvas, surface);
-    draw_end_apart(canvas);
-    return sheet;
+    image = float_image_read(canvas, surface);
+    draw_pop_offscreen(canvas);
+    return image;
 }
 
-static Sheet cast_shadow(const Room *room, const ListFilter *filter, Sheet drawn, const double sigma[2], double dx,
-                         double dy) {
-    Canvas *canvas = room->canvas;
-    Sheet shadow = sheet_copy(canvas, &drawn);
-    sheet_shade(&shadow, filter->color);
-    sheet_blur(canvas, &shadow, sigma);
-    sheet_move(canvas, &shadow, dx, dy);
+static FloatImage cast_shadow(const FilterContext *context, const DisplayFilter *filter, FloatImage drawn,
+                              const double sigma[2], double dx, double dy) {
+    Canvas *canvas = context->canvas;
+    FloatImage shadow = float_image_copy(canvas, &drawn);
+    float_image_tint(&shadow, filter->color);
+    float_image_blur(canvas, &shadow, sigma);
+    float_image_move(canvas, &shadow, dx, dy);
     if (!filter->only)
-        sheet_lay_over(&shadow, &drawn);
-    sheet_free(canvas, &drawn);
+        float_image_composite_over(&shadow, &drawn);
+    float_image_free(canvas, &drawn);
     return shadow;
 }
 
 // A new sheet.
-static Sheet apply(const Room *room, uint32_t number) {
-    Canvas *canvas = room->canvas;
-    if (number == LIST_NONE)
-        return sheet_copy(canvas, room->drawn);
-    const List *list = canvas->list;
-    const ListFilter *filter = &list->filters.at[number];
-    const double *numbers = filter->numbers == LIST_NONE ? NULL : list->numbers.at + filter->numbers;
+static FloatImage apply_filter(const FilterContext *context, uint32_t number) {
+    Canvas *canvas = context->canvas;
+    if (number == DISPLAY_NONE)
+        return float_image_copy(canvas, context->drawn);
+    const DisplayList *list = canvas->list;
+    const DisplayFilter *filter = &list->filters.at[number];
+    const double *numbers = filter->numbers == DISPLAY_NONE ? NULL : list->numbers.at + filter->numbers;
     double dx = filter->offset[0], dy = filter->offset[1];
-    double radius[2] = {filter->radius[0] * scale_in(&room->matrix, 0), filter->radius[1] * scale_in(&room->matrix, 1)};
-    cairo_matrix_transform_distance(&room->matrix, &dx, &dy);
+    double radius[2] = {filter->radius[0] * scale_in(&context->matrix, 0),
+                        filter->radius[1] * scale_in(&context->matrix, 1)};
+    cairo_matrix_transform_distance(&context->matrix, &dx, &dy);
     if (filter->kind == FILTER_PAINT)
-        return paint_all(room, &list->paints.at[filter->paint]);
-    Sheet sheet = apply(room, filter->inputs[0]), other;
+        return paint_all(context, &list->paints.at[filter->paint]);
+    FloatImage image = apply_filter(context, filter->inputs[0]), other;
     switch (filter->kind) {
     case FILTER_BLUR:
-        report_widest(canvas, filter, radius);
-        sheet_blur(canvas, &sheet, radius);
+        report_blur_limit(canvas, filter, radius);
+        float_image_blur(canvas, &image, radius);
         break;
     case FILTER_SHADOW:
-        report_widest(canvas, filter, radius);
-        return cast_shadow(room, filter, sheet, radius, dx, dy);
+        report_blur_limit(canvas, filter, radius);
+        return cast_shadow(context, filter, image, radius, dx, dy);
     case FILTER_OFFSET:
-        sheet_move(canvas, &sheet, dx, dy);
+        float_image_move(canvas, &image, dx, dy);
         break;
     case FILTER_DILATE:
     case FILTER_ERODE:
-        sheet_spread(canvas, &sheet, radius, filter->kind == FILTER_ERODE);
+        float_image_morphology(canvas, &image, radius, filter->kind == FILTER_ERODE);
         break;
-    case FILTER_MATRIX:
-        sheet_recolor(&sheet, numbers);
+    case FILTER_COLOUR_MATRIX:
+        float_image_recolor(&image, numbers);
         break;
     case FILTER_BLEND:
-        other = apply(room, filter->inputs[1]);
-        sheet_combine(&sheet, &other, numbers, (CompositeMode)filter->mode);
+        other = apply_filter(context, filter->inputs[1]);
+        float_image_combine(&image, &other, numbers, (CompositeMode)filter->mode);
         if (!other.pixels)
-            sheet_free(canvas, &sheet);
-        sheet_free(canvas, &other);
+            float_image_free(canvas, &image);
+        float_image_free(canvas, &other);
         break;
     default:
         break;
     }
-    return sheet;
+    return image;
 }
 
 // What a filter asks for.
@@ -115,19 +116,19 @@ typedef struct Needs {
     bool everywhere; // it changes what is transparent
 } Needs;
 
-static void add_needs(const List *list, uint32_t number, const cairo_matrix_t *m, Needs *needs) {
-    if (number == LIST_NONE)
+static void add_needs(const DisplayList *list, uint32_t number, const cairo_matrix_t *m, Needs *needs) {
+    if (number == DISPLAY_NONE)
         return;
-    const ListFilter *filter = &list->filters.at[number];
-    const double *numbers = filter->numbers == LIST_NONE ? NULL : list->numbers.at + filter->numbers;
+    const DisplayFilter *filter = &list->filters.at[number];
+    const double *numbers = filter->numbers == DISPLAY_NONE ? NULL : list->numbers.at + filter->numbers;
     double dx = filter->offset[0], dy = filter->offset[1];
     double radius = fmax(filter->radius[0] * scale_in(m, 0), filter->radius[1] * scale_in(m, 1));
     bool blurs = filter->kind == FILTER_BLUR || filter->kind == FILTER_SHADOW;
     cairo_matrix_transform_distance(m, &dx, &dy);
-    needs->margin += fmin(fmax(fabs(dx), fabs(dy)), FARTHEST);
-    needs->margin += blurs ? 3 * fmin(radius, SHEET_WIDEST) : fmin(radius, FARTHEST);
+    needs->margin += fmin(fmax(fabs(dx), fabs(dy)), MAX_OFFSET);
+    needs->margin += blurs ? 3 * fmin(radius, FLOAT_IMAGE_MAX_SIGMA) : fmin(radius, MAX_OFFSET);
     needs->work += blurs ? 20 + 4 * fmin(radius, 16) : 20;
-    needs->everywhere |= filter->kind == FILTER_PAINT || (filter->kind == FILTER_MATRIX && numbers[19] != 0) ||
+    needs->everywhere |= filter->kind == FILTER_PAINT || (filter->kind == FILTER_COLOUR_MATRIX && numbers[19] != 0) ||
                          (filter->kind == FILTER_BLEND && numbers && numbers[3] != 0);
     add_needs(list, filter->inputs[0], m, needs);
     add_needs(list, filter->inputs[1], m, needs);
@@ -141,7 +142,8 @@ typedef struct Box {
 } Box;
 
 // What of the target the sheet covers: where the figure is, if that is known, and where one can see.
-static bool find_box(Canvas *canvas, const ListCommand *command, const ListPaint *paint, const Needs *needs, Box *box) {
+static bool find_box(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint, const Needs *needs,
+                     Box *box) {
     cairo_t *cr = canvas->cr;
     double seen[4], figure[4], margin = ceil(needs->margin + 2);
     cairo_save(cr);
@@ -150,7 +152,7 @@ static bool find_box(Canvas *canvas, const ListCommand *command, const ListPaint
     cairo_restore(cr);
     if (seen[2] <= seen[0] || seen[3] <= seen[1])
         return false;
-    bool known = command->kind == LIST_DRAW && !needs->everywhere;
+    bool known = command->kind == DISPLAY_DRAW && !needs->everywhere;
     if (known) {
         draw_set_path(canvas, command);
         known = draw_find_box(canvas, command, paint, figure);
@@ -170,45 +172,46 @@ static bool find_box(Canvas *canvas, const ListCommand *command, const ListPaint
 }
 
 // May the picture go through the filter? If not, it is told.
-static bool may_filter(Canvas *canvas, const ListFilter *filter, const Box *box, const Needs *needs) {
-    double pixels = box->width * box->height, work = pixels <= MOST_SHEET ? pixels * needs->work : INFINITY;
-    return draw_spend(canvas, &filter->place, work, "what comes here is drawn without a filter");
+static bool can_filter(Canvas *canvas, const DisplayFilter *filter, const Box *box, const Needs *needs) {
+    double pixels = box->width * box->height, work = pixels <= MAX_PIXELS ? pixels * needs->work : INFINITY;
+    return draw_charge(canvas, &filter->place, work, "what comes here is drawn without a filter");
 }
 
 // The command drawn by itself, as a sheet.
-static Sheet draw_apart(Canvas *canvas, const ListCommand *command, const ListPaint *paint, const Box *box) {
+static FloatImage draw_offscreen(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint,
+                                 const Box *box) {
     cairo_matrix_t matrix;
     cairo_get_matrix(canvas->cr, &matrix);
-    cairo_surface_t *surface = draw_begin_apart(canvas, (int)box->width, (int)box->height, box->x, box->y);
-    Sheet sheet = {0};
+    cairo_surface_t *surface = draw_push_offscreen(canvas, (int)box->width, (int)box->height, box->x, box->y);
+    FloatImage image = {0};
     if (!surface)
-        return sheet;
+        return image;
     cairo_set_matrix(canvas->cr, &matrix);
-    ListPaint plain = *paint;
-    plain.filter = LIST_NONE;
+    DisplayPaint plain = *paint;
+    plain.filter = DISPLAY_NONE;
     plain.composite = COMPOSITE_OVER;
-    if (canvas->outer_wide.pixels) {
-        sheet = canvas->wide = sheet_new(canvas, (int)box->width, (int)box->height);
-        canvas->wide.x = (int)box->x;
-        canvas->wide.y = (int)box->y;
+    if (canvas->outer_hdr_target.pixels) {
+        image = canvas->hdr_target = float_image_new(canvas, (int)box->width, (int)box->height);
+        canvas->hdr_target.x = (int)box->x;
+        canvas->hdr_target.y = (int)box->y;
     }
-    if (!canvas->outer_wide.pixels || sheet.pixels)
-        draw_plainly(canvas, command, &plain);
-    if (!canvas->outer_wide.pixels)
-        sheet = sheet_take(canvas, surface);
-    draw_end_apart(canvas);
-    return sheet;
+    if (!canvas->outer_hdr_target.pixels || image.pixels)
+        draw_unfiltered(canvas, command, &plain);
+    if (!canvas->outer_hdr_target.pixels)
+        image = float_image_read(canvas, surface);
+    draw_pop_offscreen(canvas);
+    return image;
 }
 
 // Lays what came out over the target.
-static void lay(Canvas *canvas, const Sheet *sheet, const Box *box, int composite) {
+static void composite_result(Canvas *canvas, const FloatImage *image, const Box *box, int composite) {
     cairo_t *cr = canvas->cr;
-    if (canvas->wide.pixels) {
-        light_lay(canvas, sheet, box->x, box->y, composite);
+    if (canvas->hdr_target.pixels) {
+        hdr_composite(canvas, image, box->x, box->y, composite);
         return;
     }
-    cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, sheet->width, sheet->height);
-    sheet_put(sheet, surface);
+    cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, image->width, image->height);
+    float_image_write(image, surface);
     cairo_save(cr);
     cairo_identity_matrix(cr);
     cairo_set_source_surface(cr, surface, box->x, box->y);
@@ -218,29 +221,29 @@ static void lay(Canvas *canvas, const Sheet *sheet, const Box *box, int composit
     cairo_surface_destroy(surface);
 }
 
-void draw_filtered(Canvas *canvas, const ListCommand *command, const ListPaint *paint) {
-    Room room = {.canvas = canvas};
+void draw_filtered(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint) {
+    FilterContext context = {.canvas = canvas};
     Needs needs = {0};
     Box box;
-    cairo_get_matrix(canvas->cr, &room.matrix);
-    add_needs(canvas->list, paint->filter, &room.matrix, &needs);
+    cairo_get_matrix(canvas->cr, &context.matrix);
+    add_needs(canvas->list, paint->filter, &context.matrix, &needs);
     if (!find_box(canvas, command, paint, &needs, &box))
         return;
-    const ListFilter *filter = &canvas->list->filters.at[paint->filter];
-    Sheet result = {0};
-    if (may_filter(canvas, filter, &box, &needs)) {
-        Sheet drawn = draw_apart(canvas, command, paint, &box);
-        room.x = box.x;
-        room.y = box.y;
-        room.drawn = &drawn;
+    const DisplayFilter *filter = &canvas->list->filters.at[paint->filter];
+    FloatImage result = {0};
+    if (can_filter(canvas, filter, &box, &needs)) {
+        FloatImage drawn = draw_offscreen(canvas, command, paint, &box);
+        context.x = box.x;
+        context.y = box.y;
+        context.drawn = &drawn;
         if (drawn.pixels)
-            result = apply(&room, paint->filter);
-        sheet_free(canvas, &drawn);
-        draw_lacks(canvas, &filter->place, "a filter", result.pixels == NULL);
+            result = apply_filter(&context, paint->filter);
+        float_image_free(canvas, &drawn);
+        draw_report_degraded(canvas, &filter->place, "a filter", !result.pixels);
     }
     if (result.pixels)
-        lay(canvas, &result, &box, paint->composite);
+        composite_result(canvas, &result, &box, paint->composite);
     else
-        draw_plainly(canvas, command, paint);
-    sheet_free(canvas, &result);
+        draw_unfiltered(canvas, command, paint);
+    float_image_free(canvas, &result);
 }

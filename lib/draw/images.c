@@ -1,52 +1,51 @@
 // images.c: pictures from files, kept by the painter until the file changes.
-#include "draw/draw.h"
-
 #include "base/file.h"
 #include "base/heap.h"
 #include "base/source.h"
-#include "draw/light.h"
+#include "draw/draw.h"
+#include "draw/hdr_composite.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { MOST_BYTES = 64 << 20, MOST_SIDE = DRAW_MOST_SIDE, MOST_PIXELS = DRAW_MOST_PIXELS, MOST_KEPT = 64 };
+enum { MAX_BYTES = 64 << 20, MAX_SIDE = DRAW_MAX_SIDE, MAX_PIXELS = DRAW_MAX_PIXELS, MAX_CACHED = 64 };
 
-struct Picture {
-    Picture *next;
+struct CachedImage {
+    CachedImage *next;
     char *path;
     char *version;            // changes when the file does
     cairo_surface_t *surface; // NULL: cannot be read
     char *problem;            // then why
-    Meter *meter;             // that its pixels are charged to
-    size_t taken;
+    Budget *meter;            // that its pixels are charged to
+    size_t charged;
 };
 
-static void picture_free(Picture *picture) {
+static void cached_image_free(CachedImage *picture) {
     if (picture->surface)
         cairo_surface_destroy(picture->surface);
-    meter_give(picture->meter, picture->taken);
-    heap_give(picture->path);
-    heap_give(picture->version);
-    heap_give(picture->problem);
-    heap_give(picture);
+    budget_release(picture->meter, picture->charged);
+    heap_free(picture->path);
+    heap_free(picture->version);
+    heap_free(picture->problem);
+    heap_free(picture);
 }
 
 void draw_images_close(PetriPainter *painter) {
-    for (Picture *picture = painter->images, *next; picture; picture = next) {
+    for (CachedImage *picture = painter->images, *next; picture; picture = next) {
         next = picture->next;
-        picture_free(picture);
+        cached_image_free(picture);
     }
     painter->images = NULL;
 }
 
 // Forgets an image, and the oldest if there are many.
-static void forget(PetriPainter *painter, const char *path) {
+static void evict_image(PetriPainter *painter, const char *path) {
     int count = 0;
-    for (Picture **at = &painter->images; *at;) {
-        Picture *picture = *at;
-        if (strcmp(picture->path, path) == 0 || ++count >= MOST_KEPT) {
+    for (CachedImage **at = &painter->images; *at;) {
+        CachedImage *picture = *at;
+        if (strcmp(picture->path, path) == 0 || ++count >= MAX_CACHED) {
             *at = picture->next;
-            picture_free(picture);
+            cached_image_free(picture);
         } else {
             at = &picture->next;
         }
@@ -71,7 +70,7 @@ static cairo_surface_t *read_png(Str bytes, const char **problem) {
     // The size stands in the first piece of the file; to look before memory is taken for it.
     uint32_t width = bytes.len > 24 ? big_endian(bytes.bytes + 16) : 0;
     uint32_t height = bytes.len > 24 ? big_endian(bytes.bytes + 20) : 0;
-    if (width > MOST_SIDE || height > MOST_SIDE || (uint64_t)width * height > MOST_PIXELS) {
+    if (width > MAX_SIDE || height > MAX_SIDE || (uint64_t)width * height > MAX_PIXELS) {
         *problem = "it is too large";
         return NULL;
     }
@@ -85,7 +84,7 @@ static cairo_surface_t *read_png(Str bytes, const char **problem) {
 }
 
 // NULL without a problem if memory is used up.
-static cairo_surface_t *decode(Str bytes, const char **problem) {
+static cairo_surface_t *decode_image(Str bytes, const char **problem) {
     if (str_starts_with(bytes, STR("\x89PNG\r\n\x1a\n")))
         return read_png(bytes, problem);
     if (str_starts_with(bytes, STR("\xff\xd8\xff")))
@@ -94,52 +93,52 @@ static cairo_surface_t *decode(Str bytes, const char **problem) {
     return NULL;
 }
 
-static bool charge(Picture *picture) {
+static bool charge_image(CachedImage *picture) {
     size_t bytes = (size_t)cairo_image_surface_get_stride(picture->surface) *
                    (size_t)cairo_image_surface_get_height(picture->surface);
-    if (!meter_take(picture->meter, bytes)) {
+    if (!budget_reserve(picture->meter, bytes)) {
         picture->meter->memory_refused = false;
         return false;
     }
-    picture->taken = bytes;
+    picture->charged = bytes;
     return true;
 }
 
-static Picture *load(PetriPainter *painter, const Reach *reach, const char *path, Str version) {
+static CachedImage *load_image(PetriPainter *painter, const FileAccess *reach, const char *path, Str version) {
     ArenaMark mark = arena_mark(&painter->arena);
     Str bytes;
     const char *problem = NULL;
-    bool read = file_read(&painter->arena, reach, path, true, MOST_BYTES, &bytes, NULL, &problem);
-    Picture *picture = heap_zeroed(1, sizeof *picture); // from here on nothing else escapes
+    bool read = file_read(&painter->arena, reach, path, true, MAX_BYTES, &bytes, NULL, &problem);
+    CachedImage *picture = heap_calloc(1, sizeof *picture); // from here on nothing else escapes
     if (!picture)
         arena_exhausted(&painter->arena);
-    picture->path = heap_text(path, strlen(path));
-    picture->version = heap_text(version.bytes, version.len);
+    picture->path = heap_strndup(path, strlen(path));
+    picture->version = heap_strndup(version.bytes, version.len);
     picture->meter = &painter->meter;
     if (read)
-        picture->surface = decode(bytes, &problem);
-    if (picture->surface && !charge(picture)) {
+        picture->surface = decode_image(bytes, &problem);
+    if (picture->surface && !charge_image(picture)) {
         cairo_surface_destroy(picture->surface);
         picture->surface = NULL;
         problem = "it takes more memory than a script may have (--memory)";
     }
-    picture->problem = problem ? heap_text(problem, strlen(problem)) : NULL;
+    picture->problem = problem ? heap_strndup(problem, strlen(problem)) : NULL;
     if (!picture->path || !picture->version || (!picture->surface && !picture->problem)) {
-        picture_free(picture);
+        cached_image_free(picture);
         arena_exhausted(&painter->arena);
     }
     arena_rewind(&painter->arena, mark);
     return picture;
 }
 
-static const Picture *find(PetriPainter *painter, const Reach *reach, const char *path) {
+static const CachedImage *find_image(PetriPainter *painter, const FileAccess *reach, const char *path) {
     Str version = STR("");
     file_version(&painter->arena, reach, path, &version);
-    for (Picture *picture = painter->images; picture; picture = picture->next)
+    for (CachedImage *picture = painter->images; picture; picture = picture->next)
         if (strcmp(picture->path, path) == 0 && str_equal(str_from(picture->version), version))
             return picture;
-    forget(painter, path);
-    Picture *picture = load(painter, reach, path, version);
+    evict_image(painter, path);
+    CachedImage *picture = load_image(painter, reach, path, version);
     picture->next = painter->images;
     painter->images = picture;
     return picture;
@@ -157,7 +156,7 @@ typedef struct Box {
 } Box;
 
 // False if it would be nothing.
-static bool find_box(const ListImage *image, double width, double height, Box *box) {
+static bool find_box(const DisplayImage *image, double width, double height, Box *box) {
     const double *size = image->size;
     *box = (Box){.x = image->point[0], .y = image->point[1], .scale_x = 1, .scale_y = 1};
     if (image->fit == FIT_FILL || image->fit == FIT_INSIDE) {
@@ -177,16 +176,16 @@ static bool find_box(const ListImage *image, double width, double height, Box *b
 }
 
 // Paints a surface, or on a wide canvas what the shade has.
-static void paint_image(Canvas *canvas, cairo_surface_t *surface, Shade *shade, double width, double height,
-                        const Box *box, const double point[2], const ListPaint *paint) {
+static void paint_image(Canvas *canvas, cairo_surface_t *surface, HdrPaint *shade, double width, double height,
+                        const Box *box, const double point[2], const DisplayPaint *paint) {
     cairo_t *cr = canvas->cr;
     draw_forget_path(canvas);
     cairo_save(cr);
     draw_set_edges(canvas, paint->antialias, FILL_WINDING);
     if (box->cut) {
         double x1 = point[0], y1 = point[1], x2 = x1 + box->width, y2 = y1 + box->height;
-        draw_tame(canvas, &x1, &y1);
-        draw_tame(canvas, &x2, &y2);
+        draw_clamp_point(canvas, &x1, &y1);
+        draw_clamp_point(canvas, &x2, &y2);
         cairo_rectangle(cr, x1, y1, x2 - x1, y2 - y1);
         cairo_clip(cr);
     }
@@ -209,7 +208,7 @@ static void paint_image(Canvas *canvas, cairo_surface_t *surface, Shade *shade, 
             shade->to_units = placed;
             shade->alpha = (float)alpha;
             cairo_matrix_invert(&shade->to_units);
-            light_image(canvas, paint, shade);
+            hdr_draw_image(canvas, paint, shade);
         }
     }
     cairo_restore(cr);
@@ -220,28 +219,28 @@ static void paint_image(Canvas *canvas, cairo_surface_t *surface, Shade *shade, 
 static cairo_surface_t *find_file(PetriPainter *painter, const CanvasPicture *picture, Str name, NodeKind kind,
                                   const Origin *place, DiagSink *faults) {
     Arena *arena = &painter->arena;
-    const Reach *reach = &picture->reach;
-    const Picture *found = find(painter, reach, str_to_c(arena, path_join(arena, reach->directory, name)));
+    const FileAccess *reach = &picture->reach;
+    const CachedImage *found = find_image(painter, reach, str_to_c(arena, path_join(arena, reach->directory, name)));
     if (!found->surface)
         draw_report(faults, place, DIAG_WARNING, "cannot-read", "!%s: cannot read '%s': %s", schema_kinds[kind].name,
                     name.bytes, found->problem ? found->problem : "");
     return found->surface;
 }
 
-static bool may_copy(Canvas *canvas, int width, int height) {
-    return draw_spend(canvas, NULL, 3.0 * width * height, draw_left_out);
+static bool can_copy(Canvas *canvas, int width, int height) {
+    return draw_charge(canvas, NULL, 3.0 * width * height, draw_omitted);
 }
 
 // The picture of a node in memory; NULL if there is none.
 static Texture *find_texture(Canvas *canvas, Str id) {
     PetriPainter *painter = canvas->painter;
-    Texture *texture = pictures_find(painter->pictures, id);
-    return texture && texture_fetch(painter->gl, texture) ? texture : NULL;
+    Texture *texture = render_graph_find(painter->render_graph, id);
+    return texture && texture_download(painter->gl, texture) ? texture : NULL;
 }
 
 static cairo_surface_t *find_picture(Canvas *canvas, Str id) {
     Texture *texture = find_texture(canvas, id);
-    if (!texture || !may_copy(canvas, texture->width, texture->height))
+    if (!texture || !can_copy(canvas, texture->width, texture->height))
         return NULL;
     cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, texture->width, texture->height);
     uint32_t *pixels = (uint32_t *)(void *)cairo_image_surface_get_data(surface);
@@ -257,7 +256,7 @@ static cairo_surface_t *find_picture(Canvas *canvas, Str id) {
 // Files count as sRGB: another copy for a linear canvas.
 static cairo_surface_t *linear_copy(Canvas *canvas, cairo_surface_t *file) {
     int width = cairo_image_surface_get_width(file), height = cairo_image_surface_get_height(file);
-    if (!may_copy(canvas, width, height))
+    if (!can_copy(canvas, width, height))
         return NULL;
     cairo_surface_t *copy = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height);
     cairo_t *cr = cairo_create(copy);
@@ -272,7 +271,7 @@ static cairo_surface_t *linear_copy(Canvas *canvas, cairo_surface_t *file) {
     return copy;
 }
 
-cairo_surface_t *draw_find_image(Canvas *canvas, const ListImage *image) {
+cairo_surface_t *draw_find_image(Canvas *canvas, const DisplayImage *image) {
     if (image->file.len == 0)
         return find_picture(canvas, image->id);
     cairo_surface_t *surface =
@@ -280,7 +279,7 @@ cairo_surface_t *draw_find_image(Canvas *canvas, const ListImage *image) {
     return !surface ? NULL : canvas->list->linear ? linear_copy(canvas, surface) : cairo_surface_reference(surface);
 }
 
-bool draw_find_pixels(Canvas *canvas, const ListImage *image, const Texture **texture, cairo_surface_t **file) {
+bool draw_find_pixels(Canvas *canvas, const DisplayImage *image, const Texture **texture, cairo_surface_t **file) {
     *texture = image->file.len == 0 ? find_texture(canvas, image->id) : NULL;
     *file = image->file.len == 0
                 ? NULL
@@ -288,11 +287,11 @@ bool draw_find_pixels(Canvas *canvas, const ListImage *image, const Texture **te
     return *texture || *file;
 }
 
-void draw_image(Canvas *canvas, const ListImage *image, const ListPaint *paint) {
-    Shade shade = {.file = NULL};
+void draw_image(Canvas *canvas, const DisplayImage *image, const DisplayPaint *paint) {
+    HdrPaint shade = {.file = NULL};
     cairo_surface_t *surface = NULL;
     Box box;
-    if (canvas->wide.pixels)
+    if (canvas->hdr_target.pixels)
         draw_find_pixels(canvas, image, &shade.texture, &shade.file);
     else
         surface = draw_find_image(canvas, image);
@@ -302,7 +301,7 @@ void draw_image(Canvas *canvas, const ListImage *image, const ListPaint *paint) 
     int width = pixels ? cairo_image_surface_get_width(pixels) : shade.texture->width;
     int height = pixels ? cairo_image_surface_get_height(pixels) : shade.texture->height;
     if (find_box(image, width, height, &box) &&
-        (!surface || draw_spend_box(canvas, paint, width * box.scale_x, height * box.scale_y, 1)))
+        (!surface || draw_charge_box(canvas, paint, width * box.scale_x, height * box.scale_y, 1)))
         paint_image(canvas, surface, &shade, width, height, &box, image->point, paint);
     cairo_surface_destroy(surface);
 }
@@ -311,7 +310,7 @@ Texture *draw_picture_image(PetriPainter *painter, const CanvasPicture *picture,
                             DiagSink *faults) {
     const AttrValue *name = draw_attr(node, ATTR_FILENAME);
     cairo_surface_t *surface = name && name->as.text.len > 0
-                                   ? find_file(painter, picture, name->as.text, KIND_IMAGE, &node->place, faults)
+                                   ? find_file(painter, picture, name->as.text, KIND_IMAGE, &node->origin, faults)
                                    : NULL;
     if (!surface)
         return NULL;

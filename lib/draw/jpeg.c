@@ -1,33 +1,31 @@
 // jpeg.c: reads JPEG files.
+#include "base/heap.h"
 #include "draw/draw.h"
 
-#include "base/heap.h"
-
+#include <jerror.h>
+#include <setjmp.h>
 #include <stdio.h>
 
 #include <jpeglib.h>
 
-#include <jerror.h>
-#include <setjmp.h>
+enum { MAX_SIDE = 16384, MAX_PIXELS = 1 << 26 };
 
-enum { MOST_SIDE = 16384, MOST_PIXELS = 1 << 26 };
-
-typedef struct Trouble {
+typedef struct JpegError {
     struct jpeg_error_mgr manager;
     jmp_buf escape;
-} Trouble;
+} JpegError;
 
-static _Noreturn void give_up(j_common_ptr info) {
-    longjmp(((Trouble *)(void *)info->err)->escape, 1);
+static _Noreturn void abort_decode(j_common_ptr info) {
+    longjmp(((JpegError *)(void *)info->err)->escape, 1);
 }
 
 // Half a file is no picture; other oddities do no harm.
 static void on_warning(j_common_ptr info, int level) {
     if (level < 0 && info->err->msg_code == JWRN_JPEG_EOF)
-        give_up(info);
+        abort_decode(info);
 }
 
-static void be_quiet(j_common_ptr info) {
+static void ignore_message(j_common_ptr info) {
     (void)info;
 }
 
@@ -44,28 +42,28 @@ static void read_rows(struct jpeg_decompress_struct *jpeg, cairo_surface_t *surf
 }
 
 cairo_surface_t *draw_read_jpeg(Str bytes, const char **problem) {
-    Trouble trouble;
+    JpegError trouble;
     struct jpeg_decompress_struct jpeg = {0};
     cairo_surface_t *volatile surface = NULL;
     unsigned char *volatile line = NULL;
     volatile bool done = false;
     *problem = "it is damaged, or of a kind that is not read";
     jpeg.err = jpeg_std_error(&trouble.manager);
-    trouble.manager.error_exit = give_up;
+    trouble.manager.error_exit = abort_decode;
     trouble.manager.emit_message = on_warning;
-    trouble.manager.output_message = be_quiet;
+    trouble.manager.output_message = ignore_message;
     if (setjmp(trouble.escape) == 0) {
         jpeg_create_decompress(&jpeg);
         jpeg_mem_src(&jpeg, (const unsigned char *)bytes.bytes, bytes.len);
         jpeg_read_header(&jpeg, TRUE);
         jpeg.out_color_space = JCS_RGB;
-        if (jpeg.image_width > MOST_SIDE || jpeg.image_height > MOST_SIDE ||
-            (uint64_t)jpeg.image_width * jpeg.image_height > MOST_PIXELS) {
+        if (jpeg.image_width > MAX_SIDE || jpeg.image_height > MAX_SIDE ||
+            (uint64_t)jpeg.image_width * jpeg.image_height > MAX_PIXELS) {
             *problem = "it is too large";
         } else {
             jpeg_start_decompress(&jpeg);
             surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)jpeg.output_width, (int)jpeg.output_height);
-            line = heap_take((size_t)jpeg.output_width * 3);
+            line = heap_alloc((size_t)jpeg.output_width * 3);
             if (line && cairo_surface_status(surface) == CAIRO_STATUS_SUCCESS) {
                 read_rows(&jpeg, surface, line);
                 done = true;
@@ -77,7 +75,7 @@ cairo_surface_t *draw_read_jpeg(Str bytes, const char **problem) {
     if (trouble.manager.msg_code == JERR_OUT_OF_MEMORY)
         *problem = NULL;
     jpeg_destroy_decompress(&jpeg);
-    heap_give(line);
+    heap_free(line);
     if (done)
         return surface;
     if (surface)

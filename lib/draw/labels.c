@@ -18,16 +18,16 @@ static void draw_panel(cairo_t *cr, const PetriLabel *label) {
     cairo_arc(cr, right, top, CORNER, turn * 0.75, turn);
     cairo_arc(cr, right, bottom, CORNER, 0, turn * 0.25);
     cairo_arc(cr, left, bottom, CORNER, turn * 0.25, turn * 0.5);
-    set_colour(cr, label->back);
+    set_colour(cr, label->background);
     cairo_fill(cr);
     cairo_rectangle(cr, label->x, label->y, STRIPE, label->height);
-    set_colour(cr, label->edge);
+    set_colour(cr, label->accent);
     cairo_fill(cr);
 }
 
 static void draw_lines(cairo_t *cr, PangoLayout *layout, const PetriLabel *label) {
     double base = label->y + label->padding + label->size * 0.8;
-    set_colour(cr, label->front);
+    set_colour(cr, label->foreground);
     for (const char *line = label->text; *line; base += label->line_height) {
         size_t length = strcspn(line, "\n");
         pango_layout_set_text(layout, line, (int)length);
@@ -37,26 +37,26 @@ static void draw_lines(cairo_t *cr, PangoLayout *layout, const PetriLabel *label
     }
 }
 
-PetriStatus petri_painter_labels(PetriPainter *painter, const PetriLabel *labels, size_t count, double scale,
-                                 uint32_t *pixels, int width, int height, size_t stride) {
-    Letters *letters = draw_letters(painter);
-    if (!letters)
-        return PETRI_MEMORY;
+PetriStatus petri_painter_draw_labels(PetriPainter *painter, const PetriLabel *labels, size_t count, double scale,
+                                      uint32_t *pixels, int width, int height, size_t stride) {
+    TextContext *text_context = draw_text_context(painter);
+    if (!text_context)
+        return PETRI_OUT_OF_MEMORY;
     cairo_surface_t *target =
         cairo_image_surface_create_for_data((unsigned char *)pixels, CAIRO_FORMAT_ARGB32, width, height, (int)stride);
     cairo_t *cr = cairo_create(target);
     PangoFontDescription *font = pango_font_description_from_string("monospace");
     cairo_scale(cr, scale, scale);
-    pango_cairo_update_layout(cr, letters->layout);
-    pango_layout_set_attributes(letters->layout, NULL);
-    letters->family = NULL;
+    pango_cairo_update_layout(cr, text_context->layout);
+    pango_layout_set_attributes(text_context->layout, NULL);
+    text_context->family = NULL;
     for (size_t i = 0; i < count; i++) {
         pango_font_description_set_absolute_size(font, labels[i].size * PANGO_SCALE);
-        pango_layout_set_font_description(letters->layout, font);
+        pango_layout_set_font_description(text_context->layout, font);
         draw_panel(cr, &labels[i]);
-        draw_lines(cr, letters->layout, &labels[i]);
+        draw_lines(cr, text_context->layout, &labels[i]);
     }
-    PetriStatus status = cairo_status(cr) == CAIRO_STATUS_SUCCESS ? PETRI_OK : PETRI_MEMORY;
+    PetriStatus status = cairo_status(cr) == CAIRO_STATUS_SUCCESS ? PETRI_OK : PETRI_OUT_OF_MEMORY;
     pango_font_description_free(font);
     cairo_destroy(cr);
     cairo_surface_destroy(target);

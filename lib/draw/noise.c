@@ -6,7 +6,7 @@
 enum { LATTICE = 256, CHANNELS = 4 };
 
 typedef struct Noise {
-    const ListSource *source;
+    const DisplaySource *source;
     double frequency[2];
     int tile[2]; // cells that repeat, in the first octave; 0: none do
     uint8_t order[LATTICE];
@@ -21,10 +21,10 @@ static int32_t next_number(int32_t seed) {
 }
 
 static int32_t first_number(double seed) {
-    enum { MOST = 2147483646 };
+    enum { MAX_SEED = 2147483646 };
     double whole = trunc(seed);
-    whole = whole <= 0 ? 1 - fmod(whole, MOST) : whole;
-    return (int32_t)(whole < MOST ? whole : MOST);
+    whole = whole <= 0 ? 1 - fmod(whole, MAX_SEED) : whole;
+    return (int32_t)(whole < MAX_SEED ? whole : MAX_SEED);
 }
 
 static void make_lattice(Noise *noise) {
@@ -45,9 +45,9 @@ static void make_lattice(Noise *noise) {
     for (int i = LATTICE - 1; i > 0; i--) {
         number = next_number(number);
         int other = number % LATTICE;
-        uint8_t kept = noise->order[i];
+        uint8_t swapped = noise->order[i];
         noise->order[i] = noise->order[other];
-        noise->order[other] = kept;
+        noise->order[other] = swapped;
     }
 }
 
@@ -65,12 +65,12 @@ static void fit_tiles(Noise *noise) {
 }
 
 // Where a number lies in the lattice.
-typedef struct Place {
+typedef struct LatticePoint {
     int cell;
     int next;
     double part;
     double ease;
-} Place;
+} LatticePoint;
 
 static int in_lattice(double cell, double tile) {
     if (tile > 0)
@@ -78,26 +78,26 @@ static int in_lattice(double cell, double tile) {
     return (int)(cell - LATTICE * floor(cell / LATTICE)) & (LATTICE - 1);
 }
 
-static Place place_of(double x, double tile) {
+static LatticePoint lattice_point_of(double x, double tile) {
     double cell = floor(x), part = x - cell;
-    return (Place){in_lattice(cell, tile), in_lattice(cell + 1, tile), part, part * part * (3 - 2 * part)};
+    return (LatticePoint){in_lattice(cell, tile), in_lattice(cell + 1, tile), part, part * part * (3 - 2 * part)};
 }
 
-static double mix(double share, double a, double b) {
-    return a + share * (b - a);
+static double interpolate(double fraction, double a, double b) {
+    return a + fraction * (b - a);
 }
 
-static double smooth(const Noise *noise, int channel, const Place *x, const Place *y) {
+static double gradient_noise(const Noise *noise, int channel, const LatticePoint *x, const LatticePoint *y) {
     const uint8_t *order = noise->order;
     const double(*slopes)[2] = noise->slopes[channel];
     const double *s00 = slopes[order[(order[x->cell] + y->cell) & (LATTICE - 1)]];
     const double *s10 = slopes[order[(order[x->next] + y->cell) & (LATTICE - 1)]];
     const double *s01 = slopes[order[(order[x->cell] + y->next) & (LATTICE - 1)]];
     const double *s11 = slopes[order[(order[x->next] + y->next) & (LATTICE - 1)]];
-    double above = mix(x->ease, x->part * s00[0] + y->part * s00[1], (x->part - 1) * s10[0] + y->part * s10[1]);
-    double below =
-        mix(x->ease, x->part * s01[0] + (y->part - 1) * s01[1], (x->part - 1) * s11[0] + (y->part - 1) * s11[1]);
-    return mix(y->ease, above, below);
+    double above = interpolate(x->ease, x->part * s00[0] + y->part * s00[1], (x->part - 1) * s10[0] + y->part * s10[1]);
+    double below = interpolate(x->ease, x->part * s01[0] + (y->part - 1) * s01[1],
+                               (x->part - 1) * s11[0] + (y->part - 1) * s11[1]);
+    return interpolate(y->ease, above, below);
 }
 
 // Perlin's of 2002, in the plane z = channel: twelve directions along the edges' middles of a cube, a smoother ease.
@@ -108,17 +108,17 @@ static double slope_along(const Noise *noise, int x, int y, int z, double dx, do
     return ((edge & 1) ? -u : u) + ((edge & 2) ? -v : v);
 }
 
-static double ease_well(double t) {
+static double improved_ease(double t) {
     return t * t * t * (t * (t * 6 - 15) + 10);
 }
 
-static double improved(const Noise *noise, int channel, const Place *x, const Place *y) {
-    double across = ease_well(x->part);
-    double above = mix(across, slope_along(noise, x->cell, y->cell, channel, x->part, y->part),
-                       slope_along(noise, x->next, y->cell, channel, x->part - 1, y->part));
-    double below = mix(across, slope_along(noise, x->cell, y->next, channel, x->part, y->part - 1),
-                       slope_along(noise, x->next, y->next, channel, x->part - 1, y->part - 1));
-    return mix(ease_well(y->part), above, below);
+static double improved_noise(const Noise *noise, int channel, const LatticePoint *x, const LatticePoint *y) {
+    double across = improved_ease(x->part);
+    double above = interpolate(across, slope_along(noise, x->cell, y->cell, channel, x->part, y->part),
+                               slope_along(noise, x->next, y->cell, channel, x->part - 1, y->part));
+    double below = interpolate(across, slope_along(noise, x->cell, y->next, channel, x->part, y->part - 1),
+                               slope_along(noise, x->next, y->next, channel, x->part - 1, y->part - 1));
+    return interpolate(improved_ease(y->part), above, below);
 }
 
 // Four channels, 0 to 1.
@@ -129,10 +129,11 @@ static void noise_at(const Noise *noise, double x, double y, double out[CHANNELS
         double at_x = x * noise->frequency[0] * ratio, at_y = y * noise->frequency[1] * ratio;
         if (!(fabs(at_x) < 1e15) || !(fabs(at_y) < 1e15)) // there are no parts left
             break;
-        Place place_x = place_of(at_x, noise->tile[0] * ratio), place_y = place_of(at_y, noise->tile[1] * ratio);
+        LatticePoint place_x = lattice_point_of(at_x, noise->tile[0] * ratio),
+                     place_y = lattice_point_of(at_y, noise->tile[1] * ratio);
         for (int channel = 0; channel < CHANNELS; channel++) {
-            double wave = type == TURBULENCE_IMPROVED ? improved(noise, channel, &place_x, &place_y)
-                                                      : smooth(noise, channel, &place_x, &place_y);
+            double wave = type == TURBULENCE_IMPROVED ? improved_noise(noise, channel, &place_x, &place_y)
+                                                      : gradient_noise(noise, channel, &place_x, &place_y);
             sums[channel] += (type == TURBULENCE_FOLDED ? fabs(wave) : wave) / ratio;
         }
     }
@@ -150,8 +151,8 @@ static uint32_t pixel_of(const double c[CHANNELS], double alpha) {
     return pixel;
 }
 
-static void fill(const Noise *noise, const cairo_matrix_t *to_units, int left, int top, double alpha,
-                 cairo_surface_t *surface) {
+static void fill_surface(const Noise *noise, const cairo_matrix_t *to_units, int left, int top, double alpha,
+                         cairo_surface_t *surface) {
     int width = cairo_image_surface_get_width(surface), height = cairo_image_surface_get_height(surface);
     unsigned char *pixels = cairo_image_surface_get_data(surface);
     for (int row = 0; pixels && row < height; row++)
@@ -165,7 +166,7 @@ static void fill(const Noise *noise, const cairo_matrix_t *to_units, int left, i
     cairo_surface_mark_dirty(surface);
 }
 
-cairo_pattern_t *draw_noise(Canvas *canvas, const ListSource *source, double alpha) {
+cairo_pattern_t *draw_noise(Canvas *canvas, const DisplaySource *source, double alpha) {
     cairo_t *cr = canvas->cr;
     cairo_matrix_t units, to_units, to_pixels;
     double x1, y1, x2, y2;
@@ -176,7 +177,7 @@ cairo_pattern_t *draw_noise(Canvas *canvas, const ListSource *source, double alp
     cairo_restore(cr);
     double left = floor(x1), top = floor(y1), width = fmax(ceil(x2) - left, 1), height = fmax(ceil(y2) - top, 1);
     double work = width * height * (10 + 100.0 * source->stop_count);
-    if (!draw_spend(canvas, NULL, work, "noise that comes now is left out"))
+    if (!draw_charge(canvas, NULL, work, "noise that comes now is left out"))
         return cairo_pattern_create_rgba(0, 0, 0, 0);
     cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, (int)width, (int)height);
     Noise noise = {.source = source};
@@ -184,7 +185,7 @@ cairo_pattern_t *draw_noise(Canvas *canvas, const ListSource *source, double alp
     fit_tiles(&noise);
     to_units = units;
     cairo_matrix_invert(&to_units);
-    fill(&noise, &to_units, (int)left, (int)top, alpha, surface);
+    fill_surface(&noise, &to_units, (int)left, (int)top, alpha, surface);
     cairo_pattern_t *pattern = cairo_pattern_create_for_surface(surface);
     cairo_surface_destroy(surface);
     cairo_matrix_init_translate(&to_pixels, -left, -top);

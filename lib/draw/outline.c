@@ -8,35 +8,35 @@
 #include <math.h>
 #include <string.h>
 
-enum { MOST_PIECES = 100000 };
+enum { MAX_ELEMENTS = 100000 };
 
 // A figure cut into straight lines.
 typedef struct Flat {
-    LIST_ARRAY(OutlinePoint) points;
+    DISPLAY_ARRAY(OutlinePoint) points;
     bool closed; // its last point is its first
     double length;
 } Flat;
 
-static OutlinePoint end_of(const OutlinePiece *piece) {
-    return piece->points[piece->kind == PIECE_CURVE_3 ? 2 : 0];
+static OutlinePoint end_of(const OutlineElement *element) {
+    return element->points[element->kind == PATH_CUBIC ? 2 : 0];
 }
 
-static void add(Outline *out, ListPiece kind, OutlinePoint point) {
-    *LIST_ADD(out->arena, out->pieces, 1) = (OutlinePiece){kind, {point}};
+static void add_element(Outline *out, PathElement kind, OutlinePoint point) {
+    *DISPLAY_ADD(out->arena, out->elements, 1) = (OutlineElement){kind, {point}};
 }
 
 static double distance(OutlinePoint a, OutlinePoint b) {
     return maths_hypot(b.x - a.x, b.y - a.y);
 }
 
-static OutlinePoint between(OutlinePoint a, OutlinePoint b, double share) {
-    return (OutlinePoint){a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)};
+static OutlinePoint between(OutlinePoint a, OutlinePoint b, double fraction) {
+    return (OutlinePoint){a.x + fraction * (b.x - a.x), a.y + fraction * (b.y - a.y)};
 }
 
 static void add_point(Outline *out, Flat *flat, OutlinePoint point) {
     if (flat->points.count > 0)
         flat->length += distance(flat->points.at[flat->points.count - 1], point);
-    *LIST_ADD(out->arena, flat->points, 1) = point;
+    *DISPLAY_ADD(out->arena, flat->points, 1) = point;
 }
 
 static void add_curve(Outline *out, Flat *flat, OutlinePoint from, const OutlinePoint *points) {
@@ -51,17 +51,17 @@ static void add_curve(Outline *out, Flat *flat, OutlinePoint from, const Outline
 }
 
 // The next figure from *at on, which is moved behind it.
-static Flat flatten(Outline *from, uint32_t *at) {
+static Flat flatten_subpath(Outline *from, uint32_t *at) {
     Flat flat = {.closed = false};
     uint32_t i = *at;
-    for (bool begun = false; i < from->pieces.count && !flat.closed; i++, begun = true) {
-        const OutlinePiece *piece = &from->pieces.at[i];
-        if (piece->kind == PIECE_MOVE && begun)
+    for (bool begun = false; i < from->elements.count && !flat.closed; i++, begun = true) {
+        const OutlineElement *element = &from->elements.at[i];
+        if (element->kind == PATH_MOVE && begun)
             break;
-        if (piece->kind == PIECE_CURVE_3 && flat.points.count > 0) {
-            add_curve(from, &flat, flat.points.at[flat.points.count - 1], piece->points);
-        } else if (piece->kind != PIECE_CLOSE) {
-            add_point(from, &flat, end_of(piece));
+        if (element->kind == PATH_CUBIC && flat.points.count > 0) {
+            add_curve(from, &flat, flat.points.at[flat.points.count - 1], element->points);
+        } else if (element->kind != PATH_CLOSE) {
+            add_point(from, &flat, end_of(element));
         } else if (flat.points.count > 0) {
             add_point(from, &flat, flat.points.at[0]);
             flat.closed = true;
@@ -79,7 +79,7 @@ typedef struct Walk {
 } Walk;
 
 // The point so far along, which is not before where the walk has been; and, if wanted, the direction there.
-static OutlinePoint walk_to(Walk *walk, double along, OutlinePoint *direction) {
+static OutlinePoint point_along(Walk *walk, double along, OutlinePoint *direction) {
     const OutlinePoint *points = walk->flat->points.at;
     uint32_t last = walk->flat->points.count - 2;
     double length = distance(points[walk->piece], points[walk->piece + 1]);
@@ -97,17 +97,17 @@ static OutlinePoint walk_to(Walk *walk, double along, OutlinePoint *direction) {
 static void copy_flat(Outline *out, const Flat *flat) {
     uint32_t count = flat->points.count - (flat->closed ? 1 : 0);
     for (uint32_t i = 0; i < count; i++)
-        add(out, i ? PIECE_LINE : PIECE_MOVE, flat->points.at[i]);
+        add_element(out, i ? PATH_LINE : PATH_MOVE, flat->points.at[i]);
     if (flat->closed)
-        add(out, PIECE_CLOSE, flat->points.at[0]);
+        add_element(out, PATH_CLOSE, flat->points.at[0]);
 }
 
-static void jitter(const ListEffect *effect, Outline *from, Outline *out) {
+static void jitter_outline(const DisplayEffect *effect, Outline *from, Outline *out) {
     uint64_t key = random_hash_step(RANDOM_HASH_START, random_hash_number(effect->seed)), item = 0;
-    for (uint32_t at = 0; at < from->pieces.count;) {
-        Flat flat = flatten(from, &at);
-        double count = fmin(rint(flat.length / effect->amounts[0]), MOST_PIECES);
-        if (flat.points.count < 2 || count < 2 || out->pieces.count > MOST_PIECES) {
+    for (uint32_t at = 0; at < from->elements.count;) {
+        Flat flat = flatten_subpath(from, &at);
+        double count = fmin(rint(flat.length / effect->amounts[0]), MAX_ELEMENTS);
+        if (flat.points.count < 2 || count < 2 || out->elements.count > MAX_ELEMENTS) {
             copy_flat(out, &flat);
             continue;
         }
@@ -116,18 +116,18 @@ static void jitter(const ListEffect *effect, Outline *from, Outline *out) {
         uint32_t points = (uint32_t)count + (flat.closed ? 0 : 1);
         for (uint32_t i = 0; i < points; i++) {
             OutlinePoint direction,
-                point = walk_to(&walk, (i + (flat.closed ? 0.5 : 0)) * flat.length / count, &direction);
+                point = point_along(&walk, (i + (flat.closed ? 0.5 : 0)) * flat.length / count, &direction);
             double side = effect->amounts[1] * (2 * random_uniform(key, item++) - 1);
-            add(out, i ? PIECE_LINE : PIECE_MOVE,
-                (OutlinePoint){point.x - side * direction.y, point.y + side * direction.x});
+            add_element(out, i ? PATH_LINE : PATH_MOVE,
+                        (OutlinePoint){point.x - side * direction.y, point.y + side * direction.x});
         }
         if (flat.closed)
-            add(out, PIECE_CLOSE, flat.points.at[0]);
+            add_element(out, PATH_CLOSE, flat.points.at[0]);
     }
 }
 
 // Which interval an offset lies in, and what is left of it.
-static uint32_t find_interval(const ListEffect *effect, const double *intervals, double *left) {
+static uint32_t find_interval(const DisplayEffect *effect, const double *intervals, double *left) {
     double sum = 0;
     for (uint32_t i = 0; i < effect->count; i++)
         sum += intervals[i];
@@ -139,17 +139,17 @@ static uint32_t find_interval(const ListEffect *effect, const double *intervals,
     return at;
 }
 
-static void dash_figure(const ListEffect *effect, const double *intervals, const Flat *flat, Outline *out) {
+static void dash_subpath(const DisplayEffect *effect, const double *intervals, const Flat *flat, Outline *out) {
     double left, along = 0;
     uint32_t interval = find_interval(effect, intervals, &left);
     Walk walk = {.flat = flat};
-    while (along < flat->length && out->pieces.count < MOST_PIECES) {
+    while (along < flat->length && out->elements.count < MAX_ELEMENTS) {
         double end = fmin(along + left, flat->length);
         if (interval % 2 == 0) {
-            add(out, PIECE_MOVE, walk_to(&walk, along, NULL));
-            for (uint32_t first = walk.piece; walk_to(&walk, end, NULL), first < walk.piece; first++)
-                add(out, PIECE_LINE, flat->points.at[first + 1]);
-            add(out, PIECE_LINE, walk_to(&walk, end, NULL));
+            add_element(out, PATH_MOVE, point_along(&walk, along, NULL));
+            for (uint32_t first = walk.piece; point_along(&walk, end, NULL), first < walk.piece; first++)
+                add_element(out, PATH_LINE, flat->points.at[first + 1]);
+            add_element(out, PATH_LINE, point_along(&walk, end, NULL));
         }
         along = end;
         interval = (interval + 1) % effect->count;
@@ -157,17 +157,17 @@ static void dash_figure(const ListEffect *effect, const double *intervals, const
     }
 }
 
-static void dash(const ListEffect *effect, const double *intervals, Outline *from, Outline *out) {
+static void dash_outline(const DisplayEffect *effect, const double *intervals, Outline *from, Outline *out) {
     double sum = 0;
     for (uint32_t i = 0; i < effect->count; i++)
         sum += intervals[i];
-    for (uint32_t at = 0; at < from->pieces.count;) {
-        Flat flat = flatten(from, &at);
-        bool countless = flat.length * effect->count / sum > MOST_PIECES;
+    for (uint32_t at = 0; at < from->elements.count;) {
+        Flat flat = flatten_subpath(from, &at);
+        bool countless = flat.length * effect->count / sum > MAX_ELEMENTS;
         if (flat.points.count < 2 || countless)
             copy_flat(out, &flat);
         else
-            dash_figure(effect, intervals, &flat, out);
+            dash_subpath(effect, intervals, &flat, out);
     }
 }
 
@@ -176,63 +176,63 @@ static void round_corner(Outline *out, OutlinePoint before, OutlinePoint p, Outl
     double in = distance(before, p), away = distance(p, after);
     OutlinePoint a = between(p, before, in > 0 ? fmin(radius / in, 0.5) : 0);
     OutlinePoint b = between(p, after, away > 0 ? fmin(radius / away, 0.5) : 0);
-    add(out, PIECE_LINE, a);
-    *LIST_ADD(out->arena, out->pieces, 1) =
-        (OutlinePiece){PIECE_CURVE_3, {between(a, p, 2.0 / 3), between(b, p, 2.0 / 3), b}};
+    add_element(out, PATH_LINE, a);
+    *DISPLAY_ADD(out->arena, out->elements, 1) =
+        (OutlineElement){PATH_CUBIC, {between(a, p, 2.0 / 3), between(b, p, 2.0 / 3), b}};
 }
 
 // Pieces `first` to `end` are a figure: a beginning, lines and curves, perhaps its close.
-static void round_figure(const OutlinePiece *pieces, uint32_t first, uint32_t end, double radius, Outline *out) {
-    bool closed = end - first > 2 && pieces[end - 1].kind == PIECE_CLOSE;
+static void round_subpath(const OutlineElement *elements, uint32_t first, uint32_t end, double radius, Outline *out) {
+    bool closed = end - first > 2 && elements[end - 1].kind == PATH_CLOSE;
     uint32_t last = closed ? end - 1 : end; // behind the last piece that goes somewhere
-    OutlinePoint start = pieces[first].points[0], back = end_of(&pieces[last - 1]);
+    OutlinePoint start = elements[first].points[0], back = end_of(&elements[last - 1]);
     bool gap = closed && distance(start, back) > 0; // the close is a line of its own
-    bool corner = closed && (gap || pieces[last - 1].kind == PIECE_LINE) && pieces[first + 1].kind == PIECE_LINE;
-    OutlinePoint behind = gap ? back : end_of(&pieces[last - 2]); // before the start, the way round
-    double length = distance(start, pieces[first + 1].points[0]);
-    add(out, PIECE_MOVE,
-        corner ? between(start, pieces[first + 1].points[0], length > 0 ? fmin(radius / length, 0.5) : 0) : start);
+    bool corner = closed && (gap || elements[last - 1].kind == PATH_LINE) && elements[first + 1].kind == PATH_LINE;
+    OutlinePoint before_start = gap ? back : end_of(&elements[last - 2]); // before the start, the way round
+    double length = distance(start, elements[first + 1].points[0]);
+    add_element(out, PATH_MOVE,
+                corner ? between(start, elements[first + 1].points[0], length > 0 ? fmin(radius / length, 0.5) : 0)
+                       : start);
     for (uint32_t i = first + 1; i < last; i++) {
-        OutlinePoint p = end_of(&pieces[i]);
+        OutlinePoint p = end_of(&elements[i]);
         bool ends = i + 1 == last;
-        if (pieces[i].kind == PIECE_CURVE_3) {
-            *LIST_ADD(out->arena, out->pieces, 1) = pieces[i];
-        } else if (ends && !gap) {
+        if (elements[i].kind == PATH_CUBIC)
+            *DISPLAY_ADD(out->arena, out->elements, 1) = elements[i];
+        else if (ends && !gap)
             if (corner)
-                round_corner(out, end_of(&pieces[i - 1]), start, pieces[first + 1].points[0], radius);
+                round_corner(out, end_of(&elements[i - 1]), start, elements[first + 1].points[0], radius);
             else
-                add(out, PIECE_LINE, p);
-        } else if (ends || pieces[i + 1].kind == PIECE_LINE) {
-            round_corner(out, end_of(&pieces[i - 1]), p, ends ? start : pieces[i + 1].points[0], radius);
-        } else {
-            add(out, PIECE_LINE, p);
-        }
+                add_element(out, PATH_LINE, p);
+        else if (ends || elements[i + 1].kind == PATH_LINE)
+            round_corner(out, end_of(&elements[i - 1]), p, ends ? start : elements[i + 1].points[0], radius);
+        else
+            add_element(out, PATH_LINE, p);
     }
     if (corner && gap)
-        round_corner(out, behind, start, pieces[first + 1].points[0], radius);
+        round_corner(out, before_start, start, elements[first + 1].points[0], radius);
     if (closed)
-        add(out, PIECE_CLOSE, start);
+        add_element(out, PATH_CLOSE, start);
 }
 
-static void round_all(const ListEffect *effect, const Outline *from, Outline *out) {
-    const OutlinePiece *pieces = from->pieces.at;
-    for (uint32_t first = 0, end; first < from->pieces.count; first = end) {
-        for (end = first + 1; end < from->pieces.count && pieces[end].kind != PIECE_MOVE; end++)
+static void round_all(const DisplayEffect *effect, const Outline *from, Outline *out) {
+    const OutlineElement *elements = from->elements.at;
+    for (uint32_t first = 0, end; first < from->elements.count; first = end) {
+        for (end = first + 1; end < from->elements.count && elements[end].kind != PATH_MOVE; end++)
             ;
-        if (end - first > 1 && pieces[first].kind == PIECE_MOVE && pieces[first + 1].kind != PIECE_CLOSE)
-            round_figure(pieces, first, end, effect->amounts[0], out);
+        if (end - first > 1 && elements[first].kind == PATH_MOVE && elements[first + 1].kind != PATH_CLOSE)
+            round_subpath(elements, first, end, effect->amounts[0], out);
         else
             for (uint32_t i = first; i < end; i++)
-                *LIST_ADD(out->arena, out->pieces, 1) = pieces[i];
+                *DISPLAY_ADD(out->arena, out->elements, 1) = elements[i];
     }
 }
 
-static void transform(const double *m, const Outline *from, Outline *out) {
-    for (uint32_t i = 0; i < from->pieces.count; i++) {
-        OutlinePiece *piece = LIST_ADD(out->arena, out->pieces, 1);
-        *piece = from->pieces.at[i];
+static void transform_outline(const double *m, const Outline *from, Outline *out) {
+    for (uint32_t i = 0; i < from->elements.count; i++) {
+        OutlineElement *element = DISPLAY_ADD(out->arena, out->elements, 1);
+        *element = from->elements.at[i];
         for (int k = 0; k < 3; k++) {
-            OutlinePoint *p = &piece->points[k], old = *p;
+            OutlinePoint *p = &element->points[k], old = *p;
             double w = m[6] * old.x + m[7] * old.y + m[8];
             p->x = (m[0] * old.x + m[1] * old.y + m[2]) / w;
             p->y = (m[3] * old.x + m[4] * old.y + m[5]) / w;
@@ -240,18 +240,18 @@ static void transform(const double *m, const Outline *from, Outline *out) {
     }
 }
 
-Outline outline_apply(const List *list, uint32_t number, Outline from, bool lines) {
+Outline outline_apply(const DisplayList *list, uint32_t number, Outline from, bool lines) {
     Outline out = {.arena = from.arena, .fine = from.fine};
-    if (number == LIST_NONE)
+    if (number == DISPLAY_NONE)
         return from;
-    const ListEffect *effect = &list->effects.at[number];
+    const DisplayEffect *effect = &list->effects.at[number];
     const double *numbers = list->numbers.at + effect->numbers;
     if (effect->kind == EFFECT_SUM) {
         for (uint32_t i = 0; i < effect->count; i++) {
             Outline part = outline_apply(list, (uint32_t)numbers[i], from, lines);
-            if (part.pieces.count > 0)
-                memcpy(LIST_ADD(out.arena, out.pieces, part.pieces.count), part.pieces.at,
-                       part.pieces.count * sizeof *part.pieces.at);
+            if (part.elements.count > 0)
+                memcpy(DISPLAY_ADD(out.arena, out.elements, part.elements.count), part.elements.at,
+                       part.elements.count * sizeof *part.elements.at);
         }
         return out;
     }
@@ -260,103 +260,104 @@ Outline outline_apply(const List *list, uint32_t number, Outline from, bool line
     case EFFECT_DASH:
         if (!lines)
             return from;
-        dash(effect, numbers, &from, &out);
+        dash_outline(effect, numbers, &from, &out);
         break;
     case EFFECT_ROUND:
         round_all(effect, &from, &out);
         break;
     case EFFECT_JITTER:
-        jitter(effect, &from, &out);
+        jitter_outline(effect, &from, &out);
         break;
     default:
-        transform(numbers, &from, &out);
+        transform_outline(numbers, &from, &out);
     }
     return out;
 }
 
-bool outline_has_dashes(const List *list, uint32_t number) {
-    if (number == LIST_NONE)
+bool outline_has_dashes(const DisplayList *list, uint32_t number) {
+    if (number == DISPLAY_NONE)
         return false;
-    const ListEffect *effect = &list->effects.at[number];
+    const DisplayEffect *effect = &list->effects.at[number];
     bool any = effect->kind == EFFECT_DASH || (effect->kind != EFFECT_SUM && outline_has_dashes(list, effect->inner));
     for (uint32_t i = 0; effect->kind == EFFECT_SUM && i < effect->count; i++)
         any = any || outline_has_dashes(list, (uint32_t)list->numbers.at[effect->numbers + i]);
     return any;
 }
 
-bool outline_has_effect(const List *list, const ListPaint *paint) {
-    if (paint->effect == LIST_NONE)
+bool outline_has_effect(const DisplayList *list, const DisplayPaint *paint) {
+    if (paint->effect == DISPLAY_NONE)
         return false;
-    const ListEffect *effect = &list->effects.at[paint->effect];
-    return effect->kind != EFFECT_DASH || effect->inner != LIST_NONE;
+    const DisplayEffect *effect = &list->effects.at[paint->effect];
+    return effect->kind != EFFECT_DASH || effect->inner != DISPLAY_NONE;
 }
 
 static void add_curves(Outline *out, double curves[][6], int count) {
     for (int i = 0; i < count; i++)
-        *LIST_ADD(out->arena, out->pieces, 1) = (OutlinePiece){
-            PIECE_CURVE_3, {{curves[i][0], curves[i][1]}, {curves[i][2], curves[i][3]}, {curves[i][4], curves[i][5]}}};
+        *DISPLAY_ADD(out->arena, out->elements, 1) = (OutlineElement){
+            PATH_CUBIC, {{curves[i][0], curves[i][1]}, {curves[i][2], curves[i][3]}, {curves[i][4], curves[i][5]}}};
 }
 
 // `here` is where the path ends, `first` where its figure began.
-static void take_piece(Outline *out, ListPiece kind, const double *n, OutlinePoint *here, OutlinePoint *first) {
-    double start[2], curves[ARCS_MOST][6];
+static void add_path_element(Outline *out, PathElement kind, const double *n, OutlinePoint *here, OutlinePoint *first) {
+    double start[2], curves[ARCS_MAX][6];
     OutlinePoint point = {n[0], n[1]};
-    bool begins = out->pieces.count == 0;
+    bool begins = out->elements.count == 0;
     int count;
     switch (kind) {
-    case PIECE_MOVE:
-    case PIECE_LINE:
-        add(out, begins ? PIECE_MOVE : kind, point);
+    case PATH_MOVE:
+    case PATH_LINE:
+        add_element(out, begins ? PATH_MOVE : kind, point);
         break;
-    case PIECE_CURVE_2:
+    case PATH_QUADRATIC:
         if (begins)
-            add(out, PIECE_MOVE, *here = *first = point);
+            add_element(out, PATH_MOVE, *here = *first = point);
         point = (OutlinePoint){n[2], n[3]};
-        *LIST_ADD(out->arena, out->pieces, 1) =
-            (OutlinePiece){PIECE_CURVE_3,
-                           {between(*here, (OutlinePoint){n[0], n[1]}, 2.0 / 3),
-                            between(point, (OutlinePoint){n[0], n[1]}, 2.0 / 3), point}};
+        *DISPLAY_ADD(out->arena, out->elements, 1) =
+            (OutlineElement){PATH_CUBIC,
+                             {between(*here, (OutlinePoint){n[0], n[1]}, 2.0 / 3),
+                              between(point, (OutlinePoint){n[0], n[1]}, 2.0 / 3), point}};
         break;
-    case PIECE_CURVE_3:
+    case PATH_CUBIC:
         if (begins)
-            add(out, PIECE_MOVE, *here = *first = point);
+            add_element(out, PATH_MOVE, *here = *first = point);
         add_curves(out, (double[1][6]){{n[0], n[1], n[2], n[3], n[4], n[5]}}, 1);
         break;
-    case PIECE_ARC:
-    case PIECE_ARC_ON:
+    case PATH_ARC:
+    case PATH_ARC_JOINED:
         count = arcs_of_ellipse(n, 2 / out->fine, start, curves);
-        add(out, kind == PIECE_ARC || begins ? PIECE_MOVE : PIECE_LINE, *here = (OutlinePoint){start[0], start[1]});
-        if (kind == PIECE_ARC || begins)
+        add_element(out, kind == PATH_ARC || begins ? PATH_MOVE : PATH_LINE,
+                    *here = (OutlinePoint){start[0], start[1]});
+        if (kind == PATH_ARC || begins)
             *first = *here;
         add_curves(out, curves, count);
         break;
-    case PIECE_ARC_TO:
+    case PATH_ARC_TO:
         count = arcs_to_point((const double[]){here->x, here->y}, n, curves);
         if (count == 0)
-            add(out, PIECE_LINE, (OutlinePoint){n[5], n[6]});
+            add_element(out, PATH_LINE, (OutlinePoint){n[5], n[6]});
         add_curves(out, curves, count);
         break;
-    case PIECE_CLOSE:
-        add(out, PIECE_CLOSE, *here = *first);
-        add(out, PIECE_MOVE, *first);
+    case PATH_CLOSE:
+        add_element(out, PATH_CLOSE, *here = *first);
+        add_element(out, PATH_MOVE, *first);
         return;
     }
-    *here = end_of(&out->pieces.at[out->pieces.count - 1]);
-    if (kind == PIECE_MOVE || begins)
-        *first = kind == PIECE_MOVE || kind == PIECE_LINE ? *here : *first;
+    *here = end_of(&out->elements.at[out->elements.count - 1]);
+    if (kind == PATH_MOVE || begins)
+        *first = kind == PATH_MOVE || kind == PATH_LINE ? *here : *first;
 }
 
-void outline_take(Outline *out, const List *list, const ListPath *path) {
+void outline_add_path(Outline *out, const DisplayList *list, const DisplayPath *path) {
     static const uint8_t counts[] = {2, 2, 4, 6, 6, 6, 7, 0};
     OutlinePoint here = {0, 0}, first = {0, 0};
-    for (uint32_t run = path->first; run != LIST_NONE;) {
+    for (uint32_t run = path->first; run != DISPLAY_NONE;) {
         bool last = run == path->last;
         uint32_t end = last ? path->end : list->runs.at[run].end;
         for (uint32_t i = list->runs.at[run].start; i < end;) {
-            ListPiece kind = (ListPiece)list->numbers.at[i];
-            take_piece(out, kind, list->numbers.at + i + 1, &here, &first);
+            PathElement kind = (PathElement)list->numbers.at[i];
+            add_path_element(out, kind, list->numbers.at + i + 1, &here, &first);
             i += 1u + counts[kind];
         }
-        run = last ? LIST_NONE : list->runs.at[run].next;
+        run = last ? DISPLAY_NONE : list->runs.at[run].next;
     }
 }

@@ -1,9 +1,8 @@
 // painter.c: pictures into pixels and files.
-#include "draw/picture.h"
-
 #include "base/file.h"
 #include "base/heap.h"
-#include "draw/pictures.h"
+#include "draw/picture.h"
+#include "draw/render_graph.h"
 
 #include <errno.h>
 #include <string.h>
@@ -33,7 +32,7 @@ static bool find_format(const char *file, bool recorded, CanvasFormat *format) {
     return false;
 }
 
-bool petri_picture_format(const char *file) {
+bool petri_picture_can_save(const char *file) {
     if (!file)
         return false;
     CanvasFormat format;
@@ -51,15 +50,15 @@ typedef struct Saving {
     PetriPainter *painter;
     CanvasFormat format;
     const char *file;
-    PetriWrite *write;      // takes the bytes; NULL: the file does
-    void *host;             // … of the function
-    const Recorded *record; // NULL: the picture itself
-    const Reach *reach;     // NULL: any file
+    PetriWriteCallback *write; // takes the bytes; NULL: the file does
+    void *user_data;           // … of the function
+    const Recorded *record;    // NULL: the picture itself
+    const FileAccess *reach;   // NULL: any file
     Encoded bytes;
     PetriStatus status;
 } Saving;
 
-static void save(void *context) {
+static void save_protected(void *context) {
     Saving *saving = context;
     PetriPicture *picture = saving->picture;
     if (saving->record)
@@ -71,12 +70,12 @@ static void save(void *context) {
     if (saving->status != PETRI_OK)
         return;
     if (saving->write) {
-        bool taken = saving->write(saving->host, (const char *)saving->bytes.bytes, saving->bytes.length);
+        bool taken = saving->write(saving->user_data, (const char *)saving->bytes.bytes, saving->bytes.length);
         saving->status = taken ? PETRI_OK : PETRI_INVALID;
         return;
     }
     Replacement file;
-    bool begun = reach_replace(saving->reach, saving->file, &file);
+    bool begun = file_access_replace(saving->reach, saving->file, &file);
     bool refused = !begun && saving->reach && errno == EXDEV; // which was told when the picture was taken
     const char *problem =
         begun ? file_finish(&file, (Str){(const char *)saving->bytes.bytes, saving->bytes.length}) : strerror(errno);
@@ -99,10 +98,10 @@ static PetriStatus save_picture(Saving *saving) {
     if (!saving->picture || !saving->painter || !saving->file)
         return PETRI_INVALID;
     Arena *arenas[] = {&saving->picture->arena};
-    bool known = find_format(saving->file, saving->record != NULL, &saving->format);
-    ArenaEnd end = arena_protect(arenas, 1, known ? save : report_name, saving);
-    heap_give(saving->bytes.bytes);
-    return end == ARENA_DONE ? saving->status : PETRI_MEMORY;
+    bool known = find_format(saving->file, saving->record, &saving->format);
+    ArenaOutcome end = arena_protect(arenas, 1, known ? save_protected : report_name, saving);
+    heap_free(saving->bytes.bytes);
+    return end == ARENA_OK ? saving->status : PETRI_OUT_OF_MEMORY;
 }
 
 PetriStatus petri_picture_save(PetriPicture *picture, PetriPainter *painter, const char *file) {
@@ -110,8 +109,8 @@ PetriStatus petri_picture_save(PetriPicture *picture, PetriPainter *painter, con
         &(Saving){.picture = picture, .painter = painter, .format = CANVAS_PNG, .file = file, .status = PETRI_INVALID});
 }
 
-PetriStatus petri_picture_write(PetriPicture *picture, PetriPainter *painter, const char *suffix, PetriWrite *write,
-                                void *host) {
+PetriStatus petri_picture_encode(PetriPicture *picture, PetriPainter *painter, const char *suffix,
+                                 PetriWriteCallback *write, void *user_data) {
     if (!write)
         return PETRI_INVALID;
     return save_picture(&(Saving){.picture = picture,
@@ -119,22 +118,22 @@ PetriStatus petri_picture_write(PetriPicture *picture, PetriPainter *painter, co
                                   .format = CANVAS_PNG,
                                   .file = suffix,
                                   .write = write,
-                                  .host = host,
+                                  .user_data = user_data,
                                   .status = PETRI_INVALID});
 }
 
-PetriStatus petri_picture_make(PetriPicture *picture, PetriPainter *painter) {
+PetriStatus petri_picture_render(PetriPicture *picture, PetriPainter *painter) {
     if (!picture || !painter)
         return PETRI_INVALID;
-    return draw_make(painter, &picture->picture, &picture->faults);
+    return draw_render(painter, &picture->picture, &picture->faults);
 }
 
 // What is read of a record, within a protected call.
-typedef struct Asking {
+typedef struct RecordQuery {
     PetriPicture *picture;
     const Recorded *recorded;
     PetriRecord *record;
-} Asking;
+} RecordQuery;
 
 static const char *word_of(const DrawNode *node, AttrName name) {
     const AttrValue *attr = draw_attr(node, name);
@@ -142,22 +141,22 @@ static const char *word_of(const DrawNode *node, AttrName name) {
 }
 
 static void fill_record(void *context) {
-    const Asking *asking = context;
-    const DrawNode *node = asking->recorded->node;
-    const Texture *texture = asking->recorded->texture;
-    Arena *arena = &asking->picture->arena;
-    const Reach *reach = &asking->picture->picture.reach;
+    const RecordQuery *query = context;
+    const DrawNode *node = query->recorded->node;
+    const Texture *texture = query->recorded->texture;
+    Arena *arena = &query->picture->arena;
+    const FileAccess *reach = &query->picture->picture.reach;
     const char *file = str_to_c(arena, path_join(arena, reach->directory, draw_attr(node, ATTR_FILENAME)->as.text));
-    *asking->record = (PetriRecord){
+    *query->record = (PetriRecord){
         .file = file,
-        .refused = !reach_make_folders(reach, file),
+        .denied = !file_access_make_folders(reach, file),
         .width = texture->width,
         .height = texture->height,
         .pixels = texture->bytes,
         .keep_alpha = draw_flag(node, ATTR_KEEP_ALPHA),
         .codec = word_of(node, ATTR_CODEC),
         .pixfmt = word_of(node, ATTR_PIXFMT),
-        .limit = draw_number(node, ATTR_LIMIT),
+        .max_seconds = draw_number(node, ATTR_LIMIT),
     };
 }
 
@@ -170,9 +169,9 @@ static const Recorded *find_record(const PetriPicture *picture, const PetriPaint
 bool petri_picture_record(PetriPicture *picture, PetriPainter *painter, size_t index, PetriRecord *record) {
     if (!picture || !painter || !record)
         return false;
-    Asking asking = {picture, find_record(picture, painter, index), record};
+    RecordQuery query = {picture, find_record(picture, painter, index), record};
     Arena *arenas[] = {&picture->arena};
-    return asking.recorded && arena_protect(arenas, 1, fill_record, &asking) == ARENA_DONE;
+    return query.recorded && arena_protect(arenas, 1, fill_record, &query) == ARENA_OK;
 }
 
 PetriStatus petri_record_save(PetriPicture *picture, PetriPainter *painter, size_t index) {

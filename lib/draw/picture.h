@@ -2,7 +2,7 @@
 #ifndef PETRI_DRAW_PICTURE_H
 #define PETRI_DRAW_PICTURE_H
 
-#include "draw/paint.h"
+#include "draw/cairo_canvas.h"
 
 struct PetriPicture {
     Arena arena; // all that follows
@@ -17,7 +17,7 @@ struct PetriPicture {
 
 // Can a picture have so many pixels?
 static inline bool picture_is_good_size(double width, double height) {
-    return width >= 1 && height >= 1 && width <= PETRI_MOST_PIXELS && height <= PETRI_MOST_PIXELS;
+    return width >= 1 && height >= 1 && width <= PETRI_MAX_PICTURE_SIDE && height <= PETRI_MAX_PICTURE_SIDE;
 }
 
 #endif

@@ -8,7 +8,7 @@
 #include <string.h>
 
 // The share of each old place in a new one: a triangle, as wide as a new place if that is more than an old one.
-static void weigh(int old, int new, int at, int *first, int *count, float *weights) {
+static void compute_weights(int old, int new, int at, int *first, int *count, float *weights) {
     double scale = (double)old / new, reach = fmax(scale, 1), middle = (at + 0.5) * scale, sum = 0;
     int low = (int)fmax(floor(middle - reach), 0), high = (int)fmin(ceil(middle + reach), old);
     *first = low;
@@ -26,7 +26,7 @@ static void weigh(int old, int new, int at, int *first, int *count, float *weigh
 static void resize_lines(const float *in, float *out, int lines, int old, int new, bool down, float *weights) {
     for (int at = 0; at < new; at++) {
         int first, count;
-        weigh(old, new, at, &first, &count, weights);
+        compute_weights(old, new, at, &first, &count, weights);
         for (int line = 0; line < lines; line++) {
             float sum[4] = {0, 0, 0, 0};
             for (int i = 0; i < count; i++) {
@@ -43,7 +43,7 @@ static void resize_lines(const float *in, float *out, int lines, int old, int ne
 }
 
 // a, r, g, b as bytes that are not multiplied.
-static void spread(const uint32_t *pixels, int width, int height, size_t stride, bool alpha, float *out) {
+static void unpack_pixels(const uint32_t *pixels, int width, int height, size_t stride, bool alpha, float *out) {
     for (int y = 0; y < height; y++) {
         const uint32_t *row = (const uint32_t *)(const void *)((const char *)pixels + (size_t)y * stride);
         for (int x = 0; x < width; x++, out += 4) {
@@ -55,24 +55,25 @@ static void spread(const uint32_t *pixels, int width, int height, size_t stride,
     }
 }
 
-static uint32_t gather(const float *in) {
+static uint32_t pack_pixel(const float *in) {
     uint32_t pixel = (uint32_t)in[0] << 24;
     for (unsigned k = 0; k < 3; k++)
         pixel |= (uint32_t)rintf(in[k + 1] * in[0] / 255) << (16 - 8 * k);
     return pixel;
 }
 
-Texture *resize_pixels(Meter *meter, const uint32_t *pixels, int width, int height, size_t stride, bool alpha,
+Texture *resize_pixels(Budget *meter, const uint32_t *pixels, int width, int height, size_t stride, bool alpha,
                        int new_width, int new_height, int flip) {
-    size_t most = (size_t)(width > new_width ? width : new_width) * (size_t)(height > new_height ? height : new_height);
-    size_t bytes = 2 * most * 4 * sizeof(float); // for a while
-    if (!meter_take(meter, bytes))
+    size_t max_pixels =
+        (size_t)(width > new_width ? width : new_width) * (size_t)(height > new_height ? height : new_height);
+    size_t bytes = 2 * max_pixels * 4 * sizeof(float); // for a while
+    if (!budget_reserve(meter, bytes))
         return NULL;
-    float *one = heap_take(bytes / 2), *other = heap_take(bytes / 2);
-    float *weights = heap_take((2 * (size_t)(width > height ? width : height) + 8) * sizeof *weights);
+    float *one = heap_alloc(bytes / 2), *other = heap_alloc(bytes / 2);
+    float *weights = heap_alloc((2 * (size_t)(width > height ? width : height) + 8) * sizeof *weights);
     Texture *texture = one && other && weights ? texture_new(meter, new_width, new_height, false) : NULL;
     if (texture) {
-        spread(pixels, width, height, stride, alpha, one);
+        unpack_pixels(pixels, width, height, stride, alpha, one);
         resize_lines(one, other, height, width, new_width, false, weights);
         resize_lines(other, one, new_width, height, new_height, true, weights);
         for (int y = 0; y < new_height; y++)
@@ -80,12 +81,12 @@ Texture *resize_pixels(Meter *meter, const uint32_t *pixels, int width, int heig
                 int from_x = flip == FLIP_HORIZONTAL || flip == FLIP_BOTH ? new_width - 1 - x : x;
                 int from_y = flip == FLIP_VERTICAL || flip == FLIP_BOTH ? new_height - 1 - y : y;
                 texture->bytes[(size_t)y * (size_t)new_width + (size_t)x] =
-                    gather(one + 4 * ((size_t)from_y * (size_t)new_width + (size_t)from_x));
+                    pack_pixel(one + 4 * ((size_t)from_y * (size_t)new_width + (size_t)from_x));
             }
     }
-    heap_give(one);
-    heap_give(other);
-    heap_give(weights);
-    meter_give(meter, bytes);
+    heap_free(one);
+    heap_free(other);
+    heap_free(weights);
+    budget_release(meter, bytes);
     return texture;
 }

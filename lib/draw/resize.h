@@ -8,7 +8,7 @@
 
 // A copy of premultiplied ARGB32 pixels (without `alpha`: opaque) in another size, by a triangle filter on colours that
 // are not multiplied; then turned over (FLIP_NOT …). NULL if memory is used up.
-Texture *resize_pixels(Meter *meter, const uint32_t *pixels, int width, int height, size_t stride, bool alpha,
+Texture *resize_pixels(Budget *meter, const uint32_t *pixels, int width, int height, size_t stride, bool alpha,
                        int new_width, int new_height, int flip);
 
 #endif

@@ -1,52 +1,51 @@
 // text.c: text, laid out by Pango.
 //
 // Letters are not fitted to the grid of pixels: they look the same whatever the transform and the desktop's settings.
-#include "draw/draw.h"
-
 #include "base/heap.h"
+#include "draw/draw.h"
 
 #include <math.h>
 #include <string.h>
 #include <strings.h>
 
-enum { LONGEST_TEXT = 10000 };           // bytes
-static const double LARGEST_FONT = 4000; // pixels
+enum { MAX_TEXT_LENGTH = 10000 };         // bytes
+static const double MAX_FONT_SIZE = 4000; // pixels
 
 // Pango reads what fonts there are in a thread of its own, which nobody waits for but who asks for a font: it is begun
 // for a text alone. A process that ended meanwhile took what the thread was reading from it.
-Letters *draw_letters(PetriPainter *painter) {
-    Letters *letters = painter->letters;
-    if (letters)
-        return letters;
-    letters = heap_zeroed(1, sizeof *letters);
-    PangoFontMap *fonts = letters ? pango_cairo_font_map_new() : NULL;
+TextContext *draw_text_context(PetriPainter *painter) {
+    TextContext *text_context = painter->text_context;
+    if (text_context)
+        return text_context;
+    text_context = heap_calloc(1, sizeof *text_context);
+    PangoFontMap *fonts = text_context ? pango_cairo_font_map_new() : NULL;
     if (!fonts) {
-        heap_give(letters);
+        heap_free(text_context);
         return NULL;
     }
-    painter->letters = letters;
-    letters->fonts = fonts;
-    letters->context = pango_font_map_create_context(letters->fonts);
+    painter->text_context = text_context;
+    text_context->fonts = fonts;
+    text_context->context = pango_font_map_create_context(text_context->fonts);
     cairo_font_options_t *options = cairo_font_options_create();
     cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
     cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
     cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
-    pango_cairo_context_set_font_options(letters->context, options);
+    pango_cairo_context_set_font_options(text_context->context, options);
     cairo_font_options_destroy(options);
-    pango_context_set_round_glyph_positions(letters->context, FALSE);
-    letters->layout = pango_layout_new(letters->context);
-    pango_layout_set_single_paragraph_mode(letters->layout, TRUE);
-    return letters;
+    pango_context_set_round_glyph_positions(text_context->context, FALSE);
+    text_context->layout = pango_layout_new(text_context->context);
+    pango_layout_set_single_paragraph_mode(text_context->layout, TRUE);
+    return text_context;
 }
 
 void draw_text_close(PetriPainter *painter) {
-    Letters *letters = painter->letters;
-    if (!letters)
+    TextContext *text_context = painter->text_context;
+    if (!text_context)
         return;
-    g_object_unref(letters->layout);
-    g_object_unref(letters->context);
-    g_object_unref(letters->fonts);
-    heap_give(letters);
+    g_object_unref(text_context->layout);
+    g_object_unref(text_context->context);
+    g_object_unref(text_context->fonts);
+    heap_free(text_context);
 }
 
 // Names that stand for whatever the machine has.
@@ -63,7 +62,7 @@ static bool is_installed(PetriPainter *painter, const char *name) {
     PangoFontFamily **families;
     int count;
     bool found = is_generic(name);
-    pango_font_map_list_families(painter->letters->fonts, &families, &count);
+    pango_font_map_list_families(painter->text_context->fonts, &families, &count);
     for (int i = 0; i < count && !found; i++)
         found = !strcasecmp(name, pango_font_family_get_name(families[i]));
     g_free(families);
@@ -71,7 +70,7 @@ static bool is_installed(PetriPainter *painter, const char *name) {
 }
 
 // The nearest to fonts that scripts name and machines often lack: their letters are as wide.
-static const char *stand_in(const char *name) {
+static const char *find_substitute(const char *name) {
     static const char *const pairs[][2] = {{"Helvetica", "Liberation Sans"},
                                            {"Arial", "Liberation Sans"},
                                            {"Georgia", "Gelasio"},
@@ -96,7 +95,7 @@ static const char *find_family(Canvas *canvas, const char *list) {
         if (trimmed < sizeof name) {
             memcpy(name, at, trimmed);
             name[trimmed] = 0;
-            const char *other = stand_in(name);
+            const char *other = find_substitute(name);
             if (other && is_installed(canvas->painter, other))
                 return other;
             if (is_installed(canvas->painter, name))
@@ -104,9 +103,9 @@ static const char *find_family(Canvas *canvas, const char *list) {
         }
         at += length;
     }
-    if (strcmp(list, schema_row(KIND_CANVAS, ATTR_FONT_FAMILY)->fallback.string) != 0)
-        draw_fault(canvas, DIAG_WARNING, "unknown-font",
-                   "!font: there is no font '%.100s' on this machine; another takes its place", list);
+    if (strcmp(list, schema_row(KIND_CANVAS, ATTR_FONT_FAMILY)->default_value.string) != 0)
+        draw_report_canvas(canvas, DIAG_WARNING, "unknown-font",
+                           "!font: there is no font '%.100s' on this machine; another takes its place", list);
     return list;
 }
 
@@ -114,13 +113,13 @@ static PangoStretch stretch_of(int width) {
     return (PangoStretch)((int)PANGO_STRETCH_ULTRA_CONDENSED + width);
 }
 
-static bool same_font(const ListText *a, const ListText *b) {
+static bool same_font(const DisplayText *a, const DisplayText *b) {
     return a->family == b->family && a->size == b->size && a->weight == b->weight && a->width == b->width &&
            a->slant == b->slant;
 }
 
 // Letter after letter, of this font alone.
-static void set_plain_letters(PangoLayout *layout) {
+static void disable_ligatures(PangoLayout *layout) {
     PangoAttrList *attributes = pango_attr_list_new();
     pango_attr_list_insert(attributes, pango_attr_font_features_new("kern=0, liga=0, clig=0, calt=0"));
     pango_attr_list_insert(attributes, pango_attr_fallback_new(FALSE));
@@ -128,10 +127,10 @@ static void set_plain_letters(PangoLayout *layout) {
     pango_attr_list_unref(attributes);
 }
 
-static void set_font(Canvas *canvas, const ListText *text) {
+static void set_font(Canvas *canvas, const DisplayText *text) {
     static const PangoStyle styles[] = {PANGO_STYLE_NORMAL, PANGO_STYLE_OBLIQUE, PANGO_STYLE_ITALIC};
-    Letters *letters = canvas->painter->letters;
-    if (letters->family && same_font(&letters->font, text))
+    TextContext *text_context = canvas->painter->text_context;
+    if (text_context->family && same_font(&text_context->font, text))
         return;
     const char *family = find_family(canvas, text->family); // from which control may leave
     PangoFontDescription *font = pango_font_description_new();
@@ -140,24 +139,24 @@ static void set_font(Canvas *canvas, const ListText *text) {
     pango_font_description_set_weight(font, (PangoWeight)fmax(text->weight, 1));
     pango_font_description_set_stretch(font, stretch_of(text->width));
     pango_font_description_set_style(font, styles[text->slant]);
-    pango_layout_set_font_description(letters->layout, font);
+    pango_layout_set_font_description(text_context->layout, font);
     pango_font_description_free(font);
-    set_plain_letters(letters->layout);
-    letters->family = text->family;
-    letters->font = *text;
+    disable_ligatures(text_context->layout);
+    text_context->family = text->family;
+    text_context->font = *text;
 }
 
 // The size on the target decides what the font library can do.
 static bool has_drawable_size(Canvas *canvas, double size) {
     double pixels = size * draw_scale_of(canvas->cr);
-    if (pixels > LARGEST_FONT || size > LARGEST_FONT)
-        draw_fault(canvas, DIAG_WARNING, "bad-font-size", "!text: letters of more than %g pixels are not drawn",
-                   LARGEST_FONT);
-    return pixels > 0.1 && size > 0.001 && pixels <= LARGEST_FONT && size <= LARGEST_FONT;
+    if (pixels > MAX_FONT_SIZE || size > MAX_FONT_SIZE)
+        draw_report_canvas(canvas, DIAG_WARNING, "bad-font-size", "!text: letters of more than %g pixels are not drawn",
+                           MAX_FONT_SIZE);
+    return pixels > 0.1 && size > 0.001 && pixels <= MAX_FONT_SIZE && size <= MAX_FONT_SIZE;
 }
 
 // Where the base line of the layout begins.
-static void place(PangoLayout *layout, bool center, double point[2]) {
+static void position_layout(PangoLayout *layout, bool center, double point[2]) {
     PangoRectangle ink;
     double baseline = pango_layout_get_baseline(layout) / (double)PANGO_SCALE;
     if (!center) {
@@ -169,32 +168,33 @@ static void place(PangoLayout *layout, bool center, double point[2]) {
     point[1] -= (ink.y + ink.height / 2.0) / PANGO_SCALE;
 }
 
-void draw_text(Canvas *canvas, const ListCommand *command, const ListPaint *paint) {
-    const ListText *text = &canvas->list->texts.at[command->item];
+void draw_text(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint) {
+    const DisplayText *text = &canvas->list->texts.at[command->item];
     if (text->weight <= 0 || !has_drawable_size(canvas, text->size))
         return;
-    if (text->text.len > LONGEST_TEXT) {
-        draw_fault(canvas, DIAG_WARNING, "long-text", "!text: texts of more than %d bytes are not drawn", LONGEST_TEXT);
+    if (text->text.len > MAX_TEXT_LENGTH) {
+        draw_report_canvas(canvas, DIAG_WARNING, "text-too-long", "!text: texts of more than %d bytes are not drawn",
+                           MAX_TEXT_LENGTH);
         return;
     }
-    if (!draw_spend_box(canvas, paint, text->size, text->size / 3, (double)text->text.len)) // a third is ink
+    if (!draw_charge_box(canvas, paint, text->size, text->size / 3, (double)text->text.len)) // a third is ink
         return;
-    Letters *letters = draw_letters(canvas->painter);
-    if (!letters)
+    TextContext *text_context = draw_text_context(canvas->painter);
+    if (!text_context)
         arena_exhausted(&canvas->painter->arena);
-    PangoLayout *layout = letters->layout;
+    PangoLayout *layout = text_context->layout;
     double point[2] = {text->point[0], text->point[1]};
     set_font(canvas, text);
     pango_layout_set_text(layout, text->text.bytes, (int)text->text.len);
-    place(layout, text->center, point);
+    position_layout(layout, text->center, point);
     draw_forget_path(canvas);
-    draw_tame(canvas, &point[0], &point[1]);
+    draw_clamp_point(canvas, &point[0], &point[1]);
     cairo_move_to(canvas->cr, point[0], point[1]);
     pango_cairo_layout_path(canvas->cr, layout);
-    ListPaint smooth = *paint;
-    ListCommand outline = *command;
+    DisplayPaint smooth = *paint;
+    DisplayCommand outline = *command;
     smooth.antialias = true;
     outline.path.fill_type = FILL_WINDING;
-    draw_figure(canvas, &outline, &smooth);
+    draw_current_path(canvas, &outline, &smooth);
     draw_forget_path(canvas);
 }

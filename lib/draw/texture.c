@@ -8,31 +8,31 @@
 #include <pthread.h>
 #include <string.h>
 
-static void *take_pixels(Texture *texture, size_t each, bool cleared) {
+static void *alloc_pixels(Texture *texture, size_t each, bool cleared) {
     size_t count = (size_t)texture->width * (size_t)texture->height;
-    if (!meter_take(texture->meter, count * each))
+    if (!budget_reserve(texture->meter, count * each))
         return NULL;
-    texture->taken += count * each;
-    return cleared ? heap_zeroed(count, each) : heap_take(count * each);
+    texture->charged += count * each;
+    return cleared ? heap_calloc(count, each) : heap_alloc(count * each);
 }
 
-Texture *texture_new(Meter *meter, int width, int height, bool linear) {
-    Texture *texture = heap_zeroed(1, sizeof *texture);
+Texture *texture_new(Budget *meter, int width, int height, bool linear) {
+    Texture *texture = heap_calloc(1, sizeof *texture);
     if (!texture)
         return NULL;
     *texture = (Texture){.references = 1, .width = width, .height = height, .meter = meter};
     if (linear)
-        texture->linear = take_pixels(texture, 4 * sizeof(float), true);
+        texture->linear = alloc_pixels(texture, 4 * sizeof(float), true);
     else
-        texture->bytes = take_pixels(texture, sizeof(uint32_t), true);
+        texture->bytes = alloc_pixels(texture, sizeof(uint32_t), true);
     if (texture->linear || texture->bytes)
         return texture;
     texture_free(texture);
     return NULL;
 }
 
-Texture *texture_of_image(Meter *meter, Gl *gl, GlImage image) {
-    Texture *texture = heap_zeroed(1, sizeof *texture);
+Texture *texture_from_image(Budget *meter, Gl *gl, GlImage image) {
+    Texture *texture = heap_calloc(1, sizeof *texture);
     if (!texture)
         gl_image_free(gl, image);
     else
@@ -41,7 +41,7 @@ Texture *texture_of_image(Meter *meter, Gl *gl, GlImage image) {
     return texture;
 }
 
-bool texture_send(Gl *gl, Texture *texture) {
+bool texture_upload(Gl *gl, Texture *texture) {
     if (texture->gl)
         return true;
     GlFormat format = texture->bytes ? GL_FORMAT_SRGB8 : gl_format(gl, 16);
@@ -56,18 +56,18 @@ bool texture_send(Gl *gl, Texture *texture) {
     return true;
 }
 
-bool texture_fetch(Gl *gl, Texture *texture) {
+bool texture_download(Gl *gl, Texture *texture) {
     if (texture->bytes || texture->linear)
         return true;
     if (texture->image.format == GL_FORMAT_SRGB8) {
-        texture->bytes = take_pixels(texture, sizeof *texture->bytes, false);
+        texture->bytes = alloc_pixels(texture, sizeof *texture->bytes, false);
         return texture->bytes && gl_read_bytes(gl, texture->image, texture->bytes);
     }
-    texture->linear = take_pixels(texture, 4 * sizeof *texture->linear, false);
+    texture->linear = alloc_pixels(texture, 4 * sizeof *texture->linear, false);
     return texture->linear && gl_read_linear(gl, texture->image, texture->linear);
 }
 
-Texture *texture_keep(Texture *texture) {
+Texture *texture_retain(Texture *texture) {
     texture->references++;
     return texture;
 }
@@ -77,10 +77,10 @@ void texture_free(Texture *texture) {
         return;
     if (texture->gl)
         gl_image_free(texture->gl, texture->image);
-    heap_give(texture->bytes);
-    heap_give(texture->linear);
-    meter_give(texture->meter, texture->taken);
-    heap_give(texture);
+    heap_free(texture->bytes);
+    heap_free(texture->linear);
+    budget_release(texture->meter, texture->charged);
+    heap_free(texture);
 }
 
 // The sRGB curve at its 256 bytes, and half way between them.
@@ -96,14 +96,14 @@ static float float_of(uint32_t bits) {
     return x;
 }
 
-static double curve(double e) {
+static double srgb_to_linear(double e) {
     return e <= 0.04045 ? e / 12.92 : maths_pow((e + 0.055) / 1.055, 2.4);
 }
 
 static void make_tables(void) {
     for (int i = 0; i < 256; i++) {
-        decoded[i] = (float)curve(i / 255.0);
-        thresholds[i] = (float)curve((i + 0.5) / 255.0);
+        decoded[i] = (float)srgb_to_linear(i / 255.0);
+        thresholds[i] = (float)srgb_to_linear((i + 0.5) / 255.0);
     }
     for (uint32_t half = 0, count = 0; half <= ONE; half++) {
         while (count < 255 && float_of(half << 16) >= thresholds[count])
@@ -112,23 +112,23 @@ static void make_tables(void) {
     }
 }
 
-static void need_tables(void) {
+static void init_tables(void) {
     static pthread_once_t once = PTHREAD_ONCE_INIT;
     pthread_once(&once, make_tables);
 }
 
 const float *texture_thresholds(void) {
-    need_tables();
+    init_tables();
     return thresholds;
 }
 
 float texture_decode(unsigned byte) {
-    need_tables();
+    init_tables();
     return decoded[byte & 255];
 }
 
 unsigned texture_encode(float c) {
-    need_tables();
+    init_tables();
     uint32_t bits;
     if (!(c > 0))
         return 0;
@@ -156,7 +156,7 @@ void texture_row(const Texture *texture, int y, bool opaque, uint32_t *row) {
                                  : texture->bytes[start + x] | (opaque ? 0xff000000u : 0);
 }
 
-static void fetch(const Texture *texture, int x, int y, float color[4]) {
+static void read_texel(const Texture *texture, int x, int y, float color[4]) {
     size_t at = (size_t)y * (size_t)texture->width + (size_t)x;
     if (texture->linear) {
         for (int k = 0; k < 4; k++)
@@ -170,7 +170,7 @@ static void fetch(const Texture *texture, int x, int y, float color[4]) {
 }
 
 // Moves a coordinate into the picture; false where the border is.
-static bool place(int *at, int size, bool repeat, bool clamped) {
+static bool wrap_coordinate(int *at, int size, bool repeat, bool clamped) {
     if (repeat)
         *at = (*at % size + size) % size;
     else if (clamped)
@@ -178,11 +178,11 @@ static bool place(int *at, int size, bool repeat, bool clamped) {
     return *at >= 0 && *at < size;
 }
 
-static void texel(const Texture *texture, const Sampler *sampler, int x, int y, float color[4]) {
+static void sample_texel(const Texture *texture, const Sampler *sampler, int x, int y, float color[4]) {
     bool any = sampler->repeat[0] || sampler->repeat[1];
-    if (place(&x, texture->width, sampler->repeat[0], any || sampler->clamped) &&
-        place(&y, texture->height, sampler->repeat[1], any || sampler->clamped)) {
-        fetch(texture, x, y, color);
+    if (wrap_coordinate(&x, texture->width, sampler->repeat[0], any || sampler->clamped) &&
+        wrap_coordinate(&y, texture->height, sampler->repeat[1], any || sampler->clamped)) {
+        read_texel(texture, x, y, color);
         return;
     }
     for (int k = 0; k < 4; k++)
@@ -190,10 +190,10 @@ static void texel(const Texture *texture, const Sampler *sampler, int x, int y, 
 }
 
 void texture_sample(const Texture *texture, const Sampler *sampler, double u, double v, float color[4]) {
-    need_tables();
+    init_tables();
     double x = u * texture->width, y = v * texture->height;
     if (sampler->nearest) {
-        texel(texture, sampler, (int)floor(x), (int)floor(y), color);
+        sample_texel(texture, sampler, (int)floor(x), (int)floor(y), color);
         return;
     }
     double left = floor(x - 0.5), top = floor(y - 0.5);
@@ -201,16 +201,16 @@ void texture_sample(const Texture *texture, const Sampler *sampler, double u, do
     for (int k = 0; k < 4; k++)
         color[k] = 0;
     for (int corner = 0; corner < 4; corner++) {
-        float share = (corner & 1 ? right : 1 - right) * (corner & 2 ? low : 1 - low), part[4];
-        if (share == 0)
+        float weight = (corner & 1 ? right : 1 - right) * (corner & 2 ? low : 1 - low), part[4];
+        if (weight == 0)
             continue;
-        texel(texture, sampler, (int)left + (corner & 1), (int)top + (corner >> 1), part);
+        sample_texel(texture, sampler, (int)left + (corner & 1), (int)top + (corner >> 1), part);
         for (int k = 0; k < 4; k++)
-            color[k] += share * part[k];
+            color[k] += weight * part[k];
     }
 }
 
-unsigned texture_plain(unsigned byte, unsigned alpha) {
+unsigned texture_unpremultiply(unsigned byte, unsigned alpha) {
     unsigned plain = alpha > 0 ? (byte * 255 + alpha / 2) / alpha : byte;
     return plain < 255 ? plain : 255;
 }
@@ -218,7 +218,7 @@ unsigned texture_plain(unsigned byte, unsigned alpha) {
 uint32_t texture_linear_pixel(uint32_t pixel) {
     uint32_t alpha = pixel >> 24, out = alpha << 24;
     for (unsigned k = 0; k < 24 && alpha > 0; k += 8)
-        out |= (uint32_t)lrintf(texture_decode(texture_plain(pixel >> k & 255, alpha)) * (float)alpha) << k;
+        out |= (uint32_t)lrintf(texture_decode(texture_unpremultiply(pixel >> k & 255, alpha)) * (float)alpha) << k;
     return out;
 }
 
@@ -242,7 +242,7 @@ void texture_copy_linear(const Texture *bytes, float *linear) {
             linear[4 * i + k] = (float)(bytes->bytes[i] >> (k < 3 ? 16 - 8 * k : 24) & 255) / 255;
 }
 
-Texture *texture_of_linear(Meter *meter, const Texture *bytes) {
+Texture *texture_from_linear_bytes(Budget *meter, const Texture *bytes) {
     Texture *texture = texture_new(meter, bytes->width, bytes->height, true);
     if (texture)
         texture_copy_linear(bytes, texture->linear);

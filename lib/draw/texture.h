@@ -14,20 +14,20 @@ typedef struct Texture {
     uint32_t *bytes; // an sRGB picture: ARGB32, rows from the top, as Cairo has it
     float *linear;   // linear light: r, g, b, a, rows from the top
     GlImage image;
-    Gl *gl;       // of the image; NULL: there is none
-    Meter *meter; // that what it takes in memory is charged to
-    size_t taken;
+    Gl *gl;        // of the image; NULL: there is none
+    Budget *meter; // that what it takes in memory is charged to
+    size_t charged;
 } Texture;
 
 // A cleared one, with one reference; NULL if memory is used up. The meter outlives it.
-Texture *texture_new(Meter *meter, int width, int height, bool linear);
+Texture *texture_new(Budget *meter, int width, int height, bool linear);
 // One that is only on the GPU, and takes the image over; NULL if memory is used up.
-Texture *texture_of_image(Meter *meter, Gl *gl, GlImage image);
+Texture *texture_from_image(Budget *meter, Gl *gl, GlImage image);
 // Sees to it that it is on the GPU, which is current; false if there is no room.
-bool texture_send(Gl *gl, Texture *texture);
+bool texture_upload(Gl *gl, Texture *texture);
 // Sees to it that it is in memory; false if that is used up. For an sRGB picture `bytes`, else `linear`.
-bool texture_fetch(Gl *gl, Texture *texture);
-Texture *texture_keep(Texture *texture);
+bool texture_download(Gl *gl, Texture *texture);
+Texture *texture_retain(Texture *texture);
 // Gives a reference back; NULL is fine. The GPU of one that has an image is current then.
 void texture_free(Texture *texture);
 
@@ -39,7 +39,7 @@ const float *texture_thresholds(void);
 float texture_decode(unsigned byte);
 
 // A byte that was multiplied by its alpha, without it.
-unsigned texture_plain(unsigned byte, unsigned alpha);
+unsigned texture_unpremultiply(unsigned byte, unsigned alpha);
 
 // A row as ARGB32 pixels. Of a picture that is shown opaquely, over black; otherwise a linear one is encoded without
 // alpha, which then multiplies it again.
@@ -50,7 +50,7 @@ void texture_linear_row(const Texture *texture, int y, uint32_t *row);
 uint32_t texture_linear_pixel(uint32_t pixel);
 // Such pixels as numbers; and as a picture, NULL if memory is used up.
 void texture_copy_linear(const Texture *bytes, float *linear);
-Texture *texture_of_linear(Meter *meter, const Texture *bytes);
+Texture *texture_from_linear_bytes(Budget *meter, const Texture *bytes);
 
 // How a picture is read beyond its edges, and between its pixels (pictures.md 1.5).
 typedef struct Sampler {

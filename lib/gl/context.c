@@ -51,7 +51,7 @@ static bool are_installed(const char **problem) {
     return dlopen("libEGL.so.1", RTLD_LAZY) && dlopen("libGLESv2.so.2", RTLD_LAZY);
 }
 
-static bool find(Gl *gl, bool (*find_context)(Gl *gl, const char **problem), const char **problem) {
+static bool open_context(Gl *gl, bool (*find_context)(Gl *gl, const char **problem), const char **problem) {
     // A driver that is not there says so at length on standard error; *problem is enough.
     if (!getenv("EGL_LOG_LEVEL"))
         setenv("EGL_LOG_LEVEL", "fatal", 0);
@@ -62,11 +62,11 @@ static bool find(Gl *gl, bool (*find_context)(Gl *gl, const char **problem), con
 }
 
 bool gl_context_open(Gl *gl, const char **problem) {
-    return find(gl, find_own, problem);
+    return open_context(gl, find_own, problem);
 }
 
 bool gl_context_adopt(Gl *gl, const char **problem) {
-    return find(gl, find_current, problem);
+    return open_context(gl, find_current, problem);
 }
 
 void gl_context_close(Gl *gl) {
@@ -94,7 +94,7 @@ bool gl_context_is(const Gl *gl, const char *renderer) {
 // signal one fence after the other, so all but the newest can go when that was waited for; the newest ends with its
 // context. (What one drawing of more than 36 MB of triangles is split to has fences of its own, which are not held;
 // they are not freed soon, either.)
-static void give_up_fences(Gl *gl) {
+static void delete_fences(Gl *gl) {
     for (int i = 0; i + 1 < gl->fence_count; i++)
         glDeleteSync(gl->fences[i]);
     if (gl->fence_count > 1)
@@ -102,12 +102,12 @@ static void give_up_fences(Gl *gl) {
     gl->fence_count = gl->fence_count > 0;
 }
 
-void gl_drawn(Gl *gl) {
-    if (!gl->keeps_fences)
+void gl_after_draw(Gl *gl) {
+    if (!gl->retains_fences)
         return;
-    if (gl->fence_count == GL_KEPT_FENCES) {
+    if (gl->fence_count == GL_MAX_FENCES) {
         glFinish();
-        give_up_fences(gl);
+        delete_fences(gl);
     }
     GLsync fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
     if (fence)
@@ -119,7 +119,7 @@ bool gl_enter(Gl *gl, const char **problem) {
     pthread_mutex_lock(&one_thread);
     if (gl->adopted ? eglGetCurrentContext() == gl->context
                     : eglMakeCurrent(gl->display, EGL_NO_SURFACE, EGL_NO_SURFACE, gl->context)) {
-        gl_drawn(gl); // by the host
+        gl_after_draw(gl); // by the host
         return true;
     }
     pthread_mutex_unlock(&one_thread);
@@ -127,9 +127,9 @@ bool gl_enter(Gl *gl, const char **problem) {
 }
 
 void gl_leave(Gl *gl) {
-    gl_drawn(gl);
+    gl_after_draw(gl);
     glFinish();
-    give_up_fences(gl);
+    delete_fences(gl);
     if (!gl->adopted)
         eglMakeCurrent(gl->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     pthread_mutex_unlock(&one_thread);

@@ -11,7 +11,7 @@ HOST(gl_has) bool gl_web_has(const char *extension);
 bool gl_context_open(Gl *gl, const char **problem) {
     *problem = "there is no WebGL 2 here";
     gl->context = gl_web_ready() ? gl : NULL;
-    return gl->context != NULL;
+    return gl->context;
 }
 
 bool gl_context_adopt(Gl *gl, const char **problem) {
@@ -34,7 +34,7 @@ bool gl_context_is(const Gl *gl, const char *renderer) {
     return false;
 }
 
-void gl_drawn(Gl *gl) {
+void gl_after_draw(Gl *gl) {
     (void)gl;
 }
 

@@ -2,13 +2,13 @@
 // behind a line that tells the pass's size.
 #include "gl/effect.h"
 
+#include "gl/input_composite.h"
 #include "gl/internal.h"
-#include "gl/merge.h"
 #include "gl/shader.h"
-#include "gl/texts.h"
+#include "gl/shader_sources.h"
 #include "gl/uniforms.h"
 
-enum { MOST_PASSES = 8 };
+enum { MAX_PASSES = 8 };
 
 typedef struct Effect {
     const char *text;
@@ -19,29 +19,29 @@ typedef struct Effect {
 static Effect find_effect(NodeKind kind) {
     switch (kind) {
     case KIND_ADJUST:
-        return (Effect){gl_text_adjust, GL_EDGE_BORDER, false};
+        return (Effect){gl_source_adjust, GL_EDGE_BORDER, false};
     case KIND_BLUR:
-        return (Effect){gl_text_blur, GL_EDGE_CLAMP, true};
+        return (Effect){gl_source_blur, GL_EDGE_CLAMP, true};
     case KIND_BLOOM:
-        return (Effect){gl_text_bloom, GL_EDGE_CLAMP, true};
+        return (Effect){gl_source_bloom, GL_EDGE_CLAMP, true};
     case KIND_EDGES:
-        return (Effect){gl_text_edges, GL_EDGE_CLAMP, true};
+        return (Effect){gl_source_edges, GL_EDGE_CLAMP, true};
     case KIND_CHROMAKEY:
-        return (Effect){gl_text_chromakey, GL_EDGE_CLAMP, true};
+        return (Effect){gl_source_chromakey, GL_EDGE_CLAMP, true};
     case KIND_FEEDBACK:
-        return (Effect){gl_text_feedback, GL_EDGE_CLAMP, false};
+        return (Effect){gl_source_feedback, GL_EDGE_CLAMP, false};
     case KIND_PICTURE_TRANSFORM:
-        return (Effect){gl_text_transform, GL_EDGE_BORDER, false};
+        return (Effect){gl_source_transform, GL_EDGE_BORDER, false};
     case KIND_VIGNETTE:
-        return (Effect){gl_text_vignette, GL_EDGE_BORDER, false};
+        return (Effect){gl_source_vignette, GL_EDGE_BORDER, false};
     case KIND_NOISE:
-        return (Effect){gl_text_noise, GL_EDGE_BORDER, false};
+        return (Effect){gl_source_noise, GL_EDGE_BORDER, false};
     case KIND_FLARE:
-        return (Effect){gl_text_flare, GL_EDGE_BORDER, true};
+        return (Effect){gl_source_flare, GL_EDGE_BORDER, true};
     case KIND_KALEID:
-        return (Effect){gl_text_kaleid, GL_EDGE_BORDER, false};
+        return (Effect){gl_source_kaleid, GL_EDGE_BORDER, false};
     default:
-        return (Effect){gl_text_plain, GL_EDGE_BORDER, false};
+        return (Effect){gl_source_plain, GL_EDGE_BORDER, false};
     }
 }
 
@@ -52,12 +52,12 @@ typedef struct Pass {
 } Pass;
 
 // Splits a file at the lines "//: full" and "//: reduced"; *common is what comes before.
-static uint32_t split(const char *text, Str *common, Pass passes[MOST_PASSES]) {
+static uint32_t split_passes(const char *text, Str *common, Pass passes[MAX_PASSES]) {
     static const char mark[] = "//: ";
     uint32_t count = 0;
     const char *at = strstr(text, mark);
     *common = (Str){text, (size_t)(at - text)};
-    while (at && count < MOST_PASSES) {
+    while (at && count < MAX_PASSES) {
         const char *body = strchr(at, '\n') + 1, *next = strstr(body, mark);
         passes[count++] = (Pass){{body, next ? (size_t)(next - body) : strlen(body)}, at[sizeof mark - 1] == 'r'};
         at = next;
@@ -72,8 +72,8 @@ void gl_report(DiagSink *faults, const DrawNode *node, const char *code, Str pro
         line++;
     text_add_format(&text, "!%s: %.*s", schema_kinds[node->kind].name, (int)line, problem.bytes);
     diag_report(faults, &(Diag){.level = DIAG_WARNING,
-                                .source = node->place.source,
-                                .span = node->place.span,
+                                .source = node->origin.source,
+                                .span = node->origin.span,
                                 .text = text_str(&text),
                                 .code = code});
 }
@@ -126,17 +126,17 @@ static void add_source(Text *text, const GlEffect *effect, bool merged, bool red
 }
 
 // The program of a pass: 0, after a report, if it cannot be.
-static unsigned build(Gl *gl, Arena *arena, const GlEffect *effect, const Effect *kind, Str common, Pass pass,
-                      DiagSink *faults) {
+static unsigned build_pass(Gl *gl, Arena *arena, const GlEffect *effect, const Effect *kind, Str common, Pass pass,
+                           DiagSink *faults) {
     Text text = text_new(arena);
-    GlFault fault;
+    GlShaderError fault;
     bool merged = kind->merges && effect->count > 1;
-    if (!gl_add_merge(&text, effect, gl_edge(effect->node, kind->edge)))
+    if (!gl_add_input_composite(&text, effect, gl_edge(effect->node, kind->edge)))
         return 0;
     add_source(&text, effect, merged, pass.reduced);
     text_add_c(&text, "vec4 previous(vec2 uv) { return take(last, uv); }\n"
                       "vec4 previous_at(ivec2 d) { return texel(last, here() + d); }\n");
-    text_add_c(&text, gl_text_common);
+    text_add_c(&text, gl_source_common);
     text_add(&text, common);
     text_add(&text, pass.text);
     unsigned program = gl_program(gl, arena, str_from(gl_quad), text_str(&text), &fault);
@@ -153,15 +153,16 @@ GlImage gl_effect(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults
         return gl_shader(gl, arena, effect, faults);
     Effect kind = find_effect(node);
     Str common;
-    Pass passes[MOST_PASSES];
-    GlPass programs[MOST_PASSES + 1];
-    uint32_t count = split(kind.text, &common, passes), first = 0;
+    Pass passes[MAX_PASSES];
+    GlPass programs[MAX_PASSES + 1];
+    uint32_t count = split_passes(kind.text, &common, passes), first = 0;
     if (effect->count == 0 && node != KIND_NOISE)
-        kind = find_effect(KIND_WINDOW), count = split(kind.text, &common, passes); // transparent
+        kind = find_effect(KIND_WINDOW), count = split_passes(kind.text, &common, passes); // transparent
     if (kind.merges && effect->count > 1)
-        programs[first++] = (GlPass){build(gl, arena, effect, &kind, common, merging, faults), false};
+        programs[first++] = (GlPass){build_pass(gl, arena, effect, &kind, common, merging, faults), false};
     for (uint32_t i = 0; i < count; i++)
-        programs[first + i] = (GlPass){build(gl, arena, effect, &kind, common, passes[i], faults), passes[i].reduced};
+        programs[first + i] =
+            (GlPass){build_pass(gl, arena, effect, &kind, common, passes[i], faults), passes[i].reduced};
     for (uint32_t i = 0; i < first + count; i++)
         if (!programs[i].program)
             return none;

@@ -18,8 +18,9 @@ typedef struct GlEffect {
     const GlImage *inputs;
     uint32_t count;
     GlImage last; // the node's picture of the frame before; texture 0: none
-    int width;
+    int width;    // in pixels
     int height;
+    double detail; // pixels per unit of the node's attributes
     GlFormat format;
     const GlFrame *frame;
 } GlEffect;

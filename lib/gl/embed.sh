@@ -1,9 +1,9 @@
 #!/bin/sh
 # embed.sh FILE...: writes the texts of shaders as C: `const char gl_text_NAME[]` for NAME.glsl.
-printf '#include "gl/texts.h"\n'
+printf '#include "gl/shader_sources.h"\n'
 for file; do
     name=${file##*/}
-    printf '\nconst char gl_text_%s[] =\n' "${name%.glsl}"
+    printf '\nconst char gl_source_%s[] =\n' "${name%.glsl}"
     sed -e 's/\\/\\\\/g' -e 's/"/\\"/g' -e 's/^/    "/' -e 's/$/\\n"/' "$file"
     printf '    ;\n'
 done

@@ -1,16 +1,15 @@
 // gl.c: what a context has; see gl.h.
-#include "gl/internal.h"
-
 #include "base/heap.h"
+#include "gl/internal.h"
 
 // Samplers are of low precision unless told otherwise, and then give halves.
 const char gl_header[] = "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n";
 
-static void look_at_limits(Gl *gl) {
-    GLint most = 0;
-    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
-    gl->largest = most;
-    gl->keeps_fences = gl_context_is(gl, "llvmpipe");
+static void read_limits(Gl *gl) {
+    GLint max_size = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &max_size);
+    gl->max_size = max_size;
+    gl->retains_fences = gl_context_is(gl, "llvmpipe");
     gl->floats = gl_context_has(gl, "GL_EXT_color_buffer_float");
     gl->halves = gl->floats || gl_context_has(gl, "GL_EXT_color_buffer_half_float");
     gl->float_filter = gl_context_has(gl, "GL_OES_texture_float_linear");
@@ -30,13 +29,13 @@ static void look_at_limits(Gl *gl) {
     glEnableVertexAttribArray(0);
 }
 
-static Gl *open_with(bool (*find_context)(Gl *gl, const char **problem), const char **problem) {
-    Gl *gl = heap_zeroed(1, sizeof *gl);
+static Gl *open_context(bool (*find_context)(Gl *gl, const char **problem), const char **problem) {
+    Gl *gl = heap_calloc(1, sizeof *gl);
     *problem = NULL;
     if (!gl)
         return NULL;
     if (find_context(gl, problem) && gl_enter(gl, problem)) {
-        look_at_limits(gl);
+        read_limits(gl);
         gl_leave(gl);
         return gl;
     }
@@ -45,11 +44,11 @@ static Gl *open_with(bool (*find_context)(Gl *gl, const char **problem), const c
 }
 
 Gl *gl_open(const char **problem) {
-    return open_with(gl_context_open, problem);
+    return open_context(gl_context_open, problem);
 }
 
 Gl *gl_adopt(const char **problem) {
-    return open_with(gl_context_adopt, problem);
+    return open_context(gl_context_adopt, problem);
 }
 
 void gl_close(Gl *gl) {
@@ -59,7 +58,7 @@ void gl_close(Gl *gl) {
     if (gl->context) {
         gl->lost = !gl_enter(gl, &problem);
         gl_programs_close(gl);
-        gl_store_close(gl);
+        gpu_cache_close(gl);
         if (!gl->lost) {
             gl_images_close(gl);
             glDeleteFramebuffers(1, &gl->framebuffer);
@@ -71,13 +70,13 @@ void gl_close(Gl *gl) {
         }
         gl_context_close(gl);
     }
-    heap_give(gl);
+    heap_free(gl);
 }
 
-void gl_charge(Gl *gl, Meter *meter) {
+void gl_charge(Gl *gl, Budget *meter) {
     gl->meter = meter;
 }
 
-int gl_largest(const Gl *gl) {
-    return gl->largest;
+int gl_max_size(const Gl *gl) {
+    return gl->max_size;
 }

@@ -21,7 +21,7 @@ Gl *gl_open(const char **problem);
 Gl *gl_adopt(const char **problem);
 // What pictures and scenes hold on the GPU is charged to this from here on; it outlives the Gl. What it refuses is as
 // if the GPU's memory were used up, and it knows that.
-void gl_charge(Gl *gl, Meter *meter);
+void gl_charge(Gl *gl, Budget *meter);
 void gl_close(Gl *gl); // NULL is fine; not between enter and leave
 // False, with the reason, if the context was lost.
 bool gl_enter(Gl *gl, const char **problem);
@@ -40,7 +40,7 @@ typedef struct GlImage {
 
 // The format of a picture with so many bits for each channel; 8 bits where the GPU cannot draw to more.
 GlFormat gl_format(const Gl *gl, int bits);
-int gl_largest(const Gl *gl); // width and height of a picture
+int gl_max_size(const Gl *gl); // width and height of a picture
 // Images that are given back are used again for others of their size and format: warm frames create none. What is in a
 // new one is undefined. `texture` 0 if the GPU's memory is used up.
 GlImage gl_image_new(Gl *gl, int width, int height, GlFormat format);
@@ -51,20 +51,20 @@ void gl_upload_linear(Gl *gl, GlImage image, const float *pixels);
 // To rows that begin at the top: ARGB32, encoded; over black if `opaque`, else as Texture rows are (draw/texture.h).
 bool gl_read_bytes(Gl *gl, GlImage image, uint32_t *pixels);
 bool gl_read_linear(Gl *gl, GlImage image, float *pixels);
-uint64_t gl_reads(const Gl *gl); // how often that was done
+uint64_t gl_readback_count(const Gl *gl); // how often that was done
 
 // What is drawn next goes to this image; the viewport is all of it. It is not cleared.
 void gl_target(Gl *gl, GlImage image);
 
 // What is wrong with a program.
-typedef struct GlFault {
+typedef struct GlShaderError {
     Str text;       // the compiler's words
     bool in_vertex; // shader; else in the other, or in how they fit
-} GlFault;
+} GlShaderError;
 
 // A program of two shaders; kept by its text, so that asking again costs a look-up. 0, with what is wrong (in the
 // arena), if it does not compile; that is kept, too. Texts begin with the version line.
-unsigned gl_program(Gl *gl, Arena *arena, Str vertex, Str fragment, GlFault *fault);
+unsigned gl_program(Gl *gl, Arena *arena, Str vertex, Str fragment, GlShaderError *fault);
 extern const char gl_header[]; // version and precision lines: what ${HEADER} stands for
 extern const char gl_quad[];   // vertex shader of a strip over the whole target: out vec2 coord, 0 to 1, v up
 // Runs a program that has gl_quad's inputs over the whole target.
@@ -78,9 +78,9 @@ typedef struct GlBox {
 // The part of a window of that size in which the picture lies, with black around it. Its bytes are those that are
 // encoded by the table: from which linear value on a byte is larger than its number. `opaque`: over black; else its
 // colours are encoded without their alpha, which then multiplies them.
-bool gl_show_image(Gl *gl, Arena *arena, GlImage image, const GlBox *box, int width, int height,
-                   const float thresholds[256], bool opaque);
+bool gl_present_image(Gl *gl, Arena *arena, GlImage image, const GlBox *box, int width, int height,
+                      const float thresholds[256], bool opaque);
 // ARGB32 multiplied by alpha, rows from the top: as they are, or over what is there.
-bool gl_show_pixels(Gl *gl, Arena *arena, const uint32_t *pixels, int x, int y, int width, int height, bool over);
+bool gl_present_pixels(Gl *gl, Arena *arena, const uint32_t *pixels, int x, int y, int width, int height, bool over);
 
 #endif

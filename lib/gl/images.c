@@ -1,7 +1,6 @@
 // images.c: pictures on the GPU.
-#include "gl/internal.h"
-
 #include "base/heap.h"
+#include "gl/internal.h"
 
 #include <math.h>
 #include <string.h>
@@ -40,7 +39,7 @@ static void drop_oldest(Gl *gl) {
 }
 
 // Spare images are not charged, but are no more than could be.
-static void make_room(Gl *gl) {
+static void free_spare(Gl *gl) {
     size_t spare = 0;
     for (int i = 0; i < gl->spare_count; i++)
         spare += size_of(gl->spare[i]);
@@ -52,7 +51,7 @@ static void make_room(Gl *gl) {
 
 GlImage gl_image_new(Gl *gl, int width, int height, GlFormat format) {
     GlImage image = {.width = width, .height = height, .format = format};
-    if (!meter_take(gl->meter, size_of(image)))
+    if (!budget_reserve(gl->meter, size_of(image)))
         return image;
     for (int i = gl->spare_count; i-- > 0;)
         if (is_like(gl->spare[i], width, height, format)) {
@@ -60,7 +59,7 @@ GlImage gl_image_new(Gl *gl, int width, int height, GlFormat format) {
             gl->spare[i] = gl->spare[--gl->spare_count];
             return image;
         }
-    make_room(gl);
+    free_spare(gl);
     while (glGetError() != GL_NO_ERROR)
         ;
     glGenTextures(1, &image.texture);
@@ -72,7 +71,7 @@ GlImage gl_image_new(Gl *gl, int width, int height, GlFormat format) {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     if (glGetError() != GL_NO_ERROR) {
         glDeleteTextures(1, &image.texture);
-        meter_give(gl->meter, size_of(image));
+        budget_release(gl->meter, size_of(image));
         image.texture = 0;
     }
     return image;
@@ -81,7 +80,7 @@ GlImage gl_image_new(Gl *gl, int width, int height, GlFormat format) {
 void gl_image_free(Gl *gl, GlImage image) {
     if (!image.texture)
         return;
-    meter_give(gl->meter, size_of(image));
+    budget_release(gl->meter, size_of(image));
     if (gl->spare_count == GL_SPARE_IMAGES)
         drop_oldest(gl);
     gl->spare[gl->spare_count++] = image;
@@ -95,7 +94,7 @@ void gl_images_close(Gl *gl) {
 void gl_upload_bytes(Gl *gl, GlImage image, const uint32_t *pixels) {
     (void)gl;
     size_t width = (size_t)image.width;
-    unsigned char *row = heap_take(width * 4);
+    unsigned char *row = heap_alloc(width * 4);
     glBindTexture(GL_TEXTURE_2D, image.texture);
     for (int y = 0; row && y < image.height; y++) {
         const uint32_t *from = pixels + (size_t)(image.height - 1 - y) * width;
@@ -107,7 +106,7 @@ void gl_upload_bytes(Gl *gl, GlImage image, const uint32_t *pixels) {
         }
         glTexSubImage2D(GL_TEXTURE_2D, 0, 0, y, image.width, 1, GL_RGBA, GL_UNSIGNED_BYTE, row);
     }
-    heap_give(row);
+    heap_free(row);
 }
 
 void gl_upload_linear(Gl *gl, GlImage image, const float *pixels) {
@@ -126,7 +125,7 @@ void gl_target(Gl *gl, GlImage image) {
 
 bool gl_read_bytes(Gl *gl, GlImage image, uint32_t *pixels) {
     size_t width = (size_t)image.width;
-    gl->reads++;
+    gl->readback_count++;
     gl_target(gl, image);
     glReadPixels(0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
     for (size_t i = 0; i < width * (size_t)image.height; i++) {
@@ -146,7 +145,7 @@ bool gl_read_bytes(Gl *gl, GlImage image, uint32_t *pixels) {
 }
 
 bool gl_read_linear(Gl *gl, GlImage image, float *pixels) {
-    gl->reads++;
+    gl->readback_count++;
     gl_target(gl, image);
     for (int y = 0; y < image.height; y++)
         glReadPixels(0, image.height - 1 - y, image.width, 1, GL_RGBA, GL_FLOAT,
@@ -154,6 +153,6 @@ bool gl_read_linear(Gl *gl, GlImage image, float *pixels) {
     return glGetError() == GL_NO_ERROR;
 }
 
-uint64_t gl_reads(const Gl *gl) {
-    return gl->reads;
+uint64_t gl_readback_count(const Gl *gl) {
+    return gl->readback_count;
 }

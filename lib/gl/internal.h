@@ -11,16 +11,16 @@
 #endif
 
 typedef struct GlProgram GlProgram;
-typedef struct GlStore GlStore; // of scenes
+typedef struct GpuCache GpuCache; // of scenes
 
-enum { GL_SPARE_IMAGES = 32, GL_KEPT_FENCES = 16 };
+enum { GL_SPARE_IMAGES = 32, GL_MAX_FENCES = 16 };
 
 struct Gl {
     void *display; // EGLDisplay
     void *context; // EGLContext; NULL: none yet
     bool adopted;  // it is the host's
     bool lost;     // and gone: what it has is gone with it, and only memory is given back
-    int largest;
+    int max_size;
     bool floats; // can be drawn to
     bool halves;
     bool float_filter; // floats can be read between pixels
@@ -29,15 +29,15 @@ struct Gl {
     GLuint corners;
     GLuint nothing; // a texture of one transparent pixel
     GLuint curve;   // a texture of the table that windows' bytes are encoded by; 0: none yet
-    uint64_t reads;
-    bool keeps_fences; // see gl_drawn
+    uint64_t readback_count;
+    bool retains_fences; // see gl_after_draw
     int fence_count;
-    GLsync fences[GL_KEPT_FENCES]; // of what was drawn, the oldest first
-    Meter *meter;                  // or NULL
+    GLsync fences[GL_MAX_FENCES]; // of what was drawn, the oldest first
+    Budget *meter;                // or NULL
     GlImage spare[GL_SPARE_IMAGES];
     int spare_count;
     GlProgram *programs;
-    GlStore *store; // made by the first scene
+    GpuCache *cache; // made by the first scene
 };
 
 // context.c, or context_web.c: what gl_open, gl_adopt and gl_close do first or last; gl_enter and gl_leave are there,
@@ -49,7 +49,7 @@ bool gl_context_has(const Gl *gl, const char *extension);
 // Whether what draws has this in its name.
 bool gl_context_is(const Gl *gl, const char *renderer);
 // To be called when something was drawn and another target, or nothing, comes next: context.c keeps its fence.
-void gl_drawn(Gl *gl);
+void gl_after_draw(Gl *gl);
 
 void gl_images_close(Gl *gl);
 // Bytes of a pixel.
@@ -59,6 +59,6 @@ static inline bool gl_is_refused(const Gl *gl) {
     return gl->meter && gl->meter->memory_refused;
 }
 void gl_programs_close(Gl *gl);
-void gl_store_close(Gl *gl);
+void gpu_cache_close(Gl *gl);
 
 #endif

@@ -1,7 +1,6 @@
 // programs.c: shaders, compiled once for each text.
-#include "gl/internal.h"
-
 #include "base/heap.h"
+#include "gl/internal.h"
 
 #include <string.h>
 
@@ -22,8 +21,8 @@ struct GlProgram {
     GLuint program;
 };
 
-static char *copy(Str text) {
-    char *out = heap_take(text.len + 1);
+static char *copy_text(Str text) {
+    char *out = heap_alloc(text.len + 1);
     if (out) {
         memcpy(out, text.bytes, text.len);
         out[text.len] = 0;
@@ -34,10 +33,10 @@ static char *copy(Str text) {
 static void free_program(const Gl *gl, GlProgram *program) {
     if (!gl->lost)
         glDeleteProgram(program->program);
-    heap_give(program->vertex);
-    heap_give(program->fragment);
-    heap_give(program->problem);
-    heap_give(program);
+    heap_free(program->vertex);
+    heap_free(program->fragment);
+    heap_free(program->problem);
+    heap_free(program);
 }
 
 void gl_programs_close(Gl *gl) {
@@ -49,30 +48,31 @@ void gl_programs_close(Gl *gl) {
 }
 
 // Adds a shader; false with the compiler's words.
-static bool attach(GLuint program, GLenum kind, const char *text, char **problem) {
+static bool attach_shader(GLuint program, GLenum kind, const char *text, char **problem) {
     GLuint shader = glCreateShader(kind);
     GLint good = 0, length = 0;
     glShaderSource(shader, 1, &text, NULL);
     glCompileShader(shader);
     glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
     glGetShaderiv(shader, GL_INFO_LOG_LENGTH, &length);
-    if (!good && (*problem = heap_zeroed((size_t)length + 1, 1)) != NULL)
+    if (!good && (*problem = heap_calloc((size_t)length + 1, 1)))
         glGetShaderInfoLog(shader, length, NULL, *problem);
     glAttachShader(program, shader);
     glDeleteShader(shader); // lives on with the program
     return good;
 }
 
-static void build(GlProgram *program) {
+static void link_program(GlProgram *program) {
     GLint good = 0, length = 0;
     program->program = glCreateProgram();
-    program->in_vertex = !attach(program->program, GL_VERTEX_SHADER, program->vertex, &program->problem);
-    if (!program->in_vertex && attach(program->program, GL_FRAGMENT_SHADER, program->fragment, &program->problem)) {
+    program->in_vertex = !attach_shader(program->program, GL_VERTEX_SHADER, program->vertex, &program->problem);
+    if (!program->in_vertex &&
+        attach_shader(program->program, GL_FRAGMENT_SHADER, program->fragment, &program->problem)) {
         glBindAttribLocation(program->program, 0, "position");
         glLinkProgram(program->program);
         glGetProgramiv(program->program, GL_LINK_STATUS, &good);
         glGetProgramiv(program->program, GL_INFO_LOG_LENGTH, &length);
-        if (!good && (program->problem = heap_zeroed((size_t)length + 1, 1)) != NULL)
+        if (!good && (program->problem = heap_calloc((size_t)length + 1, 1)))
             glGetProgramInfoLog(program->program, length, NULL, program->problem);
     }
     if (!good) {
@@ -81,36 +81,36 @@ static void build(GlProgram *program) {
     }
 }
 
-static GlProgram *find(Gl *gl, Str vertex, Str fragment) {
+static GlProgram *find_program(Gl *gl, Str vertex, Str fragment) {
     for (GlProgram *program = gl->programs; program; program = program->next)
         if (str_equal(str_from(program->fragment), fragment) && str_equal(str_from(program->vertex), vertex))
             return program;
     return NULL;
 }
 
-unsigned gl_program(Gl *gl, Arena *arena, Str vertex, Str fragment, GlFault *fault) {
-    enum { MOST_PROGRAMS = 200 }; // a script may write another text in each frame
-    GlProgram *program = find(gl, vertex, fragment);
+unsigned gl_program(Gl *gl, Arena *arena, Str vertex, Str fragment, GlShaderError *fault) {
+    enum { MAX_PROGRAMS = 200 }; // a script may write another text in each frame
+    GlProgram *program = find_program(gl, vertex, fragment);
     if (!program) {
         int count = 0;
         for (GlProgram *other = gl->programs; other; other = other->next)
             count++;
-        if (count >= MOST_PROGRAMS)
+        if (count >= MAX_PROGRAMS)
             gl_programs_close(gl);
-        program = heap_zeroed(1, sizeof *program);
+        program = heap_calloc(1, sizeof *program);
         if (!program)
             arena_exhausted(arena);
-        program->vertex = copy(vertex);
-        program->fragment = copy(fragment);
+        program->vertex = copy_text(vertex);
+        program->fragment = copy_text(fragment);
         program->next = gl->programs;
         if (!program->vertex || !program->fragment) {
             free_program(gl, program);
             arena_exhausted(arena);
         }
         gl->programs = program;
-        build(program);
+        link_program(program);
     }
-    *fault = (GlFault){.in_vertex = program->in_vertex};
+    *fault = (GlShaderError){.in_vertex = program->in_vertex};
     if (!program->program)
         fault->text = str_copy(arena, str_from(program->problem ? program->problem : "?"));
     return program->program;
@@ -123,5 +123,5 @@ void gl_draw_quad(Gl *gl, unsigned program) {
     glDisable(GL_BLEND);
     glDisable(GL_CULL_FACE);
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-    gl_drawn(gl);
+    gl_after_draw(gl);
 }

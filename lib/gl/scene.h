@@ -4,11 +4,11 @@
 #define PETRI_GL_SCENE_H
 
 #include "base/diag.h"
-#include "base/reach.h"
+#include "base/file_access.h"
 #include "gl/gl.h"
 #include "gl/scene_matrix.h"
 
-enum { SCENE_TEXTURES = 6, SCENE_MOST_INSTANCES = 200000, SCENE_MOST_MODELS = 2000, SCENE_MOST_LIGHTS = 4000 };
+enum { SCENE_TEXTURES = 6, SCENE_MAX_INSTANCES = 200000, SCENE_MAX_MODELS = 2000, SCENE_MAX_LIGHTS = 4000 };
 
 // As the shader has it: four vectors. A ball is a point with a radius.
 typedef enum LightKind {
@@ -40,7 +40,7 @@ typedef struct SceneModel {
     uint8_t remap;
     bool flat;
     bool invert;
-    bool disc;            // of a sphere: its outline alone, seen from the camera (scene_disc.h)
+    bool disc;            // of a sphere: its outline alone, seen from the camera (sphere_impostor.h)
     const DrawNode *node; // one that has it
 } SceneModel;
 
@@ -78,20 +78,20 @@ typedef struct SceneInstance {
 typedef struct SceneGroup SceneGroup;
 struct SceneGroup {
     const SceneGroup *parent; // or NULL
-    Look3D look;
+    GraphicsState3D state;
     SceneLight *lights; // its own
     uint32_t light_count;
-    uint32_t light_room;
+    uint32_t light_capacity;
     SceneInstance *instances;
     uint32_t instance_count;
-    uint32_t instance_room;
+    uint32_t instance_capacity;
 };
 
 typedef struct SceneCamera {
     const DrawNode *node;
     Str id;
     bool secondary;
-    Look3D look;
+    GraphicsState3D state;
     double position[3];
     double focus[3];
     double up[3];
@@ -102,29 +102,30 @@ typedef struct SceneCamera {
 typedef struct Scene {
     Arena *arena;
     const DrawNode *node; // the `!canvas3d`
-    const Reach *reach;
+    const FileAccess *reach;
     DiagSink *faults;
     SceneGroup **groups; // in the order in which they are drawn
     uint32_t group_count;
-    uint32_t group_room;
+    uint32_t group_capacity;
     SceneCamera *cameras; // the first is the scene's own
     uint32_t camera_count;
-    uint32_t camera_room;
+    uint32_t camera_capacity;
     SceneModel *models;
     uint32_t model_count;
-    uint32_t model_room;
+    uint32_t model_capacity;
     SceneTextures *textures; // number 0 has none
     uint32_t texture_count;
-    uint32_t texture_room;
+    uint32_t texture_capacity;
     uint32_t instance_count;
     uint32_t light_count;
     uint32_t shown; // the camera whose picture is the node's
     double width;   // of the node
+    double detail;  // pixels per unit; below 1 edges are not multisampled
     int bits;       // of the window
 } Scene;
 
 // Reads a `!canvas3d` that is width x height pixels large. All is in the arena.
-Scene *scene_read(Arena *arena, const DrawNode *node, int width, int height, int bits, const Reach *reach,
+Scene *scene_read(Arena *arena, const DrawNode *node, int width, int height, int bits, const FileAccess *reach,
                   DiagSink *faults);
 // What a camera sees: near, far and the like in the limits that they have.
 Eye scene_eye(const Scene *scene, const SceneCamera *camera);
@@ -132,17 +133,17 @@ Eye scene_eye(const Scene *scene, const SceneCamera *camera);
 struct Mesh;
 bool scene_mesh(const Scene *scene, const SceneModel *model, Arena *arena, struct Mesh *mesh);
 // What the triangles of a `!model` are made from: a hash, never 0.
-uint64_t scene_source(const Scene *scene, const DrawNode *node);
+uint64_t scene_model_hash(const Scene *scene, const DrawNode *node);
 bool scene_same_model(const SceneModel *a, const SceneModel *b);
 // The lights that shine in a group, up to `most`; how many.
-uint32_t scene_lights(const SceneGroup *group, SceneLight *lights, uint32_t most);
+uint32_t scene_lights(const SceneGroup *group, SceneLight *lights, uint32_t max);
 
 // Reports what is wrong with a node.
 void scene_report(const Scene *scene, const char *code, const DrawNode *node, const char *problem);
 
 // Where textures come from: the picture of an id as it is known now, texture 0 for none.
 typedef struct ScenePictures {
-    void *host;
+    void *user_data;
     GlImage (*find)(void *host, Str id);
 } ScenePictures;
 

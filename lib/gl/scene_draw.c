@@ -1,8 +1,7 @@
 // scene_draw.c: a scene as a camera sees it; see scene.h.
-#include "gl/scene_store.h"
-
-#include "gl/scene_disc.h"
-#include "gl/texts.h"
+#include "gl/gpu_cache.h"
+#include "gl/shader_sources.h"
+#include "gl/sphere_impostor.h"
 
 #include <math.h>
 #include <string.h>
@@ -12,14 +11,14 @@ enum { BLOCK_LIGHTS = 255 }; // fit into what each GPU has for a block of unifor
 // The drawing of a camera's picture.
 typedef struct Drawing {
     Gl *gl;
-    GlStore *store;
+    GpuCache *store;
     const Scene *scene;
     const SceneCamera *camera;
     const ScenePictures *pictures;
     Eye eye;
     Matrix view;
     Matrix projection;
-    SceneOrder order;
+    DrawOrder order;
     SceneTarget *target;         // of the picture
     GlImage backs;               // what shines through the group's backs
     bool many;                   // lights of the group are in a texture
@@ -31,19 +30,19 @@ static void make_record(const SceneInstance *instance, SceneRecord *record) {
     double cofactors[9];
     matrix_cofactors(&instance->matrix, cofactors);
     // Their length means nothing; as floats they must not overflow.
-    double most = 1e-300;
+    double max = 1e-300;
     for (int k = 0; k < 9; k++)
-        most = fmax(most, fabs(cofactors[k]));
+        max = fmax(max, fabs(cofactors[k]));
     for (int k = 0; k < 9; k++)
-        record->cofactors[k] = (float)(cofactors[k] / most);
+        record->cofactors[k] = (float)(cofactors[k] / max);
     for (int k = 0; k < 16; k++)
         record->matrix[k] = (float)instance->matrix.m[k];
 }
 
 // A disc has the ball in place of cofactors.
 static void make_disc_record(const Drawing *drawing, const SceneInstance *instance, SceneRecord *record) {
-    SceneDisc disc;
-    scene_disc(&drawing->eye, &drawing->view, &instance->matrix, &disc);
+    SphereImpostor disc;
+    sphere_impostor(&drawing->eye, &drawing->view, &instance->matrix, &disc);
     double ball[9] = {disc.middle[0], disc.middle[1], disc.middle[2], disc.radius, disc.near};
     for (int k = 0; k < 9; k++)
         record->cofactors[k] = (float)ball[k];
@@ -52,7 +51,7 @@ static void make_disc_record(const Drawing *drawing, const SceneInstance *instan
 }
 
 static void send_records(const Drawing *drawing) {
-    const SceneOrder *order = &drawing->order;
+    const DrawOrder *order = &drawing->order;
     SceneRecord *records = arena_alloc_array(drawing->scene->arena, order->count, sizeof *records);
     for (uint32_t d = 0; d < order->draw_count; d++) {
         const SceneDraw *draw = &order->draws[d];
@@ -76,7 +75,7 @@ static void set_number(GLuint program, const char *name, double x) {
     glUniform1f(glGetUniformLocation(program, name), (float)x);
 }
 
-static void set_whole(GLuint program, const char *name, int x) {
+static void set_integer(GLuint program, const char *name, int x) {
     glUniform1i(glGetUniformLocation(program, name), x);
 }
 
@@ -88,23 +87,23 @@ static void set_matrix(GLuint program, const char *name, const Matrix *matrix) {
 }
 
 static void set_camera(const Drawing *drawing, GLuint program) {
-    const Look3D *look = &drawing->camera->look;
+    const GraphicsState3D *state = &drawing->camera->state;
     const Eye *eye = &drawing->eye;
     double ahead[3];
     for (int k = 0; k < 3; k++)
         ahead[k] = eye->position[k] - eye->focus[k];
-    vector_unit(ahead);
+    vector_normalise(ahead);
     set_matrix(program, "view", &drawing->view);
     set_matrix(program, "projection", &drawing->projection);
     set_vector(program, "eye", eye->position);
     set_vector(program, "ahead", ahead);
-    set_whole(program, "orthographic", look->orthographic);
-    set_whole(program, "monochrome", look->monochrome);
-    set_number(program, "fog_min", look->fog_min);
-    set_number(program, "fog_max", look->fog_max);
-    set_number(program, "fog_curve", look->fog_curve);
-    set_vector(program, "fog_color", look->fog_color);
-    set_vector(program, "tint", look->tint);
+    set_integer(program, "orthographic", state->orthographic);
+    set_integer(program, "monochrome", state->monochrome);
+    set_number(program, "fog_min", state->fog_min);
+    set_number(program, "fog_max", state->fog_max);
+    set_number(program, "fog_curve", state->fog_curve);
+    set_vector(program, "fog_color", state->fog_color);
+    set_vector(program, "tint", state->tint);
 }
 
 static void send_light_texture(const Drawing *drawing, const SceneLight *lights, uint32_t count) {
@@ -140,9 +139,9 @@ static uint32_t sort_lights(Drawing *drawing, const SceneLight *all, uint32_t co
 }
 
 static void send_lights(Drawing *drawing, const SceneGroup *group) {
-    SceneLight *all = arena_alloc_array(drawing->scene->arena, SCENE_MOST_LIGHTS, sizeof *all);
-    SceneLight *lights = arena_alloc_array(drawing->scene->arena, SCENE_MOST_LIGHTS, sizeof *lights);
-    uint32_t count = sort_lights(drawing, all, scene_lights(group, all, SCENE_MOST_LIGHTS), lights);
+    SceneLight *all = arena_alloc_array(drawing->scene->arena, SCENE_MAX_LIGHTS, sizeof *all);
+    SceneLight *lights = arena_alloc_array(drawing->scene->arena, SCENE_MAX_LIGHTS, sizeof *lights);
+    uint32_t count = sort_lights(drawing, all, scene_lights(group, all, SCENE_MAX_LIGHTS), lights);
     drawing->many = count > BLOCK_LIGHTS;
     if (drawing->many) {
         send_light_texture(drawing, lights, count);
@@ -168,18 +167,18 @@ static void add_variant(Text *text, unsigned variant) {
 static GLuint use_program(const Drawing *drawing, unsigned variant) {
     const Scene *scene = drawing->scene;
     Text vertex = text_new(scene->arena), fragment = text_new(scene->arena);
-    GlFault fault;
+    GlShaderError fault;
     text_add_c(&vertex, gl_header);
     add_variant(&vertex, variant);
-    text_add_c(&vertex, gl_text_scene_vertex);
+    text_add_c(&vertex, gl_source_scene_vertex);
     text_add_c(&fragment, gl_header);
     add_variant(&fragment, variant);
-    text_add_format(&fragment, "#define MOST_LIGHTS %d\n", BLOCK_LIGHTS);
+    text_add_format(&fragment, "#define LIGHTS_MAX %d\n", BLOCK_LIGHTS);
     text_add_c(&fragment, drawing->many ? "#define MANY_LIGHTS\n" : "");
-    text_add_c(&fragment, gl_text_scene_light);
-    text_add_c(&fragment, variant & TEXTURED ? gl_text_scene_texture : "");
-    text_add_c(&fragment, variant & TRANSLUCENT ? gl_text_scene_through : "");
-    text_add_c(&fragment, gl_text_scene);
+    text_add_c(&fragment, gl_source_scene_light);
+    text_add_c(&fragment, variant & TEXTURED ? gl_source_scene_texture : "");
+    text_add_c(&fragment, variant & TRANSLUCENT ? gl_source_scene_through : "");
+    text_add_c(&fragment, gl_source_scene);
     GLuint program = gl_program(drawing->gl, scene->arena, text_str(&vertex), text_str(&fragment), &fault);
     if (!program) {
         scene_report(scene, "bad-shader", scene->node, str_to_c(scene->arena, fault.text));
@@ -190,14 +189,14 @@ static GLuint use_program(const Drawing *drawing, unsigned variant) {
     set_vector(program, "ambient", drawing->ambient);
     glUniform1iv(glGetUniformLocation(program, "ends"), LIGHT_KINDS - 1, drawing->ends);
     if (drawing->many)
-        set_whole(program, "lights", SCENE_TEXTURES);
+        set_integer(program, "lights", SCENE_TEXTURES);
     else
         glUniformBlockBinding(program, glGetUniformBlockIndex(program, "Lights"), 0);
     if (variant & TRANSLUCENT) {
         glActiveTexture(GL_TEXTURE0 + SCENE_TEXTURES + 1);
         glBindTexture(GL_TEXTURE_2D, drawing->backs.texture);
         glActiveTexture(GL_TEXTURE0);
-        set_whole(program, "backs", SCENE_TEXTURES + 1);
+        set_integer(program, "backs", SCENE_TEXTURES + 1);
     }
     return program;
 }
@@ -209,20 +208,20 @@ static void set_textures(const Drawing *drawing, GLuint program, const SceneText
     for (int i = 0; i < SCENE_TEXTURES; i++) {
         GlImage image = {0};
         if (textures->ids[i].len > 0)
-            image = drawing->pictures->find(drawing->pictures->host, textures->ids[i]);
+            image = drawing->pictures->find(drawing->pictures->user_data, textures->ids[i]);
         bits |= image.texture ? 1 << i : 0;
         glActiveTexture(GL_TEXTURE0 + (GLenum)i);
         glBindTexture(GL_TEXTURE_2D, image.texture ? image.texture : drawing->gl->nothing);
-        set_whole(program, names[i], i);
+        set_integer(program, names[i], i);
     }
     glActiveTexture(GL_TEXTURE0);
-    set_whole(program, "textured", bits);
-    set_whole(program, "bordered", textures->border);
+    set_integer(program, "textured", bits);
+    set_integer(program, "bordered", textures->border);
     glUniform2i(glGetUniformLocation(program, "repeated"), textures->repeat[0], textures->repeat[1]);
     glUniform4fv(glGetUniformLocation(program, "border"), 1, textures->border_color);
 }
 
-static void set_blending(const Look3D *look, bool transparent, bool translucent) {
+static void set_blending(const GraphicsState3D *state, bool transparent, bool translucent) {
     static const struct {
         GLenum equation;
         GLenum source;
@@ -237,25 +236,25 @@ static void set_blending(const Look3D *look, bool transparent, bool translucent)
         [MIX3D_LIGHTEN] = {GL_MAX, GL_ONE, GL_ONE},
         [MIX3D_DARKEN] = {GL_MIN, GL_ONE, GL_ONE},
     };
-    bool sorts = look->depth_sort && look->depth_test;
+    bool sorts = state->depth_sort && state->depth_test;
     // What is opaque covers what is there: nothing to mix.
-    (sorts && !transparent && look->composite == MIX3D_OVER ? glDisable : glEnable)(GL_BLEND);
-    glBlendEquation(modes[look->composite].equation);
-    glBlendFunc(modes[look->composite].source, modes[look->composite].target);
-    (look->depth_test ? glEnable : glDisable)(GL_DEPTH_TEST);
-    glDepthMask(look->depth_test && (!transparent || translucent));
-    (look->face_cull ? glEnable : glDisable)(GL_CULL_FACE);
-    glCullFace(look->cull_face == FACE_FRONT ? GL_FRONT : GL_BACK);
+    (sorts && !transparent && state->composite == MIX3D_OVER ? glDisable : glEnable)(GL_BLEND);
+    glBlendEquation(modes[state->composite].equation);
+    glBlendFunc(modes[state->composite].source, modes[state->composite].target);
+    (state->depth_test ? glEnable : glDisable)(GL_DEPTH_TEST);
+    glDepthMask(state->depth_test && (!transparent || translucent));
+    (state->face_cull ? glEnable : glDisable)(GL_CULL_FACE);
+    glCullFace(state->cull_face == FACE_FRONT ? GL_FRONT : GL_BACK);
 }
 
-static void clear(const SceneCamera *camera) {
-    const Look3D *look = &camera->look;
+static void clear_target(const SceneCamera *camera) {
+    const GraphicsState3D *state = &camera->state;
     float color[4] = {0, 0, 0, 0};
-    if (look->fog_max > look->fog_min) {
-        const double *fog = look->fog_color;
+    if (state->fog_max > state->fog_min) {
+        const double *fog = state->fog_color;
         double grey = 0.299 * fog[0] + 0.587 * fog[1] + 0.114 * fog[2];
         for (int k = 0; k < 3; k++)
-            color[k] = (float)((look->monochrome ? grey : fog[k]) * look->tint[k]);
+            color[k] = (float)((state->monochrome ? grey : fog[k]) * state->tint[k]);
         color[3] = 1;
     }
     glDepthMask(GL_TRUE);
@@ -270,28 +269,28 @@ static void draw_shape(const Drawing *drawing, const SceneDraw *draw, GLuint pro
     SceneModel model = scene->models[draw->model];
     model.segments = draw->segments;
     model.disc = draw->disc;
-    const SceneShape *shape = gl_store_shape(drawing->store, scene, &model);
+    const SceneShape *shape = gpu_cache_shape(drawing->store, scene, &model);
     if (draw->textures > 0)
         set_textures(drawing, program, &scene->textures[draw->textures]);
-    gl_store_point(drawing->store, shape, draw->first);
+    gpu_cache_bind_instances(drawing->store, shape, draw->first);
     glDrawElementsInstanced(GL_TRIANGLES, shape->index_count, GL_UNSIGNED_INT, NULL, (GLsizei)draw->count);
 }
 
 // The backs of what is translucent in the group that begins with this draw (spec 5.6): the light that goes in there,
 // and how far away it is. False if that cannot be.
 static bool draw_backs(Drawing *drawing, uint32_t first) {
-    const SceneOrder *order = &drawing->order;
+    const DrawOrder *order = &drawing->order;
     GlFormat format = drawing->gl->floats ? GL_FORMAT_RGBA32F : GL_FORMAT_RGBA16F;
     int width = drawing->target->width, height = drawing->target->height;
-    SceneTarget *extra = gl_store_target(drawing->gl, width, height, 0, format, true);
+    SceneTarget *extra = gpu_cache_target(drawing->gl, width, height, 0, format, true);
     drawing->backs = extra ? gl_image_new(drawing->gl, width, height, format) : (GlImage){0};
     if (!drawing->backs.texture)
         return false;
-    gl_drawn(drawing->gl);
+    gl_after_draw(drawing->gl);
     glBindFramebuffer(GL_FRAMEBUFFER, extra->framebuffer);
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, drawing->backs.texture, 0);
-    set_blending(&(Look3D){.depth_sort = true, .depth_test = true, .face_cull = true, .cull_face = FACE_FRONT}, false,
-                 false);
+    set_blending(&(GraphicsState3D){.depth_sort = true, .depth_test = true, .face_cull = true, .cull_face = FACE_FRONT},
+                 false, false);
     glClearColor(0, 0, 0, 0);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     for (uint32_t i = first; i < order->draw_count && order->draws[i].group == order->draws[first].group; i++) {
@@ -300,7 +299,7 @@ static bool draw_backs(Drawing *drawing, uint32_t first) {
         if (program)
             draw_shape(drawing, draw, program);
     }
-    gl_drawn(drawing->gl);
+    gl_after_draw(drawing->gl);
     glBindFramebuffer(GL_FRAMEBUFFER, drawing->target->framebuffer);
     return true;
 }
@@ -334,13 +333,13 @@ static bool draw_all(Drawing *drawing) {
         }
         if (!program)
             return true;
-        set_blending(&scene->groups[group]->look, draw->transparent, draw->translucent);
+        set_blending(&scene->groups[group]->state, draw->transparent, draw->translucent);
         draw_shape(drawing, draw, program);
     }
     return true;
 }
 
-static void leave_state(void) {
+static void reset_state(void) {
     glDisable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);
     glDisable(GL_DEPTH_TEST);
@@ -348,12 +347,12 @@ static void leave_state(void) {
     glDepthMask(GL_TRUE);
 }
 
-static bool draw_to(Drawing *drawing, GlImage image) {
+static bool draw_to_image(Drawing *drawing, GlImage image) {
     Gl *gl = drawing->gl;
     const SceneCamera *camera = drawing->camera;
-    double samples = fmin(camera->look.samples, 64);
+    double samples = drawing->scene->detail < 1 ? 0 : fmin(camera->state.samples, 64);
     SceneTarget *target =
-        gl_store_target(drawing->gl, image.width, image.height, samples >= 2 ? (int)samples : 0, image.format, false);
+        gpu_cache_target(drawing->gl, image.width, image.height, samples >= 2 ? (int)samples : 0, image.format, false);
     if (!target)
         return false;
     drawing->target = target;
@@ -363,30 +362,32 @@ static bool draw_to(Drawing *drawing, GlImage image) {
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
         return false;
     glViewport(0, 0, image.width, image.height);
-    clear(camera);
+    clear_target(camera);
     bool good = draw_all(drawing);
-    gl_drawn(gl);
-    leave_state();
+    gl_after_draw(gl);
+    reset_state();
     gl_image_free(gl, drawing->backs);
     if (target->color) {
         gl_target(gl, image);
         glBindFramebuffer(GL_READ_FRAMEBUFFER, target->framebuffer);
         glBlitFramebuffer(0, 0, image.width, image.height, 0, 0, image.width, image.height, GL_COLOR_BUFFER_BIT,
                           GL_NEAREST);
-        gl_drawn(gl);
+        gl_after_draw(gl);
         glBindFramebuffer(GL_FRAMEBUFFER, gl->framebuffer);
     }
     return good && glGetError() == GL_NO_ERROR;
 }
 
 static int bits_of(const Scene *scene, const SceneCamera *camera) {
-    double bits = camera->look.colorbits;
+    double bits = camera->state.colorbits;
     return bits == 8 || bits == 16 || bits == 32 ? (int)bits : scene->bits;
 }
 
 GlImage gl_scene(Gl *gl, const Scene *scene, const SceneCamera *camera, const ScenePictures *pictures) {
     GlImage none = {0};
-    Drawing drawing = {.gl = gl, .store = gl_store(gl), .scene = scene, .camera = camera, .pictures = pictures};
+    int width = (int)fmax(1, floor(camera->width * scene->detail + 0.5));
+    int height = (int)fmax(1, floor(camera->height * scene->detail + 0.5));
+    Drawing drawing = {.gl = gl, .store = gpu_cache(gl), .scene = scene, .camera = camera, .pictures = pictures};
     if (!drawing.store)
         arena_exhausted(scene->arena);
     drawing.store->now++;
@@ -395,16 +396,16 @@ GlImage gl_scene(Gl *gl, const Scene *scene, const SceneCamera *camera, const Sc
     drawing.projection = matrix_projection(&drawing.eye);
     SceneBox *boxes = arena_alloc_array(scene->arena, scene->model_count, sizeof *boxes);
     for (uint32_t i = 0; i < scene->model_count; i++)
-        boxes[i] = gl_store_shape(drawing.store, scene, &scene->models[i])->box;
-    drawing.order = scene_order(scene, &drawing.eye, &drawing.view, &drawing.projection, camera->width, boxes);
+        boxes[i] = gpu_cache_shape(drawing.store, scene, &scene->models[i])->box;
+    drawing.order = draw_order(scene, &drawing.eye, &drawing.view, &drawing.projection, width, boxes);
     if (drawing.order.cut)
         scene_report(scene, "too-many-triangles", scene->node,
                      "a picture can show 50 million triangles; the others are left out");
     while (glGetError() != GL_NO_ERROR)
         ;
     send_records(&drawing);
-    GlImage image = gl_image_new(gl, camera->width, camera->height, gl_format(gl, bits_of(scene, camera)));
-    if (image.texture && draw_to(&drawing, image))
+    GlImage image = gl_image_new(gl, width, height, gl_format(gl, bits_of(scene, camera)));
+    if (image.texture && draw_to_image(&drawing, image))
         return image;
     if (!gl_is_refused(gl))
         scene_report(scene, "bad-size", scene->node, "the GPU has no room for a picture of this size");

@@ -1,11 +1,10 @@
 // scene_file.c: triangles from files and from numbers (spec canvas3d.md 8); see scene_mesh.h.
 //
 // What a file says of sizes is never believed: it is compared with how long the file is.
-#include "gl/scene_mesh.h"
-
+#include "base/hash_index.h"
 #include "base/number.h"
-#include "base/table.h"
 #include "gl/scene_matrix.h"
+#include "gl/scene_mesh.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -40,7 +39,7 @@ bool mesh_from_lists(Arena *arena, const double *vertices, uint32_t vertex_numbe
     for (uint32_t i = 0; i < count; i++) {
         MeshVertex *vertex = &mesh->vertices[i];
         *vertex = (MeshVertex){.uv = {0}};
-        vector_unit(normals[i]);
+        vector_normalise(normals[i]);
         for (int k = 0; k < 3; k++) {
             vertex->position[k] = (float)vertices[3 * (size_t)i + (size_t)k];
             vertex->normal[k] = (float)normals[i][k];
@@ -100,11 +99,11 @@ static bool read_float(Str word, float *out) {
     return end == word.len && fabsf(*out) < 1e30f;
 }
 
-static bool read_floats(Str line, int least, int most, float *out) {
-    for (int k = 0; k < most; k++) {
+static bool read_floats(Str line, int min, int max, float *out) {
+    for (int k = 0; k < max; k++) {
         Str word = next_word(&line);
         if (word.len == 0)
-            return k >= least;
+            return k >= min;
         if (!read_float(word, &out[k]))
             return false;
     }
@@ -115,11 +114,11 @@ static bool read_floats(Str line, int least, int most, float *out) {
 typedef struct Floats {
     float *items;
     uint32_t count;
-    uint32_t room;
+    uint32_t capacity;
 } Floats;
 
 static float *add_floats(Arena *arena, Floats *list, uint32_t size) {
-    list->items = arena_room(arena, list->items, list->count, &list->room, size * sizeof(float));
+    list->items = arena_grow_array(arena, list->items, list->count, &list->capacity, size * sizeof(float));
     float *out = list->items + (size_t)size * list->count++;
     memset(out, 0, size * sizeof *out);
     return out;
@@ -134,12 +133,12 @@ typedef struct Obj {
     Floats lists[3]; // v, vt, vn
     Corner *corners; // three for each triangle
     uint32_t count;
-    uint32_t room;
+    uint32_t capacity;
     bool normals; // all corners have them
     const char *problem;
 } Obj;
 
-static bool refuse(Obj *obj, const char *problem) {
+static bool fail_parse(Obj *obj, const char *problem) {
     obj->problem = problem;
     return false;
 }
@@ -160,21 +159,21 @@ static bool read_corner(Obj *obj, Str word, Corner *out) {
         int64_t count = obj->lists[part].count;
         number = minus ? count + 1 - number : number;
         if (at > start && (number < 1 || number > count))
-            return refuse(obj, part == 0   ? "a face has a vertex that is not there"
-                               : part == 1 ? "a face has a place in textures, vt, that is not there"
-                                           : "a face has a normal, vn, that is not there");
+            return fail_parse(obj, part == 0   ? "a face has a vertex that is not there"
+                                   : part == 1 ? "a face has a place in textures, vt, that is not there"
+                                               : "a face has a normal, vn, that is not there");
         if (at == start && (minus || part == 0))
-            return refuse(obj, corner_form);
+            return fail_parse(obj, corner_form);
         out->parts[part] = at > start ? (uint32_t)number : 0;
         if (at < word.len && word.bytes[at] != '/')
-            return refuse(obj, corner_form);
+            return fail_parse(obj, corner_form);
         at++;
     }
-    return at >= word.len || refuse(obj, corner_form);
+    return at >= word.len || fail_parse(obj, corner_form);
 }
 
 static void add_corner(Obj *obj, Corner corner) {
-    obj->corners = arena_room(obj->arena, obj->corners, obj->count, &obj->room, sizeof corner);
+    obj->corners = arena_grow_array(obj->arena, obj->corners, obj->count, &obj->capacity, sizeof corner);
     obj->corners[obj->count++] = corner;
     obj->normals &= corner.parts[2] != 0;
 }
@@ -185,8 +184,8 @@ static bool read_face(Obj *obj, Str line) {
     for (Str word; (word = next_word(&line)).len > 0; count++) {
         if (!read_corner(obj, word, &corner))
             return false;
-        if (obj->count > MESH_MOST_CORNERS)
-            return refuse(obj, too_large);
+        if (obj->count > MESH_MAX_CORNERS)
+            return fail_parse(obj, too_large);
         if (count == 0)
             first = corner;
         if (count >= 2) {
@@ -196,7 +195,7 @@ static bool read_face(Obj *obj, Str line) {
         }
         before = corner;
     }
-    return count >= 3 || refuse(obj, "a face has three corners or more");
+    return count >= 3 || fail_parse(obj, "a face has three corners or more");
 }
 
 static bool read_obj_line(Obj *obj, Str line) {
@@ -212,10 +211,10 @@ static bool read_obj_line(Obj *obj, Str line) {
     for (int i = 0; i < 3; i++) {
         if (!str_equal(word, str_from(lists[i].name)))
             continue;
-        if (obj->lists[i].count >= MESH_MOST_CORNERS)
-            return refuse(obj, too_large);
+        if (obj->lists[i].count >= MESH_MAX_CORNERS)
+            return fail_parse(obj, too_large);
         float *out = add_floats(obj->arena, &obj->lists[i], (uint32_t)lists[i].size);
-        return read_floats(line, lists[i].least, lists[i].size, out) || refuse(obj, lists[i].form);
+        return read_floats(line, lists[i].least, lists[i].size, out) || fail_parse(obj, lists[i].form);
     }
     return !str_equal(word, STR("f")) || read_face(obj, line);
 }
@@ -233,14 +232,14 @@ static void set_vertex(const Obj *obj, const Corner *corner, MeshVertex *vertex)
         memcpy(vertex->normal, obj->lists[2].items + 3 * (size_t)(corner->parts[2] - 1), sizeof vertex->normal);
 }
 
-static bool read_obj(Arena *arena, Str bytes, Mesh *mesh, MeshFault *fault) {
+static bool read_obj(Arena *arena, Str bytes, Mesh *mesh, MeshError *fault) {
     Obj obj = {.arena = arena, .normals = true};
     for (uint32_t line = 1; bytes.len > 0; line++)
         if (!read_obj_line(&obj, next_line(&bytes))) {
-            *fault = (MeshFault){obj.problem, line};
+            *fault = (MeshError){obj.problem, line};
             return false;
         }
-    *fault = (MeshFault){"it has no triangles", 0};
+    *fault = (MeshError){"it has no triangles", 0};
     if (obj.count == 0)
         return false;
     // A vertex for each different corner.
@@ -248,22 +247,22 @@ static bool read_obj(Arena *arena, Str bytes, Mesh *mesh, MeshFault *fault) {
     *mesh = (Mesh){.vertices = arena_alloc_array(arena, obj.count, sizeof(MeshVertex)),
                    .indices = arena_alloc_array(arena, obj.count, sizeof(uint32_t)),
                    .index_count = obj.count};
-    Index index = {0};
+    HashIndex index = {0};
     for (uint32_t i = 0; i < obj.count; i++) {
         uint64_t hash = hash_bytes(0, &obj.corners[i], sizeof(Corner));
-        uint32_t found = index_find(&index, hash, is_corner, different, &obj.corners[i]);
-        if (found == INDEX_NONE) {
+        uint32_t found = hash_index_find(&index, hash, is_corner, different, &obj.corners[i]);
+        if (found == HASH_INDEX_NONE) {
             found = mesh->vertex_count++;
             different[found] = obj.corners[i];
             set_vertex(&obj, &obj.corners[i], &mesh->vertices[found]);
-            if (!index_add(&index, hash, found)) {
-                index_free(&index);
+            if (!hash_index_add(&index, hash, found)) {
+                hash_index_free(&index);
                 arena_exhausted(arena);
             }
         }
         mesh->indices[i] = found;
     }
-    index_free(&index);
+    hash_index_free(&index);
     if (!obj.normals)
         mesh_snap(arena, mesh, 0.5);
     return true;
@@ -274,14 +273,14 @@ static bool add_stl_triangle(Arena *arena, Floats *list, const float corners[9])
     for (int k = 0; k < 9; k++)
         if (!(fabsf(corners[k]) < 1e30f))
             return false;
-    if (list->count >= MESH_MOST_CORNERS)
+    if (list->count >= MESH_MAX_CORNERS)
         return false;
     for (int i = 0; i < 3; i++)
         memcpy(add_floats(arena, list, 3), corners + 3 * i, 3 * sizeof *corners);
     return true;
 }
 
-static bool read_stl_text(Arena *arena, Str bytes, Floats *list, MeshFault *fault) {
+static bool read_stl_text(Arena *arena, Str bytes, Floats *list, MeshError *fault) {
     float corners[9];
     int count = 0;
     for (fault->line = 1; bytes.len > 0; fault->line++) {
@@ -329,15 +328,15 @@ static bool read_stl_binary(Arena *arena, Str bytes, Floats *list) {
     return true;
 }
 
-bool mesh_from_file(Arena *arena, Str bytes, Mesh *mesh, MeshFault *fault) {
+bool mesh_from_file(Arena *arena, Str bytes, Mesh *mesh, MeshError *fault) {
     Floats list = {0};
     bool binary = is_binary_stl(bytes), text = !binary && str_starts_with(bytes, STR("solid"));
     if (!binary && !text)
         return read_obj(arena, bytes, mesh, fault);
-    *fault = (MeshFault){"a triangle is beyond all numbers, or there are more than 4 million", 0};
+    *fault = (MeshError){"a triangle is beyond all numbers, or there are more than 4 million", 0};
     if (binary ? !read_stl_binary(arena, bytes, &list) : !read_stl_text(arena, bytes, &list, fault))
         return false;
-    *fault = (MeshFault){"it has no triangles", 0};
+    *fault = (MeshError){"it has no triangles", 0};
     if (list.count == 0)
         return false;
     *mesh = (Mesh){.vertices = arena_alloc_array(arena, list.count, sizeof(MeshVertex)),

@@ -1,8 +1,7 @@
 // scene_hull.c: the convex hull of points (spec canvas3d.md 8.2): points are added one by one; the faces that one sees
 // give way to those between it and their outline.
-#include "gl/scene_mesh.h"
-
 #include "gl/scene_matrix.h"
+#include "gl/scene_mesh.h"
 
 #include <math.h>
 #include <string.h>
@@ -18,60 +17,60 @@ typedef struct Hull {
     const double (*points)[3];
     Face *faces;
     uint32_t count;
-    uint32_t room;
+    uint32_t capacity;
     double thick; // what is nearer to a plane lies in it
 } Hull;
 
-static double height(const Face *face, const double point[3]) {
+static double plane_distance(const Face *face, const double point[3]) {
     return vector_dot(face->normal, point) - face->offset;
 }
 
 static void add_face(Hull *hull, uint32_t a, uint32_t b, uint32_t c) {
     const double *p = hull->points[a], *q = hull->points[b], *r = hull->points[c];
     double one[3] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]}, two[3] = {r[0] - p[0], r[1] - p[1], r[2] - p[2]};
-    hull->faces = arena_room(hull->arena, hull->faces, hull->count, &hull->room, sizeof *hull->faces);
+    hull->faces = arena_grow_array(hull->arena, hull->faces, hull->count, &hull->capacity, sizeof *hull->faces);
     Face *face = &hull->faces[hull->count++];
     *face = (Face){.corners = {a, b, c}};
     vector_cross(one, two, face->normal);
-    vector_unit(face->normal);
+    vector_normalise(face->normal);
     face->offset = vector_dot(face->normal, p);
 }
 
 // How far a point is from the first ones: from one point, from a line, from a plane.
-static double apart(const Hull *hull, const uint32_t *first, int count, const double p[3]) {
+static double distance_from(const Hull *hull, const uint32_t *first, int count, const double p[3]) {
     const double *a = hull->points[first[0]];
     double d[3] = {p[0] - a[0], p[1] - a[1], p[2] - a[2]}, axis[3], across[3];
     if (count == 1)
         return sqrt(vector_dot(d, d));
     for (int k = 0; k < 3; k++)
         axis[k] = hull->points[first[1]][k] - a[k];
-    vector_unit(axis);
+    vector_normalise(axis);
     if (count == 2) {
         vector_cross(axis, d, across);
         return sqrt(vector_dot(across, across));
     }
-    return fabs(height(&hull->faces[0], p));
+    return fabs(plane_distance(&hull->faces[0], p));
 }
 
 // Four points that are as far apart as can be, and their faces; false if all lie in a plane.
-static bool begin(Hull *hull, uint32_t count) {
+static bool begin_hull(Hull *hull, uint32_t count) {
     uint32_t first[4] = {0};
     for (int found = 1; found < 4; found++) {
-        double most = 0;
+        double max = 0;
         for (uint32_t i = 0; i < count; i++) {
-            double away = apart(hull, first, found, hull->points[i]);
-            if (away > most)
-                most = away, first[found] = i;
+            double away = distance_from(hull, first, found, hull->points[i]);
+            if (away > max)
+                max = away, first[found] = i;
         }
         if (found == 1)
-            hull->thick = 1e-9 * most;
-        if (!(most > hull->thick))
+            hull->thick = 1e-9 * max;
+        if (!(max > hull->thick))
             return false;
         if (found == 2)
             add_face(hull, first[0], first[1], first[2]);
     }
     uint32_t a = first[0], b = first[1], c = first[2], d = first[3];
-    if (height(&hull->faces[0], hull->points[d]) > 0)
+    if (plane_distance(&hull->faces[0], hull->points[d]) > 0)
         b = first[2], c = first[1];
     hull->count = 0;
     add_face(hull, a, b, c);
@@ -82,7 +81,7 @@ static bool begin(Hull *hull, uint32_t count) {
 }
 
 // Whether one of the first faces has the edge from a to b.
-static bool have_edge(const Hull *hull, uint32_t count, uint32_t a, uint32_t b) {
+static bool has_edge(const Hull *hull, uint32_t count, uint32_t a, uint32_t b) {
     for (uint32_t i = 0; i < count; i++)
         for (int k = 0; k < 3; k++)
             if (hull->faces[i].corners[k] == a && hull->faces[i].corners[(k + 1) % 3] == b)
@@ -93,7 +92,7 @@ static bool have_edge(const Hull *hull, uint32_t count, uint32_t a, uint32_t b) 
 static void add_point(Hull *hull, uint32_t point) {
     uint32_t seen = 0; // go first
     for (uint32_t i = 0; i < hull->count; i++)
-        if (height(&hull->faces[i], hull->points[point]) > hull->thick) {
+        if (plane_distance(&hull->faces[i], hull->points[point]) > hull->thick) {
             Face face = hull->faces[i];
             hull->faces[i] = hull->faces[seen];
             hull->faces[seen++] = face;
@@ -101,7 +100,7 @@ static void add_point(Hull *hull, uint32_t point) {
     for (uint32_t i = 0; i < seen; i++)
         for (int k = 0; k < 3; k++) {
             uint32_t a = hull->faces[i].corners[k], b = hull->faces[i].corners[(k + 1) % 3];
-            if (!have_edge(hull, seen, b, a))
+            if (!has_edge(hull, seen, b, a))
                 add_face(hull, a, b, point);
         }
     hull->count -= seen;
@@ -113,7 +112,7 @@ const double *mesh_hull(Arena *arena, const double *vertices, uint32_t count, ui
     double(*points)[3] = arena_alloc_array(arena, count, sizeof *points);
     memcpy(points, vertices, count * sizeof *points);
     hull.points = (const double(*)[3])points;
-    if (count < 4 || !begin(&hull, count))
+    if (count < 4 || !begin_hull(&hull, count))
         return NULL;
     for (uint32_t i = 0; i < count; i++)
         add_point(&hull, i);

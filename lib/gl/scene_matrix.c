@@ -8,7 +8,7 @@
 
 static const double TURN = 6.283185307179586;
 
-const Matrix matrix_one = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
+const Matrix matrix_identity = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
 
 Matrix matrix_product(const Matrix *a, const Matrix *b) {
     Matrix out;
@@ -46,7 +46,7 @@ void matrix_direction(const Matrix *a, const double d[3], double out[3]) {
     matrix_cofactors(a, cofactors);
     for (int row = 0; row < 3; row++)
         out[row] = cofactors[row] * copy[0] + cofactors[3 + row] * copy[1] + cofactors[6 + row] * copy[2];
-    if (!vector_unit(out))
+    if (!vector_normalise(out))
         memset(out, 0, 3 * sizeof *out);
 }
 
@@ -59,7 +59,7 @@ void vector_cross(const double a[3], const double b[3], double out[3]) {
     out[0] = x, out[1] = y, out[2] = z;
 }
 
-bool vector_unit(double a[3]) {
+bool vector_normalise(double a[3]) {
     double length = sqrt(vector_dot(a, a));
     if (!(length > 1e-150) || !isfinite(length))
         return false;
@@ -69,20 +69,20 @@ bool vector_unit(double a[3]) {
 }
 
 static Matrix translation(const double v[3]) {
-    Matrix out = matrix_one;
+    Matrix out = matrix_identity;
     memcpy(out.m + 12, v, 3 * sizeof *v);
     return out;
 }
 
 static Matrix scaling(const double v[3]) {
-    Matrix out = matrix_one;
+    Matrix out = matrix_identity;
     out.m[0] = v[0], out.m[5] = v[1], out.m[10] = v[2];
     return out;
 }
 
 // About an axis: 0 x, 1 y, 2 z.
 static Matrix rotation_about(int axis, double turns) {
-    Matrix out = matrix_one;
+    Matrix out = matrix_identity;
     double part = turns - floor(turns); // quarters come out exactly
     double cosine = part == 0.25 || part == 0.75 ? 0 : maths_cos(TURN * part);
     double sine = part == 0.5 ? 0 : maths_sin(TURN * part);
@@ -114,11 +114,11 @@ static Matrix rotation_of(const AttrValue *attr) {
         return quaternion(x);
     if (attr->count == 1)
         return rotation((double[3]){x[0], x[0], x[0]});
-    return attr->count == 3 ? rotation(x) : matrix_one;
+    return attr->count == 3 ? rotation(x) : matrix_identity;
 }
 
 static Matrix shear(int axis, const double amounts[2]) {
-    Matrix out = matrix_one;
+    Matrix out = matrix_identity;
     int first = axis == 0 ? 1 : 0, second = axis == 2 ? 1 : 2;
     out.m[4 * first + axis] = amounts[0];
     out.m[4 * second + axis] = amounts[1];
@@ -126,7 +126,7 @@ static Matrix shear(int axis, const double amounts[2]) {
 }
 
 static Matrix matrix_of(const AttrValue *attr) {
-    Matrix out = matrix_one;
+    Matrix out = matrix_identity;
     if (attr->count == 16)
         memcpy(out.m, attr->as.list, sizeof out.m);
     return out;
@@ -147,8 +147,8 @@ Matrix matrix_transformed(Matrix a, const DrawNode *node) {
                    : name == ATTR_SHEAR_Y  ? shear(1, x)
                    : name == ATTR_SHEAR_Z  ? shear(2, x)
                    : name == ATTR_MATRIX   ? matrix_of(attr)
-                                           : matrix_one;
-        if (memcmp(&b, &matrix_one, sizeof b) != 0)
+                                           : matrix_identity;
+        if (memcmp(&b, &matrix_identity, sizeof b) != 0)
             a = matrix_product(&a, &b);
     }
     return a;
@@ -164,10 +164,10 @@ static bool place_along(Matrix *a, const DrawNode *node, const double end[3]) {
         middle[k] = start[k] + axis[k] / 2;
     }
     double length = sqrt(vector_dot(axis, axis));
-    if (!(radius > 0) || !vector_unit(axis))
+    if (!(radius > 0) || !vector_normalise(axis))
         return false;
     // The shortest rotation from z: a quaternion half way between.
-    Matrix turn = axis[2] < -0.9999999999 ? rotation_about(1, 0.5) : matrix_one;
+    Matrix turn = axis[2] < -0.9999999999 ? rotation_about(1, 0.5) : matrix_identity;
     if (axis[2] >= -0.9999999999) {
         double q[4] = {1 + axis[2], -axis[1], axis[0], 0}, size = sqrt(2 * q[0]);
         for (int k = 0; k < 4; k++)
@@ -187,16 +187,16 @@ Matrix matrix_placed(Matrix a, const DrawNode *node) {
         place_along(&a, node, end->as.numbers);
         return a;
     }
-    if ((attr = draw_attr(node, ATTR_POSITION)) != NULL) {
+    if ((attr = draw_attr(node, ATTR_POSITION))) {
         double moved[3];
         matrix_point(&a, attr->as.numbers, moved);
         memcpy(a.m + 12, moved, sizeof moved);
     }
-    if ((attr = draw_attr(node, ATTR_ROTATION)) != NULL) {
+    if ((attr = draw_attr(node, ATTR_ROTATION))) {
         Matrix turn = rotation(attr->as.numbers);
         a = matrix_product(&a, &turn);
     }
-    if ((attr = draw_attr(node, ATTR_SIZE)) != NULL)
+    if ((attr = draw_attr(node, ATTR_SIZE)))
         for (int i = 0; i < 12; i++)
             a.m[i] *= attr->as.numbers[i / 4];
     return a;
@@ -206,13 +206,13 @@ Matrix matrix_view(const Eye *eye) {
     double z[3], y[3], x[3];
     for (int k = 0; k < 3; k++)
         z[k] = eye->position[k] - eye->focus[k];
-    if (!vector_unit(z))
-        return matrix_one;
+    if (!vector_normalise(z))
+        return matrix_identity;
     double along = vector_dot(eye->up, z);
     for (int k = 0; k < 3; k++)
         y[k] = eye->up[k] - along * z[k];
-    if (vector_dot(y, y) <= 1e-24 * vector_dot(eye->up, eye->up) || !vector_unit(y))
-        return matrix_one;
+    if (vector_dot(y, y) <= 1e-24 * vector_dot(eye->up, eye->up) || !vector_normalise(y))
+        return matrix_identity;
     vector_cross(y, z, x);
     const double *p = eye->position;
     return (Matrix){{x[0], y[0], z[0], 0, x[1], y[1], z[1], 0, x[2], y[2], z[2], 0, -vector_dot(x, p),
@@ -220,9 +220,9 @@ Matrix matrix_view(const Eye *eye) {
 }
 
 Matrix matrix_projection(const Eye *eye) {
-    double n = eye->near, f = eye->far, a = eye->aspect, g = maths_tan(TURN / 2 * eye->look->fov);
+    double n = eye->near, f = eye->far, a = eye->aspect, g = maths_tan(TURN / 2 * eye->state->fov);
     double gx = g, gy = g / a;
-    int reference = eye->look->fov_ref;
+    int reference = eye->state->fov_ref;
     if (reference == FOV_WIDE)
         reference = a > 1 ? FOV_HORIZONTAL : FOV_VERTICAL;
     if (reference == FOV_NARROW)
@@ -231,7 +231,7 @@ Matrix matrix_projection(const Eye *eye) {
         double part = reference == FOV_DIAGONAL ? sqrt(1 + a * a) : 1;
         gx = a * g / part, gy = g / part;
     }
-    if (eye->look->orthographic)
+    if (eye->state->orthographic)
         return (Matrix){
             {2 / eye->width, 0, 0, 0, 0, 2 * a / eye->width, 0, 0, 0, 0, -2 / (f - n), 0, 0, 0, -(f + n) / (f - n), 1}};
     return (Matrix){{1 / gx, 0, 0, 0, 0, 1 / gy, 0, 0, 0, 0, -(f + n) / (f - n), -1, 0, 0, -2 * f * n / (f - n), 0}};

@@ -8,7 +8,7 @@ typedef struct Matrix {
     double m[16];
 } Matrix;
 
-extern const Matrix matrix_one;
+extern const Matrix matrix_identity;
 
 Matrix matrix_product(const Matrix *a, const Matrix *b); // applies b first
 bool matrix_is_finite(const Matrix *a);
@@ -26,7 +26,7 @@ typedef struct Eye {
     double position[3];
     double focus[3];
     double up[3];
-    const Look3D *look;
+    const GraphicsState3D *state;
     double near;
     double far;
     double width; // of the view, without perspective
@@ -37,6 +37,6 @@ Matrix matrix_projection(const Eye *eye);
 
 double vector_dot(const double a[3], const double b[3]);
 void vector_cross(const double a[3], const double b[3], double out[3]);
-bool vector_unit(double a[3]); // false, and as it was, if it has no direction
+bool vector_normalise(double a[3]); // false, and as it was, if it has no direction
 
 #endif

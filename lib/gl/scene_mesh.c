@@ -161,7 +161,7 @@ Mesh mesh_cone(Arena *arena, uint32_t segments) {
     return mesh;
 }
 
-void mesh_box_of(const Mesh *mesh, float low[3], float high[3]) {
+void mesh_bounds(const Mesh *mesh, float low[3], float high[3]) {
     for (int k = 0; k < 3; k++)
         low[k] = high[k] = mesh->vertices[0].position[k];
     for (uint32_t i = 1; i < mesh->vertex_count; i++)

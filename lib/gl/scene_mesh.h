@@ -22,14 +22,14 @@ struct Mesh {
     uint32_t index_count;
 };
 
-enum { MESH_MOST_SEGMENTS = 1024, MESH_MOST_CORNERS = 12 << 20 };
+enum { MESH_MAX_SEGMENTS = 1024, MESH_MAX_CORNERS = 12 << 20 };
 
 Mesh mesh_box(Arena *arena, bool repeat);                        // each face has all of the texture
 Mesh mesh_sphere(Arena *arena, uint32_t segments);               // rounded up to a multiple of 4
 Mesh mesh_disc(Arena *arena, uint32_t segments);                 // likewise; radius 1, towards z
 Mesh mesh_cylinder(Arena *arena, uint32_t segments);             // 2 or more
 Mesh mesh_cone(Arena *arena, uint32_t segments);                 // likewise
-void mesh_box_of(const Mesh *mesh, float low[3], float high[3]); // the mesh is not empty
+void mesh_bounds(const Mesh *mesh, float low[3], float high[3]); // the mesh is not empty
 
 // Changes of a surface.
 void mesh_flat(Arena *arena, Mesh *mesh);
@@ -39,16 +39,16 @@ void mesh_invert(Mesh *mesh);
 void mesh_remap(Arena *arena, Mesh *mesh, int how); // REMAP_…
 
 // Why a file has no triangles.
-typedef struct MeshFault {
+typedef struct MeshError {
     const char *text;
     uint32_t line; // of the file; 0: none in particular
-} MeshFault;
+} MeshError;
 
 // From the bytes of a file: OBJ, STL as text or in binary. False with a reason.
-bool mesh_from_file(Arena *arena, Str bytes, Mesh *mesh, MeshFault *fault);
+bool mesh_from_file(Arena *arena, Str bytes, Mesh *mesh, MeshError *fault);
 // The faces of the convex hull of points, three numbers each: numbers of points, three for a triangle. NULL if all lie
 // in a plane.
-enum { MESH_MOST_HULL = 2000 }; // points
+enum { MESH_MAX_HULL = 2000 }; // points
 const double *mesh_hull(Arena *arena, const double *vertices, uint32_t count, uint32_t *numbers);
 // From numbers: of vertices, three each, of faces, three each, of texture places, two each or none.
 bool mesh_from_lists(Arena *arena, const double *vertices, uint32_t vertex_numbers, const double *faces,

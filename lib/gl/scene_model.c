@@ -1,9 +1,8 @@
 // scene_model.c: which models are the same, and their triangles; see scene.h.
-#include "gl/scene.h"
-
 #include "base/file.h"
 #include "base/source.h"
 #include "gl/effect.h"
+#include "gl/scene.h"
 #include "gl/scene_mesh.h"
 
 static uint64_t hash_list(uint64_t seed, const DrawNode *node, AttrName name) {
@@ -15,7 +14,7 @@ static const char *path_of(const Scene *scene, Str name) {
     return str_to_c(scene->arena, path_join(scene->arena, scene->reach->directory, name));
 }
 
-uint64_t scene_source(const Scene *scene, const DrawNode *node) {
+uint64_t scene_model_hash(const Scene *scene, const DrawNode *node) {
     const AttrValue *name = draw_attr(node, ATTR_FILENAME);
     Str version = {0};
     if (!name || name->as.text.len == 0)
@@ -32,18 +31,18 @@ bool scene_same_model(const SceneModel *a, const SceneModel *b) {
 }
 
 static bool read_file(const Scene *scene, const DrawNode *node, Str name, Arena *arena, Mesh *mesh) {
-    enum { MOST_BYTES = 256 << 20 };
-    MeshFault fault = {0};
+    enum { MAX_BYTES = 256 << 20 };
+    MeshError fault = {0};
     Str bytes, text;
-    if (file_read(arena, scene->reach, path_of(scene, name), true, MOST_BYTES, &bytes, NULL, &fault.text) &&
+    if (file_read(arena, scene->reach, path_of(scene, name), true, MAX_BYTES, &bytes, NULL, &fault.text) &&
         mesh_from_file(arena, bytes, mesh, &fault))
         return true;
-    Arena *told = scene->faults->arena;
+    Arena *report_arena = scene->faults->arena;
     if (fault.line)
-        text = str_format(told, "%.*s:%u: %s", STR_ARGS(name), fault.line, fault.text);
+        text = str_format(report_arena, "%.*s:%u: %s", STR_ARGS(name), fault.line, fault.text);
     else
-        text = str_format(told, "cannot read '%.*s': %s", STR_ARGS(name), fault.text);
-    scene_report(scene, "cannot-read", node, str_to_c(told, text));
+        text = str_format(report_arena, "cannot read '%.*s': %s", STR_ARGS(name), fault.text);
+    scene_report(scene, "cannot-read", node, str_to_c(report_arena, text));
     return false;
 }
 
@@ -57,7 +56,7 @@ static bool read_triangles(const Scene *scene, const DrawNode *node, Arena *aren
     const double *corners = faces ? faces->as.list : NULL;
     uint32_t count = faces ? faces->count : 0;
     const char *problem = "vertices without faces are 2000 at the most, and do not lie in a plane";
-    if (!faces && vertices->count % 3 == 0 && vertices->count <= 3 * MESH_MOST_HULL)
+    if (!faces && vertices->count % 3 == 0 && vertices->count <= 3 * MESH_MAX_HULL)
         corners = mesh_hull(arena, vertices->as.list, vertices->count / 3, &count);
     if (corners && mesh_from_lists(arena, vertices->as.list, vertices->count, corners, count, uv ? uv->as.list : NULL,
                                    uv ? uv->count : 0, mesh, &problem))

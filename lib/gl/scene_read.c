@@ -1,8 +1,7 @@
 // scene_read.c: the nodes of a scene; see scene.h.
-#include "gl/scene.h"
-
 #include "base/source.h"
 #include "gl/effect.h"
+#include "gl/scene.h"
 #include "gl/scene_mesh.h"
 #include "maths/maths.h"
 
@@ -10,27 +9,28 @@
 #include <string.h>
 
 // What holds at a place of the scene.
-typedef struct Place {
+typedef struct InheritedState {
     Matrix matrix;
-    Look3D look;
+    GraphicsState3D look;
     SceneTextures textures;
     const SceneMaterial *material;
     SceneGroup *group;
-} Place;
+} InheritedState;
 
 void scene_report(const Scene *scene, const char *code, const DrawNode *node, const char *problem) {
     Str text = str_format(scene->faults->arena, "!%s: %s", schema_kinds[node->kind].name, problem);
-    diag_report(
-        scene->faults,
-        &(Diag){
-            .level = DIAG_WARNING, .source = node->place.source, .span = node->place.span, .text = text, .code = code});
+    diag_report(scene->faults, &(Diag){.level = DIAG_WARNING,
+                                       .source = node->origin.source,
+                                       .span = node->origin.span,
+                                       .text = text,
+                                       .code = code});
 }
 
 static double clamp(double x, double low, double high) {
     return x > low ? x < high ? x : high : low;
 }
 
-static double *triple(const DrawNode *node, AttrName name, double out[3]) {
+static double *read_triple(const DrawNode *node, AttrName name, double out[3]) {
     const AttrValue *attr = draw_attr(node, name);
     if (!attr)
         return NULL;
@@ -38,7 +38,7 @@ static double *triple(const DrawNode *node, AttrName name, double out[3]) {
     return out;
 }
 
-static void take_sampling(SceneTextures *textures, const DrawNode *node) {
+static void read_sampling(SceneTextures *textures, const DrawNode *node) {
     const AttrValue *border = draw_attr(node, ATTR_BORDER), *repeat = draw_attr(node, ATTR_REPEAT);
     if (border && (border->count == 1 || border->count == 3 || border->count == 4)) {
         textures->border = true;
@@ -59,8 +59,8 @@ static bool same_textures(const SceneTextures *a, const SceneTextures *b) {
            memcmp(a->border_color, b->border_color, sizeof a->border_color) == 0;
 }
 
-static uint32_t number_textures(Scene *scene, const Place *place) {
-    enum { MOST = 1000 };
+static uint32_t number_textures(Scene *scene, const InheritedState *place) {
+    enum { MAX_COUNT = 1000 };
     SceneTextures wanted = place->textures;
     bool any = false;
     for (int i = 0; i < SCENE_TEXTURES; i++) {
@@ -70,36 +70,36 @@ static uint32_t number_textures(Scene *scene, const Place *place) {
     for (uint32_t i = scene->texture_count; i-- > 1 && any;)
         if (same_textures(&scene->textures[i], &wanted))
             return i;
-    if (any && scene->texture_count > MOST)
+    if (any && scene->texture_count > MAX_COUNT)
         scene_report(scene, "too-many-textures", scene->node,
                      "a scene can have 1000 different sets of textures; the others are left out");
-    if (!any || scene->texture_count > MOST)
+    if (!any || scene->texture_count > MAX_COUNT)
         return 0;
-    scene->textures =
-        arena_room(scene->arena, scene->textures, scene->texture_count, &scene->texture_room, sizeof *scene->textures);
+    scene->textures = arena_grow_array(scene->arena, scene->textures, scene->texture_count, &scene->texture_capacity,
+                                       sizeof *scene->textures);
     scene->textures[scene->texture_count] = wanted;
     return scene->texture_count++;
 }
 
-static void make_material(Scene *scene, Place *place) {
+static void make_material(Scene *scene, InheritedState *place) {
     SceneMaterial *material = arena_alloc(scene->arena, sizeof *material);
-    const Look3D *look = &place->look;
-    *material = (SceneMaterial){.surface = {.transparency = (float)clamp(look->transparency, 0, 1),
-                                            .translucency = (float)clamp(look->translucency, 0, 1e30),
-                                            .ior = (float)clamp(look->ior, 1, 1e30),
-                                            .metal = (float)clamp(look->metal, 0, 1),
-                                            .roughness = (float)look->roughness,
-                                            .ao = (float)clamp(look->ao, 0, 1)},
+    const GraphicsState3D *state = &place->look;
+    *material = (SceneMaterial){.surface = {.transparency = (float)clamp(state->transparency, 0, 1),
+                                            .translucency = (float)clamp(state->translucency, 0, 1e30),
+                                            .ior = (float)clamp(state->ior, 1, 1e30),
+                                            .metal = (float)clamp(state->metal, 0, 1),
+                                            .roughness = (float)state->roughness,
+                                            .ao = (float)clamp(state->ao, 0, 1)},
                                 .textures = number_textures(scene, place)};
     for (int k = 0; k < 3; k++) {
-        material->surface.albedo[k] = (float)clamp(look->color[k], -1e30, 1e30);
-        material->surface.emissive[k] = (float)clamp(look->emissive[k], -1e30, 1e30);
+        material->surface.albedo[k] = (float)clamp(state->color[k], -1e30, 1e30);
+        material->surface.emissive[k] = (float)clamp(state->emissive[k], -1e30, 1e30);
     }
     place->material = material;
 }
 
 // Takes the attributes of all that is inherited.
-static void take_look(Scene *scene, Place *place, const DrawNode *node) {
+static void read_state(Scene *scene, InheritedState *place, const DrawNode *node) {
     double roughness = place->look.roughness, given = 1;
     bool any = false;
     for (uint32_t i = 0; i < node->attr_count; i++) {
@@ -112,15 +112,15 @@ static void take_look(Scene *scene, Place *place, const DrawNode *node) {
     if (!any)
         return;
     place->look.roughness = fmin(roughness, fmax(1e-6, given));
-    take_sampling(&place->textures, node);
+    read_sampling(&place->textures, node);
     make_material(scene, place);
 }
 
-static SceneGroup *add_group(Scene *scene, const SceneGroup *parent, const Look3D *look) {
+static SceneGroup *add_group(Scene *scene, const SceneGroup *parent, const GraphicsState3D *state) {
     SceneGroup *group = arena_alloc(scene->arena, sizeof *group);
-    *group = (SceneGroup){.parent = parent, .look = *look};
-    scene->groups =
-        arena_room(scene->arena, scene->groups, scene->group_count, &scene->group_room, sizeof *scene->groups);
+    *group = (SceneGroup){.parent = parent, .state = *state};
+    scene->groups = arena_grow_array(scene->arena, scene->groups, scene->group_count, &scene->group_capacity,
+                                     sizeof *scene->groups);
     scene->groups[scene->group_count++] = group;
     return group;
 }
@@ -135,7 +135,7 @@ static bool read_spot(const Matrix *matrix, const DrawNode *node, const double *
     double focus[3], towards[3];
     if (direction)
         memcpy(towards, direction, sizeof towards);
-    else if (triple(node, ATTR_FOCUS, focus))
+    else if (read_triple(node, ATTR_FOCUS, focus))
         for (int k = 0; k < 3; k++)
             towards[k] = focus[k] - position[k];
     else
@@ -154,10 +154,10 @@ static bool read_spot(const Matrix *matrix, const DrawNode *node, const double *
 
 static void read_kind(const Matrix *matrix, const DrawNode *node, SceneLight *light) {
     double start[3], end[3], position[3], direction[3];
-    const double *towards = triple(node, ATTR_DIRECTION, direction);
+    const double *towards = read_triple(node, ATTR_DIRECTION, direction);
     if (towards && vector_dot(towards, towards) == 0)
         towards = NULL;
-    if (triple(node, ATTR_START, start) && triple(node, ATTR_END, end)) {
+    if (read_triple(node, ATTR_START, start) && read_triple(node, ATTR_END, end)) {
         matrix_point(matrix, start, start);
         matrix_point(matrix, end, end);
         set_floats(light->position, start, 3);
@@ -166,10 +166,10 @@ static void read_kind(const Matrix *matrix, const DrawNode *node, SceneLight *li
         light->kind = LIGHT_LINE;
         light->length = (float)fmin(sqrt(vector_dot(end, end)), 1e18);
         light->radius = (float)clamp(draw_number(node, ATTR_RADIUS), 0, 1e18);
-        if (!vector_unit(end))
+        if (!vector_normalise(end))
             memcpy(end, (double[3]){1, 0, 0}, sizeof end);
         set_floats(light->direction, end, 3);
-    } else if (triple(node, ATTR_POSITION, position)) {
+    } else if (read_triple(node, ATTR_POSITION, position)) {
         double world[3];
         matrix_point(matrix, position, world);
         set_floats(light->position, world, 3);
@@ -184,11 +184,11 @@ static void read_kind(const Matrix *matrix, const DrawNode *node, SceneLight *li
     }
 }
 
-static void read_light(Scene *scene, const Place *place, const DrawNode *node) {
+static void read_light(Scene *scene, const InheritedState *place, const DrawNode *node) {
     double color[3];
-    if (!triple(node, ATTR_COLOR, color) || vector_dot(color, color) == 0)
+    if (!read_triple(node, ATTR_COLOR, color) || vector_dot(color, color) == 0)
         return;
-    if (scene->light_count >= SCENE_MOST_LIGHTS) {
+    if (scene->light_count >= SCENE_MAX_LIGHTS) {
         scene_report(scene, "too-many-lights", node, "a scene can have 4000 lights; the others are left out");
         return;
     }
@@ -199,35 +199,35 @@ static void read_light(Scene *scene, const Place *place, const DrawNode *node) {
         set_floats(light.falloff, falloff->as.numbers, 4);
     read_kind(&place->matrix, node, &light);
     SceneGroup *group = place->group;
-    group->lights =
-        arena_room(scene->arena, group->lights, group->light_count, &group->light_room, sizeof *group->lights);
+    group->lights = arena_grow_array(scene->arena, group->lights, group->light_count, &group->light_capacity,
+                                     sizeof *group->lights);
     group->lights[group->light_count++] = light;
     scene->light_count++;
 }
 
-static void take_points(SceneCamera *camera, const Matrix *matrix, const DrawNode *node) {
+static void read_points(SceneCamera *camera, const Matrix *matrix, const DrawNode *node) {
     double point[3];
-    if (triple(node, ATTR_POSITION, point))
+    if (read_triple(node, ATTR_POSITION, point))
         matrix_point(matrix, point, camera->position);
-    if (triple(node, ATTR_FOCUS, point))
+    if (read_triple(node, ATTR_FOCUS, point))
         matrix_point(matrix, point, camera->focus);
-    if (triple(node, ATTR_UP, point))
+    if (read_triple(node, ATTR_UP, point))
         matrix_direction(matrix, point, camera->up);
 }
 
 static SceneCamera *add_camera(Scene *scene) {
-    scene->cameras =
-        arena_room(scene->arena, scene->cameras, scene->camera_count, &scene->camera_room, sizeof *scene->cameras);
+    scene->cameras = arena_grow_array(scene->arena, scene->cameras, scene->camera_count, &scene->camera_capacity,
+                                      sizeof *scene->cameras);
     return &scene->cameras[scene->camera_count++];
 }
 
-static void read_camera(Scene *scene, const Place *place, const DrawNode *node) {
-    enum { MOST = 100 };
+static void read_camera(Scene *scene, const InheritedState *place, const DrawNode *node) {
+    enum { MAX_COUNT = 100 };
     const AttrValue *id = draw_attr(node, ATTR_ID);
     double size[2];
     if (!id || id->as.text.len == 0)
         return;
-    if (scene->camera_count >= MOST) {
+    if (scene->camera_count >= MAX_COUNT) {
         scene_report(scene, "too-many-cameras", node, "a scene can have 100 cameras; the others are left out");
         return;
     }
@@ -237,8 +237,8 @@ static void read_camera(Scene *scene, const Place *place, const DrawNode *node) 
     camera->id = id->as.text;
     camera->secondary = draw_flag(node, ATTR_SECONDARY);
     for (uint32_t i = 0; i < node->attr_count; i++)
-        schema_store(&node->attrs[i], &camera->look);
-    take_points(camera, &place->matrix, node);
+        schema_store(&node->attrs[i], &camera->state);
+    read_points(camera, &place->matrix, node);
     if (draw_pair(node, ATTR_SIZE, size)) {
         camera->width = (int)clamp(size[0], 0, 1e6);
         camera->height = (int)clamp(size[1], 0, 1e6);
@@ -257,47 +257,48 @@ static uint32_t number_model(Scene *scene, const DrawNode *node) {
     if (kind == KIND_BOX) {
         model.uv_map = (uint8_t)draw_word(node, ATTR_UV_MAP);
     } else if (kind == KIND_MODEL) {
-        model.source = scene_source(scene, node);
+        model.source = scene_model_hash(scene, node);
     } else {
         double segments = draw_number(node, ATTR_SEGMENTS);
-        if (segments > MESH_MOST_SEGMENTS)
+        if (segments > MESH_MAX_SEGMENTS)
             scene_report(scene, "too-many-segments", node, "more than 1024 segments count as 1024");
-        model.segments = (uint32_t)clamp(segments, kind == KIND_SPHERE ? 4 : 2, MESH_MOST_SEGMENTS);
+        model.segments = (uint32_t)clamp(segments, kind == KIND_SPHERE ? 4 : 2, MESH_MAX_SEGMENTS);
     }
     for (uint32_t i = scene->model_count; i-- > 0;)
         if (scene_same_model(&scene->models[i], &model))
             return i;
-    if (scene->model_count >= SCENE_MOST_MODELS) {
+    if (scene->model_count >= SCENE_MAX_MODELS) {
         scene_report(scene, "too-many-models", node, "a scene can have 2000 different models; the others are left out");
         return UINT32_MAX;
     }
-    scene->models = arena_room(scene->arena, scene->models, scene->model_count, &scene->model_room, sizeof model);
+    scene->models =
+        arena_grow_array(scene->arena, scene->models, scene->model_count, &scene->model_capacity, sizeof model);
     scene->models[scene->model_count] = model;
     return scene->model_count++;
 }
 
-static void read_model(Scene *scene, const Place *outside, const DrawNode *node) {
-    Place place = *outside;
-    if (scene->instance_count >= SCENE_MOST_INSTANCES) {
+static void read_model(Scene *scene, const InheritedState *outside, const DrawNode *node) {
+    InheritedState place = *outside;
+    if (scene->instance_count >= SCENE_MAX_INSTANCES) {
         scene_report(scene, "too-many-models", node, "a scene can have 200000 models; the others are left out");
         return;
     }
-    take_look(scene, &place, node);
+    read_state(scene, &place, node);
     SceneInstance instance = {matrix_placed(place.matrix, node), place.material, number_model(scene, node)};
     if (instance.model == UINT32_MAX || !matrix_is_finite(&instance.matrix))
         return;
     SceneGroup *group = place.group;
-    group->instances = arena_room(scene->arena, group->instances, group->instance_count, &group->instance_room,
-                                  sizeof *group->instances);
+    group->instances = arena_grow_array(scene->arena, group->instances, group->instance_count,
+                                        &group->instance_capacity, sizeof *group->instances);
     group->instances[group->instance_count++] = instance;
     scene->instance_count++;
 }
 
 // The depth is limited by that of nodes.
-static void read_inside(Scene *scene, const Place *outside, const DrawNode *node) {
+static void read_children(Scene *scene, const InheritedState *outside, const DrawNode *node) {
     for (uint32_t i = 0; i < node->child_count; i++) {
         const DrawNode *child = node->children[i];
-        Place place;
+        InheritedState place;
         switch ((NodeKind)child->kind) {
         case KIND_LIGHT:
             read_light(scene, outside, child);
@@ -310,10 +311,10 @@ static void read_inside(Scene *scene, const Place *outside, const DrawNode *node
         case KIND_GROUP3D:
             place = *outside;
             place.matrix = matrix_transformed(place.matrix, child);
-            take_look(scene, &place, child);
+            read_state(scene, &place, child);
             if (child->kind == KIND_GROUP3D)
                 place.group = add_group(scene, outside->group, &place.look);
-            read_inside(scene, &place, child);
+            read_children(scene, &place, child);
             break;
         default:
             read_model(scene, outside, child);
@@ -321,27 +322,28 @@ static void read_inside(Scene *scene, const Place *outside, const DrawNode *node
     }
 }
 
-Scene *scene_read(Arena *arena, const DrawNode *node, int width, int height, int bits, const Reach *reach,
+Scene *scene_read(Arena *arena, const DrawNode *node, int width, int height, int bits, const FileAccess *reach,
                   DiagSink *faults) {
     Scene *scene = arena_alloc(arena, sizeof *scene);
-    *scene = (Scene){.arena = arena, .node = node, .reach = reach, .faults = faults, .width = width, .bits = bits};
-    scene->textures = arena_room(arena, NULL, 0, &scene->texture_room, sizeof *scene->textures);
+    *scene = (Scene){
+        .arena = arena, .node = node, .reach = reach, .faults = faults, .width = width, .detail = 1, .bits = bits};
+    scene->textures = arena_grow_array(arena, NULL, 0, &scene->texture_capacity, sizeof *scene->textures);
     scene->textures[scene->texture_count++] = (SceneTextures){.border = false};
-    Place place = {.matrix = matrix_one};
+    InheritedState place = {.matrix = matrix_identity};
     schema_defaults(KIND_CANVAS3D, &place.look);
     make_material(scene, &place);
-    take_look(scene, &place, node);
+    read_state(scene, &place, node);
     SceneCamera *camera = add_camera(scene);
     *camera = (SceneCamera){.node = node,
-                            .look = place.look,
+                            .state = place.look,
                             .position = {0, 0, width / 2.0},
                             .up = {0, 1, 0},
                             .width = width,
                             .height = height};
-    take_points(camera, &matrix_one, node);
+    read_points(camera, &matrix_identity, node);
     place.matrix = matrix_transformed(place.matrix, node);
     place.group = add_group(scene, NULL, &place.look);
-    read_inside(scene, &place, node);
+    read_children(scene, &place, node);
     const AttrValue *id = draw_attr(node, ATTR_CAMERA_ID);
     for (uint32_t i = 1; id && i < scene->camera_count; i++)
         if (str_equal(scene->cameras[i].id, id->as.text))
@@ -350,19 +352,19 @@ Scene *scene_read(Arena *arena, const DrawNode *node, int width, int height, int
 }
 
 Eye scene_eye(const Scene *scene, const SceneCamera *camera) {
-    const Look3D *look = &camera->look;
-    Eye eye = {.look = look, .aspect = (double)camera->width / camera->height};
+    const GraphicsState3D *state = &camera->state;
+    Eye eye = {.state = state, .aspect = (double)camera->width / camera->height};
     memcpy(eye.position, camera->position, sizeof eye.position);
     memcpy(eye.focus, camera->focus, sizeof eye.focus);
     memcpy(eye.up, camera->up, sizeof eye.up);
-    eye.near = fmax(look->near, 1e-9);
-    eye.far = fmax(isnan(look->far) ? scene->width : look->far, eye.near + 1e-9);
-    eye.width = isnan(look->width) ? scene->width : look->width;
+    eye.near = fmax(state->near, 1e-9);
+    eye.far = fmax(isnan(state->far) ? scene->width : state->far, eye.near + 1e-9);
+    eye.width = isnan(state->width) ? scene->width : state->width;
     return eye;
 }
 
-uint32_t scene_lights(const SceneGroup *group, SceneLight *lights, uint32_t most) {
-    uint32_t count = 0, wanted = (uint32_t)clamp(group->look.max_lights, 1, most);
+uint32_t scene_lights(const SceneGroup *group, SceneLight *lights, uint32_t max) {
+    uint32_t count = 0, wanted = (uint32_t)clamp(group->state.max_lights, 1, max);
     for (; group; group = group->parent)
         for (uint32_t i = 0; i < group->light_count && count < wanted; i++)
             lights[count++] = group->lights[i];

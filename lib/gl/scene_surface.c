@@ -1,7 +1,6 @@
 // scene_surface.c: changes of a model's surface (spec canvas3d.md 7); see scene_mesh.h.
-#include "gl/scene_mesh.h"
-
 #include "gl/scene_matrix.h"
+#include "gl/scene_mesh.h"
 #include "maths/maths.h"
 
 #include <math.h>
@@ -26,7 +25,7 @@ static void triangle_normal(const Mesh *mesh, uint32_t triangle, double normal[3
         c[k] -= a[k];
     }
     vector_cross(b, c, normal);
-    if (!vector_unit(normal))
+    if (!vector_normalise(normal))
         memset(normal, 0, 3 * sizeof *normal);
 }
 
@@ -106,7 +105,7 @@ static uint32_t root_of(uint32_t *parents, uint32_t i) {
     return i;
 }
 
-static void unite(uint32_t *parents, uint32_t a, uint32_t b) {
+static void unite_corners(uint32_t *parents, uint32_t a, uint32_t b) {
     a = root_of(parents, a);
     b = root_of(parents, b);
     parents[a > b ? a : b] = a > b ? b : a;
@@ -116,8 +115,8 @@ static void unite(uint32_t *parents, uint32_t a, uint32_t b) {
 static void unite_across(uint32_t *parents, const uint32_t *points, uint32_t a, uint32_t b) {
     uint32_t a_end = next_corner(a), b_end = next_corner(b);
     bool same = points[a] == points[b]; // they run along it in the same direction
-    unite(parents, a, same ? b : b_end);
-    unite(parents, a_end, same ? b_end : b);
+    unite_corners(parents, a, same ? b : b_end);
+    unite_corners(parents, a_end, same ? b_end : b);
 }
 
 // Corners that share a normal get a common root.
@@ -126,7 +125,7 @@ static uint32_t *find_roots(Arena *arena, const Mesh *mesh, const uint32_t *poin
     uint32_t count = mesh->index_count;
     uint32_t *parents = arena_alloc_array(arena, count, sizeof *parents);
     Edge *edges = arena_alloc_array(arena, count, sizeof *edges);
-    double least = maths_cos(TURN * turns);
+    double min_cosine = maths_cos(TURN * turns);
     for (uint32_t i = 0; i < count; i++) {
         uint32_t a = points[i], b = points[next_corner(i)];
         parents[i] = i;
@@ -135,7 +134,7 @@ static uint32_t *find_roots(Arena *arena, const Mesh *mesh, const uint32_t *poin
     qsort(edges, count, sizeof *edges, compare_edges);
     for (uint32_t i = 0; i < count; i++) // of several triangles at an edge, each with the one before
         if (i > 0 && edges[i].low == edges[i - 1].low && edges[i].high == edges[i - 1].high &&
-            vector_dot(normals[edges[i].corner / 3], normals[edges[i - 1].corner / 3]) >= least - 1e-9)
+            vector_dot(normals[edges[i].corner / 3], normals[edges[i - 1].corner / 3]) >= min_cosine - 1e-9)
             unite_across(parents, points, edges[i - 1].corner, edges[i].corner);
     return parents;
 }
@@ -150,7 +149,7 @@ static double angle_at(const Mesh *mesh, uint32_t corner) {
         a[k] -= p[k];
         b[k] -= p[k];
     }
-    if (!vector_unit(a) || !vector_unit(b))
+    if (!vector_normalise(a) || !vector_normalise(b))
         return 0;
     double cosine = vector_dot(a, b);
     return maths_acos(cosine < -1 ? -1 : cosine > 1 ? 1 : cosine);
@@ -178,7 +177,7 @@ void mesh_snap(Arena *arena, Mesh *mesh, double turns) {
     for (uint32_t i = 0; i < count; i++) {
         uint32_t root = turns < 0.5 ? root_of(roots, i) : roots[i];
         double normal[3] = {sums[root][0], sums[root][1], sums[root][2]};
-        if (!vector_unit(normal))
+        if (!vector_normalise(normal))
             memcpy(normal, normals[i / 3], sizeof normal);
         vertices[made] = mesh->vertices[mesh->indices[i]];
         set_normal(&vertices[made], normal);
@@ -227,7 +226,7 @@ static void mend_seam(Arena *arena, Mesh *mesh) {
 
 void mesh_remap(Arena *arena, Mesh *mesh, int how) {
     float low[3], high[3];
-    mesh_box_of(mesh, low, high);
+    mesh_bounds(mesh, low, high);
     for (uint32_t i = 0; i < mesh->vertex_count; i++) {
         MeshVertex *vertex = &mesh->vertices[i];
         if (how == REMAP_SPHERE) {

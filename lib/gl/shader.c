@@ -1,15 +1,15 @@
 // shader.c: see shader.h.
 #include "gl/shader.h"
 
-#include "gl/fault.h"
+#include "gl/input_composite.h"
 #include "gl/internal.h"
-#include "gl/merge.h"
+#include "gl/shader_errors.h"
 
-enum { MOST_PASSES = 64 };
+enum { MAX_PASSES = 64 };
 
 // A text with the host's lines in place of ${HEADER}; what the compiler says counts lines as the text does. False if
 // there are other templates.
-static bool expand(Text *out, Str text) {
+static bool expand_template(Text *out, Str text) {
     static const Str header = {"${HEADER}", 9}, version = {"#version 330", 12};
     size_t line_number = 1, i = 0;
     for (; i < text.len && strchr(" \t\n\r", text.bytes[i]); i++)
@@ -47,27 +47,26 @@ GlImage gl_shader(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults
     const DrawNode *node = effect->node;
     const AttrValue *vertex = draw_attr(node, ATTR_VERTEX), *fragment = draw_attr(node, ATTR_FRAGMENT);
     Text texts[2] = {text_new(arena), text_new(arena)};
-    GlFault fault;
-    bool good = expand(&texts[0], vertex ? vertex->as.text : str_from(gl_quad));
-    if (fragment) {
-        good = good && expand(&texts[1], fragment->as.text);
-    } else if (!gl_add_merge(&texts[1], effect, gl_edge(node, GL_EDGE_BORDER))) {
+    GlShaderError fault;
+    bool good = expand_template(&texts[0], vertex ? vertex->as.text : str_from(gl_quad));
+    if (fragment)
+        good = good && expand_template(&texts[1], fragment->as.text);
+    else if (!gl_add_input_composite(&texts[1], effect, gl_edge(node, GL_EDGE_BORDER)))
         return (GlImage){0};
-    } else {
+    else
         text_add_c(&texts[1], "void main() { color = merged(coord) * alpha; }\n");
-    }
     if (!good) {
         gl_report(faults, node, "bad-shader", STR("of templates only ${HEADER} can be used"));
         return (GlImage){0};
     }
     unsigned program = gl_program(gl, arena, text_str(&texts[0]), text_str(&texts[1]), &fault);
     if (!program) {
-        gl_report_shader(faults, node, &fault);
+        gl_report_shader_error(faults, node, &fault);
         return (GlImage){0};
     }
     double wanted = draw_number(node, ATTR_PASSES);
-    uint32_t count = wanted >= 2 ? wanted < MOST_PASSES ? (uint32_t)wanted : MOST_PASSES : 1;
-    GlPass passes[MOST_PASSES];
+    uint32_t count = wanted >= 2 ? wanted < MAX_PASSES ? (uint32_t)wanted : MAX_PASSES : 1;
+    GlPass passes[MAX_PASSES];
     for (uint32_t i = 0; i < count; i++)
         passes[i] = (GlPass){program, is_reduced(node, i)};
     GlImage out;

@@ -15,18 +15,18 @@ typedef struct Numbers {
     double own[9];
 } Numbers;
 
-static void give(Numbers *out, const double *list, uint32_t count) {
+static void set_list(Numbers *out, const double *list, uint32_t count) {
     out->list = list;
     out->count = count;
 }
 
-static void give_one(Numbers *out, double x) {
+static void set_scalar(Numbers *out, double x) {
     out->own[0] = x;
-    give(out, out->own, 1);
+    set_list(out, out->own, 1);
 }
 
 // a = a · b, matrices of 3 x 3 by columns.
-static void multiply(double a[9], const double b[9]) {
+static void multiply_3x3(double a[9], const double b[9]) {
     double out[9] = {0};
     for (int column = 0; column < 3; column++)
         for (int row = 0; row < 3; row++)
@@ -35,7 +35,7 @@ static void multiply(double a[9], const double b[9]) {
     memcpy(a, out, sizeof out);
 }
 
-static bool invert(double m[9]) {
+static bool invert_3x3(double m[9]) {
     double out[9], determinant;
     for (int column = 0; column < 3; column++)
         for (int row = 0; row < 3; row++) {
@@ -65,15 +65,15 @@ static void find_matrix(const GlEffect *effect, double m[9]) {
             double cosine = maths_cos(TURN * x[0]), sine = maths_sin(TURN * x[0]);
             a[0] = cosine, a[1] = sine, a[3] = -sine, a[4] = cosine;
         } else if (attr->name == ATTR_TRANSLATE) {
-            a[6] = x[0], a[7] = x[1];
+            a[6] = x[0] * effect->detail, a[7] = x[1] * effect->detail;
         } else if (attr->name == ATTR_KEYSTONE) {
             a[2] = x[0] / effect->width, a[5] = x[1] / effect->height;
         } else {
             continue;
         }
-        multiply(m, a);
+        multiply_3x3(m, a);
     }
-    if (!invert(m))
+    if (!invert_3x3(m))
         memset(m, 0, 9 * sizeof *m);
 }
 
@@ -82,8 +82,8 @@ static bool find_attribute(const DrawNode *node, const char *name, Numbers *out)
     if (strcmp(name, "other") == 0)
         name = "default"; // a word of the language of shaders
     for (uint32_t i = 0; i < node->attr_count; i++)
-        if (node->attrs[i].name == ATTR_NONE && strcmp(node->attrs[i].own, name) == 0) {
-            give(out, node->attrs[i].as.list, node->attrs[i].count);
+        if (node->attrs[i].name == ATTR_NONE && strcmp(node->attrs[i].custom_name, name) == 0) {
+            set_list(out, node->attrs[i].as.list, node->attrs[i].count);
             return true;
         }
     for (int i = 1; i < ATTR_COUNT; i++) {
@@ -94,42 +94,42 @@ static bool find_attribute(const DrawNode *node, const char *name, Numbers *out)
         if (!row)
             continue;
         if (!attr && shape == SHAPE_LIST) // color_matrix
-            give(out, unit_matrix, 9);
+            set_list(out, unit_matrix, 9);
         else if (shape == SHAPE_WORD || shape == SHAPE_FLAG)
-            give_one(out, !attr ? row->fallback.value : shape == SHAPE_WORD ? attr->as.word : attr->as.flag);
+            set_scalar(out, !attr ? row->default_value.value : shape == SHAPE_WORD ? attr->as.word : attr->as.flag);
         else if (!attr)
-            give_one(out, row->fallback.value);
+            set_scalar(out, row->default_value.value);
         else if (shape == SHAPE_LIST)
-            give(out, attr->as.list, attr->count);
+            set_list(out, attr->as.list, attr->count);
         else
-            give(out, attr->as.numbers,
-                 shape == SHAPE_QUAD     ? 4
-                 : shape == SHAPE_TRIPLE ? 3
-                 : shape == SHAPE_PAIR   ? 2
-                                         : 1);
+            set_list(out, attr->as.numbers,
+                     shape == SHAPE_QUAD     ? 4
+                     : shape == SHAPE_TRIPLE ? 3
+                     : shape == SHAPE_PAIR   ? 2
+                                             : 1);
         return true;
     }
     return false;
 }
 
-static bool find_own(const GlState *state, const char *name, Numbers *out) {
+static bool find_builtin(const GlState *state, const char *name, Numbers *out) {
     const GlEffect *effect = state->effect;
     out->own[0] = state->target.width;
     out->own[1] = state->target.height;
     if (strcmp(name, "size") == 0)
-        give(out, out->own, 2);
+        set_list(out, out->own, 2);
     else if (strcmp(name, "pass") == 0)
-        give_one(out, state->pass);
+        set_scalar(out, state->pass);
     else if (strcmp(name, "passes") == 0)
-        give_one(out, state->passes);
+        set_scalar(out, state->passes);
     else if (strcmp(name, "downsample") == 0)
-        give_one(out, state->downsample);
+        set_scalar(out, state->downsample);
     else if (strcmp(name, "beats") == 0)
-        give_one(out, effect->frame->beats);
+        set_scalar(out, effect->frame->beats);
     else if (strcmp(name, "past") == 0)
-        give_one(out, state->last.texture != 0);
+        set_scalar(out, state->last.texture != 0);
     else if (strcmp(name, "inverse_matrix") == 0)
-        find_matrix(effect, out->own), give(out, out->own, 9);
+        find_matrix(effect, out->own), set_list(out, out->own, 9);
     else if (strcmp(name, "repeated") == 0)
         return find_attribute(effect->node, "repeat", out);
     else
@@ -137,18 +137,33 @@ static bool find_own(const GlState *state, const char *name, Numbers *out) {
     return true;
 }
 
+// Radii of blurs, and how far a picture is moved, are in units; programs count pixels.
+static void scale_lengths(const GlEffect *effect, const char *name, Numbers *out) {
+    NodeKind kind = (NodeKind)effect->node->kind;
+    bool blurs = kind == KIND_BLUR || kind == KIND_BLOOM || kind == KIND_EDGES || kind == KIND_CHROMAKEY;
+    if (effect->detail == 1 || !blurs || strcmp(name, "radius") != 0 || out->count > 2)
+        return;
+    for (uint32_t i = 0; i < out->count; i++)
+        out->own[i] = out->list[i] * effect->detail;
+    out->list = out->own;
+}
+
 static void find_numbers(const GlState *state, const char *name, Numbers *out) {
     const GlEffect *effect = state->effect;
-    if (!find_own(state, name, out) && !find_attribute(effect->node, name, out)) {
-        give_one(out, 0);
+    if (find_builtin(state, name, out))
+        return;
+    if (find_attribute(effect->node, name, out)) {
+        scale_lengths(effect, name, out);
+    } else {
+        set_scalar(out, 0);
         for (uint32_t i = effect->frame->name_count; i-- > 0;) // of several the first counts
             if (strcmp(effect->frame->names[i], name) == 0)
-                give_one(out, effect->frame->numbers[i]);
+                set_scalar(out, effect->frame->numbers[i]);
     }
 }
 
 // How many numbers a type takes; 0: it is none of those that are set. `whole`: they are rounded down.
-static uint32_t size_of(GLenum type, bool *whole) {
+static uint32_t size_of(GLenum type, bool *is_integer) {
     static const struct {
         GLenum type;
         uint8_t size;
@@ -161,13 +176,14 @@ static uint32_t size_of(GLenum type, bool *whole) {
     };
     for (size_t i = 0; i < sizeof types / sizeof types[0]; i++)
         if (types[i].type == type) {
-            *whole = types[i].whole;
+            *is_integer = types[i].whole;
             return types[i].size;
         }
     return 0;
 }
 
-static void send(GLint at, GLenum type, uint32_t size, GLsizei count, bool whole, const float *x, const GLint *n) {
+static void send_uniform(GLint at, GLenum type, uint32_t size, GLsizei count, bool is_integer, const float *x,
+                         const GLint *n) {
     if (type == GL_FLOAT_MAT2)
         glUniformMatrix2fv(at, count, GL_FALSE, x);
     else if (type == GL_FLOAT_MAT3)
@@ -175,31 +191,31 @@ static void send(GLint at, GLenum type, uint32_t size, GLsizei count, bool whole
     else if (type == GL_FLOAT_MAT4)
         glUniformMatrix4fv(at, count, GL_FALSE, x);
     else if (size == 1)
-        whole ? glUniform1iv(at, count, n) : glUniform1fv(at, count, x);
+        is_integer ? glUniform1iv(at, count, n) : glUniform1fv(at, count, x);
     else if (size == 2)
-        whole ? glUniform2iv(at, count, n) : glUniform2fv(at, count, x);
+        is_integer ? glUniform2iv(at, count, n) : glUniform2fv(at, count, x);
     else if (size == 3)
-        whole ? glUniform3iv(at, count, n) : glUniform3fv(at, count, x);
+        is_integer ? glUniform3iv(at, count, n) : glUniform3fv(at, count, x);
     else
-        whole ? glUniform4iv(at, count, n) : glUniform4fv(at, count, x);
+        is_integer ? glUniform4iv(at, count, n) : glUniform4fv(at, count, x);
 }
 
 // Numbers that fit are taken as they are, one stands for all, a vector for each of an array; others count as 0.
 static void set_numbers(GLint at, GLenum type, GLsizei count, const Numbers *numbers) {
-    enum { MOST = 256 };
-    bool whole;
-    uint32_t size = size_of(type, &whole), all = size * (uint32_t)count;
-    float x[MOST];
-    GLint n[MOST];
+    enum { MAX_NUMBERS = 256 };
+    bool is_integer;
+    uint32_t size = size_of(type, &is_integer), all = size * (uint32_t)count;
+    float x[MAX_NUMBERS];
+    GLint n[MAX_NUMBERS];
     bool fits = numbers->count == all || numbers->count == 1 || numbers->count == size;
-    if (size == 0 || all > MOST)
+    if (size == 0 || all > MAX_NUMBERS)
         return;
     for (uint32_t i = 0; i < all; i++) {
         double number = fits ? numbers->list[i % numbers->count] : 0;
         x[i] = (float)number;
         n[i] = fabs(number) < 1e9 ? (GLint)floor(number) : 0;
     }
-    send(at, type, size, count, whole, x, n);
+    send_uniform(at, type, size, count, is_integer, x, n);
 }
 
 static void set_picture(const Gl *gl, GLint at, const GlState *state, const char *name, GLint unit) {

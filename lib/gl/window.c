@@ -1,11 +1,11 @@
 // window.c: pictures on the window of a context that was adopted, without reading them back; see gl.h.
 #include "gl/internal.h"
-#include "gl/texts.h"
+#include "gl/shader_sources.h"
 
 static const uint32_t ONE = 1;
 
 // A table of floats that is read as it is.
-static void need_curve(Gl *gl, const float thresholds[256]) {
+static void init_curve(Gl *gl, const float thresholds[256]) {
     if (gl->curve)
         return;
     glGenTextures(1, &gl->curve);
@@ -16,12 +16,12 @@ static void need_curve(Gl *gl, const float thresholds[256]) {
 }
 
 // Our own programs compile.
-static GLuint need_program(Gl *gl, Arena *arena, const char *text) {
-    GlFault fault;
-    Text whole = text_new(arena);
-    text_add_c(&whole, gl_header);
-    text_add_c(&whole, text);
-    GLuint program = gl_program(gl, arena, str_from(gl_quad), text_str(&whole), &fault);
+static GLuint get_program(Gl *gl, Arena *arena, const char *text) {
+    GlShaderError fault;
+    Text source = text_new(arena);
+    text_add_c(&source, gl_header);
+    text_add_c(&source, text);
+    GLuint program = gl_program(gl, arena, str_from(gl_quad), text_str(&source), &fault);
     glUseProgram(program);
     return program;
 }
@@ -32,11 +32,11 @@ static void use_texture(GLuint program, const char *name, GLint unit, GLuint tex
     glUniform1i(glGetUniformLocation(program, name), unit);
 }
 
-bool gl_show_image(Gl *gl, Arena *arena, GlImage image, const GlBox *box, int width, int height,
-                   const float thresholds[256], bool opaque) {
+bool gl_present_image(Gl *gl, Arena *arena, GlImage image, const GlBox *box, int width, int height,
+                      const float thresholds[256], bool opaque) {
     glActiveTexture(GL_TEXTURE0);
-    need_curve(gl, thresholds);
-    GLuint program = need_program(gl, arena, gl_text_show);
+    init_curve(gl, thresholds);
+    GLuint program = get_program(gl, arena, gl_source_show);
     use_texture(program, "picture", 0, image.texture);
     use_texture(program, "curve", 1, gl->curve);
     glUniform4f(glGetUniformLocation(program, "box"), (float)box->x, (float)box->y, (float)box->width,
@@ -49,8 +49,8 @@ bool gl_show_image(Gl *gl, Arena *arena, GlImage image, const GlBox *box, int wi
     return glGetError() == GL_NO_ERROR;
 }
 
-bool gl_show_pixels(Gl *gl, Arena *arena, const uint32_t *pixels, int x, int y, int width, int height, bool over) {
-    Meter *meter = gl->meter;
+bool gl_present_pixels(Gl *gl, Arena *arena, const uint32_t *pixels, int x, int y, int width, int height, bool over) {
+    Budget *meter = gl->meter;
     gl->meter = NULL; // the window's pixels are not the script's
     GlImage image = gl_image_new(gl, width, height, GL_FORMAT_RGBA8);
     gl_image_free(gl, image); // to be used again, but not before this is done
@@ -64,7 +64,7 @@ bool gl_show_pixels(Gl *gl, Arena *arena, const uint32_t *pixels, int x, int y, 
                    "    ivec2 p = ivec2(gl_FragCoord.xy) - corner;\n"
                    "    color = texelFetch(picture, ivec2(p.x, textureSize(picture, 0).y - 1 - p.y), 0).%s;\n%s}\n",
                    *(const unsigned char *)&ONE ? "bgra" : "gbar", over ? "" : "    color.a = 1.0;\n");
-    GLuint program = need_program(gl, arena, str_to_c(arena, text));
+    GLuint program = get_program(gl, arena, str_to_c(arena, text));
     use_texture(program, "picture", 0, image.texture);
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
     glUniform2i(glGetUniformLocation(program, "corner"), x, y);
@@ -78,7 +78,7 @@ bool gl_show_pixels(Gl *gl, Arena *arena, const uint32_t *pixels, int x, int y, 
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     glBindVertexArray(gl->strip);
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-    gl_drawn(gl);
+    gl_after_draw(gl);
     glDisable(GL_BLEND);
     return glGetError() == GL_NO_ERROR;
 }

@@ -24,7 +24,7 @@ uniform int ends[5]; // where the lights of each kind end: from directions, spot
 uniform highp sampler2D lights;
 #define LIGHT(i, k) texelFetch(lights, ivec2(4 * ((i) & 255) + (k), (i) >> 8), 0)
 #else
-layout(std140) uniform Lights { vec4 lights[MOST_LIGHTS * 4]; };
+layout(std140) uniform Lights { vec4 lights[LIGHTS_MAX * 4]; };
 #define LIGHT(i, k) lights[4 * (i) + (k)]
 #endif
 

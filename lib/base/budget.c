@@ -1,0 +1,39 @@
+// budget.c: see budget.h.
+#include "base/budget.h"
+
+void budget_begin(Budget *budget, uint64_t work_limit, atomic_bool *interrupt) {
+    budget->work = budget->next_check = 0;
+    budget->work_limit = work_limit < UINT64_MAX / 2 ? work_limit : UINT64_MAX / 2;
+    budget->interrupt = interrupt;
+    budget->memory_refused = false;
+}
+
+BudgetOutcome budget_check(Budget *budget) {
+    enum { CHECK_INTERVAL = 1024 };
+    budget->next_check = 0; // once it is to end, each charge comes here
+    if (budget->interrupt && budget->should_interrupt && budget->should_interrupt(budget->user_data))
+        atomic_store(budget->interrupt, true);
+    if (budget->interrupt && atomic_load_explicit(budget->interrupt, memory_order_relaxed))
+        return BUDGET_INTERRUPTED;
+    if (budget->work > budget->work_limit)
+        return BUDGET_EXCEEDED;
+    uint64_t left = budget->work_limit - budget->work;
+    budget->next_check = budget->work + (left < CHECK_INTERVAL ? left : CHECK_INTERVAL);
+    return BUDGET_OK;
+}
+
+bool budget_reserve(Budget *budget, size_t bytes) {
+    if (!budget)
+        return true;
+    if (bytes > budget->memory_limit || budget->memory > budget->memory_limit - bytes) {
+        budget->memory_refused = true;
+        return false;
+    }
+    budget->memory += bytes;
+    return true;
+}
+
+void budget_release(Budget *budget, size_t bytes) {
+    if (budget)
+        budget->memory -= bytes;
+}

@@ -1,0 +1,292 @@
+// cairo_canvas.c: see cairo_canvas.h: surfaces to draw on, and the canvases of a window one over the other.
+#include "draw/cairo_canvas.h"
+
+#include "draw/draw.h"
+#include "draw/encode.h"
+
+#include <cairo-pdf.h>
+#include <cairo-svg.h>
+#include <math.h>
+#include <string.h>
+
+void draw_tools_close(PetriPainter *painter) {
+    draw_text_close(painter);
+    draw_images_close(painter);
+}
+
+PetriStatus petri_painter_use_backend(PetriPainter *painter, const PetriCanvasBackend *functions) {
+    return painter && functions ? PETRI_UNSUPPORTED : PETRI_INVALID;
+}
+
+void draw_report_canvas(Canvas *canvas, DiagLevel level, const char *code, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    draw_report_args(canvas->faults, NULL, level, code, format, args);
+    va_end(args);
+}
+
+void draw_report_canvas_at(Canvas *canvas, const Origin *place, DiagLevel level, const char *code, const char *format,
+                           ...) {
+    va_list args;
+    va_start(args, format);
+    draw_report_args(canvas->faults, place, level, code, format, args);
+    va_end(args);
+}
+
+// Makes width x height units fill a box of the target.
+static void fit_to_box(cairo_t *cr, double width, double height, double box_width, double box_height) {
+    double left, top, scale = draw_fit(width, height, box_width, box_height, &left, &top);
+    cairo_translate(cr, left, top);
+    cairo_scale(cr, scale, scale);
+}
+
+// What is drawn on a surface.
+typedef struct Page {
+    const CanvasPicture *picture;
+    const DrawNode *canvas;  // or NULL
+    cairo_surface_t *pixels; // in place of a canvas; or NULL
+    FloatImage hdr_target;   // what the canvas is drawn on in place of the surface; or none
+    double width;            // in units, made to fit
+    double height;
+    bool black; // behind it
+} Page;
+
+static void draw_image_of(cairo_t *cr, cairo_surface_t *pixels, double width, double height) {
+    cairo_scale(cr, width / cairo_image_surface_get_width(pixels), height / cairo_image_surface_get_height(pixels));
+    cairo_set_source_surface(cr, pixels, 0, 0);
+    cairo_pattern_set_filter(cairo_get_source(cr), CAIRO_FILTER_BILINEAR);
+    cairo_pattern_set_extend(cairo_get_source(cr), CAIRO_EXTEND_PAD); // within the clip
+    cairo_paint(cr);
+}
+
+// Draws the whole page. False if Cairo gave up.
+static bool draw_page(Canvas *canvas, const Page *page, double width, double height) {
+    cairo_t *cr = canvas->cr;
+    if (canvas->painter->text_context)
+        canvas->painter->text_context->family = NULL;
+    cairo_set_tolerance(cr, 0.1);
+    if (page->black) {
+        cairo_set_source_rgb(cr, 0, 0, 0);
+        cairo_paint(cr);
+    }
+    fit_to_box(cr, page->width, page->height, width, height);
+    cairo_rectangle(cr, 0, 0, page->width, page->height);
+    cairo_clip(cr);
+    if (page->pixels)
+        draw_image_of(cr, page->pixels, page->width, page->height);
+    else if (page->canvas)
+        cairo_draw_list(canvas, display_list_build(&canvas->painter->arena, page->canvas, &canvas->painter->sizes));
+    else if (page->picture->automatic)
+        draw_automatic(canvas, page->picture->automatic);
+    cairo_status_t status = cairo_status(cr);
+    if (status != CAIRO_STATUS_SUCCESS && !canvas->failed)
+        draw_report_canvas(canvas, DIAG_ERROR, "cannot-draw", "the picture cannot be drawn: %s",
+                           cairo_status_to_string(status));
+    return status == CAIRO_STATUS_SUCCESS && !canvas->failed;
+}
+
+static PetriStatus result_of(cairo_status_t status) {
+    return status == CAIRO_STATUS_SUCCESS     ? PETRI_OK
+           : status == CAIRO_STATUS_NO_MEMORY ? PETRI_OUT_OF_MEMORY
+                                              : PETRI_INVALID;
+}
+
+typedef struct Drawing {
+    Canvas canvas;
+    const Page *page;
+    double width;
+    double height;
+    bool done;
+} Drawing;
+
+static void draw_protected(void *context) {
+    Drawing *drawing = context;
+    drawing->done = draw_page(&drawing->canvas, drawing->page, drawing->width, drawing->height);
+}
+
+// Draws on a surface of width x height.
+static PetriStatus draw_on(PetriPainter *painter, const Page *page, cairo_surface_t *surface, bool vector, double width,
+                           double height, DiagSink *faults) {
+    cairo_t *cr = cairo_create(surface);
+    PetriStatus result = result_of(cairo_status(cr));
+    if (result == PETRI_OK) {
+        Drawing drawing = {.canvas = {.painter = painter,
+                                      .picture = page->picture,
+                                      .cr = cr,
+                                      .faults = faults,
+                                      .vector = vector,
+                                      .columns = width,
+                                      .rows = height,
+                                      .hdr_target = page->hdr_target},
+                           .page = page,
+                           .width = width,
+                           .height = height};
+        Arena *arenas[] = {&painter->arena, faults->arena};
+        ArenaMark mark = arena_mark(&painter->arena);
+        ArenaOutcome end = arena_protect(arenas, 2, draw_protected, &drawing);
+        if (end == ARENA_MEMORY_LIMIT)
+            result = draw_report_limit(faults);
+        else if (end != ARENA_OK)
+            result = PETRI_OUT_OF_MEMORY;
+        else if (!drawing.done)
+            result = cairo_status(cr) == CAIRO_STATUS_NO_MEMORY ? PETRI_OUT_OF_MEMORY : PETRI_INVALID;
+        draw_close(&drawing.canvas);
+        arena_rewind(&painter->arena, mark);
+    }
+    cairo_destroy(cr);
+    return result;
+}
+
+static cairo_surface_t *surface_of(uint32_t *pixels, int width, int height, size_t stride) {
+    return cairo_image_surface_create_for_data((unsigned char *)pixels, CAIRO_FORMAT_ARGB32, width, height,
+                                               (int)stride);
+}
+
+PetriStatus draw_canvas(PetriPainter *painter, const CanvasPicture *picture, const DrawNode *node, int width,
+                        int height, Texture *texture, DiagSink *faults) {
+    Page page = {.picture = picture,
+                 .canvas = node,
+                 .hdr_target = {.width = texture->width, .height = texture->height, .pixels = texture->linear},
+                 .width = width,
+                 .height = height};
+    cairo_surface_t *surface = texture->bytes ? surface_of(texture->bytes, texture->width, texture->height,
+                                                           (size_t)texture->width * sizeof(uint32_t))
+                                              : cairo_image_surface_create(CAIRO_FORMAT_A8, texture->width,
+                                                                           texture->height); // for the clip
+    PetriStatus result = draw_on(painter, &page, surface, false, texture->width, texture->height, faults);
+    cairo_surface_finish(surface);
+    cairo_surface_destroy(surface);
+    return result;
+}
+
+// Over black, colours that are premultiplied stay; only alpha changes.
+static void make_opaque(uint32_t *pixels, int width, int height, size_t stride) {
+    for (int y = 0; y < height; y++) {
+        uint32_t *row = (uint32_t *)(void *)((unsigned char *)pixels + (size_t)y * stride);
+        for (int x = 0; x < width; x++)
+            row[x] |= 0xff000000u;
+    }
+}
+
+// On a surface of its own size, to be destroyed.
+static cairo_surface_t *surface_of_texture(const Texture *texture, bool opaque) {
+    cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, texture->width, texture->height);
+    if (cairo_surface_status(surface) == CAIRO_STATUS_SUCCESS) {
+        draw_texture(texture, opaque, (uint32_t *)(void *)cairo_image_surface_get_data(surface),
+                     (size_t)cairo_image_surface_get_stride(surface));
+        cairo_surface_mark_dirty(surface);
+    }
+    return surface;
+}
+
+// The picture for a surface whose size may be another than its own. Its `pixels` are to be destroyed.
+static Page page_of(const PetriPainter *painter, const CanvasPicture *picture, bool vector) {
+    bool made = picture->window && !picture->direct && painter->shown;
+    return (Page){.picture = picture,
+                  .canvas = picture->direct,
+                  .pixels = made ? surface_of_texture(painter->shown, picture->opaque) : NULL,
+                  .width = picture->width,
+                  .height = picture->height,
+                  .black = vector && picture->opaque};
+}
+
+PetriStatus draw_pixels(PetriPainter *painter, const CanvasPicture *picture, uint32_t *pixels, int width, int height,
+                        size_t stride, DiagSink *faults) {
+    draw_clear(pixels, width, height, stride);
+    PetriStatus result = draw_render_pixels(painter, picture, faults);
+    if (result != PETRI_OK)
+        return result;
+    const Texture *shown = draw_rendered(painter, picture);
+    if (shown && shown->width == width && shown->height == height) {
+        draw_texture(shown, picture->opaque, pixels, stride);
+        return PETRI_OK;
+    }
+    cairo_surface_t *surface = surface_of(pixels, width, height, stride);
+    Page page = page_of(painter, picture, false);
+    draw_limit(painter, picture);
+    result = draw_on(painter, &page, surface, false, width, height, faults);
+    cairo_surface_destroy(page.pixels);
+    cairo_surface_finish(surface);
+    cairo_surface_destroy(surface);
+    if (result != PETRI_OK)
+        draw_clear(pixels, width, height, stride);
+    else if (picture->opaque)
+        make_opaque(pixels, width, height, stride);
+    return result;
+}
+
+static cairo_status_t append_bytes(void *closure, const unsigned char *bytes, unsigned length) {
+    return encode_add(closure, bytes, length) ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_NO_MEMORY;
+}
+
+static PetriStatus encode_png(PetriPainter *painter, const CanvasPicture *picture, int width, int height, Encoded *out,
+                              DiagSink *faults) {
+    cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height);
+    PetriStatus result = result_of(cairo_surface_status(surface));
+    if (result == PETRI_OK)
+        result = draw_pixels(painter, picture, (uint32_t *)(void *)cairo_image_surface_get_data(surface), width, height,
+                             (size_t)cairo_image_surface_get_stride(surface), faults);
+    const uint32_t *pixels = (const uint32_t *)(const void *)cairo_image_surface_get_data(surface);
+    if (result == PETRI_OK && picture->opaque) { // rows of 32-bit pixels have no gaps
+        result = encode_png_pixels(out, pixels, width, height, false) ? PETRI_OK : PETRI_OUT_OF_MEMORY;
+    } else if (result == PETRI_OK) {
+        cairo_surface_mark_dirty(surface);
+        result = result_of(cairo_surface_write_to_png_stream(surface, append_bytes, out));
+    }
+    cairo_surface_destroy(surface);
+    return result;
+}
+
+static PetriStatus encode_vector(PetriPainter *painter, const Page *page, bool pdf, int width, int height, Encoded *out,
+                                 DiagSink *faults) {
+    cairo_surface_t *surface = pdf ? cairo_pdf_surface_create_for_stream(append_bytes, out, width, height)
+                                   : cairo_svg_surface_create_for_stream(append_bytes, out, width, height);
+    if (pdf) // the same bytes each time
+        cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
+    else
+        cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PX);
+    draw_limit(painter, page->picture);
+    PetriStatus result = draw_on(painter, page, surface, true, width, height, faults);
+    cairo_surface_finish(surface);
+    if (result == PETRI_OK)
+        result = result_of(cairo_surface_status(surface));
+    cairo_surface_destroy(surface);
+    return result;
+}
+
+PetriStatus draw_encode(PetriPainter *painter, const CanvasPicture *picture, CanvasFormat format, int width, int height,
+                        Encoded *out, DiagSink *faults) {
+    PetriStatus result = draw_render_pixels(painter, picture, faults);
+    if (result == PETRI_OK && format == CANVAS_PNG) {
+        result = encode_png(painter, picture, width, height, out, faults);
+    } else if (result == PETRI_OK) {
+        Page page = page_of(painter, picture, true);
+        result = encode_vector(painter, &page, format == CANVAS_PDF, width, height, out, faults);
+        cairo_surface_destroy(page.pixels);
+    }
+    return result;
+}
+
+PetriStatus draw_encode_record(PetriPainter *painter, const CanvasPicture *picture, const Recorded *record,
+                               CanvasFormat format, Encoded *out, DiagSink *faults) {
+    const DrawNode *node = record->node;
+    const Texture *texture = record->texture;
+    bool alpha = draw_flag(node, ATTR_KEEP_ALPHA), good = true;
+    PetriStatus result = PETRI_OK;
+    if (format == CANVAS_PNG) {
+        good = encode_png_pixels(out, texture->bytes, texture->width, texture->height, alpha);
+    } else if (format == CANVAS_JPEG) {
+        good = encode_jpeg_pixels(out, texture->bytes, texture->width, texture->height,
+                                  (int)draw_number(node, ATTR_QUALITY));
+    } else {
+        Page page = {.picture = picture,
+                     .canvas = record->direct,
+                     .pixels = record->direct ? NULL : surface_of_texture(texture, !alpha),
+                     .width = texture->width,
+                     .height = texture->height,
+                     .black = !alpha};
+        result = encode_vector(painter, &page, format == CANVAS_PDF, texture->width, texture->height, out, faults);
+        cairo_surface_destroy(page.pixels);
+    }
+    return good ? result : PETRI_OUT_OF_MEMORY;
+}

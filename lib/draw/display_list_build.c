@@ -1,0 +1,347 @@
+// display_list_build.c: walks over a canvas's nodes once and writes down what they draw; see display_list.h and spec
+// canvas.md 2.
+//
+// Trees may be thousands of nodes deep, and whoever draws may have a small stack: so the walk keeps its own.
+#include "draw/display_list_build.h"
+
+#include "maths/maths.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double TURN = 6.283185307179586;
+
+// A node whose children are being read.
+typedef struct Level {
+    const DrawNode *node;
+    uint32_t next;      // child
+    uint32_t matrix_at; // of the matrix in the list; DISPLAY_NONE: not there yet
+    uint32_t paint_at;
+    bool saved; // the clip, by a command
+    DisplayMatrix matrix;
+    DisplayPath path;
+    GraphicsState state;
+} Level;
+
+typedef struct Walk {
+    DisplayListBuild build;
+    Level *levels;
+    uint32_t depth;
+    uint32_t capacity;
+} Walk;
+
+void *display_list_grow(Arena *arena, void *items, uint32_t count, uint32_t *capacity, uint32_t more, size_t size) {
+    enum { MIN_SIZE = 16 };
+    if (more <= *capacity - count)
+        return items;
+    if (more > UINT32_MAX / 4 - count)
+        arena_exhausted(arena);
+    uint32_t wanted = *capacity ? 2 * *capacity : MIN_SIZE;
+    wanted = wanted < count + more ? count + more : wanted;
+    void *grown = arena_grow(arena, items, *capacity * size, wanted * size);
+    *capacity = wanted;
+    return grown;
+}
+
+DisplayMatrix display_matrix_multiply(DisplayMatrix m, DisplayMatrix a) {
+    return (DisplayMatrix){.xx = m.xx * a.xx + m.xy * a.yx,
+                           .yx = m.yx * a.xx + m.yy * a.yx,
+                           .xy = m.xx * a.xy + m.xy * a.yy,
+                           .yy = m.yx * a.xy + m.yy * a.yy,
+                           .x0 = m.xx * a.x0 + m.xy * a.y0 + m.x0,
+                           .y0 = m.yx * a.x0 + m.yy * a.y0 + m.y0};
+}
+
+bool display_matrix_is_invertible(const DisplayMatrix *m) {
+    double determinant = m->xx * m->yy - m->xy * m->yx;
+    return isfinite(determinant) && determinant != 0 && isfinite(m->x0) && isfinite(m->y0);
+}
+
+void display_list_build_transform(DisplayMatrix *matrix, const DrawNode *node, bool after) {
+    for (uint32_t i = 0; i < node->attr_count; i++) {
+        const double *n = node->attrs[i].as.numbers;
+        DisplayMatrix step = {1, 0, 0, 1, 0, 0};
+        if (node->attrs[i].name == ATTR_TRANSLATE) {
+            step.x0 = n[0];
+            step.y0 = n[1];
+        } else if (node->attrs[i].name == ATTR_SCALE) {
+            step.xx = n[0];
+            step.yy = n[1];
+        } else if (node->attrs[i].name == ATTR_ROTATE) {
+            double angle = (n[0] - floor(n[0])) * TURN;
+            step.xx = step.yy = maths_cos(angle);
+            step.yx = maths_sin(angle);
+            step.xy = -step.yx;
+        } else {
+            continue;
+        }
+        *matrix = after ? display_matrix_multiply(step, *matrix) : display_matrix_multiply(*matrix, step);
+    }
+}
+
+bool display_list_build_read_state(GraphicsState *state, const DrawNode *node) {
+    bool changed = false;
+    for (uint32_t i = 0; i < node->attr_count; i++) {
+        if (schema_rows[node->attrs[i].row].field == FIELD_NOWHERE)
+            continue;
+        changed = true;
+        schema_store(&node->attrs[i], state);
+        if (node->attrs[i].name == ATTR_COLOR)
+            state->source = DISPLAY_NONE;
+    }
+    return changed;
+}
+
+uint32_t display_list_build_paint(DisplayListBuild *build, const GraphicsState *state) {
+    DisplayPaint *paint = DISPLAY_ADD(build->arena, build->list->paints, 1);
+    *paint = (DisplayPaint){.color = {state->color[0], state->color[1], state->color[2], state->color[3]},
+                            .stroke_width = state->stroke_width,
+                            .source = state->source,
+                            .filter = state->filter,
+                            .effect = state->effect,
+                            .join = state->join,
+                            .cap = state->cap,
+                            .composite = state->composite,
+                            .antialias = state->antialias};
+    return build->list->paints.count - 1;
+}
+
+// A command in the state of a level; `own` is the look of a node that has one.
+static DisplayCommand *add_command(DisplayListBuild *build, Level *level, DisplayCommandKind kind,
+                                   const GraphicsState *own) {
+    DisplayList *list = build->list;
+    if (level->matrix_at == DISPLAY_NONE) {
+        *DISPLAY_ADD(build->arena, list->matrices, 1) = level->matrix;
+        level->matrix_at = list->matrices.count - 1;
+    }
+    if (!own && level->paint_at == DISPLAY_NONE)
+        level->paint_at = display_list_build_paint(build, &level->state);
+    uint32_t paint = own ? display_list_build_paint(build, own) : level->paint_at;
+    DisplayCommand *command = DISPLAY_ADD(build->arena, list->commands, 1);
+    *command = (DisplayCommand){.kind = kind, .matrix = level->matrix_at, .paint = paint, .path = level->path};
+    return command;
+}
+
+static Level *push_level(Walk *walk, const DrawNode *node) {
+    walk->levels =
+        arena_grow_array(walk->build.arena, walk->levels, walk->depth, &walk->capacity, sizeof *walk->levels);
+    Level *level = &walk->levels[walk->depth++];
+    if (walk->depth > 1)
+        *level = level[-1];
+    level->node = node;
+    level->next = 0;
+    level->saved = false;
+    return level;
+}
+
+static bool saves_clip(NodeKind kind) {
+    return kind == KIND_CANVAS || kind == KIND_CANVAS_GROUP || kind == KIND_LAYER || kind == KIND_TRANSFORM;
+}
+
+// Before the clip changes: it is saved by the node with which it ends.
+static void save_clip(Walk *walk) {
+    uint32_t at = walk->depth - 1;
+    while (at > 0 && !saves_clip((NodeKind)walk->levels[at].node->kind))
+        at--;
+    if (walk->levels[at].saved)
+        return;
+    // Nothing has been clipped at this level yet, so that saving now is as good as at its beginning.
+    walk->levels[at].saved = true;
+    add_command(&walk->build, &walk->levels[walk->depth - 1], DISPLAY_SAVE, NULL);
+}
+
+// A node whose children are drawn in a state of their own.
+static void enter_node(Walk *walk, const DrawNode *node) {
+    NodeKind kind = (NodeKind)node->kind;
+    double size[2], origin[2];
+    if (kind == KIND_LAYER) {
+        if (!draw_pair(node, ATTR_SIZE, size))
+            return;
+        draw_pair(node, ATTR_ORIGIN, origin);
+        save_clip(walk);
+        DisplayPath box = display_list_build_no_path;
+        display_list_build_rectangle(&walk->build, &box, origin, size);
+        add_command(&walk->build, &walk->levels[walk->depth - 1], DISPLAY_CLIP, NULL)->path = box;
+        add_command(&walk->build, &walk->levels[walk->depth - 1], DISPLAY_LAYER, NULL)->item =
+            walk->build.list->places.count;
+        *DISPLAY_ADD(walk->build.arena, walk->build.list->places, 1) = node->origin;
+    }
+    Level *level = push_level(walk, node);
+    display_list_build_transform(&level->matrix, node, false);
+    if (saves_clip(kind))
+        level->matrix_at = DISPLAY_NONE;
+    if (display_list_build_read_state(&level->state, node))
+        level->paint_at = DISPLAY_NONE;
+    if (kind == KIND_PATH || kind == KIND_CANVAS_GROUP || kind == KIND_LAYER) {
+        level->path = display_list_build_no_path;
+        if (kind != KIND_LAYER)
+            level->path.fill_type = (uint8_t)draw_word(node, ATTR_FILL_TYPE);
+    }
+    if (!display_matrix_is_invertible(&level->matrix))
+        level->next = node->child_count; // all is squeezed to nothing, or beyond all numbers
+}
+
+// How siblings after it are painted: what nodes inside of it have changed, perhaps.
+static void propagate_paint(Level *outside, const GraphicsState *inside) {
+    outside->state.source = inside->source;
+    outside->state.filter = inside->filter;
+    outside->state.effect = inside->effect;
+    outside->paint_at = DISPLAY_NONE;
+}
+
+static void leave_node(Walk *walk) {
+    Level *level = &walk->levels[--walk->depth], *outside = level - 1;
+    NodeKind kind = (NodeKind)level->node->kind;
+    if (level->saved)
+        add_command(&walk->build, level, DISPLAY_RESTORE, NULL);
+    if (kind == KIND_LAYER)
+        add_command(&walk->build, level, DISPLAY_LAYER_END, NULL)->alpha =
+            floor(255 * fmin(fmax(draw_number(level->node, ATTR_ALPHA), 0), 1)) / 255;
+    if (kind == KIND_TRANSFORM || kind == KIND_FONT || kind == KIND_PATH)
+        propagate_paint(outside, &level->state);
+    if (kind == KIND_TRANSFORM || kind == KIND_FONT || kind == KIND_PAINT)
+        outside->path = level->path;
+}
+
+static void add_path_command(DisplayListBuild *build, Level *level, const DrawNode *node, DisplayPath path, bool fill,
+                             bool stroke) {
+    if (path.first == DISPLAY_NONE && path.fill_type <= FILL_EVEN_ODD)
+        return;
+    GraphicsState state = level->state;
+    DisplayCommand *command =
+        add_command(build, level, DISPLAY_DRAW, display_list_build_read_state(&state, node) ? &state : NULL);
+    command->path = path;
+    command->fill = fill;
+    command->stroke = stroke;
+}
+
+// A shape that is drawn at once leaves the current path alone.
+static void add_shape(DisplayListBuild *build, Level *level, const DrawNode *node) {
+    bool fill = draw_flag(node, ATTR_FILL), stroke = draw_flag(node, ATTR_STROKE);
+    if (!fill && !stroke) {
+        display_list_build_element(build, &level->path, node);
+        return;
+    }
+    DisplayPath path = display_list_build_no_path;
+    display_list_build_element(build, &path, node);
+    add_path_command(build, level, node, path, fill, stroke);
+}
+
+static void add_text(DisplayListBuild *build, Level *level, const DrawNode *node) {
+    const AttrValue *text = draw_attr(node, ATTR_TEXT);
+    if (!text || text->as.text.len == 0)
+        return;
+    GraphicsState state = level->state;
+    display_list_build_read_state(&state, node);
+    bool stroke = draw_flag(node, ATTR_STROKE),
+         fill = draw_attr(node, ATTR_FILL) ? draw_flag(node, ATTR_FILL) : !stroke;
+    DisplayText *item = DISPLAY_ADD(build->arena, build->list->texts, 1);
+    *item = (DisplayText){.text = text->as.text,
+                          .family = state.family,
+                          .size = state.font_size,
+                          .weight = state.weight,
+                          .width = state.width,
+                          .slant = state.slant,
+                          .center = draw_flag(node, ATTR_CENTER)};
+    draw_pair(node, ATTR_POINT, item->point);
+    DisplayCommand *command = add_command(build, level, DISPLAY_TEXT, &state);
+    command->item = build->list->texts.count - 1;
+    command->fill = fill;
+    command->stroke = stroke || !fill;
+}
+
+static void add_leaf(Walk *walk, Level *level, const DrawNode *node) {
+    DisplayListBuild *build = &walk->build;
+    switch ((NodeKind)node->kind) {
+    case KIND_FILL:
+    case KIND_STROKE:
+        add_path_command(build, level, node, level->path, node->kind == KIND_FILL, node->kind == KIND_STROKE);
+        break;
+    case KIND_CLIP:
+    case KIND_MASK:
+        save_clip(walk);
+        add_command(build, level, node->kind == KIND_CLIP ? DISPLAY_CLIP : DISPLAY_MASK, NULL);
+        break;
+    case KIND_TEXT:
+        add_text(build, level, node);
+        break;
+    case KIND_IMAGE: {
+        uint32_t image = display_list_build_image(build, node);
+        if (image != DISPLAY_NONE)
+            add_command(build, level, DISPLAY_IMAGE, NULL)->item = image;
+        break;
+    }
+    default:
+        display_list_build_paint_node(build, &level->state, node);
+        level->paint_at = DISPLAY_NONE;
+    }
+}
+
+static void add_node(Walk *walk, const DrawNode *node) {
+    Level *level = &walk->levels[walk->depth - 1];
+    switch ((NodeKind)node->kind) {
+    case KIND_CANVAS_GROUP:
+    case KIND_TRANSFORM:
+    case KIND_PAINT:
+    case KIND_FONT:
+    case KIND_LAYER:
+    case KIND_PATH:
+        enter_node(walk, node);
+        break;
+    case KIND_RECT:
+    case KIND_ELLIPSE:
+    case KIND_LINE:
+        add_shape(&walk->build, level, node);
+        break;
+    default:
+        if (!display_list_build_element(&walk->build, &level->path, node))
+            add_leaf(walk, level, node);
+    }
+}
+
+static void reserve_arrays(Arena *arena, DisplayList *list, const DisplayListSizes *sizes) {
+    enum { MAX_COMMANDS = 1 << 16 }; // others may be short
+    if (sizes->commands == 0 || sizes->commands > MAX_COMMANDS || sizes->numbers > 16 * MAX_COMMANDS)
+        return;
+#define ROOM(array)                                                                                                    \
+    list->array.at = display_list_grow(arena, NULL, 0, &list->array.room, sizes->array, sizeof *list->array.at)
+    ROOM(commands);
+    ROOM(matrices);
+    ROOM(paints);
+    ROOM(numbers);
+    ROOM(runs);
+#undef ROOM
+}
+
+const DisplayList *display_list_build(Arena *arena, const DrawNode *canvas, DisplayListSizes *sizes) {
+    DisplayList *list = arena_alloc(arena, sizeof *list);
+    *list = (DisplayList){.linear = draw_flag(canvas, ATTR_LINEAR)};
+    reserve_arrays(arena, list, sizes);
+    Walk walk = {.build = {.arena = arena, .list = list}};
+    Level *top = push_level(&walk, canvas);
+    *top = (Level){.node = canvas,
+                   .matrix_at = DISPLAY_NONE,
+                   .paint_at = DISPLAY_NONE,
+                   .matrix = {1, 0, 0, 1, 0, 0},
+                   .path = display_list_build_no_path,
+                   .state = {.source = DISPLAY_NONE, .filter = DISPLAY_NONE, .effect = DISPLAY_NONE}};
+    schema_defaults(KIND_CANVAS, &top->state);
+    display_list_build_read_state(&top->state, canvas);
+    display_list_build_transform(&top->matrix, canvas, false);
+    if (!display_matrix_is_invertible(&top->matrix))
+        return list;
+    while (walk.depth > 0) {
+        Level *level = &walk.levels[walk.depth - 1];
+        if (level->next < level->node->child_count)
+            add_node(&walk, level->node->children[level->next++]);
+        else if (walk.depth == 1)
+            break;
+        else
+            leave_node(&walk);
+    }
+    if (walk.levels[0].saved)
+        add_command(&walk.build, &walk.levels[0], DISPLAY_RESTORE, NULL);
+    *sizes = (DisplayListSizes){list->commands.count, list->matrices.count, list->paints.count, list->numbers.count,
+                                list->runs.count};
+    return list;
+}

@@ -1,0 +1,145 @@
+// display_list_paints.c: nodes among drawing nodes that give those after them their colours (spec canvas.md 5); and
+// images.
+#include "draw/display_list_build.h"
+#include "draw/texture.h"
+
+#include <math.h>
+#include <string.h>
+
+// Colours of stops count as encoded, with bytes.
+void display_list_build_stop_color(const DisplayListBuild *build, const double color[4], double out[4]) {
+    for (int k = 0; k < 4; k++) {
+        double byte = floor(255 * fmin(fmax(color[k], 0), 1) + 0.5);
+        out[k] = build->list->linear && k < 3 ? (double)texture_decode((unsigned)byte) : byte / 255;
+    }
+}
+
+static void add_stops(DisplayListBuild *build, const GraphicsState *state, const DrawNode *gradient,
+                      DisplaySource *source) {
+    uint32_t count = gradient->child_count;
+    double before = -INFINITY;
+    source->first_stop = build->list->stops.count;
+    source->stop_count = count;
+    for (uint32_t i = 0; i < count; i++) {
+        const DrawNode *node = gradient->children[i];
+        DisplayStop *stop = DISPLAY_ADD(build->arena, build->list->stops, 1);
+        const AttrValue *color = draw_attr(node, ATTR_COLOR);
+        display_list_build_stop_color(build, color ? color->as.numbers : state->color, stop->color);
+        double offset = draw_number(node, ATTR_OFFSET);
+        stop->offset = fmax(isnan(offset) ? (count > 1 ? (double)i / (count - 1) : 0) : offset, before);
+        before = stop->offset;
+    }
+}
+
+static uint32_t add_source(DisplayListBuild *build, DisplaySource source) {
+    *DISPLAY_ADD(build->arena, build->list->sources, 1) = source;
+    return build->list->sources.count - 1;
+}
+
+static uint32_t make_gradient(DisplayListBuild *build, const GraphicsState *state, const DrawNode *node) {
+    double start[2], end[2], middle[2], radius[2];
+    if (node->child_count == 0)
+        return DISPLAY_NONE;
+    DisplaySource source = {.kind = SOURCE_LINEAR};
+    if (draw_pair(node, ATTR_START, start) && draw_pair(node, ATTR_END, end)) {
+        memcpy(source.ends, start, sizeof start);
+        memcpy(source.ends + 2, end, sizeof end);
+    } else if (draw_pair(node, ATTR_RADIUS, radius)) {
+        draw_pair(node, ATTR_POINT, middle);
+        source.kind = SOURCE_RADIAL;
+        source.matrix = (DisplayMatrix){1, 0, 0, 1, middle[0], middle[1]};
+        display_list_build_transform(&source.matrix, node, false);
+        source.matrix = display_matrix_multiply(source.matrix, (DisplayMatrix){radius[0], 0, 0, radius[1], 0, 0});
+        if (!display_matrix_is_invertible(&source.matrix))
+            return DISPLAY_NONE;
+    } else {
+        return DISPLAY_NONE;
+    }
+    add_stops(build, state, node, &source);
+    return add_source(build, source);
+}
+
+static uint32_t make_pattern(DisplayListBuild *build, const DrawNode *node) {
+    DisplaySource source = {
+        .kind = SOURCE_PATTERN, .matrix = {1, 0, 0, 1, 0, 0}, .image = display_list_build_image(build, node)};
+    display_list_build_transform(&source.matrix, node, true);
+    return source.image != DISPLAY_NONE && display_matrix_is_invertible(&source.matrix) ? add_source(build, source)
+                                                                                        : DISPLAY_NONE;
+}
+
+static uint32_t make_blend(DisplayListBuild *build, const GraphicsState *state, const DrawNode *node) {
+    if (node->child_count == 1)
+        return display_list_build_source(build, state, node->children[0]);
+    if (node->child_count != 2)
+        return DISPLAY_NONE;
+    DisplaySource source = {.kind = SOURCE_BLEND,
+                            .first_stop = display_list_build_source(build, state, node->children[0]),
+                            .stop_count = display_list_build_source(build, state, node->children[1]),
+                            .ratio = draw_number(node, ATTR_RATIO),
+                            .mode = draw_word(node, ATTR_MODE)};
+    if (source.first_stop == DISPLAY_NONE || source.stop_count == DISPLAY_NONE)
+        return DISPLAY_NONE;
+    source.ratio = isnan(source.ratio) ? source.ratio : fmin(fmax(source.ratio, 0), 1);
+    return add_source(build, source);
+}
+
+static uint32_t make_noise(DisplayListBuild *build, const DrawNode *node) {
+    enum { MAX_OCTAVES = 255, MAX_TILE = 1 << 20 };
+    DisplaySource source = {.kind = SOURCE_NOISE,
+                            .ratio = draw_number(node, ATTR_SEED),
+                            .mode = draw_word(node, ATTR_TYPE),
+                            .stop_count = (uint32_t)fmin(fmax(draw_number(node, ATTR_OCTAVES), 0), MAX_OCTAVES)};
+    double tile[2];
+    if (!draw_pair(node, ATTR_FREQUENCY, source.ends))
+        return DISPLAY_NONE;
+    draw_pair(node, ATTR_SIZE, tile);
+    for (int k = 0; k < 2; k++)
+        source.ends[2 + k] = fmin(floor(tile[k]), MAX_TILE);
+    return add_source(build, source);
+}
+
+// Nodes are at most NODE_MAX_HEIGHT deep, but the stack may be small.
+uint32_t display_list_build_source(DisplayListBuild *build, const GraphicsState *state, const DrawNode *node) {
+    enum { MAX_DEPTH = 100 };
+    uint32_t made = DISPLAY_NONE;
+    if (build->depth >= MAX_DEPTH)
+        return DISPLAY_NONE;
+    build->depth++;
+    if (node->kind == KIND_GRADIENT) {
+        made = make_gradient(build, state, node);
+    } else if (node->kind == KIND_COLOR) {
+        DisplaySource source = {.kind = SOURCE_COLOR};
+        const AttrValue *color = draw_attr(node, ATTR_COLOR);
+        memcpy(source.color, color ? color->as.numbers : state->color, sizeof source.color);
+        made = add_source(build, source);
+    } else if (node->kind == KIND_PATTERN) {
+        made = make_pattern(build, node);
+    } else if (node->kind == KIND_BLEND) {
+        made = make_blend(build, state, node);
+    } else if (node->kind == KIND_CANVAS_NOISE) {
+        made = make_noise(build, node);
+    }
+    build->depth--;
+    return made;
+}
+
+uint32_t display_list_build_image(DisplayListBuild *build, const DrawNode *node) {
+    static const struct {
+        AttrName name;
+        DisplayFit fit;
+    } boxes[] = {{ATTR_FILL, FIT_FILL}, {ATTR_FIT, FIT_INSIDE}, {ATTR_SIZE, FIT_SIZE}};
+    const AttrValue *file = draw_attr(node, ATTR_FILENAME), *id = draw_attr(node, ATTR_IMAGE_ID);
+    DisplayImage image = {.fit = FIT_NONE, .kind = (NodeKind)node->kind, .place = node->origin};
+    if (file && file->as.text.len > 0)
+        image.file = file->as.text;
+    else if (id && id->as.text.len > 0)
+        image.id = id->as.text;
+    else
+        return DISPLAY_NONE;
+    draw_pair(node, ATTR_POINT, image.point);
+    for (size_t i = 0; i < sizeof boxes / sizeof boxes[0] && image.fit == FIT_NONE; i++)
+        if (schema_row((NodeKind)node->kind, boxes[i].name) && draw_pair(node, boxes[i].name, image.size))
+            image.fit = boxes[i].fit;
+    *DISPLAY_ADD(build->arena, build->list->images, 1) = image;
+    return build->list->images.count - 1;
+}

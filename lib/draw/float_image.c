@@ -1,0 +1,281 @@
+// float_image.c: see float_image.h.
+#include "draw/float_image.h"
+
+#include "base/heap.h"
+#include "draw/blend.h"
+#include "maths/maths.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct FloatImageMemory {
+    FloatImageMemory *next;
+    FloatImageMemory **link; // to this one
+    size_t bytes;
+    float pixels[];
+};
+
+static FloatImageMemory *memory_of(const FloatImage *image) {
+    return (FloatImageMemory *)(void *)((char *)image->pixels - offsetof(FloatImageMemory, pixels));
+}
+
+static size_t count_of(const FloatImage *image) {
+    return image->pixels ? (size_t)image->width * (size_t)image->height : 0;
+}
+
+FloatImage float_image_new(Canvas *canvas, int width, int height) {
+    size_t bytes = sizeof(FloatImageMemory) + (size_t)width * (size_t)height * 4 * sizeof(float);
+    FloatImageMemory *memory = draw_reserve(canvas, bytes) ? heap_calloc(1, bytes) : NULL;
+    if (!memory)
+        return (FloatImage){.width = width, .height = height};
+    memory->bytes = bytes;
+    memory->next = canvas->float_images;
+    memory->link = &canvas->float_images;
+    if (memory->next)
+        memory->next->link = &memory->next;
+    canvas->float_images = memory;
+    return (FloatImage){.width = width, .height = height, .pixels = memory->pixels};
+}
+
+void float_image_free(Canvas *canvas, FloatImage *image) {
+    if (!image->pixels)
+        return;
+    FloatImageMemory *memory = memory_of(image);
+    *memory->link = memory->next;
+    if (memory->next)
+        memory->next->link = memory->link;
+    draw_release(canvas, memory->bytes);
+    heap_free(memory);
+    image->pixels = NULL;
+}
+
+void float_image_free_all(Canvas *canvas) {
+    while (canvas->float_images)
+        float_image_free(canvas, &(FloatImage){.pixels = canvas->float_images->pixels});
+}
+
+FloatImage float_image_copy(Canvas *canvas, const FloatImage *image) {
+    FloatImage out = *image;
+    if (image->pixels)
+        out = float_image_new(canvas, image->width, image->height);
+    if (out.pixels)
+        memcpy(out.pixels, image->pixels, count_of(image) * 4 * sizeof(float));
+    return out;
+}
+
+FloatImage float_image_read(Canvas *canvas, cairo_surface_t *surface) {
+    cairo_surface_flush(surface);
+    const uint32_t *from = (const uint32_t *)(const void *)cairo_image_surface_get_data(surface);
+    FloatImage image = {0};
+    if (from)
+        image =
+            float_image_new(canvas, cairo_image_surface_get_width(surface), cairo_image_surface_get_height(surface));
+    for (size_t i = 0; i < count_of(&image); i++)
+        for (unsigned k = 0; k < 4; k++)
+            image.pixels[4 * i + k] = (float)(from[i] >> (k < 3 ? 16 - 8 * k : 24) & 255) / 255;
+    return image;
+}
+
+void float_image_write(const FloatImage *image, cairo_surface_t *surface) {
+    uint32_t *to = (uint32_t *)(void *)cairo_image_surface_get_data(surface);
+    for (size_t i = 0; to && i < count_of(image); i++) {
+        uint32_t pixel = 0;
+        for (unsigned k = 0; k < 4; k++)
+            pixel |= (uint32_t)lrintf(255 * fminf(fmaxf(image->pixels[4 * i + k], 0), 1)) << (k < 3 ? 16 - 8 * k : 24);
+        to[i] = pixel;
+    }
+    cairo_surface_mark_dirty(surface);
+}
+
+// How a row or column of pixels becomes another.
+enum { MAX_REACH = 24 };
+static const double MAX_EXACT_SIGMA = 8; // standard deviation, pixels
+
+typedef struct LineFilter {
+    void (*apply)(const struct LineFilter *filter, float *line, float *other, int count);
+    int reach;
+    bool erode;
+    int cell; // pixels that are taken together
+    float weights[MAX_REACH + 1];
+} LineFilter;
+
+// Changes all rows or all columns.
+static void change_lines(Canvas *canvas, FloatImage *image, int axis, const LineFilter *filter) {
+    int count = axis ? image->height : image->width, lines = axis ? image->width : image->height;
+    size_t step = axis ? 4 * (size_t)image->width : 4, between = axis ? 4 : 4 * (size_t)image->width;
+    if (!image->pixels)
+        return;
+    FloatImage scratch = float_image_new(canvas, count + 2 * filter->reach + 8, 2);
+    if (!scratch.pixels) {
+        float_image_free(canvas, image);
+        return;
+    }
+    float *line = scratch.pixels, *other = line + 4 * (size_t)scratch.width;
+    for (int i = 0; i < lines; i++) {
+        float *at = image->pixels + (size_t)i * between;
+        for (int k = 0; k < count; k++)
+            memcpy(line + 4 * (size_t)k, at + (size_t)k * step, 4 * sizeof(float));
+        filter->apply(filter, line, other, count);
+        for (int k = 0; k < count; k++)
+            memcpy(at + (size_t)k * step, line + 4 * (size_t)k, 4 * sizeof(float));
+    }
+    float_image_free(canvas, &scratch);
+}
+
+// What neighbours up to a reach give, with their weights; there is nothing beyond the ends.
+static void convolve_at(const LineFilter *filter, const float *from, int count, int at, float *to) {
+    float sum[4] = {0, 0, 0, 0};
+    int first = at - filter->reach < 0 ? 0 : at - filter->reach,
+        last = at + filter->reach >= count ? count - 1 : at + filter->reach;
+    for (int j = first; j <= last; j++)
+        for (int k = 0; k < 4; k++)
+            sum[k] += filter->weights[abs(at - j)] * from[4 * j + k];
+    memcpy(to, sum, sizeof sum);
+}
+
+static void convolve_line(const LineFilter *filter, float *line, float *other, int count) {
+    memcpy(other, line, (size_t)count * 4 * sizeof(float));
+    for (int i = 0; i < count; i++)
+        convolve_at(filter, other, count, i, line + 4 * (size_t)i);
+}
+
+// The same for a wide reach: cells of several pixels are weighed, and pixels lie between the middles of cells.
+static void convolve_cells(const LineFilter *filter, float *line, float *other, int count) {
+    int cell = filter->cell, cells = (count + cell - 1) / cell;
+    float *weighed = other + 4 * (size_t)cells + 4; // of cells from -1 on
+    memset(other, 0, (size_t)cells * 4 * sizeof(float));
+    for (int i = 0; i < count; i++)
+        for (int k = 0; k < 4; k++)
+            other[4 * (i / cell) + k] += line[4 * i + k] / (float)cell;
+    for (int i = -1; i <= cells; i++)
+        convolve_at(filter, other, cells, i, weighed + 4 * (ptrdiff_t)i);
+    for (int i = 0; i < count; i++) {
+        double at = (i - (cell - 1) / 2.0) / cell;
+        int low = (int)floor(at);
+        float fraction = (float)(at - low);
+        for (int k = 0; k < 4; k++)
+            line[4 * i + k] = (1 - fraction) * weighed[4 * low + k] + fraction * weighed[4 * (low + 1) + k];
+    }
+}
+
+// The greatest or least within reach: of more and more pixels, then of two such runs.
+static void find_extremes(const LineFilter *filter, float *line, float *other, int count) {
+    int reach = filter->reach, all = count + 2 * reach, run = 1, wanted = 2 * reach + 1;
+    memset(other, 0, (size_t)all * 4 * sizeof(float));
+    memcpy(other + 4 * (size_t)reach, line, (size_t)count * 4 * sizeof(float));
+    for (; 2 * run <= wanted; run *= 2)
+        for (int i = 0; i + run < all; i++)
+            for (int k = 0; k < 4; k++) {
+                float a = other[4 * i + k], b = other[4 * (i + run) + k];
+                other[4 * i + k] = filter->erode == (a < b) ? a : b;
+            }
+    for (int i = 0; i < count; i++)
+        for (int k = 0; k < 4; k++) {
+            float a = other[4 * i + k], b = other[4 * (i + wanted - run) + k];
+            line[4 * i + k] = filter->erode == (a < b) ? a : b;
+        }
+}
+
+// Averages of cells and lines between them are blurs, too: of (cell² − 1)/12 and twice that, as variances add up.
+static void set_weights(LineFilter *filter, double sigma) {
+    double sum = 0, cell = sigma > MAX_EXACT_SIGMA ? floor(sigma / 4) : 1;
+    filter->cell = (int)cell;
+    filter->apply = filter->cell > 1 ? convolve_cells : convolve_line;
+    sigma = sqrt(sigma * sigma - (cell * cell - 1) / 4) / cell;
+    filter->reach = (int)ceil(3 * sigma);
+    for (int i = 0; i <= filter->reach; i++)
+        sum += (i ? 2 : 1) * maths_exp(-0.5 * i * i / (sigma * sigma));
+    for (int i = 0; i <= filter->reach; i++)
+        filter->weights[i] = (float)(maths_exp(-0.5 * i * i / (sigma * sigma)) / sum);
+}
+
+void float_image_blur(Canvas *canvas, FloatImage *image, const double sigma[2]) {
+    for (int axis = 0; axis < 2; axis++) {
+        LineFilter filter;
+        if (!(sigma[axis] > 0.05))
+            continue;
+        set_weights(&filter, fmin(sigma[axis], FLOAT_IMAGE_MAX_SIGMA));
+        change_lines(canvas, image, axis, &filter);
+    }
+}
+
+void float_image_morphology(Canvas *canvas, FloatImage *image, const double radius[2], bool erode) {
+    for (int axis = 0; axis < 2; axis++) {
+        double max = axis ? image->height : image->width;
+        LineFilter filter = {.apply = find_extremes, .erode = erode, .reach = (int)fmin(rint(radius[axis]), max)};
+        if (filter.reach > 0)
+            change_lines(canvas, image, axis, &filter);
+    }
+}
+
+void float_image_move(Canvas *canvas, FloatImage *image, double dx, double dy) {
+    if (!image->pixels)
+        return;
+    FloatImage out = float_image_new(canvas, image->width, image->height);
+    int x0 = (int)fmin(fmax(rint(dx), -image->width), image->width);
+    int y0 = (int)fmin(fmax(rint(dy), -image->height), image->height);
+    int first = x0 > 0 ? x0 : 0, last = x0 > 0 ? image->width : image->width + x0;
+    for (int y = 0; out.pixels && y < image->height; y++)
+        if (y - y0 >= 0 && y - y0 < image->height && last > first)
+            memcpy(out.pixels + 4 * ((size_t)y * (size_t)out.width + (size_t)first),
+                   image->pixels + 4 * ((size_t)(y - y0) * (size_t)out.width + (size_t)(first - x0)),
+                   (size_t)(last - first) * 4 * sizeof(float));
+    float_image_free(canvas, image);
+    *image = out;
+}
+
+void float_image_tint(FloatImage *image, const double color[4]) {
+    for (size_t i = 0; i < count_of(image); i++) {
+        float *pixel = image->pixels + 4 * i, alpha = pixel[3] * (float)color[3];
+        for (int k = 0; k < 3; k++)
+            pixel[k] = alpha * (float)color[k];
+        pixel[3] = alpha;
+    }
+}
+
+void float_image_composite_over(FloatImage *below, const FloatImage *above) {
+    for (size_t i = 0; above->pixels && i < 4 * count_of(below); i++)
+        below->pixels[i] = above->pixels[i] + below->pixels[i] * (1 - above->pixels[i | 3]);
+}
+
+void float_image_fill(FloatImage *image, const double color[4]) {
+    for (size_t i = 0; i < 4 * count_of(image); i++)
+        image->pixels[i] = (float)(i % 4 == 3 ? color[3] : color[3] * color[i % 4]);
+}
+
+static float clamp_to(float x, float max) {
+    return fminf(fmaxf(x, 0), max);
+}
+
+void float_image_recolor(FloatImage *image, const double *matrix) {
+    for (size_t i = 0; i < count_of(image); i++) {
+        float *pixel = image->pixels + 4 * i, plain[5], out[4];
+        for (int k = 0; k < 4; k++)
+            plain[k] = k == 3 ? pixel[3] : pixel[3] > 0 ? pixel[k] / pixel[3] : 0;
+        plain[4] = 1;
+        for (int row = 0; row < 4; row++) {
+            double sum = 0;
+            for (int k = 0; k < 5; k++)
+                sum += matrix[5 * row + k] * (double)plain[k];
+            out[row] = clamp_to((float)sum, 1);
+        }
+        for (int k = 0; k < 4; k++)
+            pixel[k] = k < 3 ? out[k] * out[3] : out[3];
+    }
+}
+
+void float_image_combine(FloatImage *d, const FloatImage *s, const double *k, CompositeMode mode) {
+    for (size_t i = 0; s->pixels && i < count_of(d); i++) {
+        const float *above = s->pixels + 4 * i;
+        float *below = d->pixels + 4 * i;
+        if (!k)
+            blend_colors(mode, above, below, below);
+        for (int c = 0; k && c < 4; c++)
+            below[c] = (float)(k[0] * (double)(above[c] * below[c]) + k[1] * (double)above[c] +
+                               k[2] * (double)below[c] + k[3]);
+        below[3] = clamp_to(below[3], 1);
+        for (int c = 0; c < 3; c++)
+            below[c] = clamp_to(below[c], below[3]);
+    }
+}

@@ -1,0 +1,74 @@
+// layer_composite.c: see layer_composite.h.
+#include "draw/layer_composite.h"
+
+#include "schema/table.h"
+
+#include <math.h>
+
+// What comes later is the source s, what is there the destination d.
+static void combine_colors(int how, const float s[4], float d[4]) {
+    const float sa = s[3], da = d[3];
+    for (int k = 0; k < 4; k++)
+        switch (how) {
+        case MIX_DEST_OVER:
+            d[k] = s[k] * (1 - da) + d[k];
+            break;
+        case MIX_LIGHTEN:
+            d[k] = fmaxf(s[k], d[k]);
+            break;
+        case MIX_DARKEN:
+            d[k] = fminf(s[k], d[k]);
+            break;
+        case MIX_ADD:
+            d[k] = k < 3 ? s[k] + d[k] : fminf(sa + da, 1);
+            break;
+        case MIX_DIFFERENCE:
+            d[k] = k < 3 ? fabsf(d[k] - s[k]) : fmaxf(sa, da);
+            break;
+        case MIX_MULTIPLY:
+            d[k] *= s[k];
+            break;
+        default:
+            d[k] = s[k] + d[k] * (1 - sa);
+            break;
+        }
+}
+
+static float clamp_unit(float x) {
+    return x > 0 ? fminf(x, 1) : 0; // nan, too
+}
+
+static void store_color(const LayerComposite *mix, Texture *out, size_t at, const float color[4]) {
+    if (mix->srgb) {
+        unsigned a = (unsigned)lrintf(255 * clamp_unit(color[3]));
+        out->bytes[at] =
+            a << 24 | texture_encode(color[0]) << 16 | texture_encode(color[1]) << 8 | texture_encode(color[2]);
+        return;
+    }
+    for (size_t k = 0; k < 4; k++)
+        out->linear[4 * at + k] = mix->bits == 8 ? rintf(255 * clamp_unit(color[k])) / 255 : color[k];
+}
+
+Texture *layer_composite(const LayerComposite *mix) {
+    const Texture *only = mix->count == 1 ? mix->inputs[0] : NULL;
+    bool same = only && only->width == mix->width && only->height == mix->height && mix->alpha == 1;
+    if (same && (only->bytes ? mix->srgb || mix->bits > 8 : !mix->srgb && mix->bits > 8))
+        return texture_retain(mix->inputs[0]); // lin and enc cancel
+    Texture *out = texture_new(mix->meter, mix->width, mix->height, !mix->srgb);
+    if (!out || mix->count == 0)
+        return out;
+    for (int y = 0; y < mix->height; y++)
+        for (int x = 0; x < mix->width; x++) {
+            double u = (x + 0.5) / mix->width, v = (y + 0.5) / mix->height;
+            float sum[4], color[4];
+            texture_sample(mix->inputs[0], &mix->sampler, u, v, sum);
+            for (uint32_t i = 1; i < mix->count; i++) {
+                texture_sample(mix->inputs[i], &mix->sampler, u, v, color);
+                combine_colors(mix->how, color, sum);
+            }
+            for (int k = 0; k < 4; k++)
+                sum[k] *= mix->alpha;
+            store_color(mix, out, (size_t)y * (size_t)mix->width + (size_t)x, sum);
+        }
+    return out;
+}

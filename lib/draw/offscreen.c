@@ -1,0 +1,85 @@
+// offscreen.c: what drawing takes for a while: memory beside the picture's own, and surfaces to draw on. Whoever gives
+// a drawing up midway leaves them to draw_close.
+#include "draw/float_image.h"
+
+bool draw_reserve(Canvas *canvas, size_t bytes) {
+    if (!budget_reserve(&canvas->painter->meter, bytes))
+        return false;
+    canvas->charged += bytes;
+    return true;
+}
+
+void draw_release(Canvas *canvas, size_t bytes) {
+    budget_release(&canvas->painter->meter, bytes);
+    canvas->charged -= bytes;
+}
+
+const char draw_omitted[] = "what comes now is left out";
+
+bool draw_charge(Canvas *canvas, const Origin *place, double work, const char *outcome) {
+    static const double UNIT = 10; // nanoseconds (budget.h)
+    Budget *meter = &canvas->painter->meter;
+    if (work / UNIT <= (double)(meter->work_limit - meter->work)) {
+        meter->work += (uint64_t)(work / UNIT);
+        return true;
+    }
+    draw_report_canvas_at(canvas, place, DIAG_WARNING, "drawing-limit",
+                          "drawing takes longer than a script may (--work): %s", outcome);
+    return false;
+}
+
+static size_t bytes_of(cairo_surface_t *surface) {
+    return (size_t)cairo_image_surface_get_stride(surface) * (size_t)cairo_image_surface_get_height(surface);
+}
+
+cairo_surface_t *draw_push_offscreen(Canvas *canvas, int width, int height, double x, double y) {
+    if (!draw_reserve(canvas, (size_t)width * (size_t)height * sizeof(uint32_t)))
+        return NULL;
+    cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height);
+    cairo_surface_set_device_offset(surface, -x, -y);
+    cairo_t *cr = cairo_create(surface);
+    if (cairo_status(cr) != CAIRO_STATUS_SUCCESS) {
+        cairo_destroy(cr);
+        cairo_surface_destroy(surface);
+        draw_release(canvas, (size_t)width * (size_t)height * sizeof(uint32_t));
+        return NULL;
+    }
+    cairo_set_tolerance(cr, cairo_get_tolerance(canvas->cr));
+    canvas->offscreen = surface;
+    canvas->outer = canvas->cr;
+    canvas->cr = cr;
+    canvas->outer_hdr_target = canvas->hdr_target;
+    canvas->hdr_target.pixels = NULL;
+    canvas->path_of = NULL;
+    return surface;
+}
+
+void draw_pop_offscreen(Canvas *canvas) {
+    if (!canvas->offscreen)
+        return;
+    draw_release(canvas, bytes_of(canvas->offscreen));
+    cairo_destroy(canvas->cr);
+    cairo_surface_destroy(canvas->offscreen);
+    canvas->offscreen = NULL;
+    canvas->cr = canvas->outer;
+    canvas->hdr_target = canvas->outer_hdr_target;
+    draw_forget_path(canvas);
+}
+
+void draw_report_degraded(Canvas *canvas, const Origin *place, const char *what, bool lacking) {
+    Budget *meter = &canvas->painter->meter;
+    if (!lacking)
+        return;
+    if (!meter->memory_refused)
+        arena_exhausted(&canvas->painter->arena);
+    meter->memory_refused = false;
+    draw_report_canvas_at(canvas, place, DIAG_WARNING, "memory-limit",
+                          "drawing takes more memory than a script may have (--memory); this is drawn without %s",
+                          what);
+}
+
+void draw_close(Canvas *canvas) {
+    draw_pop_offscreen(canvas);
+    float_image_free_all(canvas);
+    draw_release(canvas, canvas->charged);
+}

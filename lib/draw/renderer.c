@@ -1,0 +1,182 @@
+// renderer.c: what painters do whoever draws the canvases; see painter.h.
+#include "base/heap.h"
+#include "draw/painter.h"
+#include "draw/resize.h"
+
+#include <math.h>
+#include <string.h>
+
+PetriPainter *petri_painter_open(void) {
+    PetriPainter *painter = heap_calloc(1, sizeof *painter);
+    if (!painter)
+        return NULL;
+    arena_init(&painter->arena, "painter", SIZE_MAX);
+    painter->meter.memory_limit = SIZE_MAX;
+    budget_begin(&painter->meter, UINT64_MAX, NULL);
+    painter->arena.budget = &painter->meter;
+    painter->render_graph = render_graph_new();
+    if (painter->render_graph)
+        return painter;
+    petri_painter_close(&painter);
+    return NULL;
+}
+
+void petri_painter_close(PetriPainter **handle) {
+    if (!handle)
+        return;
+    PetriPainter *painter = *handle;
+    *handle = NULL;
+    if (!painter)
+        return;
+    draw_tools_close(painter);
+    render_graph_free(painter);
+    gl_close(painter->gl);
+    heap_free(painter->window);
+    arena_free(&painter->arena);
+    heap_free(painter);
+}
+
+void draw_report_args(DiagSink *faults, const Origin *place, DiagLevel level, const char *code, const char *format,
+                      va_list args) {
+    Text text = text_new(faults->arena);
+    text_add_va(&text, format, args);
+    Diag diag = {.level = level, .text = text_str(&text), .code = code};
+    if (place) {
+        diag.source = place->source;
+        diag.span = place->span;
+    }
+    diag_report(faults, &diag);
+}
+
+void draw_report(DiagSink *faults, const Origin *place, DiagLevel level, const char *code, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    draw_report_args(faults, place, level, code, format, args);
+    va_end(args);
+}
+
+bool draw_report_refused(PetriPainter *painter, const Origin *place, const char *node, int width, int height,
+                         DiagSink *faults) {
+    if (!painter->meter.memory_refused)
+        return false;
+    painter->meter.memory_refused = false;
+    draw_report(faults, place, DIAG_WARNING, "memory-limit",
+                "%s: a picture of %d x %d pixels takes more memory than a script may have (--memory); it is left out",
+                node, width, height);
+    return true;
+}
+
+double draw_fit(double width, double height, double box_width, double box_height, double *left, double *top) {
+    double scale = fmin(box_width / width, box_height / height);
+    *left = (box_width - width * scale) / 2;
+    *top = (box_height - height * scale) / 2;
+    return scale;
+}
+
+void draw_limit(PetriPainter *painter, const CanvasPicture *picture) {
+    painter->meter.memory_limit = picture->memory;
+    budget_begin(&painter->meter, picture->work / 4 * 3, NULL); // drawing is not charged to the frame
+}
+
+static void report_limit(void *faults) {
+    draw_report(faults, NULL, DIAG_ERROR, "memory-limit",
+                "drawing takes more memory than a script may have (--memory): the picture is not drawn");
+}
+
+PetriStatus draw_report_limit(DiagSink *faults) {
+    return arena_protect(&faults->arena, 1, report_limit, faults) == ARENA_OK ? PETRI_INVALID : PETRI_OUT_OF_MEMORY;
+}
+
+void draw_clear(uint32_t *pixels, int width, int height, size_t stride) {
+    for (int y = 0; y < height; y++)
+        memset((unsigned char *)pixels + (size_t)y * stride, 0, (size_t)width * sizeof *pixels);
+}
+
+// Makes the tree of pictures, once for each picture.
+static PetriStatus make_pictures(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults) {
+    if (painter->made == picture->serial)
+        return PETRI_OK;
+    painter->shown = NULL;
+    PetriStatus result = render_graph_run(painter, picture, faults, &painter->shown);
+    painter->made = result == PETRI_OK ? picture->serial : 0;
+    return result;
+}
+
+PetriStatus draw_render(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults) {
+    if (picture->window && (picture->needs_history || !picture->direct))
+        return make_pictures(painter, picture, faults);
+    if (painter->made > 0) { // nothing of this frame can be continued in the next
+        render_graph_clear(painter);
+        painter->made = 0;
+        painter->shown = NULL;
+    }
+    return PETRI_OK;
+}
+
+const Texture *draw_rendered(const PetriPainter *painter, const CanvasPicture *picture) {
+    return picture->window && painter->made == picture->serial ? painter->shown : NULL;
+}
+
+typedef struct Fetching {
+    PetriPainter *painter;
+    const CanvasPicture *picture;
+    DiagSink *faults;
+} Fetching;
+
+// Reads what was made of the window back. If the script may not have the memory it has no picture.
+static void download_shown(void *context) {
+    Fetching *fetching = context;
+    PetriPainter *painter = fetching->painter;
+    Texture *shown = painter->shown;
+    const char *problem;
+    bool good = gl_enter(painter->gl, &problem);
+    if (good) {
+        good = texture_download(painter->gl, shown);
+        gl_leave(painter->gl);
+    }
+    if (good)
+        return;
+    painter->shown = NULL;
+    if (!draw_report_refused(painter, &fetching->picture->window->origin, "!window", shown->width, shown->height,
+                             fetching->faults))
+        arena_exhausted(fetching->faults->arena);
+}
+
+PetriStatus draw_render_pixels(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults) {
+    PetriStatus result = draw_render(painter, picture, faults);
+    const Texture *made = result == PETRI_OK ? draw_rendered(painter, picture) : NULL;
+    Fetching fetching = {painter, picture, faults};
+    if (made && !made->bytes && !made->linear &&
+        arena_protect(&faults->arena, 1, download_shown, &fetching) != ARENA_OK)
+        result = PETRI_OUT_OF_MEMORY;
+    return result;
+}
+
+void draw_texture(const Texture *texture, bool opaque, uint32_t *pixels, size_t stride) {
+    for (int y = 0; y < texture->height; y++) {
+        uint32_t *row = (uint32_t *)(void *)((unsigned char *)pixels + (size_t)y * stride);
+        texture_row(texture, y, opaque, row);
+    }
+}
+
+const Recorded *draw_records(const PetriPainter *painter, const CanvasPicture *picture, uint32_t *count) {
+    *count = 0;
+    return painter->made == picture->serial ? render_graph_records(painter->render_graph, count) : NULL;
+}
+
+Texture *draw_sized_image(PetriPainter *painter, const DrawNode *node, const uint32_t *pixels, int width, int height,
+                          size_t stride, bool alpha, DiagSink *faults) {
+    int wide = width, high = height;
+    render_graph_node_size(node, &wide, &high);
+    if (wide < 1 || high < 1 || wide > DRAW_MAX_SIDE || high > DRAW_MAX_SIDE ||
+        (int64_t)wide * high > DRAW_MAX_PIXELS) {
+        draw_report(faults, &node->origin, DIAG_WARNING, "bad-size",
+                    "!image: a picture can have 1 to %d pixels in width and height", DRAW_MAX_SIDE);
+        return NULL;
+    }
+    Texture *texture =
+        resize_pixels(&painter->meter, pixels, width, height, stride, alpha, wide, high, draw_word(node, ATTR_FLIP));
+    if (!texture && !draw_report_refused(painter, &node->origin, "!image", wide, high, faults))
+        arena_exhausted(&painter->arena);
+    return texture;
+}

@@ -1,0 +1,16 @@
+// systems.h: the particle systems of a session's last frame, copied for the automatic picture.
+#ifndef PETRI_DRAW_SYSTEMS_H
+#define PETRI_DRAW_SYSTEMS_H
+
+#include "draw/automatic.h"
+#include "session/draw_access.h"
+
+enum { SYSTEMS_MOST = 64 }; // in one automatic picture
+
+uint32_t auto_count(const DrawAccess *shown);
+// Copies the first `count` systems to the arena, and extends their frames.
+AutoPicture auto_copy(const DrawAccess *shown, Arena *arena, AutoFrame *frames, uint32_t count);
+// Extends the frames of all systems. The arena is for temporaries.
+void auto_follow(const DrawAccess *shown, Arena *arena, AutoFrame *frames);
+
+#endif

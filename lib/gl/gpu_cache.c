@@ -1,0 +1,223 @@
+// gpu_cache.c: see gpu_cache.h.
+#include "gl/gpu_cache.h"
+
+#include "base/heap.h"
+#include "gl/scene_mesh.h"
+
+#include <string.h>
+
+enum { MAX_IDLE_SCENES = 30 }; // scenes after the last that had a model
+
+struct CachedModel {
+    CachedModel *next;
+    SceneModel model;
+    SceneShape shape;
+    uint64_t used;
+};
+
+GpuCache *gpu_cache(Gl *gl) {
+    if (gl->cache)
+        return gl->cache;
+    GpuCache *store = gl->cache = heap_calloc(1, sizeof *store);
+    if (!store)
+        return NULL;
+    glGenBuffers(1, &store->instances);
+    glGenBuffers(1, &store->light_block);
+    glGenTextures(1, &store->light_texture);
+    glBindTexture(GL_TEXTURE_2D, store->light_texture);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    return store;
+}
+
+static void free_model(bool lost, CachedModel *model_entry) {
+    if (!lost) {
+        glDeleteVertexArrays(1, &model_entry->shape.array);
+        glDeleteBuffers(1, &model_entry->shape.corners);
+        glDeleteBuffers(1, &model_entry->shape.indices);
+    }
+    heap_free(model_entry);
+}
+
+static void free_target(Gl *gl, SceneTarget *target) {
+    budget_release(gl->meter, target->charged);
+    if (!gl->lost) {
+        glDeleteFramebuffers(1, &target->framebuffer);
+        glDeleteRenderbuffers(1, &target->color);
+        glDeleteRenderbuffers(1, &target->depth);
+    }
+    *target = (SceneTarget){.framebuffer = 0};
+}
+
+void gpu_cache_close(Gl *gl) {
+    GpuCache *store = gl->cache;
+    if (!store)
+        return;
+    for (CachedModel *model_entry = store->models, *next; model_entry; model_entry = next) {
+        next = model_entry->next;
+        free_model(gl->lost, model_entry);
+    }
+    for (int i = 0; i < SCENE_TARGETS; i++)
+        free_target(gl, &store->targets[i]);
+    if (!gl->lost) {
+        glDeleteBuffers(1, &store->instances);
+        glDeleteBuffers(1, &store->light_block);
+        glDeleteTextures(1, &store->light_texture);
+    }
+    heap_free(store);
+    gl->cache = NULL;
+}
+
+static void evict_old_models(GpuCache *store) {
+    for (CachedModel **at = &store->models; *at;) {
+        CachedModel *model_entry = *at;
+        if (model_entry->used + MAX_IDLE_SCENES < store->now) {
+            *at = model_entry->next;
+            free_model(false, model_entry);
+        } else {
+            at = &model_entry->next;
+        }
+    }
+}
+
+static void upload_mesh(SceneShape *shape, const Mesh *mesh) {
+    glGenVertexArrays(1, &shape->array);
+    glGenBuffers(1, &shape->corners);
+    glGenBuffers(1, &shape->indices);
+    glBindVertexArray(shape->array);
+    glBindBuffer(GL_ARRAY_BUFFER, shape->corners);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(mesh->vertex_count * sizeof(MeshVertex)), mesh->vertices,
+                 GL_STATIC_DRAW);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, shape->indices);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)(mesh->index_count * sizeof(uint32_t)), mesh->indices,
+                 GL_STATIC_DRAW);
+    static const struct {
+        GLint size;
+        size_t at;
+    } parts[] = {{3, offsetof(MeshVertex, position)}, {3, offsetof(MeshVertex, normal)}, {2, offsetof(MeshVertex, uv)}};
+    for (GLuint i = 0; i < 3; i++) {
+        glVertexAttribPointer(i, parts[i].size, GL_FLOAT, GL_FALSE, sizeof(MeshVertex), (const void *)parts[i].at);
+        glEnableVertexAttribArray(i);
+    }
+    for (GLuint i = 3; i < 13; i++) {
+        glEnableVertexAttribArray(i);
+        glVertexAttribDivisor(i, 1);
+    }
+    shape->index_count = (GLsizei)mesh->index_count;
+}
+
+const SceneShape *gpu_cache_shape(GpuCache *store, const Scene *scene, const SceneModel *model) {
+    for (CachedModel *model_entry = store->models; model_entry; model_entry = model_entry->next)
+        if (scene_same_model(&model_entry->model, model)) {
+            model_entry->used = store->now;
+            if (model_entry->shape.array || model_entry->model.kind != KIND_MODEL)
+                return &model_entry->shape;
+            break; // what is wrong is reported in each scene
+        }
+    ArenaMark mark = arena_mark(scene->arena);
+    Mesh mesh;
+    CachedModel *model_entry = heap_calloc(1, sizeof *model_entry);
+    if (!model_entry)
+        arena_exhausted(scene->arena);
+    *model_entry = (CachedModel){.next = store->models, .model = *model, .used = store->now};
+    store->models = model_entry; // from here on it is freed with the store
+    evict_old_models(store);
+    if (scene_mesh(scene, model, scene->arena, &mesh)) {
+        upload_mesh(&model_entry->shape, &mesh);
+        mesh_bounds(&mesh, model_entry->shape.box.low, model_entry->shape.box.high);
+        model_entry->shape.box.triangles = mesh.index_count / 3;
+    }
+    arena_rewind(scene->arena, mark);
+    return &model_entry->shape;
+}
+
+void gpu_cache_bind_instances(const GpuCache *store, const SceneShape *shape, uint32_t first) {
+    const size_t size = sizeof(SceneRecord), start = first * size;
+    glBindVertexArray(shape->array);
+    glBindBuffer(GL_ARRAY_BUFFER, store->instances);
+    for (GLuint i = 0; i < 4; i++)
+        glVertexAttribPointer(3 + i, 4, GL_FLOAT, GL_FALSE, (GLsizei)size,
+                              (const void *)(start + offsetof(SceneRecord, matrix) + 16 * (size_t)i));
+    for (GLuint i = 0; i < 3; i++) {
+        glVertexAttribPointer(7 + i, 3, GL_FLOAT, GL_FALSE, (GLsizei)size,
+                              (const void *)(start + offsetof(SceneRecord, cofactors) + 12 * (size_t)i));
+        glVertexAttribPointer(10 + i, 4, GL_FLOAT, GL_FALSE, (GLsizei)size,
+                              (const void *)(start + offsetof(SceneRecord, surface) + 16 * (size_t)i));
+    }
+}
+
+// As many as are wanted and the GPU has for this format; 0 for fewer than 2.
+static int samples_for(int wanted, GLenum format) {
+    GLint count = 0, list[16] = {0};
+    glGetInternalformativ(GL_RENDERBUFFER, format, GL_NUM_SAMPLE_COUNTS, 1, &count);
+    glGetInternalformativ(GL_RENDERBUFFER, format, GL_SAMPLES, count < 16 ? count : 16, list);
+    for (int i = 0; i < count && i < 16; i++) // from the most
+        if (list[i] <= wanted && list[i] >= 2)
+            return list[i];
+    return 0;
+}
+
+static bool make_target(SceneTarget *target) {
+    static const GLenum inner[] = {[GL_FORMAT_SRGB8] = GL_SRGB8_ALPHA8,
+                                   [GL_FORMAT_RGBA8] = GL_RGBA8,
+                                   [GL_FORMAT_RGBA16F] = GL_RGBA16F,
+                                   [GL_FORMAT_RGBA32F] = GL_RGBA32F};
+    const double MAX_BYTES = 2e9;
+    int samples = target->samples;
+    while (samples > 1 && 12.0 * target->width * target->height * samples > MAX_BYTES)
+        samples /= 2;
+    samples = samples_for(samples, inner[target->format]);
+    while (glGetError() != GL_NO_ERROR)
+        ;
+    glGenFramebuffers(1, &target->framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffer);
+    glGenRenderbuffers(1, &target->depth);
+    glBindRenderbuffer(GL_RENDERBUFFER, target->depth);
+    glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_DEPTH_COMPONENT24, target->width, target->height);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, target->depth);
+    if (samples > 0) {
+        glGenRenderbuffers(1, &target->color);
+        glBindRenderbuffer(GL_RENDERBUFFER, target->color);
+        glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, inner[target->format], target->width,
+                                         target->height);
+        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, target->color);
+    }
+    return glGetError() == GL_NO_ERROR;
+}
+
+// Charges a target, if need be in place of all others.
+static bool charge_target(Gl *gl, SceneTarget *target) {
+    size_t pixel = 4 + (target->samples > 0 ? gl_pixel_size(target->format) : 0); // depth, and what is resolved
+    size_t bytes =
+        (size_t)target->width * (size_t)target->height * pixel * (size_t)(target->samples > 0 ? target->samples : 1);
+    bool known = gl_is_refused(gl), taken = budget_reserve(gl->meter, bytes);
+    for (int i = 0; !taken && i < SCENE_TARGETS; i++)
+        if (&gl->cache->targets[i] != target)
+            free_target(gl, &gl->cache->targets[i]);
+    if (!taken && (taken = budget_reserve(gl->meter, bytes)))
+        gl->meter->memory_refused = known;
+    target->charged = taken ? bytes : 0;
+    return taken;
+}
+
+SceneTarget *gpu_cache_target(Gl *gl, int width, int height, int samples, GlFormat format, bool extra) {
+    GpuCache *store = gl->cache;
+    SceneTarget *oldest = &store->targets[0];
+    for (int i = 0; i < SCENE_TARGETS; i++) {
+        SceneTarget *target = &store->targets[i];
+        if (target->framebuffer && target->width == width && target->height == height && target->samples == samples &&
+            target->format == format && target->extra == extra) {
+            target->used = store->now;
+            return target;
+        }
+        if (target->used < oldest->used)
+            oldest = target;
+    }
+    free_target(gl, oldest);
+    *oldest = (SceneTarget){
+        .width = width, .height = height, .samples = samples, .format = format, .extra = extra, .used = store->now};
+    if (charge_target(gl, oldest) && make_target(oldest))
+        return oldest;
+    free_target(gl, oldest);
+    return NULL;
+}

@@ -1,0 +1,136 @@
+// shader_errors.c: see shader_errors.h.
+#include "gl/shader_errors.h"
+
+#include <ctype.h>
+#include <string.h>
+
+// What a compiler says: a line of the text, from 1, 0 if unknown; and what is wrong there.
+typedef struct CompilerMessage {
+    uint32_t line;
+    Str text;
+} CompilerMessage;
+
+static uint32_t read_number(Str *text) {
+    uint32_t number = 0;
+    while (text->len > 0 && isdigit((unsigned char)*text->bytes)) {
+        number = number < 100000000 ? 10 * number + (uint32_t)(*text->bytes - '0') : number;
+        text->bytes++, text->len--;
+    }
+    return number;
+}
+
+static bool skip_char(Str *text, char c) {
+    if (text->len == 0 || *text->bytes != c)
+        return false;
+    text->bytes++, text->len--;
+    return true;
+}
+
+// Drivers say `0:5(22): error: …` or `ERROR: 0:5: …` or `0(5) : error …`. The first line is enough: what follows often
+// comes of it.
+static CompilerMessage read_message(Str problem) {
+    const char *end = memchr(problem.bytes, '\n', problem.len);
+    Str all = str_trim((Str){problem.bytes, end ? (size_t)(end - problem.bytes) : problem.len}), rest = all;
+    CompilerMessage message = {.text = all};
+    while (rest.len > 0 && !isdigit((unsigned char)*rest.bytes))
+        rest.bytes++, rest.len--;
+    read_number(&rest); // of the text
+    bool colon = skip_char(&rest, ':');
+    if (!colon && !skip_char(&rest, '('))
+        return message;
+    message.line = read_number(&rest);
+    if (colon && skip_char(&rest, '('))
+        read_number(&rest); // columns of what Mesa's preprocessor has left of the line
+    while (rest.len > 0 && (*rest.bytes == ')' || *rest.bytes == ':' || *rest.bytes == ' '))
+        rest.bytes++, rest.len--;
+    if (str_starts_with(rest, STR("error: ")))
+        rest = (Str){rest.bytes + 7, rest.len - 7};
+    message.text = rest;
+    return message;
+}
+
+static bool is_letter(char c) {
+    return isalnum((unsigned char)c) || c == '_';
+}
+
+// Where a text stands in another, from an offset on, as a word if it is one; UINT32_MAX: nowhere.
+static uint32_t find_text(Str in, Str text, size_t from) {
+    for (size_t i = from; text.len > 0 && i + text.len <= in.len; i++) {
+        size_t end = i + text.len;
+        if (in.bytes[i] == *text.bytes && memcmp(in.bytes + i, text.bytes, text.len) == 0 &&
+            !(i > 0 && is_letter(*text.bytes) && is_letter(in.bytes[i - 1])) &&
+            !(end < in.len && is_letter(text.bytes[text.len - 1]) && is_letter(in.bytes[end])))
+            return (uint32_t)i;
+    }
+    return UINT32_MAX;
+}
+
+// What a compiler has put in quotes: `blue' or 'blue'.
+static Str find_quoted(Str text) {
+    for (size_t i = 0; i + 2 < text.len; i++) {
+        const char *end =
+            text.bytes[i] == '`' || text.bytes[i] == '\'' ? memchr(text.bytes + i + 1, '\'', text.len - i - 1) : NULL;
+        if (end)
+            return (Str){text.bytes + i + 1, (size_t)(end - text.bytes) - i - 1};
+    }
+    return (Str){0};
+}
+
+// What is wrong in a line of a text that stands at `start`: the word in quotes, or all of the line.
+static Span span_of(Str source, uint32_t start, const CompilerMessage *message) {
+    size_t at = start;
+    for (uint32_t line = 1; line < message->line && at < source.len; at++)
+        line += source.bytes[at] == '\n';
+    size_t end = at;
+    while (end < source.len && source.bytes[end] != '\n')
+        end++;
+    Str quoted = find_quoted(message->text);
+    uint32_t word = find_text((Str){source.bytes, end}, quoted, at);
+    if (word != UINT32_MAX)
+        return (Span){word, word + (uint32_t)quoted.len};
+    while (at < end && (source.bytes[at] == ' ' || source.bytes[at] == '\t'))
+        at++;
+    return (Span){(uint32_t)at, (uint32_t)(end > at ? end : at + 1)};
+}
+
+// The name in the first `read('name')` of a text; empty: there is none.
+static Str find_file(Str text) {
+    for (size_t i = 0; i + 6 < text.len; i++) {
+        char quote = text.bytes[i + 5];
+        const char *name = text.bytes + i + 6, *end;
+        if (memcmp(text.bytes + i, "read(", 5) == 0 && (quote == '\'' || quote == '"') &&
+            (end = memchr(name, quote, text.len - i - 6)))
+            return (Str){name, (size_t)(end - name)};
+    }
+    return (Str){0};
+}
+
+static Str format_message(Arena *arena, const DrawNode *node, const CompilerMessage *message) {
+    const char *kind = schema_kinds[node->kind].name;
+    const Source *source = node->origin.source;
+    Span span = node->origin.span;
+    Str file = source ? find_file((Str){source->text.bytes + span.start, span.end - span.start}) : (Str){0};
+    if (message->line == 0)
+        return str_format(arena, "!%s: %.*s", kind, STR_ARGS(message->text));
+    if (file.len == 0)
+        return str_format(arena, "!%s: line %u of its program: %.*s", kind, message->line, STR_ARGS(message->text));
+    return str_format(arena, "!%s: %.*s:%u: %.*s", kind, STR_ARGS(file), message->line, STR_ARGS(message->text));
+}
+
+void gl_report_shader_error(DiagSink *faults, const DrawNode *node, const GlShaderError *fault) {
+    const AttrValue *own = draw_attr(node, fault->in_vertex ? ATTR_VERTEX : ATTR_FRAGMENT);
+    const Source *source = node->origin.source;
+    CompilerMessage message = read_message(fault->text);
+    uint32_t start = UINT32_MAX;
+    Diag diag = {.level = DIAG_WARNING, .source = source, .span = node->origin.span, .code = "bad-shader"};
+    if (source && own && message.line > 0) {
+        start = find_text(source->text, own->as.text, node->origin.span.start);
+        start = start == UINT32_MAX ? find_text(source->text, own->as.text, 0) : start;
+    }
+    if (start != UINT32_MAX) {
+        diag.span = span_of(source->text, start, &message);
+        message.line = 0;
+    }
+    diag.text = format_message(faults->arena, node, &message);
+    diag_report(faults, &diag);
+}
