@@ -1,12 +1,12 @@
 // check.c: `petri check`: what is wrong with scripts, without running them.
-#include <inttypes.h>
-#include <stdio.h>
-#include <stdlib.h>
-
 #include "check/report.h"
 #include "cli/options.h"
 #include "cli/script.h"
 #include "petri.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
 
 typedef struct Check {
     Options *options;
@@ -17,27 +17,23 @@ typedef struct Check {
 static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     Check *check = host;
     // Notes belong to the diagnostic before them.
-    if (diagnostic->level != PETRI_NOTE) {
+    if (diagnostic->level != PETRI_NOTE)
         check->shown_last = diagnostic->level == PETRI_ERROR || check->options->verbosity != LOG_QUIET;
-    }
-    if (check->shown_last && check->report.form != REPORT_TEXT) {
+    if (check->shown_last && check->report.form != REPORT_TEXT)
         report_add(&check->report, diagnostic);
-    } else if (check->shown_last) {
+    else if (check->shown_last)
         fputs(diagnostic->rendered, stderr);
-    }
 }
 
-static int check_all(Check *check, const Host *host) {
+static int check_all(Check *check, const CommandContext *host) {
     const Options *options = check->options;
     PetriSession *session = NULL;
     int status = options_open(options, host, on_diagnostic, check, &session);
-    if (status != OPTIONS_READ) {
+    if (status != OPTIONS_READ)
         return status;
-    }
     size_t rejected = 0;
-    for (size_t i = 0; i < options->scripts.count; i++) {
+    for (size_t i = 0; i < options->scripts.count; i++)
         rejected += script_check(session, options->scripts.items[i].path) == PETRI_OK ? 0 : 1;
-    }
     uint64_t errors = petri_diagnostic_count(session, PETRI_ERROR);
     uint64_t warnings = petri_diagnostic_count(session, PETRI_WARNING);
     petri_close(&session);
@@ -48,13 +44,11 @@ static int check_all(Check *check, const Host *host) {
     return check->report.form == REPORT_TEXT ? result : report_end(&check->report, result);
 }
 
-static int check_run(const Host *host, Options *options) {
-    if (options->scripts.count > 0) {
+static int check_run(const CommandContext *host, Options *options) {
+    if (options->scripts.count > 0)
         return check_all(&(Check){.options = options, .report = {.form = (ReportForm)options->report}}, host);
-    }
-    if (!options->unreadable) {
+    if (!options->unreadable)
         message("no script found: there is no file named *.fl");
-    }
     return STATUS_FAILED;
 }
 
@@ -71,8 +65,8 @@ const Command CHECK_COMMAND = {
     .examples = "  petri check dish.fl\n"
                 "  petri check --werror .                          all scripts here, for CI\n"
                 "  petri check --format=sarif . >petri.sarif       … as code hosts read it\n",
-    .needed = "nothing to check",
+    .missing_operand = "nothing to check",
     .options = FOR_CHECK,
-    .many = true,
+    .accepts_many = true,
     .run = check_run,
 };

@@ -2,14 +2,14 @@
 #ifndef PETRI_SRC_CHECK_REPORT_H
 #define PETRI_SRC_CHECK_REPORT_H
 
-#include "cli/bytes.h"
+#include "cli/byte_buffer.h"
 #include "petri.h"
 
 typedef enum ReportForm { REPORT_TEXT, REPORT_GCC, REPORT_JSON, REPORT_SARIF } ReportForm;
 
 typedef struct Report {
     ReportForm form;
-    Bytes text;
+    ByteBuffer text;
     size_t count;
     TextList codes; // that have come, for the rules of SARIF
 } Report;

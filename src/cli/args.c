@@ -1,67 +1,61 @@
 // args.c: reading a command line, one option or operand at a time.
 #include "cli/args.h"
 
+#include "cli/byte_buffer.h"
+
 #include <stdint.h>
 #include <string.h>
 
-#include "cli/bytes.h"
-
 static const OptionSpec *find_option(unsigned commands, const char *name, char letter) {
-    for (const OptionSpec *spec = OPTIONS; spec->name != NULL; spec++) {
-        if (spec->commands & commands && (letter != '\0' ? spec->letter == letter : strcmp(spec->name, name) == 0)) {
+    for (const OptionSpec *spec = OPTIONS; spec->name; spec++)
+        if (spec->commands & commands && (letter != '\0' ? spec->letter == letter : strcmp(spec->name, name) == 0))
             return spec;
-        }
-    }
     return NULL;
 }
 
 // Another of the commands that run scripts, which has the option: what is asked of one is at times another's.
-static const char *find_elsewhere(const Args *args, const char *name) {
+static const char *find_other_command(const Args *args, const char *name) {
     char letter = strlen(name) == 1 ? name[0] : '\0';
     static const char *const names[] = {"run", "render", "view"};
     static const unsigned options[] = {FOR_RUN, FOR_RENDER, FOR_VIEW};
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
-        if (!(options[i] & args->command->options) && find_option(options[i], name, letter) != NULL) {
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        if (!(options[i] & args->command->options) && find_option(options[i], name, letter))
             return names[i];
-        }
-    }
     return NULL;
 }
 
 static int unknown_option(const Args *args, const char *word, const char *name) {
     StrNearest nearest = nearest_start(name);
-    for (const OptionSpec *spec = OPTIONS; spec->name != NULL; spec++) {
-        if (spec->commands & args->command->options) {
+    for (const OptionSpec *spec = OPTIONS; spec->name; spec++)
+        if (spec->commands & args->command->options)
             nearest_offer(&nearest, spec->name);
-        }
-    }
     nearest_offer(&nearest, "help");
     nearest_offer(&nearest, "version");
     const char *meant = strcmp(name, "v") == 0 ? "version" : nearest.found.bytes;
-    const char *elsewhere = meant == NULL || nearest.limit > 1 ? find_elsewhere(args, name) : NULL;
-    if (elsewhere != NULL) {
+    const char *elsewhere = !meant || nearest.limit > 1 ? find_other_command(args, name) : NULL;
+    if (elsewhere) {
         message("'petri %s' has no option '%s', but 'petri %s' has; 'petri help %s' lists the options",
                 args->command->name, word, elsewhere, args->command->name);
-    } else if (meant != NULL) {
+    } else if (meant) {
         message("unknown option '%s', did you mean '--%s'?", word, meant);
     } else {
         message("unknown option '%s'; 'petri help %s' lists the options", word, args->command->name);
     }
-    return ARG_WRONG;
+    return ARG_INVALID;
 }
 
 // An option with the value that is in its own word, if there is one, else with the next word.
-static int take_option(Args *args, const OptionSpec *spec, const char *word, const char *value) {
+static int accept_option(Args *args, const OptionSpec *spec, const char *word, const char *value) {
     args->option = spec;
     args->value = value;
-    if (spec->value == NULL && value != NULL) {
+    if (!spec->value && value) {
         message("option '--%s' takes no value", spec->name);
-        return ARG_WRONG;
+        return ARG_INVALID;
     }
-    if (spec->value != NULL && value == NULL) {
+    if (spec->value && !value) {
         if (args->next == args->argc) {
             message("option '%s' needs a value: %s, %s", word, spec->value, spec->help);
-            return ARG_WRONG;
+            return ARG_INVALID;
         }
         args->value = args->argv[args->next++];
     }
@@ -70,39 +64,34 @@ static int take_option(Args *args, const OptionSpec *spec, const char *word, con
 
 static int long_option(Args *args, const char *word) {
     const char *equals = strchr(word, '=');
-    SCOPED_TEXT name = memory_copied(word + 2, strcspn(word + 2, "="));
+    SCOPED_TEXT name = memory_strndup(word + 2, strcspn(word + 2, "="));
     args->version = strcmp(name, "version") == 0;
-    if ((strcmp(name, "help") == 0 || args->version) && equals == NULL) {
+    if ((strcmp(name, "help") == 0 || args->version) && !equals)
         return ARG_HELP;
-    }
     const OptionSpec *spec = find_option(args->command->options, name, '\0');
-    return spec == NULL ? unknown_option(args, word, name)
-                        : take_option(args, spec, word, equals == NULL ? NULL : equals + 1);
+    return !spec ? unknown_option(args, word, name) : accept_option(args, spec, word, !equals ? NULL : equals + 1);
 }
 
 static int short_option(Args *args, const char *word) {
     args->version = word[1] == 'V';
-    if ((word[1] == 'h' || args->version) && word[2] == '\0') {
+    if ((word[1] == 'h' || args->version) && word[2] == '\0')
         return ARG_HELP;
-    }
     // No flag has a short form, so a letter is always followed by a value.
     const OptionSpec *spec = find_option(args->command->options, "", word[1]);
-    return spec == NULL ? unknown_option(args, word, word + 1)
-                        : take_option(args, spec, word, word[2] == '\0' ? NULL : word + 2);
+    return !spec ? unknown_option(args, word, word + 1)
+                 : accept_option(args, spec, word, word[2] == '\0' ? NULL : word + 2);
 }
 
 int args_next(Args *args) {
-    if (args->next == args->argc) {
+    if (args->next == args->argc)
         return ARG_END;
-    }
     const char *word = args->argv[args->next++];
     if (args->operands_only || word[0] != '-' || word[1] == '\0') {
         args->value = word;
         return ARG_OPERAND;
     }
-    if (word[1] != '-') {
+    if (word[1] != '-')
         return short_option(args, word);
-    }
     if (word[2] == '\0') {
         args->operands_only = true;
         return args_next(args);

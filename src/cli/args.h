@@ -7,7 +7,7 @@
 
 #include "cli/cli.h"
 
-enum { ARG_END = 0, ARG_OPTION = 1, ARG_OPERAND = -1, ARG_HELP = -2, ARG_WRONG = -3 };
+enum { ARG_END = 0, ARG_OPTION = 1, ARG_OPERAND = -1, ARG_HELP = -2, ARG_INVALID = -3 };
 
 typedef struct Args {
     const Command *command;
@@ -21,7 +21,7 @@ typedef struct Args {
     const char *value;        // its value, or the operand
 } Args;
 
-// What comes next. After ARG_WRONG the message has been given.
+// What comes next. After ARG_INVALID the message has been given.
 int args_next(Args *args);
 
 #endif

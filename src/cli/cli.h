@@ -2,17 +2,17 @@
 #ifndef PETRI_SRC_CLI_H
 #define PETRI_SRC_CLI_H
 
+#include "base/str.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include "base/str.h"
 
 struct Args;
 struct Mail;
 struct Options;
 struct PetriRanks;
-struct SweepExtras;
+struct PlotSupport;
 
 enum { STATUS_DONE = 0, STATUS_FAILED = 1, STATUS_USAGE = 2, STATUS_SIGNAL = 128 }; // plus its number
 
@@ -31,8 +31,8 @@ typedef struct OptionSpec {
     const char *help;
     size_t field; // where it is in Options
     bool (*read)(const struct Args *args, void *field);
-    int64_t least; // of whole numbers
-    int64_t most;
+    int64_t min; // of whole numbers
+    int64_t max;
     const char *const *words; // to choose from (some, with commas, if the value is a LIST), ended by NULL
 } OptionSpec;
 
@@ -40,16 +40,16 @@ typedef struct OptionSpec {
 extern const OptionSpec OPTIONS[];
 
 // What main found out about the process, for all commands.
-typedef struct Host Host;
-struct Host {
-    size_t stack_bytes;              // C stack that evaluation may use
-    const char *program;             // path of this program, from wherever it is started
-    const char *called;              // … as the user called it, for hints
-    const char *cpu;                 // PetriOptions.cpu
-    const struct SweepExtras *sweep; // what petri sweep takes libraries for; NULL: petri-pictures has it
-    int (*serve)(const Host *host, struct Options *options); // petri lsp; NULL: petri-lsp has it
+typedef struct CommandContext CommandContext;
+struct CommandContext {
+    size_t stack_bytes;                     // C stack that evaluation may use
+    const char *program;                    // path of this program, from wherever it is started
+    const char *invoked_as;                 // … as the user called it, for hints
+    const char *cpu;                        // PetriOptions.cpu
+    const struct PlotSupport *plot_support; // what petri sweep takes libraries for; NULL: petri-pictures has it
+    int (*run_lsp)(const CommandContext *context, struct Options *options); // petri lsp; NULL: petri-lsp has it
     const struct PetriRanks *ranks; // the processes that share the work, as mpirun has started them; NULL: this alone
-    const struct Mail *mail;        // … between them; NULL likewise
+    const struct Mail *channel;     // … between them; NULL likewise
     void (*leave_ranks)(void);      // … are no longer waited for, after a signal; a signal handler may call it
 };
 
@@ -60,13 +60,14 @@ typedef struct Command {
     const char *details;  // a few sentences, for the command's own help
     const char *examples; // lines to try, for its own help; NULL: none
     unsigned options;     // FOR_…
-    const char *needed;   // what is said where there is no operand; NULL: none is needed, or the command says it itself
+    const char
+        *missing_operand; // what is said where there is no operand; NULL: none is needed, or the command says it itself
     const char *no_stdin; // what is said of `-`; NULL: it stands for a script on standard input
-    const char *second;   // what is said of a second operand, if it is not of scripts
-    bool many;            // takes many scripts and folders
-    bool live;            // follows the wall clock and goes on until it is stopped
-    bool raw;             // reads the words of the command line itself
-    int (*run)(const Host *host, struct Options *options); // returns the exit status
+    const char *second_operand_error; // what is said of a second operand, if it is not of scripts
+    bool accepts_many;                // takes many scripts and folders
+    bool live;                        // follows the wall clock and goes on until it is stopped
+    bool parses_arguments;            // reads the words of the command line itself
+    int (*run)(const CommandContext *context, struct Options *options); // returns the exit status
 } Command;
 
 extern const Command RUN_COMMAND;
@@ -85,7 +86,7 @@ extern const Command NEW_COMMAND;
 extern const Command HELP_COMMAND;
 
 // Reads the words that follow a command's name and runs it; returns the exit status.
-int command_run(const Command *command, const Host *host, int argc, char **argv);
+int command_run(const Command *command, const CommandContext *context, int argc, char **argv);
 
 // Prints a command's own help on standard output; returns the exit status.
 int help_for(const Command *command);

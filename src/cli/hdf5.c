@@ -1,6 +1,13 @@
 // hdf5.c: see hdf5.h.
 #include "cli/hdf5.h"
 
+#include "base/file.h"
+#include "cli/byte_buffer.h"
+#include "cli/cli.h"
+#include "cli/helper_exec.h"
+#include "cli/script.h"
+#include "cli/signal_cleanup.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -9,49 +16,39 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/file.h"
-#include "cli/bytes.h"
-#include "cli/cli.h"
-#include "cli/pass_on.h"
-#include "cli/script.h"
-#include "cli/unfinished.h"
-
 static bool wait_for(pid_t process) {
     int status = 0;
     pid_t done;
     do {
         done = waitpid(process, &status, 0);
     } while (done < 0 && errno == EINTR);
-    if (done == process && WIFSIGNALED(status)) { // else it has told itself
+    if (done == process && WIFSIGNALED(status)) // else it has told itself
         message("petri-hdf5, which writes the file, was ended by signal %d", WTERMSIG(status));
-    }
     return done == process && WIFEXITED(status) && WEXITSTATUS(status) == STATUS_DONE;
 }
 
 // Before a signal ends this process.
-static void end_now(void *context) {
+static void close_on_signal(void *context) {
     Hdf5 *writer = context;
     close(writer->stream);
     wait_for(writer->process);
 }
 
 // In the child. Signals for all processes of a terminal are not for it: it ends with the stream.
-static void become_writer(int stream, char **words) {
+static void exec_writer(int stream, char **words) {
     static const int ignored[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
-    for (size_t i = 0; i < sizeof ignored / sizeof ignored[0]; i++) {
+    for (size_t i = 0; i < sizeof ignored / sizeof ignored[0]; i++)
         signal(ignored[i], SIG_IGN);
-    }
     int cause = errno, nothing = open("/dev/null", O_WRONLY); // whoever reads what petri prints need not wait for this
-    if (nothing >= 0 && dup2(stream, STDIN_FILENO) >= 0 && dup2(nothing, STDOUT_FILENO) >= 0) {
-        cause = pass_on_become(words[0], words);
-    }
+    if (nothing >= 0 && dup2(stream, STDIN_FILENO) >= 0 && dup2(nothing, STDOUT_FILENO) >= 0)
+        cause = helper_exec(words[0], words);
     message("cannot write %s: there is no petri-hdf5: %s%s", words[2], strerror(cause),
             cause == ENOENT ? "; this petri was built without HDF5 (Debian: libhdf5-dev)" : "");
     _exit(STATUS_FAILED);
 }
 
 // The writer says a word as soon as all that can fail at first is done.
-static bool hear(int stream) {
+static bool wait_for_ready(int stream) {
     char word;
     ssize_t length;
     do {
@@ -60,32 +57,30 @@ static bool hear(int stream) {
     return length == 1;
 }
 
-static bool start(Hdf5 *writer, char **words) {
+static bool fork_writer(Hdf5 *writer, char **words) {
     int ends[2];
-    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
         return false;
-    }
     writer->stream = ends[0];
     writer->process = fork();
-    if (writer->process == 0) {
-        become_writer(ends[1], words);
-    }
+    if (writer->process == 0)
+        exec_writer(ends[1], words);
     close(ends[1]);
     return writer->process > 0;
 }
 
 bool hdf5_start(Hdf5 *writer, const char *kind, const char *path, const char *after) {
     char program[] = "petri-hdf5";
-    SCOPED_TEXT as_kind = memory_text(kind);
-    SCOPED_TEXT as_path = memory_text(path);
-    SCOPED_TEXT as_after = after == NULL ? NULL : memory_text(after);
+    SCOPED_TEXT as_kind = memory_strdup(kind);
+    SCOPED_TEXT as_path = memory_strdup(path);
+    SCOPED_TEXT as_after = !after ? NULL : memory_strdup(after);
     char *words[] = {program, as_kind, as_path, as_after, NULL};
-    *writer = (Hdf5){.process = -1, .stream = -1, .unfinished = -1};
-    bool started = start(writer, words);
+    *writer = (Hdf5){.process = -1, .stream = -1, .cleanup_id = -1};
+    bool started = fork_writer(writer, words);
     if (!started) {
         message("cannot write %s: %s", path, strerror(errno));
-    } else if (hear(writer->stream)) {
-        writer->unfinished = unfinished_begin(end_now, writer);
+    } else if (wait_for_ready(writer->stream)) {
+        writer->cleanup_id = signal_cleanup_begin(close_on_signal, writer);
         return true;
     }
     hdf5_end(writer);
@@ -93,29 +88,27 @@ bool hdf5_start(Hdf5 *writer, const char *kind, const char *path, const char *af
 }
 
 bool hdf5_wait(Hdf5 *writer) {
-    return hear(writer->stream);
+    return wait_for_ready(writer->stream);
 }
 
 bool hdf5_end(Hdf5 *writer) {
-    if (writer->stream >= 0) {
+    if (writer->stream >= 0)
         close(writer->stream);
-    }
     bool good = writer->process > 0 && wait_for(writer->process);
-    unfinished_end(writer->unfinished);
+    signal_cleanup_end(writer->cleanup_id);
     return good;
 }
 
 bool hdf5_table(const char *path, const char *csv, size_t length) {
     Hdf5 writer;
-    Hdf5Head head = {HDF5_ADD, length}, end = {HDF5_KEEP, 0};
-    if (!hdf5_start(&writer, "table", path, NULL)) {
+    Hdf5Head head = {HDF5_ADD, length}, end = {HDF5_COMMIT, 0};
+    if (!hdf5_start(&writer, "table", path, NULL))
         return false;
-    }
     bool sent = file_write(writer.stream, (const char *)&head, sizeof head) && file_write(writer.stream, csv, length) &&
                 file_write(writer.stream, (const char *)&end, sizeof end);
     return hdf5_end(&writer) && sent;
 }
 
-bool hdf5_is_wanted(const char *path) {
+bool hdf5_has_suffix(const char *path) {
     return script_suffix(path, ".h5 .hdf5") >= 0;
 }

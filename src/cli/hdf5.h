@@ -10,12 +10,13 @@
 #include <sys/types.h>
 
 // Of a trajectory that a run cannot go on with.
-#define WAY_UNKNOWN "it is not what --trajectory writes; remove it, or give another name, and a new one begins"
+#define TRAJECTORY_FILE_UNKNOWN                                                                                        \
+    "it is not what --trajectory writes; remove it, or give another name, and a new one begins"
 
 typedef struct Hdf5 {
     pid_t process;
     int stream;
-    int unfinished; // its number there
+    int cleanup_id; // its number there
 } Hdf5;
 
 // Starts petri-hdf5 on a file of a kind: "trajectory" takes a stream of Hdf5Head with what it counts, "table" CSV
@@ -23,27 +24,27 @@ typedef struct Hdf5 {
 // for one that begins, and that of the last one that the file should have: it is then kept safe from whatever ends the
 // two programs. False after a message.
 bool hdf5_start(Hdf5 *writer, const char *kind, const char *path, const char *after);
-// Waits until what was sent, HDF5_SAFE at last, is on the disk. False if that failed, which petri-hdf5 has told.
+// Waits until what was sent, HDF5_SYNC at last, is on the disk. False if that failed, which petri-hdf5 has told.
 bool hdf5_wait(Hdf5 *writer);
 // A table as a whole. False after a message.
 bool hdf5_table(const char *path, const char *csv, size_t length);
 // Whether a table is to be in HDF5, by its name.
-bool hdf5_is_wanted(const char *path);
+bool hdf5_has_suffix(const char *path);
 // Waits until the file has taken its name. False if there is none, which petri-hdf5 has told if it is its fault.
 bool hdf5_end(Hdf5 *writer);
 
 // What follows is the layout of the stream, of two programs that are built together.
 
-typedef enum Hdf5Act {
+typedef enum Hdf5Command {
     HDF5_ADD = 1, // `bytes` follow
-    HDF5_KEEP,    // the file is complete; it is also kept if the stream ends after something was added
-    HDF5_DROP,    // it is not to be
-    HDF5_SAFE,    // what there is so far must be on the disk; answered by a byte
-    HDF5_RUN,     // in a spool (hdf5/spool.h): what follows comes from another run
-} Hdf5Act;
+    HDF5_COMMIT,  // the file is complete; it is also kept if the stream ends after something was added
+    HDF5_DISCARD, // it is not to be
+    HDF5_SYNC,    // what there is so far must be on the disk; answered by a byte
+    HDF5_NEW_RUN, // in a spool (hdf5/spool.h): what follows comes from another run
+} Hdf5Command;
 
 typedef struct Hdf5Head {
-    uint64_t act;
+    uint64_t command;
     uint64_t bytes;
 } Hdf5Head;
 

@@ -1,19 +1,20 @@
 // help.c: what the commands and their options are; the version.
 #include "cli/help.h"
 
+#include "cli/byte_buffer.h"
+#include "cli/cli.h"
+#include "cli/progress.h"
+#include "petri.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/bytes.h"
-#include "cli/cli.h"
-#include "petri.h"
-
 enum { OPTION_COLUMN = 28 };
 
 Output *help_begin(void) {
-    Output *output = memory_zeroed(sizeof *output);
+    Output *output = memory_calloc(sizeof *output);
     output_start(output, STDOUT_FILENO);
     return output;
 }
@@ -31,61 +32,106 @@ const char HELP_BEGINNING[] =
     "nodes ('petri help nodes'); 'petri help WORD' tells of one, such as sin, particle or tempo. SCRIPT.fl may\n"
     "be - for standard input. 'petri --version' prints the version.";
 
-int help_overview(const Command *const *commands) {
-    Output *output = help_begin();
-    output_format(output, "petri %s: %s\n\n", petri_version(), HELP_TITLE);
-    output_format(output, "usage: petri SCRIPT.fl\n       petri COMMAND [options] ...\n\n");
-    for (size_t i = 0; commands[i] != NULL; i++) {
-        output_format(output, "  %-8s %s\n", commands[i]->name, commands[i]->summary);
+// Writes a line, from a column on, in as many lines as its words need. `hang`: the column where further lines begin.
+static void write_words(Output *output, Str line, size_t column, size_t hang, size_t width) {
+    for (size_t at = 0; at < line.len;) {
+        size_t start = at, word;
+        while (at < line.len && line.bytes[at] == ' ')
+            at++;
+        for (word = at; at < line.len && line.bytes[at] != ' ';)
+            at++;
+        size_t length = utf8_length((Str){line.bytes + word, at - word});
+        if (column > hang && column + (word - start) + length > width) {
+            output_format(output, "\n%*s", (int)hang, "");
+            column = hang;
+            start = word;
+        }
+        output_write(output, line.bytes + start, at - start);
+        column += word - start + length;
     }
-    output_format(output, "\n%s\n", HELP_BEGINNING);
+}
+
+static void write_line(Output *output, Str line, size_t width) {
+    enum { NARROWEST = 24, INDENT = 4 }; // columns for the last cell, else it is put below the others
+    size_t indent = 0, gap = 0;
+    while (indent < line.len && line.bytes[indent] == ' ')
+        indent++;
+    for (size_t i = indent + 2; i < line.len; i++)
+        gap = line.bytes[i] != ' ' && line.bytes[i - 1] == ' ' && line.bytes[i - 2] == ' ' ? i : gap;
+    size_t hang = gap > 0 ? utf8_length((Str){line.bytes, gap}) : indent;
+    if (utf8_length(line) > width && gap > 0 && hang + NARROWEST > width) {
+        size_t end = gap;
+        while (line.bytes[end - 1] == ' ')
+            end--;
+        write_words(output, (Str){line.bytes, end}, 0, indent + 2 * INDENT, width);
+        hang = indent + INDENT;
+        output_format(output, "\n%*s", (int)hang, "");
+        write_words(output, (Str){line.bytes + gap, line.len - gap}, hang, hang, width);
+    } else {
+        write_words(output, line, 0, hang, width);
+    }
+    output_write(output, "\n", 1);
+}
+
+void help_write(Output *output, const ByteBuffer *text) {
+    enum { COLUMNS = 80, MIN_COLUMNS = 40 };
+    int columns = COLUMNS, rows = 0;
+    const char *wanted = getenv("COLUMNS");
+    Str line;
+    terminal_extent(output->fd, &columns, &rows);
+    if (wanted && atoi(wanted) > 0)
+        columns = atoi(wanted);
+    for (size_t at = 0; byte_buffer_next_line(text, &at, &line);)
+        write_line(output, line, (size_t)(columns > MIN_COLUMNS ? columns : MIN_COLUMNS));
+}
+
+int help_print(const ByteBuffer *text) {
+    Output *output = help_begin();
+    help_write(output, text);
     return help_end(output);
 }
 
-// Text whose first line begins in a column and whose other lines are put below it.
-static void write_wrapped(Output *output, const char *text, int column) {
-    enum { LAST_COLUMN = 108 };
-    size_t most = (size_t)(LAST_COLUMN - column);
-    while (strlen(text) > most) {
-        size_t length = most;
-        while (length > 0 && text[length] != ' ') {
-            length--;
-        }
-        if (length == 0) {
-            break; // a word that is too long
-        }
-        output_format(output, "%.*s\n%*s", (int)length, text, column, "");
-        text += length + 1;
+void help_prose(ByteBuffer *text, const char *prose) {
+    for (const char *at = prose; *at != '\0'; at++) {
+        bool joins = at[0] == '\n' && at > prose && at[-1] != '\n' && at[1] != '\n' && at[1] != ' ' && at[1] != '\0';
+        byte_buffer_add(text, joins ? " " : at, 1);
     }
-    output_format(output, "%s\n", text);
+    byte_buffer_add_text(text, "\n");
 }
 
-void help_option(Output *output, const OptionSpec *spec) {
+int help_overview(const Command *const *commands) {
+    SCOPED_BYTE_BUFFER text = {0};
+    byte_buffer_format(&text, "petri %s: %s\n\n", petri_version(), HELP_TITLE);
+    byte_buffer_format(&text, "usage: petri SCRIPT.fl\n       petri COMMAND [options] ...\n\n");
+    for (size_t i = 0; commands[i]; i++)
+        byte_buffer_format(&text, "  %-8s %s\n", commands[i]->name, commands[i]->summary);
+    byte_buffer_add_text(&text, "\n");
+    help_prose(&text, HELP_BEGINNING);
+    return help_print(&text);
+}
+
+void help_option(ByteBuffer *text, const OptionSpec *spec) {
     char letter[8] = "    ";
-    if (spec->letter != '\0') {
+    if (spec->letter != '\0')
         snprintf(letter, sizeof letter, "-%c, ", spec->letter);
-    }
     char head[80];
-    snprintf(head, sizeof head, "  %s--%s%s%s", letter, spec->name, spec->value == NULL ? "" : " ",
-             spec->value == NULL ? "" : spec->value);
-    output_format(output, "%-*s  ", OPTION_COLUMN, head);
-    write_wrapped(output, spec->help, OPTION_COLUMN + 2);
+    snprintf(head, sizeof head, "  %s--%s%s%s", letter, spec->name, !spec->value ? "" : " ",
+             !spec->value ? "" : spec->value);
+    byte_buffer_format(text, "%-*s  %s\n", OPTION_COLUMN, head, spec->help);
 }
 
 int help_for(const Command *command) {
-    Output *output = help_begin();
-    output_format(output, "usage: petri %s%s %s\n\n%s\n", command->name, command->options == 0 ? "" : " [options]",
-                  command->operands, command->details);
-    output_format(output, "%s", command->options == 0 ? "" : "\n");
-    for (const OptionSpec *spec = OPTIONS; spec->name != NULL; spec++) {
-        if (spec->commands & command->options) {
-            help_option(output, spec);
-        }
-    }
-    if (command->examples != NULL) {
-        output_format(output, "\nExamples:\n%s", command->examples);
-    }
-    return help_end(output);
+    SCOPED_BYTE_BUFFER text = {0};
+    byte_buffer_format(&text, "usage: petri %s%s %s\n\n", command->name, command->options == 0 ? "" : " [options]",
+                       command->operands);
+    help_prose(&text, command->details);
+    byte_buffer_add_text(&text, command->options == 0 ? "" : "\n");
+    for (const OptionSpec *spec = OPTIONS; spec->name; spec++)
+        if (spec->commands & command->options)
+            help_option(&text, spec);
+    if (command->examples)
+        byte_buffer_format(&text, "\nExamples:\n%s", command->examples);
+    return help_print(&text);
 }
 
 int help_version(void) {

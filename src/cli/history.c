@@ -14,9 +14,8 @@ static void drop_keyframe(FrameHistory *history, size_t at) {
 }
 
 static void drop_all(FrameHistory *history) {
-    while (history->keyframe_count > 0) {
+    while (history->keyframe_count > 0)
         drop_keyframe(history, history->keyframe_count - 1);
-    }
     history->epoch_count = 0;
 }
 
@@ -34,9 +33,9 @@ static bool is_pinned(const FrameHistory *history, size_t at) {
 }
 
 // How little is lost with a keyframe: the frames between its neighbours for each frame that they lie back.
-static double cost_of(const FrameHistory *history, size_t at) {
+static double keyframe_cost(const FrameHistory *history, size_t at) {
     const Keyframe *before = &history->keyframes[at - 1], *after = &history->keyframes[at + 1];
-    return (double)(after->frame - before->frame) / (double)(history->last - before->frame + 8 * HISTORY_EVERY);
+    return (double)(after->frame - before->frame) / (double)(history->last - before->frame + 8 * HISTORY_INTERVAL);
 }
 
 // The timeline begins later.
@@ -52,49 +51,42 @@ static void drop_oldest(FrameHistory *history) {
 
 static void drop_one(FrameHistory *history) {
     size_t best = 0;
-    for (size_t i = 1; i + 1 < history->keyframe_count; i++) {
-        if (!is_pinned(history, i) && (best == 0 || cost_of(history, i) < cost_of(history, best))) {
+    for (size_t i = 1; i + 1 < history->keyframe_count; i++)
+        if (!is_pinned(history, i) && (best == 0 || keyframe_cost(history, i) < keyframe_cost(history, best)))
             best = i;
-        }
-    }
-    if (best > 0) {
+    if (best > 0)
         drop_keyframe(history, best);
-    } else {
+    else
         drop_oldest(history);
-    }
 }
 
 static void push_keyframe(FrameHistory *history, PetriSession *session, PetriSnapshot *snapshot) {
     history->keyframes[history->keyframe_count++] =
         (Keyframe){petri_frame(session).number, history->epochs[history->epoch_count - 1].number, snapshot};
     history->bytes += petri_snapshot_bytes(snapshot);
-    while (history->keyframe_count > HISTORY_MOST || (history->bytes > HISTORY_BYTES && history->keyframe_count > 2)) {
+    while (history->keyframe_count > HISTORY_MAX || (history->bytes > HISTORY_BYTES && history->keyframe_count > 2))
         drop_one(history);
-    }
 }
 
 static bool add_keyframe(FrameHistory *history, PetriSession *session) {
     PetriSnapshot *snapshot = petri_snapshot(session);
-    if (snapshot == NULL) {
+    if (!snapshot)
         return false;
-    }
     push_keyframe(history, session, snapshot);
     return true;
 }
 
 // From the present frame on, the present configuration counts; `anew`: what was before is forgotten. No epoch is ever
 // without its first keyframe.
-static bool begin_epoch(FrameHistory *history, PetriSession *session, bool anew) {
+static bool begin_epoch(FrameHistory *history, PetriSession *session, bool restart) {
     PetriSnapshot *snapshot = petri_snapshot(session);
-    if (snapshot == NULL) {
+    if (!snapshot)
         return false;
-    }
-    if (anew) {
+    if (restart)
         drop_all(history);
-    }
-    history->epochs = memory_resized(history->epochs, (history->epoch_count + 1) * sizeof *history->epochs);
+    history->epochs = memory_realloc(history->epochs, (history->epoch_count + 1) * sizeof *history->epochs);
     history->epochs[history->epoch_count++] =
-        (Epoch){++history->last_epoch, petri_frame(session).number, petri_config_number(session)};
+        (Epoch){++history->last_epoch, petri_frame(session).number, petri_config_revision(session)};
     push_keyframe(history, session, snapshot);
     return true;
 }
@@ -106,60 +98,55 @@ bool history_start(FrameHistory *history, PetriSession *session, const char *why
     history->first = history->last = history->times_start = petri_frame(session).number;
     history->time_count = 0;
     history->why = why;
-    return history->origin != NULL && begin_epoch(history, session, true);
+    return history->origin && begin_epoch(history, session, true);
 }
 
 // Begins it now if there was no memory when it was to begin. The session cannot have gone on since.
-static bool is_begun(FrameHistory *history, PetriSession *session) {
+static bool ensure_started(FrameHistory *history, PetriSession *session) {
     return history->keyframe_count > 0 || history_start(history, session, history->why);
 }
 
 // The epoch in which a frame beyond the first was made.
 static const Epoch *epoch_of(const FrameHistory *history, int64_t frame) {
     size_t at = history->epoch_count - 1;
-    while (at > 0 && history->epochs[at].start >= frame) {
+    while (at > 0 && history->epochs[at].start >= frame)
         at--;
-    }
     return &history->epochs[at];
 }
 
 // Forgets what was after a frame.
-static void cut(FrameHistory *history, int64_t frame) {
-    while (history->keyframe_count > 1 && history->keyframes[history->keyframe_count - 1].frame > frame) {
+static void drop_frames_after(FrameHistory *history, int64_t frame) {
+    while (history->keyframe_count > 1 && history->keyframes[history->keyframe_count - 1].frame > frame)
         drop_keyframe(history, history->keyframe_count - 1);
-    }
     while (history->epoch_count > 1 && history->epochs[history->epoch_count - 1].start >= frame) {
         uint32_t number = history->epochs[--history->epoch_count].number;
-        while (history->keyframe_count > 1 && history->keyframes[history->keyframe_count - 1].epoch == number) {
+        while (history->keyframe_count > 1 && history->keyframes[history->keyframe_count - 1].epoch == number)
             drop_keyframe(history, history->keyframe_count - 1);
-        }
     }
     history->last = frame;
 }
 
-static bool prepare(FrameHistory *history, PetriSession *session, int64_t frame) {
-    if (epoch_of(history, frame + 1)->config == petri_config_number(session)) {
+static bool begin_epoch_if_changed(FrameHistory *history, PetriSession *session, int64_t frame) {
+    if (epoch_of(history, frame + 1)->config == petri_config_revision(session))
         return true;
-    }
-    cut(history, frame);
+    drop_frames_after(history, frame);
     // Up to the first frame nothing was made with the old configuration that could be asked for.
     return begin_epoch(history, session, frame <= history->first);
 }
 
-static void note_time(FrameHistory *history, const PetriFrame *frame) {
+static void record_time(FrameHistory *history, const PetriFrame *frame) {
     size_t at = (size_t)(frame->number - history->times_start - 1);
-    if (!history->live || frame->number <= history->times_start || at > history->time_count) {
+    if (!history->live || frame->number <= history->times_start || at > history->time_count)
         return;
-    }
     if (at == history->time_capacity) {
         history->time_capacity = history->time_capacity == 0 ? 1024 : 2 * history->time_capacity;
-        history->times = memory_resized(history->times, history->time_capacity * sizeof *history->times);
+        history->times = memory_realloc(history->times, history->time_capacity * sizeof *history->times);
     }
     history->times[at] = (FrameTime){frame->time, frame->beat};
     history->time_count = at + 1;
 }
 
-static PetriStatus step_again(const FrameHistory *history, PetriSession *session) {
+static PetriStatus replay_step(const FrameHistory *history, PetriSession *session) {
     int64_t at = petri_frame(session).number - history->times_start;
     bool known = history->live && at >= 0 && (uint64_t)at < history->time_count;
     return known ? petri_step_at(session, history->times[at].time, history->times[at].beat) : petri_step(session);
@@ -167,34 +154,30 @@ static PetriStatus step_again(const FrameHistory *history, PetriSession *session
 
 PetriStatus history_step(FrameHistory *history, PetriSession *session) {
     int64_t before = petri_frame(session).number;
-    if (!is_begun(history, session)) {
-        return PETRI_MEMORY;
-    }
-    if (history->live && before < history->last) {
-        cut(history, before);
-    }
-    if (!prepare(history, session, before)) {
-        return PETRI_MEMORY;
-    }
-    uint64_t config = petri_config_number(session);
+    if (!ensure_started(history, session))
+        return PETRI_OUT_OF_MEMORY;
+    if (history->live && before < history->last)
+        drop_frames_after(history, before);
+    if (!begin_epoch_if_changed(history, session, before))
+        return PETRI_OUT_OF_MEMORY;
+    uint64_t config = petri_config_revision(session);
     PetriStatus status = petri_step(session);
     int64_t frame = petri_frame(session).number;
-    if (status == PETRI_INTERRUPTED || frame == before) {
+    if (status == PETRI_INTERRUPTED || frame == before)
         return status;
-    }
-    if (petri_config_number(session) != config) {
-        PetriStatus started =
-            history_start(history, session, "a file that the script imports was changed") ? PETRI_OK : PETRI_MEMORY;
+    if (petri_config_revision(session) != config) {
+        PetriStatus started = history_start(history, session, "a file that the script imports was changed")
+                                  ? PETRI_OK
+                                  : PETRI_OUT_OF_MEMORY;
         return status == PETRI_OK ? started : status;
     }
     PetriFrame made = petri_frame(session);
-    note_time(history, &made);
+    record_time(history, &made);
     if (frame > history->last) {
         history->last = frame;
-        bool due = frame - history->keyframes[history->keyframe_count - 1].frame >= HISTORY_EVERY;
-        if (due && !add_keyframe(history, session)) {
-            return PETRI_MEMORY;
-        }
+        bool due = frame - history->keyframes[history->keyframe_count - 1].frame >= HISTORY_INTERVAL;
+        if (due && !add_keyframe(history, session))
+            return PETRI_OUT_OF_MEMORY;
     }
     return status;
 }
@@ -204,92 +187,82 @@ static const Keyframe *keyframe_before(const FrameHistory *history, int64_t fram
     uint32_t epoch = epoch_of(history, frame)->number;
     for (size_t i = history->keyframe_count; i > 0; i--) {
         const Keyframe *keyframe = &history->keyframes[i - 1];
-        if (keyframe->epoch == epoch && keyframe->frame < frame) {
+        if (keyframe->epoch == epoch && keyframe->frame < frame)
             return keyframe;
-        }
     }
     return NULL;
 }
 
 // Makes frames again up to one in the timeline, from a keyframe or from where the session is.
-static PetriStatus replay(const FrameHistory *history, PetriSession *session, const Keyframe *from, uint64_t config,
-                          int64_t frame) {
+static PetriStatus replay_frames(const FrameHistory *history, PetriSession *session, const Keyframe *from,
+                                 uint64_t config, int64_t frame) {
     int64_t now = petri_frame(session).number;
     PetriStatus status = PETRI_OK;
-    if (now >= frame || now < from->frame || petri_config_number(session) != config) {
+    if (now >= frame || now < from->frame || petri_config_revision(session) != config)
         status = petri_rewind(session, from->snapshot);
-    }
-    while (status == PETRI_OK && petri_frame(session).number < frame) {
-        status = step_again(history, session);
-    }
+    while (status == PETRI_OK && petri_frame(session).number < frame)
+        status = replay_step(history, session);
     return status;
 }
 
-static PetriStatus go_back(FrameHistory *history, PetriSession *session, int64_t frame, Bytes *why) {
-    if (frame == history->first) {
+static PetriStatus seek_back(FrameHistory *history, PetriSession *session, int64_t frame, ByteBuffer *why) {
+    if (frame == history->first)
         return petri_rewind(session, history->keyframes[0].snapshot);
-    }
     const Keyframe *from = frame < history->first ? NULL : keyframe_before(history, frame);
-    if (from == NULL) {
-        bytes_format(why, "frame %" PRId64 " cannot be made again: the history begins with frame %" PRId64 "%s%s",
-                     frame, history->first, history->why == NULL ? "" : ": ", history->why == NULL ? "" : history->why);
+    if (!from) {
+        byte_buffer_format(why, "frame %" PRId64 " cannot be made again: the history begins with frame %" PRId64 "%s%s",
+                           frame, history->first, !history->why ? "" : ": ", !history->why ? "" : history->why);
         return PETRI_INVALID;
     }
-    return replay(history, session, from, epoch_of(history, frame)->config, frame);
+    return replay_frames(history, session, from, epoch_of(history, frame)->config, frame);
 }
 
-PetriStatus history_goto(FrameHistory *history, PetriSession *session, int64_t frame, Bytes *why) {
-    PetriConfig *config = is_begun(history, session) ? petri_config(session) : NULL;
-    if (config == NULL) {
-        return PETRI_MEMORY;
-    }
+PetriStatus history_goto(FrameHistory *history, PetriSession *session, int64_t frame, ByteBuffer *why) {
+    PetriConfig *config = ensure_started(history, session) ? petri_config_get(session) : NULL;
+    if (!config)
+        return PETRI_OUT_OF_MEMORY;
     PetriStatus status = PETRI_OK;
     int64_t target = frame < history->last ? frame : history->last;
-    if (petri_frame(session).number != target) {
-        status = go_back(history, session, target, why);
-    }
-    petri_config_use(session, config);
+    if (petri_frame(session).number != target)
+        status = seek_back(history, session, target, why);
+    petri_config_apply(session, config);
     petri_config_free(config);
-    while (status == PETRI_OK && petri_frame(session).number < frame) {
+    while (status == PETRI_OK && petri_frame(session).number < frame)
         status = history_step(history, session);
-    }
     return status;
 }
 
-static PetriStatus remake(const FrameHistory *history, const Keyframe *from, PetriSession *session, uint64_t config,
-                          int64_t frame) {
+static PetriStatus recompute_frame(const FrameHistory *history, const Keyframe *from, PetriSession *session,
+                                   uint64_t config, int64_t frame) {
     PetriSnapshot *present = petri_snapshot(session);
-    if (present == NULL) {
-        return PETRI_MEMORY;
-    }
-    PetriStatus status = replay(history, session, from, config, frame);
-    if (status != PETRI_OK) {
+    if (!present)
+        return PETRI_OUT_OF_MEMORY;
+    PetriStatus status = replay_frames(history, session, from, config, frame);
+    if (status != PETRI_OK)
         petri_rewind(session, present);
-    }
     petri_snapshot_free(present);
     return status;
 }
 
-PetriStatus history_remake(FrameHistory *history, PetriSession *session) {
+PetriStatus history_recompute(FrameHistory *history, PetriSession *session) {
     int64_t frame = petri_frame(session).number;
     const Keyframe *from = frame <= history->first || frame > history->last ? NULL : keyframe_before(history, frame);
-    PetriConfig *config = petri_config(session);
-    PetriStatus status = config == NULL ? PETRI_MEMORY : PETRI_OK;
-    if (status == PETRI_OK && from != NULL) {
-        status = remake(history, from, session, epoch_of(history, frame)->config, frame);
-        petri_config_use(session, config);
+    PetriConfig *config = petri_config_get(session);
+    PetriStatus status = !config ? PETRI_OUT_OF_MEMORY : PETRI_OK;
+    if (status == PETRI_OK && from) {
+        status = recompute_frame(history, from, session, epoch_of(history, frame)->config, frame);
+        petri_config_apply(session, config);
     }
     petri_config_free(config);
     return status;
 }
 
 PetriStatus history_reset(FrameHistory *history, PetriSession *session) {
-    PetriConfig *config = is_begun(history, session) ? petri_config(session) : NULL;
-    if (config == NULL) {
-        return PETRI_MEMORY;
-    }
+    PetriConfig *config = ensure_started(history, session) ? petri_config_get(session) : NULL;
+    if (!config)
+        return PETRI_OUT_OF_MEMORY;
     PetriStatus status = petri_rewind(session, history->origin);
-    petri_config_use(session, config);
+    petri_config_apply(session, config);
     petri_config_free(config);
     return status;
 }

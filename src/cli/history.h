@@ -2,7 +2,7 @@
 //
 // A timeline of frames from `first` to `last`. Some of them, the keyframes, are kept whole; a frame between two of them
 // is made again from the one before it, which gives the same bits. Keyframes are kept denser for the recent past,
-// within HISTORY_BYTES and HISTORY_MOST of them: when there are too many, the one goes whose absence lengthens the way
+// within HISTORY_BYTES and HISTORY_MAX of them: when there are too many, the one goes whose absence lengthens the way
 // to its neighbours least, measured by how long ago that is.
 //
 // What is changed by hand (script, definitions, clock rates, statements of the prompt) begins a new epoch with a
@@ -13,11 +13,11 @@
 #ifndef PETRI_SRC_CLI_HISTORY_H
 #define PETRI_SRC_CLI_HISTORY_H
 
-#include "cli/bytes.h"
+#include "cli/byte_buffer.h"
 #include "petri.h"
 
 // 64 MiB, or two keyframes where they are larger than that.
-enum { HISTORY_MOST = 512, HISTORY_EVERY = 8 };
+enum { HISTORY_MAX = 512, HISTORY_INTERVAL = 8 };
 #define HISTORY_BYTES ((size_t)64 << 20)
 
 typedef struct Keyframe {
@@ -40,7 +40,7 @@ typedef struct FrameTime {
 } FrameTime;
 
 typedef struct FrameHistory {
-    Keyframe keyframes[HISTORY_MOST + 1];
+    Keyframe keyframes[HISTORY_MAX + 1];
     size_t keyframe_count;
     Epoch *epochs;
     size_t epoch_count;
@@ -65,11 +65,11 @@ void history_free(FrameHistory *history);
 PetriStatus history_step(FrameHistory *history, PetriSession *session);
 // Goes to a frame of the timeline, or beyond it by stepping. PETRI_INVALID with a reason in `why` if it cannot be made
 // again. PETRI_INTERRUPTED in some frame on the way. The configuration stays.
-PetriStatus history_goto(FrameHistory *history, PetriSession *session, int64_t frame, Bytes *why);
+PetriStatus history_goto(FrameHistory *history, PetriSession *session, int64_t frame, ByteBuffer *why);
 // Makes the present frame again, with its systems and its tree, from the keyframe before it. The first one of the
-// timeline stays as it is, and so does any that cannot be made again. PETRI_INTERRUPTED and PETRI_MEMORY change
+// timeline stays as it is, and so does any that cannot be made again. PETRI_INTERRUPTED and PETRI_OUT_OF_MEMORY change
 // nothing.
-PetriStatus history_remake(FrameHistory *history, PetriSession *session);
+PetriStatus history_recompute(FrameHistory *history, PetriSession *session);
 // Goes to where the timeline began, even if that was dropped since. The configuration stays.
 PetriStatus history_reset(FrameHistory *history, PetriSession *session);
 

@@ -1,20 +1,19 @@
 // message.c: messages of the command itself, signals, and the search for what a mistyped word was meant to be.
+#include "base/file.h"
+#include "base/str.h"
+#include "cli/cli.h"
+
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
-#include "base/file.h"
-#include "base/str.h"
-#include "cli/cli.h"
-
 void signal_catch(int number, void (*handler)(int), int flags) {
     struct sigaction action = {.sa_handler = handler, .sa_flags = flags}, before;
     sigemptyset(&action.sa_mask);
-    if (number != SIGHUP || (sigaction(number, NULL, &before) == 0 && before.sa_handler != SIG_IGN)) {
+    if (number != SIGHUP || (sigaction(number, NULL, &before) == 0 && before.sa_handler != SIG_IGN))
         sigaction(number, &action, NULL);
-    }
 }
 
 // What a stranger's script or link is called must not reach a terminal as its orders. The new length.
@@ -42,9 +41,8 @@ void message(const char *format, ...) {
     int written = vsnprintf(line + length, sizeof line - length, format, list);
     va_end(list);
     length = written < 0 ? length : length + (size_t)written;
-    if (length > sizeof line - 2) {
+    if (length > sizeof line - 2)
         length = sizeof line - 2;
-    }
     length = without_controls(line, length);
     line[length] = '\n';
     length++;
@@ -60,9 +58,8 @@ StrNearest nearest_start(const char *word) {
 bool nearest_offer(StrNearest *nearest, const char *name) {
     // A shortened word counts as near: `--def` for `--define`.
     bool shortened = nearest->wanted.len >= 3 && str_starts_with(str_from(name), nearest->wanted);
-    if (!shortened || nearest->limit <= 1) {
+    if (!shortened || nearest->limit <= 1)
         return !shortened && str_try_nearest(nearest, str_from(name));
-    }
     nearest->limit = 1;
     nearest->found = str_from(name);
     return true;

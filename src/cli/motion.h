@@ -2,9 +2,9 @@
 #ifndef PETRI_SRC_MOTION_H
 #define PETRI_SRC_MOTION_H
 
-#include <stdint.h>
-
 #include "petri.h"
+
+#include <stdint.h>
 
 typedef struct Motion {
     uint32_t moving;           // particles

@@ -124,7 +124,7 @@ OPTION(FOR_LSP | FOR_CHECK | FOR_REPL | FOR_RUN | FOR_SWEEP | FOR_GOLDEN | FOR_R
 OPTION(FOR_RUN | FOR_SWEEP | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "neighbours", 0, "WHEN", ONE_OF(read_choice, "auto", "never", "always"), neighbours, "lists of neighbours in physics: auto, never or always; results never depend on it")
 OPTION(FOR_TEST, "neighbours", 0, "WHEN", read_text, as_neighbours, "as with run, for all scripts")
 OPTION(FOR_TEST | FOR_REPL | FOR_RUN | FOR_SWEEP | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "nosimplify", 0, NULL, read_flag, unsimplified, "evaluate everything in every frame; results never depend on it")
-OPTION(FOR_RUN, "show", 0, NULL, read_flag, show, "on a terminal, show its picture there, if it has one and no text is asked for")
+OPTION(FOR_RUN, "show", 0, NULL, read_flag, show, "on a terminal, show its picture there for ten seconds (--runtime, --frames: other lengths), if it has one and no text is asked for")
 OPTION(FOR_RUN | FOR_GOLDEN, "stats", 0, NULL, read_flag, stats, "close with a table of times, speeds and each system's energy")
 OPTION(FOR_RUN, "trajectory", 0, "FILE", read_trajectory, trajectory, "write where the particles are to FILE.xyz (extended XYZ), FILE.csv or FILE.h5 (H5MD); with --state it goes on where the state does")
 OPTION(FOR_RUN | FOR_GOLDEN, "profile", 0, NULL, read_flag, profile, "close with the time that each line of the script took, the slowest first")

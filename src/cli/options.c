@@ -1,6 +1,12 @@
 // options.c: see options.h.
 #include "cli/options.h"
 
+#include "cli/args.h"
+#include "cli/byte_buffer.h"
+#include "cli/progress.h"
+#include "cli/script.h"
+#include "petri-draw.h"
+
 #include <errno.h>
 #include <inttypes.h>
 #include <math.h>
@@ -8,18 +14,12 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "cli/args.h"
-#include "cli/bytes.h"
-#include "cli/progress.h"
-#include "cli/script.h"
-#include "petri-draw.h"
-
 enum { DEFAULT_FRAMES = 600 };
 
 // Readers take the value of an option into a field of the Options; false after a message.
 
 // Says that the value is wrong and what it should be; returns false.
-static bool wrong_value(const Args *args, const char *expected) {
+static bool report_invalid_value(const Args *args, const char *expected) {
     message("option '--%s' expects %s, not '%s'", args->option->name, expected, args->value);
     return false;
 }
@@ -38,7 +38,7 @@ static bool read_unset(const Args *args, void *field) {
 
 // --quiet, --verbose, --debug, --trace.
 static bool read_verbosity(const Args *args, void *field) {
-    *(Verbosity *)field = (Verbosity)args->option->least;
+    *(Verbosity *)field = (Verbosity)args->option->min;
     return true;
 }
 
@@ -47,19 +47,18 @@ static bool read_text(const Args *args, void *field) {
     return true;
 }
 
-static bool read_whole(const Args *args, void *field) {
+static bool read_integer(const Args *args, void *field) {
     const OptionSpec *option = args->option;
     char *end = NULL;
     errno = 0;
     intmax_t value = strtoimax(args->value, &end, 10);
     bool is_number = args->value[0] >= '-' && end != args->value && *end == '\0';
-    if (!is_number || errno != 0 || value < option->least || value > option->most) {
-        SCOPED_BYTES expected = {0};
-        bytes_format(&expected, "a whole number from %" PRId64, option->least);
-        if (option->most < INT64_MAX - 1) {
-            bytes_format(&expected, " to %" PRId64, option->most);
-        }
-        return wrong_value(args, expected.data);
+    if (!is_number || errno != 0 || value < option->min || value > option->max) {
+        SCOPED_BYTE_BUFFER expected = {0};
+        byte_buffer_format(&expected, "a whole number from %" PRId64, option->min);
+        if (option->max < INT64_MAX - 1)
+            byte_buffer_format(&expected, " to %" PRId64, option->max);
+        return report_invalid_value(args, expected.data);
     }
     *(int64_t *)field = value;
     return true;
@@ -67,9 +66,9 @@ static bool read_whole(const Args *args, void *field) {
 
 static bool read_positive(const Args *args, void *field) {
     double value = 0;
-    bool good = petri_read_number(args->value, &value) && isfinite(value) && value > 0;
+    bool good = petri_parse_number(args->value, &value) && isfinite(value) && value > 0;
     *(double *)field = value;
-    return good || wrong_value(args, "a number above 0");
+    return good || report_invalid_value(args, "a number above 0");
 }
 
 // A number of things, with K, M, G or T for 2^10, 2^20, 2^30 or 2^40 of them.
@@ -78,13 +77,13 @@ static bool read_amount(const Args *args, void *field) {
     char *end = NULL;
     double amount = strtod(args->value, &end);
     const char *suffix = end == args->value || *end == '\0' ? NULL : strchr(suffixes, *end & ~0x20);
-    if (suffix != NULL) {
+    if (suffix) {
         amount = ldexp(amount, 10 * (int)(suffix - suffixes + 1));
         end++;
     }
     *(uint64_t *)field = amount >= 1 && amount <= 0x1p62 ? (uint64_t)amount : 0;
     bool good = end != args->value && *end == '\0' && *(uint64_t *)field > 0;
-    return good || wrong_value(args, "a number from 1, such as 500M or 2G");
+    return good || report_invalid_value(args, "a number from 1, such as 500M or 2G");
 }
 
 static bool read_fps(const Args *args, void *field) {
@@ -94,18 +93,17 @@ static bool read_fps(const Args *args, void *field) {
 
 static bool read_time(const Args *args, void *field) {
     double seconds = 0;
-    bool good = petri_read_number(args->value, &seconds) && isfinite(seconds) && seconds >= 0;
+    bool good = petri_parse_number(args->value, &seconds) && isfinite(seconds) && seconds >= 0;
     *(double *)field = seconds;
-    return good || wrong_value(args, "seconds or a time code");
+    return good || report_invalid_value(args, "seconds or a time code");
 }
 
 // The place of a word in a list that ends with NULL; -1 if it is not there.
 static int find_word(const char *const *words, const char *word) {
     int i = 0;
-    while (words[i] != NULL && strcmp(words[i], word) != 0) {
+    while (words[i] && strcmp(words[i], word) != 0)
         i++;
-    }
-    return words[i] != NULL ? i : -1;
+    return words[i] ? i : -1;
 }
 
 // One of the row's words, as its number.
@@ -113,11 +111,10 @@ static bool read_choice(const Args *args, void *field) {
     const char *const *words = args->option->words;
     int choice = *(int *)field = find_word(words, args->value);
     if (choice < 0) {
-        SCOPED_BYTES expected = {0};
-        for (int i = 0; words[i] != NULL; i++) {
-            bytes_format(&expected, "%s %s", i == 0 ? "one of" : ",", words[i]);
-        }
-        return wrong_value(args, expected.data);
+        SCOPED_BYTE_BUFFER expected = {0};
+        for (int i = 0; words[i]; i++)
+            byte_buffer_format(&expected, "%s %s", i == 0 ? "one of" : ",", words[i]);
+        return report_invalid_value(args, expected.data);
     }
     return true;
 }
@@ -125,13 +122,12 @@ static bool read_choice(const Args *args, void *field) {
 // Some of the row's words, as the bits PETRI_PRINT_…, which follow each other.
 static bool read_sections(const Args *args, void *field) {
     unsigned *sections = field;
-    SCOPED_TEXT list = memory_text(args->value);
+    SCOPED_TEXT list = memory_strdup(args->value);
     *sections = 0;
-    for (char *rest = list; rest != NULL;) {
+    for (char *rest = list; rest;) {
         int section = find_word(args->option->words, strsep(&rest, ","));
-        if (section < 0) {
-            return wrong_value(args, "a list of tree, state, log, error, hash");
-        }
+        if (section < 0)
+            return report_invalid_value(args, "a list of tree, state, log, error, hash");
         *sections |= (unsigned)PETRI_PRINT_TREE << section;
     }
     return true;
@@ -139,12 +135,12 @@ static bool read_sections(const Args *args, void *field) {
 
 static bool read_trajectory(const Args *args, void *field) {
     bool known = script_suffix(args->value, ".xyz .csv .h5 .h5md") >= 0;
-    return known ? read_text(args, field) : wrong_value(args, "a file name that ends in .xyz, .csv or .h5");
+    return known ? read_text(args, field) : report_invalid_value(args, "a file name that ends in .xyz, .csv or .h5");
 }
 
 static bool no_colour(void) {
     const char *refused = getenv("NO_COLOR");
-    return refused != NULL && refused[0] != '\0';
+    return refused && refused[0] != '\0';
 }
 
 // Whether standard error is a terminal that may be coloured.
@@ -162,9 +158,8 @@ static bool read_colour(const Args *args, void *field) {
 
 static bool read_definition(const Args *args, void *field) {
     const char *equals = strchr(args->value, '=');
-    if (equals == NULL || equals == args->value) {
-        return wrong_value(args, args->option->value);
-    }
+    if (!equals || equals == args->value)
+        return report_invalid_value(args, args->option->value);
     texts_add(field, args->value);
     return true;
 }
@@ -173,9 +168,8 @@ static bool read_definition(const Args *args, void *field) {
 static bool read_folder(const Args *args, void *field) {
     const char *folder = strcmp(args->value, "all") == 0 ? "/" : args->value;
     struct stat info;
-    if (stat(folder, &info) != 0 || !S_ISDIR(info.st_mode)) {
-        return wrong_value(args, "a folder that is there");
-    }
+    if (stat(folder, &info) != 0 || !S_ISDIR(info.st_mode))
+        return report_invalid_value(args, "a folder that is there");
     texts_add(field, folder);
     return true;
 }
@@ -185,18 +179,18 @@ static bool read_size(const Args *args, void *field) {
     char *end = NULL;
     long width = strtol(args->value, &end, 10);
     long height = end != args->value && (*end == 'x' || *end == 'X') ? strtol(end + 1, &end, 10) : 0;
-    if (*end != '\0' || width < 1 || height < 1 || width > PETRI_MOST_PIXELS || height > PETRI_MOST_PIXELS) {
-        SCOPED_BYTES expected = {0};
-        bytes_format(&expected, "WIDTHxHEIGHT, each from 1 to %d", PETRI_MOST_PIXELS);
-        return wrong_value(args, expected.data);
+    if (*end != '\0' || width < 1 || height < 1 || width > PETRI_MAX_PICTURE_SIDE || height > PETRI_MAX_PICTURE_SIDE) {
+        SCOPED_BYTE_BUFFER expected = {0};
+        byte_buffer_format(&expected, "WIDTHxHEIGHT, each from 1 to %d", PETRI_MAX_PICTURE_SIDE);
+        return report_invalid_value(args, expected.data);
     }
     *(Size *)field = (Size){(int)width, (int)height};
     return true;
 }
 
 // Readers with what their rows say.
-#define WHOLE(from, to) read_whole, .least = from, .most = to
-#define VERBOSITY(level) read_verbosity, .least = level
+#define WHOLE(from, to) read_integer, .min = from, .max = to
+#define VERBOSITY(level) read_verbosity, .min = level
 #define ONE_OF(reader, ...)                                                                                            \
     reader, .words = (const char *const[]) {                                                                           \
         __VA_ARGS__, NULL                                                                                              \
@@ -222,19 +216,19 @@ static bool read_operand(const Args *args) {
     const Command *command = args->command;
     Options *options = args->options;
     bool is_stdin = script_is_stdin(args->value);
-    if (is_stdin && command->no_stdin != NULL && (command->many || options->script == NULL)) {
+    if (is_stdin && command->no_stdin && (command->accepts_many || !options->script)) {
         message("%s", command->no_stdin);
         return false;
     }
-    if (command->many && is_stdin) {
+    if (command->accepts_many && is_stdin) {
         scripts_add(&options->scripts, args->value);
-    } else if (command->many) {
+    } else if (command->accepts_many) {
         options->unreadable = !scripts_find(&options->scripts, args->value) || options->unreadable;
-    } else if (options->script != NULL && command->second != NULL) {
-        message(command->second, args->value);
+    } else if (options->script && command->second_operand_error) {
+        message(command->second_operand_error, args->value);
         return false;
-    } else if (options->script != NULL) {
-        script_second(options->script, args->value);
+    } else if (options->script) {
+        script_report_second(options->script, args->value);
         return false;
     } else if (args->value[0] == '\0' && command->options != 0) {
         message("the name of the script is empty");
@@ -246,19 +240,17 @@ static bool read_operand(const Args *args) {
 
 static int read_all(Args *args) {
     for (int id = args_next(args); id != ARG_END; id = args_next(args)) {
-        if (id == ARG_HELP) {
+        if (id == ARG_HELP)
             return args->version ? help_version() : help_for(args->command);
-        }
         bool good = id == ARG_OPERAND  ? read_operand(args)
                     : id == ARG_OPTION ? args->option->read(args, (char *)args->options + args->option->field)
                                        : false;
-        if (!good) {
+        if (!good)
             return STATUS_USAGE;
-        }
     }
-    if (args->options->script == NULL && args->command->needed != NULL) {
+    if (!args->options->script && args->command->missing_operand) {
         message(args->command->options == 0 ? "%s: petri %s %s" : "%s; usage: petri %s [options] %s",
-                args->command->needed, args->command->name, args->command->operands);
+                args->command->missing_operand, args->command->name, args->command->operands);
         return STATUS_USAGE;
     }
     scripts_sort(&args->options->scripts);
@@ -277,14 +269,13 @@ static int options_read(Options *options, const Command *command, int argc, char
         .argv = argv,
     };
     options->realtime = command->live;
-    int status = command->raw ? OPTIONS_READ : read_all(&args);
-    if (options->frames < 0) {
+    int status = command->parses_arguments ? OPTIONS_READ : read_all(&args);
+    if (options->frames < 0)
         options->frames = isnan(options->run_time) && !command->live ? DEFAULT_FRAMES : INT64_MAX;
-    }
     return status;
 }
 
-int command_run(const Command *command, const Host *host, int argc, char **argv) {
+int command_run(const Command *command, const CommandContext *host, int argc, char **argv) {
     Options options;
     int status = options_read(&options, command, argc, argv);
     status = status == OPTIONS_READ ? command->run(host, &options) : status;
@@ -297,7 +288,7 @@ int command_run(const Command *command, const Host *host, int argc, char **argv)
     return status;
 }
 
-int options_open(const Options *options, const Host *host,
+int options_open(const Options *options, const CommandContext *host,
                  void (*diagnostic)(void *context, const PetriDiagnostic *diagnostic), void *context,
                  PetriSession **session) {
     PetriOptions wanted = petri_default_options();
@@ -305,27 +296,27 @@ int options_open(const Options *options, const Host *host,
     wanted.realtime = options->realtime;
     wanted.run_time = options->run_time;
     wanted.colour = options->colour;
-    wanted.stack_bytes = host->stack_bytes;
+    wanted.stack_limit = host->stack_bytes;
     wanted.threads = (int)options->threads;
     wanted.neighbours = (PetriNeighbours)options->neighbours;
     wanted.simplify = !options->unsimplified;
     wanted.keep_forces = options->prompt;
-    wanted.interruptible = options->prompt || options->state_file != NULL; // the state of whole frames only is kept
+    wanted.rollback_frames = options->prompt || options->state_file; // the state of whole frames only is kept
     wanted.profile = options->profile;
-    wanted.memory_bytes = options->memory > 0 ? options->memory : wanted.memory_bytes;
-    wanted.work = options->work > 0 ? options->work : wanted.work;
+    wanted.memory_limit = options->memory > 0 ? options->memory : wanted.memory_limit;
+    wanted.work_limit = options->work > 0 ? options->work : wanted.work_limit;
     wanted.read_folders = (const char *const *)options->read_folders.items;
     wanted.write_folders = (const char *const *)options->write_folders.items;
     wanted.no_files = options->no_files;
-    wanted.read = options->read;
-    wanted.unsaved = options->unsaved;
-    wanted.read_host = options->unsaved_host;
-    wanted.diagnostic = diagnostic;
-    wanted.host = context;
+    wanted.read_file = options->read;
+    wanted.read_unsaved = options->unsaved;
+    wanted.read_user_data = options->unsaved_host;
+    wanted.on_diagnostic = diagnostic;
+    wanted.user_data = context;
     wanted.cpu = host->cpu;
     wanted.ranks = host->ranks;
     *session = petri_open(&wanted);
-    if (*session == NULL) {
+    if (!*session) {
         message("out of memory");
         return STATUS_FAILED;
     }

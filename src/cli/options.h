@@ -2,12 +2,12 @@
 #ifndef PETRI_SRC_OPTIONS_H
 #define PETRI_SRC_OPTIONS_H
 
-#include <stdint.h>
-
-#include "cli/bytes.h"
+#include "cli/byte_buffer.h"
 #include "cli/cli.h"
 #include "cli/scripts.h"
 #include "petri.h"
+
+#include <stdint.h>
 
 typedef enum Verbosity { LOG_QUIET, LOG_NORMAL, LOG_VERBOSE, LOG_DEBUG, LOG_TRACE } Verbosity;
 
@@ -41,7 +41,7 @@ bool options_due(const Options *options, int64_t frames, double start, double fp
 
 // Opens a session as the options say, with the names that they define. OPTIONS_READ, or the status to exit with after
 // a message; *session is then NULL.
-int options_open(const Options *options, const Host *host,
+int options_open(const Options *options, const CommandContext *host,
                  void (*diagnostic)(void *context, const PetriDiagnostic *diagnostic), void *context,
                  PetriSession **session);
 

@@ -1,6 +1,10 @@
 // output.c: buffered writing to standard output that notices when it fails.
 #include "cli/output.h"
 
+#include "base/file.h"
+#include "cli/byte_buffer.h"
+#include "cli/cli.h"
+
 #include <errno.h>
 #include <stdarg.h>
 #include <stdatomic.h>
@@ -9,10 +13,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/file.h"
-#include "cli/bytes.h"
-#include "cli/cli.h"
-
 void output_start(Output *output, int fd) {
     output->fd = fd;
     output->error = 0;
@@ -20,9 +20,8 @@ void output_start(Output *output, int fd) {
 }
 
 static void write_all(Output *output, const char *text, size_t length) {
-    if (output->error == 0 && !file_write(output->fd, text, length)) {
+    if (output->error == 0 && !file_write(output->fd, text, length))
         output->error = errno;
-    }
 }
 
 // A signal handler may look at any moment: what is counted as written is no longer counted as waiting.
@@ -35,11 +34,10 @@ bool output_flush(Output *output) {
     return output->error == 0;
 }
 
-bool output_write(void *host, const char *text, size_t length) {
-    Output *output = host;
-    if (output->used + length > sizeof output->buffer) {
+bool output_write(void *user_data, const char *text, size_t length) {
+    Output *output = user_data;
+    if (output->used + length > sizeof output->buffer)
         output_flush(output);
-    }
     if (length > sizeof output->buffer) {
         write_all(output, text, length);
         output->written += length;
@@ -60,8 +58,8 @@ bool output_format(Output *output, const char *format, ...) {
     if (length >= 0 && (size_t)length < room) {
         output->used += (size_t)length;
     } else {
-        SCOPED_BYTES text = {0};
-        bytes_format_list(&text, format, again);
+        SCOPED_BYTE_BUFFER text = {0};
+        byte_buffer_format_list(&text, format, again);
         output_write(output, text.data, text.length);
     }
     va_end(again);
@@ -71,15 +69,14 @@ bool output_format(Output *output, const char *format, ...) {
 
 int output_finish(Output *output, int status) {
     output_flush(output);
-    if (output->error == 0 || output->error == EPIPE) {
+    if (output->error == 0 || output->error == EPIPE)
         return status;
-    }
     message("cannot write standard output: %s", strerror(output->error));
     return STATUS_FAILED;
 }
 
 int output_text(const char *text, size_t length, int status) {
-    Output *output = memory_zeroed(sizeof *output);
+    Output *output = memory_calloc(sizeof *output);
     output_start(output, STDOUT_FILENO);
     output_write(output, text, length);
     status = output_finish(output, status);

@@ -16,8 +16,8 @@ typedef struct Output {
 } Output;
 
 void output_start(Output *output, int fd);
-// False once writing has failed. `host` is the Output: the function can serve as a PetriWrite.
-bool output_write(void *host, const char *text, size_t length);
+// False once writing has failed. `host` is the Output: the function can serve as a PetriWriteCallback.
+bool output_write(void *user_data, const char *text, size_t length);
 __attribute__((format(printf, 2, 3))) bool output_format(Output *output, const char *format, ...);
 bool output_flush(Output *output);
 // Flushes and turns a failure into an exit status: a closed pipe is no failure, for the reader has what it wanted.

@@ -2,7 +2,7 @@
 #ifndef PETRI_SRC_PARAMETERS_H
 #define PETRI_SRC_PARAMETERS_H
 
-#include "cli/bytes.h"
+#include "cli/byte_buffer.h"
 #include "cli/output.h"
 #include "petri.h"
 
@@ -12,10 +12,10 @@ size_t parameters_list(PetriSession *session, Output *output);
 // The script's own parameter of this name; false if there is none.
 bool parameter_find(PetriSession *session, const char *name, PetriParameter *parameter);
 // Adds `1..500`, or nothing if it has no range.
-void parameter_range(Bytes *out, const PetriParameter *parameter);
+void parameter_range(ByteBuffer *out, const PetriParameter *parameter);
 // Adds `NAME = VALUE  (1..500, default 200)`.
-void parameter_describe(Bytes *out, const PetriParameter *parameter);
+void parameter_describe(ByteBuffer *out, const PetriParameter *parameter);
 // Is a diagnostic that of a definition which the script cannot take: a wrong command line?
-bool is_wrong_definition(const PetriDiagnostic *diagnostic);
+bool is_invalid_definition(const PetriDiagnostic *diagnostic);
 
 #endif

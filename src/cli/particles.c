@@ -6,91 +6,84 @@
 #include <stdio.h>
 #include <string.h>
 
-typedef struct Sheet {
+typedef struct FloatImage {
     uint32_t dimensions;
-    PetriWrite *write;
+    PetriWriteCallback *write;
     void *host;
-} Sheet;
+} RowWriter;
 
 // Numbers and short words.
-__attribute__((format(printf, 2, 3))) static void add(const Sheet *sheet, const char *format, ...) {
+__attribute__((format(printf, 2, 3))) static void write_format(const RowWriter *writer, const char *format, ...) {
     char text[64];
     va_list list;
     va_start(list, format);
     int length = vsnprintf(text, sizeof text, format, list);
     va_end(list);
-    sheet->write(sheet->host, text, (size_t)length);
+    writer->write(writer->host, text, (size_t)length);
 }
 
 // Quoted where it must be: ids may hold commas and quotes.
-static void add_text(const Sheet *sheet, const char *text) {
+static void write_text(const RowWriter *writer, const char *text) {
     size_t length = strlen(text);
-    sheet->write(sheet->host, ",", 1);
-    if (strpbrk(text, ",\"\r\n") == NULL) {
-        sheet->write(sheet->host, text, length);
+    writer->write(writer->host, ",", 1);
+    if (!strpbrk(text, ",\"\r\n")) {
+        writer->write(writer->host, text, length);
         return;
     }
-    sheet->write(sheet->host, "\"", 1);
-    for (const char *c = text; *c != '\0'; c++) {
-        sheet->write(sheet->host, *c == '"' ? "\"\"" : c, *c == '"' ? 2 : 1);
-    }
-    sheet->write(sheet->host, "\"", 1);
+    writer->write(writer->host, "\"", 1);
+    for (const char *c = text; *c != '\0'; c++)
+        writer->write(writer->host, *c == '"' ? "\"\"" : c, *c == '"' ? 2 : 1);
+    writer->write(writer->host, "\"", 1);
 }
 
-static void add_vector(const Sheet *sheet, const PetriSystem *system, PetriColumn column, uint32_t particle) {
-    for (uint32_t k = 0; k < sheet->dimensions; k++) {
-        if (k < system->dimensions) {
-            add(sheet, ",%.17g", column.data[particle * column.stride + k]);
-        } else {
-            add(sheet, ",");
-        }
-    }
+static void write_vector(const RowWriter *writer, const PetriSystem *system, PetriColumn column, uint32_t particle) {
+    for (uint32_t k = 0; k < writer->dimensions; k++)
+        if (k < system->dimensions)
+            write_format(writer, ",%.17g", column.data[particle * column.stride + k]);
+        else
+            write_format(writer, ",");
 }
 
-static void add_number(const Sheet *sheet, PetriColumn column, uint32_t particle) {
-    add(sheet, ",%.17g", column.data[particle * column.stride]);
+static void write_number(const RowWriter *writer, PetriColumn column, uint32_t particle) {
+    write_format(writer, ",%.17g", column.data[particle * column.stride]);
 }
 
 uint32_t particles_dimensions(PetriSession *session) {
     PetriSystem system;
-    uint32_t most = 1;
-    for (size_t s = 0; petri_system(session, s, &system); s++) {
-        most = system.dimensions > most ? system.dimensions : most;
-    }
-    return most;
+    uint32_t max_dimensions = 1;
+    for (size_t s = 0; petri_system(session, s, &system); s++)
+        max_dimensions = system.dimensions > max_dimensions ? system.dimensions : max_dimensions;
+    return max_dimensions;
 }
 
-void particles_header(uint32_t dimensions, PetriWrite *write, void *host) {
-    const Sheet sheet = {dimensions, write, host};
-    add(&sheet, "frame,time,system,id,anchor");
-    for (const char *name = "xv"; *name != '\0'; name++) {
-        for (uint32_t k = 1; k <= dimensions; k++) {
-            add(&sheet, ",%c%" PRIu32, *name, k);
-        }
-    }
-    add(&sheet, ",radius,mass,charge\n");
+void particles_header(uint32_t dimensions, PetriWriteCallback *write, void *user_data) {
+    const RowWriter writer = {dimensions, write, user_data};
+    write_format(&writer, "frame,time,system,id,anchor");
+    for (const char *name = "xv"; *name != '\0'; name++)
+        for (uint32_t k = 1; k <= dimensions; k++)
+            write_format(&writer, ",%c%" PRIu32, *name, k);
+    write_format(&writer, ",radius,mass,charge\n");
 }
 
-bool particles_rows(PetriSession *session, uint32_t dimensions, PetriWrite *write, void *host) {
-    const Sheet sheet = {dimensions, write, host};
+bool particles_rows(PetriSession *session, uint32_t dimensions, PetriWriteCallback *write, void *user_data) {
+    const RowWriter writer = {dimensions, write, user_data};
     PetriFrame frame = petri_frame(session);
     PetriSystem system;
     for (size_t s = 0; petri_system(session, s, &system); s++) {
         for (uint32_t i = 0; i < system.particle_count; i++) {
-            const char *id = petri_text(session, petri_id(session, s, i));
-            if (id == NULL) {
+            const char *id = petri_format_value(session, petri_particle_id(session, s, i));
+            if (!id)
                 return false;
-            }
-            add(&sheet, "%" PRId64 ",%.17g", frame.number, frame.time);
-            add_text(&sheet, system.name);
-            add_text(&sheet, id);
-            add(&sheet, ",%d", system.anchor[i * system.anchor_stride] ? 1 : 0);
-            add_vector(&sheet, &system, system.position, i);
-            add_vector(&sheet, &system, system.velocity, i);
-            add_number(&sheet, system.radius, i);
-            add_number(&sheet, system.mass, i);
-            add_number(&sheet, system.charge, i);
-            add(&sheet, "\n");
+            write_format(&writer, "%" PRId64 ",%.17g", frame.number, frame.time);
+            write_text(&writer, system.name);
+            write_text(&writer, id);
+            write_format(&writer, ",%d", system.anchor[i * system.anchor_stride] ? 1 : 0);
+            write_vector(&writer, &system, system.position, i);
+            write_vector(&writer, &system, system.velocity, i);
+            write_number(&writer, system.radius, i);
+            write_number(&writer, system.mass, i);
+            write_number(&writer, system.charge, i);
+            write_format(&writer, "\n");
         }
     }
     return true;

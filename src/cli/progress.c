@@ -8,7 +8,7 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { BAR_WIDTH = 30, DEFAULT_COLUMNS = 80, MOST_SECONDS = 999 * 60 };
+enum { BAR_WIDTH = 30, DEFAULT_COLUMNS = 80, MAX_SECONDS = 999 * 60 };
 
 static const double REDRAW_SECONDS = 0.1;
 
@@ -20,7 +20,7 @@ double clock_seconds(void) {
 
 bool progress_possible(void) {
     const char *terminal = getenv("TERM");
-    return isatty(STDERR_FILENO) && (terminal == NULL || strcmp(terminal, "dumb") != 0);
+    return isatty(STDERR_FILENO) && (!terminal || strcmp(terminal, "dumb") != 0);
 }
 
 void progress_start(Progress *progress, bool enabled, int64_t total) {
@@ -36,10 +36,10 @@ void terminal_extent(int fd, int *columns, int *rows) {
     }
 }
 
-static void draw(const Progress *progress, int64_t done, double elapsed) {
+static void draw_line(const Progress *progress, int64_t done, double elapsed) {
     double rate = elapsed > 0 ? (double)done / elapsed : 0;
     double left = rate > 0 ? (double)(progress->total - done) / rate : 0;
-    long long seconds = left < MOST_SECONDS ? (long long)left : MOST_SECONDS;
+    long long seconds = left < MAX_SECONDS ? (long long)left : MAX_SECONDS;
     char numbers[128];
     int length = snprintf(numbers, sizeof numbers, "%lld/%lld %s", (long long)done, (long long)progress->total,
                           progress->things);
@@ -63,16 +63,14 @@ static void draw(const Progress *progress, int64_t done, double elapsed) {
 }
 
 void progress_update(Progress *progress, int64_t done) {
-    if (!progress->enabled) {
+    if (!progress->enabled)
         return;
-    }
     double now = clock_seconds();
-    if (progress->last != 0 && now - progress->last < REDRAW_SECONDS) {
+    if (progress->last != 0 && now - progress->last < REDRAW_SECONDS)
         return;
-    }
     progress->last = now;
     progress->drawn = true;
-    draw(progress, done < progress->total ? done : progress->total, now - progress->start);
+    draw_line(progress, done < progress->total ? done : progress->total, now - progress->start);
 }
 
 void progress_erase(Progress *progress) {

@@ -2,7 +2,7 @@
 #ifndef PETRI_SRC_SCRIPT_H
 #define PETRI_SRC_SCRIPT_H
 
-#include "cli/bytes.h"
+#include "cli/byte_buffer.h"
 #include "cli/cli.h"
 #include "petri.h"
 
@@ -11,13 +11,13 @@
 
 bool script_is_stdin(const char *name);
 // The name, or SCRIPT_STDIN.
-const char *script_shown(const char *name);
+const char *script_display_name(const char *name);
 // petri_load and petri_check for what the name stands for. Where there is no such script, a message may tell which one
 // could be meant.
 PetriStatus script_load(PetriSession *session, const char *name);
 PetriStatus script_check(PetriSession *session, const char *name);
 // Says that a second script was named on the command line, which may have been meant as an option's value.
-void script_second(const char *first, const char *second);
+void script_report_second(const char *first, const char *second);
 // Gives that message, after one that a script cannot be read: the name that is nearest to this one, or what a folder
 // holds.
 void script_suggest(const char *name);
@@ -26,11 +26,11 @@ int script_suffix(const char *name, const char *words);
 // The folder that it is in, "." for this one; to be freed.
 char *script_folder(const char *name);
 // Adds a word as a shell takes it.
-void shell_add_word(Bytes *text, const char *word);
+void shell_add_word(ByteBuffer *text, const char *word);
 // Adds the program as it was called, from the current folder where it is below that.
-void shell_add_program(Bytes *text, const char *called);
+void shell_add_program(ByteBuffer *text, const char *called);
 // Tells on standard error how to see what a script shows, and how to keep a picture of it: command lines that work from
 // the current folder.
-void hint_pictures(const Host *host, const char *script);
+void hint_pictures(const CommandContext *context, const char *script);
 
 #endif

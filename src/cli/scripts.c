@@ -1,23 +1,23 @@
 // scripts.c: finding the scripts that are meant by files and folders on the command line.
 #include "cli/scripts.h"
 
+#include "base/source.h"
+#include "cli/byte_buffer.h"
+#include "cli/cli.h"
+#include "cli/script.h"
+
 #include <dirent.h>
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/source.h"
-#include "cli/bytes.h"
-#include "cli/cli.h"
-#include "cli/script.h"
-
-static void add(ScriptList *list, const char *path, size_t below) {
+static void add_script(ScriptList *list, const char *path, size_t below) {
     if (list->count == list->capacity) {
         list->capacity = list->capacity == 0 ? 64 : 2 * list->capacity;
-        list->items = memory_resized(list->items, list->capacity * sizeof *list->items);
+        list->items = memory_realloc(list->items, list->capacity * sizeof *list->items);
     }
-    list->items[list->count++] = (Script){.path = memory_text(path), .below = below};
+    list->items[list->count++] = (Script){.path = memory_strdup(path), .relative_start = below};
 }
 
 static bool cannot_read(const char *path) {
@@ -32,42 +32,37 @@ static bool cannot_read(const char *path) {
 static bool search_folder(ScriptList *list, const char *folder, size_t below);
 
 // One entry of a folder. Links to folders are not followed: they may lead round in a circle.
-static bool look_at(ScriptList *list, const char *path, const char *name, size_t below) {
+static bool add_entry(ScriptList *list, const char *path, const char *name, size_t below) {
     struct stat about;
-    if (lstat(path, &about) != 0) {
+    if (lstat(path, &about) != 0)
         return cannot_read(path);
-    }
-    if (S_ISDIR(about.st_mode)) {
+    if (S_ISDIR(about.st_mode))
         return search_folder(list, path, below);
-    }
     // A pipe or device of that name would keep us waiting.
-    if (str_ends_with(str_from(name), STR(".fl")) && stat(path, &about) == 0 && S_ISREG(about.st_mode)) {
-        add(list, path, below);
-    }
+    if (str_ends_with(str_from(name), STR(".fl")) && stat(path, &about) == 0 && S_ISREG(about.st_mode))
+        add_script(list, path, below);
     return true;
 }
 
 static bool search_folder(ScriptList *list, const char *folder, size_t below) {
     DIR *entries = opendir(folder);
-    if (entries == NULL) {
+    if (!entries)
         return cannot_read(folder);
-    }
     bool done = true;
-    for (struct dirent *entry = readdir(entries); entry != NULL; entry = readdir(entries)) {
-        if (entry->d_name[0] == '.') {
+    for (struct dirent *entry = readdir(entries); entry; entry = readdir(entries)) {
+        if (entry->d_name[0] == '.')
             continue;
-        }
-        SCOPED_BYTES path = {0};
+        SCOPED_BYTE_BUFFER path = {0};
         size_t length = strlen(folder);
-        bytes_format(&path, "%s%s%s", folder, length > 0 && folder[length - 1] == '/' ? "" : "/", entry->d_name);
-        done = look_at(list, path.data, entry->d_name, below) && done;
+        byte_buffer_format(&path, "%s%s%s", folder, length > 0 && folder[length - 1] == '/' ? "" : "/", entry->d_name);
+        done = add_entry(list, path.data, entry->d_name, below) && done;
     }
     closedir(entries);
     return done;
 }
 
 void scripts_add(ScriptList *list, const char *path) {
-    add(list, path, 0);
+    add_script(list, path, 0);
 }
 
 bool scripts_find(ScriptList *list, const char *path) {
@@ -78,39 +73,34 @@ bool scripts_find(ScriptList *list, const char *path) {
         return false;
     }
     size_t length = strlen(path);
-    if (S_ISDIR(about.st_mode)) {
+    if (S_ISDIR(about.st_mode))
         return search_folder(list, path, length > 0 && path[length - 1] == '/' ? length : length + 1);
-    }
-    add(list, path, path_directory(str_from(path)).len);
+    add_script(list, path, path_directory(str_from(path)).len);
     return true;
 }
 
-static int by_path(const void *a, const void *b) {
+static int compare_paths(const void *a, const void *b) {
     const Script *first = a;
     const Script *second = b;
     return strcmp(first->path, second->path);
 }
 
 void scripts_sort(ScriptList *list) {
-    if (list->count == 0) {
+    if (list->count == 0)
         return;
-    }
-    qsort(list->items, list->count, sizeof *list->items, by_path);
+    qsort(list->items, list->count, sizeof *list->items, compare_paths);
     size_t kept = 1;
-    for (size_t i = 1; i < list->count; i++) {
-        if (strcmp(list->items[i].path, list->items[kept - 1].path) == 0) {
+    for (size_t i = 1; i < list->count; i++)
+        if (strcmp(list->items[i].path, list->items[kept - 1].path) == 0)
             free(list->items[i].path);
-        } else {
+        else
             list->items[kept++] = list->items[i];
-        }
-    }
     list->count = kept;
 }
 
 void scripts_free(ScriptList *list) {
-    for (size_t i = 0; i < list->count; i++) {
+    for (size_t i = 0; i < list->count; i++)
         free(list->items[i].path);
-    }
     free(list->items);
     *list = (ScriptList){0};
 }

@@ -7,7 +7,7 @@
 
 typedef struct Script {
     char *path;
-    size_t below; // where the part of the path begins that was found below the folder asked for
+    size_t relative_start; // where the part of the path begins that was found below the folder asked for
 } Script;
 
 typedef struct ScriptList {

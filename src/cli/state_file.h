@@ -5,15 +5,15 @@
 #ifndef PETRI_SRC_STATE_FILE_H
 #define PETRI_SRC_STATE_FILE_H
 
-#include <stdbool.h>
-
 #include "petri.h"
 
+#include <stdbool.h>
+
 typedef struct StateFile {
-    const char *name; // NULL: none is kept
-    bool unread;      // it could not be read, and is not written
-    bool behind;      // the last state is not in it
-    double saved;     // when it was tried last, in seconds of the monotonic clock
+    const char *name;    // NULL: none is kept
+    bool unreadable;     // it could not be read, and is not written
+    bool outdated;       // the last state is not in it
+    double last_attempt; // when it was tried last, in seconds of the monotonic clock
     // What must be on the disk before a state is; after false none is saved. May be NULL.
     bool (*before)(void *context);
     void *context;
@@ -25,7 +25,7 @@ bool state_file_restore(StateFile *file, PetriSession *session, const char *name
 const char *state_file_save(StateFile *file, PetriSession *session, bool at_once);
 // Whether what the user has asked for is not so: for the exit status.
 static inline bool state_file_failed(const StateFile *file) {
-    return file->unread || file->behind;
+    return file->unreadable || file->outdated;
 }
 
 #endif

@@ -1,10 +1,4 @@
 // fmt.c: `petri fmt`: one layout for all scripts.
-#include <errno.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
-
 #include "base/file.h"
 #include "base/source.h"
 #include "cli/options.h"
@@ -13,7 +7,13 @@
 #include "fmt/layout.h"
 #include "petri.h"
 
-static const size_t MOST_BYTES = (size_t)256 << 20;
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static const size_t MAX_BYTES = (size_t)256 << 20;
 
 typedef struct Formatting {
     PetriSession *session;
@@ -24,37 +24,35 @@ typedef struct Formatting {
 
 static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     (void)host;
-    if (diagnostic->level == PETRI_ERROR) {
+    if (diagnostic->level == PETRI_ERROR)
         fputs(diagnostic->rendered, stderr);
-    }
 }
 
-static bool read_script(const char *name, Bytes *text) {
-    bytes_add(text, "", 0);
-    bool read = script_is_stdin(name) ? bytes_read(text, STDIN_FILENO, MOST_BYTES) : bytes_read_file(text, name);
-    if (!read || text->length > MOST_BYTES) {
-        message("cannot read %s: %s", script_shown(name), read ? "it is too large" : strerror(errno));
-    }
-    return read && text->length <= MOST_BYTES;
+static bool read_script(const char *name, ByteBuffer *text) {
+    byte_buffer_add(text, "", 0);
+    bool read =
+        script_is_stdin(name) ? byte_buffer_read(text, STDIN_FILENO, MAX_BYTES) : byte_buffer_read_file(text, name);
+    if (!read || text->length > MAX_BYTES)
+        message("cannot read %s: %s", script_display_name(name), read ? "it is too large" : strerror(errno));
+    return read && text->length <= MAX_BYTES;
 }
 
 // The text as petri reads it: lines end in LF, and no byte-order mark begins it.
-static Str plain_text(Bytes *text) {
+static Str normalise_text(ByteBuffer *text) {
     static const char mark[] = "\xef\xbb\xbf";
     size_t skipped = strncmp(text->data, mark, strlen(mark)) == 0 ? strlen(mark) : 0;
     char *bytes = text->data + skipped;
     return (Str){bytes, source_unify_lines(bytes, text->length - skipped)};
 }
 
-static bool lay_out(Formatting *formatting, const char *name, const Bytes *given, Bytes *out) {
-    SCOPED_BYTES copy = {0};
-    bytes_add(&copy, given->data, given->length);
-    Str text = plain_text(&copy);
-    const char *shown = script_shown(name);
+static bool format_text(Formatting *formatting, const char *name, const ByteBuffer *original, ByteBuffer *out) {
+    SCOPED_BYTE_BUFFER copy = {0};
+    byte_buffer_add(&copy, original->data, original->length);
+    Str text = normalise_text(&copy);
+    const char *shown = script_display_name(name);
     // What is wrong with the script is told by the load.
-    if (petri_load_text(formatting->session, shown, text.bytes, text.len) != PETRI_OK) {
+    if (petri_load_text(formatting->session, shown, text.bytes, text.len) != PETRI_OK)
         return false;
-    }
     bool done = layout_text(formatting->session, text, out);
     Str laid = {out->data, out->length};
     if (!done || (!str_equal(laid, text) && !layout_same(formatting->session, shown, text, laid))) {
@@ -64,9 +62,9 @@ static bool lay_out(Formatting *formatting, const char *name, const Bytes *given
     return true;
 }
 
-static bool write_script(const char *name, const Bytes *out) {
+static bool write_script(const char *name, const ByteBuffer *out) {
     const char *problem = file_replace(name, (Str){out->data, out->length}, 0);
-    if (problem != NULL) {
+    if (problem) {
         message("cannot write %s: %s", name, problem);
         return false;
     }
@@ -74,50 +72,45 @@ static bool write_script(const char *name, const Bytes *out) {
 }
 
 // What came from standard input goes to standard output, whether it changes or not.
-static int write_out(const Bytes *out) {
+static int write_stdout(const ByteBuffer *out) {
     return output_text(out->data, out->length, STATUS_DONE);
 }
 
-static void format(Formatting *formatting, const char *name) {
-    SCOPED_BYTES text = {0};
-    SCOPED_BYTES out = {0};
-    if (!read_script(name, &text) || !lay_out(formatting, name, &text, &out)) {
+static void format_script(Formatting *formatting, const char *name) {
+    SCOPED_BYTE_BUFFER text = {0};
+    SCOPED_BYTE_BUFFER out = {0};
+    if (!read_script(name, &text) || !format_text(formatting, name, &text, &out)) {
         formatting->failed++;
-        if (script_is_stdin(name) && !formatting->only_checks) {
-            write_out(&text); // for editors that take whatever comes
-        }
+        if (script_is_stdin(name) && !formatting->only_checks)
+            write_stdout(&text); // for editors that take whatever comes
         return;
     }
     bool changed = text.length != out.length || memcmp(text.data, out.data, out.length) != 0;
     formatting->changed += changed;
     if (formatting->only_checks) {
-        if (changed) {
-            message("%s is not laid out by petri fmt", script_shown(name));
-        }
+        if (changed)
+            message("%s is not laid out by petri fmt", script_display_name(name));
     } else if (script_is_stdin(name)) {
-        formatting->failed += write_out(&out) == STATUS_DONE ? 0 : 1;
+        formatting->failed += write_stdout(&out) == STATUS_DONE ? 0 : 1;
     } else if (changed) {
         formatting->failed += write_script(name, &out) ? 0 : 1;
     }
 }
 
-static int fmt_run(const Host *host, Options *options) {
+static int fmt_run(const CommandContext *host, Options *options) {
     Formatting formatting = {.only_checks = options->only_checks};
     if (options->scripts.count == 0) {
-        if (!options->unreadable) {
+        if (!options->unreadable)
             message("no script found: there is no file named *.fl");
-        }
         return STATUS_FAILED;
     }
     options->unsimplified = true;
     options->threads = 1;
     int status = options_open(options, host, on_diagnostic, NULL, &formatting.session);
-    if (status != OPTIONS_READ) {
+    if (status != OPTIONS_READ)
         return status;
-    }
-    for (size_t i = 0; i < options->scripts.count; i++) {
-        format(&formatting, options->scripts.items[i].path);
-    }
+    for (size_t i = 0; i < options->scripts.count; i++)
+        format_script(&formatting, options->scripts.items[i].path);
     petri_close(&formatting.session);
     size_t count = options->scripts.count;
     if (count > 1 || !script_is_stdin(options->scripts.items[0].path)) {
@@ -142,8 +135,8 @@ const Command FMT_COMMAND = {
     .examples =
         "  petri fmt dish.fl\n"
         "  petri fmt --check .                             exit with 1 if something is to be laid out, for CI\n",
-    .needed = "nothing to lay out",
+    .missing_operand = "nothing to lay out",
     .options = FOR_FMT,
-    .many = true,
+    .accepts_many = true,
     .run = fmt_run,
 };

@@ -1,12 +1,12 @@
 // layout.c: see layout.h.
 #include "fmt/layout.h"
 
+#include "fmt/tokens.h"
+
 #include <stdlib.h>
 #include <string.h>
 
-#include "fmt/tokens.h"
-
-enum { INDENT = 4, MOST_LEVELS = 2100 };
+enum { INDENT = 4, MAX_LEVELS = 2100 };
 
 // A line that is written, but for the comment behind its code.
 typedef struct Line {
@@ -25,47 +25,46 @@ typedef struct Anchor {
 
 typedef struct Writer {
     const Words *words;
-    Bytes text;
+    ByteBuffer text;
     Line *lines;
     size_t line_count;
     size_t line_capacity;
-    size_t next;                   // the first word of the statement behind the comment at work
-    uint32_t indent;               // of the line at work
-    uint32_t level;                // of the statement at work
-    uint32_t indents[MOST_LEVELS]; // of each level, as it is in the text
-    uint32_t depth;                // open brackets
-    Anchor anchors[MOST_LEVELS];   // of the statement, and of each of them
+    size_t next;                  // the first word of the statement behind the comment at work
+    uint32_t indent;              // of the line at work
+    uint32_t level;               // of the statement at work
+    uint32_t indents[MAX_LEVELS]; // of each level, as it is in the text
+    uint32_t depth;               // open brackets
+    Anchor anchors[MAX_LEVELS];   // of the statement, and of each of them
 } Writer;
 
-static Line *line(Writer *writer) {
+static Line *current_line(Writer *writer) {
     return &writer->lines[writer->line_count - 1];
 }
 
 static void end_line(Writer *writer) {
-    if (writer->line_count == 0) {
+    if (writer->line_count == 0)
         return;
-    }
-    line(writer)->end = writer->text.length;
-    Str code = {writer->text.data + line(writer)->start, writer->text.length - line(writer)->start};
+    current_line(writer)->end = writer->text.length;
+    Str code = {writer->text.data + current_line(writer)->start, writer->text.length - current_line(writer)->start};
     for (size_t i = code.len; i > 0; i--) {
         if (code.bytes[i - 1] == '\n') { // in a string
             code = (Str){code.bytes + i, code.len - i};
             break;
         }
     }
-    line(writer)->width = (uint32_t)utf8_length(code);
+    current_line(writer)->width = (uint32_t)utf8_length(code);
 }
 
 static void begin_line(Writer *writer, uint32_t indent) {
     end_line(writer);
     if (writer->line_count == writer->line_capacity) {
         writer->line_capacity = writer->line_capacity == 0 ? 256 : 2 * writer->line_capacity;
-        writer->lines = memory_resized(writer->lines, writer->line_capacity * sizeof *writer->lines);
+        writer->lines = memory_realloc(writer->lines, writer->line_capacity * sizeof *writer->lines);
     }
-    bytes_add(&writer->text, "", 0);
+    byte_buffer_add(&writer->text, "", 0);
     writer->lines[writer->line_count++] = (Line){.start = writer->text.length};
     writer->indent = indent;
-    bytes_format(&writer->text, "%*s", (int)indent, "");
+    byte_buffer_format(&writer->text, "%*s", (int)indent, "");
 }
 
 // The level of a comment that has a line of its own: that of the statement behind it or, if it is further to the right,
@@ -74,27 +73,23 @@ static uint32_t comment_level(Writer *writer, size_t at) {
     const Words *words = writer->words;
     const Word *comment = &words->items[at];
     writer->next = writer->next > at ? writer->next : at;
-    while (writer->next < words->count && !words->items[writer->next].begins) {
+    while (writer->next < words->count && !words->items[writer->next].begins)
         writer->next++;
-    }
     const Word *next = writer->next < words->count ? &words->items[writer->next] : NULL;
-    uint32_t level = next == NULL ? 0 : next->level;
-    if (level > writer->level) {
+    uint32_t level = !next ? 0 : next->level;
+    if (level > writer->level)
         return comment->indent >= next->indent ? level : writer->level;
-    }
     uint32_t found = writer->level;
-    while (found > level && writer->indents[found] > comment->indent) {
+    while (found > level && writer->indents[found] > comment->indent)
         found--;
-    }
     return found;
 }
 
 // Of a line that goes on with a statement.
 static uint32_t continued_indent(const Writer *writer, const Word *word) {
     const Anchor *anchor = &writer->anchors[writer->depth];
-    if (anchor->word != NULL && word->role != ROLE_CLOSE && word->indent == word_column(writer->words, anchor->word)) {
+    if (anchor->word && word->role != ROLE_CLOSE && word->indent == word_column(writer->words, anchor->word))
         return anchor->column;
-    }
     return writer->depth == 0 ? INDENT * (writer->level + 1) : anchor->indent + (word->role == ROLE_CLOSE ? 0 : INDENT);
 }
 
@@ -104,9 +99,8 @@ static uint32_t indent_of(Writer *writer, size_t at) {
         writer->level = word->level;
         writer->depth = 0;
         writer->anchors[0] = (Anchor){0};
-        if (word->level < MOST_LEVELS) {
+        if (word->level < MAX_LEVELS)
             writer->indents[word->level] = word->indent;
-        }
         return INDENT * word->level;
     }
     bool own = word->role == ROLE_COMMENT && writer->depth == 0;
@@ -115,45 +109,39 @@ static uint32_t indent_of(Writer *writer, size_t at) {
 
 static bool space_between(const Words *words, size_t at) {
     const Word *before = &words->items[at - 1], *word = &words->items[at];
-    if (word_is(before, "-") && word_is(word, "-")) {
+    if (word_is(before, "-") && word_is(word, "-"))
         return true; // two dashes begin a comment
-    }
-    if (before->role == ROLE_OPEN || before->role == ROLE_PREFIX || before->role == ROLE_TIGHT ||
-        word->role == ROLE_CLOSE || word->role == ROLE_TIGHT || word->role == ROLE_COMMA) {
+    if (before->role == ROLE_OPEN || before->role == ROLE_PREFIX || before->role == ROLE_UNSPACED ||
+        word->role == ROLE_CLOSE || word->role == ROLE_UNSPACED || word->role == ROLE_COMMA)
         return false;
-    }
-    if (before->role == ROLE_COMMA || before->role == ROLE_LOOSE || word->role == ROLE_LOOSE) {
+    if (before->role == ROLE_COMMA || before->role == ROLE_SPACED || word->role == ROLE_SPACED)
         return !(word->role == ROLE_OPEN && word_is(before, "func"));
-    }
-    if (before->role == ROLE_SUM || word->role == ROLE_SUM) {
-        return !word_tight(words, before->role == ROLE_SUM ? at - 1 : at);
-    }
+    if (before->role == ROLE_SUM || word->role == ROLE_SUM)
+        return !word_is_unspaced(words, before->role == ROLE_SUM ? at - 1 : at);
     // A bracket behind an operand calls or picks.
-    return word->role != ROLE_OPEN || before->heads;
+    return word->role != ROLE_OPEN || before->ends_parameters;
 }
 
 // Notes the word that was just begun, and brackets.
-static void track(Writer *writer, size_t at) {
+static void track_brackets(Writer *writer, size_t at) {
     const Word *word = &writer->words->items[at], *before = at == 0 || word->breaks > 0 ? NULL : word - 1;
     Anchor *anchor = &writer->anchors[writer->depth];
-    bool first = before != NULL && (writer->depth > 0 ? before->role == ROLE_OPEN : word_is(before, "="));
-    if (first && anchor->word == NULL) {
-        const char *begins = writer->text.data + line(writer)->start;
+    bool first = before && (writer->depth > 0 ? before->role == ROLE_OPEN : word_is(before, "="));
+    if (first && !anchor->word) {
+        const char *begins = writer->text.data + current_line(writer)->start;
         anchor->word = word;
-        anchor->column = (uint32_t)utf8_length((Str){begins, writer->text.length - line(writer)->start});
+        anchor->column = (uint32_t)utf8_length((Str){begins, writer->text.length - current_line(writer)->start});
     }
-    if (word->role == ROLE_OPEN && writer->depth + 1 < MOST_LEVELS) {
+    if (word->role == ROLE_OPEN && writer->depth + 1 < MAX_LEVELS)
         writer->anchors[++writer->depth] = (Anchor){.indent = writer->indent};
-    } else if (word->role == ROLE_CLOSE && writer->depth > 0) {
+    else if (word->role == ROLE_CLOSE && writer->depth > 0)
         writer->depth--;
-    }
 }
 
 static void add_empty_lines(Writer *writer, const Word *word, uint32_t indent) {
     uint32_t most = indent == 0 ? 2 : 1, empty = word->breaks - 1;
-    for (uint32_t i = 0; writer->line_count > 0 && i < empty && i < most; i++) {
+    for (uint32_t i = 0; writer->line_count > 0 && i < empty && i < most; i++)
         begin_line(writer, 0);
-    }
 }
 
 static void add_word(Writer *writer, size_t at) {
@@ -161,62 +149,60 @@ static void add_word(Writer *writer, size_t at) {
     const Word *word = &words->items[at];
     if (writer->line_count == 0 || word->breaks > 0) {
         uint32_t indent = indent_of(writer, at);
-        if (word->joined && words->items[at - 1].kind != PETRI_TOKEN_COMMENT) {
-            bytes_add_text(&writer->text, " \\");
-        } else if (word->breaks > 1) {
+        if (word->joined && words->items[at - 1].kind != PETRI_TOKEN_COMMENT)
+            byte_buffer_add_text(&writer->text, " \\");
+        else if (word->breaks > 1)
             add_empty_lines(writer, word, indent);
-        }
         begin_line(writer, indent);
     } else if (word->role == ROLE_COMMENT) {
-        line(writer)->comment = word;
+        current_line(writer)->comment = word;
         return;
     } else if (space_between(words, at)) {
-        bytes_add_text(&writer->text, " ");
+        byte_buffer_add_text(&writer->text, " ");
     }
-    track(writer, at);
-    bytes_add(&writer->text, word->text.bytes, word->text.len);
+    track_brackets(writer, at);
+    byte_buffer_add(&writer->text, word->text.bytes, word->text.len);
 }
 
 // Where the comments behind lines that follow each other begin: in the column that they all have, if the code leaves it
 // to them.
 static uint32_t comment_column(const Writer *writer, size_t at) {
-    uint32_t widest = 0, column = word_column(writer->words, writer->lines[at].comment);
-    for (size_t i = at; i < writer->line_count && writer->lines[i].comment != NULL; i++) {
-        widest = writer->lines[i].width > widest ? writer->lines[i].width : widest;
+    uint32_t max_width = 0, column = word_column(writer->words, writer->lines[at].comment);
+    for (size_t i = at; i < writer->line_count && writer->lines[i].comment; i++) {
+        max_width = writer->lines[i].width > max_width ? writer->lines[i].width : max_width;
         column = word_column(writer->words, writer->lines[i].comment) == column ? column : 0;
     }
-    return column >= widest + 2 ? column : widest + 2;
+    return column >= max_width + 2 ? column : max_width + 2;
 }
 
-static void write_lines(const Writer *writer, Bytes *out) {
+static void write_lines(const Writer *writer, ByteBuffer *out) {
     uint32_t column = 0;
-    bool behind = false;
+    bool after_code = false;
     for (size_t i = 0; i < writer->line_count; i++) {
         const Line *at = &writer->lines[i];
-        bytes_add(out, writer->text.data + at->start, at->end - at->start);
-        if (at->comment != NULL) {
-            column = behind ? column : comment_column(writer, i);
-            bytes_format(out, "%*s", (int)(column - at->width), "");
-            bytes_add(out, at->comment->text.bytes, at->comment->text.len);
+        byte_buffer_add(out, writer->text.data + at->start, at->end - at->start);
+        if (at->comment) {
+            column = after_code ? column : comment_column(writer, i);
+            byte_buffer_format(out, "%*s", (int)(column - at->width), "");
+            byte_buffer_add(out, at->comment->text.bytes, at->comment->text.len);
         }
-        behind = at->comment != NULL;
-        bytes_add_text(out, "\n");
+        after_code = at->comment;
+        byte_buffer_add_text(out, "\n");
     }
 }
 
-bool layout_text(PetriSession *session, Str text, Bytes *out) {
+bool layout_text(PetriSession *session, Str text, ByteBuffer *out) {
     Words words;
     bool read = words_read(session, text, &words);
     if (read) {
-        Writer *writer = memory_zeroed(sizeof *writer);
+        Writer *writer = memory_calloc(sizeof *writer);
         writer->words = &words;
-        for (size_t i = 0; i < words.count; i++) {
+        for (size_t i = 0; i < words.count; i++)
             add_word(writer, i);
-        }
         end_line(writer);
-        bytes_add(out, "", 0);
+        byte_buffer_add(out, "", 0);
         write_lines(writer, out);
-        bytes_free(&writer->text);
+        byte_buffer_free(&writer->text);
         free(writer->lines);
         free(writer);
     }
@@ -225,18 +211,17 @@ bool layout_text(PetriSession *session, Str text, Bytes *out) {
 }
 
 // The code without the numbers of lines, which stand second.
-static bool read_code(PetriSession *session, const char *name, Str text, Bytes *code) {
-    SCOPED_BYTES dump = {0};
+static bool read_code(PetriSession *session, const char *name, Str text, ByteBuffer *code) {
+    SCOPED_BYTE_BUFFER dump = {0};
     if (petri_load_text(session, name, text.bytes, text.len) != PETRI_OK ||
-        petri_dump(session, PETRI_DUMP_CODE, bytes_collect, &dump) != PETRI_OK) {
+        petri_dump(session, PETRI_DUMP_CODE, byte_buffer_collect, &dump) != PETRI_OK)
         return false;
-    }
     Str row;
-    for (size_t at = 0; bytes_line(&dump, &at, &row);) {
+    for (size_t at = 0; byte_buffer_next_line(&dump, &at, &row);) {
         size_t skipped = strspn(row.bytes, " ");
         skipped += strspn(row.bytes + skipped, "0123456789 ");
-        bytes_add(code, row.bytes + skipped, row.len - skipped);
-        bytes_add_text(code, "\n");
+        byte_buffer_add(code, row.bytes + skipped, row.len - skipped);
+        byte_buffer_add_text(code, "\n");
     }
     return true;
 }
@@ -256,8 +241,8 @@ bool layout_same(PetriSession *session, const char *name, Str before, Str after)
     bool same = words_read(session, before, &a) && words_read(session, after, &b) && same_words(&a, &b);
     words_free(&a);
     words_free(&b);
-    SCOPED_BYTES old_code = {0};
-    SCOPED_BYTES new_code = {0};
+    SCOPED_BYTE_BUFFER old_code = {0};
+    SCOPED_BYTE_BUFFER new_code = {0};
     return same && read_code(session, name, before, &old_code) && read_code(session, name, after, &new_code) &&
            old_code.length == new_code.length && memcmp(old_code.data, new_code.data, old_code.length) == 0;
 }

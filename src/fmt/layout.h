@@ -6,12 +6,12 @@
 #ifndef PETRI_SRC_LAYOUT_H
 #define PETRI_SRC_LAYOUT_H
 
-#include "cli/bytes.h"
+#include "cli/byte_buffer.h"
 #include "petri.h"
 
 // Adds the text in that layout; false if it has characters that no token starts with, or memory is used up. Texts begin
 // with no byte-order mark and their lines end in LF.
-bool layout_text(PetriSession *session, Str text, Bytes *out);
+bool layout_text(PetriSession *session, Str text, ByteBuffer *out);
 // Does the one text have the tokens of the other, and do both come to the same code? `name` stands for their file.
 bool layout_same(PetriSession *session, const char *name, Str before, Str after);
 

@@ -1,12 +1,12 @@
 // tokens.c: see tokens.h.
 #include "fmt/tokens.h"
 
+#include "cli/byte_buffer.h"
+
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/bytes.h"
-
-enum { MOST_DEPTH = 2100 }; // brackets within each other; the language allows fewer
+enum { MAX_DEPTH = 2100 }; // brackets within each other; the language allows fewer
 
 // What reads the tokens one by one.
 typedef struct Reader {
@@ -17,16 +17,15 @@ typedef struct Reader {
     bool begins;
     // Of each bracket that is open, and 0 for the statement itself:
     uint32_t depth;
-    size_t segments[MOST_DEPTH];
-    bool functions[MOST_DEPTH]; // the parameters of an inline function
-    bool binds;                 // the statement is one of bindings, whose `=` is no attribute's
+    size_t segments[MAX_DEPTH];
+    bool functions[MAX_DEPTH]; // the parameters of an inline function
+    bool binds;                // the statement is one of bindings, whose `=` is no attribute's
 } Reader;
 
 uint32_t word_column(const Words *words, const Word *word) {
     const char *begins = word->text.bytes;
-    while (begins > words->text.bytes && begins[-1] != '\n') {
+    while (begins > words->text.bytes && begins[-1] != '\n')
         begins--;
-    }
     return (uint32_t)utf8_length((Str){begins, (size_t)(word->text.bytes - begins)});
 }
 
@@ -43,94 +42,91 @@ static bool ends_operand(const Word *word) {
 }
 
 // Begins a segment of the innermost bracket.
-static Segment *begin_segment(Reader *reader, bool tight) {
+static Segment *push_segment(Reader *reader, bool unspaced) {
     Words *words = reader->words;
     if (words->segment_count == words->segment_capacity) {
         words->segment_capacity = words->segment_capacity == 0 ? 64 : 2 * words->segment_capacity;
-        words->segments = memory_resized(words->segments, words->segment_capacity * sizeof *words->segments);
+        words->segments = memory_realloc(words->segments, words->segment_capacity * sizeof *words->segments);
     }
     reader->segments[reader->depth] = words->segment_count;
-    words->segments[words->segment_count] = (Segment){.tight = tight};
+    words->segments[words->segment_count] = (Segment){.unspaced = unspaced};
     return &words->segments[words->segment_count++];
 }
 
-static Segment *segment(const Reader *reader) {
+static Segment *current_segment(const Reader *reader) {
     return &reader->words->segments[reader->segments[reader->depth]];
 }
 
 static Role operator_role(const Word *word, bool binary) {
-    if (is_one_of(word, "( [")) {
+    if (is_one_of(word, "( ["))
         return ROLE_OPEN;
-    }
-    if (is_one_of(word, ") ]")) {
+    if (is_one_of(word, ") ]"))
         return ROLE_CLOSE;
-    }
-    if (is_one_of(word, "+ - .. $ @") && !binary) {
+    if (is_one_of(word, "+ - .. $ @") && !binary)
         return ROLE_PREFIX;
-    }
     return is_one_of(word, "+ -")                  ? ROLE_SUM
            : word_is(word, ",")                    ? ROLE_COMMA
-           : is_one_of(word, "<< == != < > <= >=") ? ROLE_LOOSE
-                                                   : ROLE_TIGHT;
+           : is_one_of(word, "<< == != < > <= >=") ? ROLE_SPACED
+                                                   : ROLE_UNSPACED;
 }
 
 static Role role_of(const Word *word, const Word *before) {
     switch (word->kind) {
     case PETRI_TOKEN_KEYWORD:
-        return ROLE_LOOSE;
+        return ROLE_SPACED;
     case PETRI_TOKEN_COMMENT:
         return ROLE_COMMENT;
     case PETRI_TOKEN_OPERATOR:
-        return operator_role(word, !word->begins && before != NULL && ends_operand(before));
+        return operator_role(word, !word->begins && before && ends_operand(before));
     default:
         return ROLE_OPERAND;
     }
 }
 
 static bool opens_function(const Word *before) {
-    return before != NULL && before->kind == PETRI_TOKEN_KEYWORD && word_is(before, "func");
+    return before && before->kind == PETRI_TOKEN_KEYWORD && word_is(before, "func");
 }
 
 // Keeps the segments, into which brackets and operators cut expressions.
-static void cut(Reader *reader, Word *word, const Word *before) {
+static void split_segment(Reader *reader, Word *word, const Word *before) {
     if (word->begins) {
         reader->depth = 0;
         reader->binds = word->kind == PETRI_TOKEN_KEYWORD && word_is(word, "let");
-        begin_segment(reader, false);
+        push_segment(reader, false);
     }
     bool in_brackets = reader->depth > 0;
     switch (word->role) {
     case ROLE_OPEN:
-        reader->depth += reader->depth + 1 < MOST_DEPTH;
+        reader->depth += reader->depth + 1 < MAX_DEPTH;
         reader->functions[reader->depth] = opens_function(before);
-        begin_segment(reader, true);
+        push_segment(reader, true);
         break;
     case ROLE_CLOSE:
-        word->heads = reader->functions[reader->depth];
+        word->ends_parameters = reader->functions[reader->depth];
         reader->depth -= reader->depth > 0;
         break;
     case ROLE_SUM:
         word->segment = (uint32_t)reader->segments[reader->depth];
         break;
     case ROLE_COMMA:
-        begin_segment(reader, in_brackets);
+        push_segment(reader, in_brackets);
         break;
-    case ROLE_LOOSE:
-        begin_segment(reader, word_is(word, "in") || (segment(reader)->tight && (in_brackets || !word_is(word, "<<"))));
+    case ROLE_SPACED:
+        push_segment(reader, word_is(word, "in") ||
+                                 (current_segment(reader)->unspaced && (in_brackets || !word_is(word, "<<"))));
         break;
-    case ROLE_TIGHT:
-        if (word_is(word, "=")) {
-            begin_segment(reader, in_brackets || !reader->binds);
-        } else if (word_is(word, ";")) {
-            begin_segment(reader, segment(reader)->tight);
-        } else if (is_one_of(word, ".. |")) {
-            segment(reader)->ranges = true;
-        } else {
-            segment(reader)->mixed = true;
-        }
+    case ROLE_UNSPACED:
+        if (word_is(word, "="))
+            push_segment(reader, in_brackets || !reader->binds);
+        else if (word_is(word, ";"))
+            push_segment(reader, current_segment(reader)->unspaced);
+        else if (is_one_of(word, ".. |"))
+            current_segment(reader)->ranges = true;
+        else
+            current_segment(reader)->mixed = true;
         break;
     default:
-        segment(reader)->ranges |= word->role == ROLE_PREFIX && word_is(word, "..");
+        current_segment(reader)->ranges |= word->role == ROLE_PREFIX && word_is(word, "..");
         break;
     }
 }
@@ -138,30 +134,26 @@ static void cut(Reader *reader, Word *word, const Word *before) {
 // `name=`, `name;name=`: only a line of bindings begins so.
 static void find_binding(Reader *reader, const Word *word) {
     const Words *words = reader->words;
-    if (!word_is(word, "=") || word->role != ROLE_TIGHT || reader->depth > 0) {
+    if (!word_is(word, "=") || word->role != ROLE_UNSPACED || reader->depth > 0)
         return;
-    }
     size_t at = words->count;
     while (at > 0 && !words->items[at - 1].begins &&
-           (words->items[at - 1].kind == PETRI_TOKEN_NAME || word_is(&words->items[at - 1], ";"))) {
+           (words->items[at - 1].kind == PETRI_TOKEN_NAME || word_is(&words->items[at - 1], ";")))
         at--;
-    }
     reader->binds |= at > 0 && words->items[at - 1].begins && words->items[at - 1].kind == PETRI_TOKEN_NAME;
 }
 
 static uint32_t count_breaks(Str gap) {
     uint32_t breaks = 0;
-    for (size_t i = 0; i < gap.len; i++) {
+    for (size_t i = 0; i < gap.len; i++)
         breaks += gap.bytes[i] == '\n';
-    }
     return breaks;
 }
 
 static uint32_t line_indent(Str text, size_t at) {
     uint32_t indent = 0;
-    while (at > 0 && text.bytes[at - 1] != '\n') {
+    while (at > 0 && text.bytes[at - 1] != '\n')
         indent += text.bytes[--at] == '\t' ? 8 : 1;
-    }
     return indent;
 }
 
@@ -175,7 +167,7 @@ static void add_word(Reader *reader, const PetriToken *token) {
         .breaks = count_breaks(gap),
         .level = reader->level,
         .begins = reader->begins && !comment,
-        .joined = !reader->begins && memchr(gap.bytes, '\\', gap.len) != NULL,
+        .joined = !reader->begins && memchr(gap.bytes, '\\', gap.len),
     };
     word.text = comment ? str_trim(word.text) : word.text;
     word.indent = word.breaks > 0 ? line_indent(words->text, token->start) : 0;
@@ -183,25 +175,25 @@ static void add_word(Reader *reader, const PetriToken *token) {
     word.role = role_of(&word, before);
     if (!comment) {
         find_binding(reader, &word);
-        cut(reader, &word, before);
+        split_segment(reader, &word, before);
         reader->begins = false;
     }
     if (words->count == words->capacity) {
         words->capacity = words->capacity == 0 ? 256 : 2 * words->capacity;
-        words->items = memory_resized(words->items, words->capacity * sizeof *words->items);
+        words->items = memory_realloc(words->items, words->capacity * sizeof *words->items);
     }
     words->items[words->count++] = word;
     reader->last = comment ? reader->last : words->count;
     reader->end = token->end;
 }
 
-static void take(void *host, const PetriToken *token) {
-    Reader *reader = host;
+static void add_token(void *user_data, const PetriToken *token) {
+    Reader *reader = user_data;
     switch (token->kind) {
-    case PETRI_TOKEN_WRONG:
-        reader->words->wrong = true;
+    case PETRI_TOKEN_INVALID:
+        reader->words->invalid = true;
         break;
-    case PETRI_TOKEN_LINE_END:
+    case PETRI_TOKEN_NEWLINE:
         reader->begins = true;
         break;
     case PETRI_TOKEN_INDENT:
@@ -217,14 +209,14 @@ static void take(void *host, const PetriToken *token) {
 }
 
 bool words_read(PetriSession *session, Str text, Words *words) {
-    Reader *reader = memory_zeroed(sizeof *reader);
+    Reader *reader = memory_calloc(sizeof *reader);
     *words = (Words){.text = text};
     reader->words = words;
     reader->begins = true;
-    begin_segment(reader, false);
-    PetriStatus status = petri_tokens(session, text.bytes, text.len, take, reader);
+    push_segment(reader, false);
+    PetriStatus status = petri_tokenise(session, text.bytes, text.len, add_token, reader);
     free(reader);
-    return status == PETRI_OK && !words->wrong;
+    return status == PETRI_OK && !words->invalid;
 }
 
 void words_free(Words *words) {
@@ -233,10 +225,10 @@ void words_free(Words *words) {
     *words = (Words){0};
 }
 
-bool word_tight(const Words *words, size_t at) {
+bool word_is_unspaced(const Words *words, size_t at) {
     const Word *word = &words->items[at];
     const Segment *part = &words->segments[word->segment];
     bool before_sign =
         at + 1 < words->count && words->items[at + 1].role == ROLE_PREFIX && is_one_of(&words->items[at + 1], "+ -");
-    return word->role == ROLE_SUM && !before_sign && (part->ranges || (part->tight && !part->mixed));
+    return word->role == ROLE_SUM && !before_sign && (part->ranges || (part->unspaced && !part->mixed));
 }

@@ -1,6 +1,9 @@
 // golden.c: reading and rewriting recorded output.
 #include "golden/golden.h"
 
+#include "base/file.h"
+#include "cli/cli.h"
+
 #include <errno.h>
 #include <inttypes.h>
 #include <math.h>
@@ -8,49 +11,43 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/file.h"
-#include "cli/cli.h"
-
-static void add_word(TextList *words, Bytes *word) {
-    bytes_add_text(word, ""); // so that there is a text
+static void add_word(TextList *words, ByteBuffer *word) {
+    byte_buffer_add_text(word, ""); // so that there is a text
     texts_add(words, word->data);
 }
 
 // Splits the way a shell does: blanks part words; '...' keeps everything, "..." and \ protect what follows.
-static bool split_options(Golden *golden, const char *line, size_t length, Bytes *trouble) {
-    SCOPED_BYTES word = {0};
+static bool split_options(Golden *golden, const char *line, size_t length, ByteBuffer *error_text) {
+    SCOPED_BYTE_BUFFER word = {0};
     char quote = '\0';
     bool in_word = false;
     for (size_t i = 0; i < length; i++) {
         char c = line[i];
         if (c == '\\' && quote != '\'' && i + 1 < length) {
-            bytes_add(&word, &line[++i], 1);
+            byte_buffer_add(&word, &line[++i], 1);
             in_word = true;
         } else if (quote != '\0' ? c == quote : c == '\'' || c == '"') {
             quote = quote != '\0' ? '\0' : c;
             in_word = true;
         } else if (quote == '\0' && (c == ' ' || c == '\t')) {
-            if (in_word) {
+            if (in_word)
                 add_word(&golden->options, &word);
-            }
             word.length = 0;
             in_word = false;
         } else {
-            bytes_add(&word, &c, 1);
+            byte_buffer_add(&word, &c, 1);
             in_word = true;
         }
     }
-    if (in_word) {
+    if (in_word)
         add_word(&golden->options, &word);
-    }
-    if (quote != '\0') {
-        bytes_format(trouble, "line 1: a quote is not closed");
-    }
+    if (quote != '\0')
+        byte_buffer_format(error_text, "line 1: a quote is not closed");
     return quote == '\0';
 }
 
 // Remarks that mean nothing to us are plain comments.
-static bool read_remark(Golden *golden, const char *line, size_t length, Bytes *trouble) {
+static bool read_remark(Golden *golden, const char *line, size_t length, ByteBuffer *error_text) {
     char copy[128];
     size_t kept = length < sizeof copy - 1 ? length : sizeof copy - 1;
     memcpy(copy, line, kept);
@@ -58,111 +55,104 @@ static bool read_remark(Golden *golden, const char *line, size_t length, Bytes *
     char rest = '\0';
     if (strncmp(copy, "# tolerance", 11) == 0) {
         int count = sscanf(copy, "# tolerance %lf %c", &golden->tolerance, &rest);
-        if (count == 1 && golden->tolerance >= 0 && isfinite(golden->tolerance)) {
+        if (count == 1 && golden->tolerance >= 0 && isfinite(golden->tolerance))
             return true;
-        }
     } else if (strncmp(copy, "# horizon", 9) == 0) {
         int count =
             sscanf(copy, "# horizon %" SCNd64 " strict %" SCNd64 " %c", &golden->horizon, &golden->strict, &rest);
         if (count == 1) {
             golden->strict = golden->horizon;
             // Something may follow the number that is not `strict`.
-            if (sscanf(copy, "# horizon %*d %c", &rest) != 1) {
+            if (sscanf(copy, "# horizon %*d %c", &rest) != 1)
                 return true;
-            }
         } else if (count == 2) {
             return true;
         }
     } else {
         return true;
     }
-    bytes_format(trouble, "line %" PRIu32 ": cannot read '%s'", golden->body_line, copy);
+    byte_buffer_format(error_text, "line %" PRIu32 ": cannot read '%s'", golden->body_line, copy);
     return false;
 }
 
 // The row of an option of `petri run`; NULL: there is none, which that will say itself.
 static const OptionSpec *find_option(const char *word, size_t length) {
-    for (const OptionSpec *spec = OPTIONS; spec->name != NULL; spec++) {
+    for (const OptionSpec *spec = OPTIONS; spec->name; spec++) {
         bool same = word[1] == '-' ? strlen(spec->name) == length - 2 && memcmp(spec->name, word + 2, length - 2) == 0
                                    : spec->letter == word[1];
-        if (spec->commands & FOR_RUN && same) {
+        if (spec->commands & FOR_RUN && same)
             return spec;
-        }
     }
     return NULL;
 }
 
 // Whoever runs the tests of others wants no files written where their goldens say.
-static bool check_options(const Golden *golden, Bytes *trouble) {
+static bool check_options(const Golden *golden, ByteBuffer *error_text) {
     for (size_t i = 0; i < golden->options.count; i++) {
         const char *word = golden->options.items[i];
         size_t length = strcspn(word, "=");
         const OptionSpec *spec = word[0] == '-' && length > 1 ? find_option(word, length) : NULL;
-        if (spec != NULL && !(spec->commands & FOR_GOLDEN)) {
-            bytes_format(trouble, "line 1: option '--%s' is not for goldens: tests write no files", spec->name);
+        if (spec && !(spec->commands & FOR_GOLDEN)) {
+            byte_buffer_format(error_text, "line 1: option '--%s' is not for goldens: tests write no files",
+                               spec->name);
             return false;
         }
         bool alone = word[length] == '\0' && (word[0] == '-' && (word[1] == '-' || length == 2));
-        i += spec != NULL && spec->value != NULL && alone ? 1 : 0;
+        i += spec && spec->value && alone ? 1 : 0;
     }
     return true;
 }
 
-static bool read_head_line(Golden *golden, const char *line, size_t length, Bytes *trouble) {
-    if (golden->body_line > 1) {
-        return read_remark(golden, line, length, trouble);
-    }
+static bool read_head_line(Golden *golden, const char *line, size_t length, ByteBuffer *error_text) {
+    if (golden->body_line > 1)
+        return read_remark(golden, line, length, error_text);
     if (length < 5 || memcmp(line, "# run", 5) != 0 || (length > 5 && line[5] != ' ')) {
-        bytes_format(trouble, "line 1: expected '# run' and the options");
+        byte_buffer_format(error_text, "line 1: expected '# run' and the options");
         return false;
     }
-    return split_options(golden, line + 5, length - 5, trouble) && check_options(golden, trouble);
+    return split_options(golden, line + 5, length - 5, error_text) && check_options(golden, error_text);
 }
 
-bool golden_read(Golden *golden, const char *path, Bytes *trouble) {
+bool golden_read(Golden *golden, const char *path, ByteBuffer *error_text) {
     *golden = (Golden){.horizon = INT64_MAX, .strict = INT64_MAX, .body_line = 1};
-    if (!bytes_read_file(&golden->text, path)) {
-        bytes_format(trouble, "cannot read %s: %s", path, strerror(errno));
+    if (!byte_buffer_read_file(&golden->text, path)) {
+        byte_buffer_format(error_text, "cannot read %s: %s", path, strerror(errno));
         return false;
     }
     const char *data = golden->text.data;
     while (golden->body < golden->text.length && (golden->body_line == 1 || data[golden->body] == '#')) {
         const char *line = data + golden->body;
         const char *end = memchr(line, '\n', golden->text.length - golden->body);
-        size_t length = end == NULL ? golden->text.length - golden->body : (size_t)(end - line);
-        if (!read_head_line(golden, line, length, trouble)) {
+        size_t length = !end ? golden->text.length - golden->body : (size_t)(end - line);
+        if (!read_head_line(golden, line, length, error_text))
             return false;
-        }
-        golden->body += length + (end == NULL ? 0 : 1);
+        golden->body += length + (!end ? 0 : 1);
         golden->body_line++;
     }
-    if (golden->body_line == 1) {
-        bytes_format(trouble, "the golden is empty; its first line is '# run' and the options");
-    }
+    if (golden->body_line == 1)
+        byte_buffer_format(error_text, "the golden is empty; its first line is '# run' and the options");
     return golden->body_line > 1;
 }
 
 void golden_free(Golden *golden) {
     texts_free(&golden->options);
-    bytes_free(&golden->text);
+    byte_buffer_free(&golden->text);
     *golden = (Golden){0};
 }
 
-bool golden_update(const Golden *golden, const char *path, const Bytes *output, bool *changed, Bytes *trouble) {
+bool golden_update(const Golden *golden, const char *path, const ByteBuffer *output, bool *changed,
+                   ByteBuffer *error_text) {
     size_t recorded = golden->text.length - golden->body;
     *changed = recorded != output->length || memcmp(golden->text.data + golden->body, output->data, recorded) != 0;
-    if (!*changed) {
+    if (!*changed)
         return true;
-    }
-    SCOPED_BYTES updated = {0};
-    bytes_add(&updated, golden->text.data, golden->body);
-    if (golden->body > 0 && golden->text.data[golden->body - 1] != '\n') {
-        bytes_add_text(&updated, "\n");
-    }
-    bytes_add(&updated, output->data, output->length);
+    SCOPED_BYTE_BUFFER updated = {0};
+    byte_buffer_add(&updated, golden->text.data, golden->body);
+    if (golden->body > 0 && golden->text.data[golden->body - 1] != '\n')
+        byte_buffer_add_text(&updated, "\n");
+    byte_buffer_add(&updated, output->data, output->length);
     const char *problem = file_replace(path, (Str){updated.data, updated.length}, 0);
-    if (problem != NULL) {
-        bytes_format(trouble, "cannot write %s: %s", path, problem);
-    }
-    return problem == NULL;
+    if (problem)
+        byte_buffer_format(error_text, "cannot write %s: %s", path, problem);
+    return !problem;
 }

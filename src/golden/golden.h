@@ -9,14 +9,14 @@
 #ifndef PETRI_SRC_GOLDEN_H
 #define PETRI_SRC_GOLDEN_H
 
-#include <stdint.h>
-
-#include "cli/bytes.h"
+#include "cli/byte_buffer.h"
 #include "cli/output.h"
 
+#include <stdint.h>
+
 typedef struct Golden {
-    Bytes text;  // the whole file
-    size_t body; // where the recorded output begins
+    ByteBuffer text; // the whole file
+    size_t body;     // where the recorded output begins
     uint32_t body_line;
     TextList options; // the words after `# run`
     double tolerance; // 0: exactly
@@ -25,13 +25,14 @@ typedef struct Golden {
 } Golden;
 
 // False with what is wrong added to `trouble`.
-bool golden_read(Golden *golden, const char *path, Bytes *trouble);
+bool golden_read(Golden *golden, const char *path, ByteBuffer *error_text);
 void golden_free(Golden *golden);
 
 // Whether `output` agrees with the golden; if not, the first difference is added to `trouble`.
-bool golden_compare(const Golden *golden, const Bytes *output, Bytes *trouble);
+bool golden_compare(const Golden *golden, const ByteBuffer *output, ByteBuffer *error_text);
 // Replaces the recorded output in the file and keeps the lines above it. `changed` tells whether it was another.
-bool golden_update(const Golden *golden, const char *path, const Bytes *output, bool *changed, Bytes *trouble);
+bool golden_update(const Golden *golden, const char *path, const ByteBuffer *output, bool *changed,
+                   ByteBuffer *error_text);
 
 // Lines of output (golden_line.c).
 
@@ -53,15 +54,15 @@ bool line_same(Str expected, Str got, double tolerance, LineDifference *differen
 
 // Whether a run of script `name` that ended with `status` (of waitpid) and these errors is what the .err file `path`
 // asks for: `line N`, or `line *` for any line. If not, the reason is added to `trouble`.
-bool rejection_check(const char *path, const char *name, int status, const Bytes *errors, Bytes *trouble);
+bool rejection_check(const char *path, const char *name, int status, const ByteBuffer *errors, ByteBuffer *error_text);
 
 // How results are told: a line each, and as a file for CI systems (report.c).
 
 typedef struct Result {
     const char *name;
     bool passed;
-    bool updated;  // the golden was rewritten
-    Bytes trouble; // why it failed
+    bool updated;          // the golden was rewritten
+    ByteBuffer error_text; // why it failed
     double seconds;
 } Result;
 

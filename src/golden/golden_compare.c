@@ -1,9 +1,9 @@
 // golden_compare.c: comparison of two outputs, frame by frame.
+#include "golden/golden.h"
+
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "golden/golden.h"
 
 // How closely numbers must agree between `strict` and the horizon (conformance/physics/README.md).
 static const double LOOSE_TOLERANCE = 1e-4;
@@ -13,7 +13,7 @@ enum { EXCERPT_LENGTH = 100, EXCERPT_BEFORE = 30 };
 typedef struct Line {
     Str text;
     uint32_t number;
-    bool taken; // already matched with a line of the other side
+    bool matched; // already matched with a line of the other side
 } Line;
 
 typedef struct LineList {
@@ -23,108 +23,100 @@ typedef struct LineList {
 } LineList;
 
 // Head: the @ line, if there is one. Body: tree and state, in order. Logs and errors: in any order.
-typedef enum Part { HEAD, BODY, LOGS, ERRORS, PARTS } Part;
+typedef enum Section { HEAD, BODY, LOGS, ERRORS, SECTION_COUNT } Section;
 
 // Reads an output frame by frame. What stands before the first header (logs alone have none) counts as frame 0.
 typedef struct Reader {
     const char *at;
     const char *end;
-    uint32_t number;       // of the next line
-    LineList parts[PARTS]; // of the frame that was read last
+    uint32_t number;                  // of the next line
+    LineList sections[SECTION_COUNT]; // of the frame that was read last
 } Reader;
 
 static void add_line(LineList *list, Str text, uint32_t number) {
     if (list->count == list->capacity) {
         list->capacity = list->capacity == 0 ? 64 : 2 * list->capacity;
-        list->items = memory_resized(list->items, list->capacity * sizeof *list->items);
+        list->items = memory_realloc(list->items, list->capacity * sizeof *list->items);
     }
     list->items[list->count++] = (Line){.text = text, .number = number};
 }
 
-static Str take_line(Reader *reader) {
+static Str read_line(Reader *reader) {
     size_t rest = (size_t)(reader->end - reader->at);
     const char *start = reader->at, *end = memchr(start, '\n', rest);
-    reader->at = end == NULL ? reader->end : end + 1;
+    reader->at = !end ? reader->end : end + 1;
     reader->number++;
-    return (Str){start, end == NULL ? rest : (size_t)(end - start)};
+    return (Str){start, !end ? rest : (size_t)(end - start)};
 }
 
 // Reads the next frame; false at the end.
 static bool read_frame(Reader *reader) {
     const char *start = reader->at;
-    for (int i = 0; i < PARTS; i++) {
-        reader->parts[i].count = 0;
-    }
+    for (int i = 0; i < SECTION_COUNT; i++)
+        reader->sections[i].count = 0;
     while (reader->at < reader->end && (reader->at == start || *reader->at != '@')) {
         char first = *reader->at;
-        Part part = first == '@' ? HEAD : first == '>' ? LOGS : first == '?' ? ERRORS : BODY;
+        Section section = first == '@' ? HEAD : first == '>' ? LOGS : first == '?' ? ERRORS : BODY;
         uint32_t number = reader->number;
-        Str text = take_line(reader);
+        Str text = read_line(reader);
         // A text of several lines goes on where lines are indented.
-        while (part >= LOGS && reader->at < reader->end && *reader->at == ' ') {
-            Str more = take_line(reader);
+        while (section >= LOGS && reader->at < reader->end && *reader->at == ' ') {
+            Str more = read_line(reader);
             text.len = (size_t)(more.bytes + more.len - text.bytes);
         }
-        add_line(&reader->parts[part], text, number);
+        add_line(&reader->sections[section], text, number);
     }
     return reader->at > start;
 }
 
 static void free_reader(Reader *reader) {
-    for (int i = 0; i < PARTS; i++) {
-        free(reader->parts[i].items);
-    }
+    for (int i = 0; i < SECTION_COUNT; i++)
+        free(reader->sections[i].items);
 }
 
 static int64_t frame_number(const Reader *reader) {
-    return reader->parts[HEAD].count == 0 ? 0 : strtoll(reader->parts[HEAD].items[0].text.bytes + 1, NULL, 10);
+    return reader->sections[HEAD].count == 0 ? 0 : strtoll(reader->sections[HEAD].items[0].text.bytes + 1, NULL, 10);
 }
 
 // The part of a line around the place that matters.
-static void add_excerpt(Bytes *trouble, Str line, size_t at) {
+static void add_excerpt(ByteBuffer *error_text, Str line, size_t at) {
     size_t start = line.len <= EXCERPT_LENGTH || at <= EXCERPT_BEFORE ? 0 : at - EXCERPT_BEFORE;
     // Do not cut a character in two.
-    while (start > 0 && ((unsigned char)line.bytes[start] & 0xC0U) == 0x80U) {
+    while (start > 0 && ((unsigned char)line.bytes[start] & 0xC0U) == 0x80U)
         start--;
-    }
     size_t end = line.len - start <= EXCERPT_LENGTH ? line.len : start + EXCERPT_LENGTH;
-    while (end < line.len && ((unsigned char)line.bytes[end] & 0xC0U) == 0x80U) {
+    while (end < line.len && ((unsigned char)line.bytes[end] & 0xC0U) == 0x80U)
         end++;
-    }
-    bytes_add_text(trouble, start > 0 ? "..." : "");
-    for (size_t i = start; i < end; i++) {
-        if (line.bytes[i] == '\n') {
-            bytes_format(trouble, "\\n");
-        } else {
-            bytes_add(trouble, &line.bytes[i], 1);
-        }
-    }
-    bytes_add_text(trouble, end < line.len ? "..." : "");
+    byte_buffer_add_text(error_text, start > 0 ? "..." : "");
+    for (size_t i = start; i < end; i++)
+        if (line.bytes[i] == '\n')
+            byte_buffer_format(error_text, "\\n");
+        else
+            byte_buffer_add(error_text, &line.bytes[i], 1);
+    byte_buffer_add_text(error_text, end < line.len ? "..." : "");
 }
 
 typedef struct Comparison {
     int64_t frame;
     double tolerance;
-    Bytes *trouble;
+    ByteBuffer *error_text;
 } Comparison;
 
 // Describes a difference; either line may be missing. Always false.
-static bool differ(const Comparison *comparison, const Line *expected, const Line *got, uint32_t line,
-                   LineDifference where) {
-    Bytes *trouble = comparison->trouble;
-    bytes_format(trouble, "frame %" PRId64 " line %" PRIu32 ": expected ", comparison->frame,
-                 expected == NULL ? line : expected->number);
-    if (expected == NULL) {
-        bytes_format(trouble, "nothing more");
-    } else {
-        add_excerpt(trouble, expected->text, where.expected_at);
-    }
-    bytes_format(trouble, " got ");
-    if (got == NULL) {
-        bytes_format(trouble, "nothing");
-    } else {
-        add_excerpt(trouble, got->text, where.got_at);
-    }
+static bool report_difference(const Comparison *comparison, const Line *expected, const Line *got, uint32_t line,
+                              LineDifference where) {
+    ByteBuffer *error_text = comparison->error_text;
+    byte_buffer_format(error_text, "frame %" PRId64 " line %" PRIu32 ": expected ", comparison->frame,
+                       !expected ? line : expected->number);
+    if (!expected)
+        byte_buffer_format(error_text, "nothing more");
+    else
+        add_excerpt(error_text, expected->text, where.expected_at);
+    byte_buffer_format(error_text, " got ");
+    if (!got)
+        byte_buffer_format(error_text, "nothing");
+    else
+        add_excerpt(error_text, got->text, where.got_at);
     return false;
 }
 
@@ -134,21 +126,20 @@ static bool compare_in_order(const Comparison *comparison, const LineList *expec
         const Line *first = i < expected->count ? &expected->items[i] : NULL;
         const Line *second = i < got->count ? &got->items[i] : NULL;
         LineDifference where = {0};
-        if (first == NULL || second == NULL || !line_same(first->text, second->text, comparison->tolerance, &where)) {
-            return differ(comparison, first, second, end, where);
-        }
+        if (!first || !second || !line_same(first->text, second->text, comparison->tolerance, &where))
+            return report_difference(comparison, first, second, end, where);
     }
     return true;
 }
 
 // Finds a line that agrees and takes it out of the set. The search starts where the last one ended, since sets are
 // mostly in the same order.
-static bool take_match(const Comparison *comparison, const Line *wanted, LineList *set, size_t *next) {
+static bool claim_match(const Comparison *comparison, const Line *wanted, LineList *set, size_t *next) {
     for (size_t i = 0; i < set->count; i++) {
         Line *line = &set->items[(*next + i) % set->count];
         LineDifference where;
-        if (!line->taken && line_same(wanted->text, line->text, comparison->tolerance, &where)) {
-            line->taken = true;
+        if (!line->matched && line_same(wanted->text, line->text, comparison->tolerance, &where)) {
+            line->matched = true;
             *next = *next + i + 1;
             return true;
         }
@@ -156,12 +147,10 @@ static bool take_match(const Comparison *comparison, const Line *wanted, LineLis
     return false;
 }
 
-static const Line *first_untaken(const LineList *set) {
-    for (size_t i = 0; i < set->count; i++) {
-        if (!set->items[i].taken) {
+static const Line *first_unmatched(const LineList *set) {
+    for (size_t i = 0; i < set->count; i++)
+        if (!set->items[i].matched)
             return &set->items[i];
-        }
-    }
     return NULL;
 }
 
@@ -169,60 +158,52 @@ static bool compare_as_sets(const Comparison *comparison, const LineList *expect
     const LineDifference nowhere = {0};
     const Line *missing = NULL;
     size_t next = 0;
-    for (size_t i = 0; i < expected->count; i++) {
-        if (!take_match(comparison, &expected->items[i], got, &next) && missing == NULL) {
+    for (size_t i = 0; i < expected->count; i++)
+        if (!claim_match(comparison, &expected->items[i], got, &next) && !missing)
             missing = &expected->items[i];
-        }
-    }
-    const Line *extra = first_untaken(got);
-    return (missing == NULL && extra == NULL) || differ(comparison, missing, extra, end, nowhere);
+    const Line *extra = first_unmatched(got);
+    return (!missing && !extra) || report_difference(comparison, missing, extra, end, nowhere);
 }
 
 static bool compare_frames(const Golden *golden, Comparison *comparison, const Reader *expected, Reader *got) {
-    const LineList *first = expected->parts;
-    LineList *second = got->parts;
+    const LineList *first = expected->sections;
+    LineList *second = got->sections;
     bool is_near = golden->tolerance > 0;
-    if (!compare_in_order(comparison, &first[HEAD], &second[HEAD], expected->number)) {
+    if (!compare_in_order(comparison, &first[HEAD], &second[HEAD], expected->number))
         return false;
-    }
-    if (is_near && comparison->frame > golden->horizon) {
+    if (is_near && comparison->frame > golden->horizon)
         return true;
-    }
-    if (is_near && comparison->frame > golden->strict && comparison->tolerance < LOOSE_TOLERANCE) {
+    if (is_near && comparison->frame > golden->strict && comparison->tolerance < LOOSE_TOLERANCE)
         comparison->tolerance = LOOSE_TOLERANCE;
-    }
     return compare_in_order(comparison, &first[BODY], &second[BODY], expected->number) &&
            compare_as_sets(comparison, &first[LOGS], &second[LOGS], expected->number) &&
            (first[ERRORS].count == 0 || compare_as_sets(comparison, &first[ERRORS], &second[ERRORS], expected->number));
 }
 
-static bool compare_readers(const Golden *golden, Reader *expected, Reader *got, Bytes *trouble) {
+static bool compare_readers(const Golden *golden, Reader *expected, Reader *got, ByteBuffer *error_text) {
     for (;;) {
         bool more_expected = read_frame(expected);
         bool more_got = read_frame(got);
-        if (!more_expected && !more_got) {
+        if (!more_expected && !more_got)
             return true;
-        }
         Comparison comparison = {
             .frame = frame_number(more_expected ? expected : got),
             .tolerance = golden->tolerance,
-            .trouble = trouble,
+            .error_text = error_text,
         };
-        if (!compare_frames(golden, &comparison, expected, got)) {
+        if (!compare_frames(golden, &comparison, expected, got))
             return false;
-        }
     }
 }
 
-bool golden_compare(const Golden *golden, const Bytes *output, Bytes *trouble) {
+bool golden_compare(const Golden *golden, const ByteBuffer *output, ByteBuffer *error_text) {
     const char *recorded = golden->text.data + golden->body;
     size_t length = golden->text.length - golden->body;
-    if (length == output->length && memcmp(recorded, output->data, length) == 0) {
+    if (length == output->length && memcmp(recorded, output->data, length) == 0)
         return true;
-    }
     Reader expected = {.at = recorded, .end = recorded + length, .number = golden->body_line};
     Reader got = {.at = output->data, .end = output->data + output->length, .number = 1};
-    bool same = compare_readers(golden, &expected, &got, trouble);
+    bool same = compare_readers(golden, &expected, &got, error_text);
     free_reader(&expected);
     free_reader(&got);
     return same;

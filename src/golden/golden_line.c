@@ -1,12 +1,11 @@
 // golden_line.c: whether two lines of output mean the same.
+#include "cli/byte_buffer.h"
 #include "golden/golden.h"
 
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "cli/bytes.h"
 
 // An indent is white space at the start of a line, where its width means something.
 typedef enum TokenKind { TOKEN_END, TOKEN_INDENT, TOKEN_SIGN, TOKEN_WORD, TOKEN_NUMBER, TOKEN_STRING } TokenKind;
@@ -18,20 +17,18 @@ typedef struct Token {
     double number;
 } Token;
 
-enum { LONGEST_NUMBER = 63 };
+enum { MAX_NUMBER_LENGTH = 63 };
 
 static bool is_number(const char *word, size_t length, double *number) {
-    if (length == 0 || length > LONGEST_NUMBER) {
+    if (length == 0 || length > MAX_NUMBER_LENGTH)
         return false;
-    }
-    char copy[LONGEST_NUMBER + 1];
+    char copy[MAX_NUMBER_LENGTH + 1];
     memcpy(copy, word, length);
     copy[length] = '\0';
     // The C library reads more than is ever printed, such as 0x10 and infinity.
     if (strspn(copy, "0123456789+-.e") != length && strcmp(copy, "nan") != 0 && strcmp(copy, "inf") != 0 &&
-        strcmp(copy, "-inf") != 0) {
+        strcmp(copy, "-inf") != 0)
         return false;
-    }
     char *end = NULL;
     *number = strtod(copy, &end);
     return *end == '\0';
@@ -39,27 +36,23 @@ static bool is_number(const char *word, size_t length, double *number) {
 
 static size_t string_length(const char *text, size_t length) {
     char quote = text[0];
-    for (size_t i = 1; i < length; i++) {
-        if (text[i] == '\\') {
+    for (size_t i = 1; i < length; i++)
+        if (text[i] == '\\')
             i++;
-        } else if (text[i] == quote) {
+        else if (text[i] == quote)
             return i + 1;
-        }
-    }
     return length;
 }
 
 static Token next_token(Str line, size_t at) {
     size_t blanks = strspn(line.bytes + at, " \t");
     bool at_line_start = at == 0 || line.bytes[at - 1] == '\n';
-    if (blanks > 0 && at_line_start) {
+    if (blanks > 0 && at_line_start)
         return (Token){.kind = TOKEN_INDENT, .start = at, .length = blanks};
-    }
     at += blanks;
     Token token = {.kind = TOKEN_END, .start = at};
-    if (at == line.len) {
+    if (at == line.len)
         return token;
-    }
     const char *text = line.bytes + at;
     if (*text == '\'' || *text == '"') {
         token.kind = TOKEN_STRING;
@@ -76,7 +69,7 @@ static Token next_token(Str line, size_t at) {
 }
 
 // The bytes that a string in quotes stands for.
-static void unquote(Bytes *out, const char *text, size_t length) {
+static void unquote(ByteBuffer *out, const char *text, size_t length) {
     const char *end = text + length - (length > 1 && text[length - 1] == text[0]);
     for (const char *at = text + 1; at < end; at++) {
         char plain[UTF8_MAX] = {*at}, hex[9] = "";
@@ -91,12 +84,12 @@ static void unquote(Bytes *out, const char *text, size_t length) {
                 at += digits;
             }
         }
-        bytes_add(out, plain, count);
+        byte_buffer_add(out, plain, count);
     }
 }
 
 static bool strings_same(const char *a, size_t a_length, const char *b, size_t b_length) {
-    SCOPED_BYTES first = {0}, second = {0};
+    SCOPED_BYTE_BUFFER first = {0}, second = {0};
     unquote(&first, a, a_length);
     unquote(&second, b, b_length);
     return str_equal((Str){first.data, first.length}, (Str){second.data, second.length});
@@ -106,34 +99,31 @@ static bool strings_same(const char *a, size_t a_length, const char *b, size_t b
 typedef struct Spread {
     double distance;
     double size;
-    LineDifference widest; // where the distance was found
+    LineDifference max_position; // where the distance was found
 } Spread;
 
 static bool numbers_same(double a, double b) {
     return a == b || (isnan(a) && isnan(b));
 }
 
-static void widen(Spread *spread, const Token *expected, const Token *got) {
+static void update_spread(Spread *spread, const Token *expected, const Token *got) {
     double distance = fabs(expected->number - got->number);
     if (distance > spread->distance) {
         spread->distance = distance;
-        spread->widest = (LineDifference){expected->start, got->start};
+        spread->max_position = (LineDifference){expected->start, got->start};
     }
     spread->size = fmax(spread->size, fmax(fabs(expected->number), fabs(got->number)));
 }
 
 static bool tokens_same(Str a, const Token *expected, Str b, const Token *got) {
-    if (expected->kind != got->kind) {
+    if (expected->kind != got->kind)
         return false;
-    }
     const char *first = a.bytes + expected->start;
     const char *second = b.bytes + got->start;
-    if (expected->kind == TOKEN_NUMBER) {
+    if (expected->kind == TOKEN_NUMBER)
         return numbers_same(expected->number, got->number);
-    }
-    if (expected->kind == TOKEN_STRING) {
+    if (expected->kind == TOKEN_STRING)
         return strings_same(first, expected->length, second, got->length);
-    }
     return expected->length == got->length && memcmp(first, second, expected->length) == 0;
 }
 
@@ -144,13 +134,11 @@ static bool is_near_number(const Token *expected, const Token *got) {
 
 bool line_same(Str expected, Str got, double tolerance, LineDifference *difference) {
     *difference = (LineDifference){0};
-    if (str_equal(expected, got)) {
+    if (str_equal(expected, got))
         return true;
-    }
     // A hash is no number, even if its digits look like one, such as 1e99….
-    if (expected.len > 0 && expected.bytes[0] == '=') {
+    if (expected.len > 0 && expected.bytes[0] == '=')
         return false;
-    }
     bool in_key = expected.len > 0 && expected.bytes[0] == '$';
     Spread spread = {.size = 1};
     size_t a = 0, b = 0;
@@ -158,13 +146,13 @@ bool line_same(Str expected, Str got, double tolerance, LineDifference *differen
         Token first = next_token(expected, a);
         Token second = next_token(got, b);
         if (!in_key && tolerance > 0 && is_near_number(&first, &second)) {
-            widen(&spread, &first, &second);
+            update_spread(&spread, &first, &second);
         } else if (!tokens_same(expected, &first, got, &second)) {
             *difference = (LineDifference){first.start, second.start};
             return false;
         }
         if (first.kind == TOKEN_END) {
-            *difference = spread.widest;
+            *difference = spread.max_position;
             return spread.distance <= tolerance * spread.size;
         }
         in_key = in_key && expected.bytes[first.start] != '=';

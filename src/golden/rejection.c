@@ -1,4 +1,5 @@
 // rejection.c: scripts that must be rejected.
+#include "cli/subprocess.h"
 #include "golden/golden.h"
 
 #include <errno.h>
@@ -7,23 +8,21 @@
 #include <string.h>
 #include <sys/wait.h>
 
-#include "cli/child.h"
-
 enum { ANY_LINE = -1, NO_LINE = 0 };
 
 // The line that the .err file names, or NO_LINE after adding what is wrong with it.
-static long read_line_number(const char *path, Bytes *trouble) {
-    SCOPED_BYTES text = {0};
+static long read_line_number(const char *path, ByteBuffer *error_text) {
+    SCOPED_BYTE_BUFFER text = {0};
     long line = NO_LINE;
     char rest = '\0';
-    if (!bytes_read_file(&text, path)) {
-        bytes_format(trouble, "cannot read %s: %s", path, strerror(errno));
+    if (!byte_buffer_read_file(&text, path)) {
+        byte_buffer_format(error_text, "cannot read %s: %s", path, strerror(errno));
         return NO_LINE;
     }
     if (strncmp(text.data, "line *", 6) == 0 && sscanf(text.data + 6, " %c", &rest) != 1) {
         line = ANY_LINE;
     } else if (sscanf(text.data, "line %ld %c", &line, &rest) != 1 || line < 1) {
-        bytes_format(trouble, "cannot read %s: expected 'line N' or 'line *'", path);
+        byte_buffer_format(error_text, "cannot read %s: expected 'line N' or 'line *'", path);
         line = NO_LINE;
     }
     return line;
@@ -32,7 +31,7 @@ static long read_line_number(const char *path, Bytes *trouble) {
 // The line of the next `NAME:LINE:` in the errors; moves `at` behind it. NO_LINE if there is none.
 static long next_reported_line(const char **at, const char *name) {
     size_t length = strlen(name);
-    for (const char *found = strstr(*at, name); found != NULL; found = strstr(found + 1, name)) {
+    for (const char *found = strstr(*at, name); found; found = strstr(found + 1, name)) {
         char *end = NULL;
         long line = found[length] == ':' ? strtol(found + length + 1, &end, 10) : NO_LINE;
         if (line > 0 && *end == ':') {
@@ -43,36 +42,33 @@ static long next_reported_line(const char **at, const char *name) {
     return NO_LINE;
 }
 
-bool rejection_check(const char *path, const char *name, int status, const Bytes *errors, Bytes *trouble) {
-    long wanted = read_line_number(path, trouble);
-    if (wanted == NO_LINE) {
+bool rejection_check(const char *path, const char *name, int status, const ByteBuffer *errors, ByteBuffer *error_text) {
+    long wanted = read_line_number(path, error_text);
+    if (wanted == NO_LINE)
         return false;
-    }
     if (!WIFEXITED(status)) {
-        child_describe(status, errors, trouble);
+        subprocess_describe(status, errors, error_text);
         return false;
     }
     char place[32] = "any line";
-    if (wanted != ANY_LINE) {
+    if (wanted != ANY_LINE)
         snprintf(place, sizeof place, "line %ld", wanted);
-    }
-    bytes_format(trouble, "expected an error in %s got ", place);
+    byte_buffer_format(error_text, "expected an error in %s got ", place);
     if (WEXITSTATUS(status) == 0) {
-        bytes_format(trouble, "none");
+        byte_buffer_format(error_text, "none");
         return false;
     }
     const char *at = errors->data;
     long first = next_reported_line(&at, name);
     for (long line = first; line != NO_LINE; line = next_reported_line(&at, name)) {
         if (wanted == ANY_LINE || line == wanted) {
-            bytes_free(trouble);
+            byte_buffer_free(error_text);
             return true;
         }
     }
-    if (first == NO_LINE) {
-        child_describe(status, errors, trouble);
-    } else {
-        bytes_format(trouble, "one in line %ld", first);
-    }
+    if (first == NO_LINE)
+        subprocess_describe(status, errors, error_text);
+    else
+        byte_buffer_format(error_text, "one in line %ld", first);
     return false;
 }

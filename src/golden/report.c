@@ -1,42 +1,41 @@
 // report.c: how results of tests are told.
+#include "base/file.h"
+#include "cli/cli.h"
 #include "golden/golden.h"
 
 #include <string.h>
-
-#include "base/file.h"
-#include "cli/cli.h"
 
 void report_result(Output *output, const Result *result) {
     if (result->passed) {
         output_format(output, "ok %s%s\n", result->name, result->updated ? " (updated)" : "");
     } else {
-        const char *trouble = result->trouble.data == NULL ? "" : result->trouble.data;
+        const char *trouble = !result->error_text.data ? "" : result->error_text.data;
         output_format(output, "FAIL %s %s\n", result->name, trouble);
     }
 }
 
 // XML knows no control characters, escaped or not.
-static void add_escaped(Bytes *out, const char *text) {
+static void add_escaped(ByteBuffer *out, const char *text) {
     static const char *const escapes[128] = {['<'] = "&lt;", ['>'] = "&gt;", ['&'] = "&amp;", ['"'] = "&quot;"};
     for (const char *c = text; *c != '\0'; c++) {
         const char *escape = (unsigned char)*c < ' '   ? "?"
                              : (unsigned char)*c < 128 ? escapes[(unsigned char)*c]
                                                        : NULL;
-        bytes_add(out, escape != NULL ? escape : c, escape != NULL ? strlen(escape) : 1);
+        byte_buffer_add(out, escape ? escape : c, escape ? strlen(escape) : 1);
     }
 }
 
-static void add_result(Bytes *out, const Result *result) {
-    bytes_format(out, "  <testcase name=\"");
+static void add_result(ByteBuffer *out, const Result *result) {
+    byte_buffer_format(out, "  <testcase name=\"");
     add_escaped(out, result->name);
-    bytes_format(out, "\" time=\"%.3f\"", result->seconds);
+    byte_buffer_format(out, "\" time=\"%.3f\"", result->seconds);
     if (result->passed) {
-        bytes_format(out, "/>\n");
+        byte_buffer_format(out, "/>\n");
         return;
     }
-    bytes_format(out, ">\n    <failure message=\"");
-    add_escaped(out, result->trouble.data == NULL ? "" : result->trouble.data);
-    bytes_format(out, "\"/>\n  </testcase>\n");
+    byte_buffer_format(out, ">\n    <failure message=\"");
+    add_escaped(out, !result->error_text.data ? "" : result->error_text.data);
+    byte_buffer_format(out, "\"/>\n  </testcase>\n");
 }
 
 bool report_junit(const char *path, Result *const *results, size_t count) {
@@ -46,17 +45,15 @@ bool report_junit(const char *path, Result *const *results, size_t count) {
         failed += results[i]->passed ? 0 : 1;
         seconds += results[i]->seconds;
     }
-    SCOPED_BYTES out = {0};
-    bytes_format(&out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
-    bytes_format(&out, "<testsuite name=\"petri\" tests=\"%zu\" failures=\"%zu\" time=\"%.3f\">\n", count, failed,
-                 seconds);
-    for (size_t i = 0; i < count; i++) {
+    SCOPED_BYTE_BUFFER out = {0};
+    byte_buffer_format(&out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
+    byte_buffer_format(&out, "<testsuite name=\"petri\" tests=\"%zu\" failures=\"%zu\" time=\"%.3f\">\n", count, failed,
+                       seconds);
+    for (size_t i = 0; i < count; i++)
         add_result(&out, results[i]);
-    }
-    bytes_format(&out, "</testsuite>\n");
+    byte_buffer_format(&out, "</testsuite>\n");
     const char *problem = file_replace(path, (Str){out.data, out.length}, 0);
-    if (problem != NULL) {
+    if (problem)
         message("cannot write %s: %s", path, problem);
-    }
-    return problem == NULL;
+    return !problem;
 }

@@ -1,19 +1,19 @@
 // test.c: `petri test`: runs scripts and compares what they print with what was recorded.
+#include "base/source.h"
+#include "cli/options.h"
+#include "cli/output.h"
+#include "cli/progress.h"
+#include "cli/script.h"
+#include "cli/subprocess.h"
+#include "golden/golden.h"
+
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/source.h"
-#include "cli/child.h"
-#include "cli/options.h"
-#include "cli/output.h"
-#include "cli/progress.h"
-#include "cli/script.h"
-#include "golden/golden.h"
-
-enum { MOST_CPUS = 256 };
+enum { MAX_CPUS = 256 };
 
 // A script, what it is compared with while it runs, and the verdict.
 typedef struct Case {
@@ -23,12 +23,12 @@ typedef struct Case {
     char *recorded; // path of the golden, or of the .err
     bool is_rejection;
     Golden golden;
-    Child child;
+    Subprocess child;
     bool done;
 } Case;
 
 typedef struct Suite {
-    const Host *host;
+    const CommandContext *host;
     Options *options;
     Case *cases;
     size_t count;
@@ -39,40 +39,36 @@ typedef struct Suite {
 // NAME.fl with another ending, if there is such a file, else NULL.
 static char *file_beside(const char *script, const char *ending) {
     size_t length = strlen(script);
-    if (length > 3 && strcmp(script + length - 3, ".fl") == 0) {
+    if (length > 3 && strcmp(script + length - 3, ".fl") == 0)
         length -= 3;
-    }
-    Bytes path = {0};
-    bytes_format(&path, "%.*s%s", (int)length, script, ending);
-    if (access(path.data, F_OK) == 0) {
+    ByteBuffer path = {0};
+    byte_buffer_format(&path, "%.*s%s", (int)length, script, ending);
+    if (access(path.data, F_OK) == 0)
         return path.data;
-    }
-    bytes_free(&path);
+    byte_buffer_free(&path);
     return NULL;
 }
 
 static void add_case(Suite *suite, const Script *script) {
-    if (suite->options->filter != NULL && strstr(script->path + script->below, suite->options->filter) == NULL) {
+    if (suite->options->filter && !strstr(script->path + script->relative_start, suite->options->filter))
         return;
-    }
     char *golden = file_beside(script->path, ".golden");
-    char *rejection = golden == NULL ? file_beside(script->path, ".err") : NULL;
-    if (golden == NULL && rejection == NULL) {
+    char *rejection = !golden ? file_beside(script->path, ".err") : NULL;
+    if (!golden && !rejection)
         return;
-    }
     suite->cases[suite->count++] = (Case){
         .script = script->path,
         .name = script->path + path_directory(str_from(script->path)).len,
         .result.name = script->path,
-        .recorded = golden == NULL ? rejection : golden,
-        .is_rejection = golden == NULL,
+        .recorded = !golden ? rejection : golden,
+        .is_rejection = !golden,
     };
 }
 
 // An option that overrides the golden's; what is wrong with its value, `petri run` will say.
-static void add_override(char **argv, int *argc, Bytes *text, const char *name, const char *value) {
-    if (value != NULL) {
-        bytes_format(text, "--%s=%s", name, value);
+static void add_override(char **argv, int *argc, ByteBuffer *text, const char *name, const char *value) {
+    if (value) {
+        byte_buffer_format(text, "--%s=%s", name, value);
         argv[(*argc)++] = text->data;
     }
 }
@@ -80,37 +76,34 @@ static void add_override(char **argv, int *argc, Bytes *text, const char *name, 
 static void start_child(Suite *suite, Case *item) {
     SCOPED_TEXT folder = script_folder(item->script);
     const Golden *golden = &item->golden;
-    char **argv = memory_zeroed((golden->options.count + 10) * sizeof *argv);
-    SCOPED_BYTES threads = {0};
-    SCOPED_BYTES neighbours = {0};
+    char **argv = memory_calloc((golden->options.count + 10) * sizeof *argv);
+    SCOPED_BYTE_BUFFER threads = {0};
+    SCOPED_BYTE_BUFFER neighbours = {0};
     int argc = 0;
     argv[argc++] = "petri";
     argv[argc++] = "run";
     // Scripts run side by side already. Results never depend on the number of threads, and the golden may ask for more.
     argv[argc++] = "--threads=1";
-    if (item->is_rejection) {
+    if (item->is_rejection)
         argv[argc++] = "--frames=1";
-    }
-    for (size_t i = 0; i < golden->options.count; i++) {
+    for (size_t i = 0; i < golden->options.count; i++)
         argv[argc++] = golden->options.items[i];
-    }
     add_override(argv, &argc, &threads, "threads", suite->options->as_threads);
     add_override(argv, &argc, &neighbours, "neighbours", suite->options->as_neighbours);
-    if (suite->options->unsimplified) {
+    if (suite->options->unsimplified)
         argv[argc++] = "--nosimplify";
-    }
     argv[argc++] = "--";
     argv[argc++] = item->name;
     item->result.seconds = clock_seconds();
-    if (!child_start(&item->child, suite->host->program, folder, argv)) {
-        bytes_format(&item->result.trouble, "cannot start a process: %s", strerror(errno));
+    if (!subprocess_start(&item->child, suite->host->program, folder, argv)) {
+        byte_buffer_format(&item->result.error_text, "cannot start a process: %s", strerror(errno));
         item->done = true;
     }
     free(argv);
 }
 
 static void start_case(Suite *suite, Case *item) {
-    if (!item->is_rejection && !golden_read(&item->golden, item->recorded, &item->result.trouble)) {
+    if (!item->is_rejection && !golden_read(&item->golden, item->recorded, &item->result.error_text)) {
         golden_free(&item->golden);
         item->done = true;
         return;
@@ -118,49 +111,45 @@ static void start_case(Suite *suite, Case *item) {
     start_child(suite, item);
 }
 
-static void judge(const Suite *suite, Case *item, int status, const Bytes *output, const Bytes *errors) {
+static void check_case(const Suite *suite, Case *item, int status, const ByteBuffer *output, const ByteBuffer *errors) {
     Result *result = &item->result;
-    if (item->is_rejection) {
-        result->passed = rejection_check(item->recorded, item->name, status, errors, &result->trouble);
-    } else if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-        child_describe(status, errors, &result->trouble);
-    } else if (suite->options->update) {
-        result->passed = golden_update(&item->golden, item->recorded, output, &result->updated, &result->trouble);
-    } else {
-        result->passed = golden_compare(&item->golden, output, &result->trouble);
-    }
+    if (item->is_rejection)
+        result->passed = rejection_check(item->recorded, item->name, status, errors, &result->error_text);
+    else if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+        subprocess_describe(status, errors, &result->error_text);
+    else if (suite->options->update)
+        result->passed = golden_update(&item->golden, item->recorded, output, &result->updated, &result->error_text);
+    else
+        result->passed = golden_compare(&item->golden, output, &result->error_text);
 }
 
 static void end_case(const Suite *suite, Case *item, int status) {
-    SCOPED_BYTES output = {0};
-    SCOPED_BYTES errors = {0};
+    SCOPED_BYTE_BUFFER output = {0};
+    SCOPED_BYTE_BUFFER errors = {0};
     item->result.seconds = clock_seconds() - item->result.seconds;
-    child_collect(&item->child, &output, &errors);
-    judge(suite, item, status, &output, &errors);
+    subprocess_collect(&item->child, &output, &errors);
+    check_case(suite, item, status, &output, &errors);
     golden_free(&item->golden);
     item->done = true;
 }
 
 static Case *find_running(Suite *suite, size_t started, pid_t pid) {
-    for (size_t i = suite->reported; i < started; i++) {
-        if (!suite->cases[i].done && suite->cases[i].child.pid == pid) {
+    for (size_t i = suite->reported; i < started; i++)
+        if (!suite->cases[i].done && suite->cases[i].child.pid == pid)
             return &suite->cases[i];
-        }
-    }
     return NULL;
 }
 
 // Results are printed in the order of the scripts, each as soon as those before it are there.
 static void report_done(Suite *suite, size_t started) {
-    while (suite->reported < started && suite->cases[suite->reported].done) {
+    while (suite->reported < started && suite->cases[suite->reported].done)
         report_result(&suite->output, &suite->cases[suite->reported++].result);
-    }
     output_flush(&suite->output);
 }
 
 // Nobody waits for results that nobody reads.
 static bool is_wanted(const Suite *suite) {
-    return suite->output.error == 0 || suite->options->junit != NULL;
+    return suite->output.error == 0 || suite->options->junit;
 }
 
 static void run_cases(Suite *suite) {
@@ -174,9 +163,9 @@ static void run_cases(Suite *suite) {
             continue;
         }
         int status = 0;
-        pid_t pid = child_wait(&status);
+        pid_t pid = subprocess_wait(&status);
         Case *item = pid < 0 ? NULL : find_running(suite, started, pid);
-        if (item != NULL) {
+        if (item) {
             end_case(suite, item, status);
             running--;
         } else if (pid < 0) {
@@ -189,51 +178,47 @@ static void run_cases(Suite *suite) {
 }
 
 static bool write_junit(const Suite *suite) {
-    Result **results = memory_zeroed(suite->count * sizeof *results);
-    for (size_t i = 0; i < suite->count; i++) {
+    Result **results = memory_calloc(suite->count * sizeof *results);
+    for (size_t i = 0; i < suite->count; i++)
         results[i] = &suite->cases[i].result;
-    }
     bool done = report_junit(suite->options->junit, results, suite->count);
     free(results);
     return done;
 }
 
 static int run_suite(Suite *suite) {
-    if (suite->options->scripts.count == 0 && suite->options->unreadable) {
+    if (suite->options->scripts.count == 0 && suite->options->unreadable)
         return STATUS_FAILED;
-    }
-    suite->cases = memory_zeroed(suite->options->scripts.count * sizeof *suite->cases);
-    for (size_t i = 0; i < suite->options->scripts.count; i++) {
+    suite->cases = memory_calloc(suite->options->scripts.count * sizeof *suite->cases);
+    for (size_t i = 0; i < suite->options->scripts.count; i++)
         add_case(suite, &suite->options->scripts.items[i]);
-    }
     if (suite->count == 0) {
         message("no script found that has a .golden or a .err beside it%s",
-                suite->options->filter == NULL ? "; 'petri help test' tells how to make one" : " and fits the filter");
+                !suite->options->filter ? "; 'petri help test' tells how to make one" : " and fits the filter");
         return STATUS_FAILED;
     }
     run_cases(suite);
     size_t passed = 0;
-    for (size_t i = 0; i < suite->count; i++) {
+    for (size_t i = 0; i < suite->count; i++)
         passed += suite->cases[i].result.passed ? 1 : 0;
-    }
     output_format(&suite->output, "%zu passed, %zu failed\n", passed, suite->count - passed);
-    bool reported = suite->options->junit == NULL || write_junit(suite);
+    bool reported = !suite->options->junit || write_junit(suite);
     return passed == suite->count && reported && !suite->options->unreadable ? STATUS_DONE : STATUS_FAILED;
 }
 
 static void free_suite(Suite *suite) {
     for (size_t i = 0; i < suite->count; i++) {
         free(suite->cases[i].recorded);
-        bytes_free(&suite->cases[i].result.trouble);
+        byte_buffer_free(&suite->cases[i].result.error_text);
     }
     free(suite->cases);
 }
 
-static int test_run(const Host *host, Options *options) {
-    Suite suite = {.host = host, .options = options, .output.fd = STDOUT_FILENO};
+static int test_run(const CommandContext *context, Options *options) {
+    Suite suite = {.host = context, .options = options, .output.fd = STDOUT_FILENO};
     if (options->jobs == 0) {
         long processors = sysconf(_SC_NPROCESSORS_ONLN);
-        options->jobs = processors < 1 ? 1 : processors > MOST_CPUS ? MOST_CPUS : processors;
+        options->jobs = processors < 1 ? 1 : processors > MAX_CPUS ? MAX_CPUS : processors;
     }
     int status = output_finish(&suite.output, run_suite(&suite));
     free_suite(&suite);
@@ -254,9 +239,9 @@ const Command TEST_COMMAND = {
         "With --print hash a golden of many particles has one line a frame: the SHA-256 of the state.",
     .examples = "  petri test .                                    all scripts here that have a golden\n"
                 "  petri test --update dish.fl                     its golden becomes what it prints now\n",
-    .needed = "nothing to test",
+    .missing_operand = "nothing to test",
     .no_stdin = "standard input has no golden beside it: petri test takes files and folders",
     .options = FOR_TEST,
-    .many = true,
+    .accepts_many = true,
     .run = test_run,
 };

@@ -1,5 +1,11 @@
 // main.c: petri-hdf5, which writes files for petri (cli/hdf5.h): `petri-hdf5 trajectory|table FILE [NUMBERS]` with a
 // stream on its standard input, a socket.
+#include "cli/cli.h"
+#include "cli/hdf5.h"
+#include "hdf5/spool.h"
+#include "hdf5/table.h"
+#include "hdf5/trajectory.h"
+
 #include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
@@ -8,20 +14,13 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "cli/cli.h"
-#include "cli/hdf5.h"
-#include "hdf5/spool.h"
-#include "hdf5/table.h"
-#include "hdf5/trajectory.h"
-
 // False if the stream ends before.
-static bool receive(void *bytes, size_t length) {
+static bool read_stream(void *bytes, size_t length) {
     char *at = bytes;
     while (length > 0) {
         ssize_t count = read(STDIN_FILENO, at, length);
-        if (count <= 0 && !(count < 0 && errno == EINTR)) {
+        if (count <= 0 && !(count < 0 && errno == EINTR))
             return false;
-        }
         at += count < 0 ? 0 : count;
         length -= count < 0 ? 0 : (size_t)count;
     }
@@ -29,15 +28,14 @@ static bool receive(void *bytes, size_t length) {
 }
 
 static bool receive_block(char **block, Hdf5Head *head) {
-    if (!receive(head, sizeof *head)) {
+    if (!read_stream(head, sizeof *head))
         return false;
-    }
-    *block = memory_resized(*block, head->bytes + 1);
-    return receive(*block, head->bytes);
+    *block = memory_realloc(*block, head->bytes + 1);
+    return read_stream(*block, head->bytes);
 }
 
 // MSG_NOSIGNAL: petri may be gone.
-static void answer(void) {
+static void acknowledge(void) {
     send(STDIN_FILENO, "!", 1, MSG_NOSIGNAL);
 }
 
@@ -48,115 +46,104 @@ typedef struct Resumed {
     int64_t expected;
 } Resumed;
 
-static bool go_on(Way *way, Store *store, const Resumed *from) {
+static bool resume_trajectory(TrajectoryFile *way, Store *store, const Resumed *from) {
     Hdf5Head head;
     char *block = NULL;
-    if (!store->old) {
-        way_begin(way, store);
-    } else if (!way_go_on(way, store, from->after)) {
-        message("cannot go on with %s: %s", store->path, WAY_UNKNOWN);
+    if (!store->existing) {
+        trajectory_file_begin(way, store);
+    } else if (!trajectory_file_resume(way, store, from->after)) {
+        message("cannot go on with %s: %s", store->path, TRAJECTORY_FILE_UNKNOWN);
         return false;
     }
-    while (!store->failed && spool_next(from->spool, from->after, &head, &block)) {
-        if (head.act == HDF5_ADD) {
-            way_add(way, block);
-        } else {
-            way_begin_run(way);
-        }
-    }
+    while (!store->failed && spool_next(from->spool, from->after, &head, &block))
+        if (head.command == HDF5_ADD)
+            trajectory_file_add(way, block);
+        else
+            trajectory_file_begin_run(way);
     free(block);
-    way_begin_run(way);
-    if ((store->old || from->spool->holds) && way->last < from->expected) {
+    trajectory_file_begin_run(way);
+    if ((store->existing || from->spool->has_frames) && way->last < from->expected) {
         message("frames %" PRId64 " to %" PRId64 " are missing in %s, which goes on with frame %" PRId64, way->last + 1,
                 from->after, store->path, from->after + 1);
     }
-    return spool_add(from->spool, &(Hdf5Head){HDF5_RUN, 0}, "");
+    return spool_add(from->spool, &(Hdf5Head){HDF5_NEW_RUN, 0}, "");
 }
 
 // Takes one block, and does what it says. False at the end of the trajectory.
-static bool take_block(Way *way, Spool *spool, Hdf5Head *head, char **block) {
-    if (!receive_block(block, head) || (head->act != HDF5_ADD && head->act != HDF5_SAFE)) {
+static bool handle_block(TrajectoryFile *way, Spool *spool, Hdf5Head *head, char **block) {
+    if (!receive_block(block, head) || (head->command != HDF5_ADD && head->command != HDF5_SYNC))
         return false;
-    }
     bool good = true;
-    if (head->act == HDF5_SAFE) {
-        good = spool == NULL || spool_save(spool, way->store->replacement.folder);
-    } else if (spool != NULL) {
+    if (head->command == HDF5_SYNC)
+        good = !spool || spool_save(spool, way->store->replacement.folder);
+    else if (spool)
         good = spool_add(spool, head, *block);
-    }
-    if (head->act == HDF5_ADD) {
-        way_add(way, *block);
-    } else if (good && !way->store->failed) {
-        answer();
-    }
-    if (!good) {
-        way->store->told = way->store->failed = true;
-    }
+    if (head->command == HDF5_ADD)
+        trajectory_file_add(way, *block);
+    else if (good && !way->store->failed)
+        acknowledge();
+    if (!good)
+        way->store->reported = way->store->failed = true;
     return !way->store->failed;
 }
 
 static bool write_trajectory(Store *store, Spool *spool, const Resumed *from) {
-    Way way;
+    TrajectoryFile way;
     Hdf5Head head = {0};
     char *block = NULL;
     bool begun = true;
-    if (spool == NULL) {
-        way_begin(&way, store);
-    } else if (!go_on(&way, store, from)) {
-        store->told = store->failed = true;
+    if (!spool) {
+        trajectory_file_begin(&way, store);
+    } else if (!resume_trajectory(&way, store, from)) {
+        store->reported = store->failed = true;
         begun = false;
     }
-    if (begun) {
-        answer();
+    if (begun)
+        acknowledge();
+    while (begun && handle_block(&way, spool, &head, &block)) {
     }
-    while (begun && take_block(&way, spool, &head, &block)) {
-    }
-    way_end(&way);
+    trajectory_file_end(&way);
     free(block);
-    return head.act == HDF5_KEEP || (head.act != HDF5_DROP && way.last >= 0);
+    return head.command == HDF5_COMMIT || (head.command != HDF5_DISCARD && way.last >= 0);
 }
 
 static bool write_table(Store *store) {
     Hdf5Head head = {0};
     char *block = NULL;
-    bool whole = receive_block(&block, &head) && head.act == HDF5_ADD;
+    bool whole = receive_block(&block, &head) && head.command == HDF5_ADD;
     if (whole) {
         table_store(store, block, head.bytes);
-        whole = receive_block(&block, &head) && head.act == HDF5_KEEP;
+        whole = receive_block(&block, &head) && head.command == HDF5_COMMIT;
     }
     free(block);
     return whole;
 }
 
-static bool trajectory(const char *path, const char *numbers) {
+static bool run_trajectory(const char *path, const char *numbers) {
     Store store;
     Spool spool;
     Resumed from = {.after = -1, .expected = -1};
-    bool resumable = numbers != NULL;
+    bool resumable = numbers;
     if (resumable && (sscanf(numbers, "%" SCNd64 " %" SCNd64, &from.after, &from.expected) != 2 ||
-                      !spool_open(&spool, path, from.after < 0))) {
+                      !spool_open(&spool, path, from.after < 0)))
         return false;
-    }
     from.spool = &spool;
-    if (!store_begin(&store, path, resumable && !spool.whole)) {
-        if (resumable) {
+    if (!store_begin(&store, path, resumable && !spool.complete)) {
+        if (resumable)
             spool_close(&spool, false);
-        }
         return false;
     }
     bool keep = write_trajectory(&store, resumable ? &spool : NULL, &from), good = store_end(&store, keep);
-    if (resumable) {
+    if (resumable)
         spool_close(&spool, good && keep);
-    }
     return good;
 }
 
-static bool table(const char *path) {
+static bool run_table(const char *path) {
     Store store;
-    if (!store_begin(&store, path, false)) {
+    if (!store_begin(&store, path, false))
         return false;
-    }
-    answer();
+    acknowledge();
     bool keep = write_table(&store);
     return store_end(&store, keep);
 }
@@ -167,7 +154,7 @@ int main(int argc, char **argv) {
         message("petri-hdf5 writes files for petri run and petri sweep; it is of no use by itself");
         return STATUS_USAGE;
     }
-    bool good = is_table ? table(argv[2]) : trajectory(argv[2], argv[3]);
+    bool good = is_table ? run_table(argv[2]) : run_trajectory(argv[2], argv[3]);
     // Without what runs at the end: it would try again to write what could not be written.
     _exit(good ? STATUS_DONE : STATUS_FAILED);
 }

@@ -4,6 +4,10 @@
 // hash says ends what is good.
 #include "hdf5/spool.h"
 
+#include "base/file.h"
+#include "base/hash_index.h"
+#include "cli/cli.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
@@ -13,10 +17,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/file.h"
-#include "base/table.h"
-#include "cli/cli.h"
-
 static const char *const KINDS[] = {"petri way 1 lengthens\n", "petri way 1 is whole \n"};
 enum { LINE = 22 };
 
@@ -25,19 +25,18 @@ typedef struct Entry {
     uint64_t hash; // of what follows
 } Entry;
 
-static bool complain(const Spool *spool, const char *why) {
+static bool report_error(const Spool *spool, const char *why) {
     message("cannot write %s: %s", spool->path.data, why);
     return false;
 }
 
 // petri-hdf5 of a run that was killed may just be ending its file.
-static bool lock(int file) {
-    enum { TRIES = 200, MOMENT = 50 }; // milliseconds
+static bool lock_file(int file) {
+    enum { TRIES = 200, PAUSE_MS = 50 }; // milliseconds
     for (int i = 0; i < TRIES; i++) {
-        if (flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) {
+        if (flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK)
             return true;
-        }
-        poll(NULL, 0, MOMENT);
+        poll(NULL, 0, PAUSE_MS);
     }
     return false;
 }
@@ -47,29 +46,26 @@ static bool open_locked(Spool *spool) {
     struct stat info = {0};
     for (int i = 0; i < 2; i++) {
         spool->file = file_open_at(AT_FDCWD, spool->path.data, O_RDWR | O_CREAT | O_NOFOLLOW, 0666);
-        if (spool->file < 0) {
-            return complain(spool, strerror(errno));
-        }
-        bool locked = lock(spool->file);
+        if (spool->file < 0)
+            return report_error(spool, strerror(errno));
+        bool locked = lock_file(spool->file);
         if (locked && fstat(spool->file, &info) == 0 && info.st_nlink > 0) {
             spool->size = (uint64_t)info.st_size;
             return true;
         }
         close(spool->file);
-        if (!locked) {
-            return complain(spool, "another petri-hdf5 is still at it");
-        }
+        if (!locked)
+            return report_error(spool, "another petri-hdf5 is still at it");
     }
-    return complain(spool, "it vanishes");
+    return report_error(spool, "it vanishes");
 }
 
 static bool read_at(const Spool *spool, uint64_t at, void *bytes, size_t length) {
     char *to = bytes;
     while (length > 0) {
         ssize_t count = pread(spool->file, to, length, (off_t)at);
-        if (count <= 0 && !(count < 0 && errno == EINTR)) {
+        if (count <= 0 && !(count < 0 && errno == EINTR))
             return false;
-        }
         to += count < 0 ? 0 : count;
         at += count < 0 ? 0 : (uint64_t)count;
         length -= count < 0 ? 0 : (size_t)count;
@@ -77,80 +73,71 @@ static bool read_at(const Spool *spool, uint64_t at, void *bytes, size_t length)
     return true;
 }
 
-static bool begin(Spool *spool, bool whole) {
-    spool->whole = whole;
-    spool->holds = false;
+static bool reset_spool(Spool *spool, bool whole) {
+    spool->complete = whole;
+    spool->has_frames = false;
     spool->size = spool->at = LINE;
-    return (file_cut(spool->file, 0) && lseek(spool->file, 0, SEEK_SET) == 0 &&
+    return (file_truncate(spool->file, 0) && lseek(spool->file, 0, SEEK_SET) == 0 &&
             file_write(spool->file, KINDS[whole], LINE)) ||
-           complain(spool, strerror(errno));
+           report_error(spool, strerror(errno));
 }
 
 bool spool_open(Spool *spool, const char *path, bool begins) {
     char line[LINE] = "";
     *spool = (Spool){.file = -1};
-    bytes_format(&spool->path, "%s.part", path);
-    if (!open_locked(spool)) {
+    byte_buffer_format(&spool->path, "%s.part", path);
+    if (!open_locked(spool))
         return false;
-    }
     bool read = read_at(spool, 0, line, LINE);
-    spool->whole = memcmp(line, KINDS[1], LINE) == 0;
-    if (spool->size >= LINE && !spool->whole && memcmp(line, KINDS[0], LINE) != 0) {
-        return complain(spool, "a file of another kind has this name");
-    }
+    spool->complete = memcmp(line, KINDS[1], LINE) == 0;
+    if (spool->size >= LINE && !spool->complete && memcmp(line, KINDS[0], LINE) != 0)
+        return report_error(spool, "a file of another kind has this name");
     spool->at = LINE;
-    spool->holds = spool->size > LINE + sizeof(Entry); // more than that a run has begun
-    return !begins && read ? true : begin(spool, begins);
+    spool->has_frames = spool->size > LINE + sizeof(Entry); // more than that a run has begun
+    return !begins && read ? true : reset_spool(spool, begins);
 }
 
 bool spool_next(Spool *spool, int64_t after, Hdf5Head *head, char **block) {
     Entry entry;
     uint64_t at = spool->at + sizeof entry;
     Hdf5Frame frame = {0};
-    if (at > spool->size || !read_at(spool, spool->at, &entry, sizeof entry) || entry.head.bytes > spool->size - at) {
+    if (at > spool->size || !read_at(spool, spool->at, &entry, sizeof entry) || entry.head.bytes > spool->size - at)
         return false;
-    }
     *head = entry.head;
-    *block = memory_resized(*block, head->bytes + 1);
-    if (!read_at(spool, at, *block, head->bytes) || hash_bytes(head->act, *block, head->bytes) != entry.hash) {
+    *block = memory_realloc(*block, head->bytes + 1);
+    if (!read_at(spool, at, *block, head->bytes) || hash_bytes(head->command, *block, head->bytes) != entry.hash)
         return false;
-    }
-    if (head->act == HDF5_ADD) {
+    if (head->command == HDF5_ADD) {
         memcpy(&frame, *block, sizeof frame);
-        if (frame.number > after) {
+        if (frame.number > after)
             return false;
-        }
-        spool->holds = true;
+        spool->has_frames = true;
     }
     spool->at = at + head->bytes;
     return true;
 }
 
 bool spool_add(Spool *spool, const Hdf5Head *head, const char *block) {
-    Entry entry = {*head, hash_bytes(head->act, block, head->bytes)};
-    if ((spool->at < spool->size && !file_cut(spool->file, spool->at)) ||
-        lseek(spool->file, (off_t)spool->at, SEEK_SET) < 0) {
-        return complain(spool, strerror(errno));
-    }
-    if (!file_write(spool->file, (const char *)&entry, sizeof entry) || !file_write(spool->file, block, head->bytes)) {
-        return complain(spool, strerror(errno));
-    }
+    Entry entry = {*head, hash_bytes(head->command, block, head->bytes)};
+    if ((spool->at < spool->size && !file_truncate(spool->file, spool->at)) ||
+        lseek(spool->file, (off_t)spool->at, SEEK_SET) < 0)
+        return report_error(spool, strerror(errno));
+    if (!file_write(spool->file, (const char *)&entry, sizeof entry) || !file_write(spool->file, block, head->bytes))
+        return report_error(spool, strerror(errno));
     spool->at += sizeof entry + head->bytes;
     spool->size = spool->at;
-    spool->holds = spool->holds || head->act == HDF5_ADD;
+    spool->has_frames = spool->has_frames || head->command == HDF5_ADD;
     return true;
 }
 
 bool spool_save(Spool *spool, int folder) {
-    return (replace_sync(spool->file) && replace_sync(folder)) || complain(spool, strerror(errno));
+    return (replace_sync(spool->file) && replace_sync(folder)) || report_error(spool, strerror(errno));
 }
 
 void spool_close(Spool *spool, bool done) {
-    if (spool->file >= 0 && (done || !spool->holds)) {
+    if (spool->file >= 0 && (done || !spool->has_frames))
         unlink(spool->path.data);
-    }
-    if (spool->file >= 0) {
+    if (spool->file >= 0)
         close(spool->file);
-    }
-    bytes_free(&spool->path);
+    byte_buffer_free(&spool->path);
 }

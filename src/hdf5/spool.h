@@ -5,25 +5,25 @@
 #ifndef PETRI_SRC_HDF5_SPOOL_H
 #define PETRI_SRC_HDF5_SPOOL_H
 
+#include "cli/byte_buffer.h"
+#include "cli/hdf5.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include "cli/bytes.h"
-#include "cli/hdf5.h"
-
 typedef struct Spool {
-    Bytes path;
-    int file;      // locked
-    bool whole;    // the trajectory is all in it: what the file holds is older
-    bool holds;    // frames, perhaps of a run before
-    uint64_t size; // bytes of the file when it was opened
+    ByteBuffer path;
+    int file;        // locked
+    bool complete;   // the trajectory is all in it: what the file holds is older
+    bool has_frames; // frames, perhaps of a run before
+    uint64_t size;   // bytes of the file when it was opened
     uint64_t at;
 } Spool;
 
 // Opens that of a trajectory, an empty one if it begins. False after a message, also if another process writes it.
 bool spool_open(Spool *spool, const char *path, bool begins);
-// The next block, in order, of HDF5_ADD or HDF5_RUN; frames later than `after` are not given, nor what comes behind
+// The next block, in order, of HDF5_ADD or HDF5_NEW_RUN; frames later than `after` are not given, nor what comes behind
 // one.
 bool spool_next(Spool *spool, int64_t after, Hdf5Head *head, char **block);
 // Adds a block of this run; what spool_next has not given goes first. False after a message.

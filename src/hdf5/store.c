@@ -1,25 +1,24 @@
 // store.c: see store.h. Times are kept nowhere, so that the same run gives the same bytes.
 #include "hdf5/store.h"
 
+#include "base/file.h"
+#include "cli/byte_buffer.h"
+#include "cli/cli.h"
+#include "cli/hdf5.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include "base/file.h"
-#include "cli/bytes.h"
-#include "cli/cli.h"
-#include "cli/hdf5.h"
-
 // The library says why the system refused in words only.
 static herr_t find_cause(unsigned depth, const H5E_error2_t *error, void *context) {
     (void)depth;
     Store *store = context;
-    const char *place = error->desc == NULL ? NULL : strstr(error->desc, "errno = ");
-    if (place != NULL && store->cause == 0) {
+    const char *place = !error->desc ? NULL : strstr(error->desc, "errno = ");
+    if (place && store->cause == 0)
         store->cause = atoi(place + strlen("errno = "));
-    }
     return 0;
 }
 
@@ -30,91 +29,85 @@ void store_check(Store *store, int64_t result) {
     }
 }
 
-static hid_t checked(Store *store, hid_t made) {
+static hid_t check_id(Store *store, hid_t made) {
     store_check(store, made);
     return made;
 }
 
-static bool complain(const Store *store, const char *why) {
+static bool report_error(const Store *store, const char *why) {
     message("cannot write %s: %s", store->path, why);
     return false;
 }
 
 // The old file's bytes, in the new one.
-static bool copy_old(Store *store) {
-    enum { PORTION = 1 << 20 };
+static bool copy_existing(Store *store) {
+    enum { COPY_BYTES = 1 << 20 };
     int old;
     do {
         old = openat(store->replacement.folder, store->replacement.name, O_RDONLY | O_CLOEXEC);
     } while (old < 0 && errno == EINTR);
-    if (old < 0) {
+    if (old < 0)
         return errno == ENOENT;
-    }
-    SCOPED_TEXT bytes = memory_zeroed(PORTION);
+    SCOPED_TEXT bytes = memory_calloc(COPY_BYTES);
     ssize_t count;
-    while ((count = read(old, bytes, PORTION)) > 0 || (count < 0 && errno == EINTR)) {
-        if (count > 0 && !file_write(store->replacement.file, bytes, (size_t)count)) {
+    while ((count = read(old, bytes, COPY_BYTES)) > 0 || (count < 0 && errno == EINTR))
+        if (count > 0 && !file_write(store->replacement.file, bytes, (size_t)count))
             break;
-        }
-    }
     int cause = errno;
     close(old);
     errno = cause;
-    store->old = true;
+    store->existing = true;
     return count == 0;
 }
 
-bool store_begin(Store *store, const char *path, bool goes_on) {
+bool store_begin(Store *store, const char *path, bool continues) {
     *store = (Store){.path = path, .file = H5I_INVALID_HID};
     // It takes no file without a name.
-    if (!replace_begin(&store->replacement, path, REPLACE_NAMED)) {
-        return complain(store, strerror(errno));
-    }
+    if (!replace_begin(&store->replacement, path, REPLACE_NAMED))
+        return report_error(store, strerror(errno));
     if (store->replacement.direct) {
-        replace_abandon(&store->replacement);
-        return complain(store, "it is no regular file");
+        replace_abort(&store->replacement);
+        return report_error(store, "it is no regular file");
     }
-    if (goes_on && !copy_old(store)) {
+    if (continues && !copy_existing(store)) {
         int cause = errno;
-        replace_abandon(&store->replacement);
-        return complain(store, strerror(cause));
+        replace_abort(&store->replacement);
+        return report_error(store, strerror(cause));
     }
     // It locks files, which ours is already.
     setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1);
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     hid_t access = H5Pcreate(H5P_FILE_ACCESS);
     H5Pset_fclose_degree(access, H5F_CLOSE_STRONG); // with all that is open in it
-    SCOPED_BYTES name = {0};
-    bytes_format(&name, "/proc/self/fd/%d/%s", store->replacement.folder, store->replacement.beside);
-    store->file = store->old ? H5Fopen(name.data, H5F_ACC_RDWR, access)
-                             : checked(store, H5Fcreate(name.data, H5F_ACC_TRUNC, H5P_DEFAULT, access));
+    SCOPED_BYTE_BUFFER name = {0};
+    byte_buffer_format(&name, "/proc/self/fd/%d/%s", store->replacement.folder, store->replacement.temporary_name);
+    store->file = store->existing ? H5Fopen(name.data, H5F_ACC_RDWR, access)
+                                  : check_id(store, H5Fcreate(name.data, H5F_ACC_TRUNC, H5P_DEFAULT, access));
     H5Pclose(access);
-    if (store->file < 0 && store->old) {
-        replace_abandon(&store->replacement);
-        message("cannot go on with %s: %s", path, WAY_UNKNOWN);
+    if (store->file < 0 && store->existing) {
+        replace_abort(&store->replacement);
+        message("cannot go on with %s: %s", path, TRAJECTORY_FILE_UNKNOWN);
         return false;
     }
     return !store->failed || store_end(store, false);
 }
 
 bool store_end(Store *store, bool keep) {
-    if (store->file >= 0) {
+    if (store->file >= 0)
         store_check(store, H5Fclose(store->file));
-    }
-    if (keep && !store->failed) {
-        return replace_commit(&store->replacement) || complain(store, strerror(errno));
-    }
-    replace_abandon(&store->replacement);
-    return !store->failed ||
-           (!store->told && complain(store, store->cause != 0 ? strerror(store->cause) : "libhdf5 cannot do it"));
+    if (keep && !store->failed)
+        return replace_commit(&store->replacement) || report_error(store, strerror(errno));
+    replace_abort(&store->replacement);
+    return !store->failed || (!store->reported &&
+                              report_error(store, store->cause != 0 ? strerror(store->cause) : "libhdf5 cannot do it"));
 }
 
 hid_t store_group(Store *store, hid_t parent, const char *name) {
-    return checked(store, H5Gcreate2(parent, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+    return check_id(store, H5Gcreate2(parent, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
 }
 
 static void add_attribute(Store *store, hid_t object, const char *name, hid_t type, hid_t space, const void *value) {
-    hid_t attribute = checked(store, H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT));
+    hid_t attribute = check_id(store, H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT));
     store_check(store, H5Awrite(attribute, type, value));
     H5Aclose(attribute);
     H5Sclose(space);
@@ -135,10 +128,9 @@ void store_text(Store *store, hid_t object, const char *name, const char *text) 
 
 void store_texts(Store *store, hid_t object, const char *name, const char *text, hsize_t count) {
     size_t bytes = strlen(text) + 1;
-    char *texts = memory_zeroed(count * bytes);
-    for (size_t i = 0; i < count; i++) {
+    char *texts = memory_calloc(count * bytes);
+    for (size_t i = 0; i < count; i++)
         memcpy(texts + i * bytes, text, bytes);
-    }
     hid_t type = store_text_type(bytes - 1);
     add_attribute(store, object, name, type, H5Screate_simple(1, &count, NULL), texts);
     H5Tclose(type);
@@ -171,7 +163,7 @@ StoreColumn store_column(Store *store, hid_t parent, const char *name, hid_t typ
     H5Pset_obj_track_times(made, false);
     H5Pset_chunk(made, rank, column.chunk);
     H5Pset_fill_value(made, type, fill);
-    column.set = checked(store, H5Dcreate2(parent, name, type, space, H5P_DEFAULT, made, H5P_DEFAULT));
+    column.set = check_id(store, H5Dcreate2(parent, name, type, space, H5P_DEFAULT, made, H5P_DEFAULT));
     H5Pclose(made);
     H5Sclose(space);
     return column;
@@ -179,19 +171,18 @@ StoreColumn store_column(Store *store, hid_t parent, const char *name, hid_t typ
 
 StoreColumn store_open_column(Store *store, hid_t parent, const char *name, hid_t type, int rank, const void *fill) {
     StoreColumn column = {.parent = parent, .name = name, .type = type, .fill = fill, .rank = rank};
-    column.set = checked(store, H5Dopen2(parent, name, H5P_DEFAULT));
-    hid_t space = checked(store, H5Dget_space(column.set)), made = checked(store, H5Dget_create_plist(column.set));
-    if (H5Sget_simple_extent_ndims(space) != rank || H5Pget_chunk(made, rank, column.chunk) != rank) {
+    column.set = check_id(store, H5Dopen2(parent, name, H5P_DEFAULT));
+    hid_t space = check_id(store, H5Dget_space(column.set)), made = check_id(store, H5Dget_create_plist(column.set));
+    if (H5Sget_simple_extent_ndims(space) != rank || H5Pget_chunk(made, rank, column.chunk) != rank)
         store->failed = true;
-    } else {
+    else
         H5Sget_simple_extent_dims(space, column.sizes, NULL);
-    }
     H5Sclose(space);
     H5Pclose(made);
     return column;
 }
 
-void store_cut(Store *store, StoreColumn *column, const hsize_t sizes[STORE_RANKS]) {
+void store_truncate(Store *store, StoreColumn *column, const hsize_t sizes[STORE_RANKS]) {
     memcpy(column->sizes, sizes, sizeof column->sizes);
     store_check(store, H5Dset_extent(column->set, sizes));
 }
@@ -202,22 +193,20 @@ void store_grow(Store *store, StoreColumn *column, const hsize_t sizes[STORE_RAN
         grows = grows || sizes[k] > column->sizes[k];
         column->sizes[k] = sizes[k] > column->sizes[k] ? sizes[k] : column->sizes[k];
     }
-    if (grows) {
+    if (grows)
         store_check(store, H5Dset_extent(column->set, column->sizes));
-    }
 }
 
 // The beginning of a row, written or read.
 static void move_row(Store *store, const StoreColumn *column, hsize_t row, const hsize_t sizes[STORE_RANKS], void *out,
                      const void *in) {
     hsize_t start[STORE_RANKS] = {row}, count[STORE_RANKS] = {1};
-    for (int k = 1; k < column->rank; k++) {
+    for (int k = 1; k < column->rank; k++)
         count[k] = sizes[k];
-    }
     hid_t file = H5Dget_space(column->set), memory = H5Screate_simple(column->rank, count, NULL);
     store_check(store, H5Sselect_hyperslab(file, H5S_SELECT_SET, start, NULL, count, NULL));
-    store_check(store, out == NULL ? H5Dwrite(column->set, column->type, memory, file, H5P_DEFAULT, in)
-                                   : H5Dread(column->set, column->type, memory, file, H5P_DEFAULT, out));
+    store_check(store, !out ? H5Dwrite(column->set, column->type, memory, file, H5P_DEFAULT, in)
+                            : H5Dread(column->set, column->type, memory, file, H5P_DEFAULT, out));
     H5Sclose(file);
     H5Sclose(memory);
 }
@@ -228,13 +217,13 @@ void store_read_row(Store *store, const StoreColumn *column, hsize_t row, const 
 }
 
 // Rows have become far longer: in chunks for short ones each would be in very many.
-static void make_anew(Store *store, StoreColumn *column, const hsize_t sizes[STORE_RANKS]) {
+static void recreate_column(Store *store, StoreColumn *column, const hsize_t sizes[STORE_RANKS]) {
     StoreColumn old = *column;
     store_check(store, H5Ldelete(old.parent, old.name, H5P_DEFAULT)); // it is there until it is closed
     *column = store_column(store, old.parent, old.name, old.type, old.rank, sizes, old.fill);
     store_grow(store, column, old.sizes);
     hsize_t numbers = old.rank > 2 ? old.sizes[1] * old.sizes[2] : old.sizes[1];
-    double *row = memory_zeroed(numbers * sizeof *row);
+    double *row = memory_calloc(numbers * sizeof *row);
     for (hsize_t i = 0; i < old.sizes[0] && numbers > 0; i++) {
         move_row(store, &old, i, old.sizes, row, NULL);
         move_row(store, column, i, old.sizes, NULL, row);
@@ -243,11 +232,11 @@ static void make_anew(Store *store, StoreColumn *column, const hsize_t sizes[STO
     H5Dclose(old.set);
 }
 
-void store_row(Store *store, StoreColumn *column, hsize_t row, const hsize_t sizes[STORE_RANKS], const void *numbers) {
-    enum { MOST_CHUNKS = 8 };
-    if (column->rank > 1 && column->chunk[0] > 1 && sizes[1] > MOST_CHUNKS * column->chunk[1]) {
-        make_anew(store, column, sizes);
-    }
+void store_write_row(Store *store, StoreColumn *column, hsize_t row, const hsize_t sizes[STORE_RANKS],
+                     const void *numbers) {
+    enum { MAX_CHUNKS = 8 };
+    if (column->rank > 1 && column->chunk[0] > 1 && sizes[1] > MAX_CHUNKS * column->chunk[1])
+        recreate_column(store, column, sizes);
     hsize_t whole[STORE_RANKS] = {row + 1};
     bool empty = false;
     for (int k = 1; k < column->rank; k++) {
@@ -255,15 +244,14 @@ void store_row(Store *store, StoreColumn *column, hsize_t row, const hsize_t siz
         empty = empty || sizes[k] == 0;
     }
     store_grow(store, column, whole);
-    if (!empty) {
+    if (!empty)
         move_row(store, column, row, sizes, NULL, numbers);
-    }
 }
 
 void store_list(Store *store, hid_t parent, const char *name, hid_t type, hsize_t count, const void *list) {
     hid_t space = H5Screate_simple(1, &count, NULL), made = H5Pcreate(H5P_DATASET_CREATE);
     H5Pset_obj_track_times(made, false);
-    hid_t set = checked(store, H5Dcreate2(parent, name, type, space, H5P_DEFAULT, made, H5P_DEFAULT));
+    hid_t set = check_id(store, H5Dcreate2(parent, name, type, space, H5P_DEFAULT, made, H5P_DEFAULT));
     store_check(store, H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, list));
     H5Dclose(set);
     H5Pclose(made);
@@ -272,17 +260,15 @@ void store_list(Store *store, hid_t parent, const char *name, hid_t type, hsize_
 }
 
 void store_text_list(Store *store, hid_t parent, const char *name, const char *texts, hsize_t count) {
-    size_t longest = 0;
+    size_t max_length = 0;
     const char *text = texts;
-    for (hsize_t i = 0; i < count; i++, text += strlen(text) + 1) {
-        longest = strlen(text) > longest ? strlen(text) : longest;
-    }
-    char *all = memory_zeroed(count * (longest + 1));
+    for (hsize_t i = 0; i < count; i++, text += strlen(text) + 1)
+        max_length = strlen(text) > max_length ? strlen(text) : max_length;
+    char *all = memory_calloc(count * (max_length + 1));
     text = texts;
-    for (hsize_t i = 0; i < count; i++, text += strlen(text) + 1) {
-        memcpy(all + i * (longest + 1), text, strlen(text) + 1);
-    }
-    store_list(store, parent, name, store_text_type(longest), count, all);
+    for (hsize_t i = 0; i < count; i++, text += strlen(text) + 1)
+        memcpy(all + i * (max_length + 1), text, strlen(text) + 1);
+    store_list(store, parent, name, store_text_type(max_length), count, all);
     free(all);
 }
 
@@ -291,14 +277,14 @@ void store_link(Store *store, hid_t from, const char *old, hid_t to, const char 
 }
 
 hid_t store_open(Store *store, hid_t parent, const char *name) {
-    return checked(store, H5Gopen2(parent, name, H5P_DEFAULT));
+    return check_id(store, H5Gopen2(parent, name, H5P_DEFAULT));
 }
 
 // A text of a fixed length, as it is in the file.
 static char *read_fixed(Store *store, hid_t type, size_t count, hid_t attribute, hid_t set, size_t *bytes) {
     *bytes = H5Tget_size(type) + 1;
     hid_t memory = store_text_type(*bytes - 1);
-    char *texts = memory_zeroed(count * *bytes + 1);
+    char *texts = memory_calloc(count * *bytes + 1);
     if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0) {
         store->failed = true;
     } else {
@@ -312,7 +298,7 @@ static char *read_fixed(Store *store, hid_t type, size_t count, hid_t attribute,
 
 char *store_read_text(Store *store, hid_t object, const char *name) {
     size_t bytes = 0;
-    hid_t attribute = checked(store, H5Aopen(object, name, H5P_DEFAULT));
+    hid_t attribute = check_id(store, H5Aopen(object, name, H5P_DEFAULT));
     char *text = read_fixed(store, H5Aget_type(attribute), 1, attribute, -1, &bytes);
     H5Aclose(attribute);
     return text;
@@ -320,31 +306,30 @@ char *store_read_text(Store *store, hid_t object, const char *name) {
 
 int store_read_number(Store *store, hid_t object, const char *name) {
     int number = 0;
-    hid_t attribute = checked(store, H5Aopen(object, name, H5P_DEFAULT));
+    hid_t attribute = check_id(store, H5Aopen(object, name, H5P_DEFAULT));
     store_check(store, H5Aread(attribute, H5T_NATIVE_INT, &number));
     H5Aclose(attribute);
     return number;
 }
 
-bool store_name_at(Store *store, hid_t group, hsize_t number, Bytes *name) {
+bool store_name_at(Store *store, hid_t group, hsize_t number, ByteBuffer *name) {
     H5G_info_t info = {0};
     store_check(store, H5Gget_info(group, &info));
-    if (store->failed || number >= info.nlinks) {
+    if (store->failed || number >= info.nlinks)
         return false;
-    }
     ssize_t length = H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, number, NULL, 0, H5P_DEFAULT);
     store_check(store, length);
     if (length >= 0) {
-        SCOPED_TEXT text = memory_zeroed((size_t)length + 1);
+        SCOPED_TEXT text = memory_calloc((size_t)length + 1);
         H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, number, text, (size_t)length + 1, H5P_DEFAULT);
         name->length = 0;
-        bytes_add(name, text, (size_t)length);
+        byte_buffer_add(name, text, (size_t)length);
     }
     return length >= 0;
 }
 
 char *store_read_texts(Store *store, hid_t parent, const char *name, size_t *count, size_t *bytes) {
-    hid_t set = checked(store, H5Dopen2(parent, name, H5P_DEFAULT)), space = checked(store, H5Dget_space(set));
+    hid_t set = check_id(store, H5Dopen2(parent, name, H5P_DEFAULT)), space = check_id(store, H5Dget_space(set));
     hssize_t found = H5Sget_simple_extent_npoints(space);
     *count = found < 0 ? 0 : (size_t)found;
     char *texts = read_fixed(store, H5Dget_type(set), *count, -1, set, bytes);

@@ -4,22 +4,22 @@
 #ifndef PETRI_SRC_STORE_H
 #define PETRI_SRC_STORE_H
 
+#include "base/replace.h"
+#include "cli/byte_buffer.h"
+
 #include <hdf5.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include "base/replace.h"
-#include "cli/bytes.h"
-
 typedef struct Store {
     const char *path;
     Replacement replacement;
     hid_t file;
-    bool old; // there was a file, and it is to be lengthened
+    bool existing; // there was a file, and it is to be lengthened
     bool failed;
-    bool told; // why
-    int cause; // errno, if it is known; else 0
+    bool reported; // why
+    int cause;     // errno, if it is known; else 0
 } Store;
 
 enum { STORE_RANKS = 3 };
@@ -37,7 +37,7 @@ typedef struct StoreColumn {
 } StoreColumn;
 
 // With `goes_on` it begins with what the file holds, if there is one (`old`). False after a message.
-bool store_begin(Store *store, const char *path, bool goes_on);
+bool store_begin(Store *store, const char *path, bool continues);
 // Puts the file in its place, or drops it. False after a message if something has failed.
 bool store_end(Store *store, bool keep);
 // `result` is negative if something has failed.
@@ -56,14 +56,15 @@ StoreColumn store_column(Store *store, hid_t parent, const char *name, hid_t typ
 // One that is there, made by store_column. `parent` is open until the end.
 StoreColumn store_open_column(Store *store, hid_t parent, const char *name, hid_t type, int rank, const void *fill);
 // Drops what is beyond these sizes.
-void store_cut(Store *store, StoreColumn *column, const hsize_t sizes[STORE_RANKS]);
+void store_truncate(Store *store, StoreColumn *column, const hsize_t sizes[STORE_RANKS]);
 // Reads the beginning of a row.
 void store_read_row(Store *store, const StoreColumn *column, hsize_t row, const hsize_t sizes[STORE_RANKS],
                     void *numbers);
 // Makes it at least as large.
 void store_grow(Store *store, StoreColumn *column, const hsize_t sizes[STORE_RANKS]);
 // Writes the beginning of a row; the column grows to hold it.
-void store_row(Store *store, StoreColumn *column, hsize_t row, const hsize_t sizes[STORE_RANKS], const void *numbers);
+void store_write_row(Store *store, StoreColumn *column, hsize_t row, const hsize_t sizes[STORE_RANKS],
+                     const void *numbers);
 // The type of texts up to this length.
 hid_t store_text_type(size_t length);
 // A list that is there as a whole. Closes the type.
@@ -75,7 +76,7 @@ void store_text_list(Store *store, hid_t parent, const char *name, const char *t
 hid_t store_open(Store *store, hid_t parent, const char *name);
 char *store_read_text(Store *store, hid_t object, const char *name);
 int store_read_number(Store *store, hid_t object, const char *name);
-bool store_name_at(Store *store, hid_t group, hsize_t number, Bytes *name);
+bool store_name_at(Store *store, hid_t group, hsize_t number, ByteBuffer *name);
 char *store_read_texts(Store *store, hid_t parent, const char *name, size_t *count, size_t *bytes);
 // A second name for what is there.
 void store_link(Store *store, hid_t from, const char *old, hid_t to, const char *name);

@@ -1,13 +1,13 @@
 // table.c: see table.h.
 #include "hdf5/table.h"
 
+#include "cli/byte_buffer.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/bytes.h"
-
-typedef enum Kind { WHOLE, NUMBER, TEXT } Kind;
+typedef enum Kind { INTEGER, NUMBER, TEXT } Kind;
 
 typedef struct Column {
     Kind kind;
@@ -16,14 +16,14 @@ typedef struct Column {
 } Column;
 
 typedef struct Table {
-    Bytes texts;   // all cells, each ended by NUL
-    size_t *cells; // where they begin
+    ByteBuffer texts; // all cells, each ended by NUL
+    size_t *cells;    // where they begin
     size_t count;
     size_t width; // cells of a row
 } Table;
 
 // The cell at *at, and behind what ends it.
-static void take_cell(Table *table, const char **at, const char *end) {
+static void read_cell(Table *table, const char **at, const char *end) {
     bool quoted = false;
     for (; *at < end && (quoted || (**at != ',' && **at != '\n')); (*at)++) {
         bool quote = **at == '"';
@@ -33,9 +33,9 @@ static void take_cell(Table *table, const char **at, const char *end) {
             quoted = !quoted;
             continue;
         }
-        bytes_add(&table->texts, *at, 1);
+        byte_buffer_add(&table->texts, *at, 1);
     }
-    bytes_add(&table->texts, "", 1);
+    byte_buffer_add(&table->texts, "", 1);
 }
 
 static void read_csv(Table *table, const char *csv, size_t length) {
@@ -43,13 +43,12 @@ static void read_csv(Table *table, const char *csv, size_t length) {
     for (const char *at = csv, *end = csv + length; at < end; at++) {
         if (table->count == room) {
             room = 2 * room + 64;
-            table->cells = memory_resized(table->cells, room * sizeof *table->cells);
+            table->cells = memory_realloc(table->cells, room * sizeof *table->cells);
         }
         table->cells[table->count++] = table->texts.length;
-        take_cell(table, &at, end);
-        if (table->width == 0 && (at == end || *at == '\n')) {
+        read_cell(table, &at, end);
+        if (table->width == 0 && (at == end || *at == '\n'))
             table->width = table->count;
-        }
     }
 }
 
@@ -60,35 +59,34 @@ static const char *cell_at(const Table *table, size_t row, size_t column) {
 static Kind kind_of(const char *text) {
     char *end = NULL;
     (void)strtoll(text, &end, 10);
-    if (*text != '\0' && *end == '\0' && strlen(text) < 18) {
-        return WHOLE;
-    }
+    if (*text != '\0' && *end == '\0' && strlen(text) < 18)
+        return INTEGER;
     (void)strtod(text, &end);
     return *end == '\0' ? NUMBER : TEXT;
 }
 
 // The last column is for errors, there is none mostly.
 static Column choose_column(const Table *table, size_t number, size_t rows) {
-    Column column = {.kind = number + 1 == table->width ? TEXT : WHOLE};
-    size_t longest = 0;
+    Column column = {.kind = number + 1 == table->width ? TEXT : INTEGER};
+    size_t max_length = 0;
     for (size_t row = 1; row < rows; row++) {
         const char *text = cell_at(table, row, number);
         Kind kind = kind_of(text);
         column.kind = kind > column.kind ? kind : column.kind;
-        longest = strlen(text) > longest ? strlen(text) : longest;
+        max_length = strlen(text) > max_length ? strlen(text) : max_length;
     }
-    column.type = column.kind == WHOLE    ? H5Tcopy(H5T_NATIVE_INT64)
+    column.type = column.kind == INTEGER  ? H5Tcopy(H5T_NATIVE_INT64)
                   : column.kind == NUMBER ? H5Tcopy(H5T_NATIVE_DOUBLE)
-                                          : store_text_type(longest);
+                                          : store_text_type(max_length);
     column.bytes = H5Tget_size(column.type);
     return column;
 }
 
 static void write_cell(const Column *column, const char *text, char *out) {
-    int64_t whole = column->kind == WHOLE ? strtoll(text, NULL, 10) : 0;
+    int64_t whole = column->kind == INTEGER ? strtoll(text, NULL, 10) : 0;
     double number = *text == '\0' ? NAN : strtod(text, NULL);
     switch (column->kind) {
-    case WHOLE:
+    case INTEGER:
         memcpy(out, &whole, sizeof whole);
         break;
     case NUMBER:
@@ -103,24 +101,21 @@ void table_store(Store *store, const char *csv, size_t length) {
     Table table = {0};
     read_csv(&table, csv, length);
     size_t rows = table.width == 0 ? 0 : table.count / table.width, bytes = 0;
-    Column *columns = memory_zeroed(table.width * sizeof *columns);
+    Column *columns = memory_calloc(table.width * sizeof *columns);
     for (size_t i = 0; i < table.width; i++) {
         columns[i] = choose_column(&table, i, rows);
         bytes += columns[i].bytes;
     }
-    char *records = memory_zeroed(rows * bytes), *at = records;
+    char *records = memory_calloc(rows * bytes), *at = records;
     hid_t record = H5Tcreate(H5T_COMPOUND, bytes > 0 ? bytes : 1);
-    for (size_t i = 0, offset = 0; i < table.width; offset += columns[i++].bytes) {
+    for (size_t i = 0, offset = 0; i < table.width; offset += columns[i++].bytes)
         store_check(store, H5Tinsert(record, cell_at(&table, 0, i), offset, columns[i].type));
-    }
-    for (size_t row = 1; row < rows; row++) {
-        for (size_t i = 0; i < table.width; at += columns[i++].bytes) {
+    for (size_t row = 1; row < rows; row++)
+        for (size_t i = 0; i < table.width; at += columns[i++].bytes)
             write_cell(&columns[i], cell_at(&table, row, i), at);
-        }
-    }
     store_list(store, store->file, "table", record, rows > 0 ? rows - 1 : 0, records);
     free(records);
     free(columns);
     free(table.cells);
-    bytes_free(&table.texts);
+    byte_buffer_free(&table.texts);
 }

@@ -4,25 +4,25 @@
 // particles may change: a row is as long as the longest, and ends in particles whose id is the fill value, -1.
 #include "hdf5/trajectory.h"
 
+#include "cli/hdf5.h"
+
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/hdf5.h"
-
 typedef enum Kind { POSITION, VELOCITY, RADIUS, MASS, CHARGE, ID, ANCHOR, EDGES, KINDS } Kind;
 static const char *const NAMES[] = {"position", "velocity", "radius", "mass", "charge", "id", "anchor", "edges"};
 
 struct Group {
-    char *called; // as the script calls it
+    char *system_name; // as the script calls it
     uint64_t dimensions;
     hid_t group;
     StoreColumn step;
     StoreColumn time;
     StoreColumn columns[KINDS];
     hsize_t frames;
-    hsize_t most; // particles
+    hsize_t max_particles; // particles
 };
 
 // Columns keep where their fill values are.
@@ -45,7 +45,7 @@ static int rank_of(Kind kind) {
     return kind == POSITION || kind == VELOCITY ? 3 : 2;
 }
 
-static void add_author(Way *way) {
+static void add_author(TrajectoryFile *way) {
     static const int version[] = {1, 1};
     hid_t about = store_group(way->store, way->store->file, "h5md");
     store_numbers(way->store, about, "version", version, 2);
@@ -55,31 +55,30 @@ static void add_author(Way *way) {
     store_text(way->store, creator, "version", VERSION);
 }
 
-void way_begin(Way *way, Store *store) {
-    *way = (Way){.store = store, .last = -1};
+void trajectory_file_begin(TrajectoryFile *way, Store *store) {
+    *way = (TrajectoryFile){.store = store, .last = -1};
     add_author(way);
     way->particles = store_group(store, store->file, "particles");
 }
 
-static bool is_taken(const Way *way, const char *name) {
+static bool is_name_used(const TrajectoryFile *way, const char *name) {
     return H5Lexists(way->particles, name, H5P_DEFAULT) > 0;
 }
 
 // `:cells` is cells. Slashes part names, and another system may be called so.
-static void choose_name(const Way *way, const char *called, Bytes *name) {
-    bytes_add_text(name, called + (called[0] == ':' && called[1] != '\0'));
-    for (char *c = name->data; *c != '\0'; c++) {
+static void choose_name(const TrajectoryFile *way, const char *called, ByteBuffer *name) {
+    byte_buffer_add_text(name, called + (called[0] == ':' && called[1] != '\0'));
+    for (char *c = name->data; *c != '\0'; c++)
         *c = *c == '/' ? '|' : *c;
-    }
     size_t length = name->length;
-    for (int number = 2; is_taken(way, name->data); number++) {
+    for (int number = 2; is_name_used(way, name->data); number++) {
         name->length = length;
-        bytes_format(name, "-%d", number);
+        byte_buffer_format(name, "-%d", number);
     }
 }
 
 // What changes with time: the steps of all are the same.
-static void add_element(Way *way, Group *group, hid_t parent, Kind kind, hsize_t particles) {
+static void add_element(TrajectoryFile *way, Group *group, hid_t parent, Kind kind, hsize_t particles) {
     Store *store = way->store;
     hid_t element = store_group(store, parent, NAMES[kind]);
     hsize_t rows[STORE_RANKS] = {0, particles, group->dimensions};
@@ -95,88 +94,84 @@ static void add_element(Way *way, Group *group, hid_t parent, Kind kind, hsize_t
     }
 }
 
-static void add_group(Way *way, const char *called, const Hdf5System *system) {
+static void add_group(TrajectoryFile *way, const char *called, const Hdf5System *system) {
     Store *store = way->store;
-    SCOPED_BYTES name = {0};
+    SCOPED_BYTE_BUFFER name = {0};
     choose_name(way, called, &name);
-    way->groups = memory_resized(way->groups, (way->group_count + 1) * sizeof *way->groups);
+    way->groups = memory_realloc(way->groups, (way->group_count + 1) * sizeof *way->groups);
     Group *group = &way->groups[way->group_count++];
-    *group = (Group){.called = memory_text(called), .dimensions = system->dimensions};
+    *group = (Group){.system_name = memory_strdup(called), .dimensions = system->dimensions};
     group->group = store_group(store, way->particles, name.data);
     store_text(store, group->group, "system", called);
     hid_t box = store_group(store, group->group, "box");
     int dimensions = (int)system->dimensions;
     store_numbers(store, box, "dimension", &dimensions, 1);
     store_texts(store, box, "boundary", "none", system->dimensions);
-    for (Kind kind = POSITION; kind < KINDS; kind++) {
+    for (Kind kind = POSITION; kind < KINDS; kind++)
         add_element(way, group, kind == EDGES ? box : group->group, kind, system->particles);
-    }
 }
 
-static Group *find_group(Way *way, const char *called, const Hdf5System *system) {
+static Group *find_group(TrajectoryFile *way, const char *called, const Hdf5System *system) {
     for (size_t i = 0; i < way->group_count; i++) {
         Group *group = &way->groups[i];
-        if (strcmp(group->called, called) == 0 && group->dimensions == system->dimensions) {
+        if (strcmp(group->system_name, called) == 0 && group->dimensions == system->dimensions)
             return group;
-        }
     }
     add_group(way, called, system);
     return &way->groups[way->group_count - 1];
 }
 
 // The smallest box that holds the middles of all: there is no other.
-static void measure(const double *position, const Hdf5System *system, double *edges) {
+static void compute_extent(const double *position, const Hdf5System *system, double *edges) {
     for (uint64_t k = 0; k < system->dimensions; k++) {
-        double least = INFINITY, most = -INFINITY;
+        double min = INFINITY, max = -INFINITY;
         for (uint64_t i = 0; i < system->particles; i++) {
             double x = position[i * system->dimensions + k];
-            least = isfinite(x) && x < least ? x : least;
-            most = isfinite(x) && x > most ? x : most;
+            min = isfinite(x) && x < min ? x : min;
+            max = isfinite(x) && x > max ? x : max;
         }
-        edges[k] = most >= least ? most - least : 0;
+        edges[k] = max >= min ? max - min : 0;
     }
 }
 
-static void number_ids(const Way *way, int64_t *ids, uint64_t count) {
-    for (uint64_t i = 0; i < count; i++) {
+static void number_ids(const TrajectoryFile *way, int64_t *ids, uint64_t count) {
+    for (uint64_t i = 0; i < count; i++)
         ids[i] = ids[i] <= -2 ? way->numbers[-2 - ids[i]] : ids[i];
-    }
 }
 
 // Returns what follows the system.
-static char *add_system(Way *way, const Hdf5Frame *frame, char *bytes) {
+static char *add_system(TrajectoryFile *way, const Hdf5Frame *frame, char *bytes) {
     const Hdf5System *system = (const Hdf5System *)(const void *)bytes;
     char *called = bytes + sizeof *system, *at = called + system->name_bytes;
     Group *group = find_group(way, called, system);
     hsize_t row = group->frames++, sizes[STORE_RANKS] = {1, system->particles, system->dimensions};
-    group->most = system->particles > group->most ? system->particles : group->most;
-    double *edges = memory_zeroed(system->dimensions * sizeof *edges);
-    measure((const double *)(const void *)at, system, edges);
-    store_row(way->store, &group->columns[EDGES], row, (hsize_t[STORE_RANKS]){1, system->dimensions}, edges);
+    group->max_particles = system->particles > group->max_particles ? system->particles : group->max_particles;
+    double *edges = memory_calloc(system->dimensions * sizeof *edges);
+    compute_extent((const double *)(const void *)at, system, edges);
+    store_write_row(way->store, &group->columns[EDGES], row, (hsize_t[STORE_RANKS]){1, system->dimensions}, edges);
     free(edges);
     for (Kind kind = POSITION; kind < EDGES; kind++) {
-        if (kind == ID) {
+        if (kind == ID)
             number_ids(way, (int64_t *)(void *)at, system->particles);
-        }
-        store_row(way->store, &group->columns[kind], row, sizes, at);
+        store_write_row(way->store, &group->columns[kind], row, sizes, at);
         at += system->particles * (kind <= VELOCITY ? system->dimensions : 1) * sizeof(double);
     }
-    store_row(way->store, &group->step, row, sizes, &frame->number);
-    store_row(way->store, &group->time, row, sizes, &frame->time);
+    store_write_row(way->store, &group->step, row, sizes, &frame->number);
+    store_write_row(way->store, &group->time, row, sizes, &frame->time);
     return at;
 }
 
 static bool is_text(const void *owner, uint32_t entry, const void *key) {
-    return strcmp(((const Way *)owner)->texts.items[entry], key) == 0;
+    return strcmp(((const TrajectoryFile *)owner)->texts.items[entry], key) == 0;
 }
 
 // The number that stands for the text of an id in the whole file.
-static int64_t number_text(Way *way, const char *text) {
+static int64_t number_text(TrajectoryFile *way, const char *text) {
     uint64_t hash = hash_bytes(0, text, strlen(text));
-    uint32_t entry = index_find(&way->index, hash, is_text, way, text);
-    if (entry == INDEX_NONE) {
+    uint32_t entry = hash_index_find(&way->index, hash, is_text, way, text);
+    if (entry == HASH_INDEX_NONE) {
         entry = (uint32_t)way->texts.count;
-        if (!index_add(&way->index, hash, entry)) {
+        if (!hash_index_add(&way->index, hash, entry)) {
             way->store->failed = true;
             way->store->cause = ENOMEM;
         }
@@ -185,32 +180,30 @@ static int64_t number_text(Way *way, const char *text) {
     return -2 - (int64_t)entry;
 }
 
-void way_begin_run(Way *way) {
+void trajectory_file_begin_run(TrajectoryFile *way) {
     way->run_texts = 0;
 }
 
 // A run numbers texts from 0; those of runs before it may be others.
-static void take_texts(Way *way, const char *text, uint64_t count) {
-    way->numbers = memory_resized(way->numbers, (way->run_texts + count + 1) * sizeof *way->numbers);
-    for (uint64_t i = 0; i < count; i++, text += strlen(text) + 1) {
+static void read_id_texts(TrajectoryFile *way, const char *text, uint64_t count) {
+    way->numbers = memory_realloc(way->numbers, (way->run_texts + count + 1) * sizeof *way->numbers);
+    for (uint64_t i = 0; i < count; i++, text += strlen(text) + 1)
         way->numbers[way->run_texts++] = number_text(way, text);
-    }
 }
 
-void way_add(Way *way, char *bytes) {
+void trajectory_file_add(TrajectoryFile *way, char *bytes) {
     const Hdf5Frame *frame = (const Hdf5Frame *)(const void *)bytes;
     char *texts = bytes + sizeof *frame, *at = texts + frame->text_bytes;
-    take_texts(way, texts, frame->text_count);
-    for (uint64_t s = 0; s < frame->system_count && frame->number > way->last; s++) {
+    read_id_texts(way, texts, frame->text_count);
+    for (uint64_t s = 0; s < frame->system_count && frame->number > way->last; s++)
         at = add_system(way, frame, at);
-    }
     way->last = frame->number > way->last ? frame->number : way->last;
 }
 
 // A group that is there: how many of its frames are not later, and how many particles it has in them.
-static bool read_group(Way *way, Group *group, int64_t after, int64_t *least_id) {
+static bool read_group(TrajectoryFile *way, Group *group, int64_t after, int64_t *min_id) {
     Store *store = way->store;
-    group->called = store_read_text(store, group->group, "system");
+    group->system_name = store_read_text(store, group->group, "system");
     hid_t box = store_open(store, group->group, "box");
     group->dimensions = (uint64_t)store_read_number(store, box, "dimension");
     for (Kind kind = POSITION; kind < KINDS; kind++) {
@@ -222,20 +215,18 @@ static bool read_group(Way *way, Group *group, int64_t after, int64_t *least_id)
         }
     }
     hsize_t one[STORE_RANKS] = {1, group->columns[ID].sizes[1]};
-    int64_t *ids = memory_zeroed((one[1] + 1) * sizeof *ids);
+    int64_t *ids = memory_calloc((one[1] + 1) * sizeof *ids);
     for (int64_t step = 0; !store->failed && group->frames < group->step.sizes[0]; group->frames++) {
         store_read_row(store, &group->step, group->frames, one, &step);
-        if (step > after) {
+        if (step > after)
             break;
-        }
         way->last = step > way->last ? step : way->last;
         memset(ids, 0xff, one[1] * sizeof *ids); // -1
-        if (one[1] > 0) {
+        if (one[1] > 0)
             store_read_row(store, &group->columns[ID], group->frames, one, ids);
-        }
         for (hsize_t i = 0; i < one[1]; i++) {
-            *least_id = ids[i] < *least_id ? ids[i] : *least_id;
-            group->most = ids[i] != NO_ID && i >= group->most ? i + 1 : group->most;
+            *min_id = ids[i] < *min_id ? ids[i] : *min_id;
+            group->max_particles = ids[i] != NO_ID && i >= group->max_particles ? i + 1 : group->max_particles;
         }
     }
     free(ids);
@@ -244,43 +235,42 @@ static bool read_group(Way *way, Group *group, int64_t after, int64_t *least_id)
 
 static void cut_group(Store *store, Group *group) {
     for (Kind kind = POSITION; kind < KINDS; kind++) {
-        hsize_t rows[STORE_RANKS] = {group->frames, group->most, group->dimensions};
+        hsize_t rows[STORE_RANKS] = {group->frames, group->max_particles, group->dimensions};
         hsize_t edges[STORE_RANKS] = {group->frames, group->dimensions};
-        store_cut(store, &group->columns[kind], kind == EDGES ? edges : rows);
+        store_truncate(store, &group->columns[kind], kind == EDGES ? edges : rows);
     }
     hsize_t frames[STORE_RANKS] = {group->frames};
-    store_cut(store, &group->step, frames);
-    store_cut(store, &group->time, frames);
+    store_truncate(store, &group->step, frames);
+    store_truncate(store, &group->time, frames);
     store_check(store, H5Ldelete(group->group, "species", H5P_DEFAULT)); // it comes with the end
 }
 
-static void read_groups(Way *way, int64_t after, int64_t *least_id) {
-    SCOPED_BYTES name = {0};
+static void read_groups(TrajectoryFile *way, int64_t after, int64_t *min_id) {
+    SCOPED_BYTE_BUFFER name = {0};
     for (hsize_t i = 0; store_name_at(way->store, way->particles, i, &name);) {
         Group group = {.group = store_open(way->store, way->particles, name.data)};
-        if (!read_group(way, &group, after, least_id)) {
-            free(group.called);
+        if (!read_group(way, &group, after, min_id)) {
+            free(group.system_name);
             store_check(way->store, H5Ldelete(way->particles, name.data, H5P_DEFAULT));
             continue;
         }
         cut_group(way->store, &group);
-        way->groups = memory_resized(way->groups, (way->group_count + 1) * sizeof *way->groups);
+        way->groups = memory_realloc(way->groups, (way->group_count + 1) * sizeof *way->groups);
         way->groups[way->group_count++] = group;
         i++;
     }
 }
 
-bool way_go_on(Way *way, Store *store, int64_t after) {
-    int64_t least_id = NO_ID;
-    *way = (Way){.store = store, .last = -1};
+bool trajectory_file_resume(TrajectoryFile *way, Store *store, int64_t after) {
+    int64_t min_id = NO_ID;
+    *way = (TrajectoryFile){.store = store, .last = -1};
     way->particles = store_open(store, store->file, "particles");
-    read_groups(way, after, &least_id);
+    read_groups(way, after, &min_id);
     if (H5Lexists(store->file, "parameters", H5P_DEFAULT) > 0) {
         size_t count = 0, bytes = 0;
         char *texts = store_read_texts(store, store->file, "parameters/id_texts", &count, &bytes);
-        for (size_t i = 0; !store->failed && i < count && (int64_t)i < NO_ID - least_id; i++) {
+        for (size_t i = 0; !store->failed && i < count && (int64_t)i < NO_ID - min_id; i++)
             number_text(way, texts + i * bytes);
-        }
         free(texts);
         store_check(store, H5Ldelete(store->file, "parameters", H5P_DEFAULT));
     }
@@ -288,28 +278,27 @@ bool way_go_on(Way *way, Store *store, int64_t after) {
 }
 
 // All are of species 0, which stands for no element (X) in ASE.
-static void add_species(Way *way, const Group *group) {
+static void add_species(TrajectoryFile *way, const Group *group) {
     static const int64_t none;
-    hsize_t sizes[STORE_RANKS] = {group->most};
+    hsize_t sizes[STORE_RANKS] = {group->max_particles};
     StoreColumn species = store_column(way->store, group->group, "species", H5T_NATIVE_INT64, 1, sizes, &none);
     store_grow(way->store, &species, sizes);
 }
 
-void way_end(Way *way) {
+void trajectory_file_end(TrajectoryFile *way) {
     for (size_t i = 0; i < way->group_count; i++) {
         add_species(way, &way->groups[i]);
-        free(way->groups[i].called);
+        free(way->groups[i].system_name);
     }
     if (way->texts.count > 0) {
-        SCOPED_BYTES texts = {0};
-        for (size_t i = 0; i < way->texts.count; i++) {
-            bytes_add(&texts, way->texts.items[i], strlen(way->texts.items[i]) + 1);
-        }
+        SCOPED_BYTE_BUFFER texts = {0};
+        for (size_t i = 0; i < way->texts.count; i++)
+            byte_buffer_add(&texts, way->texts.items[i], strlen(way->texts.items[i]) + 1);
         hid_t parameters = store_group(way->store, way->store->file, "parameters");
         store_text_list(way->store, parameters, "id_texts", texts.data, way->texts.count);
     }
     texts_free(&way->texts);
-    index_free(&way->index);
+    hash_index_free(&way->index);
     free(way->numbers);
     free(way->groups);
 }

@@ -1,81 +1,75 @@
 // open.c: `petri open`: the frame that a link shows, and whether it is the same here.
+#include "base/file.h"
+#include "cli/output.h"
+#include "cli/script.h"
+#include "link/link_session.h"
+#include "petri-draw.h"
+#include "view/still.h"
+#include "view/terminal_picture.h"
+
 #include <errno.h>
 #include <inttypes.h>
 #include <string.h>
 #include <unistd.h>
 
-#include "base/file.h"
-#include "cli/output.h"
-#include "cli/script.h"
-#include "link/linking.h"
-#include "petri-draw.h"
-#include "view/still.h"
-#include "view/terminal_picture.h"
-
 static bool read_link(Linked *linked, const char *operand) {
     static const size_t most_bytes = (size_t)1 << 20;
-    SCOPED_BYTES link = {0};
+    SCOPED_BYTE_BUFFER link = {0};
     if (!script_is_stdin(operand)) {
-        bytes_add_text(&link, operand);
-    } else if (!bytes_read(&link, STDIN_FILENO, most_bytes)) {
+        byte_buffer_add_text(&link, operand);
+    } else if (!byte_buffer_read(&link, STDIN_FILENO, most_bytes)) {
         message("cannot read standard input: %s", strerror(errno));
         return false;
     }
     return link_read(linked, &link);
 }
 
-static int save_picture(Linking *linking, const char *file) {
-    PetriSession *session = linking->frames.session;
+static int save_picture(LinkSession *link_session, const char *file) {
+    PetriSession *session = link_session->frames.session;
     PetriPictureOptions wanted = {0};
     petri_picture_options_init(&wanted, sizeof wanted);
     PetriPicture *picture = NULL;
-    if (linking->painter == NULL) {
-        linking->painter = petri_painter_open();
-    }
-    bool saved = linking->painter != NULL && petri_picture(session, &wanted, &picture) == PETRI_OK &&
-                 petri_picture_save(picture, linking->painter, file) == PETRI_OK;
-    if (picture != NULL) {
-        petri_picture_tell(session, picture);
-    }
+    if (!link_session->painter)
+        link_session->painter = petri_painter_open();
+    bool saved = link_session->painter && petri_picture(session, &wanted, &picture) == PETRI_OK &&
+                 petri_picture_save(picture, link_session->painter, file) == PETRI_OK;
+    if (picture)
+        petri_picture_report(session, picture);
     petri_picture_free(&picture);
     return saved ? STATUS_DONE : STATUS_FAILED;
 }
 
 // Shows the picture to who sits at the terminal; output is not redirected then.
 static int show_picture(PetriSession *session, PetriPainter *painter, const Options *options) {
-    bool wanted = options->output == NULL && options->verbosity > LOG_QUIET && isatty(STDOUT_FILENO) &&
-                  terminal_picture_possible() && progress_possible() && petri_drawable(session);
-    if (!wanted) {
+    bool wanted = !options->output && options->verbosity > LOG_QUIET && isatty(STDOUT_FILENO) &&
+                  terminal_picture_possible() && progress_possible() && petri_has_picture(session);
+    if (!wanted)
         return STATUS_DONE;
-    }
-    enum { BELOW = 6 }; // rows for the hash and what it tells
+    enum { LINES_BELOW = 6 }; // rows for the hash and what it tells
     Output output;
     output_start(&output, STDOUT_FILENO);
-    PetriStatus status = still_show(session, painter, !options->monochrome, BELOW, output_write, &output);
+    PetriStatus status = still_show(session, painter, !options->monochrome, LINES_BELOW, output_write, &output);
     return output_finish(&output, status == PETRI_OK ? STATUS_DONE : STATUS_FAILED);
 }
 
-static int write_script(const Host *host, const Linked *linked, const char *file) {
-    if (strcmp(file, "-") == 0) {
+static int write_script(const CommandContext *context, const Linked *linked, const char *file) {
+    if (strcmp(file, "-") == 0)
         return output_text(linked->text.data, linked->text.length, STATUS_DONE);
-    }
     const char *problem = file_replace(file, (Str){linked->text.data, linked->text.length}, 0);
-    if (problem != NULL) {
+    if (problem) {
         message("cannot write %s: %s", file, problem);
         return STATUS_FAILED;
     }
-    SCOPED_BYTES changes = {0};
+    SCOPED_BYTE_BUFFER changes = {0};
     for (size_t i = 0; i < linked->change_count; i++) {
         const LinkedChange *change = &linked->changes[i];
-        bytes_format(&changes, i == 0 ? " %s=%s" : ", %s=%s", change->name, change->value);
-        if (change->frame >= 0) {
-            bytes_format(&changes, " after frame %" PRId64, change->frame);
-        }
+        byte_buffer_format(&changes, i == 0 ? " %s=%s" : ", %s=%s", change->name, change->value);
+        if (change->frame >= 0)
+            byte_buffer_format(&changes, " after frame %" PRId64, change->frame);
     }
-    if (changes.length > 0) {
+    if (changes.length > 0)
         message("the link also has%s, which is not in %s", changes.data, file);
-    }
-    hint_pictures(host, file);
+    hint_pictures(context, file);
     return STATUS_DONE;
 }
 
@@ -84,22 +78,21 @@ static bool is_script(const char *file) {
 }
 
 static bool check_output(const char *file) {
-    bool good = file == NULL || is_script(file) || petri_picture_format(file);
-    if (!good) {
+    bool good = !file || is_script(file) || petri_picture_can_save(file);
+    if (!good)
         message("'%s' should end in .fl, for the script, or in .png, .svg or .pdf, for the picture", file);
-    }
     return good;
 }
 
 // Tells whether the frame is that of the link; without --output its hash goes to standard output, as petri run prints
 // it.
-static int compare(const Linking *linking, const Options *options) {
-    const Linked *linked = &linking->linked;
-    SCOPED_BYTES text = {0};
-    petri_print(linking->frames.session, PETRI_PRINT_HASH, bytes_collect, &text);
-    int status = options->output == NULL ? output_text(text.data, text.length, STATUS_DONE) : STATUS_DONE;
-    SCOPED_TEXT hash = linking_hash(linking);
-    if (linked->hash == NULL) {
+static int compare_state(const LinkSession *link_session, const Options *options) {
+    const Linked *linked = &link_session->linked;
+    SCOPED_BYTE_BUFFER text = {0};
+    petri_print(link_session->frames.session, PETRI_PRINT_HASH, byte_buffer_collect, &text);
+    int status = !options->output ? output_text(text.data, text.length, STATUS_DONE) : STATUS_DONE;
+    SCOPED_TEXT hash = link_session_hash(link_session);
+    if (!linked->hash) {
         message("%s: the link tells of no state to compare with", linked->name);
         return status;
     }
@@ -111,36 +104,32 @@ static int compare(const Linking *linking, const Options *options) {
     return same ? status : STATUS_FAILED;
 }
 
-static int open_link(const Host *host, Options *options, Linking *linking) {
-    Linked *linked = &linking->linked;
-    if (!check_output(options->output)) {
+static int open_link(const CommandContext *context, Options *options, LinkSession *link_session) {
+    Linked *linked = &link_session->linked;
+    if (!check_output(options->output))
         return STATUS_USAGE;
-    }
-    if (!link_possible() || !read_link(linked, options->script)) {
+    if (!link_possible() || !read_link(linked, options->script))
         return STATUS_FAILED;
-    }
     const char *file = options->output;
-    int wrote = file != NULL && is_script(file) ? write_script(host, linked, file) : STATUS_DONE;
-    int status = linking_run(linking, host, options);
-    linking_tell(linking, "the script asks for ", ", and links hold no files");
-    if (status != OPTIONS_READ) {
+    int wrote = file && is_script(file) ? write_script(context, linked, file) : STATUS_DONE;
+    int status = link_session_run(link_session, context, options);
+    link_session_print_files(link_session, "the script asks for ", ", and links hold no files");
+    if (status != OPTIONS_READ)
         return status == STATUS_USAGE ? STATUS_FAILED : status;
-    }
-    if (file != NULL && !is_script(file)) {
-        wrote = save_picture(linking, file);
-    }
+    if (file && !is_script(file))
+        wrote = save_picture(link_session, file);
     if (linked->frame >= 0) {
-        int shown = show_picture(linking->frames.session, linking->painter, options);
+        int shown = show_picture(link_session->frames.session, link_session->painter, options);
         wrote = shown != STATUS_DONE ? shown : wrote;
     }
-    status = linked->frame < 0 ? STATUS_DONE : compare(linking, options);
+    status = linked->frame < 0 ? STATUS_DONE : compare_state(link_session, options);
     return wrote != STATUS_DONE ? wrote : status;
 }
 
-static int open_run(const Host *host, Options *options) {
-    Linking linking = {0};
-    int status = open_link(host, options, &linking);
-    linking_close(&linking);
+static int open_run(const CommandContext *context, Options *options) {
+    LinkSession link_session = {0};
+    int status = open_link(context, options, &link_session);
+    link_session_close(&link_session);
     return status;
 }
 
@@ -160,8 +149,8 @@ const Command OPEN_COMMAND = {
                 "  petri open '#q1bKU...' -o dish.fl               the script, too\n"
                 "  petri open '#q1bKU...' -o dish.png              the picture, too\n"
                 "  petri link dish.fl --frame 99 | petri open -    there and back\n",
-    .needed = "no link was given (what begins with '#' needs quotes)",
-    .second = "one link is opened at a time; '%s' is too many (a link needs quotes)",
+    .missing_operand = "no link was given (what begins with '#' needs quotes)",
+    .second_operand_error = "one link is opened at a time; '%s' is too many (a link needs quotes)",
     .options = FOR_OPEN,
     .run = open_run,
 };

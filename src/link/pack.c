@@ -1,12 +1,12 @@
 // pack.c: see pack.h.
 #include "link/pack.h"
 
+#include "cli/cli.h"
+#include "cli/json.h"
+
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "cli/cli.h"
-#include "cli/json.h"
 
 void link_free(Linked *linked) {
     for (size_t i = 0; i < linked->change_count; i++) {
@@ -16,7 +16,7 @@ void link_free(Linked *linked) {
     free(linked->changes);
     free(linked->name);
     free(linked->hash);
-    bytes_free(&linked->text);
+    byte_buffer_free(&linked->text);
     *linked = (Linked){0};
 }
 
@@ -24,7 +24,7 @@ void link_free(Linked *linked) {
 #include <json-c/json.h>
 #include <zlib.h>
 
-enum { VERSION = 1, LONGEST = 100000, MOST_TEXT = 4 << 20, MOST_FRAME = 1000000, RAW = -MAX_WBITS };
+enum { VERSION = 1, MAX_LENGTH = 100000, MAX_TEXT = 4 << 20, MAX_FRAME = 1000000, RAW = -MAX_WBITS };
 
 static const char DIGITS[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
 
@@ -32,76 +32,72 @@ bool link_possible(void) {
     return true;
 }
 
-static bool complain(const char *text) {
+static bool report_error(const char *text) {
     message("%s", text);
     return false;
 }
 
-static void add_base64(Bytes *out, const unsigned char *bytes, size_t length) {
+static void add_base64(ByteBuffer *out, const unsigned char *bytes, size_t length) {
     for (size_t i = 0; i < length; i += 3) {
         size_t here = length - i < 3 ? length - i : 3;
         uint32_t bits =
             (uint32_t)bytes[i] << 16 | (here > 1 ? (uint32_t)bytes[i + 1] << 8 : 0) | (here > 2 ? bytes[i + 2] : 0);
-        for (size_t k = 0; k <= here; k++) {
-            bytes_add(out, &DIGITS[bits >> (18 - 6 * k) & 63], 1);
-        }
+        for (size_t k = 0; k <= here; k++)
+            byte_buffer_add(out, &DIGITS[bits >> (18 - 6 * k) & 63], 1);
     }
 }
 
 // Mail breaks long lines, and `+` and `/` are those of other writers.
-static bool read_base64(Bytes *out, const char *text, size_t length) {
+static bool read_base64(ByteBuffer *out, const char *text, size_t length) {
     uint32_t bits = 0;
     unsigned count = 0;
     for (size_t i = 0; i < length; i++) {
         char c = text[i] == '+' ? '-' : text[i] == '/' ? '_' : text[i];
         const char *digit = c == '\0' ? NULL : strchr(DIGITS, c);
-        if (digit == NULL && strchr(" \t\r\n=", c) != NULL && c != '\0') {
+        if (!digit && strchr(" \t\r\n=", c) && c != '\0')
             continue;
-        }
-        if (digit == NULL) {
+        if (!digit)
             return false;
-        }
         bits = bits << 6 | (uint32_t)(digit - DIGITS);
         count += 6;
         if (count >= 8) {
             count -= 8;
             char byte = (char)(bits >> count & 255);
-            bytes_add(out, &byte, 1);
+            byte_buffer_add(out, &byte, 1);
         }
     }
     return count < 6;
 }
 
-static void add_json(Bytes *out, const Linked *linked) {
-    bytes_format(out, "{\"v\":%d,\"t\":", VERSION);
+static void add_json(ByteBuffer *out, const Linked *linked) {
+    byte_buffer_format(out, "{\"v\":%d,\"t\":", VERSION);
     json_add_text(out, linked->text.data);
-    bytes_add_text(out, ",\"n\":");
+    byte_buffer_add_text(out, ",\"n\":");
     json_add_text(out, linked->name);
-    bytes_add_text(out, ",\"c\":[");
+    byte_buffer_add_text(out, ",\"c\":[");
     for (size_t i = 0; i < linked->change_count; i++) {
-        bytes_format(out, "%s[%" PRId64 ",", i == 0 ? "" : ",", linked->changes[i].frame);
+        byte_buffer_format(out, "%s[%" PRId64 ",", i == 0 ? "" : ",", linked->changes[i].frame);
         json_add_text(out, linked->changes[i].name);
-        bytes_add_text(out, ",");
+        byte_buffer_add_text(out, ",");
         json_add_text(out, linked->changes[i].value);
-        bytes_add_text(out, "]");
+        byte_buffer_add_text(out, "]");
     }
-    bytes_add_text(out, "]");
-    if (linked->hash != NULL) {
-        bytes_format(out, ",\"f\":%" PRId64 ",\"h\":", linked->frame);
+    byte_buffer_add_text(out, "]");
+    if (linked->hash) {
+        byte_buffer_format(out, ",\"f\":%" PRId64 ",\"h\":", linked->frame);
         json_add_text(out, linked->hash);
     }
-    bytes_add_text(out, "}");
+    byte_buffer_add_text(out, "}");
 }
 
-bool link_pack(Bytes *out, const Linked *linked) {
-    SCOPED_BYTES json = {0};
+bool link_pack(ByteBuffer *out, const Linked *linked) {
+    SCOPED_BYTE_BUFFER json = {0};
     add_json(&json, linked);
     z_stream stream = {0};
-    if (deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, RAW, MAX_MEM_LEVEL, Z_DEFAULT_STRATEGY) != Z_OK) {
-        return complain("out of memory");
-    }
+    if (deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, RAW, MAX_MEM_LEVEL, Z_DEFAULT_STRATEGY) != Z_OK)
+        return report_error("out of memory");
     unsigned long most = deflateBound(&stream, json.length);
-    unsigned char *packed = memory_zeroed(most);
+    unsigned char *packed = memory_calloc(most);
     stream.next_in = (unsigned char *)json.data;
     stream.avail_in = (unsigned)json.length;
     stream.next_out = packed;
@@ -109,117 +105,110 @@ bool link_pack(Bytes *out, const Linked *linked) {
     deflate(&stream, Z_FINISH); // all fits
     deflateEnd(&stream);
     size_t start = out->length;
-    bytes_add_text(out, "#");
+    byte_buffer_add_text(out, "#");
     add_base64(out, packed, most - stream.avail_out);
     free(packed);
-    if (out->length - start > LONGEST) {
+    if (out->length - start > MAX_LENGTH) {
         message("the script is too long for a link: %zu characters, %d at the most; share the file",
-                out->length - start, LONGEST);
+                out->length - start, MAX_LENGTH);
         return false;
     }
     return true;
 }
 
 // What it unpacks to; false if it is damaged, or too long.
-static bool unpack(Bytes *json, const Bytes *packed, bool *too_long) {
+static bool unpack(ByteBuffer *json, const ByteBuffer *packed, bool *too_long) {
     z_stream stream = {.next_in = (unsigned char *)packed->data, .avail_in = (unsigned)packed->length};
-    if (inflateInit2(&stream, RAW) != Z_OK) {
+    if (inflateInit2(&stream, RAW) != Z_OK)
         return false;
-    }
-    unsigned char *text = memory_zeroed(MOST_TEXT + 1);
+    unsigned char *text = memory_calloc(MAX_TEXT + 1);
     stream.next_out = text;
-    stream.avail_out = MOST_TEXT + 1;
+    stream.avail_out = MAX_TEXT + 1;
     bool whole = inflate(&stream, Z_FINISH) == Z_STREAM_END && stream.avail_in == 0;
     *too_long = stream.avail_out == 0;
-    bytes_add(json, (char *)text, MOST_TEXT + 1 - stream.avail_out);
+    byte_buffer_add(json, (char *)text, MAX_TEXT + 1 - stream.avail_out);
     inflateEnd(&stream);
     free(text);
     return whole && !*too_long;
 }
 
 // A text without NUL in it; NULL: there is none.
-static const char *text_of(json_object *value) {
+static const char *string_value(json_object *value) {
     bool good = json_object_is_type(value, json_type_string) &&
                 strlen(json_object_get_string(value)) == (size_t)json_object_get_string_len(value);
     return good ? json_object_get_string(value) : NULL;
 }
 
-static bool whole_number(json_object *value, int64_t *number) {
+static bool integer_value(json_object *value, int64_t *number) {
     *number = json_object_get_int64(value);
-    return json_object_is_type(value, json_type_int) && *number >= -1 && *number <= MOST_FRAME;
+    return json_object_is_type(value, json_type_int) && *number >= -1 && *number <= MAX_FRAME;
 }
 
-static bool take_changes(Linked *linked, json_object *changes) {
-    if (changes == NULL) {
+static bool parse_changes(Linked *linked, json_object *changes) {
+    if (!changes)
         return true;
-    }
-    if (!json_object_is_type(changes, json_type_array)) {
+    if (!json_object_is_type(changes, json_type_array))
         return false;
-    }
     size_t count = json_object_array_length(changes);
-    linked->changes = memory_zeroed((count + 1) * sizeof *linked->changes);
+    linked->changes = memory_calloc((count + 1) * sizeof *linked->changes);
     for (size_t i = 0; i < count; i++) {
         json_object *change = json_object_array_get_idx(changes, i);
-        if (!json_object_is_type(change, json_type_array) || json_object_array_length(change) != 3) {
+        if (!json_object_is_type(change, json_type_array) || json_object_array_length(change) != 3)
             return false;
-        }
-        const char *name = text_of(json_object_array_get_idx(change, 1));
-        const char *value = text_of(json_object_array_get_idx(change, 2));
+        const char *name = string_value(json_object_array_get_idx(change, 1));
+        const char *value = string_value(json_object_array_get_idx(change, 2));
         LinkedChange *taken = &linked->changes[i];
-        if (name == NULL || value == NULL || !whole_number(json_object_array_get_idx(change, 0), &taken->frame)) {
+        if (!name || !value || !integer_value(json_object_array_get_idx(change, 0), &taken->frame))
             return false;
-        }
-        taken->name = memory_text(name);
-        taken->value = memory_text(value);
+        taken->name = memory_strdup(name);
+        taken->value = memory_strdup(value);
         linked->change_count++;
     }
     return true;
 }
 
-static bool take(Linked *linked, json_object *all) {
+static bool parse_link(Linked *linked, json_object *all) {
     json_object *frame = json_object_object_get(all, "f"), *name = json_object_object_get(all, "n");
     json_object *hash = json_object_object_get(all, "h");
-    const char *text = text_of(json_object_object_get(all, "t"));
-    if (text == NULL || (name != NULL && text_of(name) == NULL) || (hash != NULL && text_of(hash) == NULL) ||
-        (frame != NULL && !whole_number(frame, &linked->frame))) {
+    const char *text = string_value(json_object_object_get(all, "t"));
+    if (!text || (name && !string_value(name)) || (hash && !string_value(hash)) ||
+        (frame && !integer_value(frame, &linked->frame)))
         return false;
-    }
-    bytes_add_text(&linked->text, text);
-    linked->name = memory_text(name == NULL || text_of(name)[0] == '\0' ? "script.fl" : text_of(name));
-    linked->hash = hash == NULL ? NULL : memory_text(text_of(hash));
-    return take_changes(linked, json_object_object_get(all, "c"));
+    byte_buffer_add_text(&linked->text, text);
+    linked->name = memory_strdup(!name || string_value(name)[0] == '\0' ? "script.fl" : string_value(name));
+    linked->hash = !hash ? NULL : memory_strdup(string_value(hash));
+    return parse_changes(linked, json_object_object_get(all, "c"));
 }
 
-static bool read_json(Linked *linked, const Bytes *text) {
+static bool read_json(Linked *linked, const ByteBuffer *text) {
     json_tokener *tokener = json_tokener_new_ex(8);
-    if (tokener == NULL) {
-        return complain("out of memory");
-    }
+    if (!tokener)
+        return report_error("out of memory");
     json_tokener_set_flags(tokener, JSON_TOKENER_STRICT | JSON_TOKENER_VALIDATE_UTF8);
     json_object *all = json_tokener_parse_ex(tokener, text->data, (int)text->length);
     bool parsed = json_object_is_type(all, json_type_object) && json_tokener_get_parse_end(tokener) == text->length;
     json_object *version = parsed ? json_object_object_get(all, "v") : NULL;
     bool newer = json_object_is_type(version, json_type_int) && json_object_get_int64(version) > VERSION;
-    bool good = parsed && !newer && take(linked, all);
+    bool good = parsed && !newer && parse_link(linked, all);
     json_object_put(all);
     json_tokener_free(tokener);
-    return good || complain(newer ? "the link was made by a newer petri, which this one does not understand"
-                                  : "the link is none of petri's");
+    return good || report_error(newer ? "the link was made by a newer petri, which this one does not understand"
+                                      : "the link is none of petri's");
 }
 
-bool link_read(Linked *linked, const Bytes *link) {
+bool link_read(Linked *linked, const ByteBuffer *link) {
     const char *hash = link->length == 0 ? NULL : memchr(link->data, '#', link->length);
-    const char *start = hash == NULL ? link->data : hash + 1;
-    size_t length = hash == NULL ? link->length : link->length - (size_t)(start - link->data);
-    SCOPED_BYTES packed = {0}, json = {0};
-    bool too_long = length > LONGEST;
+    const char *start = !hash ? link->data : hash + 1;
+    size_t length = !hash ? link->length : link->length - (size_t)(start - link->data);
+    SCOPED_BYTE_BUFFER packed = {0}, json = {0};
+    bool too_long = length > MAX_LENGTH;
     if (too_long) {
-        message("the link is too long: %zu characters, %d at the most", length, LONGEST);
+        message("the link is too long: %zu characters, %d at the most", length, MAX_LENGTH);
         return false;
     }
     if (!read_base64(&packed, start, length) || !unpack(&json, &packed, &too_long)) {
-        return complain(too_long ? "the link unpacks to more than 4 MiB"
-                                 : "the link is damaged: was it cut off when it was copied?");
+        return report_error(too_long ? "the link unpacks to more than 4 MiB"
+                                     : "the link is damaged: was it cut off when it was copied?");
     }
     return read_json(linked, &json);
 }
@@ -231,13 +220,13 @@ bool link_possible(void) {
     return false;
 }
 
-bool link_pack(Bytes *out, const Linked *linked) {
+bool link_pack(ByteBuffer *out, const Linked *linked) {
     (void)out;
     (void)linked;
     return link_possible();
 }
 
-bool link_read(Linked *linked, const Bytes *link) {
+bool link_read(Linked *linked, const ByteBuffer *link) {
     (void)linked;
     (void)link;
     return link_possible();

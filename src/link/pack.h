@@ -4,7 +4,7 @@
 #ifndef PETRI_SRC_PACK_H
 #define PETRI_SRC_PACK_H
 
-#include "cli/bytes.h"
+#include "cli/byte_buffer.h"
 
 typedef struct LinkedChange {
     int64_t frame; // after which one; -1: from the start
@@ -13,7 +13,7 @@ typedef struct LinkedChange {
 } LinkedChange;
 
 typedef struct Linked {
-    Bytes text;
+    ByteBuffer text;
     char *name;
     LinkedChange *changes;
     size_t change_count;
@@ -24,9 +24,9 @@ typedef struct Linked {
 // Whether petri was built with the libraries that this takes; says so if not.
 bool link_possible(void);
 // Adds `#…`. False after a message: the text is too long.
-bool link_pack(Bytes *out, const Linked *linked);
+bool link_pack(ByteBuffer *out, const Linked *linked);
 // Reads what is behind the first `#`, or all. False after a message. To be freed in any case.
-bool link_read(Linked *linked, const Bytes *link);
+bool link_read(Linked *linked, const ByteBuffer *link);
 void link_free(Linked *linked);
 
 #endif

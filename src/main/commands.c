@@ -15,10 +15,8 @@ const Command *const COMMANDS[] = {&RUN_COMMAND, &SWEEP_COMMAND, &TEST_COMMAND, 
 #endif
 
 const Command *command_find(const char *name) {
-    for (size_t i = 0; COMMANDS[i] != NULL; i++) {
-        if (strcmp(COMMANDS[i]->name, name) == 0) {
+    for (size_t i = 0; COMMANDS[i]; i++)
+        if (strcmp(COMMANDS[i]->name, name) == 0)
             return COMMANDS[i];
-        }
-    }
     return NULL;
 }

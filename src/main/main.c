@@ -1,4 +1,9 @@
 // main.c: prepares the process, finds the command and runs it on a thread with a large stack.
+#include "cli/byte_buffer.h"
+#include "cli/cli.h"
+#include "cli/helper_exec.h"
+#include "main/commands.h"
+
 #include <fcntl.h>
 #include <limits.h>
 #include <pthread.h>
@@ -6,16 +11,11 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-#include "cli/bytes.h"
-#include "cli/cli.h"
-#include "cli/pass_on.h"
-#include "main/commands.h"
 #ifdef PETRI_RANKS
 #include "ranks/ranks.h"
 #endif
 #if defined(PETRI_PICTURES) || defined(PETRI_RANKS)
-#include "sweep/extras.h"
+#include "sweep/plot_support.h"
 #endif
 #ifdef PETRI_LSP
 #include "lsp/lsp.h"
@@ -23,73 +23,64 @@
 
 // A script's name has a dot or a slash in it, or is the name of something that exists.
 static bool looks_like_file(const char *word) {
-    return strpbrk(word, "./") != NULL || access(word, F_OK) == 0;
+    return strpbrk(word, "./") || access(word, F_OK) == 0;
 }
 
 static bool is_script_without_suffix(const char *word) {
-    SCOPED_BYTES path = {0};
-    bytes_format(&path, "%s.fl", word);
+    SCOPED_BYTE_BUFFER path = {0};
+    byte_buffer_format(&path, "%s.fl", word);
     bool found = access(path.data, F_OK) == 0;
     return found;
 }
 
 static int unknown_command(const char *word) {
     StrNearest nearest = nearest_start(word);
-    for (size_t i = 0; COMMANDS[i] != NULL; i++) {
+    for (size_t i = 0; COMMANDS[i]; i++)
         nearest_offer(&nearest, COMMANDS[i]->name);
-    }
     if (nearest_offer(&nearest, "builtins") || nearest_offer(&nearest, "nodes")) {
         message("there is no command and no file '%s', did you mean 'petri help %s'?", word, nearest.found.bytes);
         return STATUS_USAGE;
     }
-    if (word[0] == '\0') {
+    if (word[0] == '\0')
         message("the name of the script is empty");
-    } else if (is_script_without_suffix(word)) {
+    else if (is_script_without_suffix(word))
         message("there is no command and no file '%s', did you mean 'petri %s.fl'?", word, word);
-    } else if (nearest.found.bytes != NULL) {
+    else if (nearest.found.bytes)
         message("there is no command and no file '%s', did you mean 'petri %s'?", word, nearest.found.bytes);
-    } else {
+    else
         message("there is no command and no file '%s'; 'petri help' lists the commands", word);
-    }
     return STATUS_USAGE;
 }
 
-static int dispatch(const Host *host, int argc, char **argv) {
+static int dispatch(const CommandContext *host, int argc, char **argv) {
     if (argc < 2) {
         message("nothing to do; 'petri new NAME' begins a script, 'petri view SCRIPT.fl' shows it, 'petri help' lists "
                 "all commands");
         return STATUS_USAGE;
     }
     const char *first = argv[1];
-    if (pass_on_wanted(first)) {
-        return pass_on(argv);
-    }
-    int served = strcmp(first, "lsp") == 0 ? pass_on_lsp(argv) : -1;
-    if (served >= 0) {
+    if (helper_exec_is_pictures_command(first))
+        return helper_exec_pictures(argv);
+    int served = strcmp(first, "lsp") == 0 ? helper_exec_lsp(argv) : -1;
+    if (served >= 0)
         return served;
-    }
-    if (strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0) {
+    if (strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0)
         return help_overview(COMMANDS);
-    }
-    if (strcmp(first, "--version") == 0 || strcmp(first, "-V") == 0 || strcmp(first, "version") == 0) {
+    if (strcmp(first, "--version") == 0 || strcmp(first, "-V") == 0 || strcmp(first, "version") == 0)
         return help_version();
-    }
     const Command *command = command_find(first);
-    bool is_script = command == NULL && (first[0] == '-' || looks_like_file(first));
+    bool is_script = !command && (first[0] == '-' || looks_like_file(first));
 #ifndef PETRI_RANKS
     bool sweeps = command == &SWEEP_COMMAND;
-    int status = command == &RUN_COMMAND || is_script || sweeps ? pass_on_ranks(argv, !sweeps) : -1;
-    if (status >= 0) {
+    int status = command == &RUN_COMMAND || is_script || sweeps ? helper_exec_ranks(argv, !sweeps) : -1;
+    if (status >= 0)
         return status;
-    }
 #endif
-    if (command != NULL) {
+    if (command)
         return command_run(command, host, argc - 2, argv + 2);
-    }
-    if (is_script) {
+    if (is_script)
         return command_run(&RUN_COMMAND, host, argc - 1, argv + 1);
-    }
-    return pass_on_all() ? pass_on(argv) : unknown_command(first);
+    return helper_exec_forwards_unknown() ? helper_exec_pictures(argv) : unknown_command(first);
 }
 
 // Were a standard descriptor closed, the next file to be opened would take its place and get our output.
@@ -103,7 +94,7 @@ static void open_standard_descriptors(void) {
 }
 
 typedef struct Job {
-    Host host;
+    CommandContext host;
     int argc;
     char **argv;
     int status;
@@ -122,9 +113,8 @@ static bool run_on_large_stack(Job *job) {
     for (size_t size = 512 * mebibyte; size >= 8 * mebibyte; size /= 2) {
         pthread_attr_t attributes;
         pthread_t thread;
-        if (pthread_attr_init(&attributes) != 0) {
+        if (pthread_attr_init(&attributes) != 0)
             return false;
-        }
         job->host.stack_bytes = size - mebibyte;
         bool started = pthread_attr_setstacksize(&attributes, size) == 0 &&
                        pthread_create(&thread, &attributes, run_job, job) == 0;
@@ -142,10 +132,9 @@ static bool run_on_large_stack(Job *job) {
 // The system knows best where we are; argv[0] may be a name that the shell has looked up.
 static const char *program_path(const char *name, char *resolved) {
     static const char system_path[] = "/proc/self/exe";
-    if (access(system_path, X_OK) == 0) {
+    if (access(system_path, X_OK) == 0)
         return system_path;
-    }
-    return name != NULL && realpath(name, resolved) != NULL ? resolved : "petri";
+    return name && realpath(name, resolved) ? resolved : "petri";
 }
 
 int main(int argc, char **argv) {
@@ -156,7 +145,7 @@ int main(int argc, char **argv) {
     signal(SIGXFSZ, SIG_IGN);
     char resolved[PATH_MAX];
     Job job = {.host.program = program_path(argc > 0 ? argv[0] : NULL, resolved),
-               .host.called = argc > 0 ? argv[0] : "petri",
+               .host.invoked_as = argc > 0 ? argv[0] : "petri",
                .argc = argc,
                .argv = argv,
                .status = STATUS_FAILED};
@@ -164,10 +153,10 @@ int main(int argc, char **argv) {
     ranks_begin(&job.host);
 #endif
 #ifdef PETRI_LSP
-    job.host.serve = lsp_serve;
+    job.host.run_lsp = lsp_serve;
 #endif
 #if defined(PETRI_PICTURES) || defined(PETRI_RANKS)
-    job.host.sweep = &SWEEP_EXTRAS;
+    job.host.plot_support = &PLOT_SUPPORT;
 #endif
     if (!run_on_large_stack(&job)) {
         message("cannot start a thread");

@@ -6,7 +6,7 @@
 #include "cli/cli.h"
 
 // Joins the others. Only rank 0 is seen and heard from then on.
-void ranks_begin(Host *host);
+void ranks_begin(CommandContext *context);
 // Leaves them; if this process has failed they end, too, because they would wait for it.
 void ranks_end(int status);
 

@@ -1,13 +1,13 @@
 // recording.c: see recording.h.
 #include "render/recording.h"
 
+#include "cli/byte_buffer.h"
+#include "render/video.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-#include "cli/bytes.h"
-#include "render/video.h"
 
 // A file that was begun in this run.
 struct RecordedFile {
@@ -20,43 +20,39 @@ struct RecordedFile {
 
 static RecordedFile *find_file(const Recording *recording, const char *name) {
     RecordedFile *file = recording->files;
-    while (file != NULL && strcmp(file->name, name) != 0) {
+    while (file && strcmp(file->name, name) != 0)
         file = file->next;
-    }
     return file;
 }
 
 static RecordedFile *add_file(Recording *recording, const char *name) {
-    RecordedFile *file = memory_zeroed(sizeof *file);
-    *file = (RecordedFile){.next = recording->files, .video = {.frames = -1, .errors = -1, .unfinished = -1}};
-    file->name = memory_text(name);
-    file->film = video_is_name(name);
+    RecordedFile *file = memory_calloc(sizeof *file);
+    *file = (RecordedFile){.next = recording->files, .video = {.frames = -1, .errors = -1, .cleanup_id = -1}};
+    file->name = memory_strdup(name);
+    file->film = video_has_suffix(name);
     recording->files = file;
     return file;
 }
 
 static bool close_film(Recording *recording, RecordedFile *file) {
-    if (!file->video.open || video_close(&file->video)) {
+    if (!file->video.open || video_close(&file->video))
         return true;
-    }
-    recording->trouble = file->video.trouble;
+    recording->error_text = file->video.error_text;
     return false;
 }
 
 static bool add_frame(Recording *recording, RecordedFile *file, const PetriRecord *record) {
-    bool over = record->limit > 0 && (double)file->frames >= record->limit * recording->fps;
-    if (over) {
+    bool over = record->max_seconds > 0 && (double)file->frames >= record->max_seconds * recording->fps;
+    if (over)
         return close_film(recording, file);
-    }
     bool good = file->frames > 0 || video_open(&file->video, file->name, record->width, record->height, recording->fps);
     // A film's frames are all of one size: others are left out.
     if (good && record->width == file->video.width && record->height == file->video.height) {
         good = video_add(&file->video, record->pixels);
         file->frames++;
     }
-    if (!good) {
-        recording->trouble = file->video.trouble;
-    }
+    if (!good)
+        recording->error_text = file->video.error_text;
     return good;
 }
 
@@ -64,54 +60,47 @@ static bool add_frame(Recording *recording, RecordedFile *file, const PetriRecor
 static bool save_picture(Recording *recording, PetriPicture *picture, PetriPainter *painter, size_t index,
                          const char *name) {
     RecordedFile *file = find_file(recording, name);
-    if (file != NULL && access(name, F_OK) == 0) {
+    if (file && access(name, F_OK) == 0)
         return true;
-    }
-    if (file == NULL) {
+    if (!file)
         add_file(recording, name);
-    }
     PetriStatus status = petri_record_save(picture, painter, index);
-    if (status == PETRI_MEMORY) {
-        recording->trouble = "out of memory";
-    }
+    if (status == PETRI_OUT_OF_MEMORY)
+        recording->error_text = "out of memory";
     return status == PETRI_OK;
 }
 
 bool recording_add(Recording *recording, PetriPicture *picture, PetriPainter *painter) {
     PetriRecord record;
-    PetriStatus status = petri_picture_make(picture, painter);
+    PetriStatus status = petri_picture_render(picture, painter);
     bool good = status == PETRI_OK;
-    if (status == PETRI_MEMORY) {
-        recording->trouble = "out of memory";
-    }
+    if (status == PETRI_OUT_OF_MEMORY)
+        recording->error_text = "out of memory";
     for (size_t i = 0; good && petri_picture_record(picture, painter, i, &record); i++) {
-        if (record.refused) {
+        if (record.denied)
             return false;
-        }
-        if (!video_is_name(record.file)) {
+        if (!video_has_suffix(record.file)) {
             good = save_picture(recording, picture, painter, i, record.file);
             continue;
         }
         RecordedFile *file = find_file(recording, record.file);
-        good = add_frame(recording, file != NULL ? file : add_file(recording, record.file), &record);
+        good = add_frame(recording, file ? file : add_file(recording, record.file), &record);
     }
     return good;
 }
 
 bool recording_end(Recording *recording, bool abandon) {
     bool good = true;
-    for (RecordedFile *file = recording->files; file != NULL; file = file->next) {
-        if (abandon) {
+    for (RecordedFile *file = recording->files; file; file = file->next)
+        if (abandon)
             video_abandon(&file->video);
-        } else {
+        else
             good &= close_film(recording, file);
-        }
-    }
     return good;
 }
 
 void recording_free(Recording *recording) {
-    for (RecordedFile *file = recording->files, *next; file != NULL; file = next) {
+    for (RecordedFile *file = recording->files, *next; file; file = next) {
         next = file->next;
         video_abandon(&file->video);
         free(file->name);

@@ -2,9 +2,9 @@
 #ifndef PETRI_SRC_RECORDING_H
 #define PETRI_SRC_RECORDING_H
 
-#include <stdbool.h>
-
 #include "petri-draw.h"
+
+#include <stdbool.h>
 
 typedef struct RecordedFile RecordedFile;
 
@@ -12,7 +12,7 @@ typedef struct RecordedFile RecordedFile;
 typedef struct Recording {
     double fps;
     RecordedFile *files;
-    const char *trouble; // why something failed that was not told through pictures
+    const char *error_text; // why something failed that was not told through pictures
 } Recording;
 
 // Makes a picture, if that is not done, and writes what its records say. False if something failed.

@@ -1,4 +1,11 @@
 // render.c: `petri render`: frames as pictures, series of pictures and films.
+#include "cli/byte_buffer.h"
+#include "cli/script.h"
+#include "cli/stdout_file.h"
+#include "render/frame_writer.h"
+#include "render/video.h"
+#include "run/frames.h"
+
 #include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
@@ -6,33 +13,25 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/bytes.h"
-#include "cli/piped.h"
-#include "cli/script.h"
-#include "render/painting.h"
-#include "render/video.h"
-#include "run/frames.h"
-
 typedef enum OutputKind { OUTPUT_PICTURE, OUTPUT_SERIES, OUTPUT_FILM } OutputKind;
 
 typedef struct Render {
     Frames frames;
     OutputKind kind;
     PetriPictureOptions picture;
-    Painting *painting;
+    FrameWriter *writer;
     int64_t drawn;
-    bool left;         // a thread still draws what is given up
-    bool failed;       // nothing more is to be drawn
-    Piped piped;       // for standard output
-    const char *shown; // how messages call what is written
+    bool thread_running;      // a thread still draws what is given up
+    bool failed;              // nothing more is to be drawn
+    StdoutFile stdout_file;   // for standard output
+    const char *display_name; // how messages call what is written
 } Render;
 
 // The place of the frame's number in the name of a series: `%d` or `%05d`, with its end in *end. NULL if there is none.
 static const char *find_number(const char *name, const char **end) {
     const char *at = strchr(name, '%');
-    if (at == NULL) {
+    if (!at)
         return NULL;
-    }
     const char *after = at + 1 + strspn(at + 1, "0123456789");
     *end = after + 1;
     return *after == 'd' && after - at <= 3 ? at : NULL;
@@ -40,17 +39,16 @@ static const char *find_number(const char *name, const char **end) {
 
 // The name of a frame's file; to be freed.
 static char *series_name(const char *name, int64_t frame) {
-    Bytes text = {0};
+    ByteBuffer text = {0};
     const char *end = NULL;
     const char *at = find_number(name, &end);
     int width = (int)strtol(at + 1, NULL, 10);
-    bytes_add(&text, name, (size_t)(at - name));
-    if (at[1] == '0') {
-        bytes_format(&text, "%0*" PRId64, width, frame);
-    } else {
-        bytes_format(&text, "%*" PRId64, width, frame);
-    }
-    bytes_add_text(&text, end);
+    byte_buffer_add(&text, name, (size_t)(at - name));
+    if (at[1] == '0')
+        byte_buffer_format(&text, "%0*" PRId64, width, frame);
+    else
+        byte_buffer_format(&text, "%*" PRId64, width, frame);
+    byte_buffer_add_text(&text, end);
     return text.data;
 }
 
@@ -58,36 +56,34 @@ static char *series_name(const char *name, int64_t frame) {
 static bool read_output(Render *render) {
     Options *options = render->frames.options;
     const char *end = NULL;
-    if (options->output == NULL) {
+    if (!options->output) {
         message("option '--output' is missing: petri render %s -o OUT.png", options->script);
         return false;
     }
-    if (options->format != NULL && !piped_wanted(options->output)) {
+    if (options->format && !stdout_file_is_requested(options->output)) {
         message("option '--format' is for '-o -'; what '%s' is, its ending tells", options->output);
         return false;
     }
-    if (piped_wanted(options->output)) {
-        if (!piped_check(options->format) || !piped_open(&render->piped, options->format)) {
+    if (stdout_file_is_requested(options->output)) {
+        if (!stdout_file_check(options->format) || !stdout_file_open(&render->stdout_file, options->format))
             return false;
-        }
-        options->output = render->piped.file;
+        options->output = render->stdout_file.file;
     }
-    render->shown = render->piped.file != NULL ? "-" : options->output;
-    if (video_is_name(options->output)) {
+    render->display_name = render->stdout_file.file ? "-" : options->output;
+    if (video_has_suffix(options->output)) {
         render->kind = OUTPUT_FILM;
-    } else if (!petri_picture_format(options->output)) {
+    } else if (!petri_picture_can_save(options->output)) {
         message("'%s' should end in .png, .svg, .pdf, .mp4, .webm or .gif", options->output);
         return false;
     } else {
-        render->kind = find_number(options->output, &end) != NULL ? OUTPUT_SERIES : OUTPUT_PICTURE;
+        render->kind = find_number(options->output, &end) ? OUTPUT_SERIES : OUTPUT_PICTURE;
     }
     if (options->frame >= 0 && render->kind == OUTPUT_FILM) {
-        message("option '--frame' is for pictures; '%s' is a film", render->shown);
+        message("option '--frame' is for pictures; '%s' is a film", render->display_name);
         return false;
     }
-    if (options->frame >= 0) {
+    if (options->frame >= 0)
         options->frames = options->frame + 1;
-    }
     return true;
 }
 
@@ -95,40 +91,38 @@ static bool read_output(Render *render) {
 static bool check_folder(const char *file) {
     SCOPED_TEXT folder = script_folder(file);
     bool good = access(folder, W_OK | X_OK) == 0;
-    if (!good) {
+    if (!good)
         message("cannot write '%s': %s", file, strerror(errno));
-    }
     return good;
 }
 
 // Draws the last frame: for the film, for a file, or only for its own `!record` nodes.
 static void draw_frame(Render *render, bool for_film, const char *file) {
     PetriPicture *picture = NULL;
-    frames_working(&render->frames, true);
+    frames_set_interruptible(&render->frames, true);
     PetriStatus status = petri_picture(render->frames.session, &render->picture, &picture);
-    frames_working(&render->frames, false);
-    if (status == PETRI_INTERRUPTED) {
+    frames_set_interruptible(&render->frames, false);
+    if (status == PETRI_INTERRUPTED)
         return; // by a signal: what was drawn before it stays
-    }
-    if (status == PETRI_MEMORY) {
+    if (status == PETRI_OUT_OF_MEMORY) {
         progress_erase(&render->frames.progress);
         message("out of memory");
     }
-    render->failed = status != PETRI_OK || !painting_add(render->painting, picture, for_film, file);
-    render->drawn += for_film || file != NULL;
+    render->failed = status != PETRI_OK || !frame_writer_add(render->writer, picture, for_film, file);
+    render->drawn += for_film || file;
 }
 
 static void output_frame(Render *render) {
     const Options *options = render->frames.options;
     int64_t number = petri_frame(render->frames.session).number;
-    bool wanted =
-        options->frame >= 0 ? number == options->frame : (number - render->frames.early) % options->every == 0;
+    bool wanted = options->frame >= 0 ? number == options->frame
+                                      : (number - render->frames.before_first_picture) % options->every == 0;
     if (wanted && render->kind == OUTPUT_FILM) {
         draw_frame(render, true, NULL);
     } else if (wanted && render->kind == OUTPUT_SERIES) {
         SCOPED_TEXT name = series_name(options->output, number);
         draw_frame(render, false, name);
-    } else if (petri_looks_back(render->frames.session)) {
+    } else if (petri_needs_history(render->frames.session)) {
         draw_frame(render, false, NULL);
     }
 }
@@ -136,7 +130,7 @@ static void output_frame(Render *render) {
 // The frames before particles are where they are (petri_picture_ready) are made, since what comes depends on them, but
 // neither drawn nor counted: a film does not begin with everything in one place. Files keep the numbers of their
 // frames, and whoever asks for a frame by its number gets it.
-static bool is_early(const Render *render) {
+static bool is_before_first_picture(const Render *render) {
     return render->frames.options->frame < 0 && !petri_picture_ready(render->frames.session, &render->picture);
 }
 
@@ -155,53 +149,51 @@ static void output_picture(Render *render) {
 static void report_summary(const Render *render) {
     const Frames *frames = &render->frames;
     Verbosity verbosity = frames->options->verbosity;
-    if (verbosity < LOG_NORMAL || (verbosity == LOG_NORMAL && !isatty(STDERR_FILENO))) {
+    if (verbosity < LOG_NORMAL || (verbosity == LOG_NORMAL && !isatty(STDERR_FILENO)))
         return;
-    }
     double seconds = clock_seconds() - frames->start;
     message("%" PRId64 " frame%s in %.3f s (%.1f frames/s), %" PRId64 " drawn in %.3f s meanwhile", frames->done,
             frames->done == 1 ? "" : "s", seconds, seconds > 0 ? (double)frames->done / seconds : 0, render->drawn,
-            painting_seconds(render->painting));
+            frame_writer_seconds(render->writer));
 }
 
 // Films and series keep what was drawn before a signal came; half of what a picture needs is no picture.
-static void report_stop(const Render *render, bool kept) {
+static void report_stop(const Render *render, bool saved) {
     const char *frames = render->drawn == 1 ? "frame" : "frames";
-    if (!kept) {
-        message("stopped; '%s' is not written", render->shown);
+    if (!saved) {
+        message("stopped; '%s' is not written", render->display_name);
     } else if (render->kind == OUTPUT_FILM) {
-        message("stopped; '%s' is whole, with the %" PRId64 " %s drawn so far", render->shown, render->drawn, frames);
+        message("stopped; '%s' is whole, with the %" PRId64 " %s drawn so far", render->display_name, render->drawn,
+                frames);
     } else {
-        message("stopped; '%s' has the %" PRId64 " %s drawn so far", render->shown, render->drawn, frames);
+        message("stopped; '%s' has the %" PRId64 " %s drawn so far", render->display_name, render->drawn, frames);
     }
 }
 
 static int end_render(Render *render, bool going) {
-    const char *trouble = NULL;
+    const char *error_text = NULL;
     Frames *frames = &render->frames;
     int stopped = frames_signal();
     bool keeps = render->kind != OUTPUT_PICTURE && render->drawn > 0;
     bool abandon = (stopped != 0 && !keeps) || !going || render->failed;
-    bool good = painting_finish(render->painting, frames->session, abandon, &trouble);
-    if (painting_left(render->painting) > 0) {
-        render->left = true;
-        render->drawn -= painting_left(render->painting);
+    bool good = frame_writer_finish(render->writer, frames->session, abandon, &error_text);
+    if (frame_writer_unfinished_count(render->writer) > 0) {
+        render->thread_running = true;
+        render->drawn -= frame_writer_unfinished_count(render->writer);
         stopped = frames_signal(); // which may have come just now
         keeps = keeps && render->drawn > 0;
     }
     frames_end(frames, going);
-    if (trouble != NULL) {
-        message("%s", trouble);
-    }
+    if (error_text)
+        message("%s", error_text);
     if (stopped != 0) {
-        report_stop(render, keeps && (good || render->left));
-        return frames->state.behind ? STATUS_FAILED : STATUS_SIGNAL + stopped;
+        report_stop(render, keeps && (good || render->thread_running));
+        return frames->state.outdated ? STATUS_FAILED : STATUS_SIGNAL + stopped;
     }
-    if (!going || !good || state_file_failed(&frames->state)) {
+    if (!going || !good || state_file_failed(&frames->state))
         return STATUS_FAILED;
-    }
     if (render->drawn == 0) {
-        message("no frame was drawn; '%s' is not written", render->shown);
+        message("no frame was drawn; '%s' is not written", render->display_name);
         return STATUS_FAILED;
     }
     report_summary(render);
@@ -212,65 +204,56 @@ static int render_frames(Render *render) {
     Frames *frames = &render->frames;
     const Options *options = frames->options;
     double fps = frames_fps(frames);
-    render->painting =
-        painting_start(render->kind == OUTPUT_FILM ? options->output : NULL, fps / (double)options->every, fps);
-    if (render->painting == NULL) {
+    render->writer =
+        frame_writer_start(render->kind == OUTPUT_FILM ? options->output : NULL, fps / (double)options->every, fps);
+    if (!render->writer)
         return STATUS_FAILED;
-    }
     frames_begin(frames);
     bool going = true;
     while (going && !render->failed && frames_due(frames)) {
-        going = frames_step(frames) || frames->given_up;
-        if (frames->given_up) {
+        going = frames_step(frames) || frames->abandoned;
+        if (frames->abandoned)
             break;
-        }
-        if (going && is_early(render)) {
-            frames->early++;
-        } else if (going) {
+        petri_picture_follow(frames->session, &render->picture);
+        if (going && is_before_first_picture(render))
+            frames->before_first_picture++;
+        else if (going)
             output_frame(render);
-        }
-        painting_tell(render->painting, frames->session);
-        if (going) {
-            frames_keep(frames);
-        }
+        frame_writer_report(render->writer, frames->session);
+        if (going)
+            frames_save_state(frames);
     }
-    if (going && !render->failed && frames_signal() == 0 && frames->done > 0 && render->kind == OUTPUT_PICTURE) {
+    if (going && !render->failed && frames_signal() == 0 && frames->done > 0 && render->kind == OUTPUT_PICTURE)
         output_picture(render);
-    }
     int status = end_render(render, going);
-    if (!render->left) {
-        painting_free(render->painting);
-    }
+    if (!render->thread_running)
+        frame_writer_free(render->writer);
     return status;
 }
 
 static int render_script(Render *render) {
     const Options *options = render->frames.options;
-    if (!read_output(render)) {
+    if (!read_output(render))
         return STATUS_USAGE;
-    }
     render->picture = petri_default_picture_options();
     render->picture.width = options->size.width;
     render->picture.height = options->size.height;
     render->picture.scale = options->scale;
     render->picture.automatic = options->automatic ? PETRI_AUTO_ALWAYS : PETRI_AUTO_IF_NEEDED;
-    if (!check_folder(options->output) || !frames_load(&render->frames)) {
-        return render->frames.wrong_definition ? STATUS_USAGE : STATUS_FAILED;
-    }
+    if (!check_folder(options->output) || !frames_load(&render->frames))
+        return render->frames.invalid_definition ? STATUS_USAGE : STATUS_FAILED;
     return render_frames(render);
 }
 
-static int render_run(const Host *host, Options *options) {
+static int render_run(const CommandContext *context, Options *options) {
     Render render = {.failed = false};
-    int status = frames_open(&render.frames, host, options);
-    if (status == OPTIONS_READ) {
+    int status = frames_open(&render.frames, context, options);
+    if (status == OPTIONS_READ)
         status = render_script(&render);
-    }
-    if (!piped_send(&render.piped)) {
+    if (!stdout_file_send(&render.stdout_file))
         status = STATUS_FAILED;
-    }
-    piped_close(&render.piped);
-    if (render.left) {
+    stdout_file_close(&render.stdout_file);
+    if (render.thread_running) {
         fflush(NULL);
         _exit(status); // at once: what those threads use must stay as long as they do
     }
@@ -295,7 +278,7 @@ const Command RENDER_COMMAND = {
     .examples = "  petri render dish.fl -o dish.png --frame 100    one picture\n"
                 "  petri render dish.fl -o dish%05d.png --every 10 every tenth frame\n"
                 "  petri render dish.fl -o dish.mp4 --runtime 10   ten seconds as a film\n",
-    .needed = "no script was given",
+    .missing_operand = "no script was given",
     .options = FOR_RENDER,
     .run = render_run,
 };

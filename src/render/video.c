@@ -1,6 +1,11 @@
 // video.c: films, made by an ffmpeg process.
 #include "render/video.h"
 
+#include "base/file.h"
+#include "cli/byte_buffer.h"
+#include "cli/signal_cleanup.h"
+#include "cli/subprocess.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -13,14 +18,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/file.h"
-#include "cli/bytes.h"
-#include "cli/child.h"
-#include "cli/unfinished.h"
-
 extern char **environ;
 
-enum { MOST_WORDS = 64, PIPE_BYTES = 1 << 20, FILM = 3 };
+enum { MAX_WORDS = 64, PIPE_BYTES = 1 << 20, FILM = 3 };
 
 // What comes out, by suffix: words for ffmpeg. The colours of screens are those of BT.709.
 #define COLOURS "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709"
@@ -47,14 +47,13 @@ static int find_format(const char *file) {
     size_t length = strlen(file);
     for (int i = 0; i < (int)(sizeof formats / sizeof formats[0]); i++) {
         size_t suffix = strlen(formats[i].suffix);
-        if (length > suffix && strcmp(file + length - suffix, formats[i].suffix) == 0) {
+        if (length > suffix && strcmp(file + length - suffix, formats[i].suffix) == 0)
             return i;
-        }
     }
     return -1;
 }
 
-bool video_is_name(const char *file) {
+bool video_has_suffix(const char *file) {
     return find_format(file) >= 0;
 }
 
@@ -66,22 +65,20 @@ static const char *pixel_format(void) {
     return first == 1 ? "bgra" : "argb";
 }
 
-static pid_t start(Video *video, int input, double fps) {
+static pid_t spawn_ffmpeg(Video *video, int input, double fps) {
     char size[32], rate[32];
     snprintf(size, sizeof size, "%dx%d", video->width, video->height);
     snprintf(rate, sizeof rate, "%.9g", fps);
-    const char *words[MOST_WORDS] = {
+    const char *words[MAX_WORDS] = {
         "ffmpeg",   "-hide_banner", "-nostdin",      "-loglevel",   "error",   "-xerror",    "-y",       "-f",
         "rawvideo", "-pix_fmt",     pixel_format(),  "-video_size", size,      "-framerate", rate,       "-i",
         "pipe:0",   "-an",          "-map_metadata", "-1",          "-fflags", "+bitexact",  "-flags:v", "+bitexact"};
     size_t count = 0;
-    while (words[count] != NULL) {
+    while (words[count])
         count++;
-    }
     const char *const *format = formats[find_format(video->file)].words;
-    for (size_t i = 0; format[i] != NULL; i++) {
+    for (size_t i = 0; format[i]; i++)
         words[count++] = format[i];
-    }
     words[count] = "file:/dev/fd/3"; // the film has no name yet
 
     posix_spawn_file_actions_t files;
@@ -107,24 +104,22 @@ static pid_t start(Video *video, int input, double fps) {
     return error == 0 ? pid : -1;
 }
 
-__attribute__((format(printf, 2, 3))) static void set_trouble(Video *video, const char *format, ...) {
+__attribute__((format(printf, 2, 3))) static void set_error_text(Video *video, const char *format, ...) {
     va_list list;
     va_start(list, format);
-    vsnprintf(video->trouble, sizeof video->trouble, format, list);
+    vsnprintf(video->error_text, sizeof video->error_text, format, list);
     va_end(list);
 }
 
-static void forget(Video *video) {
-    if (video->frames >= 0) {
+static void reset_video(Video *video) {
+    if (video->frames >= 0)
         close(video->frames);
-    }
-    if (video->errors >= 0) {
+    if (video->errors >= 0)
         close(video->errors);
-    }
-    unfinished_end(video->unfinished);
-    replace_abandon(&video->film);
+    signal_cleanup_end(video->cleanup_id);
+    replace_abort(&video->film);
     video->open = false;
-    video->unfinished = video->frames = video->errors = -1;
+    video->cleanup_id = video->frames = video->errors = -1;
 }
 
 static int wait_for(pid_t pid) {
@@ -135,30 +130,30 @@ static int wait_for(pid_t pid) {
 }
 
 // A signal ends this process at once: ffmpeg must not go on.
-static void abandon_now(void *context) {
+static void abort_on_signal(void *context) {
     Video *video = context;
     pid_t pid = atomic_exchange(&video->pid, 0);
     if (pid > 0) {
         kill(pid, SIGKILL);
         wait_for(pid);
     }
-    replace_abandon(&video->film);
+    replace_abort(&video->film);
 }
 
 bool video_open(Video *video, const char *file, int width, int height, double fps) {
     int ends[2] = {-1, -1};
     *video = (Video){.file = file, .open = true, .width = width, .height = height, .frames = -1};
-    video->errors = child_unnamed_file();
+    video->errors = subprocess_temporary_file();
     if (!replace_begin(&video->film, file, 0)) {
-        set_trouble(video, "cannot write '%s': %s", file, strerror(errno));
-        video->unfinished = -1;
-        forget(video);
+        set_error_text(video, "cannot write '%s': %s", file, strerror(errno));
+        video->cleanup_id = -1;
+        reset_video(video);
         return false;
     }
-    video->unfinished = unfinished_begin(abandon_now, video);
+    video->cleanup_id = signal_cleanup_begin(abort_on_signal, video);
     if (video->errors < 0 || pipe(ends) != 0) {
-        set_trouble(video, "cannot start ffmpeg: %s", strerror(errno));
-        forget(video);
+        set_error_text(video, "cannot start ffmpeg: %s", strerror(errno));
+        reset_video(video);
         return false;
     }
     fcntl(ends[0], F_SETFD, FD_CLOEXEC);
@@ -167,14 +162,14 @@ bool video_open(Video *video, const char *file, int width, int height, double fp
     fcntl(ends[1], F_SETPIPE_SZ, PIPE_BYTES);
 #endif
     video->frames = ends[1];
-    pid_t pid = start(video, ends[0], fps);
+    pid_t pid = spawn_ffmpeg(video, ends[0], fps);
     int error = errno;
     video->pid = pid < 0 ? 0 : pid;
     close(ends[0]);
     if (pid < 0) {
-        set_trouble(video, "cannot start ffmpeg, which writes '%s': %s%s", file, strerror(error),
-                    error == ENOENT ? " (Debian: apt install ffmpeg)" : "");
-        forget(video);
+        set_error_text(video, "cannot start ffmpeg, which writes '%s': %s%s", file, strerror(error),
+                       error == ENOENT ? " (Debian: apt install ffmpeg)" : "");
+        reset_video(video);
         return false;
     }
     return true;
@@ -182,67 +177,61 @@ bool video_open(Video *video, const char *file, int width, int height, double fp
 
 // The last line that ffmpeg wrote.
 static void report_failure(Video *video, int status) {
-    SCOPED_BYTES text = {0};
-    bytes_add(&text, "", 0);
-    if (lseek(video->errors, 0, SEEK_SET) == 0) {
-        bytes_read(&text, video->errors, SIZE_MAX);
-    }
-    while (text.length > 0 && (text.data[text.length - 1] == '\n' || text.data[text.length - 1] == '\r')) {
+    SCOPED_BYTE_BUFFER text = {0};
+    byte_buffer_add(&text, "", 0);
+    if (lseek(video->errors, 0, SEEK_SET) == 0)
+        byte_buffer_read(&text, video->errors, SIZE_MAX);
+    while (text.length > 0 && (text.data[text.length - 1] == '\n' || text.data[text.length - 1] == '\r'))
         text.data[--text.length] = '\0';
-    }
     const char *line = strrchr(text.data, '\n');
-    line = line == NULL ? text.data : line + 1;
+    line = !line ? text.data : line + 1;
     if (WIFSIGNALED(status)) {
-        set_trouble(video, "'%s' is not written: ffmpeg was killed by signal %d (%s)", video->file, WTERMSIG(status),
-                    strsignal(WTERMSIG(status)));
+        set_error_text(video, "'%s' is not written: ffmpeg was killed by signal %d (%s)", video->file, WTERMSIG(status),
+                       strsignal(WTERMSIG(status)));
     } else {
-        set_trouble(video, "'%s' is not written: ffmpeg failed with status %d%s%.300s", video->file,
-                    WEXITSTATUS(status), line[0] == '\0' ? "" : ": ", line);
+        set_error_text(video, "'%s' is not written: ffmpeg failed with status %d%s%.300s", video->file,
+                       WEXITSTATUS(status), line[0] == '\0' ? "" : ": ", line);
     }
 }
 
 // Ends ffmpeg's input and waits for its end. False, after a message and without the film, if it has failed.
-static bool finish(Video *video) {
+static bool finish_ffmpeg(Video *video) {
     close(video->frames);
     video->frames = -1;
     int status = wait_for(video->pid);
     video->pid = 0;
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
         return true;
-    }
     report_failure(video, status);
-    forget(video);
+    reset_video(video);
     return false;
 }
 
 bool video_add(Video *video, const uint32_t *pixels) {
     size_t length = (size_t)video->width * (size_t)video->height * sizeof *pixels;
-    if (file_write(video->frames, (const char *)pixels, length)) {
+    if (file_write(video->frames, (const char *)pixels, length))
         return true;
-    }
     // It takes no more: whatever it says, the film lacks frames.
-    if (finish(video)) {
-        set_trouble(video, "'%s' is not written: ffmpeg ended before its time", video->file);
-        forget(video);
+    if (finish_ffmpeg(video)) {
+        set_error_text(video, "'%s' is not written: ffmpeg ended before its time", video->file);
+        reset_video(video);
     }
     return false;
 }
 
 bool video_close(Video *video) {
-    if (!video->open || !finish(video)) {
+    if (!video->open || !finish_ffmpeg(video))
         return false;
-    }
     bool done = replace_commit(&video->film);
-    if (!done) {
-        set_trouble(video, "cannot write '%s': %s", video->file, strerror(errno));
-    }
-    forget(video);
+    if (!done)
+        set_error_text(video, "cannot write '%s': %s", video->file, strerror(errno));
+    reset_video(video);
     return done;
 }
 
 void video_abandon(Video *video) {
     if (video->open) {
-        abandon_now(video);
-        forget(video);
+        abort_on_signal(video);
+        reset_video(video);
     }
 }

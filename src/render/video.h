@@ -5,11 +5,11 @@
 #ifndef PETRI_SRC_VIDEO_H
 #define PETRI_SRC_VIDEO_H
 
+#include "base/replace.h"
+
 #include <stdbool.h>
 #include <stdint.h>
 #include <sys/types.h>
-
-#include "base/replace.h"
 
 typedef struct Video {
     const char *file;
@@ -17,15 +17,15 @@ typedef struct Video {
     Replacement film;
     int width;
     int height;
-    _Atomic pid_t pid; // 0: none
-    int frames;        // pipe to ffmpeg
-    int errors;        // file without a name that holds its messages
-    int unfinished;    // its number there (unfinished.h)
-    char trouble[512]; // why the last of the functions below failed
+    _Atomic pid_t pid;    // 0: none
+    int frames;           // pipe to ffmpeg
+    int errors;           // file without a name that holds its messages
+    int cleanup_id;       // its number there (signal_cleanup.h)
+    char error_text[512]; // why the last of the functions below failed
 } Video;
 
 // Whether the name's suffix is one of a film: .mp4, .webm or .gif.
-bool video_is_name(const char *file);
+bool video_has_suffix(const char *file);
 // Starts ffmpeg. False with trouble.
 bool video_open(Video *video, const char *file, int width, int height, double fps);
 // Adds a frame of width x height pixels, in rows without gaps. False, with trouble, if ffmpeg has failed; the film is

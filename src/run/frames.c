@@ -1,16 +1,16 @@
 // frames.c: the loop over a script's frames.
 #include "run/frames.h"
 
+#include "cli/parameters.h"
+#include "cli/script.h"
+#include "cli/signal_cleanup.h"
+
 #include <inttypes.h>
 #include <math.h>
 #include <pthread.h>
 #include <signal.h>
 #include <stdio.h>
 #include <unistd.h>
-
-#include "cli/parameters.h"
-#include "cli/script.h"
-#include "cli/unfinished.h"
 
 // Seconds: timeout(1) sends its signal twice, which is no second wish.
 static const double SAME_SIGNAL = 0.2;
@@ -31,7 +31,7 @@ static void on_signal(int number) {
     }
     if (interrupted) {
         if (clock_seconds() - first > SAME_SIGNAL) {
-            unfinished_act();
+            signal_cleanup_run();
             signal(number, SIG_DFL);
             raise(number);
         }
@@ -39,12 +39,10 @@ static void on_signal(int number) {
     }
     first = clock_seconds();
     interrupted = number;
-    if (working != NULL) {
+    if (working)
         petri_interrupt(working);
-    }
-    if (leave_ranks != NULL) {
+    if (leave_ranks)
         leave_ranks();
-    }
     if (number == SIGINT && isatty(STDERR_FILENO)) {
         ssize_t ignored = write(STDERR_FILENO, note, sizeof note - 1);
         (void)ignored;
@@ -60,24 +58,23 @@ static void catch_signals(void) {
     signal_catch(SIGHUP, on_signal, 0);
 }
 
-static bool wants_diagnostic(Frames *frames, PetriLevel level) {
+static bool should_print_diagnostic(Frames *frames, PetriLevel level) {
     // Notes belong to the diagnostic before them.
-    if (level != PETRI_NOTE) {
+    if (level != PETRI_NOTE)
         frames->shown_last = level == PETRI_ERROR || frames->options->verbosity > LOG_QUIET;
-    }
     return frames->shown_last;
 }
 
 static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     Frames *frames = host;
-    frames->wrong_definition = frames->wrong_definition || is_wrong_definition(diagnostic);
-    if (wants_diagnostic(frames, diagnostic->level)) {
+    frames->invalid_definition = frames->invalid_definition || is_invalid_definition(diagnostic);
+    if (should_print_diagnostic(frames, diagnostic->level)) {
         progress_erase(&frames->progress);
         fputs(diagnostic->rendered, stderr);
     }
 }
 
-int frames_open(Frames *frames, const Host *host, Options *options) {
+int frames_open(Frames *frames, const CommandContext *host, Options *options) {
     frames->options = options;
     frames->ranks = host->ranks;
     leave_ranks = host->leave_ranks;
@@ -95,7 +92,7 @@ double frames_fps(const Frames *frames) {
 
 static void save_state(Frames *frames, bool at_once) {
     const char *news = state_file_save(&frames->state, frames->session, at_once);
-    if (news != NULL) {
+    if (news) {
         progress_erase(&frames->progress);
         message("%s", news);
     }
@@ -103,29 +100,27 @@ static void save_state(Frames *frames, bool at_once) {
 
 static int64_t expected_frames(const Frames *frames) {
     double by_time = frames->options->run_time * frames_fps(frames);
-    if (!isnan(by_time) && by_time < (double)frames->options->frames) {
+    if (!isnan(by_time) && by_time < (double)frames->options->frames)
         return (int64_t)ceil(by_time);
-    }
     return frames->options->frames;
 }
 
 // Returns when all other ranks have come here.
-static void meet(const PetriRanks *ranks) {
-    for (int rank = 1; ranks != NULL && rank < ranks->count; rank++) {
+static void rank_barrier(const PetriRanks *ranks) {
+    for (int rank = 1; ranks && rank < ranks->rank_count; rank++) {
         double nothing = 0;
-        ranks->spread(ranks->host, rank, &nothing, 1, 1, 1);
+        ranks->broadcast(ranks->user_data, rank, &nothing, 1, 1, 1);
     }
 }
 
 // Rank 0 keeps the state for all, once the others have read what was there.
-static void take_state(Frames *frames) {
-    bool first = frames->ranks == NULL || frames->ranks->rank == 0;
-    if (first) {
-        meet(frames->ranks);
-    }
+static void restore_state(Frames *frames) {
+    bool first = !frames->ranks || frames->ranks->rank == 0;
+    if (first)
+        rank_barrier(frames->ranks);
     bool restored = state_file_restore(&frames->state, frames->session, frames->options->state_file);
     if (!first) {
-        meet(frames->ranks);
+        rank_barrier(frames->ranks);
         frames->state.name = NULL;
     } else if (restored) {
         save_state(frames, true); // so that a file that cannot be written is known before the work is done
@@ -133,7 +128,7 @@ static void take_state(Frames *frames) {
 }
 
 void frames_begin(Frames *frames) {
-    take_state(frames);
+    restore_state(frames);
     catch_signals();
     bool shows_progress = frames->options->verbosity > LOG_QUIET && progress_possible();
     progress_start(&frames->progress, shows_progress, expected_frames(frames));
@@ -142,52 +137,49 @@ void frames_begin(Frames *frames) {
 
 bool frames_due(const Frames *frames) {
     return !interrupted &&
-           options_due(frames->options, frames->done - frames->early, frames->start, frames_fps(frames));
+           options_due(frames->options, frames->done - frames->before_first_picture, frames->start, frames_fps(frames));
 }
 
-void frames_working(Frames *frames, bool begins) {
+void frames_set_interruptible(Frames *frames, bool begins) {
     working = begins ? frames->session : NULL;
-    if (!begins) {
-        petri_interrupted(frames->session); // what came too late must not stop the next thing
-    }
+    if (!begins)
+        petri_clear_interrupt(frames->session); // what came too late must not stop the next thing
 }
 
 bool frames_step(Frames *frames) {
-    progress_update(&frames->progress, frames->done - frames->early);
+    progress_update(&frames->progress, frames->done - frames->before_first_picture);
     int64_t number = petri_frame(frames->session).number + 1; // of the frame, even if it is given up
-    frames_working(frames, true);
+    frames_set_interruptible(frames, true);
     PetriStatus status = interrupted ? PETRI_INTERRUPTED : petri_step(frames->session);
-    frames_working(frames, false);
-    frames->given_up = status == PETRI_INTERRUPTED;
-    if (frames->given_up) {
+    frames_set_interruptible(frames, false);
+    frames->abandoned = status == PETRI_INTERRUPTED;
+    if (frames->abandoned)
         return false;
-    }
     if (status != PETRI_OK) {
         progress_erase(&frames->progress);
         message("stopped in frame %" PRId64 "%s", number,
-                status == PETRI_MEMORY  ? ": out of memory"
-                : status == PETRI_LIMIT ? "; '--work' and '--memory' set other limits"
-                                        : "");
+                status == PETRI_OUT_OF_MEMORY    ? ": out of memory"
+                : status == PETRI_LIMIT_EXCEEDED ? "; '--work' and '--memory' set other limits"
+                                                 : "");
         return false;
     }
     frames->done++;
     return true;
 }
 
-void frames_keep(Frames *frames) {
+void frames_save_state(Frames *frames) {
     int64_t every = frames->options->save_every, number = petri_frame(frames->session).number;
     save_state(frames, every > 0 && (number + 1) % every == 0);
 }
 
 void frames_end(Frames *frames, bool going) {
     progress_erase(&frames->progress);
-    if (going) {
+    if (going)
         save_state(frames, true);
-    }
-    if (interrupted && frames->ranks != NULL) {
+    if (interrupted && frames->ranks) {
         message("signal %d: a rank has died, or somebody wants an end; %s%s", (int)interrupted,
-                frames->state.name == NULL ? "no --state is kept" : "what there was of whole frames is in ",
-                frames->state.name == NULL ? "" : frames->state.name);
+                !frames->state.name ? "no --state is kept" : "what there was of whole frames is in ",
+                !frames->state.name ? "" : frames->state.name);
     }
 }
 

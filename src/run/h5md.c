@@ -9,10 +9,9 @@
 bool h5md_open(H5md *file, const char *path, const Resume *resume, Output *output) {
     char after[64] = "";
     *file = (H5md){0};
-    if (resume != NULL) {
+    if (resume)
         snprintf(after, sizeof after, "%" PRId64 " %" PRId64, resume->after, resume->expected);
-    }
-    bool started = hdf5_start(&file->writer, "trajectory", path, resume != NULL ? after : NULL);
+    bool started = hdf5_start(&file->writer, "trajectory", path, resume ? after : NULL);
     output_start(output, file->writer.stream);
     return started;
 }
@@ -24,12 +23,11 @@ static bool is_text(const void *owner, uint32_t entry, const void *key) {
 // The number that stands for the text of an id in the whole file.
 static bool number_text(H5md *file, const char *text, int64_t *number) {
     uint64_t hash = hash_bytes(0, text, strlen(text));
-    uint32_t entry = index_find(&file->index, hash, is_text, file, text);
-    if (entry == INDEX_NONE) {
+    uint32_t entry = hash_index_find(&file->index, hash, is_text, file, text);
+    if (entry == HASH_INDEX_NONE) {
         entry = (uint32_t)file->texts.count;
-        if (!index_add(&file->index, hash, entry)) {
+        if (!hash_index_add(&file->index, hash, entry))
             return false;
-        }
         texts_add(&file->texts, text);
     }
     *number = -2 - (int64_t)entry;
@@ -38,26 +36,24 @@ static bool number_text(H5md *file, const char *text, int64_t *number) {
 
 // A whole number from 0 stands for itself, all else is text.
 static bool add_id(H5md *file, PetriSession *session, PetriValue value) {
-    const double MOST = 9007199254740992; // 2^53: above it doubles are not all whole numbers
-    double number = value.length == 1 && value.numbers != NULL ? value.numbers[0] : -1;
-    int64_t id = number >= 0 && number <= MOST ? (int64_t)number : -1;
+    const double MAX_INTEGER = 9007199254740992; // 2^53: above it doubles are not all whole numbers
+    double number = value.length == 1 && value.numbers ? value.numbers[0] : -1;
+    int64_t id = number >= 0 && number <= MAX_INTEGER ? (int64_t)number : -1;
     if (id < 0 || (double)id != number) {
-        const char *text = petri_text(session, value);
-        if (text == NULL || !number_text(file, text, &id)) {
+        const char *text = petri_format_value(session, value);
+        if (!text || !number_text(file, text, &id))
             return false;
-        }
     }
-    bytes_add(&file->ids, (const char *)&id, sizeof id);
+    byte_buffer_add(&file->ids, (const char *)&id, sizeof id);
     return true;
 }
 
 static bool add_ids(H5md *file, PetriSession *session, size_t s, const PetriSystem *system) {
-    PetriColumn ids = petri_ids(session, s);
+    PetriColumn ids = petri_particle_ids(session, s);
     for (uint32_t i = 0; i < system->particle_count; i++) {
-        const double *number = ids.data == NULL ? NULL : ids.data + i * ids.stride;
-        if (!add_id(file, session, number == NULL ? petri_id(session, s, i) : (PetriValue){1, number, NULL})) {
+        const double *number = !ids.data ? NULL : ids.data + i * ids.stride;
+        if (!add_id(file, session, !number ? petri_particle_id(session, s, i) : (PetriValue){1, number, NULL}))
             return false;
-        }
     }
     return true;
 }
@@ -73,9 +69,8 @@ static void send_column(Output *output, PetriColumn column, size_t width, uint32
         output_write(output, (const char *)column.data, count * width * sizeof(double));
         return;
     }
-    for (uint32_t i = 0; i < count; i++) {
+    for (uint32_t i = 0; i < count; i++)
         output_write(output, (const char *)(column.data + i * column.stride), width * sizeof(double));
-    }
 }
 
 static void send_system(Output *output, const PetriSystem *system, const int64_t *ids) {
@@ -94,30 +89,28 @@ static void send_system(Output *output, const PetriSystem *system, const int64_t
     }
 }
 
-static void send_head(Output *output, Hdf5Act act, uint64_t bytes) {
+static void send_head(Output *output, Hdf5Command act, uint64_t bytes) {
     Hdf5Head head = {act, bytes};
     output_write(output, (const char *)&head, sizeof head);
 }
 
 bool h5md_add(H5md *file, PetriSession *session, Output *output) {
-    SCOPED_BYTES texts = {0};
+    SCOPED_BYTE_BUFFER texts = {0};
     PetriFrame now = petri_frame(session);
     Hdf5Frame frame = {.number = now.number, .time = now.time, .text_count = file->sent};
     size_t bytes = sizeof frame;
     PetriSystem system;
     file->ids.length = 0;
-    bytes_add(&file->ids, "", 0);
-    bytes_add(&texts, "", 0);
+    byte_buffer_add(&file->ids, "", 0);
+    byte_buffer_add(&texts, "", 0);
     for (; petri_system(session, frame.system_count, &system); frame.system_count++) {
-        if (!add_ids(file, session, frame.system_count, &system)) {
+        if (!add_ids(file, session, frame.system_count, &system))
             return false;
-        }
         bytes += sizeof(Hdf5System) + hdf5_padded(strlen(system.name)) +
                  system.particle_count * (2 * system.dimensions + HDF5_NUMBERS) * sizeof(double);
     }
-    for (; file->sent < file->texts.count; file->sent++) {
-        bytes_add(&texts, file->texts.items[file->sent], strlen(file->texts.items[file->sent]) + 1);
-    }
+    for (; file->sent < file->texts.count; file->sent++)
+        byte_buffer_add(&texts, file->texts.items[file->sent], strlen(file->texts.items[file->sent]) + 1);
     frame.text_count = file->sent - frame.text_count;
     frame.text_bytes = hdf5_padded(texts.length);
     send_head(output, HDF5_ADD, bytes + frame.text_bytes);
@@ -132,16 +125,16 @@ bool h5md_add(H5md *file, PetriSession *session, Output *output) {
     return true;
 }
 
-bool h5md_keep(H5md *file, Output *output) {
-    send_head(output, HDF5_SAFE, 0);
+bool h5md_sync(H5md *file, Output *output) {
+    send_head(output, HDF5_SYNC, 0);
     return output_flush(output) && hdf5_wait(&file->writer);
 }
 
 bool h5md_close(H5md *file, bool keep, Output *output) {
-    send_head(output, keep ? HDF5_KEEP : HDF5_DROP, 0);
+    send_head(output, keep ? HDF5_COMMIT : HDF5_DISCARD, 0);
     bool sent = output_flush(output);
     texts_free(&file->texts);
-    index_free(&file->index);
-    bytes_free(&file->ids);
+    hash_index_free(&file->index);
+    byte_buffer_free(&file->ids);
     return hdf5_end(&file->writer) && sent;
 }

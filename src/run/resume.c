@@ -1,6 +1,10 @@
 // resume.c: see resume.h.
 #include "run/resume.h"
 
+#include "base/file.h"
+#include "cli/cli.h"
+#include "cli/hdf5.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
@@ -11,36 +15,31 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/file.h"
-#include "cli/cli.h"
-#include "cli/hdf5.h"
-
 // A file that is read line by line.
 typedef struct Lines {
     FILE *stream;
     char *line; // with its end
-    size_t room;
+    size_t capacity;
     size_t length;
     size_t end; // bytes up to the line's end
 } Lines;
 
 // False at the end, and where a line has none: it was cut.
 static bool next_line(Lines *lines) {
-    ssize_t length = getline(&lines->line, &lines->room, lines->stream);
-    if (length <= 0 || lines->line[length - 1] != '\n') {
+    ssize_t length = getline(&lines->line, &lines->capacity, lines->stream);
+    if (length <= 0 || lines->line[length - 1] != '\n')
         return false;
-    }
     lines->length = (size_t)length;
     lines->end += (size_t)length;
     return true;
 }
 
 // The whole number that a text begins with, up to a character. False if there is none.
-static bool read_whole(const char *text, const char *ends, int64_t *number) {
+static bool read_integer(const char *text, const char *ends, int64_t *number) {
     char *end = NULL;
     errno = 0;
     *number = strtoll(text, &end, 10);
-    return errno == 0 && end > text && text[0] >= '0' && text[0] <= '9' && strchr(ends, *end) != NULL && *end != '\0';
+    return errno == 0 && end > text && text[0] >= '0' && text[0] <= '9' && strchr(ends, *end) && *end != '\0';
 }
 
 // Each returns false for what petri does not write; a frame that was cut or is later is none of those that are kept.
@@ -48,23 +47,18 @@ static bool read_whole(const char *text, const char *ends, int64_t *number) {
 static bool read_xyz(Lines *lines, int64_t after, ResumeFile *file) {
     int64_t count = 0, frame = 0;
     while (next_line(lines)) {
-        if (!read_whole(lines->line, "\n", &count)) {
+        if (!read_integer(lines->line, "\n", &count))
             return false;
-        }
-        if (!next_line(lines)) {
+        if (!next_line(lines))
             return true;
-        }
         const char *number = strstr(lines->line, " Frame=");
-        if (strncmp(lines->line, "Properties=species:S:1:pos:R:3:", 31) != 0 || number == NULL ||
-            !read_whole(number + strlen(" Frame="), "\n", &frame)) {
+        if (strncmp(lines->line, "Properties=species:S:1:pos:R:3:", 31) != 0 || !number ||
+            !read_integer(number + strlen(" Frame="), "\n", &frame))
             return false;
-        }
-        while (frame <= after && count > 0 && next_line(lines)) {
+        while (frame <= after && count > 0 && next_line(lines))
             count--;
-        }
-        if (frame > after || count > 0) {
+        if (frame > after || count > 0)
             return true;
-        }
         file->end = lines->end;
         file->last = frame;
     }
@@ -74,70 +68,61 @@ static bool read_xyz(Lines *lines, int64_t after, ResumeFile *file) {
 // `frame,time,system,id,anchor,x1,…,v1,…,radius,mass,charge`
 static bool read_header(const Lines *lines, ResumeFile *file) {
     static const char first[] = "frame,time,system,id,anchor,x1";
-    if (strncmp(lines->line, first, sizeof first - 1) != 0) {
+    if (strncmp(lines->line, first, sizeof first - 1) != 0)
         return false;
-    }
-    for (const char *at = lines->line; (at = strstr(at, ",x")) != NULL; at++) {
+    for (const char *at = lines->line; (at = strstr(at, ",x")); at++)
         file->dimensions++;
-    }
     file->end = lines->end;
     return true;
 }
 
 static bool read_csv(Lines *lines, int64_t after, ResumeFile *file) {
     int64_t frame = 0;
-    if (next_line(lines) && !read_header(lines, file)) {
+    if (next_line(lines) && !read_header(lines, file))
         return false;
-    }
     while (next_line(lines)) {
-        if (!read_whole(lines->line, ",", &frame)) {
+        if (!read_integer(lines->line, ",", &frame))
             return false;
-        }
-        if (frame > after) {
+        if (frame > after)
             return true;
-        }
         file->end = lines->end;
         file->last = frame;
     }
     return true;
 }
 
-static bool complain(const char *path, const char *why) {
+static bool report_error(const char *path, const char *why) {
     message("cannot go on with %s: %s", path, why);
     return false;
 }
 
-static bool take(ResumeFile *file, const char *path, bool csv, int64_t after) {
+static bool read_existing(ResumeFile *file, const char *path, bool csv, int64_t after) {
     struct stat info;
-    if (flock(file->fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-        return complain(path, "another petri writes it");
-    }
+    if (flock(file->fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+        return report_error(path, "another petri writes it");
     int again = fstat(file->fd, &info) == 0 && S_ISREG(info.st_mode) ? dup(file->fd) : -1;
     Lines lines = {.stream = again < 0 ? NULL : fdopen(again, "r")};
-    if (lines.stream == NULL) {
-        return complain(path, again < 0 ? "it is no regular file" : strerror(errno));
-    }
+    if (!lines.stream)
+        return report_error(path, again < 0 ? "it is no regular file" : strerror(errno));
     bool known = csv ? read_csv(&lines, after, file) : read_xyz(&lines, after, file);
     bool read = !ferror(lines.stream);
     int cause = errno;
     free(lines.line);
     fclose(lines.stream);
-    if (!read) {
-        return complain(path, strerror(cause));
-    }
-    if (!known) {
-        return complain(path, WAY_UNKNOWN);
-    }
-    return (file_cut(file->fd, file->end) && lseek(file->fd, 0, SEEK_END) >= 0) || complain(path, strerror(errno));
+    if (!read)
+        return report_error(path, strerror(cause));
+    if (!known)
+        return report_error(path, TRAJECTORY_FILE_UNKNOWN);
+    return (file_truncate(file->fd, file->end) && lseek(file->fd, 0, SEEK_END) >= 0) ||
+           report_error(path, strerror(errno));
 }
 
 bool resume_open(ResumeFile *file, const char *path, bool csv, int64_t after) {
     *file = (ResumeFile){.last = -1};
     file->fd = file_open_at(AT_FDCWD, path, O_RDWR | O_NONBLOCK, 0);
-    if (file->fd < 0) {
-        return errno == ENOENT || complain(path, strerror(errno));
-    }
-    if (!take(file, path, csv, after)) {
+    if (file->fd < 0)
+        return errno == ENOENT || report_error(path, strerror(errno));
+    if (!read_existing(file, path, csv, after)) {
         close(file->fd);
         file->fd = -1;
         return false;
@@ -145,7 +130,7 @@ bool resume_open(ResumeFile *file, const char *path, bool csv, int64_t after) {
     return true;
 }
 
-void resume_tell_gap(const char *path, int64_t last, const Resume *resume) {
+void resume_report_gap(const char *path, int64_t last, const Resume *resume) {
     if (last < resume->expected) {
         message("frames %" PRId64 " to %" PRId64 " are missing in %s, which goes on with frame %" PRId64, last + 1,
                 resume->after, path, resume->after + 1);

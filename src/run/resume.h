@@ -27,6 +27,6 @@ typedef struct ResumeFile {
 // petri is left alone.
 bool resume_open(ResumeFile *file, const char *path, bool csv, int64_t after);
 // Tells of frames that are missing between what the file has and the state.
-void resume_tell_gap(const char *path, int64_t last, const Resume *resume);
+void resume_report_gap(const char *path, int64_t last, const Resume *resume);
 
 #endif

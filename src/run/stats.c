@@ -1,10 +1,10 @@
 // stats.c: the table that `petri run --stats` closes with.
 #include "run/stats.h"
 
+#include "cli/motion.h"
+
 #include <inttypes.h>
 #include <stdio.h>
-
-#include "cli/motion.h"
 
 void stats_count(Stats *stats, PetriSession *session) {
     PetriFrame frame = petri_frame(session);
@@ -13,9 +13,8 @@ void stats_count(Stats *stats, PetriSession *session) {
     stats->evaluation_seconds += frame.evaluation_seconds;
     stats->physics_seconds += frame.physics_seconds;
     PetriSystem system;
-    for (size_t i = 0; frame.physics_steps > 0 && petri_system(session, i, &system); i++) {
+    for (size_t i = 0; frame.physics_steps > 0 && petri_system(session, i, &system); i++)
         stats->particle_steps += (double)system.steps * system.particle_count;
-    }
 }
 
 // What ranks sent each other for a system: the most that one of them did.
@@ -23,13 +22,12 @@ static void print_traffic(PetriSession *session, size_t number, const PetriRanks
     static const char *const how[] = {
         "not shared: it is small, its frames have one step, or nobody can share its forces", "by pairs", "by region"};
     enum { OWN, HALO, BYTES, MESSAGES, FRAME_BYTES, REDUCTIONS, NUMBERS };
-    PetriTraffic traffic;
-    if (ranks == NULL || !petri_traffic(session, number, &traffic)) {
+    PetriRankStats traffic;
+    if (!ranks || !petri_rank_stats(session, number, &traffic))
         return;
-    }
     double steps = traffic.steps > 0 ? (double)traffic.steps : 1,
            frames = traffic.frames > 0 ? (double)traffic.frames : 1;
-    double most[NUMBERS] = {
+    double max[NUMBERS] = {
         [OWN] = (double)traffic.own / steps,
         [HALO] = (double)traffic.halo / steps,
         [BYTES] = (double)traffic.step_bytes / steps,
@@ -37,21 +35,19 @@ static void print_traffic(PetriSession *session, size_t number, const PetriRanks
         [FRAME_BYTES] = (double)traffic.frame_bytes / frames,
         [REDUCTIONS] = (double)traffic.reductions / steps,
     };
-    ranks->most(ranks->host, most, NUMBERS);
-    fprintf(stderr, "    on %d ranks        %s\n", ranks->count, how[traffic.sharing]);
-    if (traffic.sharing == PETRI_ALONE) {
+    ranks->allreduce_max(ranks->user_data, max, NUMBERS);
+    fprintf(stderr, "    on %d ranks        %s\n", ranks->rank_count, how[traffic.decomposition]);
+    if (traffic.decomposition == PETRI_REPLICATED)
         return;
-    }
-    if (traffic.sharing == PETRI_BY_REGION) {
-        fprintf(stderr, "      particles       at most %.6g a rank, and %.6g of others\n", most[OWN], most[HALO]);
-    }
+    if (traffic.decomposition == PETRI_DOMAIN_DECOMPOSED)
+        fprintf(stderr, "      particles       at most %.6g a rank, and %.6g of others\n", max[OWN], max[HALO]);
     fprintf(stderr, "      sent by a rank  at most %.6g bytes in %.3g messages a step, %.6g bytes a frame\n",
-            most[BYTES], most[MESSAGES], most[FRAME_BYTES]);
-    fprintf(stderr, "      agreed upon     %.3g times a step\n", most[REDUCTIONS]);
+            max[BYTES], max[MESSAGES], max[FRAME_BYTES]);
+    fprintf(stderr, "      agreed upon     %.3g times a step\n", max[REDUCTIONS]);
 }
 
 static void print_system(PetriSession *session, size_t number, const PetriSystem *system) {
-    enum { MOST_COMPONENTS = 4 };
+    enum { MAX_COMPONENTS = 4 };
     fprintf(stderr, "  system %s, %" PRIu32 "-dimensional", system->name, system->dimensions);
     Motion motion = motion_measure(system);
     fprintf(stderr, ": %" PRIu32 " particle%s", motion.moving, motion.moving == 1 ? "" : "s");
@@ -60,13 +56,12 @@ static void print_system(PetriSession *session, size_t number, const PetriSystem
                 system->particle_count - motion.moving == 1 ? "" : "s");
     }
     fprintf(stderr, "\n    kinetic energy    %.9g\n    momentum          ", motion.kinetic_energy);
-    for (uint32_t k = 0; k < system->dimensions && k < MOST_COMPONENTS; k++) {
+    for (uint32_t k = 0; k < system->dimensions && k < MAX_COMPONENTS; k++)
         fprintf(stderr, "%s%.9g", k == 0 ? "" : ";", motion.momentum[k]);
-    }
-    fputs(system->dimensions > MOST_COMPONENTS ? ";…\n" : "\n", stderr);
+    fputs(system->dimensions > MAX_COMPONENTS ? ";…\n" : "\n", stderr);
     if (motion.moving > 0) {
-        const char *id = petri_text(session, petri_id(session, number, motion.fastest_particle));
-        fprintf(stderr, "    fastest particle  %s at %.9g\n", id == NULL ? "" : id, motion.fastest);
+        const char *id = petri_format_value(session, petri_particle_id(session, number, motion.fastest_particle));
+        fprintf(stderr, "    fastest particle  %s at %.9g\n", !id ? "" : id, motion.fastest);
     }
     motion_free(&motion);
 }

@@ -2,9 +2,9 @@
 #ifndef PETRI_SRC_STATS_H
 #define PETRI_SRC_STATS_H
 
-#include <stdint.h>
-
 #include "petri.h"
+
+#include <stdint.h>
 
 // Sums over the frames of a run.
 typedef struct Stats {

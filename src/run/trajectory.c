@@ -5,6 +5,13 @@
 // element". CSV: cli/particles.h. H5MD: h5md.h.
 #include "run/trajectory.h"
 
+#include "base/file.h"
+#include "cli/byte_buffer.h"
+#include "cli/cli.h"
+#include "cli/particles.h"
+#include "cli/script.h"
+#include "cli/signal_cleanup.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
@@ -15,39 +22,30 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/file.h"
-#include "cli/bytes.h"
-#include "cli/cli.h"
-#include "cli/particles.h"
-#include "cli/script.h"
-#include "cli/unfinished.h"
-
 enum { XYZ_DIMENSIONS = 3 };
 
-static bool complain(Trajectory *trajectory, int error) {
+static bool report_error(Trajectory *trajectory, int error) {
     // By petri-hdf5, which has ended; ECONNRESET if it had not read all before.
     bool told = trajectory->format == TRAJECTORY_H5MD && (error == EPIPE || error == ECONNRESET);
-    if (!trajectory->failed && !told) {
+    if (!trajectory->failed && !told)
         message("cannot write %s: %s", trajectory->path, strerror(error));
-    }
     trajectory->failed = true;
     return false;
 }
 
 // A signal ends this process at once, wherever it is: what is there of whole frames is kept.
-static void keep_now(void *context) {
+static void commit_on_signal(void *context) {
     Trajectory *trajectory = context;
     Output *output = &trajectory->output;
     int fd = output->fd;
-    bool begun = trajectory->file.file >= 0 && !trajectory->file.direct && trajectory->whole > 0;
-    if ((!begun && !trajectory->named) || trajectory->failed) {
+    bool begun = trajectory->file.file >= 0 && !trajectory->file.direct && trajectory->complete_bytes > 0;
+    if ((!begun && !trajectory->named) || trajectory->failed)
         return;
-    }
     // Of what waits, some may have been written just now: it is written once more.
     if (output->error == 0 && lseek(fd, (off_t)output->written, SEEK_SET) >= 0 &&
-        file_write(fd, output->buffer, output->used) && file_cut(fd, trajectory->whole) && !trajectory->named) {
+        file_write(fd, output->buffer, output->used) && file_truncate(fd, trajectory->complete_bytes) &&
+        !trajectory->named)
         replace_commit(&trajectory->file);
-    }
 }
 
 static TrajectoryFormat format_of(const char *path) {
@@ -58,24 +56,23 @@ static TrajectoryFormat format_of(const char *path) {
 static void write_named(Trajectory *trajectory, int fd, size_t end) {
     trajectory->named = true;
     trajectory->output.fd = fd;
-    trajectory->output.written = trajectory->whole = trajectory->safe = end;
+    trajectory->output.written = trajectory->complete_bytes = trajectory->flushed_bytes = end;
 }
 
 // False after a message.
-static bool go_on(Trajectory *trajectory, const Resume *resume) {
+static bool resume_file(Trajectory *trajectory, const Resume *resume) {
     ResumeFile file;
-    if (!resume_open(&file, trajectory->path, trajectory->format == TRAJECTORY_CSV, resume->after)) {
+    if (!resume_open(&file, trajectory->path, trajectory->format == TRAJECTORY_CSV, resume->after))
         return false;
-    }
     if (file.fd >= 0) {
         trajectory->dimensions = file.dimensions;
         write_named(trajectory, file.fd, file.end);
-        resume_tell_gap(trajectory->path, file.last, resume);
+        resume_report_gap(trajectory->path, file.last, resume);
     }
     return true;
 }
 
-static bool is_lasting(const char *path) {
+static bool is_regular_file(const char *path) {
     struct stat info;
     return stat(path, &info) != 0 || S_ISREG(info.st_mode);
 }
@@ -83,42 +80,38 @@ static bool is_lasting(const char *path) {
 bool trajectory_open(Trajectory *trajectory, const char *path, const Resume *resume) {
     trajectory->path = path;
     trajectory->format = format_of(path);
-    trajectory->resumable = resume->wanted && is_lasting(path);
+    trajectory->resumable = resume->wanted && is_regular_file(path);
     if (trajectory->format == TRAJECTORY_H5MD) {
         trajectory->open =
             h5md_open(&trajectory->h5md, path, trajectory->resumable ? resume : NULL, &trajectory->output);
         return trajectory->open;
     }
     output_start(&trajectory->output, -1);
-    if (trajectory->resumable && resume->after >= 0 && !go_on(trajectory, resume)) {
+    if (trajectory->resumable && resume->after >= 0 && !resume_file(trajectory, resume))
         return false;
-    }
     trajectory->open = trajectory->named || replace_begin(&trajectory->file, path, 0);
-    if (!trajectory->open) {
-        return complain(trajectory, errno);
-    }
+    if (!trajectory->open)
+        return report_error(trajectory, errno);
     trajectory->output.fd = trajectory->named ? trajectory->output.fd : trajectory->file.file;
-    trajectory->unfinished = unfinished_begin(keep_now, trajectory);
+    trajectory->cleanup_id = signal_cleanup_begin(commit_on_signal, trajectory);
     return true;
 }
 
-static double number(PetriColumn column, uint32_t particle) {
+static double column_number(PetriColumn column, uint32_t particle) {
     return column.data[particle * column.stride];
 }
 
 static void add_xyz_vector(Output *output, PetriColumn column, uint32_t particle, uint32_t dimensions) {
-    for (uint32_t k = 0; k < XYZ_DIMENSIONS; k++) {
+    for (uint32_t k = 0; k < XYZ_DIMENSIONS; k++)
         output_format(output, " %.17g", k < dimensions ? column.data[particle * column.stride + k] : 0);
-    }
 }
 
 static void add_xyz(Output *output, PetriSession *session) {
     PetriFrame frame = petri_frame(session);
     PetriSystem system;
     uint64_t count = 0;
-    for (size_t s = 0; petri_system(session, s, &system); s++) {
+    for (size_t s = 0; petri_system(session, s, &system); s++)
         count += system.particle_count;
-    }
     output_format(output,
                   "%" PRIu64 "\nProperties=species:S:1:pos:R:3:velo:R:3:radius:R:1:mass:R:1:charge:R:1:"
                   "id:I:1:system:I:1:anchor:I:1 Time=%.17g Frame=%" PRId64 "\n",
@@ -129,8 +122,8 @@ static void add_xyz(Output *output, PetriSession *session) {
             output_format(output, "X");
             add_xyz_vector(output, system.position, i, system.dimensions);
             add_xyz_vector(output, system.velocity, i, system.dimensions);
-            output_format(output, " %.17g %.17g %.17g %" PRIu64 " %zu %d\n", number(system.radius, i),
-                          number(system.mass, i), number(system.charge, i), id++, s,
+            output_format(output, " %.17g %.17g %.17g %" PRIu64 " %zu %d\n", column_number(system.radius, i),
+                          column_number(system.mass, i), column_number(system.charge, i), id++, s,
                           system.anchor[i * system.anchor_stride] ? 1 : 0);
         }
     }
@@ -144,7 +137,7 @@ static bool add_csv(Trajectory *trajectory, PetriSession *session) {
     return particles_rows(session, trajectory->dimensions, output_write, &trajectory->output);
 }
 
-static bool add(Trajectory *trajectory, PetriSession *session) {
+static bool add_frame(Trajectory *trajectory, PetriSession *session) {
     switch (trajectory->format) {
     case TRAJECTORY_XYZ:
         add_xyz(&trajectory->output, session);
@@ -158,89 +151,79 @@ static bool add(Trajectory *trajectory, PetriSession *session) {
 
 void trajectory_add(Trajectory *trajectory, PetriSession *session) {
     uint64_t errors = petri_diagnostic_count(session, PETRI_ERROR);
-    bool whole = add(trajectory, session);
+    bool whole = add_frame(trajectory, session);
     if (!whole || petri_diagnostic_count(session, PETRI_ERROR) != errors) { // something is missing for want of memory
-        complain(trajectory, ENOMEM);
+        report_error(trajectory, ENOMEM);
         return;
     }
     atomic_signal_fence(memory_order_seq_cst); // keep_now may look at any moment
-    trajectory->whole = trajectory->output.written + trajectory->output.used;
-    if (trajectory->output.error != 0) {
-        complain(trajectory, trajectory->output.error);
-    }
+    trajectory->complete_bytes = trajectory->output.written + trajectory->output.used;
+    if (trajectory->output.error != 0)
+        report_error(trajectory, trajectory->output.error);
 }
 
 // The file takes its name, and goes on to be written.
-static bool take_name(Trajectory *trajectory) {
+static bool commit_name(Trajectory *trajectory) {
     int fd = fcntl(trajectory->file.file, F_DUPFD_CLOEXEC, 0);
-    unfinished_end(trajectory->unfinished);
+    signal_cleanup_end(trajectory->cleanup_id);
     bool good = fd >= 0 && replace_commit(&trajectory->file);
-    if (!good) {
-        complain(trajectory, errno);
-    }
-    if (fd >= 0) {
-        write_named(trajectory, fd, trajectory->whole);
-    }
-    trajectory->unfinished = unfinished_begin(keep_now, trajectory);
+    if (!good)
+        report_error(trajectory, errno);
+    if (fd >= 0)
+        write_named(trajectory, fd, trajectory->complete_bytes);
+    trajectory->cleanup_id = signal_cleanup_begin(commit_on_signal, trajectory);
     return good;
 }
 
-bool trajectory_keep(void *context) {
+bool trajectory_sync(void *context) {
     Trajectory *trajectory = context;
-    if (!trajectory->open || !trajectory->resumable) {
+    if (!trajectory->open || !trajectory->resumable)
         return true;
-    }
-    if (trajectory->failed) {
+    if (trajectory->failed)
         return false;
-    }
     if (trajectory->format == TRAJECTORY_H5MD) {
-        trajectory->failed = !h5md_keep(&trajectory->h5md, &trajectory->output);
+        trajectory->failed = !h5md_sync(&trajectory->h5md, &trajectory->output);
         return !trajectory->failed;
     }
-    if (!output_flush(&trajectory->output)) {
-        return complain(trajectory, trajectory->output.error);
-    }
-    trajectory->safe = trajectory->whole;
-    if (!trajectory->named) {
-        return take_name(trajectory);
-    }
-    return replace_sync(trajectory->output.fd) || complain(trajectory, errno);
+    if (!output_flush(&trajectory->output))
+        return report_error(trajectory, trajectory->output.error);
+    trajectory->flushed_bytes = trajectory->complete_bytes;
+    if (!trajectory->named)
+        return commit_name(trajectory);
+    return replace_sync(trajectory->output.fd) || report_error(trajectory, errno);
 }
 
 // What could not be written as a whole is cut off.
 static bool end_named(Trajectory *trajectory, bool flushed) {
     int fd = trajectory->output.fd;
-    bool good = file_cut(fd, flushed ? trajectory->whole : trajectory->safe) && replace_sync(fd);
+    bool good = file_truncate(fd, flushed ? trajectory->complete_bytes : trajectory->flushed_bytes) && replace_sync(fd);
     int cause = errno;
     close(fd);
-    return flushed && (good || complain(trajectory, cause));
+    return flushed && (good || report_error(trajectory, cause));
 }
 
-static bool put_in_place(Trajectory *trajectory, bool keep) {
+static bool finish_file(Trajectory *trajectory, bool keep) {
     if (trajectory->format == TRAJECTORY_H5MD) {
         bool closed = h5md_close(&trajectory->h5md, keep, &trajectory->output);
-        if (!closed && trajectory->output.error != 0) {
-            complain(trajectory, trajectory->output.error);
-        }
+        if (!closed && trajectory->output.error != 0)
+            report_error(trajectory, trajectory->output.error);
         return closed;
     }
-    bool flushed = output_flush(&trajectory->output) || complain(trajectory, trajectory->output.error);
-    unfinished_end(trajectory->unfinished);
-    if (trajectory->named) {
+    bool flushed = output_flush(&trajectory->output) || report_error(trajectory, trajectory->output.error);
+    signal_cleanup_end(trajectory->cleanup_id);
+    if (trajectory->named)
         return end_named(trajectory, flushed);
-    }
     if (!flushed || !keep) {
-        replace_abandon(&trajectory->file);
+        replace_abort(&trajectory->file);
         return flushed;
     }
-    return replace_commit(&trajectory->file) || complain(trajectory, errno);
+    return replace_commit(&trajectory->file) || report_error(trajectory, errno);
 }
 
 bool trajectory_close(Trajectory *trajectory, bool good) {
-    if (!trajectory->open) {
+    if (!trajectory->open)
         return true;
-    }
     trajectory->open = false;
-    bool keep = !trajectory->failed && (good || trajectory->resumable || trajectory->whole > 0);
-    return put_in_place(trajectory, keep) && !trajectory->failed;
+    bool keep = !trajectory->failed && (good || trajectory->resumable || trajectory->complete_bytes > 0);
+    return finish_file(trajectory, keep) && !trajectory->failed;
 }

@@ -1,23 +1,22 @@
 // send.c: `petri send`: a text for a running view, and its answer.
+#include "base/file.h"
+#include "cli/options.h"
+#include "cli/output.h"
+#include "cli/script.h"
+
 #include <errno.h>
 #include <string.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <unistd.h>
 
-#include "base/file.h"
-#include "cli/options.h"
-#include "cli/output.h"
-#include "cli/script.h"
-
-static const size_t MOST_BYTES = (size_t)1 << 20;
+static const size_t MAX_BYTES = (size_t)1 << 20;
 
 static int connect_to(const char *path) {
     struct sockaddr_un address = {.sun_family = AF_UNIX};
     int descriptor = strlen(path) < sizeof address.sun_path ? socket(AF_UNIX, SOCK_STREAM, 0) : -1;
-    if (descriptor >= 0) {
+    if (descriptor >= 0)
         strcpy(address.sun_path, path);
-    }
     if (descriptor < 0 || connect(descriptor, (const struct sockaddr *)&address, sizeof address) != 0) {
         message("cannot reach a view at %s: %s; petri view SCRIPT.fl --listen %s opens one", path,
                 descriptor < 0 ? "the name is too long" : strerror(errno), path);
@@ -26,40 +25,38 @@ static int connect_to(const char *path) {
     return descriptor;
 }
 
-static int send_text(const char *path, const Bytes *text) {
+static int send_text(const char *path, const ByteBuffer *text) {
     int view = connect_to(path);
-    SCOPED_BYTES reply = {0};
-    if (view < 0) {
+    SCOPED_BYTE_BUFFER reply = {0};
+    if (view < 0)
         return STATUS_FAILED;
-    }
     bool sent = file_write(view, text->data, text->length) && shutdown(view, SHUT_WR) == 0 &&
-                bytes_read(&reply, view, SIZE_MAX / 2);
+                byte_buffer_read(&reply, view, SIZE_MAX / 2);
     close(view);
     if (!sent || reply.length == 0) {
         message("the view gives no answer");
         return STATUS_FAILED;
     }
     int status = output_text(reply.data, reply.length, STATUS_DONE);
-    return status == STATUS_DONE && strstr(reply.data, "\n{\"done\": false") == NULL &&
+    return status == STATUS_DONE && !strstr(reply.data, "\n{\"done\": false") &&
                    strncmp(reply.data, "{\"done\": false", 14) != 0
                ? STATUS_DONE
                : STATUS_FAILED;
 }
 
-static int send_run(const Host *host, Options *options) {
-    (void)host;
-    if (options->argc == 1 && (strcmp(options->argv[0], "--help") == 0 || strcmp(options->argv[0], "-h") == 0)) {
+static int send_run(const CommandContext *context, Options *options) {
+    (void)context;
+    if (options->argc == 1 && (strcmp(options->argv[0], "--help") == 0 || strcmp(options->argv[0], "-h") == 0))
         return help_for(&SEND_COMMAND);
-    }
     if (options->argc != 2) {
         message("petri send takes a socket and a text: petri send /tmp/dish 'let SPEED=2', or - for standard input");
         return STATUS_USAGE;
     }
-    SCOPED_BYTES text = {0};
-    bytes_add(&text, "", 0);
+    SCOPED_BYTE_BUFFER text = {0};
+    byte_buffer_add(&text, "", 0);
     if (!script_is_stdin(options->argv[1])) {
-        bytes_add_text(&text, options->argv[1]);
-    } else if (!bytes_read(&text, STDIN_FILENO, MOST_BYTES)) {
+        byte_buffer_add_text(&text, options->argv[1]);
+    } else if (!byte_buffer_read(&text, STDIN_FILENO, MAX_BYTES)) {
         message("cannot read standard input: %s", strerror(errno));
         return STATUS_FAILED;
     }
@@ -82,6 +79,6 @@ const Command SEND_COMMAND = {
     .examples = "  petri view dish.fl --listen /tmp/dish &\n"
                 "  petri send /tmp/dish 'len($)'\n"
                 "  petri send /tmp/dish '.set SPEED 0.5'\n",
-    .raw = true,
+    .parses_arguments = true,
     .run = send_run,
 };

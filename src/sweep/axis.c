@@ -1,60 +1,58 @@
 // axis.c: the values of a name: `1;5;20`, `1..10|0.5`, both mixed, and vectors in parentheses: `(1;2);(3;4)`.
+#include "petri.h"
+#include "sweep/sweep.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "petri.h"
-#include "sweep/sweep.h"
-
-enum { MOST_VALUES = 1000000 };
+enum { MAX_VALUES = 1000000 };
 
 // How long the item at the beginning of a list is: a semicolon ends it, unless it is in parentheses.
 static size_t item_length(const char *text) {
     int depth = 0;
     size_t length = 0;
-    for (; text[length] != '\0' && (depth > 0 || text[length] != ';'); length++) {
+    for (; text[length] != '\0' && (depth > 0 || text[length] != ';'); length++)
         depth += text[length] == '(' ? 1 : text[length] == ')' ? -1 : 0;
-    }
     return length;
 }
 
 static bool read_number(const char *text, size_t length, double *x) {
-    SCOPED_TEXT number = memory_copied(text, length);
-    return petri_read_number(number, x) && isfinite(*x);
+    SCOPED_TEXT number = memory_strndup(text, length);
+    return petri_parse_number(number, x) && isfinite(*x);
 }
 
 typedef struct Range {
-    double least;
-    double most;
+    double min;
+    double max;
     double step; // 0: not given
 } Range;
 
 // `LEAST..MOST` or `LEAST..MOST|STEP`; false if the item is something else.
 static bool read_range(const char *item, Range *range) {
     const char *dots = strstr(item, "..");
-    const char *bar = dots == NULL ? NULL : strchr(dots, '|');
-    if (dots == NULL || !read_number(item, (size_t)(dots - item), &range->least)) {
+    const char *bar = !dots ? NULL : strchr(dots, '|');
+    if (!dots || !read_number(item, (size_t)(dots - item), &range->min))
         return false;
-    }
     const char *most = dots + 2;
     range->step = 0;
-    return read_number(most, bar == NULL ? strlen(most) : (size_t)(bar - most), &range->most) &&
-           (bar == NULL || (read_number(bar + 1, strlen(bar + 1), &range->step) && range->step > 0));
+    return read_number(most, !bar ? strlen(most) : (size_t)(bar - most), &range->max) &&
+           (!bar || (read_number(bar + 1, strlen(bar + 1), &range->step) && range->step > 0));
 }
 
 // Twelve digits: 0.3, where adding 0.1 three times gives 0.30000000000000004.
 static bool add_range(Axis *axis, const Range *range) {
     double step = range->step > 0 ? range->step : 1;
-    double count = floor((range->most - range->least) / step + 1e-9) + 1;
-    if (!(count >= 1 && count <= MOST_VALUES)) {
+    double count = floor((range->max - range->min) / step + 1e-9) + 1;
+    if (!(count >= 1 && count <= MAX_VALUES)) {
         message(count < 1 ? "-D %s: the range %.12g..%.12g ends before it begins"
                           : "-D %s: the range %.12g..%.12g has more than a million values; '|STEP' makes it coarser",
-                axis->name, range->least, range->most);
+                axis->name, range->min, range->max);
         return false;
     }
     for (int i = 0; i < (int)count; i++) {
         char value[32];
-        snprintf(value, sizeof value, "%.12g", range->least + i * step);
+        snprintf(value, sizeof value, "%.12g", range->min + i * step);
         texts_add(&axis->values, value);
     }
     return true;
@@ -68,14 +66,14 @@ static bool add_item(Axis *axis, const char *item, bool alone) {
         return false;
     }
     if (item[0] == '(' && item[length - 1] == ')') {
-        SCOPED_TEXT inner = memory_copied(item + 1, length - 2);
+        SCOPED_TEXT inner = memory_strndup(item + 1, length - 2);
         texts_add(&axis->values, inner);
         return true;
     }
     const char *dots = strstr(item, "..");
     double least = 0;
     if (!read_range(item, &range)) {
-        if (dots != NULL && read_number(item, (size_t)(dots - item), &least)) {
+        if (dots && read_number(item, (size_t)(dots - item), &least)) {
             message("-D %s: '%s' is not a range; 1..10 is one, and 1..10|0.5 has a step, which is above 0", axis->name,
                     item);
             return false;
@@ -83,52 +81,49 @@ static bool add_item(Axis *axis, const char *item, bool alone) {
         texts_add(&axis->values, item);
         return true;
     }
-    axis->continuous = alone && range.step == 0 && range.most > range.least;
-    axis->least = range.least;
-    axis->most = range.most;
+    axis->continuous = alone && range.step == 0 && range.max > range.min;
+    axis->min = range.min;
+    axis->max = range.max;
     return add_range(axis, &range);
 }
 
 bool axis_read(Axis *axis, const char *text) {
     size_t name = strcspn(text, "=");
-    *axis = (Axis){.name = memory_copied(text, name)};
+    *axis = (Axis){.name = memory_strndup(text, name)};
     const char *list = text + name + 1;
     bool alone = item_length(list) == strlen(list);
     for (;;) {
         size_t length = item_length(list);
-        SCOPED_TEXT item = memory_copied(list, length);
-        if (!add_item(axis, item, alone)) {
+        SCOPED_TEXT item = memory_strndup(list, length);
+        if (!add_item(axis, item, alone))
             return false;
-        }
-        if (list[length] == '\0') {
+        if (list[length] == '\0')
             return true;
-        }
         list += length + 1;
     }
 }
 
-static void add_element(Bytes *out, const char *element) {
+static void add_element(ByteBuffer *out, const char *element) {
     double x = 0;
-    if (petri_read_number(element, &x)) {
-        bytes_format(out, "(%.17g)", x);
+    if (petri_parse_number(element, &x)) {
+        byte_buffer_format(out, "(%.17g)", x);
     } else if (element[0] == ':' && element[1] != '\0') {
-        bytes_add_text(out, element);
+        byte_buffer_add_text(out, element);
     } else {
-        bytes_format(out, "'");
-        for (const char *c = element; *c != '\0'; c++) {
-            bytes_format(out, *c == '\'' || *c == '\\' ? "\\%c" : "%c", *c);
-        }
-        bytes_format(out, "'");
+        byte_buffer_format(out, "'");
+        for (const char *c = element; *c != '\0'; c++)
+            byte_buffer_format(out, *c == '\'' || *c == '\\' ? "\\%c" : "%c", *c);
+        byte_buffer_format(out, "'");
     }
 }
 
-void axis_add_literal(Bytes *out, const char *value) {
-    SCOPED_TEXT copy = memory_text(value);
+void axis_add_literal(ByteBuffer *out, const char *value) {
+    SCOPED_TEXT copy = memory_strdup(value);
     char *rest = copy;
-    bytes_format(out, "(");
-    for (const char *element = strsep(&rest, ";"); element != NULL; element = strsep(&rest, ";")) {
+    byte_buffer_format(out, "(");
+    for (const char *element = strsep(&rest, ";"); element; element = strsep(&rest, ";")) {
         add_element(out, element);
-        bytes_format(out, rest == NULL ? "" : ";");
+        byte_buffer_format(out, !rest ? "" : ";");
     }
-    bytes_format(out, ")");
+    byte_buffer_format(out, ")");
 }

@@ -1,25 +1,23 @@
 // design.c: which runs there are: all combinations of values or a sample of them, each with all seeds.
+#include "base/hash_index.h"
+#include "petri.h"
+#include "sweep/sweep.h"
+
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/table.h"
-#include "petri.h"
-#include "sweep/sweep.h"
-
-enum { MOST_RUNS = 10000000 };
+enum { MAX_RUNS = 10000000 };
 
 const char *design_value(const Design *design, size_t run, size_t axis) {
-    return design->axes[axis].values.items[design->places[run * design->axis_count + axis]];
+    return design->axes[axis].values.items[design->value_indices[run * design->axis_count + axis]];
 }
 
 static Axis *find_axis(const Design *design, const char *name) {
-    for (size_t i = 0; i < design->axis_count; i++) {
-        if (strcmp(design->axes[i].name, name) == 0) {
+    for (size_t i = 0; i < design->axis_count; i++)
+        if (strcmp(design->axes[i].name, name) == 0)
             return &design->axes[i];
-        }
-    }
     return NULL;
 }
 
@@ -29,72 +27,65 @@ static void free_axis(Axis *axis) {
 }
 
 void design_free(Design *design) {
-    for (size_t i = 0; i < design->axis_count; i++) {
+    for (size_t i = 0; i < design->axis_count; i++)
         free_axis(&design->axes[i]);
-    }
     free(design->axes);
-    free(design->places);
+    free(design->value_indices);
 }
 
 // Of a name that is given twice the last counts, as with `petri run`; so the command line changes what a plan says.
-static bool take_axis(Design *design, const char *text) {
+static bool read_axis(Design *design, const char *text) {
     Axis axis;
     bool good = axis_read(&axis, text);
-    Axis *place = find_axis(design, axis.name);
-    if (place == NULL) {
-        place = &design->axes[design->axis_count++];
-    } else {
-        free_axis(place);
-    }
-    *place = axis;
+    Axis *entry = find_axis(design, axis.name);
+    if (!entry)
+        entry = &design->axes[design->axis_count++];
+    else
+        free_axis(entry);
+    *entry = axis;
     return good;
 }
 
-static bool take_axes(Design *design, const Options *options) {
-    design->axes = memory_zeroed((options->axes.count + 1) * sizeof *design->axes);
-    for (size_t i = 0; i < options->axes.count; i++) {
-        if (!take_axis(design, options->axes.items[i])) {
+static bool read_axes(Design *design, const Options *options) {
+    design->axes = memory_calloc((options->axes.count + 1) * sizeof *design->axes);
+    for (size_t i = 0; i < options->axes.count; i++)
+        if (!read_axis(design, options->axes.items[i]))
             return false;
-        }
-    }
-    if (options->seeds == 0) {
+    if (options->seeds == 0)
         return true;
-    }
-    if (find_axis(design, "SEED") != NULL) {
+    if (find_axis(design, "SEED")) {
         message("both --seeds and -D SEED were given: --seeds N stands for -D SEED=1..N");
         return false;
     }
     char seeds[48];
     snprintf(seeds, sizeof seeds, "SEED=1..%" PRId64, options->seeds);
     design->seeded = true;
-    return take_axis(design, seeds);
+    return read_axis(design, seeds);
 }
 
 // Makes room for the runs; false after a message if there are too many.
-static bool make_room(Design *design, double runs) {
-    if (runs > MOST_RUNS) {
-        message("%.0f runs are too many: at most %d; --sample latin:N takes some of them", runs, MOST_RUNS);
+static bool alloc_runs(Design *design, double runs) {
+    if (runs > MAX_RUNS) {
+        message("%.0f runs are too many: at most %d; --sample latin:N takes some of them", runs, MAX_RUNS);
         return false;
     }
     design->run_count = (size_t)runs;
-    design->places = memory_zeroed(design->run_count * (design->axis_count + 1) * sizeof *design->places);
+    design->value_indices = memory_calloc(design->run_count * (design->axis_count + 1) * sizeof *design->value_indices);
     return true;
 }
 
 // The first name changes most slowly.
 static bool make_grid(Design *design) {
     double runs = 1;
-    for (size_t i = 0; i < design->axis_count; i++) {
+    for (size_t i = 0; i < design->axis_count; i++)
         runs *= (double)design->axes[i].values.count;
-    }
-    if (!make_room(design, runs)) {
+    if (!alloc_runs(design, runs))
         return false;
-    }
     for (size_t run = 0; run < design->run_count; run++) {
         size_t rest = run;
         for (size_t i = design->axis_count; i > 0; i--) {
             size_t count = design->axes[i - 1].values.count;
-            design->places[run * design->axis_count + i - 1] = (uint32_t)(rest % count);
+            design->value_indices[run * design->axis_count + i - 1] = (uint32_t)(rest % count);
             rest /= count;
         }
     }
@@ -110,12 +101,11 @@ typedef struct Sample {
 static bool read_sample(const char *text, Sample *sample) {
     char *end = NULL;
     long count = strncmp(text, "latin:", 6) == 0 ? strtol(text + 6, &end, 10) : 0;
-    bool good = count >= 1 && count <= MOST_RUNS;
+    bool good = count >= 1 && count <= MAX_RUNS;
     sample->count = (size_t)count;
     sample->seed = 0;
-    if (good && *end == ':' && end[1] >= '0' && end[1] <= '9') {
+    if (good && *end == ':' && end[1] >= '0' && end[1] <= '9')
         sample->seed = strtoull(end + 1, &end, 10);
-    }
     if (!good || *end != '\0') {
         message("option '--sample' expects latin:COUNT or latin:COUNT:SEED, not '%s'", text);
         return false;
@@ -136,28 +126,26 @@ static uint64_t next_random(Random *random) {
 static void sample_axis(Design *design, size_t number, const Sample *sample, size_t seeds) {
     Axis *axis = &design->axes[number];
     Random random = {.key = hash_bytes(sample->seed, axis->name, strlen(axis->name))};
-    uint32_t *slices = memory_zeroed(sample->count * sizeof *slices);
+    uint32_t *slices = memory_calloc(sample->count * sizeof *slices);
     for (uint32_t i = 0; i < sample->count; i++) {
         uint32_t other = (uint32_t)(next_random(&random) % (i + 1));
         slices[i] = slices[other];
         slices[other] = i;
     }
     size_t listed = axis->values.count;
-    if (axis->continuous) {
+    if (axis->continuous)
         texts_free(&axis->values);
-    }
     for (size_t i = 0; i < sample->count; i++) {
         double within = (double)(next_random(&random) >> 11) * 0x1p-53;
         double part = (slices[i] + within) / (double)sample->count;
-        uint32_t place = axis->continuous ? (uint32_t)i : (uint32_t)(part * (double)listed);
+        uint32_t entry = axis->continuous ? (uint32_t)i : (uint32_t)(part * (double)listed);
         if (axis->continuous) {
             char value[32];
-            snprintf(value, sizeof value, "%.12g", axis->least + part * (axis->most - axis->least));
+            snprintf(value, sizeof value, "%.12g", axis->min + part * (axis->max - axis->min));
             texts_add(&axis->values, value);
         }
-        for (size_t seed = 0; seed < seeds; seed++) {
-            design->places[(i * seeds + seed) * design->axis_count + number] = place;
-        }
+        for (size_t seed = 0; seed < seeds; seed++)
+            design->value_indices[(i * seeds + seed) * design->axis_count + number] = entry;
     }
     free(slices);
 }
@@ -165,74 +153,72 @@ static void sample_axis(Design *design, size_t number, const Sample *sample, siz
 static bool make_sample(Design *design, const char *text) {
     Sample sample;
     size_t seeds = design->seeded ? design->axes[design->axis_count - 1].values.count : 1;
-    if (!read_sample(text, &sample) || !make_room(design, (double)sample.count * (double)seeds)) {
+    if (!read_sample(text, &sample) || !alloc_runs(design, (double)sample.count * (double)seeds))
         return false;
-    }
-    for (size_t i = 0; i < design->axis_count - design->seeded; i++) {
+    for (size_t i = 0; i < design->axis_count - design->seeded; i++)
         sample_axis(design, i, &sample, seeds);
-    }
-    for (size_t run = 0; design->seeded && run < design->run_count; run++) {
-        design->places[(run + 1) * design->axis_count - 1] = (uint32_t)(run % seeds);
-    }
+    for (size_t run = 0; design->seeded && run < design->run_count; run++)
+        design->value_indices[(run + 1) * design->axis_count - 1] = (uint32_t)(run % seeds);
     return true;
 }
 
 // --- what --where leaves out
 
-typedef struct Told {
+typedef struct ConditionDiagnostics {
     bool any;
     bool shown;
-} Told;
+} ConditionDiagnostics;
 
 static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
-    Told *told = host;
+    ConditionDiagnostics *told = host;
     told->any = true;
-    if (told->shown) {
+    if (told->shown)
         fputs(diagnostic->rendered, stderr);
-    }
 }
 
 // The expression with each name as it is in a run: `(A < B) where A=(1) B=(2)`.
-static bool holds(PetriSession *session, const Design *design, size_t run, const char *where, PetriResult *result) {
-    SCOPED_BYTES text = {0};
-    bytes_format(&text, "(%s)%s", where, design->axis_count > 0 ? " where" : "");
+static bool evaluate_condition(PetriSession *session, const Design *design, size_t run, const char *where,
+                               PetriEvaluation *result) {
+    SCOPED_BYTE_BUFFER text = {0};
+    byte_buffer_format(&text, "(%s)%s", where, design->axis_count > 0 ? " where" : "");
     for (size_t i = 0; i < design->axis_count; i++) {
-        bytes_format(&text, " %s=", design->axes[i].name);
+        byte_buffer_format(&text, " %s=", design->axes[i].name);
         axis_add_literal(&text, design_value(design, run, i));
     }
     return petri_evaluate(session, text.data, text.length, result, NULL, NULL) == PETRI_OK;
 }
 
 // Tells what is wrong with it, as it was written.
-static void explain(PetriSession *session, const Design *design, size_t run, const char *where) {
-    PetriResult result;
+static void report_condition_error(PetriSession *session, const Design *design, size_t run, const char *where) {
+    PetriEvaluation result;
     for (size_t i = 0; i < design->axis_count; i++) {
-        SCOPED_BYTES definition = {0};
-        bytes_format(&definition, "%s=%s", design->axes[i].name, design_value(design, run, i));
+        SCOPED_BYTE_BUFFER definition = {0};
+        byte_buffer_format(&definition, "%s=%s", design->axes[i].name, design_value(design, run, i));
         petri_define(session, definition.data);
     }
-    petri_evaluate(session, where, PETRI_Z, &result, NULL, NULL);
+    petri_evaluate(session, where, PETRI_NUL_TERMINATED, &result, NULL, NULL);
 }
 
-static bool choose(Design *design, const char *where, const Host *host) {
-    Told told = {0};
+static bool filter_runs(Design *design, const char *where, const CommandContext *host) {
+    ConditionDiagnostics told = {0};
     bool good = true;
     PetriOptions wanted = petri_default_options();
-    wanted.stack_bytes = host->stack_bytes;
+    wanted.stack_limit = host->stack_bytes;
     wanted.no_files = true;
-    wanted.diagnostic = on_diagnostic;
-    wanted.host = &told;
+    wanted.on_diagnostic = on_diagnostic;
+    wanted.user_data = &told;
     PetriSession *session = petri_open(&wanted);
-    good = session != NULL && petri_load_text(session, "--where", "", 0) == PETRI_OK;
+    good = session && petri_load_text(session, "--where", "", 0) == PETRI_OK;
     size_t left = 0, width = design->axis_count;
     for (size_t run = 0; good && run < design->run_count; run++) {
-        PetriResult result = {0};
-        good = holds(session, design, run, where, &result) && !told.any;
+        PetriEvaluation result = {0};
+        good = evaluate_condition(session, design, run, where, &result) && !told.any;
         if (good && result.is_true) {
-            memmove(&design->places[left++ * width], &design->places[run * width], width * sizeof *design->places);
+            memmove(&design->value_indices[left++ * width], &design->value_indices[run * width],
+                    width * sizeof *design->value_indices);
         } else if (!good) {
             told.shown = true;
-            explain(session, design, run, where);
+            report_condition_error(session, design, run, where);
         }
     }
     petri_close(&session);
@@ -245,9 +231,9 @@ static bool choose(Design *design, const char *where, const Host *host) {
     return good && left > 0;
 }
 
-bool design_make(Design *design, const Options *options, const Host *host) {
+bool design_make(Design *design, const Options *options, const CommandContext *host) {
     *design = (Design){0};
-    return take_axes(design, options) &&
-           (options->sample == NULL ? make_grid(design) : make_sample(design, options->sample)) &&
-           (options->where == NULL || choose(design, options->where, host));
+    return read_axes(design, options) &&
+           (!options->sample ? make_grid(design) : make_sample(design, options->sample)) &&
+           (!options->where || filter_runs(design, options->where, host));
 }

@@ -1,6 +1,10 @@
 // journal.c: see journal.h.
 #include "sweep/journal.h"
 
+#include "base/file.h"
+#include "base/hash_index.h"
+#include "base/source.h"
+
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -10,12 +14,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/file.h"
-#include "base/source.h"
-#include "base/table.h"
-
-static void add_head(const Sweep *sweep, Bytes *text) {
-    bytes_format(text, "petri sweep 1 %s\n", sweep->identity);
+static void add_head(const Integrator *sweep, ByteBuffer *text) {
+    byte_buffer_format(text, "petri sweep 1 %s\n", sweep->identity);
 }
 
 static uint64_t checksum(size_t run, int64_t frames, const char *rows, size_t length) {
@@ -23,61 +23,59 @@ static uint64_t checksum(size_t run, int64_t frames, const char *rows, size_t le
 }
 
 // Takes the run at *at, and on to the next; false if it is not whole.
-static bool take_run(Sweep *sweep, const Bytes *text, size_t *at) {
+static bool read_run(Integrator *sweep, const ByteBuffer *text, size_t *at) {
     Str line;
     size_t next = *at, run = 0, length = 0;
     int64_t frames = 0;
     uint64_t sum = 0;
-    if (!bytes_line(text, &next, &line) || next > text->length || text->data[next - 1] != '\n' ||
+    if (!byte_buffer_next_line(text, &next, &line) || next > text->length || text->data[next - 1] != '\n' ||
         sscanf(text->data + *at, "run %zu %" SCNd64 " %zu %" SCNx64 "\n", &run, &frames, &length, &sum) != 4 ||
         run >= sweep->design.run_count || length > text->length - next ||
-        checksum(run, frames, text->data + next, length) != sum) {
+        checksum(run, frames, text->data + next, length) != sum)
         return false;
-    }
-    sweep_keep(sweep, run, frames, text->data + next, length);
+    sweep_store_result(sweep, run, frames, text->data + next, length);
     *at = next + length;
     return true;
 }
 
 // Takes the runs of a journal. Returns how many of its bytes are good, 0 if it is of another sweep.
-static size_t take_runs(Sweep *sweep, const Bytes *text) {
-    SCOPED_BYTES head = {0};
+static size_t read_runs(Integrator *sweep, const ByteBuffer *text) {
+    SCOPED_BYTE_BUFFER head = {0};
     add_head(sweep, &head);
     size_t at = head.length;
-    if (text->length < at || memcmp(text->data, head.data, at) != 0) {
+    if (text->length < at || memcmp(text->data, head.data, at) != 0)
         return 0;
-    }
-    while (at < text->length && take_run(sweep, text, &at)) {
+    while (at < text->length && read_run(sweep, text, &at)) {
     }
     return at;
 }
 
-static bool is_beginning(const Bytes *text, const Bytes *of) {
+static bool is_prefix(const ByteBuffer *text, const ByteBuffer *of) {
     return text->length < of->length && memcmp(text->data, of->data, text->length) == 0;
 }
 
-static int lock(const Journal *journal) {
+static int lock_journal(const Journal *journal) {
     struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
     return fcntl(journal->file, F_SETLK, &whole);
 }
 
 // Goes on with what is there: cuts off what is not whole.
-static int go_on(Journal *journal, Sweep *sweep) {
-    SCOPED_BYTES text = {0}, head = {0};
-    bytes_add(&text, "", 0);
+static int resume_journal(Journal *journal, Integrator *sweep) {
+    SCOPED_BYTE_BUFFER text = {0}, head = {0};
+    byte_buffer_add(&text, "", 0);
     add_head(sweep, &head);
-    if (!bytes_read(&text, journal->file, SIZE_MAX)) {
+    if (!byte_buffer_read(&text, journal->file, SIZE_MAX)) {
         message("cannot read %s: %s", journal->path, strerror(errno));
         return STATUS_FAILED;
     }
-    size_t good = take_runs(sweep, &text);
-    bool fresh = good == 0 && is_beginning(&text, &head);
+    size_t good = read_runs(sweep, &text);
+    bool fresh = good == 0 && is_prefix(&text, &head);
     if (good == 0 && !fresh) {
         message("%s is of another sweep: script, values or options have changed since; remove it to begin anew",
                 journal->path);
         return STATUS_USAGE;
     }
-    if (!file_cut(journal->file, good) || lseek(journal->file, (off_t)good, SEEK_SET) < 0 ||
+    if (!file_truncate(journal->file, good) || lseek(journal->file, (off_t)good, SEEK_SET) < 0 ||
         (fresh && !file_write(journal->file, head.data, head.length))) {
         message("cannot write %s: %s", journal->path, strerror(errno));
         return STATUS_FAILED;
@@ -85,37 +83,35 @@ static int go_on(Journal *journal, Sweep *sweep) {
     return STATUS_DONE;
 }
 
-int journal_open(Journal *journal, Sweep *sweep, const char *output) {
-    SCOPED_BYTES path = {0};
-    bytes_format(&path, "%s.part", output);
-    if (sweep->shards > 1) {
-        bytes_format(&path, "-%zu-of-%zu", sweep->shard + 1, sweep->shards);
-    }
+int journal_open(Journal *journal, Integrator *sweep, const char *output) {
+    SCOPED_BYTE_BUFFER path = {0};
+    byte_buffer_format(&path, "%s.part", output);
+    if (sweep->shards > 1)
+        byte_buffer_format(&path, "-%zu-of-%zu", sweep->shard + 1, sweep->shards);
     journal->output = output;
-    journal->path = memory_text(path.data);
+    journal->path = memory_strdup(path.data);
     journal->file = open(journal->path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (journal->file < 0) {
         message("cannot write %s: %s", journal->path, strerror(errno));
         return STATUS_FAILED;
     }
-    if (lock(journal) != 0) {
+    if (lock_journal(journal) != 0) {
         message("another petri is at work on %s", journal->path);
         return STATUS_FAILED;
     }
-    int status = go_on(journal, sweep);
-    journal_gather(journal, sweep);
+    int status = resume_journal(journal, sweep);
+    journal_merge(journal, sweep);
     return status;
 }
 
 bool journal_add(Journal *journal, size_t run, const Result *result) {
-    if (journal->path == NULL) {
+    if (!journal->path)
         return true;
-    }
-    SCOPED_BYTES text = {0};
+    SCOPED_BYTE_BUFFER text = {0};
     size_t length = strlen(result->rows);
-    bytes_format(&text, "run %zu %" PRId64 " %zu %016" PRIx64 "\n", run, result->frames, length,
-                 checksum(run, result->frames, result->rows, length));
-    bytes_add(&text, result->rows, length);
+    byte_buffer_format(&text, "run %zu %" PRId64 " %zu %016" PRIx64 "\n", run, result->frames, length,
+                       checksum(run, result->frames, result->rows, length));
+    byte_buffer_add(&text, result->rows, length);
     if (!file_write(journal->file, text.data, text.length)) {
         message("cannot write %s: %s", journal->path, strerror(errno));
         return false;
@@ -123,54 +119,51 @@ bool journal_add(Journal *journal, size_t run, const Result *result) {
     return true;
 }
 
-typedef void Visit(Sweep *sweep, const char *path, const Bytes *text);
+typedef void Visit(Integrator *sweep, const char *path, const ByteBuffer *text);
 
-static void take(Sweep *sweep, const char *path, const Bytes *text) {
+static void read_journal(Integrator *sweep, const char *path, const ByteBuffer *text) {
     (void)path;
-    take_runs(sweep, text);
+    read_runs(sweep, text);
 }
 
-static void drop(Sweep *sweep, const char *path, const Bytes *text) {
-    SCOPED_BYTES head = {0};
+static void remove_journal(Integrator *sweep, const char *path, const ByteBuffer *text) {
+    SCOPED_BYTE_BUFFER head = {0};
     add_head(sweep, &head);
-    if (text->length >= head.length && memcmp(text->data, head.data, head.length) == 0) {
+    if (text->length >= head.length && memcmp(text->data, head.data, head.length) == 0)
         unlink(path);
-    }
 }
 
 // Visits the other journals beside the table. Not our own: to close a file gives its lock up.
-static void visit(const Journal *journal, Sweep *sweep, Visit *call) {
-    SCOPED_BYTES folder = {0}, prefix = {0};
+static void visit_journals(const Journal *journal, Integrator *sweep, Visit *call) {
+    SCOPED_BYTE_BUFFER folder = {0}, prefix = {0};
     size_t name = path_directory(str_from(journal->output)).len;
-    bytes_format(&folder, "%.*s", name == 0 ? 1 : (int)name, name == 0 ? "." : journal->output);
-    bytes_format(&prefix, "%s.part", journal->output + name);
+    byte_buffer_format(&folder, "%.*s", name == 0 ? 1 : (int)name, name == 0 ? "." : journal->output);
+    byte_buffer_format(&prefix, "%s.part", journal->output + name);
     DIR *entries = opendir(folder.data);
-    for (struct dirent *entry; entries != NULL && (entry = readdir(entries)) != NULL;) {
-        SCOPED_BYTES path = {0}, text = {0};
-        bytes_format(&path, "%.*s%s", (int)name, journal->output, entry->d_name);
+    for (struct dirent *entry; entries && (entry = readdir(entries));) {
+        SCOPED_BYTE_BUFFER path = {0}, text = {0};
+        byte_buffer_format(&path, "%.*s%s", (int)name, journal->output, entry->d_name);
         if (strncmp(entry->d_name, prefix.data, prefix.length) == 0 && strcmp(path.data, journal->path) != 0) {
-            bytes_add(&text, "", 0);
-            bytes_read_file(&text, path.data);
+            byte_buffer_add(&text, "", 0);
+            byte_buffer_read_file(&text, path.data);
             call(sweep, path.data, &text);
         }
     }
-    if (entries != NULL) {
+    if (entries)
         closedir(entries);
-    }
 }
 
-void journal_gather(const Journal *journal, Sweep *sweep) {
-    visit(journal, sweep, take);
+void journal_merge(const Journal *journal, Integrator *sweep) {
+    visit_journals(journal, sweep, read_journal);
 }
 
-void journal_remove(const Journal *journal, Sweep *sweep) {
-    visit(journal, sweep, drop);
+void journal_remove(const Journal *journal, Integrator *sweep) {
+    visit_journals(journal, sweep, remove_journal);
     unlink(journal->path);
 }
 
 void journal_close(Journal *journal) {
-    if (journal->path != NULL && journal->file >= 0) {
+    if (journal->path && journal->file >= 0)
         close(journal->file);
-    }
-    memory_drop(&journal->path);
+    memory_free_text(&journal->path);
 }

@@ -16,13 +16,13 @@ typedef struct Journal {
 
 // Opens the journal beside the table `output`, and takes what is done from it and from those of others. STATUS_DONE, or
 // the status to exit with after a message.
-int journal_open(Journal *journal, Sweep *sweep, const char *output);
+int journal_open(Journal *journal, Integrator *sweep, const char *output);
 // False after a message.
 bool journal_add(Journal *journal, size_t run, const Result *result);
 // Takes what others have done meanwhile.
-void journal_gather(const Journal *journal, Sweep *sweep);
+void journal_merge(const Journal *journal, Integrator *sweep);
 // Removes all journals of the sweep: the table is there.
-void journal_remove(const Journal *journal, Sweep *sweep);
+void journal_remove(const Journal *journal, Integrator *sweep);
 void journal_close(Journal *journal);
 
 #endif

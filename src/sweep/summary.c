@@ -1,10 +1,10 @@
 // summary.c: mean, deviation and quantiles of each metric over the runs that differ in SEED alone.
+#include "sweep/table.h"
+
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "sweep/table.h"
 
 typedef struct Number {
     int64_t frame; // -1 where each run has one row
@@ -14,104 +14,95 @@ typedef struct Number {
 typedef struct NumberList {
     Number *items;
     size_t count;
-    size_t room;
+    size_t capacity;
 } NumberList;
 
 static void add_number(NumberList *list, Number number) {
-    if (list->count == list->room) {
-        list->room = 2 * list->room + 64;
-        list->items = memory_resized(list->items, list->room * sizeof *list->items);
+    if (list->count == list->capacity) {
+        list->capacity = 2 * list->capacity + 64;
+        list->items = memory_realloc(list->items, list->capacity * sizeof *list->items);
     }
     list->items[list->count++] = number;
 }
 
-static int compare(const void *a, const void *b) {
+static int compare_numbers(const void *a, const void *b) {
     const Number *x = a, *y = b;
     return x->frame != y->frame ? (x->frame > y->frame) - (x->frame < y->frame) : (x->x > y->x) - (x->x < y->x);
 }
 
 // Between two values of a sorted list as far as the part is between their places.
-static double quantile(const Number *sorted, size_t count, double part) {
-    double place = part * (double)(count - 1), below = floor(place);
+static double quantile(const Number *sorted, size_t count, double fraction) {
+    double position = fraction * (double)(count - 1), below = floor(position);
     size_t i = (size_t)below, next = i + 1 < count ? i + 1 : i;
-    return sorted[i].x + (place - below) * (sorted[next].x - sorted[i].x);
+    return sorted[i].x + (position - below) * (sorted[next].x - sorted[i].x);
 }
 
 // The values of one metric in one frame, sorted.
-static void add_statistics(Bytes *out, const Number *sorted, size_t count) {
+static void add_statistics(ByteBuffer *out, const Number *sorted, size_t count) {
     double sum = 0, squares = 0;
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < count; i++)
         sum += sorted[i].x;
-    }
     double mean = sum / (double)count;
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < count; i++)
         squares += (sorted[i].x - mean) * (sorted[i].x - mean);
-    }
-    bytes_format(out, ",%zu,%.12g,", count, mean);
-    if (count > 1) {
-        bytes_format(out, "%.12g", sqrt(squares / (double)(count - 1)));
-    }
-    for (int quarter = 0; quarter <= 4; quarter++) {
-        bytes_format(out, ",%.12g", quantile(sorted, count, quarter / 4.0));
-    }
-    bytes_format(out, "\n");
+    byte_buffer_format(out, ",%zu,%.12g,", count, mean);
+    if (count > 1)
+        byte_buffer_format(out, "%.12g", sqrt(squares / (double)(count - 1)));
+    for (int quarter = 0; quarter <= 4; quarter++)
+        byte_buffer_format(out, ",%.12g", quantile(sorted, count, quarter / 4.0));
+    byte_buffer_format(out, "\n");
 }
 
 static bool differ_in_seed_alone(const Design *design, size_t a, size_t b) {
     size_t width = design->axis_count, compared = width - design->seeded;
-    return memcmp(&design->places[a * width], &design->places[b * width], compared * sizeof *design->places) == 0;
+    return memcmp(&design->value_indices[a * width], &design->value_indices[b * width],
+                  compared * sizeof *design->value_indices) == 0;
 }
 
-static void add_values(const Design *design, size_t run, Bytes *out) {
+static void add_values(const Design *design, size_t run, ByteBuffer *out) {
     for (size_t i = 0; i < design->axis_count - design->seeded; i++) {
         csv_add(out, str_from(design_value(design, run, i)));
-        bytes_format(out, ",");
+        byte_buffer_format(out, ",");
     }
 }
 
-static void add_metric(const Sweep *sweep, size_t first, size_t end, size_t metric, Bytes *out) {
+static void add_metric(const Integrator *sweep, size_t first, size_t end, size_t metric, ByteBuffer *out) {
     NumberList list = {0};
     bool each_frame = sweep->options->row_every > 0;
     Row row;
     for (size_t run = first; run < end; run++) {
         for (const char *at = sweep->results[run].rows; row_next(&at, &row);) {
             double x = row_number(sweep, &row, metric);
-            if (!isnan(x)) {
+            if (!isnan(x))
                 add_number(&list, (Number){each_frame ? row.frame : -1, x});
-            }
         }
     }
-    if (list.count > 0) {
-        qsort(list.items, list.count, sizeof *list.items, compare);
-    }
+    if (list.count > 0)
+        qsort(list.items, list.count, sizeof *list.items, compare_numbers);
     for (size_t i = 0, next = 0; i < list.count; i = next) {
-        while (next < list.count && list.items[next].frame == list.items[i].frame) {
+        while (next < list.count && list.items[next].frame == list.items[i].frame)
             next++;
-        }
         add_values(&sweep->design, first, out);
-        if (each_frame) {
-            bytes_format(out, "%" PRId64 ",", list.items[i].frame);
-        }
+        if (each_frame)
+            byte_buffer_format(out, "%" PRId64 ",", list.items[i].frame);
         csv_add(out, str_from(row_number_name(sweep, metric)));
         add_statistics(out, list.items + i, next - i);
     }
     free(list.items);
 }
 
-void summary_make(const Sweep *sweep, Bytes *out) {
+void summary_make(const Integrator *sweep, ByteBuffer *out) {
     const Design *design = &sweep->design;
     for (size_t i = 0; i < design->axis_count - design->seeded; i++) {
         csv_add(out, str_from(design->axes[i].name));
-        bytes_format(out, ",");
+        byte_buffer_format(out, ",");
     }
-    bytes_format(out, "%smetric,runs,mean,deviation,least,quartile1,median,quartile3,most\n",
-                 sweep->options->row_every > 0 ? "frame," : "");
+    byte_buffer_format(out, "%smetric,runs,mean,deviation,least,quartile1,median,quartile3,most\n",
+                       sweep->options->row_every > 0 ? "frame," : "");
     for (size_t run = 0, end = 0; run < design->run_count; run = end) {
-        while (end < design->run_count && differ_in_seed_alone(design, run, end)) {
+        while (end < design->run_count && differ_in_seed_alone(design, run, end))
             end++;
-        }
-        for (size_t i = 0; i < row_numbers(sweep); i++) {
+        for (size_t i = 0; i < row_numbers(sweep); i++)
             add_metric(sweep, run, end, i, out);
-        }
     }
 }

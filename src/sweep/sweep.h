@@ -3,7 +3,7 @@
 #define PETRI_SRC_SWEEP_H
 
 #include "base/sha256.h"
-#include "cli/bytes.h"
+#include "cli/byte_buffer.h"
 #include "cli/options.h"
 #include "cli/progress.h"
 
@@ -12,8 +12,8 @@ typedef struct Axis {
     char *name;
     TextList values;
     bool continuous; // a range without a step: --sample takes any number between its ends
-    double least;
-    double most;
+    double min;
+    double max;
 } Axis;
 
 // All runs: which value each axis has in each.
@@ -21,7 +21,7 @@ typedef struct Design {
     Axis *axes; // with --seeds the last one is SEED
     size_t axis_count;
     bool seeded;
-    uint32_t *places; // run after run, of each axis the number of its value
+    uint32_t *value_indices; // run after run, of each axis the number of its value
     size_t run_count;
 } Design;
 
@@ -37,34 +37,34 @@ typedef struct Result {
     bool killed;    // once, by a signal from outside: it is tried again
 } Result;
 
-typedef struct Sweep {
-    const Host *host;
+typedef struct Integrator {
+    const CommandContext *host;
     const Options *options;
     Design design;
     Metric *metrics;
     size_t metric_count;
-    Bytes shared;                     // options of all runs, as words for a shell
+    ByteBuffer shared;                // options of all runs, as words for a shell
     char identity[SHA256_DIGITS + 1]; // another for each other script, design and measurement
     Result *results;                  // of each run
     size_t shard;                     // from 0: the runs whose number leaves this remainder are made here
     size_t shards;
-    TextList told; // diagnostics that were shown: each is once
-} Sweep;
+    TextList reported; // diagnostics that were shown: each is once
+} Integrator;
 
 // Finds out the design from the options. False after a message; to be freed in any case.
-bool design_make(Design *design, const Options *options, const Host *host);
+bool design_make(Design *design, const Options *options, const CommandContext *context);
 void design_free(Design *design);
 const char *design_value(const Design *design, size_t run, size_t axis);
 // Reads `NAME=VALUES`; false after a message.
 bool axis_read(Axis *axis, const char *text);
 // A value as an expression of the language.
-void axis_add_literal(Bytes *out, const char *value);
+void axis_add_literal(ByteBuffer *out, const char *value);
 
 // Whether this process is to make the run.
-bool sweep_is_ours(const Sweep *sweep, size_t run);
-void sweep_keep(Sweep *sweep, size_t run, int64_t frames, const char *rows, size_t length);
+bool sweep_owns_run(const Integrator *sweep, size_t run);
+void sweep_store_result(Integrator *sweep, size_t run, int64_t frames, const char *rows, size_t length);
 bool sweep_is_failed(const Result *result);
 // Shows a diagnostic if it was not shown before and is wanted.
-void sweep_tell(Sweep *sweep, PetriLevel level, const char *rendered);
+void sweep_report(Integrator *sweep, PetriLevel level, const char *rendered);
 
 #endif

@@ -1,17 +1,16 @@
 // table.c: the table of all runs, and the command lines that make them again.
 #include "sweep/table.h"
 
+#include "cli/script.h"
+
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/script.h"
-
 bool row_next(const char **at, Row *row) {
-    if (**at == '\0') {
+    if (**at == '\0')
         return false;
-    }
     char *cells = NULL;
     row->frame = strtoll(*at, &cells, 10);
     size_t length = strcspn(cells, "\n");
@@ -25,105 +24,99 @@ Str row_cell(const Row *row, size_t number) {
     for (;; number--) {
         cells = (Str){cells.bytes + 1, cells.len - 1}; // the tab
         const char *end = memchr(cells.bytes, '\t', cells.len);
-        size_t length = end == NULL ? cells.len : (size_t)(end - cells.bytes);
-        if (number == 0 || end == NULL) {
+        size_t length = !end ? cells.len : (size_t)(end - cells.bytes);
+        if (number == 0 || !end)
             return (Str){cells.bytes, number == 0 ? length : 0};
-        }
         cells = (Str){end, cells.len - length};
     }
 }
 
-size_t row_numbers(const Sweep *sweep) {
-    return sweep->metric_count + (sweep->options->until != NULL && sweep->options->row_every == 0);
+size_t row_numbers(const Integrator *sweep) {
+    return sweep->metric_count + (sweep->options->until && sweep->options->row_every == 0);
 }
 
-const char *row_number_name(const Sweep *sweep, size_t number) {
+const char *row_number_name(const Integrator *sweep, size_t number) {
     return number < sweep->metric_count ? sweep->metrics[number].name : "frame";
 }
 
-double row_number(const Sweep *sweep, const Row *row, size_t number) {
-    if (row_cell(row, sweep->metric_count).len > 0) {
+double row_number(const Integrator *sweep, const Row *row, size_t number) {
+    if (row_cell(row, sweep->metric_count).len > 0)
         return NAN; // an error
-    }
-    if (number == sweep->metric_count) {
+    if (number == sweep->metric_count)
         return (double)row->frame;
-    }
     Str cell = row_cell(row, number);
     char *end = NULL;
     double x = cell.len == 0 ? NAN : strtod(cell.bytes, &end);
     return end == cell.bytes + cell.len && isfinite(x) ? x : NAN;
 }
 
-void csv_add(Bytes *out, Str cell) {
+void csv_add(ByteBuffer *out, Str cell) {
     bool plain = true;
-    for (size_t i = 0; i < cell.len; i++) {
-        plain = plain && strchr(",\"\r\n", cell.bytes[i]) == NULL;
-    }
+    for (size_t i = 0; i < cell.len; i++)
+        plain = plain && !strchr(",\"\r\n", cell.bytes[i]);
     if (plain) {
-        bytes_add(out, cell.bytes, cell.len);
+        byte_buffer_add(out, cell.bytes, cell.len);
         return;
     }
-    bytes_add(out, "\"", 1);
-    for (size_t i = 0; i < cell.len; i++) {
-        bytes_add(out, cell.bytes[i] == '"' ? "\"\"" : &cell.bytes[i], cell.bytes[i] == '"' ? 2 : 1);
-    }
-    bytes_add(out, "\"", 1);
+    byte_buffer_add(out, "\"", 1);
+    for (size_t i = 0; i < cell.len; i++)
+        byte_buffer_add(out, cell.bytes[i] == '"' ? "\"\"" : &cell.bytes[i], cell.bytes[i] == '"' ? 2 : 1);
+    byte_buffer_add(out, "\"", 1);
 }
 
-static void add_run(const Sweep *sweep, size_t run, Bytes *out) {
+static void add_run(const Integrator *sweep, size_t run, ByteBuffer *out) {
     const Design *design = &sweep->design;
-    SCOPED_BYTES head = {0};
-    bytes_format(&head, "%zu,", run + 1);
+    SCOPED_BYTE_BUFFER head = {0};
+    byte_buffer_format(&head, "%zu,", run + 1);
     for (size_t i = 0; i < design->axis_count; i++) {
         csv_add(&head, str_from(design_value(design, run, i)));
-        bytes_format(&head, ",");
+        byte_buffer_format(&head, ",");
     }
     Row row;
     for (const char *at = sweep->results[run].rows; row_next(&at, &row);) {
-        bytes_add(out, head.data, head.length);
-        bytes_format(out, "%" PRId64, row.frame);
+        byte_buffer_add(out, head.data, head.length);
+        byte_buffer_format(out, "%" PRId64, row.frame);
         for (size_t i = 0; i <= sweep->metric_count; i++) {
-            bytes_format(out, ",");
+            byte_buffer_format(out, ",");
             csv_add(out, row_cell(&row, i));
         }
-        bytes_format(out, "\n");
+        byte_buffer_format(out, "\n");
     }
 }
 
-void table_make(const Sweep *sweep, Bytes *out) {
-    bytes_format(out, "run,");
+void table_make(const Integrator *sweep, ByteBuffer *out) {
+    byte_buffer_format(out, "run,");
     for (size_t i = 0; i < sweep->design.axis_count; i++) {
         csv_add(out, str_from(sweep->design.axes[i].name));
-        bytes_format(out, ",");
+        byte_buffer_format(out, ",");
     }
-    bytes_format(out, "frame,");
+    byte_buffer_format(out, "frame,");
     for (size_t i = 0; i < sweep->metric_count; i++) {
         csv_add(out, str_from(sweep->metrics[i].name));
-        bytes_format(out, ",");
+        byte_buffer_format(out, ",");
     }
-    bytes_format(out, "error\n");
-    for (size_t run = 0; run < sweep->design.run_count; run++) {
+    byte_buffer_format(out, "error\n");
+    for (size_t run = 0; run < sweep->design.run_count; run++)
         add_run(sweep, run, out);
-    }
 }
 
-void table_commands(const Sweep *sweep, Bytes *out) {
+void table_commands(const Integrator *sweep, ByteBuffer *out) {
     const Design *design = &sweep->design;
-    SCOPED_BYTES head = {0};
-    shell_add_program(&head, sweep->host->called);
-    bytes_format(&head, " run ");
+    SCOPED_BYTE_BUFFER head = {0};
+    shell_add_program(&head, sweep->host->invoked_as);
+    byte_buffer_format(&head, " run ");
     shell_add_word(&head, sweep->options->script);
-    bytes_add(&head, sweep->shared.data, sweep->shared.length);
+    byte_buffer_add(&head, sweep->shared.data, sweep->shared.length);
     for (size_t run = 0; run < design->run_count; run++) {
-        bytes_add(out, head.data, head.length);
+        byte_buffer_add(out, head.data, head.length);
         for (size_t i = 0; i < design->axis_count; i++) {
-            SCOPED_BYTES word = {0};
-            bytes_format(&word, "%s=%s", design->axes[i].name, design_value(design, run, i));
-            bytes_format(out, " -D ");
+            SCOPED_BYTE_BUFFER word = {0};
+            byte_buffer_format(&word, "%s=%s", design->axes[i].name, design_value(design, run, i));
+            byte_buffer_format(out, " -D ");
             shell_add_word(out, word.data);
         }
         // A run that was given up fails in the frame after those that it made.
         const Result *result = &sweep->results[run];
-        bytes_format(out, " --frames %" PRId64 "\n", result->frames + sweep_is_failed(result));
+        byte_buffer_format(out, " --frames %" PRId64 "\n", result->frames + sweep_is_failed(result));
     }
 }

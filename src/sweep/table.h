@@ -14,18 +14,18 @@ bool row_next(const char **at, Row *row);
 // The cell of a metric (or, behind the last, the error); empty if there is none.
 Str row_cell(const Row *row, size_t number);
 // The one number that a metric came to, else NaN. Where there are no metrics, the frame is number 0.
-double row_number(const Sweep *sweep, const Row *row, size_t number);
+double row_number(const Integrator *sweep, const Row *row, size_t number);
 // How many numbers a row has, and what they are called: the metrics, or the frame that --until was looking for.
-size_t row_numbers(const Sweep *sweep);
-const char *row_number_name(const Sweep *sweep, size_t number);
+size_t row_numbers(const Integrator *sweep);
+const char *row_number_name(const Integrator *sweep, size_t number);
 
 // A cell of a CSV file, quoted where RFC 4180 has it.
-void csv_add(Bytes *out, Str cell);
+void csv_add(ByteBuffer *out, Str cell);
 
-void table_make(const Sweep *sweep, Bytes *out);
+void table_make(const Integrator *sweep, ByteBuffer *out);
 // A line for each run, which makes it again.
-void table_commands(const Sweep *sweep, Bytes *out);
+void table_commands(const Integrator *sweep, ByteBuffer *out);
 // Mean, deviation and quantiles of each metric over the runs that differ in SEED alone.
-void summary_make(const Sweep *sweep, Bytes *out);
+void summary_make(const Integrator *sweep, ByteBuffer *out);
 
 #endif

@@ -1,7 +1,10 @@
-// pass_on.c: starting the other programs, petri-pictures, petri-lsp and petri-ranks, for what this one cannot do.
+// helper_exec.c: starting the other programs, petri-pictures, petri-lsp and petri-ranks, for what this one cannot do.
 //
 // They lie beside this one, as in a build folder, or where `meson install` puts what only other programs call.
-#include "cli/pass_on.h"
+#include "cli/helper_exec.h"
+
+#include "cli/cli.h"
+#include "cli/mpirun.h"
 
 #include <errno.h>
 #include <limits.h>
@@ -10,97 +13,88 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/cli.h"
-#include "cli/mpirun.h"
-
 #ifdef PETRI_PICTURES
 enum { HAS_ALL = true };
 #else
 enum { HAS_ALL = false };
 #endif
 
-bool pass_on_wanted(const char *first) {
+bool helper_exec_is_pictures_command(const char *first) {
     static const char *const words[] = {"view", "render", "repl", "link", "open", "help", "--help", "-h"};
-    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
-        if (strcmp(first, words[i]) == 0) {
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
+        if (strcmp(first, words[i]) == 0)
             return !HAS_ALL;
-        }
-    }
     return false;
 }
 
-bool pass_on_all(void) {
+bool helper_exec_forwards_unknown(void) {
     return !HAS_ALL;
 }
 
 // Where the path's last part begins.
-static char *last_part(char *path) {
+static char *find_base_name(char *path) {
     char *slash = strrchr(path, '/');
-    return slash == NULL ? path : slash + 1;
+    return !slash ? path : slash + 1;
 }
 
 // Becomes a program that lies beside this one or where `meson install` puts it. Returns, if that fails, why, and in
 // `path` the folder of this one.
-static int become(const char *name, char **argv, char path[PATH_MAX + 64]) {
-    static const char *const places[] = {"", "../libexec/"};
+static int exec_helper(const char *name, char **argv, char path[PATH_MAX + 64]) {
+    static const char *const folders[] = {"", "../libexec/"};
     ssize_t length = readlink("/proc/self/exe", path, PATH_MAX - 1);
-    if (length > 0) {
+    if (length > 0)
         path[length] = '\0';
-    } else if (realpath(argv[0], path) == NULL) {
+    else if (!realpath(argv[0], path))
         path[0] = '\0';
-    }
-    char *place = last_part(path);
+    char *base_name = find_base_name(path);
     int cause = 0;
-    for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
-        strcpy(place, places[i]);
-        strcat(place, name);
+    for (size_t i = 0; i < sizeof folders / sizeof folders[0]; i++) {
+        strcpy(base_name, folders[i]);
+        strcat(base_name, name);
         execvp(path, argv); // looks along PATH if there is no slash
         cause = cause == 0 || errno != ENOENT ? errno : cause;
     }
-    *place = '\0';
+    *base_name = '\0';
     return cause;
 }
 
-int pass_on_become(const char *name, char **argv) {
+int helper_exec(const char *name, char **argv) {
     char path[PATH_MAX + 64];
-    return become(name, argv, path);
+    return exec_helper(name, argv, path);
 }
 
-int pass_on(char **argv) {
+int helper_exec_pictures(char **argv) {
     char path[PATH_MAX + 64];
-    int cause = become("petri-pictures", argv, path);
+    int cause = exec_helper("petri-pictures", argv, path);
     int folder = (int)strlen(path), above = folder - 1;
-    while (above > 0 && path[above - 1] != '/') {
+    while (above > 0 && path[above - 1] != '/')
         above--;
-    }
     message("cannot start petri-pictures, which draws and prompts: %s; it belongs in %.*s or in %.*slibexec/",
             strerror(cause), folder, path, above < 0 ? 0 : above, path);
     return STATUS_FAILED;
 }
 
-int pass_on_lsp(char **argv) {
+int helper_exec_lsp(char **argv) {
 #ifdef PETRI_LSP
     (void)argv;
     return -1;
 #else
     char path[PATH_MAX + 64];
-    int cause = become("petri-lsp", argv, path);
+    int cause = exec_helper("petri-lsp", argv, path);
     message("cannot start petri-lsp, which serves editors: %s%s", strerror(cause),
             cause == ENOENT ? "; this petri was built without json-c (Debian: libjson-c-dev)" : "");
     return STATUS_FAILED;
 #endif
 }
 
-int pass_on_ranks(char **argv, bool needed) {
+int helper_exec_ranks(char **argv, bool needed) {
     int rank = 0, count = 0;
-    if (!mpirun_rank(&rank, &count)) {
+    if (!mpirun_rank(&rank, &count))
         return -1;
-    }
     char path[PATH_MAX + 64];
-    int cause = become("petri-ranks", argv, path);
-    if (cause == ENOENT && !needed) {
+    int cause = exec_helper("petri-ranks", argv, path);
+    if (cause == ENOENT && !needed)
         return -1;
-    }
     if (rank == 0) {
         message("cannot start petri-ranks, which mpirun takes: %s%s", strerror(cause),
                 cause == ENOENT ? "; this petri was built without MPI (Debian: libopenmpi-dev)" : "");

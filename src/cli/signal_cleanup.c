@@ -1,5 +1,5 @@
-// unfinished.c: see unfinished.h.
-#include "cli/unfinished.h"
+// signal_cleanup.c: see signal_cleanup.h.
+#include "cli/signal_cleanup.h"
 
 #include <poll.h>
 #include <stdatomic.h>
@@ -7,49 +7,45 @@
 #include <stddef.h>
 #include <unistd.h>
 
-enum { MOST_FILES = 4, MOMENT = 20 }; // milliseconds
+enum { MAX_FILES = 4, PAUSE_MS = 20 }; // milliseconds
 
-typedef enum EntryState { FREE, CHANGING, BEGUN } EntryState;
+typedef enum EntryState { FREE, CHANGING, REGISTERED } EntryState;
 
 // A signal handler can reach nothing but globals.
 static struct {
     atomic_int state;
-    Unfinished *act;
+    SignalCleanup *act;
     void *context;
-} entries[MOST_FILES];
+} entries[MAX_FILES];
 static atomic_bool ending;
 
-int unfinished_begin(Unfinished *act, void *context) {
-    while (atomic_load(&ending)) {
+int signal_cleanup_begin(SignalCleanup *act, void *context) {
+    while (atomic_load(&ending))
         pause();
-    }
-    for (int i = 0; i < MOST_FILES; i++) {
+    for (int i = 0; i < MAX_FILES; i++) {
         int expected = FREE;
         if (atomic_compare_exchange_strong(&entries[i].state, &expected, CHANGING)) {
             entries[i].act = act;
             entries[i].context = context;
-            atomic_store(&entries[i].state, BEGUN);
+            atomic_store(&entries[i].state, REGISTERED);
             return i;
         }
     }
     return -1;
 }
 
-void unfinished_end(int number) {
-    if (number >= 0) {
+void signal_cleanup_end(int number) {
+    if (number >= 0)
         atomic_store(&entries[number].state, FREE);
-    }
 }
 
 // Other threads are still at work; what they were just beginning is there a moment later.
-void unfinished_act(void) {
+void signal_cleanup_run(void) {
     atomic_store(&ending, true);
-    for (int round = 0; round < 2; round++) {
-        for (int i = 0; i < MOST_FILES; i++) {
-            if (atomic_load(&entries[i].state) == BEGUN) {
+    for (int pass = 0; pass < 2; pass++) {
+        for (int i = 0; i < MAX_FILES; i++)
+            if (atomic_load(&entries[i].state) == REGISTERED)
                 entries[i].act(entries[i].context);
-            }
-        }
-        poll(NULL, 0, round == 0 ? MOMENT : 0);
+        poll(NULL, 0, pass == 0 ? PAUSE_MS : 0);
     }
 }

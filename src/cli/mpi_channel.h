@@ -1,8 +1,8 @@
-// mail.h: letters between the processes that mpirun has started, for what is not done in step.
-#ifndef PETRI_SRC_MAIL_H
-#define PETRI_SRC_MAIL_H
+// mpi_channel.h: letters between the processes that mpirun has started, for what is not done in step.
+#ifndef PETRI_SRC_MPI_CHANNEL_H
+#define PETRI_SRC_MPI_CHANNEL_H
 
-#include "cli/bytes.h"
+#include "cli/byte_buffer.h"
 
 typedef struct Mail {
     int rank; // of this process, from 0
@@ -10,7 +10,7 @@ typedef struct Mail {
     // May wait until the other takes it, if it is long.
     void (*send)(int to, const void *bytes, size_t length);
     // Adds the bytes of a letter that has come; false if none has.
-    bool (*take)(int *from, Bytes *letter);
-} Mail;
+    bool (*receive)(int *from, ByteBuffer *message);
+} MpiChannel;
 
 #endif

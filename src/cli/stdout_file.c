@@ -1,5 +1,9 @@
-// piped.c: see piped.h.
-#include "cli/piped.h"
+// stdout_file.c: see stdout_file.h.
+#include "cli/stdout_file.h"
+
+#include "cli/byte_buffer.h"
+#include "cli/cli.h"
+#include "cli/output.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -7,27 +11,21 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/bytes.h"
-#include "cli/cli.h"
-#include "cli/output.h"
-
 static const char *const formats[] = {"png", "svg", "pdf", "mp4", "webm", "gif", NULL};
 
-bool piped_wanted(const char *output) {
-    return output != NULL && strcmp(output, "-") == 0;
+bool stdout_file_is_requested(const char *output) {
+    return output && strcmp(output, "-") == 0;
 }
 
 static bool is_format(const char *format) {
-    for (size_t i = 0; formats[i] != NULL; i++) {
-        if (strcmp(formats[i], format) == 0) {
+    for (size_t i = 0; formats[i]; i++)
+        if (strcmp(formats[i], format) == 0)
             return true;
-        }
-    }
     return false;
 }
 
-bool piped_check(const char *format) {
-    if (format != NULL && !is_format(format)) {
+bool stdout_file_check(const char *format) {
+    if (format && !is_format(format)) {
         message("option '--format' expects png, svg, pdf, mp4, webm or gif, not '%s'", format);
         return false;
     }
@@ -39,27 +37,26 @@ bool piped_check(const char *format) {
     return true;
 }
 
-bool piped_open(Piped *piped, const char *format) {
+bool stdout_file_open(StdoutFile *piped, const char *format) {
     const char *temporary = getenv("TMPDIR");
-    Bytes folder = {0}, file = {0};
-    bytes_format(&folder, "%s/petri.XXXXXX", temporary == NULL || temporary[0] == '\0' ? "/tmp" : temporary);
-    if (mkdtemp(folder.data) == NULL) {
+    ByteBuffer folder = {0}, file = {0};
+    byte_buffer_format(&folder, "%s/petri.XXXXXX", !temporary || temporary[0] == '\0' ? "/tmp" : temporary);
+    if (!mkdtemp(folder.data)) {
         message("cannot make a folder '%s': %s", folder.data, strerror(errno));
-        bytes_free(&folder);
+        byte_buffer_free(&folder);
         return false;
     }
-    bytes_format(&file, "%s/out.%s", folder.data, format == NULL ? "png" : format);
-    *piped = (Piped){.folder = folder.data, .file = file.data};
+    byte_buffer_format(&file, "%s/out.%s", folder.data, !format ? "png" : format);
+    *piped = (StdoutFile){.folder = folder.data, .file = file.data};
     return true;
 }
 
-bool piped_send(const Piped *piped) {
-    int fd = piped->folder == NULL ? -1 : open(piped->file, O_RDONLY | O_CLOEXEC);
-    if (fd < 0) {
+bool stdout_file_send(const StdoutFile *piped) {
+    int fd = !piped->folder ? -1 : open(piped->file, O_RDONLY | O_CLOEXEC);
+    if (fd < 0)
         return true;
-    }
-    Output *output = memory_zeroed(sizeof *output);
-    char *block = memory_zeroed(sizeof output->buffer);
+    Output *output = memory_calloc(sizeof *output);
+    char *block = memory_calloc(sizeof output->buffer);
     ssize_t got = 1;
     output_start(output, STDOUT_FILENO);
     while (got != 0 && output->error == 0) {
@@ -77,12 +74,12 @@ bool piped_send(const Piped *piped) {
     return sent;
 }
 
-void piped_close(Piped *piped) {
-    if (piped->folder != NULL) {
+void stdout_file_close(StdoutFile *piped) {
+    if (piped->folder) {
         unlink(piped->file);
         rmdir(piped->folder);
     }
     free(piped->folder);
     free(piped->file);
-    *piped = (Piped){0};
+    *piped = (StdoutFile){0};
 }

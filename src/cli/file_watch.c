@@ -1,16 +1,16 @@
-// watch.c: see watch.h. On Linux one epoll descriptor stands for inotify (something happened) and a timer (the quiet
-// after it is over); elsewhere the files are looked at by time.
-#include "cli/watch.h"
+// file_watch.c: see file_watch.h. On Linux one epoll descriptor stands for inotify (something happened) and a timer
+// (the quiet after it is over); elsewhere the files are looked at by time.
+#include "cli/file_watch.h"
+
+#include "base/source.h"
+#include "cli/byte_buffer.h"
+#include "cli/progress.h"
 
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-#include "base/source.h"
-#include "cli/bytes.h"
-#include "cli/progress.h"
 
 #ifdef __linux__
 #include <sys/epoll.h>
@@ -23,7 +23,7 @@
 
 // Seconds without a change before one is told; the most that is waited for a writer who does not close the file; and
 // between looks at all files, with and without inotify.
-static const double QUIET = 0.05, PATIENCE = 2, SELDOM = 1, OFTEN = 0.2;
+static const double QUIET_SECONDS = 0.05, MAX_WRITE_SECONDS = 2, SLOW_POLL_SECONDS = 1, FAST_POLL_SECONDS = 0.2;
 
 // What a file is, as far as stat tells.
 typedef struct Stamp {
@@ -37,31 +37,30 @@ typedef struct Stamp {
 
 typedef struct File {
     char *path;
-    Stamp told;   // as of the last time that a change was told
-    Stamp found;  // at the last look
-    double since; // when `found` was found first
-    bool pending; // differs from `told`
-    bool written; // someone has begun to write and not closed it
+    Stamp reported; // as of the last time that a change was told
+    Stamp found;    // at the last look
+    double since;   // when `found` was found first
+    bool pending;   // differs from `told`
+    bool written;   // someone has begun to write and not closed it
     // Of the folders that hold the path and what it is a link to (often the same).
     int folders[2];
     const char *names[2]; // in these folders; the second points into `target`
     char *target;
 } File;
 
-struct Watch {
+struct FileWatch {
     int wake; // epoll; -1: none
     int events;
     int timer;
     File *files;
     size_t count;
-    double looked;
+    double last_check;
 };
 
 static Stamp stamp_of(const char *path) {
     struct stat info;
-    if (stat(path, &info) != 0 || !S_ISREG(info.st_mode)) { // to read a pipe once more would wait for ever
+    if (stat(path, &info) != 0 || !S_ISREG(info.st_mode)) // to read a pipe once more would wait for ever
         return (Stamp){0};
-    }
     return (Stamp){true,
                    (int64_t)info.st_dev,
                    (int64_t)info.st_ino,
@@ -70,41 +69,39 @@ static Stamp stamp_of(const char *path) {
                    (int64_t)info.st_mtim.tv_nsec};
 }
 
-static bool same(const Stamp *a, const Stamp *b) {
+static bool is_same_stamp(const Stamp *a, const Stamp *b) {
     return memcmp(a, b, sizeof *a) == 0;
 }
 
 #if HAVE_INOTIFY
-static void close_all(Watch *watch) {
+static void close_all(FileWatch *watch) {
     int *const descriptors[] = {&watch->wake, &watch->events, &watch->timer};
     for (size_t i = 0; i < 3; i++) {
-        if (*descriptors[i] >= 0) {
+        if (*descriptors[i] >= 0)
             close(*descriptors[i]);
-        }
         *descriptors[i] = -1;
     }
 }
 
-static bool wake_by(const Watch *watch, int descriptor) {
+static bool add_wake_source(const FileWatch *watch, int descriptor) {
     struct epoll_event event = {.events = EPOLLIN};
     return descriptor >= 0 && epoll_ctl(watch->wake, EPOLL_CTL_ADD, descriptor, &event) == 0;
 }
 
 // Without descriptors to spare, looking by time has to do.
-static void open_wake(Watch *watch) {
+static void open_wake(FileWatch *watch) {
     watch->wake = epoll_create1(EPOLL_CLOEXEC);
     watch->events = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
     watch->timer = timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC);
-    if (watch->wake < 0 || !wake_by(watch, watch->events) || !wake_by(watch, watch->timer)) {
+    if (watch->wake < 0 || !add_wake_source(watch, watch->events) || !add_wake_source(watch, watch->timer))
         close_all(watch);
-    }
 }
 
 // Events of the folder that a path is in; its number, or -1.
-static int watch_folder(const Watch *watch, const char *path) {
+static int watch_folder(const FileWatch *watch, const char *path) {
     const uint32_t kinds = IN_MODIFY | IN_CLOSE_WRITE | IN_ATTRIB | IN_CREATE | IN_DELETE | IN_MOVED_FROM | IN_MOVED_TO;
     size_t length = path_directory(str_from(path)).len;
-    SCOPED_TEXT folder = length == 0 ? memory_text(".") : memory_copied(path, length);
+    SCOPED_TEXT folder = length == 0 ? memory_strdup(".") : memory_strndup(path, length);
     return watch->events < 0 ? -1 : inotify_add_watch(watch->events, folder, kinds);
 }
 
@@ -113,28 +110,26 @@ static const char *name_in_folder(const char *path) {
 }
 
 // Asking anew gives the same numbers while the folders are the same; one that was removed and made again gets another.
-static void watch_folders(const Watch *watch, File *file) {
+static void watch_folders(const FileWatch *watch, File *file) {
     free(file->target);
     file->target = realpath(file->path, NULL);
     file->folders[0] = watch_folder(watch, file->path);
     file->names[0] = name_in_folder(file->path);
-    file->folders[1] = file->target == NULL ? -1 : watch_folder(watch, file->target);
-    file->names[1] = file->target == NULL ? "" : name_in_folder(file->target);
+    file->folders[1] = !file->target ? -1 : watch_folder(watch, file->target);
+    file->names[1] = !file->target ? "" : name_in_folder(file->target);
 }
 
-static void take_event(Watch *watch, const struct inotify_event *event) {
+static void handle_event(FileWatch *watch, const struct inotify_event *event) {
     for (size_t i = 0; i < watch->count; i++) {
         File *file = &watch->files[i];
-        for (int j = 0; j < 2; j++) {
-            if (event->len > 0 && event->wd == file->folders[j] && strcmp(event->name, file->names[j]) == 0) {
+        for (int j = 0; j < 2; j++)
+            if (event->len > 0 && event->wd == file->folders[j] && strcmp(event->name, file->names[j]) == 0)
                 file->written = (event->mask & IN_MODIFY) != 0;
-            }
-        }
     }
 }
 
 // Takes what inotify and the timer have to say; true if that was anything.
-static bool take_events(Watch *watch) {
+static bool handle_events(FileWatch *watch) {
     bool any = false;
     union {
         struct inotify_event first; // for its alignment
@@ -143,7 +138,7 @@ static bool take_events(Watch *watch) {
     for (ssize_t size; watch->events >= 0 && (size = read(watch->events, buffer.bytes, sizeof buffer)) > 0;) {
         for (const char *at = buffer.bytes; at < buffer.bytes + size;) {
             const struct inotify_event *event = (const void *)at;
-            take_event(watch, event);
+            handle_event(watch, event);
             at += sizeof *event + event->len;
         }
         any = true;
@@ -153,49 +148,47 @@ static bool take_events(Watch *watch) {
 }
 
 // The descriptor shall become readable once more after so many seconds; 0: not by itself.
-static void set_timer(const Watch *watch, double seconds) {
+static void set_timer(const FileWatch *watch, double seconds) {
     struct itimerspec time = {.it_value = {(time_t)seconds, (long)((seconds - (double)(time_t)seconds) * 1e9)}};
-    if (watch->timer >= 0) {
+    if (watch->timer >= 0)
         timerfd_settime(watch->timer, 0, &time, NULL);
-    }
 }
 #else
-static void close_all(Watch *watch) {
+static void close_all(FileWatch *watch) {
     (void)watch;
 }
 
-static void open_wake(Watch *watch) {
+static void open_wake(FileWatch *watch) {
     (void)watch;
 }
 
-static void watch_folders(const Watch *watch, File *file) {
+static void watch_folders(const FileWatch *watch, File *file) {
     (void)watch;
     (void)file;
 }
 
-static bool take_events(Watch *watch) {
+static bool take_events(FileWatch *watch) {
     (void)watch;
     return false;
 }
 
-static void set_timer(const Watch *watch, double seconds) {
+static void set_timer(const FileWatch *watch, double seconds) {
     (void)watch;
     (void)seconds;
 }
 #endif
 
-Watch *watch_new(void) {
-    Watch *watch = memory_zeroed(sizeof *watch);
+FileWatch *file_watch_new(void) {
+    FileWatch *watch = memory_calloc(sizeof *watch);
     watch->wake = watch->events = watch->timer = -1;
-    watch->looked = clock_seconds();
+    watch->last_check = clock_seconds();
     open_wake(watch);
     return watch;
 }
 
-void watch_free(Watch *watch) {
-    if (watch == NULL) {
+void file_watch_free(FileWatch *watch) {
+    if (!watch)
         return;
-    }
     close_all(watch);
     for (size_t i = 0; i < watch->count; i++) {
         free(watch->files[i].path);
@@ -206,86 +199,77 @@ void watch_free(Watch *watch) {
 }
 
 // True if this file's change is to be told now; else `*wait` falls to the time until it may be.
-static bool look(const Watch *watch, File *file, double time, double *wait) {
+static bool check_file(const FileWatch *watch, File *file, double time, double *wait) {
     Stamp stamp = stamp_of(file->path);
-    if (!same(&stamp, &file->found)) {
+    if (!is_same_stamp(&stamp, &file->found)) {
         file->found = stamp;
         file->since = time;
         watch_folders(watch, file);
     }
-    file->pending = stamp.exists && !same(&stamp, &file->told);
-    if (!file->pending) {
+    file->pending = stamp.exists && !is_same_stamp(&stamp, &file->reported);
+    if (!file->pending)
         return false;
-    }
-    double left = file->since + (file->written ? PATIENCE : QUIET) - time;
+    double left = file->since + (file->written ? MAX_WRITE_SECONDS : QUIET_SECONDS) - time;
     if (left > 0) {
         *wait = left < *wait ? left : *wait;
         return false;
     }
-    file->told = stamp;
+    file->reported = stamp;
     file->pending = file->written = false;
     return true;
 }
 
-static bool any_pending(const Watch *watch) {
-    for (size_t i = 0; i < watch->count; i++) {
-        if (watch->files[i].pending) {
+static bool any_pending(const FileWatch *watch) {
+    for (size_t i = 0; i < watch->count; i++)
+        if (watch->files[i].pending)
             return true;
-        }
-    }
     return false;
 }
 
 // Whether something may happen that inotify does not tell: a folder that cannot be watched, or is gone with its file.
-static bool blind(const Watch *watch) {
-    for (size_t i = 0; i < watch->count; i++) {
-        if (watch->files[i].folders[0] < 0 || !watch->files[i].found.exists) {
+static bool needs_polling(const FileWatch *watch) {
+    for (size_t i = 0; i < watch->count; i++)
+        if (watch->files[i].folders[0] < 0 || !watch->files[i].found.exists)
             return true;
-        }
-    }
     return false;
 }
 
-static void wake_later(const Watch *watch, double wait) {
-    if (any_pending(watch)) {
+static void schedule_wake(const FileWatch *watch, double wait) {
+    if (any_pending(watch))
         set_timer(watch, wait);
-    } else {
-        set_timer(watch, blind(watch) ? SELDOM : 0);
-    }
+    else
+        set_timer(watch, needs_polling(watch) ? SLOW_POLL_SECONDS : 0);
 }
 
-void watch_file(Watch *watch, const char *path) {
-    for (size_t i = 0; i < watch->count; i++) {
-        if (strcmp(watch->files[i].path, path) == 0) {
+void file_watch_add(FileWatch *watch, const char *path) {
+    for (size_t i = 0; i < watch->count; i++)
+        if (strcmp(watch->files[i].path, path) == 0)
             return;
-        }
-    }
-    watch->files = memory_resized(watch->files, (watch->count + 1) * sizeof *watch->files);
+    watch->files = memory_realloc(watch->files, (watch->count + 1) * sizeof *watch->files);
     File *file = &watch->files[watch->count++];
-    *file = (File){.path = memory_text(path)};
+    *file = (File){.path = memory_strdup(path)};
     watch_folders(watch, file); // before the look, so that nothing is missed between the two
-    file->told = file->found = stamp_of(path);
-    wake_later(watch, QUIET);
+    file->reported = file->found = stamp_of(path);
+    schedule_wake(watch, QUIET_SECONDS);
 }
 
-bool watch_changed(Watch *watch) {
-    double time = clock_seconds(), wait = PATIENCE;
-    bool woken = take_events(watch), late = time - watch->looked >= (watch->wake >= 0 ? SELDOM : OFTEN);
-    if (!woken && !late && !any_pending(watch)) {
+bool file_watch_changed(FileWatch *watch) {
+    double time = clock_seconds(), wait = MAX_WRITE_SECONDS;
+    bool woken = handle_events(watch),
+         late = time - watch->last_check >= (watch->wake >= 0 ? SLOW_POLL_SECONDS : FAST_POLL_SECONDS);
+    if (!woken && !late && !any_pending(watch))
         return false;
-    }
-    watch->looked = time;
+    watch->last_check = time;
     bool changed = false;
     for (size_t i = 0; i < watch->count; i++) {
-        if (late && !watch->files[i].found.exists) {
+        if (late && !watch->files[i].found.exists)
             watch_folders(watch, &watch->files[i]); // its folder may be a new one
-        }
-        changed = look(watch, &watch->files[i], time, &wait) || changed;
+        changed = check_file(watch, &watch->files[i], time, &wait) || changed;
     }
-    wake_later(watch, wait);
+    schedule_wake(watch, wait);
     return changed;
 }
 
-int watch_descriptor(const Watch *watch) {
+int file_watch_descriptor(const FileWatch *watch) {
     return watch->wake;
 }

@@ -1,16 +1,16 @@
-// unfinished.h: what is still to be done about files that are being written when a signal ends the process at once.
-#ifndef PETRI_SRC_UNFINISHED_H
-#define PETRI_SRC_UNFINISHED_H
+// signal_cleanup.h: what is still to be done about files that are being written when a signal ends the process at once.
+#ifndef PETRI_SRC_SIGNAL_CLEANUP_H
+#define PETRI_SRC_SIGNAL_CLEANUP_H
 
 // Called from a signal handler, perhaps twice, and perhaps while another thread is just ending the file.
-typedef void Unfinished(void *context);
+typedef void SignalCleanup(void *context);
 
 // A file is begun. Returns its number, -1 if there are too many. Any thread may call this; it does not return once the
 // end has come.
-int unfinished_begin(Unfinished *act, void *context);
+int signal_cleanup_begin(SignalCleanup *act, void *context);
 // It is complete, or removed. -1 is fine.
-void unfinished_end(int number);
+void signal_cleanup_end(int number);
 // Does what is to be done. For a signal handler that ends the process next.
-void unfinished_act(void);
+void signal_cleanup_run(void);
 
 #endif

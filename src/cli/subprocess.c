@@ -1,0 +1,81 @@
+// subprocess.c: `petri run` in a process of its own.
+#include "cli/subprocess.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+int subprocess_temporary_file(void) {
+    const char *folder = getenv("TMPDIR");
+    SCOPED_BYTE_BUFFER path = {0};
+    byte_buffer_format(&path, "%s/petri-XXXXXX", !folder || folder[0] == '\0' ? "/tmp" : folder);
+    int fd = mkstemp(path.data);
+    if (fd >= 0) {
+        unlink(path.data);
+        fcntl(fd, F_SETFD, FD_CLOEXEC);
+    }
+    return fd;
+}
+
+// In the child: nothing here may depend on what other threads held when it was forked.
+static void exec_program(const Subprocess *child, const char *program, const char *folder, char **argv) {
+    int nothing = open("/dev/null", O_RDONLY);
+    if (nothing < 0 || dup2(nothing, STDIN_FILENO) < 0 || dup2(child->output, STDOUT_FILENO) < 0 ||
+        dup2(child->errors, STDERR_FILENO) < 0 || chdir(folder) != 0)
+        _exit(STATUS_FAILED);
+    // Ends a script that hangs, whatever it does; an alarm outlives exec.
+    alarm(SUBPROCESS_MAX_SECONDS);
+    execvp(program, argv);
+    _exit(STATUS_FAILED);
+}
+
+bool subprocess_start(Subprocess *child, const char *program, const char *folder, char **argv) {
+    *child = (Subprocess){.output = subprocess_temporary_file(), .errors = subprocess_temporary_file()};
+    child->pid = child->output < 0 || child->errors < 0 ? -1 : fork();
+    if (child->pid == 0)
+        exec_program(child, program, folder, argv);
+    if (child->pid < 0) {
+        int error = errno;
+        close(child->output);
+        close(child->errors);
+        errno = error;
+    }
+    return child->pid > 0;
+}
+
+pid_t subprocess_wait(int *status) {
+    for (;;) {
+        pid_t pid = waitpid(-1, status, 0);
+        if (pid >= 0 || errno != EINTR)
+            return pid;
+    }
+}
+
+static void read_output(int fd, ByteBuffer *text) {
+    byte_buffer_add(text, "", 0);
+    if (lseek(fd, 0, SEEK_SET) == 0 && !byte_buffer_read(text, fd, SIZE_MAX))
+        message("cannot read the output of a script: %s", strerror(errno));
+    close(fd);
+}
+
+void subprocess_collect(Subprocess *child, ByteBuffer *output, ByteBuffer *errors) {
+    read_output(child->output, output);
+    read_output(child->errors, errors);
+}
+
+void subprocess_describe(int status, const ByteBuffer *errors, ByteBuffer *error_text) {
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
+        byte_buffer_format(error_text, "did not end within %d s", SUBPROCESS_MAX_SECONDS);
+    else if (WIFSIGNALED(status))
+        byte_buffer_format(error_text, "was killed by signal %d (%s)", WTERMSIG(status), strsignal(WTERMSIG(status)));
+    else
+        byte_buffer_format(error_text, "ended with status %d", WEXITSTATUS(status));
+    size_t length = strcspn(errors->data, "\n");
+    if (length > 0)
+        byte_buffer_format(error_text, ": %.*s", length > 200 ? 200 : (int)length, errors->data);
+}

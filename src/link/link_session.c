@@ -1,0 +1,123 @@
+// link_session.c: see link_session.h.
+#include "link/link_session.h"
+
+#include "cli/script.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+// There is no file: a link has one script. Folders, for `glob`, are empty.
+static const char *note_file(void *host, const char *name, size_t *length) {
+    LinkSession *link_session = host;
+    if (!texts_contain(&link_session->requested_files, name) && !str_ends_with(str_from(name), STR("/")))
+        texts_add(&link_session->requested_files, name);
+    *length = 0;
+    return NULL;
+}
+
+// Images are asked for when they are drawn.
+static void draw_last_frame(PetriSession *session) {
+    PetriPictureOptions options = {0};
+    petri_picture_options_init(&options, sizeof options);
+    PetriPicture *picture = NULL;
+    PetriPainter *painter = petri_painter_open();
+    if (painter && petri_has_picture(session) && petri_picture(session, &options, &picture) == PETRI_OK) {
+        uint32_t pixel;
+        petri_picture_draw(picture, painter, &pixel, 1, 1, sizeof pixel);
+        petri_picture_report(session, picture);
+    }
+    petri_picture_free(&picture);
+    petri_painter_close(&painter);
+}
+
+static bool set_parameters(const LinkSession *link_session, int64_t frame) {
+    for (size_t i = 0; i < link_session->linked.change_count; i++) {
+        const LinkedChange *change = &link_session->linked.changes[i];
+        if (change->frame == frame && frame >= 0 &&
+            petri_set_parameter(link_session->frames.session, change->name, change->value) != PETRI_OK) {
+            message("the link sets %s to %s after frame %d, which the script does not take", change->name,
+                    change->value, (int)frame);
+            return false;
+        }
+    }
+    return true;
+}
+
+// The pictures of frames before the last, on which later ones may depend.
+static void render_if_needed(LinkSession *link_session) {
+    PetriSession *session = link_session->frames.session;
+    PetriPictureOptions options = petri_default_picture_options();
+    PetriPicture *picture = NULL;
+    petri_picture_follow(session, &options);
+    if (petri_frame(session).number >= link_session->linked.frame || !petri_needs_history(session) ||
+        petri_picture(session, &options, &picture) != PETRI_OK)
+        return;
+    if (!link_session->painter)
+        link_session->painter = petri_painter_open();
+    petri_picture_render(picture, link_session->painter);
+    petri_picture_report(session, picture);
+    petri_picture_free(&picture);
+}
+
+static int make_frames(LinkSession *link_session) {
+    Frames *frames = &link_session->frames;
+    frames_begin(frames);
+    bool going = true;
+    while (going && frames_due(frames)) {
+        going = frames_step(frames) && set_parameters(link_session, petri_frame(frames->session).number);
+        if (going)
+            render_if_needed(link_session);
+    }
+    frames_end(frames, going);
+    if (frames_signal() != 0)
+        return STATUS_SIGNAL + frames_signal();
+    if (!going)
+        return STATUS_FAILED;
+    draw_last_frame(frames->session);
+    return OPTIONS_READ;
+}
+
+int link_session_run(LinkSession *link_session, const CommandContext *host, Options *options) {
+    const Linked *linked = &link_session->linked;
+    for (size_t i = 0; i < linked->change_count; i++) {
+        if (linked->changes[i].frame < 0) {
+            SCOPED_BYTE_BUFFER definition = {0};
+            byte_buffer_format(&definition, "%s=%s", linked->changes[i].name, linked->changes[i].value);
+            texts_add(&options->definitions, definition.data);
+        }
+    }
+    options->read = note_file;
+    options->unsaved_host = link_session;
+    options->frames = linked->frame + 1;
+    int status = frames_open(&link_session->frames, host, options);
+    if (status != OPTIONS_READ)
+        return status;
+    if (petri_load_text(link_session->frames.session, linked->name, linked->text.data, linked->text.length) != PETRI_OK)
+        return link_session->frames.invalid_definition ? STATUS_USAGE : STATUS_FAILED;
+    return make_frames(link_session);
+}
+
+char *link_session_hash(const LinkSession *link_session) {
+    enum { DIGITS = 64 };
+    SCOPED_BYTE_BUFFER text = {0};
+    bool printed = petri_print(link_session->frames.session, PETRI_PRINT_HASH, byte_buffer_collect, &text) == PETRI_OK;
+    if (!printed || text.length < DIGITS + 1)
+        return memory_strdup("");
+    return memory_strndup(text.data + text.length - DIGITS - 1, DIGITS);
+}
+
+bool link_session_print_files(const LinkSession *link_session, const char *prefix, const char *suffix) {
+    SCOPED_BYTE_BUFFER names = {0};
+    for (size_t i = 0; i < link_session->requested_files.count; i++)
+        byte_buffer_format(&names, "%s%s", i == 0 ? "" : ", ", link_session->requested_files.items[i]);
+    if (names.length > 0)
+        message("%s%s%s", prefix, names.data, suffix);
+    return names.length > 0;
+}
+
+void link_session_close(LinkSession *link_session) {
+    petri_painter_close(&link_session->painter);
+    petri_close(&link_session->frames.session);
+    link_free(&link_session->linked);
+    texts_free(&link_session->requested_files);
+}

@@ -1,0 +1,414 @@
+// frame_writer.c: draws and writes pictures in threads of their own. Files get their names in the order of their
+// frames, so that a series that is given up has no gaps, and of frames with one name the last one's picture stays.
+#include "render/frame_writer.h"
+
+#include "base/file.h"
+#include "base/replace.h"
+#include "cli/byte_buffer.h"
+#include "cli/cli.h"
+#include "cli/progress.h"
+#include "render/recording.h"
+#include "render/video.h"
+#include "run/frames.h"
+
+#include <errno.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+enum { QUEUE = 4, MAX_WORKERS = 16, MAX_READY = 32 };
+static const double GRACE_SECONDS = 0.05; // seconds
+
+typedef struct Job Job;
+struct Job {
+    Job *next;
+    PetriPicture *picture;
+    bool for_film;
+    bool needs_history;
+    char *file; // owned, or NULL
+    Replacement target;
+    bool target_open; // the target is
+    bool failed;
+    int error;       // why it could not be put in its place; 0: it could
+    uint64_t number; // in the order in which they were added
+};
+
+struct FrameWriter {
+    pthread_mutex_t lock; // for what follows, up to the film
+    pthread_cond_t changed;
+    Job *waiting; // oldest first
+    Job **last;
+    int waiting_count;
+    int running; // taken, and not done
+    Job *ready;  // written, waiting for those before them; in any order
+    int ready_count;
+    uint64_t added;
+    uint64_t next_committed; // all before this one are where they belong
+    Job *done;
+    bool begun;  // there is a first worker
+    bool ending; // no more will be added
+    bool failed;
+    bool abandoned;      // no file gets its name any more
+    bool drawing;        // a frame of the film, which nobody has to wait for
+    bool film_abandoned; // the film ends without the frame that is being drawn
+    bool has_frame;      // it has a frame
+    int unfinished;      // that were given up in their midst
+    double seconds;
+    const char *film; // the rest is the threads' own
+    double fps;
+    Video video;
+    uint32_t *pixels; // of the film's frames
+    Recording recording;
+    pthread_t workers[MAX_WORKERS];
+    int worker_count;
+    char error_text[600];
+};
+
+static void set_error_text(FrameWriter *writer, const char *text) {
+    pthread_mutex_lock(&writer->lock);
+    if (writer->error_text[0] == '\0')
+        snprintf(writer->error_text, sizeof writer->error_text, "%s", text);
+    pthread_mutex_unlock(&writer->lock);
+}
+
+// Draws a frame of the film. If it is given up meanwhile, what the film has is no longer for this thread to touch.
+static bool draw_for_film(FrameWriter *writer, PetriPicture *picture, PetriPainter *painter) {
+    const Video *video = &writer->video;
+    pthread_mutex_lock(&writer->lock);
+    writer->drawing = true;
+    pthread_mutex_unlock(&writer->lock);
+    PetriStatus status = petri_picture_draw(picture, painter, writer->pixels, video->width, video->height,
+                                            (size_t)video->width * sizeof(uint32_t));
+    pthread_mutex_lock(&writer->lock);
+    while (writer->film_abandoned)
+        pthread_cond_wait(&writer->changed, &writer->lock); // until the process ends
+    writer->drawing = false;
+    pthread_mutex_unlock(&writer->lock);
+    if (status == PETRI_OUT_OF_MEMORY)
+        set_error_text(writer, "out of memory");
+    return status == PETRI_OK;
+}
+
+static bool add_to_film(FrameWriter *writer, PetriPicture *picture, PetriPainter *painter) {
+    Video *video = &writer->video;
+    if (!writer->pixels) {
+        int width = 0, height = 0;
+        petri_picture_size(picture, &width, &height);
+        writer->pixels = calloc((size_t)width * (size_t)height, sizeof(uint32_t));
+        if (!writer->pixels) {
+            set_error_text(writer, "out of memory");
+            return false;
+        }
+        if (!video_open(video, writer->film, width, height, writer->fps)) {
+            set_error_text(writer, video->error_text);
+            return false;
+        }
+    }
+    if (!draw_for_film(writer, picture, painter))
+        return false;
+    if (!video_add(video, writer->pixels)) {
+        set_error_text(writer, video->error_text);
+        return false;
+    }
+    writer->has_frame = true;
+    return true;
+}
+
+static bool check_saved(FrameWriter *writer, PetriStatus status) {
+    if (status == PETRI_OUT_OF_MEMORY)
+        set_error_text(writer, "out of memory");
+    return status == PETRI_OK;
+}
+
+static bool cannot_write(FrameWriter *writer, const char *file) {
+    char text[sizeof writer->error_text];
+    snprintf(text, sizeof text, "cannot write '%s': %s", file, strerror(errno));
+    set_error_text(writer, text);
+    return false;
+}
+
+static bool write_bytes(FrameWriter *writer, Job *job, const ByteBuffer *bytes) {
+    return file_write(job->target.file, bytes->data, bytes->length) || cannot_write(writer, job->file);
+}
+
+// Waits until all before it are put. False if that will not be.
+static bool wait_for_turn(FrameWriter *writer, const Job *job) {
+    pthread_mutex_lock(&writer->lock);
+    while (writer->next_committed < job->number && !writer->failed)
+        pthread_cond_wait(&writer->changed, &writer->lock);
+    bool good = !writer->failed;
+    pthread_mutex_unlock(&writer->lock);
+    return good;
+}
+
+// Writes all but the name; what is no regular file has its name already.
+static bool write_file(FrameWriter *writer, Job *job, PetriPainter *painter) {
+    SCOPED_BYTE_BUFFER bytes = {0};
+    if (!check_saved(writer, petri_picture_encode(job->picture, painter, job->file, byte_buffer_collect, &bytes)))
+        return false;
+    job->target_open = replace_begin(&job->target, job->file, 0);
+    if (!job->target_open)
+        return cannot_write(writer, job->file);
+    return (!job->target.direct || wait_for_turn(writer, job)) && write_bytes(writer, job, &bytes) &&
+           (replace_flush(&job->target) || cannot_write(writer, job->file));
+}
+
+static bool run_job(FrameWriter *writer, Job *job, PetriPainter *painter) {
+    bool good = !job->for_film || add_to_film(writer, job->picture, painter);
+    if (job->file)
+        good = good && write_file(writer, job, painter);
+    if (good && job->needs_history) {
+        good = recording_add(&writer->recording, job->picture, painter);
+        if (!good && writer->recording.error_text)
+            set_error_text(writer, writer->recording.error_text);
+    }
+    return good;
+}
+
+// Takes the next job out of those that are ready; NULL: it is not among them, or has failed.
+static Job *pop_ready_job(FrameWriter *writer) {
+    Job **at = &writer->ready;
+    while (*at && (*at)->number != writer->next_committed)
+        at = &(*at)->next;
+    Job *job = *at;
+    if (!job || job->failed)
+        return NULL;
+    *at = job->next;
+    writer->ready_count--;
+    return job;
+}
+
+// Gives what is ready its name, as far as nothing is missing before it, for the caller to end (end_jobs).
+static Job *commit_ready_jobs(FrameWriter *writer) {
+    Job *named = NULL, *job;
+    while (!writer->abandoned && (job = pop_ready_job(writer))) {
+        job->error = job->target_open && !replace_rename(&job->target) ? errno : 0;
+        writer->failed = writer->failed || job->error != 0;
+        writer->abandoned = writer->abandoned || job->error != 0;
+        writer->next_committed++;
+        job->next = named;
+        named = job;
+    }
+    return named;
+}
+
+// False if one of them has failed.
+static bool finish_jobs(FrameWriter *writer, Job *named) {
+    bool good = true;
+    for (Job *job = named; job; job = job->next) {
+        errno = job->error;
+        if (job->target_open && (job->error != 0 || !replace_end(&job->target)))
+            good = cannot_write(writer, job->file);
+    }
+    return good;
+}
+
+static void add_done(FrameWriter *writer, Job *jobs) {
+    while (jobs) {
+        Job *next = jobs->next;
+        jobs->next = writer->done;
+        writer->done = jobs;
+        jobs = next;
+    }
+}
+
+// The next job, or NULL if there will be none. Those that look back are all made by the first worker.
+static Job *pop_job(FrameWriter *writer, bool first) {
+    while (writer->waiting
+               ? (writer->waiting->needs_history && !first) || (writer->ready_count >= MAX_READY && !writer->failed)
+               : !writer->ending)
+        pthread_cond_wait(&writer->changed, &writer->lock);
+    Job *job = writer->waiting;
+    if (job) {
+        writer->waiting = job->next;
+        writer->waiting_count--;
+        if (!writer->waiting)
+            writer->last = &writer->waiting;
+        writer->running++;
+        pthread_cond_broadcast(&writer->changed);
+    }
+    return job;
+}
+
+static void *run_worker(void *context) {
+    FrameWriter *writer = context;
+    PetriPainter *painter = petri_painter_open();
+    if (!painter)
+        set_error_text(writer, "out of memory");
+    pthread_mutex_lock(&writer->lock);
+    bool first = !writer->begun;
+    writer->begun = true;
+    for (Job *job = pop_job(writer, first); job; job = pop_job(writer, first)) {
+        bool good = painter && !writer->failed;
+        pthread_mutex_unlock(&writer->lock);
+        double start = clock_seconds();
+        good = good && run_job(writer, job, painter);
+        double seconds = clock_seconds() - start;
+        pthread_mutex_lock(&writer->lock);
+        writer->seconds += seconds;
+        job->failed = !good;
+        writer->failed = writer->failed || !good;
+        job->next = writer->ready;
+        writer->ready = job;
+        writer->ready_count++;
+        Job *named = commit_ready_jobs(writer);
+        pthread_mutex_unlock(&writer->lock);
+        good = finish_jobs(writer, named);
+        pthread_mutex_lock(&writer->lock);
+        writer->failed = writer->failed || !good;
+        writer->running--;
+        add_done(writer, named);
+        pthread_cond_broadcast(&writer->changed);
+    }
+    pthread_mutex_unlock(&writer->lock);
+    petri_painter_close(&painter);
+    return NULL;
+}
+
+FrameWriter *frame_writer_start(const char *film, double film_fps, double fps) {
+    FrameWriter *writer = memory_calloc(sizeof *writer);
+    long processors = sysconf(_SC_NPROCESSORS_ONLN);
+    int wanted = film || processors < 1 ? 1 : processors > MAX_WORKERS ? MAX_WORKERS : (int)processors;
+    pthread_mutex_init(&writer->lock, NULL);
+    pthread_cond_init(&writer->changed, NULL);
+    writer->last = &writer->waiting;
+    writer->film = film;
+    writer->fps = film_fps;
+    writer->recording.fps = fps;
+    writer->video = (Video){.frames = -1, .errors = -1, .cleanup_id = -1};
+    sigset_t all, before; // signals are for the thread that makes the frames
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    while (writer->worker_count < wanted &&
+           pthread_create(&writer->workers[writer->worker_count], NULL, run_worker, writer) == 0)
+        writer->worker_count++;
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    if (writer->worker_count == 0) {
+        message("cannot start a thread");
+        frame_writer_free(writer);
+        return NULL;
+    }
+    return writer;
+}
+
+// Waits for a change, but not long: a signal is none.
+static void wait_briefly(FrameWriter *writer) {
+    enum { NANOSECONDS = 20000000, SECOND = 1000000000 };
+    struct timespec until;
+    clock_gettime(CLOCK_REALTIME, &until);
+    until.tv_nsec += NANOSECONDS;
+    until.tv_sec += until.tv_nsec / SECOND;
+    until.tv_nsec %= SECOND;
+    pthread_cond_timedwait(&writer->changed, &writer->lock, &until);
+}
+
+bool frame_writer_add(FrameWriter *writer, PetriPicture *picture, bool for_film, const char *file) {
+    Job *job = memory_calloc(sizeof *job);
+    *job = (Job){.picture = picture, .for_film = for_film, .needs_history = petri_picture_needs_history(picture)};
+    job->file = !file ? NULL : memory_strdup(file);
+    pthread_mutex_lock(&writer->lock);
+    job->number = writer->added++;
+    while (writer->waiting_count >= QUEUE && !writer->failed && frames_signal() == 0)
+        wait_briefly(writer);
+    *writer->last = job;
+    writer->last = &job->next;
+    writer->waiting_count++;
+    bool good = !writer->failed;
+    pthread_cond_broadcast(&writer->changed);
+    pthread_mutex_unlock(&writer->lock);
+    return good;
+}
+
+void frame_writer_report(FrameWriter *writer, PetriSession *session) {
+    pthread_mutex_lock(&writer->lock);
+    Job *done = writer->done;
+    writer->done = NULL;
+    pthread_mutex_unlock(&writer->lock);
+    while (done) {
+        Job *next = done->next;
+        petri_picture_report(session, done->picture);
+        petri_picture_free(&done->picture);
+        free(done->file);
+        free(done);
+        done = next;
+    }
+}
+
+// Waits until nothing is drawn any more; after a signal for a moment only, and until what is drawn for a film is in it.
+// Returns how many are given up.
+static int wait_for_end(FrameWriter *writer) {
+    double signalled = 0;
+    for (;;) {
+        if (writer->running == 0 && !writer->waiting)
+            return 0;
+        if (frames_signal() != 0) {
+            signalled = signalled == 0 ? clock_seconds() : signalled;
+            bool patient = clock_seconds() - signalled <= GRACE_SECONDS;
+            if (!patient && (!writer->film || writer->drawing)) {
+                writer->failed = writer->failed || !writer->film; // what waits is not begun any more
+                writer->abandoned = true;
+                writer->film_abandoned = writer->film;
+                return (int)(writer->added - writer->next_committed);
+            }
+        }
+        wait_briefly(writer);
+    }
+}
+
+bool frame_writer_finish(FrameWriter *writer, PetriSession *session, bool abandon, const char **trouble) {
+    pthread_mutex_lock(&writer->lock);
+    writer->ending = true;
+    writer->failed = writer->failed || abandon;
+    writer->abandoned = abandon;
+    pthread_cond_broadcast(&writer->changed);
+    writer->unfinished = wait_for_end(writer);
+    pthread_mutex_unlock(&writer->lock);
+    while (writer->unfinished == 0 && writer->worker_count > 0)
+        pthread_join(writer->workers[--writer->worker_count], NULL);
+    for (Job *job = writer->unfinished == 0 ? writer->ready : NULL; job; job = job->next)
+        if (job->target_open)
+            replace_abort(&job->target); // one before it has failed
+    if (writer->unfinished == 0) {
+        add_done(writer, writer->ready);
+        writer->ready = NULL;
+    }
+    frame_writer_report(writer, session);
+    if (writer->failed || (writer->film_abandoned && !writer->has_frame)) {
+        video_abandon(&writer->video);
+    } else if (writer->video.open) {
+        double start = clock_seconds();
+        if (!video_close(&writer->video)) {
+            writer->failed = true;
+            set_error_text(writer, writer->video.error_text);
+        }
+        writer->seconds += clock_seconds() - start;
+    }
+    if (!recording_end(&writer->recording, abandon)) {
+        writer->failed = true;
+        set_error_text(writer, writer->recording.error_text ? writer->recording.error_text : "out of memory");
+    }
+    *trouble = writer->error_text[0] == '\0' ? NULL : writer->error_text;
+    return !writer->failed;
+}
+
+int frame_writer_unfinished_count(const FrameWriter *writer) {
+    return writer->unfinished;
+}
+
+double frame_writer_seconds(const FrameWriter *writer) {
+    return writer->seconds;
+}
+
+void frame_writer_free(FrameWriter *writer) {
+    if (!writer)
+        return;
+    pthread_mutex_destroy(&writer->lock);
+    pthread_cond_destroy(&writer->changed);
+    recording_free(&writer->recording);
+    free(writer->pixels);
+    free(writer);
+}

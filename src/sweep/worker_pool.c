@@ -1,0 +1,356 @@
+// worker_pool.c: see worker_pool.h. Each hand is a process that was forked before it had a session; it reads the
+// numbers of runs from a pipe and writes what came of them to another. It has its next run when it ends one, so that it
+// never waits.
+//
+// Under mpirun each process has a crew. That of rank 0 deals runs to the others, too: each of them sends a letter for
+// each run that it wishes for, and then one for each that it has made, which stands for the next wish.
+#include "sweep/worker_pool.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <inttypes.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
+
+#include "base/file.h"
+#include "cli/mpi_channel.h"
+#include "sweep/measure.h"
+
+enum { RUNS_PER_WORKER = 2, REDRAW = 200, MESSAGE_POLL_MS = 2 }; // runs that a hand has; milliseconds, of the last two
+
+typedef struct PoolWorker {
+    pid_t pid;
+    int run_pipe;                      // numbers of runs go here
+    int result_pipe;                   // News comes from here
+    int64_t assigned[RUNS_PER_WORKER]; // runs that it has, the one that it makes first
+    int count;
+} PoolWorker;
+
+// What comes before the rows and the diagnostics of a run.
+typedef struct ResultHeader {
+    int64_t run;
+    int64_t frames;
+    uint64_t rows; // bytes
+    uint64_t diagnostics;
+} ResultHeader;
+
+typedef struct WorkerPool {
+    Integrator *sweep;
+    Journal *journal;
+    PoolWorker *workers;
+    int64_t jobs;
+    size_t next;       // no run before it is to be dealt out, but for these
+    int64_t *returned; // runs to be dealt out first: of hands that are gone, or from rank 0
+    size_t returned_count;
+    const MpiChannel *channel; // NULL: there are no other processes
+    bool ended;                // rank 0 has said so
+    int64_t wanted;            // runs to be made, and how many are
+    int64_t done;
+    Progress progress;
+} WorkerPool;
+
+static const int64_t END_OF_RUNS = -1; // in place of a run
+
+static volatile sig_atomic_t stopped; // a signal handler can reach nothing else
+
+static void on_signal(int number) {
+    stopped = number;
+}
+
+// False at the end, or if the other side is gone.
+static bool read_all(int fd, void *data, size_t length) {
+    for (char *at = data; length > 0;) {
+        ssize_t count = read(fd, at, length);
+        if (count == 0 || (count < 0 && errno != EINTR))
+            return false;
+        at += count < 0 ? 0 : count;
+        length -= count < 0 ? 0 : (size_t)count;
+    }
+    return true;
+}
+
+// --- in a process of the crew
+
+// Diagnostics go to the parent as they are, a byte for the level before each and NUL behind.
+static void add_diagnostic(void *context, PetriLevel level, const char *rendered) {
+    enum { MAX_DIAGNOSTIC_BYTES = 1 << 16 };
+    ByteBuffer *diagnostics = context;
+    if (diagnostics->length < MAX_DIAGNOSTIC_BYTES) {
+        byte_buffer_format(diagnostics, "%c", 'a' + (int)level);
+        byte_buffer_add(diagnostics, rendered, strlen(rendered) + 1);
+    }
+}
+
+static int worker_loop(const Integrator *sweep, int requests, int results) {
+    Measure measure;
+    ByteBuffer diagnostics = {0};
+    if (!measure_open(&measure, sweep, add_diagnostic, &diagnostics))
+        return STATUS_FAILED;
+    int64_t run = 0;
+    while (read_all(requests, &run, sizeof run)) {
+        diagnostics.length = 0;
+        measure_run(&measure, (size_t)run);
+        ResultHeader head = {run, measure.frames, measure.rows.length, diagnostics.length};
+        if (!file_write(results, (const char *)&head, sizeof head) ||
+            !file_write(results, measure.rows.data, measure.rows.length) ||
+            !file_write(results, diagnostics.data, diagnostics.length))
+            break;
+    }
+    measure_close(&measure);
+    byte_buffer_free(&diagnostics);
+    return STATUS_DONE;
+}
+
+// Ctrl-C is sent to all processes of a terminal: it is for the parent, with which this one ends.
+static void become_worker(const WorkerPool *pool, int requests, int results, pid_t parent) {
+    static const int ignored[] = {SIGINT, SIGTERM, SIGHUP};
+    for (size_t i = 0; i < sizeof ignored / sizeof ignored[0]; i++)
+        signal(ignored[i], SIG_IGN);
+#ifdef __linux__
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+#endif
+    for (int64_t i = 0; i < pool->jobs; i++) { // else those do not see the parent's end
+        if (pool->workers[i].pid > 0) {
+            close(pool->workers[i].run_pipe);
+            close(pool->workers[i].result_pipe);
+        }
+    }
+    _exit(getppid() != parent ? STATUS_FAILED : worker_loop(pool->sweep, requests, results));
+}
+
+// --- in the parent
+
+static bool start_worker(WorkerPool *pool, PoolWorker *worker) {
+    int requests[2] = {-1, -1}, results[2] = {-1, -1};
+    pid_t parent = getpid();
+    worker->pid = pipe(requests) == 0 && pipe(results) == 0 ? fork() : -1;
+    if (worker->pid == 0) {
+        worker->pid = -1;
+        close(requests[1]);
+        close(results[0]);
+        become_worker(pool, requests[0], results[1], parent);
+    }
+    int error = errno;
+    close(requests[0]);
+    close(results[1]);
+    worker->run_pipe = requests[1];
+    worker->result_pipe = results[0];
+    worker->count = 0;
+    if (worker->pid < 0) {
+        close(requests[1]);
+        close(results[0]);
+        message("cannot start a process: %s", strerror(error));
+    }
+    return worker->pid > 0;
+}
+
+static bool is_remote(const WorkerPool *pool) {
+    return pool->channel && pool->channel->rank > 0;
+}
+
+// The next run to be made, or -1.
+static int64_t next_run(WorkerPool *pool) {
+    if (pool->returned_count > 0)
+        return pool->returned[--pool->returned_count];
+    for (; !is_remote(pool) && pool->next < pool->sweep->design.run_count; pool->next++)
+        if (sweep_owns_run(pool->sweep, pool->next) && !pool->sweep->results[pool->next].rows)
+            return (int64_t)pool->next++;
+    return -1;
+}
+
+// The hands take turns, so that none has two runs while another has none. One that is gone is noticed later.
+static void assign_runs(WorkerPool *pool) {
+    for (int most = 1; most <= RUNS_PER_WORKER; most++) {
+        for (int64_t i = 0; i < pool->jobs; i++) {
+            PoolWorker *worker = &pool->workers[i];
+            int64_t run = worker->count < most && worker->pid > 0 ? next_run(pool) : -1;
+            if (run >= 0) {
+                worker->assigned[worker->count++] = run;
+                if (!file_write(worker->run_pipe, (const char *)&run, sizeof run))
+                    kill(worker->pid, SIGKILL); // it would wait for ever for orders, and this process for it
+            }
+        }
+    }
+}
+
+// What has come of a run: the rows, then what was told.
+static bool store_result(WorkerPool *pool, const ResultHeader *head, const char *bytes) {
+    size_t length = (size_t)(head->rows + head->diagnostics), run = (size_t)head->run;
+    pool->done++;
+    if (is_remote(pool)) {
+        SCOPED_BYTE_BUFFER packet = {0};
+        byte_buffer_add(&packet, (const char *)head, sizeof *head);
+        byte_buffer_add(&packet, bytes, length);
+        pool->channel->send(0, packet.data, packet.length);
+        return true;
+    }
+    progress_erase(&pool->progress);
+    for (const char *diagnostics = bytes + head->rows; diagnostics < bytes + length;
+         diagnostics += strlen(diagnostics) + 1)
+        sweep_report(pool->sweep, (PetriLevel)(diagnostics[0] - 'a'), diagnostics + 1);
+    sweep_store_result(pool->sweep, run, head->frames, bytes, (size_t)head->rows);
+    return journal_add(pool->journal, run, &pool->sweep->results[run]);
+}
+
+static bool read_result(WorkerPool *pool, PoolWorker *worker, bool *gone) {
+    ResultHeader head;
+    *gone = !read_all(worker->result_pipe, &head, sizeof head);
+    if (*gone)
+        return true;
+    size_t length = (size_t)(head.rows + head.diagnostics);
+    SCOPED_TEXT bytes = memory_calloc(length + 1);
+    *gone = !read_all(worker->result_pipe, bytes, length);
+    if (*gone)
+        return true;
+    memmove(worker->assigned, worker->assigned + 1, sizeof worker->assigned - sizeof worker->assigned[0]);
+    worker->count--;
+    return store_result(pool, &head, bytes);
+}
+
+// Rank 0 takes wishes and what was made, the others runs.
+static bool receive_messages(WorkerPool *pool) {
+    SCOPED_BYTE_BUFFER packet = {0};
+    bool good = true;
+    for (int from = 0; good && pool->channel && pool->channel->receive(&from, &packet); packet.length = 0) {
+        if (is_remote(pool)) {
+            int64_t run;
+            memcpy(&run, packet.data, sizeof run);
+            pool->ended = pool->ended || run == END_OF_RUNS;
+            pool->returned[pool->returned_count] = run;
+            pool->returned_count += run != END_OF_RUNS;
+            continue;
+        }
+        ResultHeader head = {.run = END_OF_RUNS};
+        memcpy(&head, packet.data, packet.length < sizeof head ? packet.length : sizeof head);
+        good = packet.length < sizeof head || store_result(pool, &head, packet.data + sizeof head);
+        int64_t run = next_run(pool);
+        if (run >= 0)
+            pool->channel->send(from, &run, sizeof run);
+    }
+    return good;
+}
+
+// What ended the process is the row of the run that it made. Only SIGKILL comes from outside, such as a machine that is
+// short of memory: then the run has a second chance.
+static bool reap_worker(WorkerPool *pool, PoolWorker *worker) {
+    int status = 0;
+    while (waitpid(worker->pid, &status, 0) < 0 && errno == EINTR) {
+    }
+    close(worker->run_pipe);
+    close(worker->result_pipe);
+    worker->pid = -1;
+    for (int i = worker->count - 1; i > 0; i--)
+        pool->returned[pool->returned_count++] = worker->assigned[i];
+    Result *result = worker->count > 0 ? &pool->sweep->results[worker->assigned[0]] : NULL;
+    if (result && WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL && !result->killed) {
+        result->killed = true;
+        pool->returned[pool->returned_count++] = worker->assigned[0];
+        return true;
+    }
+    SCOPED_BYTE_BUFFER row = {0};
+    byte_buffer_format(&row, "0");
+    for (size_t i = 0; i <= pool->sweep->metric_count; i++)
+        byte_buffer_format(&row, "\t");
+    if (WIFSIGNALED(status))
+        byte_buffer_format(&row, "crashed: signal %d (%s)\n", WTERMSIG(status), strsignal(WTERMSIG(status)));
+    else
+        byte_buffer_format(&row, "the process ended with status %d\n", WEXITSTATUS(status));
+    return !result || store_result(pool, &(ResultHeader){worker->assigned[0], 0, row.length, 0}, row.data);
+}
+
+// Takes what the hands have to tell, or waits for it. False if there is no going on.
+static bool poll_workers(WorkerPool *pool) {
+    struct pollfd *waits = memory_calloc((size_t)pool->jobs * sizeof *waits);
+    bool good = true;
+    for (int64_t i = 0; i < pool->jobs; i++) {
+        waits[i] =
+            (struct pollfd){.fd = pool->workers[i].pid > 0 ? pool->workers[i].result_pipe : -1, .events = POLLIN};
+    }
+    int timeout = pool->channel ? MESSAGE_POLL_MS : pool->progress.enabled ? REDRAW : -1;
+    int ready = poll(waits, (nfds_t)pool->jobs, timeout);
+    for (int64_t i = 0; good && ready > 0 && i < pool->jobs; i++) {
+        bool gone = false;
+        if (waits[i].revents != 0)
+            good = read_result(pool, &pool->workers[i], &gone);
+        if (good && gone)
+            good = reap_worker(pool, &pool->workers[i]) && start_worker(pool, &pool->workers[i]);
+    }
+    free(waits);
+    return good && receive_messages(pool);
+}
+
+// The first letters, and the last.
+static void request_runs(const WorkerPool *pool) {
+    for (int64_t i = 0; is_remote(pool) && i < pool->jobs * RUNS_PER_WORKER; i++)
+        pool->channel->send(0, "", 1);
+}
+
+static void announce_end(const WorkerPool *pool) {
+    for (int rank = 1; pool->channel && pool->channel->rank == 0 && rank < pool->channel->count; rank++)
+        pool->channel->send(rank, &END_OF_RUNS, sizeof END_OF_RUNS);
+}
+
+static int64_t count_wanted(const Integrator *sweep) {
+    int64_t count = 0;
+    for (size_t run = 0; run < sweep->design.run_count; run++)
+        count += sweep_owns_run(sweep, run) && !sweep->results[run].rows;
+    return count;
+}
+
+static void catch_signals(void) {
+    stopped = 0;
+    signal_catch(SIGINT, on_signal, 0);
+    signal_catch(SIGTERM, on_signal, 0);
+    signal_catch(SIGHUP, on_signal, 0);
+}
+
+static void stop_worker(WorkerPool *pool) {
+    for (int64_t i = 0; i < pool->jobs; i++) {
+        PoolWorker *worker = &pool->workers[i];
+        if (worker->pid > 0) {
+            close(worker->run_pipe);
+            kill(worker->pid, SIGKILL);
+            waitpid(worker->pid, NULL, 0);
+            close(worker->result_pipe);
+        }
+    }
+}
+
+static bool has_work(const WorkerPool *pool) {
+    return is_remote(pool) ? !pool->ended : pool->done < pool->wanted;
+}
+
+int worker_pool_run(Integrator *sweep, Journal *journal, int64_t jobs) {
+    WorkerPool pool = {
+        .sweep = sweep, .journal = journal, .wanted = count_wanted(sweep), .channel = sweep->host->channel};
+    pool.jobs = jobs < pool.wanted || is_remote(&pool) ? jobs : pool.wanted;
+    pool.workers = memory_calloc((size_t)pool.jobs * sizeof *pool.workers);
+    pool.returned = memory_calloc((size_t)pool.jobs * (2 * RUNS_PER_WORKER + 1) * sizeof *pool.returned);
+    catch_signals();
+    bool good = true;
+    for (int64_t i = 0; good && i < pool.jobs; i++)
+        good = start_worker(&pool, &pool.workers[i]);
+    progress_start(&pool.progress, sweep->options->verbosity > LOG_QUIET && progress_possible(), pool.wanted);
+    pool.progress.things = "runs";
+    request_runs(&pool);
+    while (good && has_work(&pool) && !stopped) {
+        assign_runs(&pool);
+        good = poll_workers(&pool);
+        progress_update(&pool.progress, pool.done);
+    }
+    bool done = !has_work(&pool);
+    if (good && done)
+        announce_end(&pool);
+    progress_erase(&pool.progress);
+    stop_worker(&pool);
+    free(pool.workers);
+    free(pool.returned);
+    return !good ? STATUS_FAILED : done ? STATUS_DONE : STATUS_SIGNAL + (int)stopped;
+}
