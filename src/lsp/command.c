@@ -1,12 +1,12 @@
 // command.c: `petri lsp`, of which this program may know no more than what help tells.
 #include "cli/options.h"
 
-static int lsp_run(const Host *host, Options *options) {
-    if (host->serve == NULL) {
+static int lsp_run(const CommandContext *context, Options *options) {
+    if (!context->run_lsp) {
         message("petri-lsp serves editors, and this is not it");
         return STATUS_FAILED;
     }
-    return host->serve(host, options);
+    return context->run_lsp(context, options);
 }
 
 const Command LSP_COMMAND = {
@@ -20,6 +20,6 @@ const Command LSP_COMMAND = {
         "the first frame, as petri check does, of which nothing is printed, drawn or stored.",
     .examples = "  vim.lsp.start({ name = 'petri', cmd = { 'petri', 'lsp' } })    -- for Neovim\n",
     .options = FOR_LSP,
-    .second = "'%s' is too much: an editor tells which scripts there are",
+    .second_operand_error = "'%s' is too much: an editor tells which scripts there are",
     .run = lsp_run,
 };

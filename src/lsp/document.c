@@ -1,42 +1,39 @@
 // document.c: see document.h.
 #include "lsp/document.h"
 
+#include "base/source.h"
+
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/source.h"
-
 // The length of a character in the units that the editor counts in.
-static size_t units(int32_t c, size_t bytes, bool utf8) {
+static size_t character_units(int32_t c, size_t bytes, bool utf8) {
     return utf8 ? bytes : c > 0xffff ? 2 : 1;
 }
 
 static void count_lines(Document *document) {
     Str text = {document->text.data, document->text.length};
     document->line_count = 1;
-    for (size_t i = 0; i < text.len; i++) {
+    for (size_t i = 0; i < text.len; i++)
         document->line_count += text.bytes[i] == '\n';
-    }
-    document->lines = memory_resized(document->lines, document->line_count * sizeof *document->lines);
+    document->lines = memory_realloc(document->lines, document->line_count * sizeof *document->lines);
     document->lines[0] = 0;
-    for (size_t i = 0, line = 0; i < text.len; i++) {
-        if (text.bytes[i] == '\n') {
+    for (size_t i = 0, line = 0; i < text.len; i++)
+        if (text.bytes[i] == '\n')
             document->lines[++line] = i + 1;
-        }
-    }
 }
 
 // Keeps invalid UTF-8 out, which JSON cannot have but files can.
-static void add_clean(Bytes *out, Str text) {
+static void add_valid_utf8(ByteBuffer *out, Str text) {
     for (size_t at = 0; at < text.len;) {
         size_t start = at;
         int32_t c = utf8_next(text, &at);
-        bytes_add(out, c < 0 ? "?" : text.bytes + start, c < 0 ? 1 : at - start);
+        byte_buffer_add(out, c < 0 ? "?" : text.bytes + start, c < 0 ? 1 : at - start);
     }
 }
 
-static void changed(Document *document) {
+static void text_changed(Document *document) {
     document->text.length = source_unify_lines(document->text.data, document->text.length);
     document->text.data[document->text.length] = '\0';
     document->unread = document->unchecked = true;
@@ -47,17 +44,17 @@ static void changed(Document *document) {
 
 void document_set_text(Document *document, Str text) {
     document->text.length = 0;
-    bytes_add(&document->text, "", 0);
-    add_clean(&document->text, text);
-    changed(document);
+    byte_buffer_add(&document->text, "", 0);
+    add_valid_utf8(&document->text, text);
+    text_changed(document);
 }
 
 Document *document_new(const char *uri, Str text, int64_t version) {
-    Document *document = memory_zeroed(sizeof *document);
-    document->uri = memory_text(uri);
+    Document *document = memory_calloc(sizeof *document);
+    document->uri = memory_strdup(uri);
     document->path = uri_path(uri);
-    document->is_file = document->path != NULL;
-    document->path = document->is_file ? document->path : memory_text(uri);
+    document->is_file = document->path;
+    document->path = document->is_file ? document->path : memory_strdup(uri);
     document->canonical = path_canonical(document->path);
     document->version = version;
     document->published = json_object_new_object();
@@ -65,29 +62,28 @@ Document *document_new(const char *uri, Str text, int64_t version) {
     return document;
 }
 
-void document_forget_told(Document *document) {
-    for (size_t i = 0; i < document->told_count; i++) {
-        free(document->told[i].text);
-        free(document->told[i].hint);
-        free(document->told[i].code);
+void document_clear_diagnostics(Document *document) {
+    for (size_t i = 0; i < document->diagnostic_count; i++) {
+        free(document->diagnostics[i].text);
+        free(document->diagnostics[i].hint);
+        free(document->diagnostics[i].code);
     }
-    document->told_count = 0;
+    document->diagnostic_count = 0;
 }
 
 static void forget_links(Document *document) {
-    for (size_t i = 0; i < document->link_count; i++) {
+    for (size_t i = 0; i < document->link_count; i++)
         free(document->links[i].path);
-    }
     free(document->links);
     document->links = NULL;
     document->link_count = 0;
 }
 
 void document_free(Document *document) {
-    document_forget_told(document);
+    document_clear_diagnostics(document);
     forget_links(document);
     texts_free(&document->used);
-    free(document->told);
+    free(document->diagnostics);
     free(document->uri);
     free(document->path);
     free(document->canonical);
@@ -95,7 +91,7 @@ void document_free(Document *document) {
     free(document->tokens);
     free(document->levels);
     free(document->names);
-    bytes_free(&document->text);
+    byte_buffer_free(&document->text);
     json_object_put(document->published);
     json_object_put(document->values);
     free(document);
@@ -104,22 +100,21 @@ void document_free(Document *document) {
 void document_change(Document *document, const Json *change, bool utf8) {
     const char *text = json_text(change, "text");
     Json *range = json_get(change, "range");
-    if (text == NULL) {
+    if (!text)
         return;
-    }
-    if (range == NULL) {
+    if (!range) {
         document_set_text(document, str_from(text));
         return;
     }
     size_t start = document_offset(document, json_get(range, "start"), utf8);
     size_t end = document_offset(document, json_get(range, "end"), utf8);
-    Bytes old = document->text;
-    document->text = (Bytes){0};
-    bytes_add(&document->text, old.data, start < end ? start : end);
-    bytes_add_text(&document->text, text);
-    bytes_add(&document->text, old.data + (start < end ? end : start), old.length - (start < end ? end : start));
-    bytes_free(&old);
-    changed(document);
+    ByteBuffer old = document->text;
+    document->text = (ByteBuffer){0};
+    byte_buffer_add(&document->text, old.data, start < end ? start : end);
+    byte_buffer_add_text(&document->text, text);
+    byte_buffer_add(&document->text, old.data + (start < end ? end : start), old.length - (start < end ? end : start));
+    byte_buffer_free(&old);
+    text_changed(document);
 }
 
 typedef struct Reading {
@@ -129,11 +124,11 @@ typedef struct Reading {
     bool begins;
 } Reading;
 
-static void take_token(void *host, const PetriToken *token) {
-    Reading *reading = host;
+static void add_token(void *user_data, const PetriToken *token) {
+    Reading *reading = user_data;
     Document *document = reading->document;
     switch (token->kind) {
-    case PETRI_TOKEN_LINE_END:
+    case PETRI_TOKEN_NEWLINE:
         reading->begins = true;
         return;
     case PETRI_TOKEN_INDENT:
@@ -147,8 +142,8 @@ static void take_token(void *host, const PetriToken *token) {
     }
     if (document->token_count == reading->capacity) {
         reading->capacity = reading->capacity == 0 ? 256 : 2 * reading->capacity;
-        document->tokens = memory_resized(document->tokens, reading->capacity * sizeof *document->tokens);
-        document->levels = memory_resized(document->levels, reading->capacity * sizeof *document->levels);
+        document->tokens = memory_realloc(document->tokens, reading->capacity * sizeof *document->tokens);
+        document->levels = memory_realloc(document->levels, reading->capacity * sizeof *document->levels);
     }
     bool begins = reading->begins && token->kind != PETRI_TOKEN_COMMENT;
     document->levels[document->token_count] = begins ? SIZE_MAX - reading->level : reading->level;
@@ -156,18 +151,18 @@ static void take_token(void *host, const PetriToken *token) {
     reading->begins = reading->begins && !begins;
 }
 
-static void take_name(void *host, const PetriTextName *name) {
-    Reading *reading = host;
+static void add_name(void *user_data, const PetriBinding *name) {
+    Reading *reading = user_data;
     Document *document = reading->document;
     if (document->name_count == reading->capacity) {
         reading->capacity = reading->capacity == 0 ? 256 : 2 * reading->capacity;
-        document->names = memory_resized(document->names, reading->capacity * sizeof *document->names);
+        document->names = memory_realloc(document->names, reading->capacity * sizeof *document->names);
     }
     document->names[document->name_count++] = *name;
 }
 
 static int by_start(const void *a, const void *b) {
-    const PetriTextName *first = a, *second = b;
+    const PetriBinding *first = a, *second = b;
     return first->start < second->start ? -1 : first->start > second->start;
 }
 
@@ -178,14 +173,13 @@ static void find_links(Document *document) {
         Str file = document_token(document, i);
         bool include = document_is(document, i - 1, "%include");
         if (document->tokens[i].kind != PETRI_TOKEN_STRING || file.len < 3 ||
-            (!include && !document_is(document, i - 1, "from"))) {
+            (!include && !document_is(document, i - 1, "from")))
             continue;
-        }
-        SCOPED_BYTES path = {0};
+        SCOPED_BYTE_BUFFER path = {0};
         Str folder = path_directory(str_from(document->path));
-        bytes_add(&path, folder.bytes, file.bytes[1] == '/' ? 0 : folder.len);
-        bytes_add(&path, file.bytes + 1, file.len - 2);
-        document->links = memory_resized(document->links, (document->link_count + 1) * sizeof *document->links);
+        byte_buffer_add(&path, folder.bytes, file.bytes[1] == '/' ? 0 : folder.len);
+        byte_buffer_add(&path, file.bytes + 1, file.len - 2);
+        document->links = memory_realloc(document->links, (document->link_count + 1) * sizeof *document->links);
         document->links[document->link_count++] =
             (Link){.token = i, .include = include, .path = path_canonical(path.data), .target = SIZE_MAX};
     }
@@ -194,17 +188,15 @@ static void find_links(Document *document) {
 const Link *document_link(const Document *document, size_t offset) {
     for (size_t i = 0; i < document->link_count; i++) {
         const PetriToken *token = &document->tokens[document->links[i].token];
-        if (token->start <= offset && offset < token->end) {
+        if (token->start <= offset && offset < token->end)
             return &document->links[i];
-        }
     }
     return NULL;
 }
 
 void document_read(Document *document, PetriSession *session) {
-    if (!document->unread) {
+    if (!document->unread)
         return;
-    }
     Reading tokens = {.document = document, .begins = true}, names = {.document = document};
     free(document->tokens);
     free(document->levels);
@@ -213,51 +205,46 @@ void document_read(Document *document, PetriSession *session) {
     document->levels = NULL;
     document->names = NULL;
     document->token_count = document->name_count = 0;
-    petri_tokens(session, document->text.data, document->text.length, take_token, &tokens);
-    petri_names(session, document->text.data, document->text.length, take_name, &names);
-    if (document->name_count > 0) {
+    petri_tokenise(session, document->text.data, document->text.length, add_token, &tokens);
+    petri_bindings(session, document->text.data, document->text.length, add_name, &names);
+    if (document->name_count > 0)
         qsort(document->names, document->name_count, sizeof *document->names, by_start);
-    }
     find_links(document);
     document->unread = false;
 }
 
 size_t document_offset(const Document *document, const Json *position, bool utf8) {
     int64_t line = json_number(position, "line", 0), character = json_number(position, "character", 0);
-    if (line < 0 || (uint64_t)line >= document->line_count) {
+    if (line < 0 || (uint64_t)line >= document->line_count)
         return line < 0 ? 0 : document->text.length;
-    }
     Str text = {document->text.data, document->text.length};
     size_t at = document->lines[line];
     for (int64_t left = character; left > 0 && at < text.len && text.bytes[at] != '\n';) {
         size_t start = at;
         int32_t c = utf8_next(text, &at);
-        left -= (int64_t)units(c, at - start, utf8);
+        left -= (int64_t)character_units(c, at - start, utf8);
     }
     return at;
 }
 
 size_t document_offset_at(const Document *document, uint32_t line, uint32_t column) {
-    if (line == 0 || line > document->line_count) {
+    if (line == 0 || line > document->line_count)
         return line == 0 ? 0 : document->text.length;
-    }
     Str text = {document->text.data, document->text.length};
     size_t at = document->lines[line - 1];
-    for (uint32_t i = 1; i < column && at < text.len && text.bytes[at] != '\n'; i++) {
+    for (uint32_t i = 1; i < column && at < text.len && text.bytes[at] != '\n'; i++)
         utf8_next(text, &at);
-    }
     return at;
 }
 
-void document_place(const Document *document, size_t offset, bool utf8, size_t *line, size_t *character) {
+void document_position(const Document *document, size_t offset, bool utf8, size_t *line, size_t *character) {
     size_t low = 0, high = document->line_count - 1;
     while (low < high) {
         size_t middle = (low + high + 1) / 2;
-        if (document->lines[middle] <= offset) {
+        if (document->lines[middle] <= offset)
             low = middle;
-        } else {
+        else
             high = middle - 1;
-        }
     }
     *line = low;
     *character = 0;
@@ -265,31 +252,31 @@ void document_place(const Document *document, size_t offset, bool utf8, size_t *
     for (size_t at = document->lines[low]; at < offset && at < text.len;) {
         size_t start = at;
         int32_t c = utf8_next(text, &at);
-        *character += units(c, at - start, utf8);
+        *character += character_units(c, at - start, utf8);
     }
 }
 
-static Json *position(const Document *document, size_t offset, bool utf8) {
+static Json *position_json(const Document *document, size_t offset, bool utf8) {
     size_t line, character;
-    document_place(document, offset, utf8, &line, &character);
+    document_position(document, offset, utf8, &line, &character);
     return json_put_number(json_put_number(json_object_new_object(), "line", (int64_t)line), "character",
                            (int64_t)character);
 }
 
 Json *document_range(const Document *document, size_t start, size_t end, bool utf8) {
-    return json_put(json_put(json_object_new_object(), "start", position(document, start, utf8)), "end",
-                    position(document, end, utf8));
+    return json_put(json_put(json_object_new_object(), "start", position_json(document, start, utf8)), "end",
+                    position_json(document, end, utf8));
 }
 
-Str document_part(const Document *document, size_t start, size_t end) {
-    size_t most = document->text.length;
-    start = start < most ? start : most;
-    end = end < most ? end : most;
+Str document_slice(const Document *document, size_t start, size_t end) {
+    size_t text_length = document->text.length;
+    start = start < text_length ? start : text_length;
+    end = end < text_length ? end : text_length;
     return (Str){document->text.data + start, end > start ? end - start : 0};
 }
 
 Str document_token(const Document *document, size_t token) {
-    return document_part(document, document->tokens[token].start, document->tokens[token].end);
+    return document_slice(document, document->tokens[token].start, document->tokens[token].end);
 }
 
 bool document_is(const Document *document, size_t token, const char *text) {
@@ -309,80 +296,74 @@ size_t document_token_at(const Document *document, size_t offset) {
     size_t low = 0, high = document->token_count;
     while (low < high) {
         size_t middle = (low + high) / 2;
-        if (document->tokens[middle].end > offset) {
+        if (document->tokens[middle].end > offset)
             high = middle;
-        } else {
+        else
             low = middle + 1;
-        }
     }
     return low;
 }
 
-const PetriTextName *document_name_at(const Document *document, size_t offset) {
+const PetriBinding *document_name_at(const Document *document, size_t offset) {
     size_t low = 0, high = document->name_count;
     while (low < high) {
         size_t middle = (low + high) / 2;
-        if (document->names[middle].end < offset) {
+        if (document->names[middle].end < offset)
             low = middle + 1;
-        } else {
+        else
             high = middle;
-        }
     }
     return low < document->name_count && document->names[low].start <= offset ? &document->names[low] : NULL;
 }
 
-const PetriTextName *document_binding(const Document *document, const PetriTextName *name) {
-    if (name == NULL || name->kind != PETRI_NAME_USE) {
+const PetriBinding *document_binding(const Document *document, const PetriBinding *name) {
+    if (!name || name->kind != PETRI_NAME_USE)
         return name;
-    }
-    const PetriTextName *bound = name->bound == PETRI_Z ? NULL : document_name_at(document, name->bound + 1);
-    return bound != NULL && bound->start == name->bound && bound->kind != PETRI_NAME_USE ? bound : NULL;
+    const PetriBinding *bound =
+        name->binding_start == PETRI_NUL_TERMINATED ? NULL : document_name_at(document, name->binding_start + 1);
+    return bound && bound->start == name->binding_start && bound->kind != PETRI_NAME_USE ? bound : NULL;
 }
 
-const PetriTextName *document_meaning(const Document *document, size_t token) {
+const PetriBinding *document_resolve(const Document *document, size_t token) {
     size_t at = document->tokens[token].start;
-    const PetriTextName *name = document_name_at(document, at), *found = NULL;
-    if (document->tokens[token].kind != PETRI_TOKEN_NAME || name != NULL || document_is(document, token + 1, "=")) {
+    const PetriBinding *name = document_name_at(document, at), *found = NULL;
+    if (document->tokens[token].kind != PETRI_TOKEN_NAME || name || document_is(document, token + 1, "="))
         return document_binding(document, name);
-    }
     Str text = document_token(document, token);
     for (size_t i = 0; i < document->name_count && document->names[i].start < at; i++) {
         name = &document->names[i];
         bool visible = name->kind != PETRI_NAME_USE && name->scope_start <= at && at <= name->scope_end;
-        if (visible && str_equal(document_part(document, name->start, name->end), text)) {
+        if (visible && str_equal(document_slice(document, name->start, name->end), text))
             found = name;
-        }
     }
     return found;
 }
 
 char *uri_path(const char *uri) {
     static const char scheme[] = "file://";
-    if (strncmp(uri, scheme, strlen(scheme)) != 0) {
+    if (strncmp(uri, scheme, strlen(scheme)) != 0)
         return NULL;
-    }
     const char *at = strchr(uri + strlen(scheme), '/');
-    Bytes path = {0};
-    for (; at != NULL && *at != '\0'; at++) {
+    ByteBuffer path = {0};
+    for (; at && *at != '\0'; at++) {
         int high = *at == '%' ? str_hex_digit(at[1]) : -1, low = high >= 0 ? str_hex_digit(at[2]) : -1;
         char c = low >= 0 ? (char)(high * 16 + low) : *at;
         at += low >= 0 ? 2 : 0;
-        bytes_add(&path, &c, 1);
+        byte_buffer_add(&path, &c, 1);
     }
     return path.data;
 }
 
 char *uri_of(const char *path) {
-    Bytes uri = {0};
-    if (path[0] == '/') {
-        bytes_add_uri(&uri, path);
-    } else { // the editor's own name of what is no file
-        bytes_add_text(&uri, path);
-    }
+    ByteBuffer uri = {0};
+    if (path[0] == '/')
+        byte_buffer_add_uri(&uri, path);
+    else // the editor's own name of what is no file
+        byte_buffer_add_text(&uri, path);
     return uri.data;
 }
 
 char *path_canonical(const char *path) {
     char resolved[PATH_MAX];
-    return memory_text(realpath(path, resolved) != NULL ? resolved : path);
+    return memory_strdup(realpath(path, resolved) ? resolved : path);
 }

@@ -6,14 +6,14 @@
 #include "petri.h"
 
 // A diagnostic of the document's own text.
-typedef struct Told {
+typedef struct DocumentDiagnostic {
     PetriLevel level;
     size_t start; // in the text
     size_t end;
     char *text;
     char *hint;
     char *code; // or NULL
-} Told;
+} DocumentDiagnostic;
 
 // A file that a script imports or includes.
 typedef struct Link {
@@ -28,7 +28,7 @@ typedef struct Document {
     char *path;      // what petri calls it: the file, or the URI if that is none
     char *canonical; // … without links and dots, if it is there
     int64_t version;
-    Bytes text; // lines end in LF
+    ByteBuffer text; // lines end in LF
     size_t *lines;
     size_t line_count;
     bool is_file;
@@ -37,12 +37,12 @@ typedef struct Document {
     PetriToken *tokens; // but for LINE_END, INDENT and DEDENT
     size_t token_count;
     size_t *levels; // of the block that each is in; SIZE_MAX - level if it begins a statement
-    PetriTextName *names;
+    PetriBinding *names;
     size_t name_count;
     Link *links;
     size_t link_count;
-    Told *told;
-    size_t told_count;
+    DocumentDiagnostic *diagnostics;
+    size_t diagnostic_count;
     TextList used;   // the files that the last check read
     Json *published; // URIs and what was told of them
     Json *values;    // of constant names, by name; NULL: not looked at yet
@@ -55,14 +55,14 @@ void document_set_text(Document *document, Str text);
 void document_change(Document *document, const Json *change, bool utf8);
 // Reads tokens and names, if they are of an older text.
 void document_read(Document *document, PetriSession *session);
-void document_forget_told(Document *document);
+void document_clear_diagnostics(Document *document);
 
 // Places. Those beyond the text are at its end.
 size_t document_offset(const Document *document, const Json *position, bool utf8);
 size_t document_offset_at(const Document *document, uint32_t line, uint32_t column); // from 1, as petri counts
 Json *document_range(const Document *document, size_t start, size_t end, bool utf8);
-void document_place(const Document *document, size_t offset, bool utf8, size_t *line, size_t *character);
-Str document_part(const Document *document, size_t start, size_t end);
+void document_position(const Document *document, size_t offset, bool utf8, size_t *line, size_t *character);
+Str document_slice(const Document *document, size_t start, size_t end);
 Str document_token(const Document *document, size_t token);
 bool document_is(const Document *document, size_t token, const char *text);
 bool document_begins(const Document *document, size_t token); // a statement
@@ -70,15 +70,15 @@ size_t document_level(const Document *document, size_t token);
 // The first token that ends behind the offset; token_count if none does.
 size_t document_token_at(const Document *document, size_t offset);
 // The name that stands at an offset, or NULL; and the one that binds it, or NULL.
-const PetriTextName *document_name_at(const Document *document, size_t offset);
-const PetriTextName *document_binding(const Document *document, const PetriTextName *name);
+const PetriBinding *document_name_at(const Document *document, size_t offset);
+const PetriBinding *document_binding(const Document *document, const PetriBinding *name);
 
 // The import or include whose file is named at an offset; NULL: none is.
 const Link *document_link(const Document *document, size_t offset);
 
 // What the name that a token is stands for: its binding, or, in a statement that does not parse, the one that is
 // visible there; NULL if it is not the text's.
-const PetriTextName *document_meaning(const Document *document, size_t token);
+const PetriBinding *document_resolve(const Document *document, size_t token);
 
 // file:///a%20b to /a b; NULL if it is no file. To be freed, as what the other gives.
 char *uri_path(const char *uri);

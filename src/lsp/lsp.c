@@ -1,54 +1,49 @@
 // lsp.c: `petri lsp`: a server for editors, by the Language Server Protocol 3.17.
 //
 // One thread: it takes a message, answers it, and checks what was changed when no other message waits.
+#include "lsp/lsp.h"
+
+#include "lsp/server.h"
+
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include "lsp/lsp.h"
-#include "lsp/server.h"
-
-enum { MOST_READ = 4 << 20 };
+enum { MAX_READ = 4 << 20 };
 
 Document *server_document(const Server *server, const char *uri) {
-    for (size_t i = 0; uri != NULL && i < server->document_count; i++) {
-        if (strcmp(server->documents[i]->uri, uri) == 0) {
+    for (size_t i = 0; uri && i < server->document_count; i++)
+        if (strcmp(server->documents[i]->uri, uri) == 0)
             return server->documents[i];
-        }
-    }
     return NULL;
 }
 
-static Document *opened(const Server *server, const char *canonical) {
-    for (size_t i = 0; i < server->document_count; i++) {
-        if (strcmp(server->documents[i]->canonical, canonical) == 0) {
+static Document *find_open_document(const Server *server, const char *canonical) {
+    for (size_t i = 0; i < server->document_count; i++)
+        if (strcmp(server->documents[i]->canonical, canonical) == 0)
             return server->documents[i];
-        }
-    }
     return NULL;
 }
 
 Document *server_file(Server *server, const char *path, bool *read) {
     SCOPED_TEXT canonical = path_canonical(path);
-    Document *document = opened(server, canonical);
-    SCOPED_BYTES text = {0};
-    bytes_add(&text, "", 0);
-    *read = document == NULL && bytes_read_file(&text, canonical);
-    if (!*read) {
+    Document *document = find_open_document(server, canonical);
+    SCOPED_BYTE_BUFFER text = {0};
+    byte_buffer_add(&text, "", 0);
+    *read = !document && byte_buffer_read_file(&text, canonical);
+    if (!*read)
         return document;
-    }
     SCOPED_TEXT uri = uri_of(canonical);
     return document_new(uri, (Str){text.data, text.length}, -1);
 }
 
 const char *server_unsaved(void *host, const char *path, size_t *length) {
     Server *server = host;
-    if (server->checking && !texts_hold(&server->checked->used, path)) {
+    if (server->checking && !texts_contain(&server->checked->used, path))
         texts_add(&server->checked->used, path);
-    }
-    const Document *document = opened(server, path);
-    *length = document == NULL ? 0 : document->text.length;
-    return document == NULL ? NULL : document->text.data;
+    const Document *document = find_open_document(server, path);
+    *length = !document ? 0 : document->text.length;
+    return !document ? NULL : document->text.data;
 }
 
 bool server_open_session(Server *server) {
@@ -57,61 +52,56 @@ bool server_open_session(Server *server) {
     server->options->unsaved = server_unsaved;
     server->options->unsaved_host = server;
     server->read = 0;
-    return options_open(server->options, server->host, told_take, server, &server->session) == OPTIONS_READ;
+    return options_open(server->options, server->host, diagnostics_collect, server, &server->session) == OPTIONS_READ;
 }
 
 // A session knows each symbol that it ever saw, and a text of so many bytes has no more of them than a third of that.
 void server_read(Server *server, Document *document) {
     server->read += document->unread ? document->text.length : 0;
-    if (server->read > MOST_READ) {
+    if (server->read > MAX_READ)
         server_open_session(server);
-    }
-    if (server->session != NULL) {
+    if (server->session)
         document_read(document, server->session);
-    }
 }
 
 // --- documents
 
 // Those that import or include the document have it in an older state.
-static void touch(Server *server, const Document *touched) {
+static void mark_dependents_unchecked(Server *server, const Document *touched) {
     for (size_t i = 0; i < server->document_count; i++) {
         Document *document = server->documents[i];
-        document->unchecked = document->unchecked || texts_hold(&document->used, touched->canonical);
+        document->unchecked = document->unchecked || texts_contain(&document->used, touched->canonical);
     }
 }
 
 static void open_document(Server *server, const Json *params) {
     const Json *item = json_get(params, "textDocument");
     const char *uri = json_text(item, "uri"), *text = json_text(item, "text");
-    if (uri == NULL || text == NULL || server_document(server, uri) != NULL) {
+    if (!uri || !text || server_document(server, uri))
         return;
-    }
-    server->documents = memory_resized(server->documents, (server->document_count + 1) * sizeof *server->documents);
+    server->documents = memory_realloc(server->documents, (server->document_count + 1) * sizeof *server->documents);
     server->documents[server->document_count++] = document_new(uri, str_from(text), json_number(item, "version", 0));
-    touch(server, server->documents[server->document_count - 1]);
+    mark_dependents_unchecked(server, server->documents[server->document_count - 1]);
 }
 
 static void change_document(Server *server, const Json *params) {
     Document *document = server_document(server, json_text(json_get(params, "textDocument"), "uri"));
     Json *changes = json_get(params, "contentChanges");
-    if (document == NULL || !json_object_is_type(changes, json_type_array)) {
+    if (!document || !json_object_is_type(changes, json_type_array))
         return;
-    }
     document->version = json_number(json_get(params, "textDocument"), "version", document->version + 1);
-    for (size_t i = 0; i < json_object_array_length(changes); i++) {
+    for (size_t i = 0; i < json_object_array_length(changes); i++)
         document_change(document, json_object_array_get_idx(changes, i), server->utf8);
-    }
-    touch(server, document);
+    mark_dependents_unchecked(server, document);
 }
 
 static void close_document(Server *server, const Json *params) {
     Document *document = server_document(server, json_text(json_get(params, "textDocument"), "uri"));
-    for (size_t i = 0; document != NULL && i < server->document_count; i++) {
+    for (size_t i = 0; document && i < server->document_count; i++) {
         if (server->documents[i] == document) {
             server->documents[i] = server->documents[--server->document_count];
-            told_drop(server, document);
-            touch(server, document);
+            diagnostics_withdraw(server, document);
+            mark_dependents_unchecked(server, document);
             document_free(document);
             break;
         }
@@ -121,12 +111,11 @@ static void close_document(Server *server, const Json *params) {
 // A file was saved, or changed by another program: it may be one that others import.
 static void check_all(Server *server, const Json *params) {
     (void)params;
-    for (size_t i = 0; i < server->document_count; i++) {
+    for (size_t i = 0; i < server->document_count; i++)
         server->documents[i]->unchecked = true;
-    }
 }
 
-static void ignore(Server *server, const Json *params) {
+static void ignore_notification(Server *server, const Json *params) {
     (void)server;
     (void)params;
 }
@@ -134,20 +123,17 @@ static void ignore(Server *server, const Json *params) {
 static const struct {
     const char *method;
     void (*take)(Server *server, const Json *params);
-} notes[] = {
-    {"initialized", ignore},
-    {"textDocument/didOpen", open_document},
-    {"textDocument/didChange", change_document},
-    {"textDocument/didClose", close_document},
-    {"textDocument/didSave", check_all},
-    {"workspace/didChangeWatchedFiles", check_all},
+} notifications[] = {
+    {"initialized", ignore_notification},        {"textDocument/didOpen", open_document},
+    {"textDocument/didChange", change_document}, {"textDocument/didClose", close_document},
+    {"textDocument/didSave", check_all},         {"workspace/didChangeWatchedFiles", check_all},
 };
 
 // --- requests
 
 static const struct {
     const char *method;
-    Answer *answer;
+    RequestHandler *answer;
     const char *capability; // that says that there is an answer; NULL: said otherwise
 } requests[] = {
     {"textDocument/completion", answer_completion, NULL},
@@ -168,11 +154,10 @@ static const struct {
     {"textDocument/formatting", answer_format, "documentFormattingProvider"},
 };
 
-static Json *characters(const char *list) {
+static Json *character_array(const char *list) {
     Json *array = json_object_new_array();
-    for (const char *c = list; *c != '\0'; c++) {
+    for (const char *c = list; *c != '\0'; c++)
         json_object_array_add(array, json_object_new_string_len(c, 1));
-    }
     return array;
 }
 
@@ -180,21 +165,21 @@ static Json *capabilities(const Server *server) {
     Json *all = json_put_text(json_object_new_object(), "positionEncoding", server->utf8 ? "utf-8" : "utf-16");
     Json *sync = json_put_number(json_put_true(json_object_new_object(), "openClose"), "change", 2);
     json_put(all, "textDocumentSync", json_put_true(sync, "save"));
-    for (size_t i = 0; i < sizeof requests / sizeof requests[0]; i++) {
-        if (requests[i].capability != NULL) {
+    for (size_t i = 0; i < sizeof requests / sizeof requests[0]; i++)
+        if (requests[i].capability)
             json_put_true(all, requests[i].capability);
-        }
-    }
-    json_put(all, "completionProvider", json_put(json_object_new_object(), "triggerCharacters", characters("!$:'\"/")));
-    json_put(all, "signatureHelpProvider", json_put(json_object_new_object(), "triggerCharacters", characters("(,")));
+    json_put(all, "completionProvider",
+             json_put(json_object_new_object(), "triggerCharacters", character_array("!$:'\"/")));
+    json_put(all, "signatureHelpProvider",
+             json_put(json_object_new_object(), "triggerCharacters", character_array("(,")));
     json_put(all, "renameProvider", json_put_true(json_object_new_object(), "prepareProvider"));
     return json_put(all, "semanticTokensProvider",
                     json_put_true(json_put(json_object_new_object(), "legend", tokens_legend()), "full"));
 }
 
 static void add_root(Server *server, const char *uri) {
-    SCOPED_TEXT path = uri == NULL ? NULL : uri_path(uri);
-    if (path != NULL) {
+    SCOPED_TEXT path = !uri ? NULL : uri_path(uri);
+    if (path) {
         SCOPED_TEXT canonical = path_canonical(path);
         texts_add(&server->roots, canonical);
     }
@@ -203,12 +188,10 @@ static void add_root(Server *server, const char *uri) {
 static void add_roots(Server *server, const Json *params) {
     Json *folders = json_get(params, "workspaceFolders");
     size_t count = json_object_is_type(folders, json_type_array) ? json_object_array_length(folders) : 0;
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < count; i++)
         add_root(server, json_text(json_object_array_get_idx(folders, i), "uri"));
-    }
-    if (count == 0) {
+    if (count == 0)
         add_root(server, json_text(params, "rootUri"));
-    }
 }
 
 static Json *initialize(Server *server, const Json *params) {
@@ -216,109 +199,99 @@ static Json *initialize(Server *server, const Json *params) {
     size_t count = json_object_is_type(encodings, json_type_array) ? json_object_array_length(encodings) : 0;
     for (size_t i = 0; i < count; i++) {
         const char *name = json_object_get_string(json_object_array_get_idx(encodings, i));
-        server->utf8 = server->utf8 || (name != NULL && strcmp(name, "utf-8") == 0);
+        server->utf8 = server->utf8 || (name && strcmp(name, "utf-8") == 0);
     }
     add_roots(server, params);
-    server->begun = true;
+    server->initialized = true;
     Json *about = json_put_text(json_put_text(json_object_new_object(), "name", "petri"), "version", petri_version());
     return json_put(json_put(json_object_new_object(), "capabilities", capabilities(server)), "serverInfo", about);
 }
 
-static bool answer(Server *server, Answer *ask, Json *id, const Json *params) {
-    Place place = {.server = server,
-                   .document = server_document(server, json_text(json_get(params, "textDocument"), "uri")),
-                   .params = params};
-    const char *problem = place.document == NULL ? "the document is not open" : NULL;
+static bool answer_request(Server *server, RequestHandler *ask, Json *id, const Json *params) {
+    RequestContext request = {.server = server,
+                              .document = server_document(server, json_text(json_get(params, "textDocument"), "uri")),
+                              .params = params};
+    const char *problem = !request.document ? "the document is not open" : NULL;
     Json *result = NULL;
-    if (problem == NULL) {
-        server_read(server, place.document);
-        place.offset = document_offset(place.document, json_get(params, "position"), server->utf8);
-        result = ask(&place, &problem);
+    if (!problem) {
+        server_read(server, request.document);
+        request.offset = document_offset(request.document, json_get(params, "position"), server->utf8);
+        result = ask(&request, &problem);
     }
-    if (problem != NULL) {
+    if (problem) {
         json_object_put(result);
-        return rpc_refuse(id, RPC_REQUEST_FAILED, problem);
+        return rpc_send_error(id, RPC_REQUEST_FAILED, problem);
     }
     return rpc_answer(id, result);
 }
 
-static bool request(Server *server, const char *method, Json *id, const Json *params) {
-    if (strcmp(method, "initialize") == 0) {
+static bool handle_request(Server *server, const char *method, Json *id, const Json *params) {
+    if (strcmp(method, "initialize") == 0)
         return rpc_answer(id, initialize(server, params));
-    }
-    if (!server->begun || server->ends) {
-        return rpc_refuse(id, server->begun ? RPC_INVALID_REQUEST : RPC_NOT_INITIALIZED,
-                          server->begun ? "the server is shut down" : "the server is not initialized");
+    if (!server->initialized || server->shutting_down) {
+        return rpc_send_error(id, server->initialized ? RPC_INVALID_REQUEST : RPC_NOT_INITIALIZED,
+                              server->initialized ? "the server is shut down" : "the server is not initialized");
     }
     if (strcmp(method, "shutdown") == 0) {
-        server->ends = true;
+        server->shutting_down = true;
         return rpc_answer(id, NULL);
     }
-    for (size_t i = 0; i < sizeof requests / sizeof requests[0]; i++) {
-        if (strcmp(requests[i].method, method) == 0) {
-            return answer(server, requests[i].answer, id, params);
-        }
-    }
-    return rpc_refuse(id, RPC_METHOD_NOT_FOUND, method);
+    for (size_t i = 0; i < sizeof requests / sizeof requests[0]; i++)
+        if (strcmp(requests[i].method, method) == 0)
+            return answer_request(server, requests[i].answer, id, params);
+    return rpc_send_error(id, RPC_METHOD_NOT_FOUND, method);
 }
 
-static void notice(Server *server, const char *method, const Json *params) {
-    for (size_t i = 0; server->begun && i < sizeof notes / sizeof notes[0]; i++) {
-        if (strcmp(notes[i].method, method) == 0) {
-            notes[i].take(server, params);
-        }
-    }
+static void handle_notification(Server *server, const char *method, const Json *params) {
+    for (size_t i = 0; server->initialized && i < sizeof notifications / sizeof notifications[0]; i++)
+        if (strcmp(notifications[i].method, method) == 0)
+            notifications[i].take(server, params);
 }
 
 // False if the editor is gone.
-static bool take(Server *server, const Json *message) {
+static bool handle_message(Server *server, const Json *message) {
     const char *method = json_text(message, "method");
     Json *id = json_get(message, "id");
-    if (method == NULL) {
-        return json_get(message, "result") != NULL || json_get(message, "error") != NULL || id == NULL
+    if (!method) {
+        return json_get(message, "result") || json_get(message, "error") || !id
                    ? true // an answer, though nothing was asked
-                   : rpc_refuse(id, RPC_INVALID_REQUEST, "a message has a method");
+                   : rpc_send_error(id, RPC_INVALID_REQUEST, "a message has a method");
     }
-    if (id != NULL) {
-        return request(server, method, id, json_get(message, "params"));
-    }
-    notice(server, method, json_get(message, "params"));
+    if (id)
+        return handle_request(server, method, id, json_get(message, "params"));
+    handle_notification(server, method, json_get(message, "params"));
     return true;
 }
 
-static void check_changed(Server *server, const Bytes *input) {
-    for (size_t i = 0; i < server->document_count && !rpc_more(input); i++) {
-        if (server->documents[i]->unchecked) {
-            told_check(server, server->documents[i]);
-        }
-    }
+static void check_changed_documents(Server *server, const ByteBuffer *input) {
+    for (size_t i = 0; i < server->document_count && !rpc_has_input(input); i++)
+        if (server->documents[i]->unchecked)
+            diagnostics_publish(server, server->documents[i]);
 }
 
-int lsp_serve(const Host *host, Options *options) {
+int lsp_serve(const CommandContext *host, Options *options) {
     Server server = {.host = host, .options = options};
-    SCOPED_BYTES input = {0};
+    SCOPED_BYTE_BUFFER input = {0};
     int status = STATUS_FAILED;
     bool reading = server_open_session(&server);
     while (reading) {
         Json *message;
         RpcRead came = rpc_read(&input, &message);
         const char *method = json_text(message, "method");
-        if (came == RPC_END || (method != NULL && strcmp(method, "exit") == 0)) {
-            status = server.ends ? STATUS_DONE : STATUS_FAILED;
+        if (came == RPC_END || (method && strcmp(method, "exit") == 0)) {
+            status = server.shutting_down ? STATUS_DONE : STATUS_FAILED;
             reading = false;
-        } else if (came == RPC_WRONG) {
-            reading = rpc_refuse(NULL, RPC_PARSE_ERROR, "this is no JSON");
+        } else if (came == RPC_INVALID) {
+            reading = rpc_send_error(NULL, RPC_PARSE_ERROR, "this is no JSON");
         } else {
-            reading = take(&server, message);
+            reading = handle_message(&server, message);
         }
         json_object_put(message);
-        if (reading) {
-            check_changed(&server, &input);
-        }
+        if (reading)
+            check_changed_documents(&server, &input);
     }
-    for (size_t i = 0; i < server.document_count; i++) {
+    for (size_t i = 0; i < server.document_count; i++)
         document_free(server.documents[i]);
-    }
     free(server.documents);
     texts_free(&server.roots);
     petri_close(&server.session);

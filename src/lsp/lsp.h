@@ -5,7 +5,7 @@
 #include "cli/cli.h"
 #include "cli/options.h"
 
-// Serves standard input until the editor says that it ends; returns the exit status. For Host.serve.
-int lsp_serve(const Host *host, Options *options);
+// Serves standard input until the editor says that it ends; returns the exit status. For CommandContext.serve.
+int lsp_serve(const CommandContext *context, Options *options);
 
 #endif

@@ -1,8 +1,8 @@
 // outline.c: the shape of a document: its symbols, what folds, and classes of tokens.
+#include "lsp/server.h"
+
 #include <stdlib.h>
 #include <string.h>
-
-#include "lsp/server.h"
 
 // --- symbols
 
@@ -13,37 +13,36 @@ enum { AS_MODULE = 2, AS_FUNCTION = 12, AS_VARIABLE = 13, AS_OBJECT = 19 };
 static size_t block_end(const Document *document, size_t token) {
     size_t level = document_level(document, token), end = document->tokens[token].end;
     for (size_t i = token + 1; i < document->token_count; i++) {
-        if (document_begins(document, i) && document_level(document, i) <= level) {
+        if (document_begins(document, i) && document_level(document, i) <= level)
             break;
-        }
-        if (document->tokens[i].kind != PETRI_TOKEN_COMMENT) {
+        if (document->tokens[i].kind != PETRI_TOKEN_COMMENT)
             end = document->tokens[i].end;
-        }
     }
     return end;
 }
 
-static Json *symbol(const Place *place, Str name, int kind, size_t start, size_t end, size_t at, size_t at_end) {
-    bool utf8 = place->server->utf8;
+static Json *symbol(const RequestContext *request, Str name, int kind, size_t start, size_t end, size_t at,
+                    size_t at_end) {
+    bool utf8 = request->server->utf8;
     Json *item = json_put_number(json_put(json_object_new_object(), "name", json_from(name)), "kind", kind);
     json_put(item, "range",
-             document_range(place->document, start < at ? start : at, end > at_end ? end : at_end, utf8));
-    return json_put(item, "selectionRange", document_range(place->document, at, at_end, utf8));
+             document_range(request->document, start < at ? start : at, end > at_end ? end : at_end, utf8));
+    return json_put(item, "selectionRange", document_range(request->document, at, at_end, utf8));
 }
 
-Json *answer_symbols(const Place *place, const char **problem) {
+Json *answer_symbols(const RequestContext *request, const char **problem) {
     (void)problem;
-    const Document *document = place->document;
+    const Document *document = request->document;
     Json *list = json_object_new_array();
     for (size_t i = 0; i < document->name_count; i++) {
-        const PetriTextName *name = &document->names[i];
+        const PetriBinding *name = &document->names[i];
         bool top = name->depth == 0 &&
                    (name->kind == PETRI_NAME_LET || name->kind == PETRI_NAME_FUNC || name->kind == PETRI_NAME_IMPORT);
         int kind = name->kind == PETRI_NAME_FUNC ? AS_FUNCTION : name->kind == PETRI_NAME_LET ? AS_VARIABLE : AS_MODULE;
         if (top && name->scope_end >= document->text.length) {
-            Str text = document_part(document, name->start, name->end);
+            Str text = document_slice(document, name->start, name->end);
             json_object_array_add(
-                list, symbol(place, text, kind, name->value_start, name->value_end, name->start, name->end));
+                list, symbol(request, text, kind, name->value_start, name->value_end, name->start, name->end));
         }
     }
     for (size_t i = 0; i < document->token_count; i++) {
@@ -51,11 +50,11 @@ Json *answer_symbols(const Place *place, const char **problem) {
             document_level(document, i) == 0) {
             size_t start = document->tokens[i].start, end = document->tokens[i].end;
             Json *item =
-                symbol(place, document_token(document, i), AS_OBJECT, start, block_end(document, i), start, end);
-            Str rest = document_part(document, end, document->text.length);
+                symbol(request, document_token(document, i), AS_OBJECT, start, block_end(document, i), start, end);
+            Str rest = document_slice(document, end, document->text.length);
             const char *line = memchr(rest.bytes, '\n', rest.len);
-            Str attributes = str_trim((Str){rest.bytes, line == NULL ? rest.len : (size_t)(line - rest.bytes)});
-            json_put(item, "detail", json_from(str_cut(attributes, 80)));
+            Str attributes = str_trim((Str){rest.bytes, !line ? rest.len : (size_t)(line - rest.bytes)});
+            json_put(item, "detail", json_from(str_truncate(attributes, 80)));
             json_object_array_add(list, item);
         }
     }
@@ -68,33 +67,32 @@ static void add_fold(Json *list, size_t first, size_t last, const char *kind) {
     if (last > first) {
         Json *item = json_put_number(json_object_new_object(), "startLine", (int64_t)first);
         json_put_number(item, "endLine", (int64_t)last);
-        json_object_array_add(list, kind == NULL ? item : json_put_text(item, "kind", kind));
+        json_object_array_add(list, !kind ? item : json_put_text(item, "kind", kind));
     }
 }
 
-Json *answer_folding(const Place *place, const char **problem) {
+Json *answer_folding(const RequestContext *request, const char **problem) {
     (void)problem;
-    const Document *document = place->document;
+    const Document *document = request->document;
     Json *list = json_object_new_array();
     size_t first = SIZE_MAX, last = 0; // of comments, each of which has its line
     for (size_t i = 0; i <= document->token_count; i++) {
         bool comment = i < document->token_count && document->tokens[i].kind == PETRI_TOKEN_COMMENT;
         size_t line = 0, end = 0, character, column;
-        if (i < document->token_count) {
-            document_place(document, document->tokens[i].start, true, &line, &column);
-        }
+        if (i < document->token_count)
+            document_position(document, document->tokens[i].start, true, &line, &column);
         if (first != SIZE_MAX && (!comment || line != last + 1)) {
             add_fold(list, first, last, "comment");
             first = SIZE_MAX;
         }
         bool alone = comment && (i == 0 || memchr(document->text.data + document->tokens[i - 1].end, '\n',
-                                                  document->tokens[i].start - document->tokens[i - 1].end) != NULL);
+                                                  document->tokens[i].start - document->tokens[i - 1].end));
         if (alone) {
             first = first == SIZE_MAX ? line : first;
             last = line;
         }
         if (i < document->token_count && !comment && document_begins(document, i)) {
-            document_place(document, block_end(document, i), true, &end, &character);
+            document_position(document, block_end(document, i), true, &end, &character);
             add_fold(list, line, end, NULL);
         }
     }
@@ -125,25 +123,22 @@ Json *tokens_legend(void) {
                                         "parameter", "function", "property", "class",  "enumMember", "decorator"};
     static const char *const modifiers[] = {"declaration", "defaultLibrary"};
     Json *type_list = json_object_new_array(), *modifier_list = json_object_new_array();
-    for (size_t i = 0; i < sizeof types / sizeof types[0]; i++) {
+    for (size_t i = 0; i < sizeof types / sizeof types[0]; i++)
         json_object_array_add(type_list, json_object_new_string(types[i]));
-    }
-    for (size_t i = 0; i < sizeof modifiers / sizeof modifiers[0]; i++) {
+    for (size_t i = 0; i < sizeof modifiers / sizeof modifiers[0]; i++)
         json_object_array_add(modifier_list, json_object_new_string(modifiers[i]));
-    }
     return json_put(json_put(json_object_new_object(), "tokenTypes", type_list), "tokenModifiers", modifier_list);
 }
 
 static Class class_of_name(const Document *document, size_t token, int *modifiers) {
-    const PetriTextName *name = document_name_at(document, document->tokens[token].start);
-    if (name == NULL) {
+    const PetriBinding *name = document_name_at(document, document->tokens[token].start);
+    if (!name)
         return CLASS_PROPERTY; // of an attribute or a named argument
-    }
-    const PetriTextName *bound = document_binding(document, name);
+    const PetriBinding *bound = document_binding(document, name);
     PetriBuiltin builtin;
-    if (bound == NULL) {
+    if (!bound) {
         *modifiers = IS_BUILT_IN;
-        return explain_builtin(document_token(document, token), &builtin) ? CLASS_FUNCTION : CLASS_VARIABLE;
+        return hover_builtin(document_token(document, token), &builtin) ? CLASS_FUNCTION : CLASS_VARIABLE;
     }
     *modifiers = bound == name ? IS_DECLARATION : 0;
     return bound->kind == PETRI_NAME_FUNC        ? CLASS_FUNCTION
@@ -157,7 +152,7 @@ static Class class_of(const Document *document, size_t token, int *modifiers) {
         [PETRI_TOKEN_STRING] = CLASS_STRING,     [PETRI_TOKEN_SYMBOL] = CLASS_SYMBOL,
         [PETRI_TOKEN_NODE] = CLASS_NODE,         [PETRI_TOKEN_TAG] = CLASS_TAG,
         [PETRI_TOKEN_OPERATOR] = CLASS_OPERATOR, [PETRI_TOKEN_COMMENT] = CLASS_COMMENT,
-        [PETRI_TOKEN_WRONG] = CLASS_NONE,
+        [PETRI_TOKEN_INVALID] = CLASS_NONE,
     };
     *modifiers = 0;
     return document->tokens[token].kind == PETRI_TOKEN_NAME ? class_of_name(document, token, modifiers)
@@ -176,18 +171,18 @@ static void add_number(Encoder *encoder, size_t number) {
 }
 
 // A token in each of its lines, for none may go on in the next.
-static void encode(Encoder *encoder, const Place *place, const PetriToken *token, Class class, int modifiers) {
-    const Document *document = place->document;
+static void encode(Encoder *encoder, const RequestContext *request, const PetriToken *token, Class class,
+                   int modifiers) {
+    const Document *document = request->document;
     for (size_t start = token->start, end; start < token->end; start = end + 1) {
-        Str rest = document_part(document, start, token->end);
+        Str rest = document_slice(document, start, token->end);
         const char *stop = memchr(rest.bytes, '\n', rest.len);
-        end = stop == NULL ? token->end : start + (size_t)(stop - rest.bytes);
+        end = !stop ? token->end : start + (size_t)(stop - rest.bytes);
         size_t line, character, last_line, last;
-        document_place(document, start, place->server->utf8, &line, &character);
-        document_place(document, end, place->server->utf8, &last_line, &last);
-        if (end == start) {
+        document_position(document, start, request->server->utf8, &line, &character);
+        document_position(document, end, request->server->utf8, &last_line, &last);
+        if (end == start)
             continue;
-        }
         add_number(encoder, line - encoder->line);
         add_number(encoder, line == encoder->line ? character - encoder->character : character);
         add_number(encoder, last - character);
@@ -198,16 +193,15 @@ static void encode(Encoder *encoder, const Place *place, const PetriToken *token
     }
 }
 
-Json *answer_tokens(const Place *place, const char **problem) {
+Json *answer_tokens(const RequestContext *request, const char **problem) {
     (void)problem;
-    const Document *document = place->document;
+    const Document *document = request->document;
     Encoder encoder = {.data = json_object_new_array()};
     for (size_t i = 0; i < document->token_count; i++) {
         int modifiers;
         Class class = class_of(document, i, &modifiers);
-        if (class != CLASS_NONE) {
-            encode(&encoder, place, &document->tokens[i], class, modifiers);
-        }
+        if (class != CLASS_NONE)
+            encode(&encoder, request, &document->tokens[i], class, modifiers);
     }
     return json_put(json_object_new_object(), "data", encoder.data);
 }

@@ -1,6 +1,8 @@
 // rpc.c: see rpc.h.
 #include "lsp/rpc.h"
 
+#include "base/file.h"
+
 #include <errno.h>
 #include <poll.h>
 #include <stdlib.h>
@@ -8,25 +10,22 @@
 #include <strings.h>
 #include <unistd.h>
 
-#include "base/file.h"
-
-enum { MOST_DEPTH = 256, MOST_HEADER = 4096 };
-static const size_t MOST_BYTES = (size_t)64 << 20;
+enum { MAX_DEPTH = 256, MAX_HEADER = 4096 };
+static const size_t MAX_BYTES = (size_t)64 << 20;
 
 // Reads more input; false at its end.
-static bool read_more(Bytes *input) {
+static bool read_more(ByteBuffer *input) {
     char part[1 << 16];
     ssize_t count;
     do {
         count = read(STDIN_FILENO, part, sizeof part);
     } while (count < 0 && errno == EINTR);
-    if (count > 0) {
-        bytes_add(input, part, (size_t)count);
-    }
+    if (count > 0)
+        byte_buffer_add(input, part, (size_t)count);
     return count > 0;
 }
 
-static void drop(Bytes *input, size_t count) {
+static void drop_bytes(ByteBuffer *input, size_t count) {
     memmove(input->data, input->data + count, input->length - count);
     input->length -= count;
     input->data[input->length] = '\0';
@@ -35,42 +34,37 @@ static void drop(Bytes *input, size_t count) {
 // The length that a header tells; SIZE_MAX if it tells none.
 static size_t content_length(const char *header) {
     static const char name[] = "Content-Length:";
-    for (const char *line = header; line != NULL; line = strchr(line, '\n')) {
+    for (const char *line = header; line; line = strchr(line, '\n')) {
         line += *line == '\n';
         if (strncasecmp(line, name, strlen(name)) == 0) {
             long long length = atoll(line + strlen(name));
-            return length >= 0 && (size_t)length <= MOST_BYTES ? (size_t)length : SIZE_MAX;
+            return length >= 0 && (size_t)length <= MAX_BYTES ? (size_t)length : SIZE_MAX;
         }
     }
     return SIZE_MAX;
 }
 
-RpcRead rpc_read(Bytes *input, Json **message) {
+RpcRead rpc_read(ByteBuffer *input, Json **message) {
     char *end = NULL;
     *message = NULL;
-    while (input->length == 0 || (end = strstr(input->data, "\r\n\r\n")) == NULL) {
-        if (input->length > MOST_HEADER || !read_more(input)) {
+    while (input->length == 0 || !(end = strstr(input->data, "\r\n\r\n")))
+        if (input->length > MAX_HEADER || !read_more(input))
             return RPC_END;
-        }
-    }
     *end = '\0';
     size_t length = content_length(input->data), begin = (size_t)(end - input->data) + 4;
-    if (length == SIZE_MAX) {
+    if (length == SIZE_MAX)
         return RPC_END; // where the next one begins nobody knows
-    }
-    while (input->length - begin < length) {
-        if (!read_more(input)) {
+    while (input->length - begin < length)
+        if (!read_more(input))
             return RPC_END;
-        }
-    }
-    json_tokener *tokener = json_tokener_new_ex(MOST_DEPTH);
+    json_tokener *tokener = json_tokener_new_ex(MAX_DEPTH);
     *message = json_tokener_parse_ex(tokener, input->data + begin, (int)length);
     json_tokener_free(tokener);
-    drop(input, begin + length);
-    return *message != NULL ? RPC_MESSAGE : RPC_WRONG;
+    drop_bytes(input, begin + length);
+    return *message ? RPC_MESSAGE : RPC_INVALID;
 }
 
-bool rpc_more(const Bytes *input) {
+bool rpc_has_input(const ByteBuffer *input) {
     struct pollfd ready = {.fd = STDIN_FILENO, .events = POLLIN};
     return input->length > 0 || poll(&ready, 1, 0) > 0;
 }
@@ -81,9 +75,9 @@ static bool write_message(Json *message) {
     size_t length = 0;
     const char *text =
         json_object_to_json_string_length(message, JSON_C_TO_STRING_PLAIN | JSON_C_TO_STRING_NOSLASHESCAPE, &length);
-    SCOPED_BYTES out = {0};
-    bytes_format(&out, "Content-Length: %zu\r\n\r\n", length);
-    bytes_add(&out, text, length);
+    SCOPED_BYTE_BUFFER out = {0};
+    byte_buffer_format(&out, "Content-Length: %zu\r\n\r\n", length);
+    byte_buffer_add(&out, text, length);
     bool written = file_write(STDOUT_FILENO, out.data, out.length);
     json_object_put(message);
     return written;
@@ -94,7 +88,7 @@ bool rpc_answer(Json *id, Json *result) {
     return write_message(json_put(message, "result", result));
 }
 
-bool rpc_refuse(Json *id, int code, const char *text) {
+bool rpc_send_error(Json *id, int code, const char *text) {
     Json *error = json_put_text(json_put_number(json_object_new_object(), "code", code), "message", text);
     Json *message = json_put(json_object_new_object(), "id", json_object_get(id));
     return write_message(json_put(message, "error", error));
@@ -109,12 +103,11 @@ Json *json_get(const Json *object, const char *key) {
 }
 
 Json *json_path(const Json *object, const char *keys) {
-    SCOPED_TEXT copy = memory_text(keys);
+    SCOPED_TEXT copy = memory_strdup(keys);
     char *rest = copy;
     Json *at = (Json *)object;
-    for (char *key = strsep(&rest, "."); key != NULL; key = strsep(&rest, ".")) {
+    for (char *key = strsep(&rest, "."); key; key = strsep(&rest, "."))
         at = json_get(at, key);
-    }
     return at;
 }
 

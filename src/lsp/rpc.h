@@ -2,9 +2,9 @@
 #ifndef PETRI_SRC_LSP_RPC_H
 #define PETRI_SRC_LSP_RPC_H
 
-#include <json-c/json.h>
+#include "cli/byte_buffer.h"
 
-#include "cli/bytes.h"
+#include <json-c/json.h>
 
 typedef struct json_object Json;
 
@@ -18,14 +18,14 @@ enum {
     RPC_REQUEST_FAILED = -32803,
 };
 
-typedef enum RpcRead { RPC_MESSAGE, RPC_WRONG, RPC_END } RpcRead;
-// Waits for the next message. RPC_WRONG: what came is no JSON.
-RpcRead rpc_read(Bytes *input, Json **message);
+typedef enum RpcRead { RPC_MESSAGE, RPC_INVALID, RPC_END } RpcRead;
+// Waits for the next message. RPC_INVALID: what came is no JSON.
+RpcRead rpc_read(ByteBuffer *input, Json **message);
 // Whether more of standard input is there already.
-bool rpc_more(const Bytes *input);
+bool rpc_has_input(const ByteBuffer *input);
 // They take `result` and `params`. False if nobody reads.
 bool rpc_answer(Json *id, Json *result);
-bool rpc_refuse(Json *id, int code, const char *text);
+bool rpc_send_error(Json *id, int code, const char *text);
 bool rpc_notify(const char *method, Json *params);
 
 // JSON. Those that make or put take what they are given; those that get borrow, and NULL has nothing in it.

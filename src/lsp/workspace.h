@@ -5,18 +5,18 @@
 #include "lsp/server.h"
 
 // A name of a document: a binding is what its uses mean.
-typedef struct Sense {
+typedef struct BindingRef {
     size_t file; // number of the document
     size_t name; // in its names
-} Sense;
+} BindingRef;
 
-enum { MOST_SENSES = 32 };
+enum { MAX_BINDINGS = 32 };
 
 // What a name means: one binding, or one for each script that includes its own.
-typedef struct Senses {
-    Sense items[MOST_SENSES];
+typedef struct BindingSet {
+    BindingRef items[MAX_BINDINGS];
     size_t count;
-} Senses;
+} BindingSet;
 
 typedef struct Workspace {
     Server *server;
@@ -24,7 +24,7 @@ typedef struct Workspace {
     bool *own;            // those that are freed with the workspace
     bool *included;       // by another of them
     size_t count;
-    size_t left; // files that may still be read
+    size_t files_left; // files that may still be read
 } Workspace;
 
 // The document, those that the editor has open, and what they import and include; if `whole`, scripts of the editor's
@@ -32,17 +32,17 @@ typedef struct Workspace {
 void workspace_open(Workspace *workspace, Server *server, Document *document, bool whole);
 void workspace_close(Workspace *workspace);
 // The same with another text of one document.
-void workspace_replace(Workspace *workspace, size_t file, const Bytes *text);
+void workspace_replace(Workspace *workspace, size_t file, const ByteBuffer *text);
 
-Senses workspace_senses(const Workspace *workspace, size_t file, size_t name);
+BindingSet workspace_bindings(const Workspace *workspace, size_t file, size_t name);
 // Of a token of the first document, which may be in a statement that does not parse.
-Senses workspace_meaning(const Workspace *workspace, size_t token);
-bool senses_meet(const Senses *a, const Senses *b);
+BindingSet workspace_resolve(const Workspace *workspace, size_t token);
+bool binding_sets_overlap(const BindingSet *a, const BindingSet *b);
 // Adds what is not among them yet; false if nothing is new.
-bool senses_add(Senses *senses, const Senses *more);
+bool binding_set_add(BindingSet *senses, const BindingSet *more);
 
 // What a name means where a document includes a file.
-const PetriTextName *workspace_visible(const Document *document, const Link *link, Str text);
-const PetriTextName *workspace_name(const Workspace *workspace, Sense sense);
+const PetriBinding *workspace_visible(const Document *document, const Link *link, Str text);
+const PetriBinding *workspace_name(const Workspace *workspace, BindingRef sense);
 
 #endif

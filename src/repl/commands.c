@@ -1,23 +1,21 @@
 // commands.c: the commands of the prompt: finding them, telling of them, and those about commands themselves.
+#include "cli/help.h"
+#include "cli/progress.h"
+#include "cli/text_table.h"
+#include "repl/repl.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/help.h"
-#include "cli/progress.h"
-#include "cli/table.h"
-#include "repl/repl.h"
-
 const ReplCommand *repl_command_at(size_t index) {
-    static const ReplCommand *const groups[] = {STEP_COMMANDS,   SHOW_COMMANDS,   PLOT_COMMANDS, SETTING_COMMANDS,
+    static const ReplCommand *const groups[] = {STEP_COMMANDS,   PRINT_COMMANDS,  PLOT_COMMANDS, SET_COMMANDS,
                                                 SCRIPT_COMMANDS, RECORD_COMMANDS, OTHER_COMMANDS};
     for (size_t i = 0; i < sizeof groups / sizeof groups[0]; i++) {
-        for (const ReplCommand *command = groups[i]; command->name != NULL; command++) {
-            if (index-- == 0) {
+        for (const ReplCommand *command = groups[i]; command->name; command++)
+            if (index-- == 0)
                 return command;
-            }
-        }
     }
     return NULL;
 }
@@ -25,102 +23,102 @@ const ReplCommand *repl_command_at(size_t index) {
 const ReplCommand *repl_find_command(const char *name, size_t length) {
     const ReplCommand *command;
     size_t bare = length > 0 && name[0] == '.' ? 0 : 1;
-    for (size_t i = 0; (command = repl_command_at(i)) != NULL; i++) {
-        if (strlen(command->name + bare) == length && memcmp(command->name + bare, name, length) == 0) {
+    for (size_t i = 0; (command = repl_command_at(i)); i++)
+        if (strlen(command->name + bare) == length && memcmp(command->name + bare, name, length) == 0)
             break;
-        }
-    }
     return command;
 }
 
-static void list_commands(Repl *repl) {
-    SCOPED_TABLE table = table_new(2);
+static void list_commands(ByteBuffer *text) {
+    SCOPED_TEXT_TABLE table = text_table_new(2);
     const ReplCommand *command;
-    for (size_t i = 0; (command = repl_command_at(i)) != NULL; i++) {
+    for (size_t i = 0; (command = repl_command_at(i)); i++) {
         char head[64];
         snprintf(head, sizeof head, "%s%s%s", command->name, command->operands[0] == '\0' ? "" : " ",
                  command->operands);
-        table_add(&table, head);
-        table_add(&table, command->help);
+        text_table_add(&table, head);
+        text_table_add(&table, command->help);
     }
-    table_write(&table, &repl->output);
-    output_format(
-        &repl->output,
-        "Numbers may be expressions: .resolution 1/240. Anything else is of the language. The value of an expression\n"
-        "is printed; let, func, import and nodes stay. Lines indented below the first belong to it, and Up goes back "
-        "to\n"
-        "them; an empty line ends them. Ctrl-C stops what is being done. Try .help builtins, .help nodes,\n"
-        ".help !particle, .help polar, .help tempo.\n");
+    table_text(&table, text);
+    byte_buffer_add_text(
+        text, "Numbers may be expressions: .resolution 1/240. Anything else is of the language. The value of "
+              "an expression is printed; let, func, import and nodes stay. Lines indented below the first "
+              "belong to it, and Up goes back to them; an empty line ends them. Ctrl-C stops what is being "
+              "done. Try .help builtins, .help nodes, .help !particle, .help polar, .help tempo.\n");
 }
 
-static void list_builtins(Repl *repl) {
-    SCOPED_TABLE table = table_new(2);
+static void list_builtins(ByteBuffer *text) {
+    SCOPED_TEXT_TABLE table = text_table_new(2);
     PetriBuiltin builtin;
     for (size_t i = 0; petri_builtin(i, &builtin); i++) {
         char head[128];
         snprintf(head, sizeof head, "%s(%s)", builtin.name, builtin.parameters);
-        table_add(&table, head);
-        table_add(&table, builtin.help);
+        text_table_add(&table, head);
+        text_table_add(&table, builtin.help);
     }
-    table_write(&table, &repl->output);
+    table_text(&table, text);
 }
 
-static void list_nodes(Repl *repl) {
-    SCOPED_TABLE table = table_new(3);
+static void list_nodes(ByteBuffer *text) {
+    SCOPED_TEXT_TABLE table = text_table_new(3);
     PetriNodeKind kind;
     for (size_t i = 0; petri_node_kind(i, &kind); i++) {
         char head[80];
         snprintf(head, sizeof head, "!%s", kind.name);
-        table_add(&table, head);
-        table_add(&table, kind.area);
-        table_add(&table, kind.help);
+        text_table_add(&table, head);
+        text_table_add(&table, kind.area);
+        text_table_add(&table, kind.help);
     }
-    table_write(&table, &repl->output);
+    table_text(&table, text);
 }
 
-static bool tell_nearest(Repl *repl, const char *topic) {
+static bool suggest_topic(Repl *repl, const char *topic) {
     StrNearest nearest = nearest_start(topic);
     const ReplCommand *command;
-    for (size_t i = 0; (command = repl_command_at(i)) != NULL; i++) {
-        if (nearest_offer(&nearest, command->name + (topic[0] != '.'))) {
+    for (size_t i = 0; (command = repl_command_at(i)); i++)
+        if (nearest_offer(&nearest, command->name + (topic[0] != '.')))
             nearest.found = str_from(command->name);
-        }
-    }
     topics_offer(&nearest);
-    return nearest.found.bytes == NULL
+    return !nearest.found.bytes
                ? repl_fail(repl, "there is no help on '%.40s'; .help lists the commands", topic)
                : repl_fail(repl, "there is no help on '%.40s', did you mean '%s'?", topic, nearest.found.bytes);
 }
 
-static bool run_help(Repl *repl, const char *topic) {
+static bool add_help(Repl *repl, ByteBuffer *text, const char *topic) {
     if (topic[0] == '\0') {
-        list_commands(repl);
+        list_commands(text);
     } else if (strcmp(topic, "builtins") == 0) {
-        list_builtins(repl);
+        list_builtins(text);
     } else if (strcmp(topic, "nodes") == 0) {
-        list_nodes(repl);
+        list_nodes(text);
     } else {
-        bool found = topic[0] != '.' && topics_tell(&repl->output, topic);
+        bool found = topic[0] != '.' && topics_print(text, topic);
         const ReplCommand *command = repl_find_command(topic, strlen(topic));
-        if (command != NULL) {
-            output_format(&repl->output, "%s%s%s\n    %s\n", command->name, command->operands[0] == '\0' ? "" : " ",
-                          command->operands, command->help);
+        if (command) {
+            byte_buffer_format(text, "%s%s%s\n    %s\n", command->name, command->operands[0] == '\0' ? "" : " ",
+                               command->operands, command->help);
         }
-        return found || command != NULL || tell_nearest(repl, topic);
+        return found || command || suggest_topic(repl, topic);
     }
     return true;
 }
 
-static void say_seconds(Repl *repl, double seconds, const char *more) {
+static bool run_help(Repl *repl, const char *topic) {
+    SCOPED_BYTE_BUFFER text = {0};
+    bool found = add_help(repl, &text, topic);
+    help_write(&repl->output, &text);
+    return found;
+}
+
+static void note_seconds(Repl *repl, double seconds, const char *more) {
     static const struct {
         double unit;
         const char *name;
     } units[] = {{1, "s"}, {1e-3, "ms"}, {1e-6, "us"}, {1e-9, "ns"}};
     size_t i = 0;
-    while (i < 3 && seconds < units[i].unit) {
+    while (i < 3 && seconds < units[i].unit)
         i++;
-    }
-    repl_say(repl, "%.3g %s%s", seconds / units[i].unit, units[i].name, more);
+    repl_note(repl, "%.3g %s%s", seconds / units[i].unit, units[i].name, more);
 }
 
 // The best of many, since other programs can only make it slower.
@@ -130,26 +128,24 @@ static bool time_expression(Repl *repl, const char *expression) {
     PetriStatus status = PETRI_OK;
     repl_busy(repl);
     while (status == PETRI_OK && count < 100000 && (count < 3 || clock_seconds() - start < 0.2)) {
-        PetriResult result;
-        status = petri_evaluate(repl->session, expression, PETRI_Z, &result, NULL, NULL);
+        PetriEvaluation result;
+        status = petri_evaluate(repl->session, expression, PETRI_NUL_TERMINATED, &result, NULL, NULL);
         best = status == PETRI_OK ? fmin(best, result.seconds) : best;
         count++;
     }
     repl_idle(repl);
-    if (repl_status(repl, status)) {
-        say_seconds(repl, best, ", the best of several evaluations");
-    }
+    if (repl_status(repl, status))
+        note_seconds(repl, best, ", the best of several evaluations");
     return status == PETRI_OK;
 }
 
 static bool run_time(Repl *repl, const char *rest) {
-    if (rest[0] != '.' || (rest[1] >= '0' && rest[1] <= '9') || rest[1] == '.') {
+    if (rest[0] != '.' || (rest[1] >= '0' && rest[1] <= '9') || rest[1] == '.')
         return time_expression(repl, rest);
-    }
     double start = clock_seconds();
     repl_command(repl, rest);
     double seconds = clock_seconds() - start;
-    say_seconds(repl, seconds, "");
+    note_seconds(repl, seconds, "");
     return !repl->failed;
 }
 
@@ -168,33 +164,29 @@ const ReplCommand OTHER_COMMANDS[] = {
     {0},
 };
 
-static void unknown(Repl *repl, const char *name) {
+static void report_unknown(Repl *repl, const char *name) {
     StrNearest nearest = nearest_start(name);
     const ReplCommand *command;
-    for (size_t i = 0; (command = repl_command_at(i)) != NULL; i++) {
+    for (size_t i = 0; (command = repl_command_at(i)); i++)
         nearest_offer(&nearest, command->name);
-    }
-    if (nearest.found.bytes != NULL) {
+    if (nearest.found.bytes)
         repl_fail(repl, "there is no command '%.40s', did you mean '%s'?", name, nearest.found.bytes);
-    } else {
+    else
         repl_fail(repl, "there is no command '%.40s'; .help lists the commands", name);
-    }
 }
 
 void repl_command(Repl *repl, const char *line) {
     size_t length = strcspn(line, " \t\n");
-    SCOPED_TEXT name = memory_copied(line, length);
-    SCOPED_TEXT rest = word_trimmed(line + length);
+    SCOPED_TEXT name = memory_strndup(line, length);
+    SCOPED_TEXT rest = argument_trimmed(line + length);
     const char *alias = bare_alias(name + 1, length - 1); // .exit, .q
-    const ReplCommand *command =
-        alias != NULL ? repl_find_command(alias, strlen(alias)) : repl_find_command(name, length);
-    if (command == NULL) {
-        unknown(repl, name);
-    } else if (command->operands[0] == '\0' && rest[0] != '\0') {
+    const ReplCommand *command = alias ? repl_find_command(alias, strlen(alias)) : repl_find_command(name, length);
+    if (!command)
+        report_unknown(repl, name);
+    else if (command->operands[0] == '\0' && rest[0] != '\0')
         repl_fail(repl, "%s takes nothing, not '%.40s'", name, rest);
-    } else if (command->needed != NULL && rest[0] == '\0') {
+    else if (command->needed && rest[0] == '\0')
         repl_fail(repl, "%s needs %s", command->name, command->needed);
-    } else if (!command->run(repl, rest)) {
+    else if (!command->run(repl, rest))
         repl->failed = true;
-    }
 }

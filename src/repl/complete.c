@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_SHOWN = 100, LINE_WIDTH = 78 };
+enum { MAX_SHOWN = 100, LINE_WIDTH = 78 };
 
 // A word being completed: candidates are offered, those that fit are kept.
 typedef struct Search {
@@ -16,16 +16,15 @@ typedef struct Search {
     Completion *found;
 } Search;
 
-static void offer(Search *search, const char *word) {
-    if (strncmp(word, search->typed, search->length) == 0) {
+static void add_candidate(Search *search, const char *word) {
+    if (strncmp(word, search->typed, search->length) == 0)
         texts_add(&search->found->words, word);
-    }
 }
 
-static void offer_with(Search *search, const char *before, const char *word, const char *after) {
-    SCOPED_BYTES text = {0};
-    bytes_format(&text, "%s%s%s", before, word, after);
-    offer(search, text.data);
+static void add_candidate_with(Search *search, const char *before, const char *word, const char *after) {
+    SCOPED_BYTE_BUFFER text = {0};
+    byte_buffer_format(&text, "%s%s%s", before, word, after);
+    add_candidate(search, text.data);
 }
 
 static bool is_word(char c) {
@@ -34,31 +33,26 @@ static bool is_word(char c) {
 
 static void offer_commands(Search *search) {
     const ReplCommand *command;
-    for (size_t i = 0; (command = repl_command_at(i)) != NULL; i++) {
-        offer(search, command->name);
-    }
+    for (size_t i = 0; (command = repl_command_at(i)); i++)
+        add_candidate(search, command->name);
 }
 
 static void offer_kinds(Search *search) {
     PetriNodeKind kind;
-    for (size_t i = 0; petri_node_kind(i, &kind); i++) {
-        offer(search, kind.name);
-    }
+    for (size_t i = 0; petri_node_kind(i, &kind); i++)
+        add_candidate(search, kind.name);
 }
 
 static void offer_names(Search *search) {
     static const char *const words[] = {"let", "func", "import", "for", "if"};
     PetriBuiltin builtin;
     const char *name;
-    for (size_t i = 0; (name = petri_name(search->repl->session, i)) != NULL; i++) {
-        offer(search, name);
-    }
-    for (size_t i = 0; petri_builtin(i, &builtin); i++) {
-        offer(search, builtin.name);
-    }
-    for (size_t i = 0; search->length > 0 && i < sizeof words / sizeof words[0]; i++) {
-        offer(search, words[i]);
-    }
+    for (size_t i = 0; (name = petri_visible_name(search->repl->session, i)); i++)
+        add_candidate(search, name);
+    for (size_t i = 0; petri_builtin(i, &builtin); i++)
+        add_candidate(search, builtin.name);
+    for (size_t i = 0; search->length > 0 && i < sizeof words / sizeof words[0]; i++)
+        add_candidate(search, words[i]);
 }
 
 static void offer_attributes(Search *search, const char *kind, size_t length) {
@@ -66,64 +60,56 @@ static void offer_attributes(Search *search, const char *kind, size_t length) {
     PetriNodeAttribute attribute;
     for (size_t i = 0; petri_node_kind(i, &node); i++) {
         bool same = strlen(node.name) == length && memcmp(node.name, kind, length) == 0;
-        for (size_t k = 0; same && petri_node_attribute(i, k, &attribute); k++) {
-            offer_with(search, "", attribute.name, "=");
-        }
+        for (size_t k = 0; same && petri_node_attribute(i, k, &attribute); k++)
+            add_candidate_with(search, "", attribute.name, "=");
     }
 }
 
 // The state's keys are what its lines have before ` = `.
 static void offer_keys(Search *search) {
-    SCOPED_BYTES state = {0};
+    SCOPED_BYTE_BUFFER state = {0};
     Str line;
     size_t at = 0;
-    petri_print(search->repl->session, PETRI_PRINT_STATE, bytes_collect, &state);
-    while (bytes_line(&state, &at, &line)) {
+    petri_print(search->repl->session, PETRI_PRINT_STATE, byte_buffer_collect, &state);
+    while (byte_buffer_next_line(&state, &at, &line)) {
         const char *end = line.bytes[0] == '$' ? strstr(line.bytes, " = ") : NULL;
-        if (end != NULL) {
-            SCOPED_TEXT key = memory_copied(line.bytes, (size_t)(end - line.bytes));
-            offer(search, key);
+        if (end) {
+            SCOPED_TEXT key = memory_strndup(line.bytes, (size_t)(end - line.bytes));
+            add_candidate(search, key);
         }
     }
 }
 
 static void offer_systems(Search *search) {
     PetriSystem system;
-    for (size_t i = 0; petri_system(search->repl->session, i, &system); i++) {
-        offer(search, system.name);
-    }
+    for (size_t i = 0; petri_system(search->repl->session, i, &system); i++)
+        add_candidate(search, system.name);
 }
 
 static void offer_files(Search *search) {
-    SCOPED_BYTES pattern = {0};
+    SCOPED_BYTE_BUFFER pattern = {0};
     glob_t found = {0};
-    bytes_format(&pattern, "%s*", search->typed);
+    byte_buffer_format(&pattern, "%s*", search->typed);
     glob(pattern.data, 0, NULL, &found);
-    for (size_t i = 0; i < found.gl_pathc; i++) {
-        offer(search, found.gl_pathv[i]);
-    }
+    for (size_t i = 0; i < found.gl_pathc; i++)
+        add_candidate(search, found.gl_pathv[i]);
     globfree(&found);
 }
 
 // The kind of the node whose attributes may be named at `at`; NULL if a value or something else is expected there.
 static const char *node_before(const char *line, size_t at, size_t *length) {
-    if (at == 0 || !isspace((unsigned char)line[at - 1])) {
+    if (at == 0 || !isspace((unsigned char)line[at - 1]))
         return NULL;
-    }
     size_t end = at;
-    while (end > 0 && isspace((unsigned char)line[end - 1])) {
+    while (end > 0 && isspace((unsigned char)line[end - 1]))
         end--;
-    }
-    if (end == 0 || strchr("=;+-*/%(,<>$.", line[end - 1]) != NULL) {
+    if (end == 0 || strchr("=;+-*/%(,<>$.", line[end - 1]))
         return NULL;
-    }
-    while (end > 0 && line[end - 1] != '!') {
+    while (end > 0 && line[end - 1] != '!')
         end--;
-    }
     *length = 0;
-    while (end > 0 && is_word(line[end + *length])) {
+    while (end > 0 && is_word(line[end + *length]))
         ++*length;
-    }
     return *length > 0 ? line + end : NULL;
 }
 
@@ -131,17 +117,15 @@ static const char *node_before(const char *line, size_t at, size_t *length) {
 static size_t lookup_before(const char *line, size_t length) {
     for (size_t at = length; at > 0; at--) {
         char c = line[at - 1];
-        if (c == '$') {
+        if (c == '$')
             return at - 1;
-        }
-        if (isspace((unsigned char)c) || c == ')') {
+        if (isspace((unsigned char)c) || c == ')')
             break;
-        }
     }
     return SIZE_MAX;
 }
 
-static void search_from(Search *search, const char *line, size_t start, size_t length) {
+static void begin_search(Search *search, const char *line, size_t start, size_t length) {
     search->typed = line + start;
     search->length = length - start;
 }
@@ -149,43 +133,39 @@ static void search_from(Search *search, const char *line, size_t start, size_t l
 static void search_language(Search *search, const char *line, size_t length) {
     size_t kind_length = 0, start = lookup_before(line, length);
     if (start != SIZE_MAX) {
-        search_from(search, line, start, length);
+        begin_search(search, line, start, length);
         offer_keys(search);
         return;
     }
     start = length;
-    while (start > 0 && is_word(line[start - 1])) {
+    while (start > 0 && is_word(line[start - 1]))
         start--;
-    }
-    search_from(search, line, start, length);
+    begin_search(search, line, start, length);
     if (start > 0 && line[start - 1] == '!') {
         offer_kinds(search);
         return;
     }
     const char *kind = node_before(line, start, &kind_length);
-    if (kind != NULL) {
+    if (kind)
         offer_attributes(search, kind, kind_length);
-    } else if (start == 0 || line[start - 1] != ':') {
+    else if (start == 0 || line[start - 1] != ':')
         offer_names(search);
-    }
 }
 
 static void offer_parameters(Search *search) {
     PetriParameter parameter;
-    for (size_t i = 0; petri_parameter(search->repl->session, i, &parameter) && parameter.settable; i++) {
-        offer(search, parameter.name);
-    }
+    for (size_t i = 0; petri_parameter(search->repl->session, i, &parameter) && parameter.settable; i++)
+        add_candidate(search, parameter.name);
 }
 
 static void offer_topics(Search *search) {
     PetriNodeKind kind;
     offer_commands(search);
-    for (size_t i = 0; petri_node_kind(i, &kind); i++) {
-        offer_with(search, "!", kind.name, "");
-    }
+    for (size_t i = 0; petri_node_kind(i, &kind); i++)
+        add_candidate_with(search, "!", kind.name, "");
     offer_names(search);
-    offer(search, "builtins");
-    offer(search, "nodes");
+    add_candidate(search, "builtins");
+    add_candidate(search, "nodes");
 }
 
 // What follows a command.
@@ -195,13 +175,12 @@ static void search_operand(Search *search, const char *line, size_t name, size_t
         [COMPLETE_KINDS] = offer_kinds, [COMPLETE_PARAMETERS] = offer_parameters, [COMPLETE_TOPICS] = offer_topics,
     };
     size_t start = name + strspn(line + name, " \t");
-    search_from(search, line, start < length ? start : length, length);
+    begin_search(search, line, start < length ? start : length, length);
     const ReplCommand *command = repl_find_command(line, name);
-    if (command != NULL && command->complete != COMPLETE_LANGUAGE) {
+    if (command && command->complete != COMPLETE_LANGUAGE)
         offers[command->complete](search);
-    } else {
+    else
         search_language(search, line, length);
-    }
 }
 
 static int compare_words(const void *a, const void *b) {
@@ -209,16 +188,14 @@ static int compare_words(const void *a, const void *b) {
 }
 
 // Sorts the words and drops what is there twice.
-static void tidy(TextList *words) {
+static void sort_unique(TextList *words) {
     size_t kept = 1;
     qsort(words->items, words->count, sizeof *words->items, compare_words);
-    for (size_t i = 1; i < words->count; i++) {
-        if (strcmp(words->items[i], words->items[kept - 1]) == 0) {
+    for (size_t i = 1; i < words->count; i++)
+        if (strcmp(words->items[i], words->items[kept - 1]) == 0)
             free(words->items[i]);
-        } else {
+        else
             words->items[kept++] = words->items[i];
-        }
-    }
     words->count = kept;
 }
 
@@ -226,55 +203,51 @@ static void tidy(TextList *words) {
 static void find_common(Completion *completion, size_t typed) {
     const char *first = completion->words.items[0], *last = completion->words.items[completion->words.count - 1];
     size_t length = 0;
-    while (first[length] != '\0' && first[length] == last[length]) {
+    while (first[length] != '\0' && first[length] == last[length])
         length++;
-    }
-    while (length > typed && ((unsigned char)first[length] & 0xc0) == 0x80) {
+    while (length > typed && ((unsigned char)first[length] & 0xc0) == 0x80)
         length--; // no half character
-    }
-    bytes_add(&completion->common, first + typed, length - typed);
+    byte_buffer_add(&completion->common, first + typed, length - typed);
 }
 
 void complete_line(Repl *repl, const char *line, size_t length, Completion *completion) {
-    SCOPED_TEXT text = memory_copied(line, length);
+    SCOPED_TEXT text = memory_strndup(line, length);
     Search search = {.repl = repl, .found = completion};
     *completion = (Completion){0};
     size_t name = strcspn(text, " \t");
     if (text[0] != '.') {
         search_language(&search, text, length);
     } else if (name == length) {
-        search_from(&search, text, 0, length);
+        begin_search(&search, text, 0, length);
         offer_commands(&search);
     } else {
         search_operand(&search, text, name, length);
     }
     if (completion->words.count > 0) {
-        tidy(&completion->words);
+        sort_unique(&completion->words);
         find_common(completion, search.length);
     }
 }
 
 void complete_free(Completion *completion) {
     texts_free(&completion->words);
-    bytes_free(&completion->common);
+    byte_buffer_free(&completion->common);
 }
 
 void complete_show(const Completion *completion, Output *output) {
     const TextList *words = &completion->words;
-    size_t widest = 0, column = 0;
-    for (size_t i = 0; i < words->count; i++) {
-        widest = strlen(words->items[i]) > widest ? strlen(words->items[i]) : widest;
-    }
-    for (size_t i = 0; i < words->count && i < MOST_SHOWN; i++) {
-        if (column > 0 && column + widest > LINE_WIDTH) {
+    size_t max_width = 0, column = 0;
+    for (size_t i = 0; i < words->count; i++)
+        max_width = strlen(words->items[i]) > max_width ? strlen(words->items[i]) : max_width;
+    for (size_t i = 0; i < words->count && i < MAX_SHOWN; i++) {
+        if (column > 0 && column + max_width > LINE_WIDTH) {
             output_write(output, "\n", 1);
             column = 0;
         }
-        output_format(output, "%-*s", (int)widest + 2, words->items[i]);
-        column += widest + 2;
+        output_format(output, "%-*s", (int)max_width + 2, words->items[i]);
+        column += max_width + 2;
     }
     output_write(output, "\n", 1);
-    if (words->count > MOST_SHOWN) {
-        output_format(output, "... and %zu more\n", words->count - MOST_SHOWN);
-    }
+    if (words->count > MAX_SHOWN)
+        output_format(output, "... and %zu more\n", words->count - MAX_SHOWN);
 }

@@ -3,6 +3,9 @@
 
 #ifdef HAVE_LIBEDIT
 
+#include "base/str.h"
+#include "cli/progress.h"
+
 #include <errno.h>
 #include <histedit.h>
 #include <signal.h>
@@ -12,9 +15,6 @@
 #include <termios.h>
 #include <unistd.h>
 #include <wchar.h>
-
-#include "base/str.h"
-#include "cli/progress.h"
 
 struct Editor {
     Repl *repl;
@@ -28,15 +28,15 @@ struct Editor {
 static struct termios settings;
 
 // While a line is edited the terminal does not echo: it must not stay like that when a signal ends petri.
-static void on_end(int signal_number) {
+static void on_termination(int signal_number) {
     tcsetattr(STDIN_FILENO, TCSANOW, &settings);
     raise(signal_number); // now without a handler
 }
 
-static void catch_ends(void) {
+static void catch_termination(void) {
     if (tcgetattr(STDIN_FILENO, &settings) == 0) {
-        signal_catch(SIGTERM, on_end, (int)SA_RESETHAND);
-        signal_catch(SIGHUP, on_end, (int)SA_RESETHAND);
+        signal_catch(SIGTERM, on_termination, (int)SA_RESETHAND);
+        signal_catch(SIGHUP, on_termination, (int)SA_RESETHAND);
     }
 }
 
@@ -78,27 +78,23 @@ static int read_character(EditLine *line, wchar_t *character) {
             continue;
         }
         ssize_t got = read(STDIN_FILENO, &byte, 1);
-        if (got < 0 && errno == EINTR && !repl_interrupted()) {
+        if (got < 0 && errno == EINTR && !repl_interrupted())
             continue;
-        }
-        if (got <= 0) {
+        if (got <= 0)
             return (int)got;
-        }
         size_t used = mbrtowc(character, &byte, 1, &state);
-        if (used == (size_t)-1) { // no character of this locale: left out
+        if (used == (size_t)-1) // no character of this locale: left out
             state = (mbstate_t){0};
-        } else if (used != (size_t)-2) {
+        else if (used != (size_t)-2)
             return 1;
-        }
     }
 }
 
 // Where the line begins that the cursor is in.
 static const char *line_start(const LineInfo *info) {
     const char *start = info->cursor;
-    while (start > info->buffer && start[-1] != '\n') {
+    while (start > info->buffer && start[-1] != '\n')
         start--;
-    }
     return start;
 }
 
@@ -109,25 +105,24 @@ static const char *line_start(const LineInfo *info) {
 #define KEY_HISTORY_UP "\020"
 #define KEY_HISTORY_DOWN "\016"
 
-static unsigned char push(EditLine *line, const char *keys) {
+static unsigned char push_keys(EditLine *line, const char *keys) {
     el_push(line, keys);
     return CC_NORM;
 }
 
 // Enter: goes on at the end of the block, in a new line if more is wanted.
-static unsigned char enter(EditLine *line, wint_t character) {
+static unsigned char handle_enter(EditLine *line, wint_t character) {
     (void)character;
     Editor *editor = editor_of(line);
     const LineInfo *info = el_line(line);
-    SCOPED_BYTES text = {0};
-    size_t taken = 0;
-    bytes_add(&text, info->buffer, (size_t)(info->lastchar - info->buffer));
-    bytes_add_text(&text, "\n");
-    bool more = line_wants_more(editor->repl, text.data, text.length, &taken);
+    SCOPED_BYTE_BUFFER text = {0};
+    size_t consumed = 0;
+    byte_buffer_add(&text, info->buffer, (size_t)(info->lastchar - info->buffer));
+    byte_buffer_add_text(&text, "\n");
+    bool more = line_needs_more(editor->repl, text.data, text.length, &consumed);
     el_cursor(line, (int)text.length); // it stops at the end
-    if (!more) {
-        return push(line, KEY_ACCEPT);
-    }
+    if (!more)
+        return push_keys(line, KEY_ACCEPT);
     return el_insertstr(line, "\n") == 0 ? CC_REFRESH : CC_ERROR;
 }
 
@@ -143,7 +138,7 @@ static unsigned char go_up(EditLine *line, wint_t character) {
     const LineInfo *info = el_line(line);
     bool inside = line_start(info) > info->buffer;
     editor->back += !inside;
-    return push(line, inside ? KEY_LINE_UP : KEY_HISTORY_UP);
+    return push_keys(line, inside ? KEY_LINE_UP : KEY_HISTORY_UP);
 }
 
 // Below the last line there is nothing, unless we are in the history: libedit would empty the line.
@@ -151,25 +146,23 @@ static unsigned char go_down(EditLine *line, wint_t character) {
     (void)character;
     Editor *editor = editor_of(line);
     const LineInfo *info = el_line(line);
-    if (memchr(info->cursor, '\n', (size_t)(info->lastchar - info->cursor)) != NULL) {
-        return push(line, KEY_LINE_DOWN);
-    }
-    if (editor->back == 0) {
+    if (memchr(info->cursor, '\n', (size_t)(info->lastchar - info->cursor)))
+        return push_keys(line, KEY_LINE_DOWN);
+    if (editor->back == 0)
         return CC_ERROR;
-    }
     editor->back--;
-    return push(line, KEY_HISTORY_DOWN);
+    return push_keys(line, KEY_HISTORY_DOWN);
 }
 
 // Characters, not bytes, from one place to another.
-static int characters(const char *from, const char *to) {
+static int count_characters(const char *from, const char *to) {
     return (int)utf8_length((Str){from, (size_t)(to - from)});
 }
 
 static unsigned char go_home(EditLine *line, wint_t character) {
     (void)character;
     const LineInfo *info = el_line(line);
-    el_cursor(line, -characters(line_start(info), info->cursor));
+    el_cursor(line, -count_characters(line_start(info), info->cursor));
     return CC_CURSOR;
 }
 
@@ -177,10 +170,9 @@ static unsigned char go_home(EditLine *line, wint_t character) {
 static int to_line_end(EditLine *line) {
     const LineInfo *info = el_line(line);
     const char *end = info->cursor;
-    while (end < info->lastchar && *end != '\n') {
+    while (end < info->lastchar && *end != '\n')
         end++;
-    }
-    int count = characters(info->cursor, end);
+    int count = count_characters(info->cursor, end);
     el_cursor(line, count);
     return count;
 }
@@ -204,14 +196,13 @@ static unsigned char kill_rest(EditLine *line, wint_t character) {
     return CC_REFRESH;
 }
 
-static unsigned char complete(EditLine *line, wint_t character) {
+static unsigned char complete_word(EditLine *line, wint_t character) {
     (void)character;
     Editor *editor = editor_of(line);
     const LineInfo *info = el_line(line);
     const char *start = line_start(info);
-    if (start > info->buffer && strspn(start, " \t") >= (size_t)(info->cursor - start)) {
+    if (start > info->buffer && strspn(start, " \t") >= (size_t)(info->cursor - start))
         return el_insertstr(line, "    ") == 0 ? CC_REFRESH : CC_ERROR; // there is no word yet: indentation
-    }
     Completion completion;
     complete_line(editor->repl, start, (size_t)(info->cursor - start), &completion);
     bool inserted = completion.common.length > 0 && el_insertstr(line, completion.common.data) == 0;
@@ -227,28 +218,27 @@ static unsigned char complete(EditLine *line, wint_t character) {
     return result;
 }
 
-static void replace(char *text, char old, char new) {
-    while ((text = strchr(text, old)) != NULL) {
+static void replace_character(char *text, char old, char new) {
+    while ((text = strchr(text, old)))
         *text = new;
-    }
 }
 
 static void load_history(Editor *editor) {
     HistEvent event;
-    SCOPED_BYTES lines = {0};
+    SCOPED_BYTE_BUFFER lines = {0};
     saved_read(&lines);
     Str line;
-    for (size_t at = 0; bytes_line(&lines, &at, &line);) {
-        SCOPED_TEXT block = memory_copied(line.bytes, line.len);
-        replace(block, SAVED_LINE_END, '\n');
+    for (size_t at = 0; byte_buffer_next_line(&lines, &at, &line);) {
+        SCOPED_TEXT block = memory_strndup(line.bytes, line.len);
+        replace_character(block, SAVED_LINE_END, '\n');
         history(editor->history, &event, H_ENTER, block);
     }
 }
 
 // libedit copies narrow names and never frees the copies.
 static void add_functions(EditLine *line) {
-    el_wset(line, EL_ADDFN, L"petri-complete", L"complete the word", complete);
-    el_wset(line, EL_ADDFN, L"petri-enter", L"take the lines, or begin another", enter);
+    el_wset(line, EL_ADDFN, L"petri-complete", L"complete the word", complete_word);
+    el_wset(line, EL_ADDFN, L"petri-enter", L"take the lines, or begin another", handle_enter);
     el_wset(line, EL_ADDFN, L"petri-open-line", L"begin a line here", open_line);
     el_wset(line, EL_ADDFN, L"petri-home", L"go to the line's beginning", go_home);
     el_wset(line, EL_ADDFN, L"petri-end", L"go to the line's end", go_end);
@@ -280,20 +270,19 @@ static const struct {
 
 Editor *editor_new(Repl *repl) {
     const char *terminal = getenv("TERM");
-    if (terminal == NULL || strcmp(terminal, "dumb") == 0) {
+    if (!terminal || strcmp(terminal, "dumb") == 0)
         return NULL;
-    }
-    catch_ends(); // before libedit changes the terminal
-    Editor *editor = memory_zeroed(sizeof *editor);
+    catch_termination(); // before libedit changes the terminal
+    Editor *editor = memory_calloc(sizeof *editor);
     HistEvent event;
     editor->repl = repl;
     editor->line = el_init("petri", stdin, stdout, stderr);
     editor->history = history_init();
-    if (editor->line == NULL || editor->history == NULL) {
+    if (!editor->line || !editor->history) {
         editor_free(editor);
         return NULL;
     }
-    history(editor->history, &event, H_SETSIZE, SAVED_MOST);
+    history(editor->history, &event, H_SETSIZE, SAVED_MAX);
     history(editor->history, &event, H_SETUNIQUE, 1);
     load_history(editor);
     el_set(editor->line, EL_CLIENTDATA, editor);
@@ -301,67 +290,59 @@ Editor *editor_new(Repl *repl) {
     el_set(editor->line, EL_EDITOR, "emacs");
     el_set(editor->line, EL_HIST, history, editor->history);
     add_functions(editor->line);
-    for (size_t i = 0; i < sizeof bindings / sizeof bindings[0]; i++) {
+    for (size_t i = 0; i < sizeof bindings / sizeof bindings[0]; i++)
         el_set(editor->line, EL_BIND, bindings[i].key, bindings[i].function, NULL);
-    }
     el_set(editor->line, EL_GETCFN, read_character);
     el_source(editor->line, NULL);
     return editor;
 }
 
 void editor_free(Editor *editor) {
-    if (editor == NULL) {
+    if (!editor)
         return;
-    }
-    if (editor->history != NULL) {
+    if (editor->history)
         history_end(editor->history);
-    }
-    if (editor->line != NULL) {
+    if (editor->line)
         el_end(editor->line);
-    }
     free(editor);
 }
 
 // A block is kept as one, without the empty line that ends it.
-static void remember(Editor *editor, const Bytes *lines) {
+static void add_to_history(Editor *editor, const ByteBuffer *lines) {
     HistEvent event;
-    enum { LONGEST = 10000 };
+    enum { MAX_BLOCK_LENGTH = 10000 };
     size_t length = lines->length;
-    while (length > 0 && lines->data[length - 1] == '\n') {
+    while (length > 0 && lines->data[length - 1] == '\n')
         length--;
-    }
-    if (length == 0 || length > LONGEST) {
+    if (length == 0 || length > MAX_BLOCK_LENGTH)
         return;
-    }
-    SCOPED_TEXT block = memory_copied(lines->data, length);
+    SCOPED_TEXT block = memory_strndup(lines->data, length);
     history(editor->history, &event, H_ENTER, block);
-    replace(block, '\n', SAVED_LINE_END);
-    SCOPED_BYTES whole = {0};
-    bytes_format(&whole, "%s\n", block);
+    replace_character(block, '\n', SAVED_LINE_END);
+    SCOPED_BYTE_BUFFER whole = {0};
+    byte_buffer_format(&whole, "%s\n", block);
     saved_add(&whole); // at once: a terminal that is closed ends petri without a word
 }
 
-LineStatus editor_read(Editor *editor, const char *prompt, Bytes *lines) {
+LineStatus editor_read(Editor *editor, const char *prompt, ByteBuffer *lines) {
     bool coloured = editor->repl->options->colour;
     snprintf(editor->prompt, sizeof editor->prompt, coloured ? "\1\033[1;32m\1%s\1\033[0m\1" : "%s", prompt);
     int count = 0;
     editor->back = 0;
-    bytes_add(lines, "", 0);
+    byte_buffer_add(lines, "", 0);
     const char *text = el_gets(editor->line, &count);
-    if (text == NULL || count <= 0) {
+    if (!text || count <= 0) {
         bool stopped = repl_interrupted();
-        if (stopped) {
+        if (stopped)
             el_reset(editor->line);
-        }
         output_write(&editor->repl->output, stopped ? "^C\n" : "\n", stopped ? 3 : 1);
         output_flush(&editor->repl->output);
         return stopped ? LINE_INTERRUPTED : LINE_END;
     }
-    bytes_add(lines, text, (size_t)count);
-    if (lines->data[lines->length - 1] != '\n') {
-        bytes_add_text(lines, "\n");
-    }
-    remember(editor, lines);
+    byte_buffer_add(lines, text, (size_t)count);
+    if (lines->data[lines->length - 1] != '\n')
+        byte_buffer_add_text(lines, "\n");
+    add_to_history(editor, lines);
     return LINE_READ;
 }
 
@@ -370,7 +351,7 @@ LineStatus editor_read(Editor *editor, const char *prompt, Bytes *lines) {
 #include <stddef.h>
 
 Editor *editor_new(Repl *repl) {
-    repl_say(repl, "built without libedit: lines cannot be edited, completed or recalled");
+    repl_note(repl, "built without libedit: lines cannot be edited, completed or recalled");
     return NULL;
 }
 
@@ -378,7 +359,7 @@ void editor_free(Editor *editor) {
     (void)editor;
 }
 
-LineStatus editor_read(Editor *editor, const char *prompt, Bytes *line) {
+LineStatus editor_read(Editor *editor, const char *prompt, ByteBuffer *line) {
     (void)editor;
     (void)prompt;
     (void)line;

@@ -1,5 +1,6 @@
 // line.c: lines for the prompt, and which of them belong together.
 #include "repl/line.h"
+
 #include "base/file.h"
 
 #include <errno.h>
@@ -9,71 +10,65 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { BLOCK = 1 << 16, MOST_ECHOED = 4000 };
+enum { BLOCK = 1 << 16, MAX_ECHOED = 4000 };
 
 struct LineReader {
     Repl *repl;
-    Editor *editor; // NULL: none is wanted, or there is none
-    Bytes text;     // read and not taken yet, from `at` on
+    Editor *editor;  // NULL: none is wanted, or there is none
+    ByteBuffer text; // read and not taken yet, from `at` on
     size_t at;
     size_t searched; // for a line end
     bool ended;
 };
 
 LineReader *line_reader_new(Repl *repl) {
-    LineReader *reader = memory_zeroed(sizeof *reader);
+    LineReader *reader = memory_calloc(sizeof *reader);
     reader->repl = repl;
-    bytes_add(&reader->text, "", 0); // there is always a text, of no length
+    byte_buffer_add(&reader->text, "", 0); // there is always a text, of no length
     reader->editor = repl->terminal ? editor_new(repl) : NULL;
     return reader;
 }
 
 void line_reader_free(LineReader *reader) {
     editor_free(reader->editor);
-    bytes_free(&reader->text);
+    byte_buffer_free(&reader->text);
     free(reader);
 }
 
 LineWait line_wait(Repl *repl) {
     for (;;) {
-        if (repl_interrupted()) {
+        if (repl_interrupted())
             return WAIT_INTERRUPTED; // before this call, which would not wake
-        }
-        struct pollfd files[2] = {{STDIN_FILENO, POLLIN, 0}, {watch_descriptor(repl->files), POLLIN, 0}};
+        struct pollfd files[2] = {{STDIN_FILENO, POLLIN, 0}, {file_watch_descriptor(repl->files), POLLIN, 0}};
         int ready = poll(files, 2, files[1].fd < 0 ? 200 : -1);
-        if ((ready < 0 && errno == EINTR) || repl_interrupted()) {
+        if ((ready < 0 && errno == EINTR) || repl_interrupted())
             continue;
-        }
-        if (files[0].revents != 0 || ready < 0) {
+        if (files[0].revents != 0 || ready < 0)
             return WAIT_INPUT;
-        }
-        if (repl_notice(repl, true)) {
+        if (repl_report_changes(repl, true))
             return WAIT_NOTICED;
-        }
     }
 }
 
 // Takes the first line of what was read; false if there is no whole one.
-static bool take_line(LineReader *reader, Bytes *line) {
+static bool read_buffered_line(LineReader *reader, ByteBuffer *line) {
     const char *start = reader->text.data + reader->at;
     size_t length = reader->text.length - reader->at;
     const char *end = length == 0 ? NULL : memchr(start + reader->searched, '\n', length - reader->searched);
     reader->searched = length;
-    if (end == NULL && !(reader->ended && length > 0)) {
+    if (!end && !(reader->ended && length > 0))
         return false;
-    }
-    size_t taken = end == NULL ? length : (size_t)(end - start);
-    bytes_add(line, start, taken);
-    reader->at += taken + (end != NULL);
+    size_t consumed = !end ? length : (size_t)(end - start);
+    byte_buffer_add(line, start, consumed);
+    reader->at += consumed + (end != NULL);
     reader->searched = 0;
-    if (line->length > 0 && line->data[line->length - 1] == '\r') {
+    if (line->length > 0 && line->data[line->length - 1] == '\r')
         line->data[--line->length] = '\0';
-    }
     return true;
 }
 
-static void echo(Repl *repl, const Bytes *line) {
-    if (line->length <= MOST_ECHOED) {
+static void echo_line(Repl *repl, const ByteBuffer *line) {
+    if (line->length <= MAX_ECHOED) {
         output_write(&repl->output, line->data, line->length);
         output_write(&repl->output, "\n", 1);
     } else {
@@ -102,32 +97,30 @@ static LineStatus read_block(LineReader *reader, const char *prompt) {
     char block[BLOCK];
     ssize_t got = read(STDIN_FILENO, block, sizeof block);
     reader->ended = got == 0 || (got < 0 && errno != EINTR);
-    bytes_add(&reader->text, block, got > 0 ? (size_t)got : 0);
+    byte_buffer_add(&reader->text, block, got > 0 ? (size_t)got : 0);
     return LINE_READ;
 }
 
 // An editor gives several lines at a time, which have been seen on the screen already.
-LineStatus line_read(LineReader *reader, const char *prompt, Bytes *line) {
+LineStatus line_read(LineReader *reader, const char *prompt, ByteBuffer *line) {
     Output *output = &reader->repl->output;
     output_flush(output);
-    bytes_add(line, "", 0);
-    output_format(output, "%s", reader->editor != NULL ? "" : prompt);
-    bool echoed = reader->editor == NULL && !isatty(STDIN_FILENO);
-    while (!take_line(reader, line)) {
+    byte_buffer_add(line, "", 0);
+    output_format(output, "%s", reader->editor ? "" : prompt);
+    bool echoed = !reader->editor && !isatty(STDIN_FILENO);
+    while (!read_buffered_line(reader, line)) {
         if (reader->at > 0) {
             memmove(reader->text.data, reader->text.data + reader->at, reader->text.length - reader->at);
             reader->text.length -= reader->at;
             reader->at = 0;
         }
         LineStatus status =
-            reader->editor != NULL ? editor_read(reader->editor, prompt, &reader->text) : read_block(reader, prompt);
-        if (status != LINE_READ) {
+            reader->editor ? editor_read(reader->editor, prompt, &reader->text) : read_block(reader, prompt);
+        if (status != LINE_READ)
             return status;
-        }
     }
-    if (echoed) {
-        echo(reader->repl, line);
-    }
+    if (echoed)
+        echo_line(reader->repl, line);
     return LINE_READ;
 }
 
@@ -136,60 +129,55 @@ bool line_is_blank(const char *line) {
 }
 
 // Does a line go on with the lines above it?
-static bool goes_on(const char *line) {
+static bool continues_block(const char *line) {
     return line[0] == ' ' || line[0] == '\t' || strncmp(line, "else", 4) == 0 || strncmp(line, "elif", 4) == 0;
 }
 
 // Where the last line begins.
 static size_t last_line(const char *text, size_t length) {
     size_t at = length > 0 ? length - 1 : 0;
-    while (at > 0 && text[at - 1] != '\n') {
+    while (at > 0 && text[at - 1] != '\n')
         at--;
-    }
     return at;
 }
 
-bool line_wants_more(Repl *repl, const char *text, size_t length, size_t *taken) {
+bool line_needs_more(Repl *repl, const char *text, size_t length, size_t *consumed) {
     size_t last = last_line(text, length);
-    *taken = length;
-    if (text[strspn(text, " \t")] == '.') {
+    *consumed = length;
+    if (text[strspn(text, " \t")] == '.')
+        return false;
+    PetriCompleteness above = last == 0 ? PETRI_INCOMPLETE : petri_prompt_check(repl->session, text, last);
+    if (above != PETRI_INCOMPLETE && (line_is_blank(text + last) || !continues_block(text + last))) {
+        *consumed = last;
         return false;
     }
-    PetriInput above = last == 0 ? PETRI_INPUT_PART : petri_input(repl->session, text, last);
-    if (above != PETRI_INPUT_PART && (line_is_blank(text + last) || !goes_on(text + last))) {
-        *taken = last;
-        return false;
-    }
-    return petri_input(repl->session, text, length) != PETRI_INPUT_WHOLE;
+    return petri_prompt_check(repl->session, text, length) != PETRI_COMPLETE;
 }
 
 // The path of the file; false if there is no home for it.
-static bool file_path(Bytes *path) {
+static bool file_path(ByteBuffer *path) {
     const char *folder = getenv("XDG_STATE_HOME"), *home = getenv("HOME");
-    if (folder != NULL && folder[0] == '/') { // relative ones do not count, says XDG
-        bytes_add_text(path, folder);
-    } else if (home != NULL && home[0] != '\0') {
-        bytes_format(path, "%s/.local/state", home);
-    } else {
+    if (folder && folder[0] == '/') // relative ones do not count, says XDG
+        byte_buffer_add_text(path, folder);
+    else if (home && home[0] != '\0')
+        byte_buffer_format(path, "%s/.local/state", home);
+    else
         return false;
-    }
-    bytes_format(path, "/petri/history");
+    byte_buffer_format(path, "/petri/history");
     return true;
 }
 
-void saved_read(Bytes *lines) {
-    SCOPED_BYTES path = {0};
-    if (file_path(&path)) {
-        bytes_read_file(lines, path.data);
-    }
-    if (lines->length > 0 && lines->data[lines->length - 1] != '\n') {
-        bytes_add_text(lines, "\n");
-    }
+void saved_read(ByteBuffer *lines) {
+    SCOPED_BYTE_BUFFER path = {0};
+    if (file_path(&path))
+        byte_buffer_read_file(lines, path.data);
+    if (lines->length > 0 && lines->data[lines->length - 1] != '\n')
+        byte_buffer_add_text(lines, "\n");
 }
 
 // Makes the folders that a file lies in; only its owner may look into new ones.
 static void make_folders(char *path) {
-    for (char *slash = strchr(path + 1, '/'); slash != NULL; slash = strchr(slash + 1, '/')) {
+    for (char *slash = strchr(path + 1, '/'); slash; slash = strchr(slash + 1, '/')) {
         *slash = '\0';
         mkdir(path, 0700);
         *slash = '/';
@@ -197,25 +185,24 @@ static void make_folders(char *path) {
 }
 
 // Where the last `most` lines begin.
-static size_t start_of_last(const Bytes *lines, size_t most) {
+static size_t start_of_last(const ByteBuffer *lines, size_t most) {
     size_t at = lines->length;
     while (at > 0 && most > 0) {
         at--;
-        while (at > 0 && lines->data[at - 1] != '\n') {
+        while (at > 0 && lines->data[at - 1] != '\n')
             at--;
-        }
         most--;
     }
     return at;
 }
 
-void saved_add(const Bytes *lines) {
-    SCOPED_BYTES path = {0}, all = {0};
+void saved_add(const ByteBuffer *lines) {
+    SCOPED_BYTE_BUFFER path = {0}, all = {0};
     if (lines->length > 0 && file_path(&path)) {
         saved_read(&all); // again: another session may have added to it
-        bytes_add(&all, lines->data, lines->length);
-        size_t start = start_of_last(&all, SAVED_MOST);
-        Bytes kept = {.data = all.data + start, .length = all.length - start};
+        byte_buffer_add(&all, lines->data, lines->length);
+        size_t start = start_of_last(&all, SAVED_MAX);
+        ByteBuffer kept = {.data = all.data + start, .length = all.length - start};
         make_folders(path.data);
         file_replace(path.data, (Str){kept.data, kept.length}, 0);
     }

@@ -14,11 +14,11 @@ LineReader *line_reader_new(Repl *repl);
 // Keeps the history; the reader is gone then.
 void line_reader_free(LineReader *reader);
 // One line without its end. LINE_END at the end of the input, LINE_INTERRUPTED after Ctrl-C, with an empty line.
-LineStatus line_read(LineReader *reader, const char *prompt, Bytes *line);
+LineStatus line_read(LineReader *reader, const char *prompt, ByteBuffer *line);
 
 // Whether more lines are wanted after these, each ended. *taken is how much of them belongs together: the last line may
 // be no part of what is above it, or the empty one that ends it.
-bool line_wants_more(Repl *repl, const char *text, size_t length, size_t *taken);
+bool line_needs_more(Repl *repl, const char *text, size_t length, size_t *consumed);
 bool line_is_blank(const char *line);
 
 // For the editor.
@@ -32,11 +32,11 @@ LineWait line_wait(Repl *repl);
 
 // The lines typed in earlier sessions: $XDG_STATE_HOME/petri/history, by default ~/.local/state/…, oldest first, each
 // ended; nothing if there are none.
-enum { SAVED_MOST = 2000 };       // lines that are kept
+enum { SAVED_MAX = 2000 };        // lines that are kept
 enum { SAVED_LINE_END = '\036' }; // stands for the line ends in a block, which is one line of the file
-void saved_read(Bytes *lines);
+void saved_read(ByteBuffer *lines);
 // Adds lines at the end and replaces the file at once. What cannot be written is lost without a word: nobody has asked.
-void saved_add(const Bytes *lines);
+void saved_add(const ByteBuffer *lines);
 
 // The editor (edit.c): lines edited on a terminal by libedit.
 typedef struct Editor Editor;
@@ -46,6 +46,6 @@ Editor *editor_new(Repl *repl);
 void editor_free(Editor *editor);
 // As line_read, but all lines that belong together, with line feeds between them and at the end. In such a block Up and
 // Down go from line to line, and what is in the history is a whole block.
-LineStatus editor_read(Editor *editor, const char *prompt, Bytes *lines);
+LineStatus editor_read(Editor *editor, const char *prompt, ByteBuffer *lines);
 
 #endif

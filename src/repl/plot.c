@@ -1,4 +1,9 @@
 // plot.c: a number over the last frames, drawn as a line, and the frame's picture in the terminal.
+#include "cli/progress.h"
+#include "repl/repl.h"
+#include "view/still.h"
+#include "view/terminal_picture.h"
+
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -6,13 +11,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/progress.h"
-#include "repl/repl.h"
-#include "view/still.h"
-#include "view/terminal_picture.h"
-
 // Cells of the picture. A braille cell is 2 dots wide and 4 high; without Unicode a cell is one dot.
-enum { WIDEST = 60, HEIGHT = 8, DEFAULT_FRAMES = 60, MOST_FRAMES = 1000000 };
+enum { MAX_WIDTH = 60, HEIGHT = 8, DEFAULT_FRAMES = 60, MAX_FRAMES = 1000000 };
 
 typedef struct Canvas {
     int across; // dots of a cell
@@ -24,22 +24,21 @@ typedef struct Canvas {
 
 // The dots of a column from one height to another, so that steep parts stay a line.
 static void draw_column(Canvas *canvas, int x, int from, int to) {
-    for (int y = from < to ? from : to; y <= (from < to ? to : from); y++) {
+    for (int y = from < to ? from : to; y <= (from < to ? to : from); y++)
         canvas->dots[y * canvas->columns + x] = 1;
-    }
 }
 
 typedef struct Range {
-    double least;
-    double most;
+    double min;
+    double max;
 } Range;
 
 static Range range_of(const double *values, int64_t count) {
     Range range = {INFINITY, -INFINITY};
     for (int64_t i = 0; i < count; i++) {
         if (isfinite(values[i])) {
-            range.least = fmin(range.least, values[i]);
-            range.most = fmax(range.most, values[i]);
+            range.min = fmin(range.min, values[i]);
+            range.max = fmax(range.max, values[i]);
         }
     }
     return range;
@@ -47,12 +46,11 @@ static Range range_of(const double *values, int64_t count) {
 
 static int row_of(const Canvas *canvas, const Range *range, double value) {
     // Halved, so that the distance of the largest numbers is one.
-    double part =
-        range->most > range->least ? (value / 2 - range->least / 2) / (range->most / 2 - range->least / 2) : 0.5;
+    double part = range->max > range->min ? (value / 2 - range->min / 2) / (range->max / 2 - range->min / 2) : 0.5;
     return canvas->rows - 1 - (int)(part * (canvas->rows - 1) + 0.5);
 }
 
-static void draw(Canvas *canvas, const Range *range, const double *values, int64_t count) {
+static void draw_curve(Canvas *canvas, const Range *range, const double *values, int64_t count) {
     int last = -1;
     for (int x = 0; x < canvas->columns; x++) {
         // Where frames are fewer than dots, each has several; where they are more, some are passed over.
@@ -84,9 +82,8 @@ static void write_canvas(Output *output, const Canvas *canvas, const Range *rang
     bool braille = canvas->down > 1;
     for (int row = 0; row < rows; row++) {
         char label[32] = "";
-        if (row == 0 || row == rows - 1) {
-            snprintf(label, sizeof label, "%.6g", row == 0 ? range->most : range->least);
-        }
+        if (row == 0 || row == rows - 1)
+            snprintf(label, sizeof label, "%.6g", row == 0 ? range->max : range->min);
         output_format(output, "%12s %s", label, braille ? "\u2502" : "|");
         int blanks = 0; // those at the end say nothing
         for (int column = 0; column < columns; column++) {
@@ -104,18 +101,18 @@ static void write_canvas(Output *output, const Canvas *canvas, const Range *rang
     }
 }
 
-static void plot(Repl *repl, const double *values, int64_t first, int64_t count) {
+static void print_plot(Repl *repl, const double *values, int64_t first, int64_t count) {
     Range range = range_of(values, count);
-    if (range.least > range.most) {
+    if (range.min > range.max) {
         repl_fail(repl, "there is no number to plot");
         return;
     }
     Canvas canvas = {.across = repl->utf8 ? 2 : 1, .down = repl->utf8 ? 4 : 1};
-    int columns = count > WIDEST ? WIDEST : count < 20 ? 20 : (int)count;
+    int columns = count > MAX_WIDTH ? MAX_WIDTH : count < 20 ? 20 : (int)count;
     canvas.columns = columns * canvas.across;
     canvas.rows = HEIGHT * canvas.down;
-    canvas.dots = memory_zeroed((size_t)canvas.columns * (size_t)canvas.rows);
-    draw(&canvas, &range, values, count);
+    canvas.dots = memory_calloc((size_t)canvas.columns * (size_t)canvas.rows);
+    draw_curve(&canvas, &range, values, count);
     write_canvas(&repl->output, &canvas, &range);
     char from[24], to[24];
     snprintf(from, sizeof from, "@%" PRId64, first);
@@ -125,15 +122,14 @@ static void plot(Repl *repl, const double *values, int64_t first, int64_t count)
 }
 
 // Goes through the frames again, which ends where it began.
-static PetriStatus gather(Repl *repl, const char *expression, int64_t first, int64_t count, double *values,
-                          Bytes *why) {
+static PetriStatus evaluate_frames(Repl *repl, const char *expression, int64_t first, int64_t count, double *values,
+                                   ByteBuffer *why) {
     PetriStatus status = PETRI_OK;
     for (int64_t i = 0; i < count && status == PETRI_OK; i++) {
-        PetriResult result = {0};
+        PetriEvaluation result = {0};
         status = history_goto(&repl->history, repl->session, first + i, why);
-        if (status == PETRI_OK) {
-            status = petri_evaluate(repl->session, expression, PETRI_Z, &result, NULL, NULL);
-        }
+        if (status == PETRI_OK)
+            status = petri_evaluate(repl->session, expression, PETRI_NUL_TERMINATED, &result, NULL, NULL);
         values[i] = result.number;
     }
     return status;
@@ -143,53 +139,49 @@ static bool plot_frames(Repl *repl, const char *expression, int64_t count) {
     int64_t now = petri_frame(repl->session).number, first = now - count + 1;
     int64_t least = repl->history.first + 1;
     first = first < least ? least : first;
-    if (now < first) {
+    if (now < first)
         return repl_fail(repl, "there are no frames to plot; .step makes some");
-    }
-    SCOPED_BYTES why = {0};
-    double *values = memory_zeroed((size_t)(now - first + 1) * sizeof *values);
+    SCOPED_BYTE_BUFFER why = {0};
+    double *values = memory_calloc((size_t)(now - first + 1) * sizeof *values);
     repl_busy(repl);
-    PetriStatus status = gather(repl, expression, first, now - first + 1, values, &why);
+    PetriStatus status = evaluate_frames(repl, expression, first, now - first + 1, values, &why);
     bool stopped = repl_idle(repl);
     if (status == PETRI_OK) {
-        plot(repl, values, first, now - first + 1);
+        print_plot(repl, values, first, now - first + 1);
     } else {
         history_goto(&repl->history, repl->session, now, &why);
         repl_fail(repl, "%s",
-                  stopped                  ? "interrupted"
-                  : why.length > 0         ? why.data
-                  : status == PETRI_MEMORY ? "out of memory"
-                                           : "there is nothing to plot");
+                  stopped                         ? "interrupted"
+                  : why.length > 0                ? why.data
+                  : status == PETRI_OUT_OF_MEMORY ? "out of memory"
+                                                  : "there is nothing to plot");
     }
     free(values);
     return status == PETRI_OK && !repl->failed;
 }
 
 static bool run_plot(Repl *repl, const char *rest) {
-    SCOPED_TEXT expression = memory_text(rest);
+    SCOPED_TEXT expression = memory_strdup(rest);
     int64_t count = DEFAULT_FRAMES;
-    word_last_count(expression, &count);
-    if (count > MOST_FRAMES) {
-        return repl_fail(repl, "at most %d frames are plotted", MOST_FRAMES);
-    }
-    PetriResult result; // of the present frame: whether it is an expression at all
-    return repl_status(repl, petri_evaluate(repl->session, expression, PETRI_Z, &result, NULL, NULL)) &&
+    argument_last_count(expression, &count);
+    if (count > MAX_FRAMES)
+        return repl_fail(repl, "at most %d frames are plotted", MAX_FRAMES);
+    PetriEvaluation result; // of the present frame: whether it is an expression at all
+    return repl_status(repl, petri_evaluate(repl->session, expression, PETRI_NUL_TERMINATED, &result, NULL, NULL)) &&
            plot_frames(repl, expression, count);
 }
 
-enum { BELOW = 2 }; // rows for the prompt
+enum { LINES_BELOW = 2 }; // rows for the prompt
 
 static bool run_show(Repl *repl, const char *rest) {
     (void)rest;
-    if (!terminal_picture_possible()) {
+    if (!terminal_picture_possible())
         return repl_fail(repl, "this petri was built without libchafa: it cannot show pictures in the terminal");
-    }
     repl_complete_frame(repl);
     repl_busy(repl);
     PetriStatus status = petri_preview(repl->session);
-    if (status == PETRI_OK) {
-        status = still_show(repl->session, NULL, repl->options->colour, BELOW, output_write, &repl->output);
-    }
+    if (status == PETRI_OK)
+        status = still_show(repl->session, NULL, repl->options->colour, LINES_BELOW, output_write, &repl->output);
     repl_idle(repl);
     return repl_status(repl, status);
 }

@@ -3,21 +3,20 @@
 // NAME.golden needs a script NAME.fl beside it: the loaded one, if it is just that, else a copy, in the same folder so
 // that the file names in it mean the same, with what was typed at its end. What a golden cannot repeat is refused:
 // frames that do not follow each other from frame 0 under the same script and settings.
+#include "base/file.h"
+#include "cli/script.h"
+#include "repl/repl.h"
+
 #include <inttypes.h>
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include "base/file.h"
-#include "cli/script.h"
-#include "repl/repl.h"
-
 // Do two paths lead to the same?
 static bool same_path(const char *a, const char *b) {
     char resolved[2][PATH_MAX];
-    return realpath(a, resolved[0]) != NULL && realpath(b, resolved[1]) != NULL &&
-           strcmp(resolved[0], resolved[1]) == 0;
+    return realpath(a, resolved[0]) && realpath(b, resolved[1]) && strcmp(resolved[0], resolved[1]) == 0;
 }
 
 static bool same_folder(const char *a, const char *b) {
@@ -26,31 +25,28 @@ static bool same_folder(const char *a, const char *b) {
     return same_path(first, second);
 }
 
-static bool may_record(Repl *repl, const char *script) {
+static bool can_record(Repl *repl, const char *script) {
     const FrameHistory *history = &repl->history;
-    if (petri_frame(repl->session).number < 0) {
+    if (petri_frame(repl->session).number < 0)
         return repl_fail(repl, "there are no frames to record; .step makes some");
-    }
     if (history->first != -1) {
         return repl_fail(repl, "a golden begins with frame 0, and the history with frame %" PRId64 "%s%s",
-                         history->first, history->why == NULL ? "" : ": ", history->why == NULL ? "" : history->why);
+                         history->first, !history->why ? "" : ": ", !history->why ? "" : history->why);
     }
     for (size_t i = 1; i < history->epoch_count; i++) {
         if (history->epochs[i].start < petri_frame(repl->session).number) {
-            return repl_fail(
-                repl, "a golden cannot repeat that things were changed after frame %" PRId64 "; .reset and step again",
-                history->epochs[i].start);
+            return repl_fail(repl,
+                             "a recording cannot include changes made by hand (at frame %" PRId64
+                             "); type .reset and step again",
+                             history->epochs[i].start);
         }
     }
-    if (history->epochs[0].config != petri_config_number(repl->session)) {
+    if (history->epochs[0].config != petri_config_revision(repl->session))
         return repl_fail(repl, "things were changed after these frames were made; .reset and step again");
-    }
-    if (repl->rates_changed) {
+    if (repl->rates_changed)
         return repl_fail(repl, "a golden cannot repeat .tempo and .fps; .load the script again");
-    }
-    if (petri_resolution(repl->session) > 0) {
+    if (petri_resolution(repl->session) > 0)
         return repl_fail(repl, "a golden cannot repeat .resolution; type .resolution off, .reset and step again");
-    }
     if (repl->loaded && !same_folder(repl->script, script)) {
         return repl_fail(repl, "a recording must lie in the folder of '%s', for names of files are relative to it",
                          repl->script);
@@ -61,67 +57,61 @@ static bool may_record(Repl *repl, const char *script) {
 // The script that the golden needs: the loaded one with what was typed.
 static bool write_script(Repl *repl, const char *path) {
     const char *kept = petri_prompt_statement(repl->session, 0);
-    if (kept == NULL && repl->loaded && same_path(repl->script, path)) {
+    if (!kept && repl->loaded && same_path(repl->script, path))
         return true;
-    }
-    if (access(path, F_OK) == 0) {
+    if (access(path, F_OK) == 0)
         return repl_fail(repl, "'%s' is there already, and is another script", path);
-    }
-    SCOPED_BYTES text = {0};
-    bytes_add(&text, repl->script_text.length == 0 ? "" : repl->script_text.data,
-              repl->loaded ? repl->script_text.length : 0);
-    if (text.length > 0 && text.data[text.length - 1] != '\n') {
-        bytes_add_text(&text, "\n");
-    }
-    for (size_t i = 0; (kept = petri_prompt_statement(repl->session, i)) != NULL; i++) {
-        bytes_add_text(&text, kept);
-        bytes_add_text(&text, "\n");
+    SCOPED_BYTE_BUFFER text = {0};
+    byte_buffer_add(&text, repl->script_text.length == 0 ? "" : repl->script_text.data,
+                    repl->loaded ? repl->script_text.length : 0);
+    if (text.length > 0 && text.data[text.length - 1] != '\n')
+        byte_buffer_add_text(&text, "\n");
+    for (size_t i = 0; (kept = petri_prompt_statement(repl->session, i)); i++) {
+        byte_buffer_add_text(&text, kept);
+        byte_buffer_add_text(&text, "\n");
     }
     const char *problem = file_replace(path, (Str){text.data, text.length}, 0);
-    bool done = problem == NULL || repl_fail(repl, "cannot write '%s': %s", path, problem);
+    bool done = !problem || repl_fail(repl, "cannot write '%s': %s", path, problem);
     return done;
 }
 
 // Words with blanks cannot stand in a golden's first line.
-static bool add_options(Repl *repl, Bytes *text, int64_t frames, int64_t every) {
-    bytes_format(text, "# run --frames %" PRId64, frames);
-    if (every > 1) {
-        bytes_format(text, " --every %" PRId64, every);
-    }
-    bytes_format(text, " --print state,log");
-    if (repl->options->fps_given) {
-        bytes_format(text, " --fps %.17g", repl->options->fps);
-    }
+static bool add_options(Repl *repl, ByteBuffer *text, int64_t frames, int64_t every) {
+    byte_buffer_format(text, "# run --frames %" PRId64, frames);
+    if (every > 1)
+        byte_buffer_format(text, " --every %" PRId64, every);
+    byte_buffer_format(text, " --print state,log");
+    if (repl->options->fps_given)
+        byte_buffer_format(text, " --fps %.17g", repl->options->fps);
     for (size_t i = 0; i < repl->definitions.count; i++) {
-        if (strpbrk(repl->definitions.items[i], " \t\n") != NULL) {
+        if (strpbrk(repl->definitions.items[i], " \t\n")) {
             return repl_fail(repl, "a golden cannot hold the definition '%s': it has blanks",
                              repl->definitions.items[i]);
         }
-        bytes_format(text, " -D %s", repl->definitions.items[i]);
+        byte_buffer_format(text, " -D %s", repl->definitions.items[i]);
     }
-    bytes_format(text, "\n");
+    byte_buffer_format(text, "\n");
     return true;
 }
 
 // Makes the frames again and gathers their text.
-static PetriStatus gather(Repl *repl, Bytes *text, int64_t last, int64_t every, Bytes *why) {
+static PetriStatus collect_output(Repl *repl, ByteBuffer *text, int64_t last, int64_t every, ByteBuffer *why) {
     PetriStatus status = PETRI_OK;
     for (int64_t i = 0; i <= last && status == PETRI_OK; i++) {
         status = history_goto(&repl->history, repl->session, i, why);
-        if (status == PETRI_OK && i % every == 0) {
-            status = petri_print(repl->session, PETRI_PRINT_STATE | PETRI_PRINT_LOG, bytes_collect, text);
-        }
+        if (status == PETRI_OK && i % every == 0)
+            status = petri_print(repl->session, PETRI_PRINT_STATE | PETRI_PRINT_LOG, byte_buffer_collect, text);
     }
     return status;
 }
 
-static bool record(Repl *repl, const char *golden, const char *script, int64_t every) {
+static bool write_golden(Repl *repl, const char *golden, const char *script, int64_t every) {
     int64_t last = petri_frame(repl->session).number;
-    SCOPED_BYTES text = {0}, why = {0};
-    bool good = may_record(repl, script) && add_options(repl, &text, last + 1, every) && write_script(repl, script);
+    SCOPED_BYTE_BUFFER text = {0}, why = {0};
+    bool good = can_record(repl, script) && add_options(repl, &text, last + 1, every) && write_script(repl, script);
     if (good) {
         repl_busy(repl);
-        PetriStatus status = gather(repl, &text, last, every, &why);
+        PetriStatus status = collect_output(repl, &text, last, every, &why);
         bool stopped = repl_idle(repl);
         if (status != PETRI_OK) {
             history_goto(&repl->history, repl->session, last, &why);
@@ -130,19 +120,17 @@ static bool record(Repl *repl, const char *golden, const char *script, int64_t e
         }
     }
     const char *problem = good ? file_replace(golden, (Str){text.data, text.length}, 0) : NULL;
-    if (problem != NULL) {
+    if (problem)
         good = repl_fail(repl, "cannot write '%s': %s", golden, problem);
-    }
-    if (good) {
-        repl_say(repl, "frames 0 to %" PRId64 " are in %s", last, golden);
-    }
+    if (good)
+        repl_note(repl, "frames 0 to %" PRId64 " are in %s", last, golden);
     return good;
 }
 
 static bool run_record(Repl *repl, const char *rest) {
-    SCOPED_TEXT name = memory_text(rest);
+    SCOPED_TEXT name = memory_strdup(rest);
     int64_t every = 1;
-    word_last_count(name, &every);
+    argument_last_count(name, &every);
     size_t length = strlen(name);
     static const char *const suffixes[] = {".golden", ".fl"};
     for (int i = 0; i < 2; i++) {
@@ -152,10 +140,10 @@ static bool run_record(Repl *repl, const char *rest) {
             break;
         }
     }
-    SCOPED_BYTES golden = {0}, script = {0};
-    bytes_format(&golden, "%.*s.golden", (int)length, name);
-    bytes_format(&script, "%.*s.fl", (int)length, name);
-    return record(repl, golden.data, script.data, every);
+    SCOPED_BYTE_BUFFER golden = {0}, script = {0};
+    byte_buffer_format(&golden, "%.*s.golden", (int)length, name);
+    byte_buffer_format(&script, "%.*s.fl", (int)length, name);
+    return write_golden(repl, golden.data, script.data, every);
 }
 
 const ReplCommand RECORD_COMMANDS[] = {

@@ -1,6 +1,11 @@
 // repl.c: `petri repl`: a script at a prompt, frame by frame.
 #include "repl/repl.h"
 
+#include "cli/options.h"
+#include "cli/parameters.h"
+#include "cli/script.h"
+#include "repl/line.h"
+
 #include <errno.h>
 #include <inttypes.h>
 #include <langinfo.h>
@@ -13,11 +18,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/options.h"
-#include "cli/parameters.h"
-#include "cli/script.h"
-#include "repl/line.h"
-
 // A signal handler can reach nothing but globals.
 static volatile sig_atomic_t interrupted;
 static PetriSession *volatile working; // the session that is to be interrupted
@@ -26,23 +26,21 @@ static void on_interrupt(int signal_number) {
     (void)signal_number;
     interrupted = 1;
     PetriSession *session = working;
-    if (session != NULL) {
+    if (session)
         petri_interrupt(session);
-    }
 }
 
 void repl_busy(Repl *repl) {
     interrupted = 0;
-    petri_interrupted(repl->session);
+    petri_clear_interrupt(repl->session);
     working = repl->session;
 }
 
 bool repl_idle(Repl *repl) {
     working = NULL;
-    petri_interrupted(repl->session); // what came too late must not stop the next thing
-    if (interrupted && repl->terminal) {
+    petri_clear_interrupt(repl->session); // what came too late must not stop the next thing
+    if (interrupted && repl->terminal)
         output_write(&repl->output, "\n", 1); // after the ^C that the terminal shows
-    }
     return interrupted != 0;
 }
 
@@ -50,14 +48,14 @@ bool repl_interrupted(void) {
     return interrupted != 0;
 }
 
-void repl_say(Repl *repl, const char *format, ...) {
-    SCOPED_BYTES text = {0};
+void repl_note(Repl *repl, const char *format, ...) {
+    SCOPED_BYTE_BUFFER text = {0};
     char line[1024];
     va_list list;
     va_start(list, format);
     vsnprintf(line, sizeof line, format, list);
     va_end(list);
-    bytes_format(&text, repl->options->colour ? "\033[2m-- %s\033[0m\n" : "-- %s\n", line);
+    byte_buffer_format(&text, repl->options->colour ? "\033[2m-- %s\033[0m\n" : "-- %s\n", line);
     output_write(&repl->output, text.data, text.length);
 }
 
@@ -75,12 +73,10 @@ bool repl_fail(Repl *repl, const char *format, ...) {
 
 bool repl_status(Repl *repl, PetriStatus status) {
     repl->failed = repl->failed || status != PETRI_OK;
-    if (status == PETRI_INTERRUPTED) {
+    if (status == PETRI_INTERRUPTED)
         return repl_fail(repl, "interrupted");
-    }
-    if (status == PETRI_MEMORY) {
+    if (status == PETRI_OUT_OF_MEMORY)
         return repl_fail(repl, "out of memory");
-    }
     return status == PETRI_OK;
 }
 
@@ -91,105 +87,95 @@ bool repl_write(void *host, const char *text, size_t length) {
 
 static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     Repl *repl = host;
-    if (diagnostic->code != NULL && strcmp(diagnostic->code, "unread-definition") == 0) {
+    if (diagnostic->code && strcmp(diagnostic->code, "unread-definition") == 0)
         return; // what is typed may read it
-    }
-    repl->wrong_definition = repl->wrong_definition || is_wrong_definition(diagnostic);
-    if (diagnostic->code != NULL && strcmp(diagnostic->code, "memory-limit") == 0) {
+    repl->invalid_definition = repl->invalid_definition || is_invalid_definition(diagnostic);
+    if (diagnostic->code && strcmp(diagnostic->code, "memory-limit") == 0)
         repl->failed = repl->any_failed = true;
-    }
     output_flush(&repl->output);
     fputs(diagnostic->rendered, stderr);
 }
 
-static void take_language(Repl *repl, const char *text, size_t length) {
-    PetriPrompted done;
+static void execute_statement(Repl *repl, const char *text, size_t length) {
+    PetriPromptResult done;
     repl_busy(repl);
     PetriStatus status = petri_prompt(repl->session, text, length, repl_write, repl, &done);
     repl_idle(repl);
-    if (done.hidden != NULL) {
-        SCOPED_TEXT name = memory_text(done.hidden);
-        repl_tell_hidden(repl, name);
+    if (done.shadowed) {
+        SCOPED_TEXT name = memory_strdup(done.shadowed);
+        repl_warn_shadowed(repl, name);
     }
-    if (done.nodes > 0) {
-        repl_say(repl, "in the scene from the next step on; .drop takes it out");
-    }
+    if (done.nodes > 0)
+        repl_note(repl, "in the scene from the next step on; .drop takes it out");
     repl_status(repl, status);
 }
 
 // What begins with a dot and is no number, or what people type without one.
-static void take_text(Repl *repl, const char *text, size_t length) {
-    SCOPED_BYTES remark = {0};
+static void execute_text(Repl *repl, const char *text, size_t length) {
+    SCOPED_BYTE_BUFFER remark = {0};
     size_t start = strspn(text, " \t");
-    if (text[start] == '.' && (text[start + 1] < '0' || text[start + 1] > '9') && text[start + 1] != '.') {
+    if (text[start] == '.' && (text[start + 1] < '0' || text[start + 1] > '9') && text[start + 1] != '.')
         repl_command(repl, text + start);
-    } else if (!bare_take(repl, text, &remark)) {
-        take_language(repl, text, length);
-    }
-    if (remark.length > 0 && (repl->failed || bare_alias(text + start, strcspn(text + start, " \t\n")) != NULL)) {
-        repl_say(repl, "%s", remark.data);
-    }
+    else if (!bare_execute(repl, text, &remark))
+        execute_statement(repl, text, length);
+    if (remark.length > 0 && (repl->failed || bare_alias(text + start, strcspn(text + start, " \t\n"))))
+        repl_note(repl, "%s", remark.data);
 }
 
-void repl_take(Repl *repl, const char *text, size_t length) {
+void repl_execute(Repl *repl, const char *text, size_t length) {
     repl->failed = false;
-    take_text(repl, text, length);
+    execute_text(repl, text, length);
     repl->any_failed = repl->any_failed || repl->failed;
 }
 
 static void make_prompt(const Repl *repl, char *prompt, size_t size) {
     int64_t frame = petri_frame(repl->session).number;
-    if (frame < 0) {
+    if (frame < 0)
         snprintf(prompt, size, "petri> ");
-    } else {
+    else
         snprintf(prompt, size, "@%" PRId64 "> ", frame);
-    }
 }
 
 // Reads the lines that belong to the first. A line that does not is left in `next`.
-static LineStatus read_rest(Repl *repl, LineReader *reader, Bytes *text, Bytes *next) {
-    size_t taken = 0;
-    while (line_wants_more(repl, text->data, text->length, &taken)) {
-        SCOPED_BYTES line = {0};
+static LineStatus read_rest(Repl *repl, LineReader *reader, ByteBuffer *text, ByteBuffer *next) {
+    size_t consumed = 0;
+    while (line_needs_more(repl, text->data, text->length, &consumed)) {
+        SCOPED_BYTE_BUFFER line = {0};
         LineStatus status = line_read(reader, "... ", &line);
-        bytes_add(text, line.data, line.length);
-        if (status != LINE_READ) {
+        byte_buffer_add(text, line.data, line.length);
+        if (status != LINE_READ)
             return status;
-        }
-        bytes_add_text(text, "\n");
+        byte_buffer_add_text(text, "\n");
     }
-    if (!line_is_blank(text->data + taken)) {
-        bytes_add(next, text->data + taken, text->length - taken - 1);
-    }
-    text->data[text->length = taken] = '\0';
+    if (!line_is_blank(text->data + consumed))
+        byte_buffer_add(next, text->data + consumed, text->length - consumed - 1);
+    text->data[text->length = consumed] = '\0';
     return LINE_READ;
 }
 
 // One input: its first line is in `text`.
-static LineStatus handle(Repl *repl, LineReader *reader, Bytes *text, Bytes *next) {
-    bytes_add_text(text, "\n");
+static LineStatus execute_input(Repl *repl, LineReader *reader, ByteBuffer *text, ByteBuffer *next) {
+    byte_buffer_add_text(text, "\n");
     LineStatus status = read_rest(repl, reader, text, next);
-    if (status != LINE_INTERRUPTED) { // what the end of the input cuts off is tried as it is
-        repl_take(repl, text->data, text->length);
-    }
+    if (status != LINE_INTERRUPTED) // what the end of the input cuts off is tried as it is
+        repl_execute(repl, text->data, text->length);
     return status;
 }
 
-static void converse(Repl *repl) {
+static void run_prompt(Repl *repl) {
     LineReader *reader = line_reader_new(repl);
-    Bytes next = {0};
+    ByteBuffer next = {0};
     LineStatus status = LINE_READ;
     while (status != LINE_END && !repl->quit && repl->output.error == 0) {
         char prompt[40];
-        Bytes text = next;
-        next = (Bytes){0};
+        ByteBuffer text = next;
+        next = (ByteBuffer){0};
         make_prompt(repl, prompt, sizeof prompt);
-        repl_notice(repl, false);
+        repl_report_changes(repl, false);
         status = text.length > 0 ? LINE_READ : line_read(reader, prompt, &text);
-        if (status == LINE_READ && !line_is_blank(text.data)) {
-            status = handle(repl, reader, &text, &next);
-        }
-        bytes_free(&text);
+        if (status == LINE_READ && !line_is_blank(text.data))
+            status = execute_input(repl, reader, &text, &next);
+        byte_buffer_free(&text);
         output_flush(&repl->output);
         if (status == LINE_INTERRUPTED && !repl->terminal) {
             repl->any_failed = true;
@@ -197,32 +183,27 @@ static void converse(Repl *repl) {
         }
         interrupted = 0;
     }
-    bytes_free(&next);
+    byte_buffer_free(&next);
     line_reader_free(reader);
 }
 
 static bool read_state(Repl *repl, const char *file) {
-    if (file == NULL) {
+    if (!file)
         return true;
-    }
-    if (access(file, F_OK) != 0) {
+    if (access(file, F_OK) != 0)
         return repl_fail(repl, "cannot read '%s': %s", file, strerror(errno));
-    }
     return repl_status(repl, petri_restore(repl->session, file));
 }
 
 // A script that is wrong is no reason to leave: it can be mended, and is watched.
-static void start(Repl *repl, const char *state) {
+static void start_session(Repl *repl, const char *state) {
     petri_load_text(repl->session, "prompt", "", 0);
-    if (repl->script != NULL) {
+    if (repl->script)
         repl_load(repl, repl->script);
-    }
-    if (!read_state(repl, state)) {
+    if (!read_state(repl, state))
         repl->failed = true;
-    }
-    if (!history_start(&repl->history, repl->session, NULL)) {
-        repl_status(repl, PETRI_MEMORY);
-    }
+    if (!history_start(&repl->history, repl->session, NULL))
+        repl_status(repl, PETRI_OUT_OF_MEMORY);
     repl->any_failed = repl->failed;
 }
 
@@ -237,37 +218,33 @@ static int run_session(Repl *repl, const char *state) {
     setlocale(LC_CTYPE, "");
     repl->utf8 = strcmp(nl_langinfo(CODESET), "UTF-8") == 0;
     repl->terminal = isatty(STDIN_FILENO) && isatty(STDOUT_FILENO);
-    repl->files = watch_new();
+    repl->files = file_watch_new();
     catch_interrupt();
-    start(repl, state);
-    if (repl->wrong_definition) {
+    start_session(repl, state);
+    if (repl->invalid_definition)
         return STATUS_USAGE;
-    }
-    if (repl->terminal) {
-        repl_say(repl, "petri %s; .help lists the commands, Ctrl-D leaves", petri_version());
-    }
-    converse(repl);
+    if (repl->terminal)
+        repl_note(repl, "petri %s; .help lists the commands, Ctrl-D leaves", petri_version());
+    run_prompt(repl);
     return repl->any_failed && !repl->terminal ? STATUS_FAILED : STATUS_DONE;
 }
 
-static int repl_run(const Host *host, Options *options) {
+static int repl_run(const CommandContext *host, Options *options) {
     Repl repl = {.options = options, .output.fd = STDOUT_FILENO};
-    repl.script = options->script == NULL ? NULL : memory_text(options->script);
-    for (size_t i = 0; i < options->definitions.count; i++) {
+    repl.script = !options->script ? NULL : memory_strdup(options->script);
+    for (size_t i = 0; i < options->definitions.count; i++)
         texts_add(&repl.definitions, options->definitions.items[i]);
-    }
     options->prompt = true;
     int status = options_open(options, host, on_diagnostic, &repl, &repl.session);
-    if (status == OPTIONS_READ) {
+    if (status == OPTIONS_READ)
         status = output_finish(&repl.output, run_session(&repl, options->state_file));
-    }
     history_free(&repl.history);
     petri_close(&repl.session);
-    watch_free(repl.files);
+    file_watch_free(repl.files);
     texts_free(&repl.watched);
     texts_free(&repl.definitions);
     free(repl.script);
-    bytes_free(&repl.script_text);
+    byte_buffer_free(&repl.script_text);
     return status;
 }
 

@@ -1,4 +1,8 @@
 // script.c: the script at the prompt: loading, noticing that somebody has changed it, and its state in files.
+#include "cli/script.h"
+
+#include "repl/repl.h"
+
 #include <errno.h>
 #include <inttypes.h>
 #include <stdint.h>
@@ -6,24 +10,21 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/script.h"
-#include "repl/repl.h"
-
-enum { MOST_CELLS = 4000000, MOST_NAMES = 6 };
+enum { MAX_CELLS = 4000000, MAX_NAMES = 6 };
 
 typedef struct Lines {
     Str *items;
     size_t count;
 } Lines;
 
-static Lines split(const Bytes *text) {
+static Lines split_lines(const ByteBuffer *text) {
     Lines lines = {0};
     Str line;
     size_t at = 0, capacity = 0;
-    while (bytes_line(text, &at, &line)) {
+    while (byte_buffer_next_line(text, &at, &line)) {
         if (lines.count == capacity) {
             capacity = capacity == 0 ? 64 : capacity * 2;
-            lines.items = memory_resized(lines.items, capacity * sizeof *lines.items);
+            lines.items = memory_realloc(lines.items, capacity * sizeof *lines.items);
         }
         lines.items[lines.count++] = line;
     }
@@ -34,46 +35,41 @@ static Lines split(const Bytes *text) {
 static Str bound_name(Str line) {
     static const char *const words[] = {"let ", "func "};
     size_t at = 0;
-    while (at < line.len && (line.bytes[at] == ' ' || line.bytes[at] == '\t')) {
+    while (at < line.len && (line.bytes[at] == ' ' || line.bytes[at] == '\t'))
         at++;
-    }
     for (size_t i = 0; i < 2; i++) {
         size_t length = strlen(words[i]);
         at += line.len - at > length && memcmp(line.bytes + at, words[i], length) == 0 ? length : 0;
     }
     size_t end = at;
     while (end < line.len && (line.bytes[end] == '_' || (unsigned char)line.bytes[end] >= 0x80 ||
-                              strchr("=(;!@#$:%&|<>*/+-.,)[]{}'\" \t", line.bytes[end]) == NULL)) {
+                              !strchr("=(;!@#$:%&|<>*/+-.,)[]{}'\" \t", line.bytes[end])))
         end++;
-    }
-    bool binds = end > at && end < line.len && strchr("=(;", line.bytes[end]) != NULL;
+    bool binds = end > at && end < line.len && strchr("=(;", line.bytes[end]);
     return (Str){line.bytes + at, binds ? end - at : 0};
 }
 
 typedef struct Names {
-    Str items[MOST_NAMES];
+    Str items[MAX_NAMES];
     size_t count;
 } Names;
 
 static void add_name(Names *names, const Str *line) {
     Str name = bound_name(*line);
-    bool known = name.len == 0 || names->count == MOST_NAMES;
-    for (size_t i = 0; i < names->count && !known; i++) {
+    bool known = name.len == 0 || names->count == MAX_NAMES;
+    for (size_t i = 0; i < names->count && !known; i++)
         known = str_equal(names->items[i], name);
-    }
-    if (!known) {
+    if (!known)
         names->items[names->count++] = name;
-    }
 }
 
 // lengths[i][j]: of the longest common subsequence of the lines from i and from j on.
 static uint32_t *common_lengths(const Str *a, size_t rows, const Str *b, size_t columns) {
-    uint32_t *lengths = memory_zeroed((rows + 1) * (columns + 1) * sizeof *lengths);
+    uint32_t *lengths = memory_calloc((rows + 1) * (columns + 1) * sizeof *lengths);
     for (size_t i = rows; i-- > 0;) {
         uint32_t *row = lengths + i * (columns + 1), *next = row + columns + 1;
-        for (size_t j = columns; j-- > 0;) {
+        for (size_t j = columns; j-- > 0;)
             row[j] = str_equal(a[i], b[j]) ? next[j + 1] + 1 : next[j] > row[j + 1] ? next[j] : row[j + 1];
-        }
     }
     return lengths;
 }
@@ -83,16 +79,16 @@ typedef struct Counts {
     size_t removed;
 } Counts;
 
-static Counts compare(const Str *a, size_t rows, const Str *b, size_t columns, Names *names) {
+static Counts diff_lines(const Str *a, size_t rows, const Str *b, size_t columns, Names *names) {
     Counts counts = {0};
-    bool small = rows == 0 || columns < MOST_CELLS / rows;
+    bool small = rows == 0 || columns < MAX_CELLS / rows;
     uint32_t *lengths = small ? common_lengths(a, rows, b, columns) : NULL;
     size_t i = 0, j = 0;
     while (i < rows || j < columns) {
-        if (lengths != NULL && i < rows && j < columns && str_equal(a[i], b[j])) {
+        if (lengths && i < rows && j < columns && str_equal(a[i], b[j])) {
             i++;
             j++;
-        } else if (j < columns && (i == rows || lengths == NULL ||
+        } else if (j < columns && (i == rows || !lengths ||
                                    lengths[i * (columns + 1) + j + 1] >= lengths[(i + 1) * (columns + 1) + j])) {
             add_name(names, &b[j++]);
             counts.added++;
@@ -105,62 +101,60 @@ static Counts compare(const Str *a, size_t rows, const Str *b, size_t columns, N
     return counts;
 }
 
-static void add_count(Bytes *what, size_t count, const char *verb) {
+static void add_count(ByteBuffer *what, size_t count, const char *verb) {
     bool first = what->length == 0;
     if (count > 0) {
-        bytes_format(what, "%s%zu %s%s", first ? "" : ", ", count, !first ? "" : count == 1 ? "line " : "lines ", verb);
+        byte_buffer_format(what, "%s%zu %s%s", first ? "" : ", ", count,
+                           !first       ? ""
+                           : count == 1 ? "line "
+                                        : "lines ",
+                           verb);
     }
 }
 
 // Adds how many lines were added and removed and which names are bound in them, such as `2 lines added, 1 removed
 // (COUNT, start)`; nothing if the texts are equal.
-static void describe_changes(const Bytes *before, const Bytes *after, Bytes *what) {
-    Lines a = split(before), b = split(after);
+static void describe_changes(const ByteBuffer *before, const ByteBuffer *after, ByteBuffer *what) {
+    Lines a = split_lines(before), b = split_lines(after);
     size_t start = 0, rows = a.count, columns = b.count;
-    while (start < rows && start < columns && str_equal(a.items[start], b.items[start])) {
+    while (start < rows && start < columns && str_equal(a.items[start], b.items[start]))
         start++;
-    }
     while (rows > start && columns > start && str_equal(a.items[rows - 1], b.items[columns - 1])) {
         rows--;
         columns--;
     }
     Names names = {0};
     Counts counts = {0};
-    if (rows > start || columns > start) {
-        counts = compare(a.items + start, rows - start, b.items + start, columns - start, &names);
-    }
+    if (rows > start || columns > start)
+        counts = diff_lines(a.items + start, rows - start, b.items + start, columns - start, &names);
     add_count(what, counts.added, "added");
     add_count(what, counts.removed, "removed");
-    for (size_t i = 0; i < names.count; i++) {
-        bytes_format(what, "%s%.*s", i == 0 ? " (" : ", ", (int)names.items[i].len, names.items[i].bytes);
-    }
-    bytes_add_text(what, names.count == 0 ? "" : ")");
+    for (size_t i = 0; i < names.count; i++)
+        byte_buffer_format(what, "%s%.*s", i == 0 ? " (" : ", ", (int)names.items[i].len, names.items[i].bytes);
+    byte_buffer_add_text(what, names.count == 0 ? "" : ")");
     free(a.items);
     free(b.items);
 }
 
 void repl_watch_files(Repl *repl) {
-    if (repl->script != NULL) {
-        watch_file(repl->files, repl->script);
-    }
+    if (repl->script)
+        file_watch_add(repl->files, repl->script);
     const char *path;
-    for (size_t i = 0; (path = petri_source(repl->session, i)) != NULL; i++) {
-        watch_file(repl->files, path);
-    }
+    for (size_t i = 0; (path = petri_source_file(repl->session, i)); i++)
+        file_watch_add(repl->files, path);
 }
 
-static void remember_text(Repl *repl) {
-    bytes_free(&repl->script_text);
-    if (repl->script != NULL) {
-        bytes_read_file(&repl->script_text, repl->script);
-    }
+static void store_script_text(Repl *repl) {
+    byte_buffer_free(&repl->script_text);
+    if (repl->script)
+        byte_buffer_read_file(&repl->script_text, repl->script);
 }
 
-static bool loaded(Repl *repl, PetriStatus status) {
+static bool finish_load(Repl *repl, PetriStatus status) {
     repl_watch_files(repl);
     repl->changed = false;
     if (status == PETRI_OK) {
-        remember_text(repl);
+        store_script_text(repl);
         repl->loaded = true;
     }
     repl->failed = repl->failed || status != PETRI_OK;
@@ -172,99 +166,87 @@ bool repl_load(Repl *repl, const char *file) {
     repl->rates_changed = repl->rates_changed && status != PETRI_OK;
     if (status == PETRI_OK && file != repl->script) {
         free(repl->script);
-        repl->script = memory_text(file);
+        repl->script = memory_strdup(file);
     }
-    return loaded(repl, status);
+    return finish_load(repl, status);
 }
 
 static bool run_reload(Repl *repl, const char *rest) {
     (void)rest;
-    if (repl->script == NULL) {
+    if (!repl->script)
         return repl_fail(repl, "no script is loaded; .load FILE loads one");
-    }
     // What was never running has no state that could stay.
     PetriStatus status =
         repl->loaded ? petri_reload(repl->session, repl->script) : petri_load(repl->session, repl->script);
     bool first = !repl->loaded;
-    if (!loaded(repl, status)) {
+    if (!finish_load(repl, status))
         return false;
-    }
-    if (first && !history_start(&repl->history, repl->session, NULL)) {
-        return repl_status(repl, PETRI_MEMORY);
-    }
-    repl_say(repl, "%s is loaded anew", repl->script);
+    if (first && !history_start(&repl->history, repl->session, NULL))
+        return repl_status(repl, PETRI_OUT_OF_MEMORY);
+    repl_note(repl, "%s is loaded anew", repl->script);
     return true;
 }
 
 void repl_refresh(Repl *repl) {
-    repl_notice(repl, false);
+    repl_report_changes(repl, false);
     if (repl->changed) {
         repl->changed = false;
-        if (!run_reload(repl, "")) {
-            repl_say(repl, repl->loaded ? "the script as it was goes on" : "no script is running");
-        }
+        if (!run_reload(repl, ""))
+            repl_note(repl, repl->loaded ? "the script as it was goes on" : "no script is running");
     }
 }
 
-bool repl_notice(Repl *repl, bool at_prompt) {
-    if (!watch_changed(repl->files)) {
+bool repl_report_changes(Repl *repl, bool at_prompt) {
+    if (!file_watch_changed(repl->files))
         return false;
-    }
-    SCOPED_BYTES now = {0}, what = {0};
-    bool changed = repl->script != NULL && bytes_read_file(&now, repl->script);
+    SCOPED_BYTE_BUFFER now = {0}, what = {0};
+    bool changed = repl->script && byte_buffer_read_file(&now, repl->script);
     if (changed) {
         repl->changed = true;
         describe_changes(&repl->script_text, &now, &what);
-        if (at_prompt) {
+        if (at_prompt)
             output_write(&repl->output, "\n", 1);
-        }
         // If nothing is different here, it is a file that the script includes or imports.
-        repl_say(repl, "%s%s was changed%s%s; it is loaded anew before the next step",
-                 what.length == 0 ? "what goes into " : "", repl->script, what.length == 0 ? "" : ": ",
-                 what.length == 0 ? "" : what.data);
+        repl_note(repl, "%s%s was changed%s%s; it is loaded anew before the next step",
+                  what.length == 0 ? "what goes into " : "", repl->script, what.length == 0 ? "" : ": ",
+                  what.length == 0 ? "" : what.data);
         output_flush(&repl->output);
     }
     return changed;
 }
 
 static bool run_drop(Repl *repl, const char *rest) {
-    if (rest[0] != '\0' && strcmp(rest, "all") != 0) {
+    if (rest[0] != '\0' && strcmp(rest, "all") != 0)
         return repl_fail(repl, ".drop takes out nodes, .drop all also names; not '%s'", rest);
-    }
-    uint32_t count = petri_drop(repl->session, rest[0] != '\0');
-    repl_say(repl, "%" PRIu32 " statement%s dropped", count, count == 1 ? "" : "s");
+    uint32_t count = petri_prompt_clear(repl->session, rest[0] != '\0');
+    repl_note(repl, "%" PRIu32 " statement%s dropped", count, count == 1 ? "" : "s");
     return true;
 }
 
 static bool run_load(Repl *repl, const char *rest) {
-    if (script_is_stdin(rest)) {
+    if (script_is_stdin(rest))
         return repl_fail(repl, "the prompt reads what is typed from standard input: the script must be a file");
-    }
-    if (!repl_load(repl, rest)) {
+    if (!repl_load(repl, rest))
         return false;
-    }
-    petri_clear(repl->session);
-    return history_start(&repl->history, repl->session, NULL) || repl_status(repl, PETRI_MEMORY);
+    petri_reset(repl->session);
+    return history_start(&repl->history, repl->session, NULL) || repl_status(repl, PETRI_OUT_OF_MEMORY);
 }
 
 static bool run_save(Repl *repl, const char *rest) {
-    if (!repl_status(repl, petri_save(repl->session, rest))) {
+    if (!repl_status(repl, petri_save(repl->session, rest)))
         return false;
-    }
-    repl_say(repl, "the state after frame %" PRId64 " is in %s", petri_frame(repl->session).number, rest);
+    repl_note(repl, "the state after frame %" PRId64 " is in %s", petri_frame(repl->session).number, rest);
     return true;
 }
 
 static bool run_restore(Repl *repl, const char *rest) {
-    if (access(rest, R_OK) != 0) {
+    if (access(rest, R_OK) != 0)
         return repl_fail(repl, "cannot read '%s': %s", rest, strerror(errno));
-    }
-    if (!repl_status(repl, petri_restore(repl->session, rest))) {
+    if (!repl_status(repl, petri_restore(repl->session, rest)))
         return false;
-    }
-    repl_say(repl, "the next frame is the one after %" PRId64, petri_frame(repl->session).number);
+    repl_note(repl, "the next frame is the one after %" PRId64, petri_frame(repl->session).number);
     return history_start(&repl->history, repl->session, "a state was restored there") ||
-           repl_status(repl, PETRI_MEMORY);
+           repl_status(repl, PETRI_OUT_OF_MEMORY);
 }
 
 const ReplCommand SCRIPT_COMMANDS[] = {

@@ -1,6 +1,9 @@
 // listen.c: see listen.h.
 #include "view/listen.h"
 
+#include "base/file.h"
+#include "cli/json.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
@@ -13,22 +16,17 @@
 #include <sys/un.h>
 #include <unistd.h>
 
-#include "base/file.h"
-#include "cli/json.h"
-
-static const size_t MOST_BYTES = (size_t)1 << 20;
+static const size_t MAX_BYTES = (size_t)1 << 20;
 
 // A socket that nobody listens on was left by a view that died.
 static void remove_dead(const struct sockaddr_un *address) {
     struct stat about;
     int probe = socket(AF_UNIX, SOCK_STREAM, 0);
     if (probe >= 0 && lstat(address->sun_path, &about) == 0 && S_ISSOCK(about.st_mode) &&
-        connect(probe, (const struct sockaddr *)address, sizeof *address) != 0 && errno == ECONNREFUSED) {
+        connect(probe, (const struct sockaddr *)address, sizeof *address) != 0 && errno == ECONNREFUSED)
         unlink(address->sun_path);
-    }
-    if (probe >= 0) {
+    if (probe >= 0)
         close(probe);
-    }
 }
 
 static void set_flags(int descriptor) {
@@ -54,150 +52,143 @@ bool listener_open(Listener *listener, const char *path) {
     umask(mask);
     if (!good) {
         message("cannot listen on %s: %s", path, strerror(cause));
-        if (listener->socket >= 0) {
+        if (listener->socket >= 0)
             close(listener->socket);
-        }
         return false;
     }
     set_flags(listener->socket);
-    listener->path = memory_text(path);
+    listener->path = memory_strdup(path);
     return true;
 }
 
 void listener_close(Listener *listener) {
-    if (listener->path == NULL) {
+    if (!listener->path)
         return;
-    }
     unlink(listener->path);
     free(listener->path);
     close(listener->socket);
-    if (listener->client >= 0) {
+    if (listener->client >= 0)
         close(listener->client);
-    }
-    bytes_free(&listener->text);
+    byte_buffer_free(&listener->text);
     *listener = (Listener){0};
 }
 
 // --- answers
 
-static void add_diagnostics(PetriSession *session, Bytes *out) {
+static void add_diagnostics(PetriSession *session, ByteBuffer *out) {
     PetriDiagnostic diagnostic;
     for (size_t i = 0; petri_diagnostic(session, i, &diagnostic); i++) {
         json_add_diagnostic(out, &diagnostic);
-        bytes_add_text(out, "\n");
+        byte_buffer_add_text(out, "\n");
     }
 }
 
-static void add_output(const Bytes *output, Bytes *out) {
+static void add_output(const ByteBuffer *output, ByteBuffer *out) {
     Str line;
-    for (size_t at = 0; output->length > 0 && bytes_line(output, &at, &line);) {
-        SCOPED_TEXT text = memory_copied(line.bytes, line.len);
-        bytes_add_text(out, "{\"text\": ");
+    for (size_t at = 0; output->length > 0 && byte_buffer_next_line(output, &at, &line);) {
+        SCOPED_TEXT text = memory_strndup(line.bytes, line.len);
+        byte_buffer_add_text(out, "{\"text\": ");
         json_add_text(out, text);
-        bytes_add_text(out, "}\n");
+        byte_buffer_add_text(out, "}\n");
     }
 }
 
-static void end_answer(Bytes *out, bool done, int64_t frame, const PetriPrompted *prompted) {
-    bytes_format(out,
-                 "{\"done\": %s, \"frame\": %" PRId64 ", \"values\": %u, \"bindings\": %u, \"nodes\": %u, \"hidden\": ",
-                 done ? "true" : "false", frame, prompted->values, prompted->bindings, prompted->nodes);
-    json_add_text(out, prompted->hidden);
-    bytes_add_text(out, "}\n");
+static void add_result_line(ByteBuffer *out, bool done, int64_t frame, const PetriPromptResult *prompted) {
+    byte_buffer_format(
+        out, "{\"done\": %s, \"frame\": %" PRId64 ", \"values\": %u, \"bindings\": %u, \"nodes\": %u, \"hidden\": ",
+        done ? "true" : "false", frame, prompted->values, prompted->bindings, prompted->nodes);
+    json_add_text(out, prompted->shadowed);
+    byte_buffer_add_text(out, "}\n");
 }
 
 // `.set NAME VALUE`; the text is cut.
-static bool set_parameter(World *world, char *text) {
+static bool set_parameter(LiveScript *live, char *text) {
     char *name = text + strspn(text, " "), *value = name + strcspn(name, " ");
     bool given = *value != '\0' && value[1] != '\0';
     *value = '\0';
-    return world_set_parameter(world, name, given ? value + 1 : NULL);
+    return live_script_set_parameter(live, name, given ? value + 1 : NULL);
 }
 
 // `.back` or `.back N`.
-static bool go_back(World *world, const char *text, Bytes *output) {
+static bool go_back(LiveScript *live, const char *text, ByteBuffer *output) {
     char *end;
     long long count = *text == '\0' ? 1 : strtoll(text, &end, 10);
     if (*text != '\0' && (*end != '\0' || count < 1)) {
-        bytes_add_text(output, ".back takes a number of frames, 1 or more, or nothing for one");
+        byte_buffer_add_text(output, ".back takes a number of frames, 1 or more, or nothing for one");
         return false;
     }
-    return world_go_back(world, count, output);
+    return live_script_go_back(live, count, output);
 }
 
-static ListenerNews answer(World *world, char *text, Bytes *out) {
+static ListenerResult execute_command(LiveScript *live, char *text, ByteBuffer *out) {
     static const char set[] = ".set ", back[] = ".back";
-    ListenerNews news = LISTENER_TAKEN;
-    PetriPrompted prompted = {0};
-    SCOPED_BYTES output = {0};
+    ListenerResult news = LISTENER_ACCEPTED;
+    PetriPromptResult prompted = {0};
+    SCOPED_BYTE_BUFFER output = {0};
     size_t length = strlen(text);
-    while (length > 0 && strchr(" \n", text[length - 1]) != NULL) {
+    while (length > 0 && strchr(" \n", text[length - 1]))
         text[--length] = '\0';
-    }
-    petri_forget_diagnostics(world->session);
+    petri_clear_diagnostics(live->session);
     bool done = true;
     if (strncmp(text, set, strlen(set)) == 0) {
-        done = set_parameter(world, text + strlen(set));
+        done = set_parameter(live, text + strlen(set));
     } else if (strcmp(text, back) == 0 || strncmp(text, ".back ", strlen(".back ")) == 0) {
-        done = go_back(world, text + strlen(back) + (text[strlen(back)] == ' '), &output);
-        news = done ? LISTENER_WENT : LISTENER_NOTHING;
+        done = go_back(live, text + strlen(back) + (text[strlen(back)] == ' '), &output);
+        news = done ? LISTENER_MOVED : LISTENER_NOTHING;
     } else if (strcmp(text, ".reset") == 0) {
-        world_reset(world);
+        live_script_reset(live);
     } else if (strcmp(text, ".drop") == 0) {
-        petri_drop(world->session, true);
+        petri_prompt_clear(live->session, true);
     } else {
-        done = petri_prompt(world->session, text, length, bytes_collect, &output, &prompted) == PETRI_OK;
+        done = petri_prompt(live->session, text, length, byte_buffer_collect, &output, &prompted) == PETRI_OK;
     }
     add_output(&output, out);
-    add_diagnostics(world->session, out);
-    end_answer(out, done, petri_frame(world->session).number, &prompted);
+    add_diagnostics(live->session, out);
+    add_result_line(out, done, petri_frame(live->session).number, &prompted);
     return news;
 }
 
 // A client that does not read is not waited for.
-static ListenerNews reply(Listener *listener, World *world) {
-    SCOPED_BYTES out = {0};
-    bytes_add(&listener->text, "", 0);
-    ListenerNews news = answer(world, listener->text.data, &out);
+static ListenerResult answer_client(Listener *listener, LiveScript *live) {
+    SCOPED_BYTE_BUFFER out = {0};
+    byte_buffer_add(&listener->text, "", 0);
+    ListenerResult news = execute_command(live, listener->text.data, &out);
     fcntl(listener->client, F_SETFL, 0);
     setsockopt(listener->client, SOL_SOCKET, SO_SNDTIMEO, &(struct timeval){.tv_sec = 1}, sizeof(struct timeval));
     (void)file_write(listener->client, out.data, out.length);
     return news;
 }
 
-static void hang_up(Listener *listener) {
+static void disconnect_client(Listener *listener) {
     close(listener->client);
     listener->client = -1;
     listener->text.length = 0;
 }
 
-ListenerNews listener_serve(Listener *listener, World *world) {
-    if (listener->path == NULL) {
+ListenerResult listener_serve(Listener *listener, LiveScript *live) {
+    if (!listener->path)
         return LISTENER_NOTHING;
-    }
     if (listener->client < 0) {
         listener->client = accept(listener->socket, NULL, NULL);
-        if (listener->client < 0) {
+        if (listener->client < 0)
             return LISTENER_NOTHING;
-        }
         set_flags(listener->client);
     }
     char part[4096];
     ssize_t count;
     while ((count = read(listener->client, part, sizeof part)) > 0) {
-        bytes_add(&listener->text, part, (size_t)count);
-        if (listener->text.length > MOST_BYTES) {
-            hang_up(listener);
+        byte_buffer_add(&listener->text, part, (size_t)count);
+        if (listener->text.length > MAX_BYTES) {
+            disconnect_client(listener);
             return LISTENER_NOTHING;
         }
     }
     if (count < 0) {
-        if (errno != EAGAIN && errno != EINTR) {
-            hang_up(listener);
-        }
+        if (errno != EAGAIN && errno != EINTR)
+            disconnect_client(listener);
         return LISTENER_NOTHING;
     }
-    ListenerNews news = reply(listener, world);
-    hang_up(listener);
+    ListenerResult news = answer_client(listener, live);
+    disconnect_client(listener);
     return news;
 }

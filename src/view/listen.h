@@ -7,21 +7,21 @@
 #ifndef PETRI_SRC_VIEW_LISTEN_H
 #define PETRI_SRC_VIEW_LISTEN_H
 
-#include "view/world.h"
+#include "view/live_script.h"
 
 typedef struct Listener {
     char *path; // NULL: nobody listens
     int socket;
-    int client; // -1: none
-    Bytes text; // what the client has sent so far
+    int client;      // -1: none
+    ByteBuffer text; // what the client has sent so far
 } Listener;
 
 // Opens the socket, which its owner alone may use. False after a message.
 bool listener_open(Listener *listener, const char *path);
 // What became of the world: nothing, something that the next frame shows, or another frame, whose picture is there.
-typedef enum ListenerNews { LISTENER_NOTHING, LISTENER_TAKEN, LISTENER_WENT } ListenerNews;
+typedef enum ListenerResult { LISTENER_NOTHING, LISTENER_ACCEPTED, LISTENER_MOVED } ListenerResult;
 // Never waits for a client.
-ListenerNews listener_serve(Listener *listener, World *world);
+ListenerResult listener_serve(Listener *listener, LiveScript *live);
 // Removes the socket. A listener that was never opened is fine.
 void listener_close(Listener *listener);
 

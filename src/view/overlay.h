@@ -9,7 +9,7 @@
 // unit of text sizes. What cannot be drawn is left out.
 void overlay_draw(PetriPainter *painter, const Overlay *overlay, double scale, uint32_t *pixels, int width, int height);
 
-// Shows a picture (NULL: black) and the text over it on the painter's window (petri_painter_show).
+// Shows a picture (NULL: black) and the text over it on the painter's window (petri_painter_present).
 PetriStatus overlay_show(PetriPainter *painter, PetriPicture *picture, const Overlay *overlay, double scale, int width,
                          int height);
 

@@ -1,9 +1,9 @@
 // overlay_text.c: see overlay_text.h.
 #include "view/overlay_text.h"
 
-#include <string.h>
-
 #include "base/str.h"
+
+#include <string.h>
 
 // Length of the UTF-8 character at the start of a text, 0 if there is none.
 static size_t character_length(const char *text) {
@@ -13,9 +13,8 @@ static size_t character_length(const char *text) {
 
 // Past an escape sequence such as those that colour messages.
 static const char *skip_escape(const char *text) {
-    if (text[1] != '[') {
+    if (text[1] != '[')
         return text + 1;
-    }
     text += 2;
     text += strspn(text, "0123456789;:?<=>!\"#$%&'()*+,-./ ");
     return *text == '\0' ? text : text + 1;
@@ -37,9 +36,8 @@ bool overlay_set(char *text, size_t size, const char *from) {
             continue;
         }
         bool blank = *from == '\t', kept = length > 0 && (*from == '\n' || !is_control(from, length));
-        if (used + (length > 1 ? length : 1) >= size) {
+        if (used + (length > 1 ? length : 1) >= size)
             break;
-        }
         if (blank || length == 0) {
             clean[used++] = blank ? ' ' : '?';
         } else if (kept) {
@@ -48,9 +46,8 @@ bool overlay_set(char *text, size_t size, const char *from) {
         }
         from += length > 0 ? length : 1;
     }
-    while (used > 0 && clean[used - 1] == '\n') {
+    while (used > 0 && clean[used - 1] == '\n')
         used--;
-    }
     clean[used] = '\0';
     bool changed = strcmp(text, clean) != 0;
     memcpy(text, clean, used + 1);
@@ -59,9 +56,8 @@ bool overlay_set(char *text, size_t size, const char *from) {
 
 int overlay_lines(const char *text) {
     int lines = *text == '\0' ? 0 : 1;
-    for (; *text != '\0'; text++) {
+    for (; *text != '\0'; text++)
         lines += *text == '\n';
-    }
     return lines;
 }
 
@@ -71,42 +67,37 @@ static int line_columns(const char *line) {
 }
 
 int overlay_columns(const char *text) {
-    int longest = line_columns(text);
-    while ((text = strchr(text, '\n')) != NULL) {
+    int max_columns = line_columns(text);
+    while ((text = strchr(text, '\n'))) {
         int columns = line_columns(++text);
-        longest = columns > longest ? columns : longest;
+        max_columns = columns > max_columns ? columns : max_columns;
     }
-    return longest;
+    return max_columns;
 }
 
 // So many characters on.
 static const char *skip_columns(const char *line, int columns) {
     Str rest = {line, strcspn(line, "\n")};
     size_t at = 0;
-    while (columns-- > 0 && at < rest.len) {
+    while (columns-- > 0 && at < rest.len)
         utf8_next(rest, &at);
-    }
     return line + at;
 }
 
 // Where the part of a line ends that is shown in one row.
 static const char *row_end(const char *line, int columns) {
     const char *end = skip_columns(line, columns);
-    if (*end == '\0' || *end == '\n') {
+    if (*end == '\0' || *end == '\n')
         return end;
-    }
-    for (const char *blank = end; blank > line; blank--) {
-        if (*blank == ' ') {
+    for (const char *blank = end; blank > line; blank--)
+        if (*blank == ' ')
             return blank;
-        }
-    }
     return end;
 }
 
-static size_t add(char *out, size_t size, size_t used, const char *text, size_t length) {
-    if (used + length >= size) {
+static size_t append_text(char *out, size_t size, size_t used, const char *text, size_t length) {
+    if (used + length >= size)
         return used;
-    }
     memcpy(out + used, text, length);
     return used + length;
 }
@@ -118,15 +109,14 @@ void overlay_fit(char *out, size_t size, const char *text, int columns) {
     while (*text != '\0') {
         bool cut = *text == ' ' && line_columns(text) > columns;
         const char *end = cut ? skip_columns(text, columns - 1) : row_end(text, columns);
-        used = add(out, size, used, text, (size_t)(end - text));
+        used = append_text(out, size, used, text, (size_t)(end - text));
         if (cut) {
-            used = add(out, size, used, more, sizeof more - 1);
+            used = append_text(out, size, used, more, sizeof more - 1);
             end = skip_columns(text, line_columns(text));
         }
         text = *end == ' ' || *end == '\n' ? end + 1 : end;
-        if (*text != '\0') {
-            used = add(out, size, used, "\n", 1);
-        }
+        if (*text != '\0')
+            used = append_text(out, size, used, "\n", 1);
     }
     out[used] = '\0';
 }

@@ -7,11 +7,11 @@
 
 // Texts that are shown over a picture; empty ones are not. UTF-8 without control characters but newlines.
 typedef struct Overlay {
-    char status[400];   // frame rate and clocks, some lines
-    char notice[400];   // what was done just now, one line
-    char trouble[4000]; // what is wrong with the script, some lines
-    char mark[40];      // that there is more to tell, a few words in a corner
-    bool mild;          // `trouble` tells of nothing that stops anything
+    char status[400];      // frame rate and clocks, some lines
+    char notice[400];      // what was done just now, one line
+    char error_text[4000]; // what is wrong with the script, some lines
+    char mark[40];         // that there is more to tell, a few words in a corner
+    bool is_warning;       // `trouble` tells of nothing that stops anything
 } Overlay;
 
 // Sets one of them from any text: escape sequences and what is no UTF-8 are left out, tabs become blanks, and what does

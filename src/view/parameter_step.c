@@ -18,20 +18,19 @@ static double round_step(double x) {
 }
 
 static double step_size(const PetriParameter *parameter) {
-    double usual = isnan(parameter->fallback_number) ? parameter->number : parameter->fallback_number;
-    double range = parameter->most - parameter->least;
-    if (parameter->step > 0) {
+    double regular = isnan(parameter->default_number) ? parameter->number : parameter->default_number;
+    double range = parameter->max - parameter->min;
+    if (parameter->step > 0)
         return parameter->step;
-    }
-    double rough = isfinite(range) ? range / STEPS_OF_RANGE : fabs(usual) / STEPS_OF_VALUE;
+    double rough = isfinite(range) ? range / STEPS_OF_RANGE : fabs(regular) / STEPS_OF_VALUE;
     double size = rough > 0 && isfinite(rough) ? round_step(rough) : 1;
     bool whole =
-        is_whole(usual) && is_whole(parameter->number) && is_whole(parameter->least) && is_whole(parameter->most);
+        is_whole(regular) && is_whole(parameter->number) && is_whole(parameter->min) && is_whole(parameter->max);
     return whole ? fmax(1, floor(size)) : size;
 }
 
 // As a person would write it: without the dust of binary fractions.
-static double without_dust(double x) {
+static double round_decimal(double x) {
     char text[40];
     snprintf(text, sizeof text, "%.12g", x);
     double clean = strtod(text, NULL);
@@ -41,20 +40,18 @@ static double without_dust(double x) {
 // Steps lead to multiples of their size, counted from the range's start if it says how large they are.
 static double step_from(const PetriParameter *parameter, double value, int steps) {
     double size = step_size(parameter), dust = 1e-9;
-    double origin = parameter->step > 0 && isfinite(parameter->least) ? parameter->least : 0;
+    double origin = parameter->step > 0 && isfinite(parameter->min) ? parameter->min : 0;
     double place = (value - origin) / size;
     place = steps > 0 ? floor(place + dust) : ceil(place - dust);
-    double to = without_dust(origin + (place + steps) * size);
-    return fmin(fmax(to, parameter->least), parameter->most);
+    double to = round_decimal(origin + (place + steps) * size);
+    return fmin(fmax(to, parameter->min), parameter->max);
 }
 
 double parameter_stepped(const PetriParameter *parameter, int steps) {
-    if (!isfinite(parameter->number)) {
+    if (!isfinite(parameter->number))
         return NAN;
-    }
     double to = step_from(parameter, parameter->number, steps);
-    if (to == 0 && parameter->fallback_number != 0) { // beyond it, if there is something
+    if (to == 0 && parameter->default_number != 0) // beyond it, if there is something
         to = step_from(parameter, to, steps > 0 ? 1 : -1);
-    }
-    return to == 0 && parameter->fallback_number != 0 ? NAN : to;
+    return to == 0 && parameter->default_number != 0 ? NAN : to;
 }

@@ -1,13 +1,13 @@
 // parameters.c: see parameters.h.
 #include "view/parameters.h"
 
+#include "cli/parameters.h"
+#include "view/parameter_step.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "cli/parameters.h"
-#include "view/parameter_step.h"
 
 enum { LARGE_STEP = 10 };
 
@@ -52,74 +52,71 @@ bool parameter_key_repeats(const char *key) {
 static size_t count_parameters(PetriSession *session) {
     PetriParameter parameter;
     size_t count = 0;
-    while (petri_parameter(session, count, &parameter) && parameter.settable) {
+    while (petri_parameter(session, count, &parameter) && parameter.settable)
         count++;
-    }
     return count;
 }
 
-static void describe(World *world, size_t chosen, Bytes *text) {
+static void describe_parameter(LiveScript *live, size_t chosen, ByteBuffer *text) {
     PetriParameter parameter;
-    if (petri_parameter(world->session, chosen, &parameter)) {
+    if (petri_parameter(live->session, chosen, &parameter)) {
         parameter_describe(text, &parameter);
-        bytes_format(text, "%s%s", parameter.comment[0] == '\0' ? "" : "  ", parameter.comment);
+        byte_buffer_format(text, "%s%s", parameter.comment[0] == '\0' ? "" : "  ", parameter.comment);
     }
 }
 
-static ParameterAct set(ParameterKeys *keys, World *world, const char *value, Bytes *text) {
+static ParameterResult set_value(ParameterKeys *keys, LiveScript *live, const char *value, ByteBuffer *text) {
     PetriParameter parameter;
-    petri_parameter(world->session, keys->chosen, &parameter);
-    SCOPED_TEXT name = memory_text(parameter.name);
-    bool done = world_set_parameter(world, name, value);
-    describe(world, keys->chosen, text);
-    return done ? PARAMETER_CHANGES : PARAMETER_TELLS;
+    petri_parameter(live->session, keys->chosen, &parameter);
+    SCOPED_TEXT name = memory_strdup(parameter.name);
+    bool done = live_script_set_parameter(live, name, value);
+    describe_parameter(live, keys->chosen, text);
+    return done ? PARAMETER_CHANGED : PARAMETER_MESSAGE;
 }
 
-static ParameterAct step(ParameterKeys *keys, World *world, int steps, Bytes *text) {
+static ParameterResult step_value(ParameterKeys *keys, LiveScript *live, int steps, ByteBuffer *text) {
     PetriParameter parameter;
-    petri_parameter(world->session, keys->chosen, &parameter);
+    petri_parameter(live->session, keys->chosen, &parameter);
     double to = parameter_stepped(&parameter, steps);
     if (isnan(to) || to == parameter.number) {
-        describe(world, keys->chosen, text);
-        bytes_format(text, "%s",
-                     isnan(parameter.number) ? ": keys change numbers only"
-                     : isnan(to)             ? ": 0 would be the default"
-                                             : "");
-        return PARAMETER_TELLS;
+        describe_parameter(live, keys->chosen, text);
+        byte_buffer_format(text, "%s",
+                           isnan(parameter.number) ? ": keys change numbers only"
+                           : isnan(to)             ? ": 0 would be the default"
+                                                   : "");
+        return PARAMETER_MESSAGE;
     }
     char value[40];
     snprintf(value, sizeof value, "%.12g", to);
-    return set(keys, world, to == parameter.fallback_number ? NULL : value, text);
+    return set_value(keys, live, to == parameter.default_number ? NULL : value, text);
 }
 
-ParameterAct parameter_key(ParameterKeys *keys, World *world, const char *key, Bytes *text) {
+ParameterResult parameter_key(ParameterKeys *keys, LiveScript *live, const char *key, ByteBuffer *text) {
     int by = 0;
     KeyMeaning meaning = meaning_of(key, &by);
-    if (meaning == MEANS_NOTHING) {
-        return PARAMETER_OTHER;
-    }
-    size_t count = count_parameters(world->session);
+    if (meaning == MEANS_NOTHING)
+        return PARAMETER_NOT_A_KEY;
+    size_t count = count_parameters(live->session);
     if (count == 0) {
-        bytes_format(text, "the script has no parameters, such as let SIZE=SIZE or 20");
-        return PARAMETER_TELLS;
+        byte_buffer_format(text, "the script has no parameters, such as let SIZE=SIZE or 20");
+        return PARAMETER_MESSAGE;
     }
     bool first = !keys->used || keys->chosen >= count; // it may have been changed
     keys->used = true;
     keys->chosen = keys->chosen < count ? keys->chosen : 0;
-    if (meaning == MEANS_CHOICE && !first) {
+    if (meaning == MEANS_CHOICE && !first)
         keys->chosen = (keys->chosen + (by > 0 ? 1 : count - 1)) % count;
-    }
     if (meaning == MEANS_CHOICE || first) { // nobody changes what is not seen
-        describe(world, keys->chosen, text);
-        return PARAMETER_TELLS;
+        describe_parameter(live, keys->chosen, text);
+        return PARAMETER_MESSAGE;
     }
-    return meaning == MEANS_STEP ? step(keys, world, by, text) : set(keys, world, NULL, text);
+    return meaning == MEANS_STEP ? step_value(keys, live, by, text) : set_value(keys, live, NULL, text);
 }
 
-void parameter_status(const ParameterKeys *keys, World *world, Bytes *text) {
-    size_t count = count_parameters(world->session);
+void parameter_status(const ParameterKeys *keys, LiveScript *live, ByteBuffer *text) {
+    size_t count = count_parameters(live->session);
     if (count > 0) {
-        bytes_format(text, "\ntab parameter  up down change  0 default\n");
-        describe(world, keys->chosen < count ? keys->chosen : 0, text);
+        byte_buffer_format(text, "\ntab parameter  up down change  0 default\n");
+        describe_parameter(live, keys->chosen < count ? keys->chosen : 0, text);
     }
 }

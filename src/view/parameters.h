@@ -2,29 +2,29 @@
 #ifndef PETRI_SRC_VIEW_PARAMETERS_H
 #define PETRI_SRC_VIEW_PARAMETERS_H
 
+#include "cli/byte_buffer.h"
+#include "petri.h"
+#include "view/live_script.h"
+
 #include <stdbool.h>
 #include <stddef.h>
-
-#include "cli/bytes.h"
-#include "petri.h"
-#include "view/world.h"
 
 typedef struct ParameterKeys {
     size_t chosen;
     bool used; // one of the keys was pressed: which parameter is chosen has been seen
 } ParameterKeys;
 
-typedef enum ParameterAct {
-    PARAMETER_OTHER,  // no key for parameters
-    PARAMETER_TELLS,  // something is to be told
-    PARAMETER_CHANGES // … and the script has another value
-} ParameterAct;
+typedef enum ParameterResult {
+    PARAMETER_NOT_A_KEY, // no key for parameters
+    PARAMETER_MESSAGE,   // something is to be told
+    PARAMETER_CHANGED    // … and the script has another value
+} ParameterResult;
 
 // Does what a key means. `text` gets what is to be told about it.
-ParameterAct parameter_key(ParameterKeys *keys, World *world, const char *key, Bytes *text);
+ParameterResult parameter_key(ParameterKeys *keys, LiveScript *live, const char *key, ByteBuffer *text);
 // Whether a key that is held means the same again and again.
 bool parameter_key_repeats(const char *key);
 // Adds lines about the chosen parameter and the keys, if the script has parameters.
-void parameter_status(const ParameterKeys *keys, World *world, Bytes *text);
+void parameter_status(const ParameterKeys *keys, LiveScript *live, ByteBuffer *text);
 
 #endif

@@ -5,8 +5,13 @@
 #include "petri-draw.h"
 
 // Writes it, and a newline, as large as leaves `below` rows for what comes after it; what drawing tells goes to the
-// session's callback. Without colour: in black and white. PETRI_MEMORY also without libchafa; else as petri_picture.
-PetriStatus still_show(PetriSession *session, PetriPainter *painter, bool colour, int below, PetriWrite *write,
-                       void *host);
+// session's callback. Without colour: in black and white. PETRI_OUT_OF_MEMORY also without libchafa; else as
+// petri_picture.
+PetriStatus still_show(PetriSession *session, PetriPainter *painter, bool colour, int below, PetriWriteCallback *write,
+                       void *user_data);
+
+// Writes opaque pixels to standard output, a terminal, as a picture that leaves `below` lines free. False if out of
+// memory, or without libchafa.
+bool still_show_pixels(const uint32_t *pixels, int width, int height, bool colour, int below);
 
 #endif

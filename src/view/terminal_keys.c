@@ -1,13 +1,13 @@
 // terminal_keys.c: see terminal_keys.h.
 #include "view/terminal_keys.h"
 
+#include "cli/progress.h"
+#include "petri.h"
+
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-#include "cli/progress.h"
-#include "petri.h"
 
 // Seconds after which an escape that nothing followed was the key.
 static const double ESCAPE_SECONDS = 0.05;
@@ -26,20 +26,15 @@ const char *key_of_character(char character) {
         {'+', "equal"}, {']', "right_bracket"}, {'`', "grave_accent"}, {'\r', "enter"},       {'\n', "enter"},
         {'\t', "tab"},  {'\b', "backspace"},    {127, "backspace"},    {27, "escape"},
     };
-    if (character >= 'a' && character <= 'z') {
+    if (character >= 'a' && character <= 'z')
         return letters[character - 'a'];
-    }
-    if (character >= 'A' && character <= 'Z') {
+    if (character >= 'A' && character <= 'Z')
         return letters[character - 'A'];
-    }
-    if (character >= '0' && character <= '9') {
+    if (character >= '0' && character <= '9')
         return digits[character - '0'];
-    }
-    for (size_t i = 0; i < sizeof signs / sizeof signs[0]; i++) {
-        if (signs[i].character == character) {
+    for (size_t i = 0; i < sizeof signs / sizeof signs[0]; i++)
+        if (signs[i].character == character)
             return signs[i].name;
-        }
-    }
     return NULL;
 }
 
@@ -58,24 +53,22 @@ void terminal_input_read(TerminalInput *input, int fd) {
     }
 }
 
-static void drop(TerminalInput *input, size_t count) {
+static void drop_bytes(TerminalInput *input, size_t count) {
     input->count -= count;
     memmove(input->bytes, input->bytes + count, input->count);
 }
 
-static Event tap(const char *key) {
-    return (Event){.kind = key == NULL ? EVENT_NONE : EVENT_TAP, .key = key};
+static Event key_tap_event(const char *key) {
+    return (Event){.kind = !key ? EVENT_NONE : EVENT_KEY_TAP, .key = key};
 }
 
 static const char *key_of_letter(unsigned char letter) {
     static const char *const arrows[] = {"up", "down", "right", "left"};
     static const char *const functions[] = {"f1", "f2", "f3", "f4"};
-    if (letter >= 'A' && letter <= 'D') {
+    if (letter >= 'A' && letter <= 'D')
         return arrows[letter - 'A'];
-    }
-    if (letter >= 'P' && letter <= 'S') {
+    if (letter >= 'P' && letter <= 'S')
         return functions[letter - 'P'];
-    }
     return letter == 'H' ? "home" : letter == 'F' ? "end" : NULL;
 }
 
@@ -94,14 +87,12 @@ static Event mouse_event(TerminalInput *input, const char *text, char last) {
          row = *end == ';' ? strtol(end + 1, &end, 10) : 0;
     static const unsigned buttons[] = {PETRI_BUTTON_LEFT, PETRI_BUTTON_MIDDLE, PETRI_BUTTON_RIGHT, 0};
     bool moved = (code & 32) != 0, wheel = (code & 64) != 0;
-    if (column < 1 || row < 1 || wheel) {
+    if (column < 1 || row < 1 || wheel)
         return (Event){.kind = EVENT_NONE};
-    }
-    if (!moved && last == 'M') {
+    if (!moved && last == 'M')
         input->buttons |= buttons[code & 3];
-    } else if (last == 'm') {
+    else if (last == 'm')
         input->buttons &= ~buttons[code & 3];
-    }
     return (Event){.kind = EVENT_POINTER,
                    .inside = true,
                    .x = (double)column - 0.5,
@@ -116,74 +107,67 @@ static Event sequence_event(TerminalInput *input, const char *parameters, unsign
     case 'm':
         return parameters[0] == '<' ? mouse_event(input, parameters + 1, (char)last) : (Event){.kind = EVENT_NONE};
     case '~':
-        return tap(key_of_number(strtol(parameters, NULL, 10)));
+        return key_tap_event(key_of_number(strtol(parameters, NULL, 10)));
     case 'O':
         input->buttons = 0;
-        return (Event){.kind = EVENT_AWAY};
+        return (Event){.kind = EVENT_FOCUS_LOST};
     default:
-        return tap(key_of_letter(last));
+        return key_tap_event(key_of_letter(last));
     }
 }
 
 // Length of the sequence that begins with ESC [, 0 if its end has not come.
 static size_t sequence_length(const TerminalInput *input) {
-    for (size_t i = 2; i < input->count; i++) {
-        if (input->bytes[i] >= '@' && input->bytes[i] <= '~') {
+    for (size_t i = 2; i < input->count; i++)
+        if (input->bytes[i] >= '@' && input->bytes[i] <= '~')
             return i + 1;
-        }
-    }
     return 0;
 }
 
 static Event next_sequence(TerminalInput *input) {
     char parameters[sizeof input->bytes];
     size_t length = sequence_length(input);
-    if (length == 0) {
+    if (length == 0)
         return (Event){.kind = EVENT_NONE};
-    }
     memcpy(parameters, input->bytes + 2, length - 3);
     parameters[length - 3] = '\0';
     unsigned char last = input->bytes[length - 1];
-    drop(input, length);
+    drop_bytes(input, length);
     return sequence_event(input, parameters, last);
 }
 
 static Event next_escape(TerminalInput *input) {
     bool late = clock_seconds() - input->since > ESCAPE_SECONDS;
     if (input->count == 1) {
-        if (late) {
-            drop(input, 1);
-        }
-        return late ? tap("escape") : (Event){.kind = EVENT_NONE};
+        if (late)
+            drop_bytes(input, 1);
+        return late ? key_tap_event("escape") : (Event){.kind = EVENT_NONE};
     }
-    if (input->bytes[1] == '[') {
+    if (input->bytes[1] == '[')
         return next_sequence(input);
-    }
     if (input->bytes[1] == 'O' && input->count > 2) {
         unsigned char letter = input->bytes[2];
-        drop(input, 3);
-        return tap(key_of_letter(letter));
+        drop_bytes(input, 3);
+        return key_tap_event(key_of_letter(letter));
     }
-    if (input->bytes[1] == 'O' && !late) {
+    if (input->bytes[1] == 'O' && !late)
         return (Event){.kind = EVENT_NONE};
-    }
-    drop(input, 1); // a key with Alt, or a second escape
-    return input->bytes[0] == 27 ? tap("escape") : (Event){.kind = EVENT_NONE};
+    drop_bytes(input, 1); // a key with Alt, or a second escape
+    return input->bytes[0] == 27 ? key_tap_event("escape") : (Event){.kind = EVENT_NONE};
 }
 
 static Event next_character(TerminalInput *input) {
     unsigned char byte = input->bytes[0];
-    drop(input, 1);
-    if (byte >= 128) { // no key of ours
+    drop_bytes(input, 1);
+    if (byte >= 128) // no key of ours
         return (Event){.kind = EVENT_NONE};
-    }
     const char *key = key_of_character((char)byte);
-    if (key == NULL && byte > 0 && byte <= 26) {
-        Event event = tap(key_of_character((char)('a' + byte - 1)));
+    if (!key && byte > 0 && byte <= 26) {
+        Event event = key_tap_event(key_of_character((char)('a' + byte - 1)));
         event.control = true;
         return event;
     }
-    return tap(key);
+    return key_tap_event(key);
 }
 
 Event terminal_input_next(TerminalInput *input) {

@@ -3,9 +3,9 @@
 #ifndef PETRI_SRC_TERMINAL_KEYS_H
 #define PETRI_SRC_TERMINAL_KEYS_H
 
-#include <stddef.h>
-
 #include "view/display.h"
+
+#include <stddef.h>
 
 typedef struct TerminalInput {
     unsigned char bytes[256]; // not understood yet

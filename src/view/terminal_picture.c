@@ -9,8 +9,9 @@
 #ifdef HAVE_CHAFA
 #include <chafa.h>
 
-// A cell if the terminal does not tell, and the pixels that libchafa looks at in one.
-enum { CELL_WIDTH = 8, CELL_HEIGHT = 16 };
+// A cell if the terminal does not report its size; and the pixels drawn for a cell of text: its symbols
+// show about 2 x 2, and pictures of more pixels come too slowly without a graphics card.
+enum { CELL_WIDTH = 8, CELL_HEIGHT = 16, DRAWN_WIDTH = 3, DRAWN_HEIGHT = 6 };
 
 struct TerminalPicture {
     int fd;
@@ -29,10 +30,9 @@ static bool locale_is_utf8(void) {
     static const char *const names[] = {"LC_ALL", "LC_CTYPE", "LANG"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         const char *locale = getenv(names[i]);
-        if (locale != NULL && locale[0] != '\0') {
+        if (locale && locale[0] != '\0') {
             const char *encoding = strchr(locale, '.');
-            return encoding != NULL &&
-                   (strncasecmp(encoding, ".UTF-8", 6) == 0 || strncasecmp(encoding, ".utf8", 5) == 0);
+            return encoding && (strncasecmp(encoding, ".UTF-8", 6) == 0 || strncasecmp(encoding, ".utf8", 5) == 0);
         }
     }
     return false;
@@ -49,111 +49,106 @@ static ChafaCanvasMode colours_of(const ChafaTermInfo *terminal, bool colour) {
         {CHAFA_TERM_SEQ_SET_COLOR_FGBG_8, CHAFA_CANVAS_MODE_INDEXED_8},
         {CHAFA_TERM_SEQ_INVERT_COLORS, CHAFA_CANVAS_MODE_FGBG_BGFG},
     };
-    for (size_t i = colour ? 0 : 4; i < sizeof modes / sizeof modes[0]; i++) {
-        if (chafa_term_info_have_seq(terminal, modes[i].sequence)) {
+    for (size_t i = colour ? 0 : 4; i < sizeof modes / sizeof modes[0]; i++)
+        if (chafa_term_info_have_seq(terminal, modes[i].sequence))
             return modes[i].mode;
-        }
-    }
     return CHAFA_CANVAS_MODE_FGBG;
 }
 
 // What lies between us and the terminal (tmux, screen) passes no graphics on, whatever the environment says.
 static ChafaPixelMode pixels_of(const ChafaTermInfo *terminal, bool colour) {
     const char *name = getenv("TERM");
-    bool between = getenv("TMUX") != NULL || (name != NULL && strncmp(name, "screen", 6) == 0);
-    if (!colour || between) {
+    bool between = getenv("TMUX") || (name && strncmp(name, "screen", 6) == 0);
+    if (!colour || between)
         return CHAFA_PIXEL_MODE_SYMBOLS;
-    }
-    if (chafa_term_info_have_seq(terminal, CHAFA_TERM_SEQ_BEGIN_KITTY_IMMEDIATE_IMAGE_V1)) {
+    if (chafa_term_info_have_seq(terminal, CHAFA_TERM_SEQ_BEGIN_KITTY_IMMEDIATE_IMAGE_V1))
         return CHAFA_PIXEL_MODE_KITTY;
-    }
     return chafa_term_info_have_seq(terminal, CHAFA_TERM_SEQ_BEGIN_SIXELS) ? CHAFA_PIXEL_MODE_SIXELS
                                                                            : CHAFA_PIXEL_MODE_SYMBOLS;
 }
 
 TerminalPicture *terminal_picture_new(int fd, bool colour) {
-    TerminalPicture *way = calloc(1, sizeof *way);
-    if (way == NULL) {
+    TerminalPicture *renderer = calloc(1, sizeof *renderer);
+    if (!renderer)
         return NULL;
-    }
     gchar **environment = g_get_environ();
-    way->fd = fd;
-    way->terminal = chafa_term_db_detect(chafa_term_db_get_default(), environment);
+    renderer->fd = fd;
+    renderer->terminal = chafa_term_db_detect(chafa_term_db_get_default(), environment);
     g_strfreev(environment);
-    way->colours = colours_of(way->terminal, colour);
-    way->pixels = pixels_of(way->terminal, colour);
-    way->symbols = chafa_symbol_map_new();
-    chafa_symbol_map_add_by_tags(way->symbols, locale_is_utf8() ? CHAFA_SYMBOL_TAG_SPACE | CHAFA_SYMBOL_TAG_BLOCK
-                                                                : CHAFA_SYMBOL_TAG_SPACE | CHAFA_SYMBOL_TAG_ASCII);
-    return way;
+    renderer->colours = colours_of(renderer->terminal, colour);
+    renderer->pixels = pixels_of(renderer->terminal, colour);
+    renderer->symbols = chafa_symbol_map_new();
+    chafa_symbol_map_add_by_tags(renderer->symbols, locale_is_utf8() ? CHAFA_SYMBOL_TAG_SPACE | CHAFA_SYMBOL_TAG_BLOCK
+                                                                     : CHAFA_SYMBOL_TAG_SPACE | CHAFA_SYMBOL_TAG_ASCII);
+    return renderer;
 }
 
-void terminal_picture_free(TerminalPicture *way) {
-    if (way == NULL) {
+void terminal_picture_free(TerminalPicture *renderer) {
+    if (!renderer)
         return;
-    }
-    chafa_term_info_unref(way->terminal);
-    chafa_symbol_map_unref(way->symbols);
-    free(way);
+    chafa_term_info_unref(renderer->terminal);
+    chafa_symbol_map_unref(renderer->symbols);
+    free(renderer);
 }
 
-bool terminal_picture_is_graphics(const TerminalPicture *way) {
-    return way->pixels != CHAFA_PIXEL_MODE_SYMBOLS;
+bool terminal_picture_is_graphics(const TerminalPicture *renderer) {
+    return renderer->pixels != CHAFA_PIXEL_MODE_SYMBOLS;
 }
 
 // The size of a cell in pixels, which need not be whole: terminals have margins.
-static void cell_size(const TerminalPicture *way, double *width, double *height) {
+static void cell_size(const TerminalPicture *renderer, double *width, double *height) {
     struct winsize size;
     *width = CELL_WIDTH;
     *height = CELL_HEIGHT;
-    if (ioctl(way->fd, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 0 && size.ws_xpixel > size.ws_col &&
-        size.ws_ypixel > size.ws_row) {
+    if (ioctl(renderer->fd, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 0 &&
+        size.ws_xpixel > size.ws_col && size.ws_ypixel > size.ws_row) {
         *width = (double)size.ws_xpixel / size.ws_col;
         *height = (double)size.ws_ypixel / size.ws_row;
     }
 }
 
-static int within(double x, int most) {
+static int clamp_size(double x, int most) {
     return x < 1 ? 1 : x > most ? most : (int)x;
 }
 
-TerminalCells terminal_picture_fit(const TerminalPicture *way, int columns, int rows, int width, int height) {
+TerminalCells terminal_picture_fit(const TerminalPicture *renderer, int columns, int rows, int width, int height) {
     double cell_width, cell_height;
-    cell_size(way, &cell_width, &cell_height);
+    cell_size(renderer, &cell_width, &cell_height);
     double across = (double)columns * cell_width / width, down = (double)rows * cell_height / height;
     double scale = across < down ? across : down;
-    TerminalCells cells = {.columns = within(width * scale / cell_width + 0.5, columns),
-                           .rows = within(height * scale / cell_height + 0.5, rows)};
-    bool graphics = terminal_picture_is_graphics(way);
-    cells.width = cells.columns * (graphics ? (int)cell_width : CELL_WIDTH);
-    cells.height = cells.rows * (graphics ? (int)cell_height : CELL_HEIGHT);
+    TerminalCells cells = {.columns = clamp_size(width * scale / cell_width + 0.5, columns),
+                           .rows = clamp_size(height * scale / cell_height + 0.5, rows)};
+    bool graphics = terminal_picture_is_graphics(renderer);
+    cells.width = cells.columns * (graphics ? (int)cell_width : DRAWN_WIDTH);
+    cells.height = cells.rows * (graphics ? (int)cell_height : DRAWN_HEIGHT);
     return cells;
 }
 
-static ChafaCanvas *new_canvas(const TerminalPicture *way, const TerminalCells *cells) {
+static ChafaCanvas *new_canvas(const TerminalPicture *renderer, const TerminalCells *cells) {
     double cell_width, cell_height;
-    cell_size(way, &cell_width, &cell_height);
+    cell_size(renderer, &cell_width, &cell_height);
     ChafaCanvasConfig *config = chafa_canvas_config_new();
     chafa_canvas_config_set_geometry(config, cells->columns, cells->rows);
     chafa_canvas_config_set_cell_geometry(config, (int)cell_width, (int)cell_height);
-    chafa_canvas_config_set_canvas_mode(config, way->colours);
-    chafa_canvas_config_set_pixel_mode(config, way->pixels);
-    chafa_canvas_config_set_symbol_map(config, way->symbols);
+    chafa_canvas_config_set_canvas_mode(config, renderer->colours);
+    chafa_canvas_config_set_pixel_mode(config, renderer->pixels);
+    chafa_canvas_config_set_symbol_map(config, renderer->symbols);
     ChafaCanvas *canvas = chafa_canvas_new(config);
     chafa_canvas_config_unref(config);
     return canvas;
 }
 
-char *terminal_picture_text(TerminalPicture *way, const uint32_t *pixels, const TerminalCells *cells, size_t *length) {
+char *terminal_picture_text(TerminalPicture *renderer, const uint32_t *pixels, const TerminalCells *cells,
+                            size_t *length) {
     const bool little_endian = *(const uint8_t *)&(const uint32_t){1} == 1;
-    ChafaCanvas *canvas = new_canvas(way, cells);
+    ChafaCanvas *canvas = new_canvas(renderer, cells);
     chafa_canvas_draw_all_pixels(canvas,
                                  little_endian ? CHAFA_PIXEL_BGRA8_PREMULTIPLIED : CHAFA_PIXEL_ARGB8_PREMULTIPLIED,
                                  (const guint8 *)pixels, cells->width, cells->height, cells->width * 4);
-    GString *text = chafa_canvas_print(canvas, way->terminal);
+    GString *text = chafa_canvas_print(canvas, renderer->terminal);
     chafa_canvas_unref(canvas);
     char *copy = malloc(text->len + 1);
-    if (copy != NULL) {
+    if (copy) {
         memcpy(copy, text->str, text->len + 1);
         *length = text->len;
     }

@@ -31,15 +31,16 @@ bool terminal_picture_possible(void);
 // NULL without libchafa or memory.
 TerminalPicture *terminal_picture_new(int fd, bool colour);
 // NULL is fine.
-void terminal_picture_free(TerminalPicture *way);
+void terminal_picture_free(TerminalPicture *renderer);
 // Whether pictures are graphics, which lie over the text and must be taken away, rather than cells.
-bool terminal_picture_is_graphics(const TerminalPicture *way);
+bool terminal_picture_is_graphics(const TerminalPicture *renderer);
 // The cells for a picture of width x height, above 0, that has at most columns x rows cells; the shape of the cells is
 // asked of the terminal.
-TerminalCells terminal_picture_fit(const TerminalPicture *way, int columns, int rows, int width, int height);
+TerminalCells terminal_picture_fit(const TerminalPicture *renderer, int columns, int rows, int width, int height);
 // The text for cells->width x cells->height pixels, rows following each other: 32 bits each, alpha in the highest byte,
 // then red, green, blue, multiplied by alpha. The lines are divided by newlines; the last has none. To be freed by the
 // caller; NULL if memory is used up.
-char *terminal_picture_text(TerminalPicture *way, const uint32_t *pixels, const TerminalCells *cells, size_t *length);
+char *terminal_picture_text(TerminalPicture *renderer, const uint32_t *pixels, const TerminalCells *cells,
+                            size_t *length);
 
 #endif

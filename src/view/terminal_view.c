@@ -2,7 +2,13 @@
 //
 // While it is open the terminal is on its other screen, tells single keys and the mouse, and shows no cursor. However
 // the process ends, short of SIGKILL, the terminal is given back as it was.
+#include "base/file.h"
+#include "cli/byte_buffer.h"
+#include "cli/cli.h"
+#include "cli/progress.h"
 #include "view/display.h"
+#include "view/terminal_keys.h"
+#include "view/terminal_picture.h"
 
 #include <poll.h>
 #include <pthread.h>
@@ -12,25 +18,18 @@
 #include <termios.h>
 #include <unistd.h>
 
-#include "base/file.h"
-#include "cli/bytes.h"
-#include "cli/cli.h"
-#include "cli/progress.h"
-#include "view/terminal_keys.h"
-#include "view/terminal_picture.h"
-
 enum { DEFAULT_COLUMNS = 80, DEFAULT_ROWS = 24 };
 
 // The other screen, no cursor, mouse and focus reports, title put aside; and back.
 static const char ENTER[] = "\033[?1049h\033[?25l\033[?1003h\033[?1006h\033[?1004h\033[22;0t\033[2J";
 static const char LEAVE[] = "\033[0m\033[?1004l\033[?1006l\033[?1003l\033[?25h\033[23;0t\033[?1049l";
 // Kitty's images are taken away by themselves.
-static const char TAKE_AWAY[] = "\033_Ga=d,q=2\033\\";
+static const char DELETE_IMAGES[] = "\033_Ga=d,q=2\033\\";
 // What is between these two is shown at once, where the terminal knows of it.
-static const char BEGIN[] = "\033[?2026h", END[] = "\033[?2026l";
+static const char BEGIN_UPDATE[] = "\033[?2026h", END_UPDATE[] = "\033[?2026l";
 
 struct Display {
-    TerminalPicture *way;
+    TerminalPicture *renderer;
     TerminalInput input;
     TerminalCells cells; // of the picture shown last
     int columns;         // of the terminal
@@ -54,13 +53,12 @@ static struct {
 } terminal;
 
 // Safe in signal handlers.
-static void give_back(void) {
+static void restore_terminal(void) {
     if (terminal.entered) {
         terminal.entered = 0;
         file_write(STDOUT_FILENO, LEAVE, sizeof LEAVE - 1);
-        if (terminal.has_settings) {
+        if (terminal.has_settings)
             tcsetattr(STDIN_FILENO, TCSAFLUSH, &terminal.settings);
-        }
     }
 }
 
@@ -71,7 +69,7 @@ static void on_crash(int number, siginfo_t *info, void *context) {
         pthread_kill(terminal.owner, number);
         return;
     }
-    give_back();
+    restore_terminal();
     signal(number, SIG_DFL);
     raise(number);
 }
@@ -90,14 +88,13 @@ static void catch_signals(void) {
     struct sigaction action = {.sa_sigaction = on_crash, .sa_flags = SA_SIGINFO};
     sigemptyset(&action.sa_mask);
     static const int crashes[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGQUIT};
-    for (size_t i = 0; i < sizeof crashes / sizeof crashes[0]; i++) {
+    for (size_t i = 0; i < sizeof crashes / sizeof crashes[0]; i++)
         sigaction(crashes[i], &action, NULL);
-    }
     signal_catch(SIGWINCH, on_resize, 0);
     signal_catch(SIGTSTP, on_suspend, 0);
 }
 
-static void enter(void) {
+static void enter_terminal(void) {
     if (terminal.has_settings) {
         struct termios raw = terminal.settings;
         raw.c_lflag &= ~(tcflag_t)(ICANON | ECHO | IEXTEN); // Ctrl-C and Ctrl-Z stay signals
@@ -110,7 +107,7 @@ static void enter(void) {
     file_write(STDOUT_FILENO, ENTER, sizeof ENTER - 1);
 }
 
-static void measure(Display *display) {
+static void measure_terminal(Display *display) {
     display->columns = DEFAULT_COLUMNS;
     display->rows = DEFAULT_ROWS;
     terminal_extent(STDOUT_FILENO, &display->columns, &display->rows);
@@ -118,20 +115,18 @@ static void measure(Display *display) {
 
 static void terminal_set_title(Display *display, const char *title) {
     overlay_set(display->title, sizeof display->title, title);
-    SCOPED_BYTES text = {0};
-    bytes_format(&text, "\033]0;%s\033\\", display->title);
+    SCOPED_BYTE_BUFFER text = {0};
+    byte_buffer_format(&text, "\033]0;%s\033\\", display->title);
     file_write(STDOUT_FILENO, text.data, text.length);
 }
 
 static void terminal_close(Display *display) {
-    if (display == NULL) {
+    if (!display)
         return;
-    }
-    if (terminal.entered && terminal_picture_is_graphics(display->way)) {
-        file_write(STDOUT_FILENO, TAKE_AWAY, sizeof TAKE_AWAY - 1);
-    }
-    give_back();
-    terminal_picture_free(display->way);
+    if (terminal.entered && terminal_picture_is_graphics(display->renderer))
+        file_write(STDOUT_FILENO, DELETE_IMAGES, sizeof DELETE_IMAGES - 1);
+    restore_terminal();
+    terminal_picture_free(display->renderer);
     free(display);
 }
 
@@ -143,11 +138,11 @@ static Display *terminal_open(const char *title, int width, int height, PetriPai
         message("there is no display, and standard output is no terminal");
         return NULL;
     }
-    Display *display = memory_zeroed(sizeof *display);
-    display->way = terminal_picture_new(STDOUT_FILENO, colour);
+    Display *display = memory_calloc(sizeof *display);
+    display->renderer = terminal_picture_new(STDOUT_FILENO, colour);
     display->colour = colour;
     display->clear = true;
-    if (display->way == NULL) {
+    if (!display->renderer) {
         message("out of memory");
         terminal_close(display);
         return NULL;
@@ -155,21 +150,21 @@ static Display *terminal_open(const char *title, int width, int height, PetriPai
     terminal.has_settings = isatty(STDIN_FILENO) && tcgetattr(STDIN_FILENO, &terminal.settings) == 0;
     display->input.closed = !terminal.has_settings; // keys come from terminals only
     terminal.owner = pthread_self();
-    atexit(give_back);
+    atexit(restore_terminal);
     catch_signals();
-    measure(display);
-    enter();
+    measure_terminal(display);
+    enter_terminal();
     terminal_set_title(display, title);
     return display;
 }
 
 // Ctrl-Z: the shell gets its terminal until it says to go on.
-static void suspend(Display *display) {
+static void suspend_process(Display *display) {
     terminal.suspended = 0;
-    give_back();
+    restore_terminal();
     raise(SIGSTOP);
-    measure(display);
-    enter();
+    measure_terminal(display);
+    enter_terminal();
     terminal_set_title(display, display->title);
     display->clear = true;
 }
@@ -184,15 +179,13 @@ static Event to_pixels(const Display *display, Event event) {
 
 static void wait_for_input(Display *display, double seconds) {
     struct pollfd input = {.fd = display->input.closed ? -1 : STDIN_FILENO, .events = POLLIN};
-    if (poll(&input, 1, (int)(seconds * 1000)) > 0) {
+    if (poll(&input, 1, (int)(seconds * 1000)) > 0)
         terminal_input_read(&display->input, STDIN_FILENO);
-    }
 }
 
 static Event terminal_next_event(Display *display, double seconds) {
-    if (terminal.suspended) {
-        suspend(display);
-    }
+    if (terminal.suspended)
+        suspend_process(display);
     Event event = terminal_input_next(&display->input);
     if (event.kind == EVENT_NONE) {
         wait_for_input(display, seconds);
@@ -200,7 +193,7 @@ static Event terminal_next_event(Display *display, double seconds) {
     }
     if (event.kind == EVENT_NONE && (terminal.resized || display->clear)) {
         terminal.resized = 0;
-        measure(display);
+        measure_terminal(display);
         display->clear = true;
         return (Event){.kind = EVENT_REDRAW};
     }
@@ -208,7 +201,7 @@ static Event terminal_next_event(Display *display, double seconds) {
 }
 
 static void terminal_size(Display *display, int width, int height, int *drawn_width, int *drawn_height) {
-    TerminalCells cells = terminal_picture_fit(display->way, display->columns, display->rows, width, height);
+    TerminalCells cells = terminal_picture_fit(display->renderer, display->columns, display->rows, width, height);
     display->clear = display->clear || cells.columns != display->cells.columns || cells.rows != display->cells.rows;
     display->cells = cells;
     display->left = (display->columns - cells.columns) / 2;
@@ -217,27 +210,31 @@ static void terminal_size(Display *display, int width, int height, int *drawn_wi
     *drawn_height = cells.height;
 }
 
+static bool terminal_coarse(const Display *display) {
+    return !terminal_picture_is_graphics(display->renderer);
+}
+
 // Writes the lines of a text from a row on, each over the whole width.
-static void add_lines(Bytes *out, const char *text, int row, const Display *display, const char *look) {
-    for (const char *line = text; line != NULL && *text != '\0' && row < display->rows; row++) {
-        bytes_format(out, "\033[%d;1H%s %.*s\033[K\033[0m", row + 1, look, (int)strcspn(line, "\n"), line);
+static void add_lines(ByteBuffer *out, const char *text, int row, const Display *display, const char *look) {
+    for (const char *line = text; line && *text != '\0' && row < display->rows; row++) {
+        byte_buffer_format(out, "\033[%d;1H%s %.*s\033[K\033[0m", row + 1, look, (int)strcspn(line, "\n"), line);
         const char *end = strchr(line, '\n');
-        line = end == NULL ? NULL : end + 1;
+        line = !end ? NULL : end + 1;
     }
 }
 
 // What is wrong at the top, the mark at its right, the rest at the bottom.
-static void add_overlay(Bytes *out, const Display *display, const Overlay *overlay) {
+static void add_overlay(ByteBuffer *out, const Display *display, const Overlay *overlay) {
     static const char reverse[] = "\033[7m", careful[] = "\033[38;5;230;48;5;58m";
     char text[sizeof *overlay];
     int columns = display->columns - 2, row = display->rows;
-    overlay_fit(text, sizeof text, overlay->trouble, columns);
-    const char *wrong = overlay->mild ? careful : "\033[38;5;224;48;5;52m";
+    overlay_fit(text, sizeof text, overlay->error_text, columns);
+    const char *wrong = overlay->is_warning ? careful : "\033[38;5;224;48;5;52m";
     add_lines(out, text, 0, display, display->colour ? wrong : reverse);
     int length = overlay_columns(overlay->mark);
     if (length > 0 && length + 2 <= display->columns) {
-        bytes_format(out, "\033[1;%dH%s %s \033[0m", display->columns - length - 1, display->colour ? careful : reverse,
-                     overlay->mark);
+        byte_buffer_format(out, "\033[1;%dH%s %s \033[0m", display->columns - length - 1,
+                           display->colour ? careful : reverse, overlay->mark);
     }
     overlay_fit(text, sizeof text, overlay->status, columns);
     row -= overlay_lines(text);
@@ -247,19 +244,19 @@ static void add_overlay(Bytes *out, const Display *display, const Overlay *overl
     add_lines(out, text, row < 0 ? 0 : row, display, display->colour ? "\033[38;5;153;48;5;234m" : reverse);
 }
 
-static void add_picture(Bytes *out, const Display *display, const char *text, size_t length) {
+static void add_picture(ByteBuffer *out, const Display *display, const char *text, size_t length) {
     int row = display->top;
     for (const char *end = text + length; text < end; row++) {
         const char *newline = memchr(text, '\n', (size_t)(end - text));
-        size_t part = (size_t)((newline == NULL ? end : newline) - text);
-        bytes_format(out, "\033[%d;%dH", row + 1, display->left + 1);
-        bytes_add(out, text, part);
+        size_t part = (size_t)((!newline ? end : newline) - text);
+        byte_buffer_format(out, "\033[%d;%dH", row + 1, display->left + 1);
+        byte_buffer_add(out, text, part);
         text += part + 1;
     }
 }
 
 static bool same_lines(const Overlay *a, const Overlay *b) {
-    return overlay_lines(a->trouble) == overlay_lines(b->trouble) &&
+    return overlay_lines(a->error_text) == overlay_lines(b->error_text) &&
            overlay_lines(a->notice) == overlay_lines(b->notice) &&
            overlay_lines(a->status) == overlay_lines(b->status) && strcmp(a->mark, b->mark) == 0;
 }
@@ -268,22 +265,20 @@ static bool terminal_show(Display *display, uint32_t *pixels, int width, int hei
     (void)width; // what terminal_size said
     (void)height;
     size_t length = 0;
-    char *text = terminal_picture_text(display->way, pixels, &display->cells, &length);
-    if (text == NULL) {
+    char *text = terminal_picture_text(display->renderer, pixels, &display->cells, &length);
+    if (!text) {
         message("out of memory");
         return false;
     }
-    SCOPED_BYTES out = {0};
-    bytes_add_text(&out, BEGIN);
-    if (display->clear || !same_lines(overlay, &display->shown)) {
-        bytes_format(&out, "\033[0%sm\033[2J", display->colour ? ";40" : ""); // bars are black, as in a window
-    }
-    if (terminal_picture_is_graphics(display->way)) {
-        bytes_add_text(&out, TAKE_AWAY);
-    }
+    SCOPED_BYTE_BUFFER out = {0};
+    byte_buffer_add_text(&out, BEGIN_UPDATE);
+    if (display->clear || !same_lines(overlay, &display->shown))
+        byte_buffer_format(&out, "\033[0%sm\033[2J", display->colour ? ";40" : ""); // bars are black, as in a window
+    if (terminal_picture_is_graphics(display->renderer))
+        byte_buffer_add_text(&out, DELETE_IMAGES);
     add_picture(&out, display, text, length);
     add_overlay(&out, display, overlay);
-    bytes_format(&out, "\033[0m%s", END);
+    byte_buffer_format(&out, "\033[0m%s", END_UPDATE);
     file_write(STDOUT_FILENO, out.data, out.length);
     free(text);
     display->shown = *overlay;
@@ -296,9 +291,10 @@ static const DisplayKind TERMINAL = {
     .close = terminal_close,
     .next_event = terminal_next_event,
     .size = terminal_size,
+    .coarse = terminal_coarse,
     .show = terminal_show,
     .set_title = terminal_set_title,
-    .least_seconds = 1.0 / 30,
+    .min_seconds = 1.0 / 30,
     .logs = false,
 };
 

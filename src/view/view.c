@@ -1,4 +1,10 @@
-// view.c: `petri view`: a script's picture, live: the loop between a world (world.h) and a display (display.h).
+// view.c: `petri view`: a script's picture, live: the loop between a world (live_script.h) and a display (display.h).
+#include "view/view.h"
+
+#include "cli/progress.h"
+#include "cli/script.h"
+#include "view/still.h"
+
 #include <inttypes.h>
 #include <math.h>
 #include <signal.h>
@@ -7,13 +13,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/progress.h"
-#include "cli/script.h"
-#include "view/view.h"
-
 // Seconds: a saved script is seen after at most that.
-static const double LONGEST_SLEEP = 0.05;
-enum { MOST_EVENTS = 256, DEFAULT_SIZE = 512 };
+static const double MAX_SLEEP = 0.05;
+enum { MAX_EVENTS = 256, DEFAULT_SIZE = 512 };
 
 // A signal handler can reach nothing but a global.
 static volatile sig_atomic_t interrupted;
@@ -32,53 +34,48 @@ static void catch_interrupts(void) {
 // The window's size and title, of which the script may change its mind at any time.
 static void follow_script(View *view) {
     int width = DEFAULT_SIZE, height = DEFAULT_SIZE;
-    const char *title = view->world.options->script;
-    if (view->world.picture != NULL) {
-        petri_picture_size(view->world.picture, &width, &height);
-        const char *own = petri_picture_title(view->world.picture);
+    const char *title = view->live.options->script;
+    if (view->live.picture) {
+        petri_picture_size(view->live.picture, &width, &height);
+        const char *own = petri_picture_title(view->live.picture);
         title = own[0] != '\0' ? own : title;
     }
     bool resized = width != view->width || height != view->height;
     view->width = width;
     view->height = height;
     bool renamed = overlay_set(view->title, sizeof view->title, title);
-    if (view->display != NULL && resized && view->kind->resize != NULL) {
+    if (view->display && resized && view->kind->resize)
         view->kind->resize(view->display, width, height);
-    }
-    if (view->display != NULL && renamed) {
+    if (view->display && renamed)
         view->kind->set_title(view->display, view->title);
-    }
 }
 
-static void step(View *view) {
-    world_step(&view->world);
-    view->step_once = view->paused && view->world.early; // what is not seen is no step
+static void step_script(View *view) {
+    live_script_step(&view->live);
+    view->step_once = view->paused && view->live.before_first_picture; // what is not seen is no step
     follow_script(view);
-    view_update_trouble(view);
-    if (view->paused) {
+    view_update_error_text(view);
+    if (view->paused)
         view_update_status(view);
-    }
     view->redraw = true;
-    world_save(&view->world, false);
+    live_script_save(&view->live, false);
 }
 
 static bool at_end(const View *view) {
-    return !options_due(view->world.options, view->world.frames, view->start, petri_frame(view->world.session).fps);
+    return !options_due(view->live.options, view->live.frames, view->start, petri_frame(view->live.session).fps);
 }
 
-static bool may_step(const View *view) {
-    return !view->world.halted && (!view->paused || view->step_once);
+static bool can_step(const View *view) {
+    return !view->live.halted && (!view->paused || view->step_once);
 }
 
 // Seconds until something is to be done: a step, a picture, the end of a notice.
 static double idle_seconds(const View *view) {
-    double now = clock_seconds(), idle = LONGEST_SLEEP;
-    if (may_step(view)) {
-        idle = fmin(idle, view->step_once ? 0 : petri_due(view->world.session));
-    }
-    if (view->redraw) {
-        idle = fmin(idle, view->drawn + view->kind->least_seconds - now);
-    }
+    double now = clock_seconds(), idle = MAX_SLEEP;
+    if (can_step(view))
+        idle = fmin(idle, view->step_once ? 0 : petri_seconds_until_due(view->live.session));
+    if (view->redraw)
+        idle = fmin(idle, view->drawn + view->kind->min_seconds - now);
     return fmax(0, fmin(idle, view->notice_ends - now));
 }
 
@@ -91,51 +88,50 @@ static void report_pointer(View *view, const Event *event) {
                             .y = (event->y - down / 2.0) / (view->height * scale) + 0.5,
                             .buttons = event->buttons};
     pointer.inside = event->inside && pointer.x >= 0 && pointer.x <= 1 && pointer.y >= 0 && pointer.y <= 1;
-    petri_pointer(view->world.session, &pointer);
+    petri_report_pointer(view->live.session, &pointer);
 }
 
 static void set_paused(View *view, bool paused) {
     view->paused = paused;
-    petri_hold(view->world.session);
-    view_settle_notice(view);
+    petri_resync_clock(view->live.session);
+    view_reset_notice(view);
     view_update_status(view);
 }
 
 static void take_screenshot(View *view) {
     char name[300];
-    if (world_screenshot(&view->world, name, sizeof name)) {
+    if (live_script_screenshot(&view->live, name, sizeof name)) {
         view_notice(view, "saved %s", name);
     } else {
         view_notice(view, "cannot save %s", name);
-        view->world.failed = true;
+        view->live.failed = true;
     }
-    if (view->kind->logs) {
+    if (view->kind->logs)
         message("%s", view->overlay.notice);
-    }
 }
 
-static void reset(View *view) {
-    world_reset(&view->world);
+static void reset_script(View *view) {
+    live_script_reset(&view->live);
     view->step_once = true; // so that the first frame is seen even while paused
-    view_update_trouble(view);
+    view_update_error_text(view);
     view_notice(view, "reset");
 }
 
 // Keys for the script's parameters; what they do is seen at once.
 static void change_parameters(View *view, const char *key) {
-    SCOPED_BYTES text = {0};
-    ParameterAct act = parameter_key(&view->parameters, &view->world, key, &text);
-    if (act != PARAMETER_OTHER) {
+    SCOPED_BYTE_BUFFER text = {0};
+    ParameterResult act = parameter_key(&view->parameters, &view->live, key, &text);
+    if (act != PARAMETER_NOT_A_KEY) {
         view_notice(view, "%s", text.data);
         view_update_status(view);
     }
-    if (act == PARAMETER_CHANGES) {
+    if (act == PARAMETER_CHANGED) {
         view->step_once = view->step_once || view->paused;
-        view_update_trouble(view);
+        view_update_error_text(view);
     }
 }
 
-static void obey(View *view, const char *key) {
+static void execute_key(View *view, const char *key) {
     if (strcmp(key, "q") == 0 || strcmp(key, "escape") == 0) {
         view->closing = true;
     } else if (strcmp(key, "space") == 0) {
@@ -144,17 +140,16 @@ static void obey(View *view, const char *key) {
         set_paused(view, true);
         view->step_once = true;
     } else if (strcmp(key, "r") == 0) {
-        reset(view);
+        reset_script(view);
     } else if (strcmp(key, "f") == 0) {
-        if (view->kind->toggle_full_screen != NULL) {
+        if (view->kind->toggle_full_screen)
             view->kind->toggle_full_screen(view->display);
-        }
         view->redraw = true;
     } else if (strcmp(key, "s") == 0) {
         take_screenshot(view);
     } else if (strcmp(key, "w") == 0) {
         view->shows_warnings = !view->shows_warnings;
-        view_update_trouble(view);
+        view_update_error_text(view);
     } else if (strcmp(key, "h") == 0) {
         view->shows_status = !view->shows_status;
         view_update_status(view);
@@ -164,36 +159,33 @@ static void obey(View *view, const char *key) {
 }
 
 // A key that the script asks for is the script's, unless it is pressed with Control.
-static void take_key(View *view, const Event *event) {
-    if (event->key == NULL) {
+static void handle_key(View *view, const Event *event) {
+    if (!event->key)
         return;
-    }
-    bool pressed = event->kind == EVENT_TAP || event->pressed;
-    bool repeated = event->again && !parameter_key_repeats(event->key);
-    if (pressed && !repeated && (event->control || !petri_key_bound(view->world.session, event->key))) {
-        obey(view, event->key);
-    }
-    petri_key(view->world.session, event->key, pressed);
-    if (event->kind == EVENT_TAP) {
-        petri_key(view->world.session, event->key, false);
-    }
+    bool pressed = event->kind == EVENT_KEY_TAP || event->pressed;
+    bool repeated = event->repeated && !parameter_key_repeats(event->key);
+    if (pressed && !repeated && (event->control || !petri_key_is_bound(view->live.session, event->key)))
+        execute_key(view, event->key);
+    petri_report_key(view->live.session, event->key, pressed);
+    if (event->kind == EVENT_KEY_TAP)
+        petri_report_key(view->live.session, event->key, false);
 }
 
-static void take_event(View *view, const Event *event) {
+static void handle_event(View *view, const Event *event) {
     switch (event->kind) {
     case EVENT_CLOSE:
         view->closing = true;
         break;
     case EVENT_KEY:
-    case EVENT_TAP:
-        take_key(view, event);
+    case EVENT_KEY_TAP:
+        handle_key(view, event);
         break;
     case EVENT_POINTER:
         view->pointer = *event;
         report_pointer(view, event);
         break;
-    case EVENT_AWAY:
-        petri_pointer(view->world.session, NULL);
+    case EVENT_FOCUS_LOST:
+        petri_report_pointer(view->live.session, NULL);
         break;
     case EVENT_REDRAW:
         view->redraw = true;
@@ -203,19 +195,27 @@ static void take_event(View *view, const Event *event) {
     }
 }
 
-static void take_events(View *view) {
+static void handle_events(View *view) {
     Event event = view->kind->next_event(view->display, idle_seconds(view));
-    for (int i = 0; event.kind != EVENT_NONE && !view->closing && i < MOST_EVENTS; i++) {
-        take_event(view, &event);
+    for (int i = 0; event.kind != EVENT_NONE && !view->closing && i < MAX_EVENTS; i++) {
+        handle_event(view, &event);
         event = view->kind->next_event(view->display, 0);
     }
 }
 
+// Few pixels are made of a picture of which the display can show only so many.
+static void choose_detail(View *view) {
+    int width = 0, height = 0;
+    if (!view->kind->coarse || !view->kind->coarse(view->display))
+        return;
+    view->kind->size(view->display, view->width, view->height, &width, &height);
+    world_set_detail(&view->live, width > 0 && width < view->width ? (double)width / view->width : 1);
+}
+
 // What shines through a picture without a window is black.
 static void make_opaque(uint32_t *pixels, size_t count) {
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < count; i++)
         pixels[i] |= 0xFF000000;
-    }
 }
 
 // Draws into pixels, and shows those.
@@ -224,195 +224,202 @@ static PetriStatus show_pixels(View *view, PetriPicture *picture) {
     PetriStatus status = PETRI_OK;
     view->kind->size(view->display, view->width, view->height, &width, &height);
     size_t count = (size_t)width * (size_t)height;
-    if (count == 0) {
+    if (count == 0)
         return PETRI_OK;
-    }
-    view->pixels = memory_resized(view->pixels, count * sizeof *view->pixels);
-    if (picture != NULL) {
-        status = petri_picture_draw(picture, view->world.painter, view->pixels, width, height,
+    view->pixels = memory_realloc(view->pixels, count * sizeof *view->pixels);
+    if (picture) {
+        status = petri_picture_draw(picture, view->live.painter, view->pixels, width, height,
                                     (size_t)width * sizeof *view->pixels);
     } else {
         memset(view->pixels, 0, count * sizeof *view->pixels);
     }
     make_opaque(view->pixels, count);
+    view->drawn_width = width;
+    view->drawn_height = height;
     view->broken = !view->kind->show(view->display, view->pixels, width, height, &view->overlay);
     return status;
 }
 
-static void draw(View *view) {
-    PetriPicture *picture = view->world.unseen ? NULL : view->world.picture;
+static void draw_view(View *view) {
+    choose_detail(view);
+    PetriPicture *picture = view->live.picture_hidden ? NULL : view->live.picture;
     PetriStatus status;
     view->redraw = false;
-    if (view->kind->show_directly == NULL ||
-        !view->kind->show_directly(view->display, picture, &view->overlay, &status)) {
+    view->drawn = clock_seconds(); // pictures follow each other at once where drawing is slow
+    if (!view->kind->show_directly || !view->kind->show_directly(view->display, picture, &view->overlay, &status))
         status = show_pixels(view, picture);
+    live_script_check_drawn(&view->live, status);
+    if (picture) {
+        petri_picture_report(view->live.session, picture);
+        view_update_error_text(view); // what drawing has found wrong, which is seen next
     }
-    world_drawn(&view->world, status);
-    if (picture != NULL) {
-        petri_picture_tell(view->world.session, picture);
-        view_update_trouble(view); // what drawing has found wrong, which is seen next
-    }
-    view->drawn = clock_seconds();
+    view->pictures++;
 }
 
-static void take_changes(View *view) {
-    ListenerNews news = listener_serve(&view->listener, &view->world);
+static void handle_changes(View *view) {
+    ListenerResult news = listener_serve(&view->listener, &view->live);
     if (news != LISTENER_NOTHING) {
-        view->step_once = (view->step_once || view->paused) && news == LISTENER_TAKEN; // so that what was sent is seen
+        view->step_once =
+            (view->step_once || view->paused) && news == LISTENER_ACCEPTED; // so that what was sent is seen
         view->redraw = true;
         view_update_status(view);
-        view_update_trouble(view);
+        view_update_error_text(view);
     }
-    if (!world_reload(&view->world)) {
+    if (!live_script_reload(&view->live))
         return;
-    }
-    if (world_trouble(&view->world)[0] == '\0') {
+    if (live_script_error_text(&view->live)[0] == '\0') {
         view_notice(view, "loaded the changed script");
         view->step_once = view->paused; // so that the change is seen
     }
-    view_update_trouble(view);
+    view_update_error_text(view);
 }
 
 // Whether anything comes of a run that nobody sees.
 static bool has_purpose(const View *view) {
-    const Options *options = view->world.options;
-    return options->frames < INT64_MAX || !isnan(options->run_time) || options->state_file != NULL ||
-           options->listen != NULL || (view->world.picture != NULL && petri_picture_looks_back(view->world.picture));
+    const Options *options = view->live.options;
+    return options->frames < INT64_MAX || !isnan(options->run_time) || options->state_file || options->listen ||
+           (view->live.picture && petri_picture_needs_history(view->live.picture));
 }
 
 // If the screen has gone, what the display has of it can neither be used nor closed any more.
-static void look_after_display(View *view) {
-    if (view->kind->gone == NULL || !view->kind->gone(view->display)) {
+static void check_display(View *view) {
+    if (!view->kind->gone || !view->kind->gone(view->display))
         return;
-    }
     view->broken = !has_purpose(view);
     message(view->broken ? "the display has gone" : "the display has gone; the run goes on without it");
-    view->kind = nowhere_display();
+    view->kind = null_display();
     view->display = NULL;
     view->paused = false; // by a key that is gone, too
-    petri_pointer(view->world.session, NULL);
-    petri_hold(view->world.session);
+    petri_report_pointer(view->live.session, NULL);
+    petri_resync_clock(view->live.session);
 }
 
 static void run_loop(View *view) {
     while (!view->closing && !view->broken && !interrupted && !at_end(view)) {
-        take_events(view);
-        look_after_display(view);
-        take_changes(view);
-        if (clock_seconds() >= view->notice_ends) {
-            view_settle_notice(view);
-        }
-        if (may_step(view) && (view->step_once || petri_due(view->world.session) <= 0)) {
-            if (view->paused) {
-                petri_hold(view->world.session);
-            }
-            step(view);
+        handle_events(view);
+        check_display(view);
+        handle_changes(view);
+        if (clock_seconds() >= view->notice_ends)
+            view_reset_notice(view);
+        if (can_step(view) && (view->step_once || petri_seconds_until_due(view->live.session) <= 0)) {
+            if (view->paused)
+                petri_resync_clock(view->live.session);
+            step_script(view);
         }
         // A run that is to end by itself ends when nothing more can come.
-        if (view->world.halted && (view->world.options->frames < INT64_MAX || !isnan(view->world.options->run_time))) {
+        if (view->live.halted && (view->live.options->frames < INT64_MAX || !isnan(view->live.options->run_time)))
             return;
-        }
         view_measure_rate(view);
-        if (view->redraw && clock_seconds() - view->drawn >= view->kind->least_seconds) {
-            draw(view);
-            look_after_display(view);
+        if (view->redraw && clock_seconds() - view->drawn >= view->kind->min_seconds) {
+            draw_view(view);
+            check_display(view);
         }
     }
     // However quick a run was, its last frame is seen.
-    if (view->redraw && at_end(view) && !view->broken) {
-        draw(view);
-    }
+    if (view->redraw && at_end(view) && !view->broken)
+        draw_view(view);
 }
 
 // A window if there is a screen for it, else the terminal.
 static bool open_display(View *view) {
-    const Options *options = view->world.options;
-    bool window = !options->terminal && window_display() != NULL && window_has_screen();
-    if (!window && terminal_display() == NULL) {
-        message(options->terminal || window_display() != NULL
+    const Options *options = view->live.options;
+    bool window = !options->terminal && window_display() && window_has_screen();
+    if (!window && !terminal_display()) {
+        message(options->terminal || window_display()
                     ? "this petri was built without libchafa, so it shows no pictures in terminals"
                     : "this petri was built without SDL and libchafa, so it has no way to show pictures");
         return false;
     }
     view->kind = window ? window_display() : terminal_display();
-    view->world.mute = !window && isatty(STDERR_FILENO);
-    view->display = view->kind->open(view->title, view->width, view->height, view->world.painter, !options->monochrome);
-    if (view->display == NULL && window && terminal_display() != NULL && isatty(STDOUT_FILENO)) {
+    view->live.hold_messages = !window && isatty(STDERR_FILENO);
+    view->display = view->kind->open(view->title, view->width, view->height, view->live.painter, !options->monochrome);
+    if (!view->display && window && terminal_display() && isatty(STDOUT_FILENO)) {
         view->kind = terminal_display();
-        view->world.mute = isatty(STDERR_FILENO);
+        view->live.hold_messages = isatty(STDERR_FILENO);
         view->display =
-            view->kind->open(view->title, view->width, view->height, view->world.painter, !options->monochrome);
+            view->kind->open(view->title, view->width, view->height, view->live.painter, !options->monochrome);
     }
-    return view->display != NULL;
+    return view->display;
+}
+
+// `petri run --show` passes these options.
+static bool is_show(const View *view) {
+    return view->live.options->terminal && view->live.options->verbosity == LOG_VERBOSE;
+}
+
+// The last picture of a show stays on the screen that is there again, above what report_summary writes.
+static void leave_picture(const View *view) {
+    enum { LINES_BELOW = 5 };
+    if (is_show(view) && !interrupted && view->drawn_width > 0) {
+        still_show_pixels(view->pixels, view->drawn_width, view->drawn_height, !view->live.options->monochrome,
+                          LINES_BELOW);
+    }
 }
 
 // To a person who watches, as the other commands do; on the screen that is there again after the pictures.
 static void report_summary(const View *view) {
-    Verbosity verbosity = view->world.options->verbosity;
+    Verbosity verbosity = view->live.options->verbosity;
     double seconds = clock_seconds() - view->start;
     if (verbosity >= LOG_VERBOSE || (verbosity == LOG_NORMAL && isatty(STDERR_FILENO))) {
-        message("%" PRId64 " frame%s in %.3f s (%.1f frames/s)", view->world.frames, view->world.frames == 1 ? "" : "s",
-                seconds, seconds > 0 ? (double)view->world.frames / seconds : 0);
+        message("%" PRId64 " frame%s in %.3f s (%.1f frames/s)", view->live.frames, view->live.frames == 1 ? "" : "s",
+                seconds, seconds > 0 ? (double)view->live.frames / seconds : 0);
     }
-    if (view->world.options->verbosity >= LOG_VERBOSE) {
-        message("pictures read back from the graphics card: %" PRIu64, petri_painter_read_backs(view->world.painter));
+    if (verbosity >= LOG_DEBUG) {
+        message("%" PRId64 " pictures shown, the last of %d x %d pixels; read back from the graphics card: %" PRIu64,
+                view->pictures, view->drawn_width, view->drawn_height,
+                petri_painter_readback_count(view->live.painter));
     }
-    if (view->world.options->terminal && verbosity == LOG_VERBOSE) {
-        hint_pictures(view->host, view->world.options->script);
-    } else if (window_has_screen() && window_display() == NULL && verbosity >= LOG_NORMAL) {
+    if (is_show(view))
+        hint_pictures(view->host, view->live.options->script);
+    else if (window_has_screen() && !window_display() && verbosity >= LOG_NORMAL)
         message("it was shown in the terminal, for this petri was built without SDL; './dev build' adds windows");
-    }
 }
 
 static int run_view(View *view) {
     view->start = view->measured = clock_seconds();
     view->notice_ends = INFINITY;
     view->redraw = true;
-    view->world.waits = true;
-    if (view->world.options->frames > 0) {
-        step(view); // before anything opens: it tells the size
-    }
+    view->live.awaits_display = true;
+    if (view->live.options->frames > 0)
+        step_script(view); // before anything opens: it tells the size
     follow_script(view);
     catch_interrupts();
     bool opened = open_display(view);
     if (opened) {
-        world_begin(&view->world);
-        petri_pointer(view->world.session, &(PetriPointer){.inside = false});
-        petri_hold(view->world.session);
+        live_script_begin(&view->live);
+        petri_report_pointer(view->live.session, &(PetriPointer){.inside = false});
+        petri_resync_clock(view->live.session);
+        view_hint_keys(view);
         run_loop(view);
-        if (view->display != NULL) {
+        if (view->display) {
             view->kind->close(view->display);
+            leave_picture(view);
         }
     }
-    world_unmute(&view->world);
-    if (!opened) {
+    live_script_release_messages(&view->live);
+    if (!opened)
         return STATUS_FAILED;
-    }
-    if (!view->world.halted) {
-        world_save(&view->world, true);
-    }
+    if (!view->live.halted)
+        live_script_save(&view->live, true);
     report_summary(view);
-    bool failed = view->world.halted || view->world.failed || view->broken;
-    if (interrupted && !view->world.state.behind) {
+    bool failed = view->live.halted || view->live.failed || view->broken;
+    if (interrupted && !view->live.state.outdated)
         return STATUS_SIGNAL + interrupted;
-    }
-    return failed || state_file_failed(&view->world.state) ? STATUS_FAILED : STATUS_DONE;
+    return failed || state_file_failed(&view->live.state) ? STATUS_FAILED : STATUS_DONE;
 }
 
-static int view_run(const Host *host, Options *options) {
-    View view = {.host = host};
-    int status = world_open(&view.world, host, options);
-    if (status == OPTIONS_READ && options->listen != NULL &&
-        (!world_remember(&view.world) || !listener_open(&view.listener, options->listen))) {
+static int view_run(const CommandContext *context, Options *options) {
+    View view = {.host = context};
+    int status = live_script_open(&view.live, context, options);
+    if (status == OPTIONS_READ && options->listen &&
+        (!live_script_enable_history(&view.live) || !listener_open(&view.listener, options->listen)))
         status = STATUS_FAILED;
-    }
-    if (status == OPTIONS_READ) {
+    if (status == OPTIONS_READ)
         status = run_view(&view);
-    }
     listener_close(&view.listener);
-    world_close(&view.world);
+    live_script_close(&view.live);
     free(view.pixels);
-    if (view.kind == nowhere_display()) {
+    if (view.kind == null_display()) {
         fflush(NULL);
         _exit(status); // libraries would look for the screen, for ever
     }
@@ -438,7 +445,7 @@ const Command VIEW_COMMAND = {
     .examples =
         "  petri view dish.fl                              until it is closed; save dish.fl to see what changed\n"
         "  petri view dish.fl --terminal -D DROPS=50       in the terminal\n",
-    .needed = "no script was given",
+    .missing_operand = "no script was given",
     .no_stdin = "'petri view' follows its script's file as it is saved and cannot take it from standard input; "
                 "'petri render -' can",
     .options = FOR_VIEW,

@@ -1,27 +1,25 @@
 // window.c: a display that is a window, on SDL.
+#include "cli/byte_buffer.h"
+#include "cli/cli.h"
+#include "petri.h"
 #include "view/display.h"
+#include "view/display_probe.h"
+#include "view/overlay.h"
+#include "view/window_manager.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/bytes.h"
-#include "cli/cli.h"
-#include "petri.h"
-#include "view/overlay.h"
-#include "view/screen.h"
-#include "view/window_manager.h"
-
 // A way to the screen that the user has chosen, as SDL's users do; NULL: none.
 static const char *chosen_driver(void) {
     const char *driver = getenv("SDL_VIDEODRIVER");
-    return driver != NULL && driver[0] != '\0' ? driver : NULL;
+    return driver && driver[0] != '\0' ? driver : NULL;
 }
 
 bool window_has_screen(void) {
-    bool named = chosen_driver() != NULL;
-    for (size_t i = 0; screen_kind(i) != NULL; i++) {
-        named = named || screen_name(screen_kind(i)) != NULL;
-    }
+    bool named = chosen_driver();
+    for (size_t i = 0; display_probe_kind(i); i++)
+        named = named || display_probe_name(display_probe_kind(i));
     return named;
 }
 
@@ -29,8 +27,8 @@ bool window_has_screen(void) {
 #include <SDL.h>
 
 // A window is never smaller than this, nor larger than this part of the screen.
-enum { LEAST_SIZE = 64 };
-static const double MOST_OF_SCREEN = 0.9;
+enum { MIN_SIZE = 64 };
+static const double MAX_SCREEN_FRACTION = 0.9;
 
 struct Display {
     SDL_Window *window;
@@ -42,70 +40,61 @@ struct Display {
     PetriPainter *painter; // borrowed
     bool gone;             // the screen is
     bool filled;           // the screen, by ourselves
-    SDL_Rect usual;        // … where the window was before
+    SDL_Rect windowed;     // … where the window was before
 };
 
 // As large as the script says, but shrunk to what fits on the screen.
 static void fit_screen(int *width, int *height) {
     SDL_Rect screen;
-    if (SDL_GetDisplayUsableBounds(0, &screen) != 0) {
+    if (SDL_GetDisplayUsableBounds(0, &screen) != 0)
         return;
-    }
-    double across = screen.w * MOST_OF_SCREEN / *width, down = screen.h * MOST_OF_SCREEN / *height;
+    double across = screen.w * MAX_SCREEN_FRACTION / *width, down = screen.h * MAX_SCREEN_FRACTION / *height;
     double scale = across < down ? across : down;
     if (scale < 1) {
         *width = (int)(*width * scale);
         *height = (int)(*height * scale);
     }
-    *width = *width < LEAST_SIZE ? LEAST_SIZE : *width;
-    *height = *height < LEAST_SIZE ? LEAST_SIZE : *height;
+    *width = *width < MIN_SIZE ? MIN_SIZE : *width;
+    *height = *height < MIN_SIZE ? MIN_SIZE : *height;
 }
 
 static void window_close(Display *display) {
-    if (display == NULL) {
+    if (!display)
         return;
-    }
-    if (display->context != NULL) {
+    if (display->context)
         SDL_GL_DeleteContext(display->context);
-    }
-    if (display->texture != NULL) {
+    if (display->texture)
         SDL_DestroyTexture(display->texture);
-    }
-    if (display->renderer != NULL) {
+    if (display->renderer)
         SDL_DestroyRenderer(display->renderer);
-    }
-    if (display->window != NULL) {
+    if (display->window)
         SDL_DestroyWindow(display->window);
-    }
     SDL_Quit();
     free(display);
 }
 
 // What SDL draws with OpenGL leaves its context in this thread, and then petri's, which come from EGL, cannot be used
 // in it. SDL takes its own up again when it next draws.
-static void let_go(const Display *display) {
-    if (display->context == NULL && SDL_GL_GetCurrentContext() != NULL) {
+static void release_context(const Display *display) {
+    if (!display->context && SDL_GL_GetCurrentContext())
         SDL_GL_MakeCurrent(display->window, NULL);
-    }
 }
 
 // Shown when it has its context or renderer: SDL may replace the window for that.
-static bool create(Display *display, const char *title, int width, int height, Uint32 flags) {
+static bool create_window(Display *display, const char *title, int width, int height, Uint32 flags) {
     display->window = SDL_CreateWindow(title, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, width, height,
                                        SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI | SDL_WINDOW_HIDDEN | flags);
-    if (display->window != NULL) {
-        SDL_SetWindowMinimumSize(display->window, LEAST_SIZE, LEAST_SIZE);
-    }
-    return display->window != NULL;
+    if (display->window)
+        SDL_SetWindowMinimumSize(display->window, MIN_SIZE, MIN_SIZE);
+    return display->window;
 }
 
 // A window whose OpenGL the painter takes, so that what it makes is shown where it is. Not for those who tell SDL how
 // to draw.
 static bool create_with_gl(Display *display, const char *title, int width, int height) {
     const char *driver = getenv("SDL_RENDER_DRIVER");
-    if (driver != NULL && driver[0] != '\0') {
+    if (driver && driver[0] != '\0')
         return false;
-    }
     setenv("EGL_LOG_LEVEL", "fatal", 0); // there is another way
     SDL_SetHint(SDL_HINT_VIDEO_X11_FORCE_EGL, "1");
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK, SDL_GL_CONTEXT_PROFILE_ES);
@@ -115,18 +104,17 @@ static bool create_with_gl(Display *display, const char *title, int width, int h
     SDL_GL_SetAttribute(SDL_GL_GREEN_SIZE, 8);
     SDL_GL_SetAttribute(SDL_GL_BLUE_SIZE, 8);
     SDL_GL_SetAttribute(SDL_GL_DEPTH_SIZE, 0);
-    if (create(display, title, width, height, SDL_WINDOW_OPENGL)) {
+    if (create_window(display, title, width, height, SDL_WINDOW_OPENGL))
         display->context = SDL_GL_CreateContext(display->window);
-    }
-    if (display->context != NULL && petri_painter_use_gl(display->painter) == PETRI_OK) {
+    if (display->context && petri_painter_use_gl(display->painter) == PETRI_OK) {
         SDL_GL_SetSwapInterval(1);
         return true;
     }
-    if (display->context != NULL) {
+    if (display->context) {
         SDL_GL_DeleteContext(display->context);
         display->context = NULL;
     }
-    if (display->window != NULL) {
+    if (display->window) {
         SDL_DestroyWindow(display->window);
         display->window = NULL;
     }
@@ -136,12 +124,12 @@ static bool create_with_gl(Display *display, const char *title, int width, int h
 // Drawing is our own; the renderer only brings the pixels to the screen. Where the graphics card cannot, software does.
 static SDL_Renderer *new_renderer(SDL_Window *window) {
     SDL_Renderer *renderer = SDL_CreateRenderer(window, -1, SDL_RENDERER_PRESENTVSYNC);
-    return renderer != NULL ? renderer : SDL_CreateRenderer(window, -1, SDL_RENDERER_SOFTWARE);
+    return renderer ? renderer : SDL_CreateRenderer(window, -1, SDL_RENDERER_SOFTWARE);
 }
 
-static bool start_on(const Screen *screen) {
-    if (!screen_answers(screen)) {
-        SDL_SetError("nothing answers at %s=%s", screen->variable, screen_name(screen));
+static bool start_on(const DisplayProbe *screen) {
+    if (!display_probe_answers(screen)) {
+        SDL_SetError("nothing answers at %s=%s", screen->variable, display_probe_name(screen));
         return false;
     }
     SDL_SetHint(SDL_HINT_VIDEODRIVER, screen->driver);
@@ -153,19 +141,19 @@ static bool start_video(void) {
     const char *driver = chosen_driver();
     bool started = false, tried = false;
     SDL_SetError("no screen is named");
-    for (size_t i = 0; screen_kind(i) != NULL && !started; i++) {
-        const Screen *screen = screen_kind(i);
-        if (screen_name(screen) != NULL && (driver == NULL || strcmp(driver, screen->driver) == 0)) {
+    for (size_t i = 0; display_probe_kind(i) && !started; i++) {
+        const DisplayProbe *screen = display_probe_kind(i);
+        if (display_probe_name(screen) && (!driver || strcmp(driver, screen->driver) == 0)) {
             tried = true;
             started = start_on(screen);
         }
     }
-    return started || (!tried && driver != NULL && SDL_Init(SDL_INIT_VIDEO) == 0);
+    return started || (!tried && driver && SDL_Init(SDL_INIT_VIDEO) == 0);
 }
 
 static Display *window_open(const char *title, int width, int height, PetriPainter *painter, bool colour) {
     (void)colour;
-    Display *display = memory_zeroed(sizeof *display);
+    Display *display = memory_calloc(sizeof *display);
     display->painter = painter;
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
     SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
@@ -175,9 +163,9 @@ static Display *window_open(const char *title, int width, int height, PetriPaint
         fit_screen(&width, &height);
         open = create_with_gl(display, title, width, height);
     }
-    if (started && !open && create(display, title, width, height, 0)) {
+    if (started && !open && create_window(display, title, width, height, 0)) {
         display->renderer = new_renderer(display->window);
-        open = display->renderer != NULL;
+        open = display->renderer;
     }
     if (!open) {
         message("cannot open a window: %s", SDL_GetError());
@@ -185,7 +173,7 @@ static Display *window_open(const char *title, int width, int height, PetriPaint
         return NULL;
     }
     SDL_ShowWindow(display->window);
-    let_go(display);
+    release_context(display);
     window_manager_watch(display->window, &display->gone);
     return display;
 }
@@ -203,24 +191,20 @@ static const char *key_name(SDL_Keycode code) {
     static const char *const modifiers[] = {"left_control",  "left_shift",  "left_alt",  "left_super",
                                             "right_control", "right_shift", "right_alt", "right_super"};
     const SDL_Keycode first = SDLK_CAPSLOCK, first_modifier = SDLK_LCTRL;
-    if (code == SDLK_DELETE) {
+    if (code == SDLK_DELETE)
         return "delete";
-    }
-    if (code >= first_modifier && code <= SDLK_RGUI) {
+    if (code >= first_modifier && code <= SDLK_RGUI)
         return modifiers[code - first_modifier];
-    }
-    if (code >= first && code <= SDLK_KP_EQUALS) {
+    if (code >= first && code <= SDLK_KP_EQUALS)
         return keys[code - first];
-    }
     return code > 0 && code < 127 ? key_of_character((char)code) : NULL;
 }
 
 static void output_size(const Display *display, int *width, int *height) {
-    if (display->context != NULL) {
+    if (display->context)
         SDL_GL_GetDrawableSize(display->window, width, height);
-    } else if (SDL_GetRendererOutputSize(display->renderer, width, height) != 0) {
-        *width = *height = LEAST_SIZE;
-    }
+    else if (SDL_GetRendererOutputSize(display->renderer, width, height) != 0)
+        *width = *height = MIN_SIZE;
 }
 
 // How many pixels a unit of the window has; more than one on screens of high density.
@@ -251,9 +235,8 @@ static Event pointer_event(const Display *display, int x, int y, unsigned state)
     density(display, &across, &down);
     event.x = (x + 0.5) * across;
     event.y = (y + 0.5) * down;
-    for (int button = 1; button <= 8; button++) {
+    for (int button = 1; button <= 8; button++)
         event.buttons |= state & SDL_BUTTON(button) ? button_bit(button) : 0;
-    }
     return event;
 }
 
@@ -265,7 +248,7 @@ static Event window_event(const SDL_WindowEvent *event) {
     case SDL_WINDOWEVENT_SIZE_CHANGED:
         return (Event){.kind = EVENT_REDRAW};
     case SDL_WINDOWEVENT_FOCUS_LOST:
-        return (Event){.kind = EVENT_AWAY};
+        return (Event){.kind = EVENT_FOCUS_LOST};
     case SDL_WINDOWEVENT_LEAVE:
         return (Event){.kind = EVENT_POINTER};
     default:
@@ -276,11 +259,11 @@ static Event window_event(const SDL_WindowEvent *event) {
 // To quit without having closed the window is what SDL asks for when Wayland has gone.
 static Event quit_event(Display *display) {
     const char *driver = SDL_GetCurrentVideoDriver();
-    display->gone = driver != NULL && strcmp(driver, "wayland") == 0;
+    display->gone = driver && strcmp(driver, "wayland") == 0;
     return (Event){.kind = display->gone ? EVENT_NONE : EVENT_CLOSE};
 }
 
-static Event translate(Display *display, const SDL_Event *event) {
+static Event translate_event(Display *display, const SDL_Event *event) {
     switch (event->type) {
     case SDL_QUIT:
         return quit_event(display);
@@ -291,7 +274,7 @@ static Event translate(Display *display, const SDL_Event *event) {
         return (Event){.kind = EVENT_KEY,
                        .key = key_name(event->key.keysym.sym),
                        .pressed = event->type == SDL_KEYDOWN,
-                       .again = event->key.repeat != 0,
+                       .repeated = event->key.repeat != 0,
                        .control = (event->key.keysym.mod & KMOD_CTRL) != 0};
     case SDL_MOUSEMOTION:
         return pointer_event(display, event->motion.x, event->motion.y, event->motion.state);
@@ -315,10 +298,10 @@ static Event window_next_event(Display *display, double seconds) {
     Event event = {.kind = EVENT_NONE};
     while (event.kind == EVENT_NONE && !display->gone &&
            (wait > 0 ? SDL_WaitEventTimeout(&found, wait) : SDL_PollEvent(&found))) {
-        event = translate(display, &found);
+        event = translate_event(display, &found);
         wait = 0;
     }
-    let_go(display);
+    release_context(display);
     return event;
 }
 
@@ -326,27 +309,24 @@ static void window_size(Display *display, int width, int height, int *drawn_widt
     (void)width; // the picture is put into the middle of whatever the window is
     (void)height;
     output_size(display, drawn_width, drawn_height);
-    let_go(display);
+    release_context(display);
 }
 
 static bool use_texture(Display *display, int width, int height) {
-    if (display->texture != NULL && display->texture_width == width && display->texture_height == height) {
+    if (display->texture && display->texture_width == width && display->texture_height == height)
         return true;
-    }
-    if (display->texture != NULL) {
+    if (display->texture)
         SDL_DestroyTexture(display->texture);
-    }
     display->texture =
         SDL_CreateTexture(display->renderer, SDL_PIXELFORMAT_ARGB8888, SDL_TEXTUREACCESS_STREAMING, width, height);
     display->texture_width = width;
     display->texture_height = height;
-    return display->texture != NULL;
+    return display->texture;
 }
 
 static bool window_show_directly(Display *display, PetriPicture *picture, const Overlay *overlay, PetriStatus *status) {
-    if (display->context == NULL) {
+    if (!display->context)
         return false;
-    }
     double across, down;
     int width = 0, height = 0;
     density(display, &across, &down);
@@ -368,7 +348,7 @@ static bool window_show(Display *display, uint32_t *pixels, int width, int heigh
     SDL_RenderClear(display->renderer);
     SDL_RenderCopy(display->renderer, display->texture, NULL, NULL);
     SDL_RenderPresent(display->renderer);
-    let_go(display);
+    release_context(display);
     return true;
 }
 
@@ -386,13 +366,12 @@ static void window_resize(Display *display, int width, int height) {
 
 // Where nobody manages windows, and so nothing but ours is on the screen, they are what we make them.
 static void fill_screen(Display *display) {
-    SDL_Rect screen, *usual = &display->usual;
+    SDL_Rect screen, *windowed = &display->windowed;
     int number = SDL_GetWindowDisplayIndex(display->window);
-    if (SDL_GetDisplayBounds(number < 0 ? 0 : number, &screen) != 0) {
+    if (SDL_GetDisplayBounds(number < 0 ? 0 : number, &screen) != 0)
         return;
-    }
-    SDL_GetWindowPosition(display->window, &usual->x, &usual->y);
-    SDL_GetWindowSize(display->window, &usual->w, &usual->h);
+    SDL_GetWindowPosition(display->window, &windowed->x, &windowed->y);
+    SDL_GetWindowSize(display->window, &windowed->w, &windowed->h);
     SDL_SetWindowPosition(display->window, screen.x, screen.y);
     SDL_SetWindowSize(display->window, screen.w, screen.h);
     display->filled = true;
@@ -401,8 +380,8 @@ static void fill_screen(Display *display) {
 static void window_toggle_full_screen(Display *display) {
     bool full = (SDL_GetWindowFlags(display->window) & SDL_WINDOW_FULLSCREEN) != 0;
     if (display->filled) {
-        SDL_SetWindowSize(display->window, display->usual.w, display->usual.h);
-        SDL_SetWindowPosition(display->window, display->usual.x, display->usual.y);
+        SDL_SetWindowSize(display->window, display->windowed.w, display->windowed.h);
+        SDL_SetWindowPosition(display->window, display->windowed.x, display->windowed.y);
         display->filled = false;
     } else if (!full && !window_manager_fills_screen(display->window)) {
         fill_screen(display);
@@ -426,7 +405,7 @@ static const DisplayKind WINDOW = {
     .resize = window_resize,
     .toggle_full_screen = window_toggle_full_screen,
     .gone = window_gone,
-    .least_seconds = 0,
+    .min_seconds = 0,
     .logs = true,
 };
 

@@ -19,16 +19,17 @@ typedef struct X11 {
     int (*release)(void *);
 } X11;
 
-static bool find(void *library, const char *name, void *function) {
+static bool find_symbol(void *library, const char *name, void *function) {
     void *address = SDL_LoadFunction(library, name);
     SDL_memcpy(function, &address, sizeof address);
-    return address != NULL;
+    return address;
 }
 
-static bool find_all(void *library, X11 *x11) {
-    return library != NULL && find(library, "XGetWindowAttributes", &x11->get_attributes) &&
-           find(library, "XInternAtom", &x11->intern) && find(library, "XGetWindowProperty", &x11->get_property) &&
-           find(library, "XFree", &x11->release);
+static bool find_symbols(void *library, X11 *x11) {
+    return library && find_symbol(library, "XGetWindowAttributes", &x11->get_attributes) &&
+           find_symbol(library, "XInternAtom", &x11->intern) &&
+           find_symbol(library, "XGetWindowProperty", &x11->get_property) &&
+           find_symbol(library, "XFree", &x11->release);
 }
 
 // A window manager is who has asked to be told before windows of the root are changed.
@@ -39,7 +40,7 @@ static bool is_managed(const X11 *x11, Display *display, Window root) {
 }
 
 static bool knows_full_screen(const X11 *x11, Display *display, Window root) {
-    enum { MOST_ATOMS = 4096 };
+    enum { MAX_ATOMS = 4096 };
     Atom supported = x11->intern(display, "_NET_SUPPORTED", True), type;
     Atom wanted = x11->intern(display, "_NET_WM_STATE_FULLSCREEN", True);
     int bits = 0;
@@ -47,46 +48,42 @@ static bool knows_full_screen(const X11 *x11, Display *display, Window root) {
     unsigned char *data = NULL;
     bool known = false;
     if (supported == None || wanted == None ||
-        x11->get_property(display, root, supported, 0, MOST_ATOMS, False, XA_ATOM, &type, &bits, &count, &left,
-                          &data) != Success) {
+        x11->get_property(display, root, supported, 0, MAX_ATOMS, False, XA_ATOM, &type, &bits, &count, &left, &data) !=
+            Success)
         return false;
-    }
     for (unsigned long i = 0; bits == 32 && i < count; i++) { // of 32 bits on the wire: each is a long here
         Atom one;
         SDL_memcpy(&one, data + i * sizeof one, sizeof one);
         known = known || one == wanted;
     }
-    if (data != NULL) {
+    if (data)
         x11->release(data);
-    }
     return known;
 }
 
 bool window_manager_fills_screen(struct SDL_Window *window) {
     SDL_SysWMinfo info;
     SDL_VERSION(&info.version);
-    if (!SDL_GetWindowWMInfo(window, &info) || info.subsystem != SDL_SYSWM_X11) {
+    if (!SDL_GetWindowWMInfo(window, &info) || info.subsystem != SDL_SYSWM_X11)
         return true;
-    }
     X11 x11;
     void *library = SDL_LoadObject(LIBRARY);
     bool fills = true;
-    if (find_all(library, &x11)) {
+    if (find_symbols(library, &x11)) {
         Window root = DefaultRootWindow(info.info.x11.display);
         fills = is_managed(&x11, info.info.x11.display, root) && knows_full_screen(&x11, info.info.x11.display, root);
     }
-    if (library != NULL) {
+    if (library)
         SDL_UnloadObject(library);
-    }
     return fills;
 }
-static int say_nothing(Display *display) {
+static int ignore_error(Display *display) {
     (void)display;
     return 0;
 }
 
 // Xlib ends the process unless this returns; then it fails from call to call.
-static void go_on(Display *display, void *gone) {
+static void ignore_io_error(Display *display, void *gone) {
     (void)display;
     *(bool *)gone = true;
 }
@@ -96,14 +93,13 @@ void window_manager_watch(struct SDL_Window *window, bool *gone) {
     int (*(*set_error)(int (*)(Display *)))(Display *);
     void (*set_exit)(Display *, void (*)(Display *, void *), void *);
     SDL_VERSION(&info.version);
-    if (!SDL_GetWindowWMInfo(window, &info) || info.subsystem != SDL_SYSWM_X11) {
+    if (!SDL_GetWindowWMInfo(window, &info) || info.subsystem != SDL_SYSWM_X11)
         return;
-    }
     void *library = SDL_LoadObject(LIBRARY); // for good: SDL has it, too
-    if (library != NULL && find(library, "XSetIOErrorHandler", &set_error) &&
-        find(library, "XSetIOErrorExitHandler", &set_exit)) { // from libX11 1.7 on
-        set_error(say_nothing);
-        set_exit(info.info.x11.display, go_on, gone);
+    if (library && find_symbol(library, "XSetIOErrorHandler", &set_error) &&
+        find_symbol(library, "XSetIOErrorExitHandler", &set_exit)) { // from libX11 1.7 on
+        set_error(ignore_error);
+        set_exit(info.info.x11.display, ignore_io_error, gone);
     }
 }
 #else

@@ -1,131 +1,127 @@
-// steps.c: commands that make frames, forward and back, and what is said of them.
+// step_commands.c: commands that make frames, forward and back, and what is said of them.
+#include "cli/progress.h"
+#include "repl/repl.h"
+
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/progress.h"
-#include "repl/repl.h"
-
 // Frames until `count` are made, an expression is true or Ctrl-C; what they say is written.
-typedef struct Walk {
+typedef struct StepRequest {
     int64_t count;
     const char *until; // NULL: no condition
     bool limited;      // reaching the count is worth a word
-} Walk;
+} StepRequest;
 
 // Adds `EXPR = value` for each expression that is watched.
-static void add_watched(Repl *repl, Bytes *text) {
+static void add_watched(Repl *repl, ByteBuffer *text) {
     for (size_t i = 0; i < repl->watched.count; i++) {
-        PetriResult result;
-        SCOPED_BYTES value = {0};
+        PetriEvaluation result;
+        SCOPED_BYTE_BUFFER value = {0};
         const char *expression = repl->watched.items[i];
-        PetriStatus status = petri_evaluate(repl->session, expression, PETRI_Z, &result, bytes_collect, &value);
-        bytes_format(text, "%s = ", expression);
-        bytes_add(text, status == PETRI_OK ? value.data : "?", status == PETRI_OK ? value.length : 1);
-        bytes_add_text(text, "\n");
+        PetriStatus status =
+            petri_evaluate(repl->session, expression, PETRI_NUL_TERMINATED, &result, byte_buffer_collect, &value);
+        byte_buffer_format(text, "%s = ", expression);
+        byte_buffer_add(text, status == PETRI_OK ? value.data : "?", status == PETRI_OK ? value.length : 1);
+        byte_buffer_add_text(text, "\n");
     }
 }
 
 // The frame's text; true if there is more to it than its first line.
-static bool describe(Repl *repl, Bytes *text) {
-    petri_print(repl->session, PETRI_PRINT_LOG, bytes_collect, text);
+static bool format_frame(Repl *repl, ByteBuffer *text) {
+    petri_print(repl->session, PETRI_PRINT_LOG, byte_buffer_collect, text);
     add_watched(repl, text);
     return memchr(text->data, '\n', text->length) != text->data + text->length - 1;
 }
 
 void repl_show_frame(Repl *repl) {
-    SCOPED_BYTES text = {0};
+    SCOPED_BYTE_BUFFER text = {0};
     if (petri_frame(repl->session).number < 0) {
-        repl_say(repl, "before the first frame");
+        repl_note(repl, "before the first frame");
         return;
     }
-    describe(repl, &text);
+    petri_preview(repl->session); // what the frame logged is lost where the configuration has changed since
+    format_frame(repl, &text);
     output_write(&repl->output, text.data, text.length);
 }
 
 // Writes a frame if it has something to say or is the last; whether it did.
 static bool show_step(Repl *repl, Progress *progress, bool last) {
-    SCOPED_BYTES text = {0};
-    bool shown = describe(repl, &text) || last;
+    SCOPED_BYTE_BUFFER text = {0};
+    bool shown = format_frame(repl, &text) || last;
     if (shown) {
         progress_erase(progress);
         output_write(&repl->output, text.data, text.length);
-        if (repl->terminal) {
+        if (repl->terminal)
             output_flush(&repl->output);
-        }
     }
     return shown;
 }
 
-typedef enum Outcome { GOING, REACHED, GIVEN_UP } Outcome;
+typedef enum Outcome { RUNNING, REACHED, ABORTED } Outcome;
 
-static Outcome one_step(Repl *repl, const Walk *walk) {
-    PetriResult result = {0};
+static Outcome step_once(Repl *repl, const StepRequest *request) {
+    PetriEvaluation result = {0};
     PetriStatus status = history_step(&repl->history, repl->session);
-    if (status == PETRI_OK && walk->until != NULL) {
-        status = petri_evaluate(repl->session, walk->until, PETRI_Z, &result, NULL, NULL);
-    }
+    if (status == PETRI_OK && request->until)
+        status = petri_evaluate(repl->session, request->until, PETRI_NUL_TERMINATED, &result, NULL, NULL);
     if (status != PETRI_OK && status != PETRI_INTERRUPTED) {
         repl_status(repl, status);
-        return GIVEN_UP;
+        return ABORTED;
     }
-    return result.is_true ? REACHED : GOING;
+    return result.is_true ? REACHED : RUNNING;
 }
 
-static void conclude(Repl *repl, const Walk *walk, int64_t made, Outcome outcome) {
+static void report_outcome(Repl *repl, const StepRequest *request, int64_t made, Outcome outcome) {
     repl->incomplete = repl_interrupted();
-    if (repl_interrupted()) {
+    if (repl_interrupted())
         repl_fail(repl, "interrupted after %" PRId64 " frame%s", made, made == 1 ? "" : "s");
-    } else if (outcome == GOING && walk->until != NULL) {
+    else if (outcome == RUNNING && request->until)
         repl_fail(repl, "not true within %" PRId64 " frame%s (--limit)", made, made == 1 ? "" : "s");
-    } else if (outcome == GOING && walk->limited) {
-        repl_say(repl, "stopped after %" PRId64 " frames (--limit)", made);
-    }
+    else if (outcome == RUNNING && request->limited)
+        repl_note(repl, "stopped after %" PRId64 " frames (--limit)", made);
 }
 
-static bool walk_frames(Repl *repl, const Walk *walk) {
+static bool step_frames(Repl *repl, const StepRequest *request) {
     Progress progress;
-    Outcome outcome = GOING;
+    Outcome outcome = RUNNING;
     int64_t made = 0;
     repl_refresh(repl);
     repl->failed = false; // a script that is wrong does not stop the old one
-    progress_start(&progress, repl->terminal && progress_possible(), walk->count);
+    progress_start(&progress, repl->terminal && progress_possible(), request->count);
     repl_busy(repl);
     bool shown = true;
-    while (made < walk->count && outcome == GOING && !repl_interrupted() && repl->output.error == 0) {
+    while (made < request->count && outcome == RUNNING && !repl_interrupted() && repl->output.error == 0) {
         int64_t before = petri_frame(repl->session).number;
-        outcome = one_step(repl, walk);
-        if (petri_frame(repl->session).number == before) {
+        outcome = step_once(repl, request);
+        if (petri_frame(repl->session).number == before)
             break;
-        }
         made++;
-        shown = show_step(repl, &progress, made == walk->count || outcome != GOING);
+        shown = show_step(repl, &progress, made == request->count || outcome != RUNNING);
         progress_update(&progress, made);
     }
     progress_erase(&progress);
     repl_idle(repl);
-    if (!shown) {
+    if (!shown)
         show_step(repl, &progress, true);
-    }
-    conclude(repl, walk, made, outcome);
+    report_outcome(repl, request, made, outcome);
     repl_watch_files(repl); // modules that were imported
     return !repl->failed;
 }
 
 void repl_complete_frame(Repl *repl) {
-    if (!repl->incomplete) {
+    if (!repl->incomplete)
         return;
-    }
     repl_busy(repl);
-    PetriStatus status = history_remake(&repl->history, repl->session);
+    PetriStatus status = history_recompute(&repl->history, repl->session);
     repl_idle(repl);
     repl->incomplete = status != PETRI_OK;
     repl_status(repl, status);
 }
 
 // Within the timeline at one go, beyond it by steps that show how far it is.
-static PetriStatus go(Repl *repl, int64_t frame, Bytes *why) {
+static PetriStatus seek_frame(Repl *repl, int64_t frame, ByteBuffer *why) {
     int64_t last = repl->history.last, made = 0;
     Progress progress;
     PetriStatus status = history_goto(&repl->history, repl->session, frame < last ? frame : last, why);
@@ -139,95 +135,84 @@ static PetriStatus go(Repl *repl, int64_t frame, Bytes *why) {
 }
 
 static bool go_to(Repl *repl, int64_t frame) {
-    SCOPED_BYTES why = {0};
+    SCOPED_BYTE_BUFFER why = {0};
     repl_refresh(repl);
     repl->failed = false;
     repl_busy(repl);
-    PetriStatus status = go(repl, frame, &why);
+    PetriStatus status = seek_frame(repl, frame, &why);
     bool stopped = repl_idle(repl);
     repl->incomplete = stopped;
-    if (stopped) {
+    if (stopped)
         repl_fail(repl, "interrupted");
-    } else if (status == PETRI_INVALID) {
+    else if (status == PETRI_INVALID)
         repl_fail(repl, "%s", why.length == 0 ? "this cannot be done" : why.data);
-    } else {
+    else
         repl_status(repl, status);
-    }
-    if (status == PETRI_OK || stopped) {
+    if (status == PETRI_OK || stopped)
         repl_show_frame(repl);
-    }
     return status == PETRI_OK;
 }
 
 static bool run_step(Repl *repl, const char *rest) {
     int64_t count = 1;
-    return word_count(repl, rest, 1, &count) && walk_frames(repl, &(Walk){.count = count});
+    return argument_count(repl, rest, 1, &count) && step_frames(repl, &(StepRequest){.count = count});
 }
 
 static bool run_run(Repl *repl, const char *rest) {
     double seconds = 0;
-    if (rest[0] == '\0') {
-        return walk_frames(repl, &(Walk){.count = repl->options->limit, .limited = true});
-    }
-    if (!word_number(repl, rest, &seconds)) {
+    if (rest[0] == '\0')
+        return step_frames(repl, &(StepRequest){.count = repl->options->limit, .limited = true});
+    if (!argument_number(repl, rest, &seconds))
         return false;
-    }
-    if (seconds < 0) {
+    if (seconds < 0)
         return repl_fail(repl, "'%s' is no time: seconds, or a time code such as 1:30", rest);
-    }
     double frames = ceil(seconds * petri_frame(repl->session).fps - 1e-9);
     bool limited = frames > (double)repl->options->limit;
-    return walk_frames(repl, &(Walk){.count = limited ? repl->options->limit : (int64_t)frames, .limited = limited});
+    return step_frames(repl,
+                       &(StepRequest){.count = limited ? repl->options->limit : (int64_t)frames, .limited = limited});
 }
 
 static bool run_until(Repl *repl, const char *rest) {
-    SCOPED_TEXT expression = memory_text(rest);
+    SCOPED_TEXT expression = memory_strdup(rest);
     int64_t limit = repl->options->limit;
-    if (!word_limit(repl, expression, &limit)) {
+    if (!argument_limit(repl, expression, &limit))
         return false;
-    }
-    if (expression[0] == '\0') {
+    if (expression[0] == '\0')
         return repl_fail(repl, ".until needs an expression");
-    }
-    PetriResult result; // of the present frame: whether it is an expression at all
-    return repl_status(repl, petri_evaluate(repl->session, expression, PETRI_Z, &result, NULL, NULL)) &&
-           walk_frames(repl, &(Walk){.count = limit, .until = expression});
+    PetriEvaluation result; // of the present frame: whether it is an expression at all
+    return repl_status(repl, petri_evaluate(repl->session, expression, PETRI_NUL_TERMINATED, &result, NULL, NULL)) &&
+           step_frames(repl, &(StepRequest){.count = limit, .until = expression});
 }
 
 static bool run_back(Repl *repl, const char *rest) {
     int64_t count = 1, ago = petri_frame(repl->session).number - repl->history.first;
-    if (!word_count(repl, rest, 1, &count)) {
+    if (!argument_count(repl, rest, 1, &count))
         return false;
-    }
-    if (count <= ago) {
+    if (count <= ago)
         return go_to(repl, petri_frame(repl->session).number - count);
-    }
-    SCOPED_BYTES start = {0}; // what the first frame of the history is
+    SCOPED_BYTE_BUFFER start = {0}; // what the first frame of the history is
     const char *why = repl->history.why;
-    bytes_format(&start, why == NULL ? "this is the start" : "the history begins here (%s)", why);
-    if (ago > 0) {
-        repl_say(repl, "there are only %" PRId64 " frames to go back: %s", ago, start.data);
-    } else {
+    byte_buffer_format(&start, !why ? "this is the start" : "the history begins here (%s)", why);
+    if (ago > 0)
+        repl_note(repl, "there are only %" PRId64 " frames to go back: %s", ago, start.data);
+    else
         repl_fail(repl, "there is nothing to go back to: %s", start.data);
-    }
     return ago > 0 && go_to(repl, repl->history.first);
 }
 
 static bool run_go(Repl *repl, const char *rest) {
     int64_t frame = -1;
-    return word_count(repl, rest, -1, &frame) && go_to(repl, frame);
+    return argument_count(repl, rest, -1, &frame) && go_to(repl, frame);
 }
 
 static bool run_reset(Repl *repl, const char *rest) {
     (void)rest;
     PetriStatus status = history_reset(&repl->history, repl->session);
     if (status == PETRI_OK && petri_frame(repl->session).number < repl->history.first &&
-        !history_start(&repl->history, repl->session, NULL)) {
-        status = PETRI_MEMORY;
-    }
-    if (!repl_status(repl, status)) {
+        !history_start(&repl->history, repl->session, NULL))
+        status = PETRI_OUT_OF_MEMORY;
+    if (!repl_status(repl, status))
         return false;
-    }
     repl_show_frame(repl);
     return true;
 }

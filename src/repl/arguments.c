@@ -1,4 +1,7 @@
-// words.c: reading what follows a command's name, and commands that were typed without their dot.
+// arguments.c: reading what follows a command's name, and commands that were typed without their dot.
+#include "cli/progress.h"
+#include "repl/repl.h"
+
 #include <errno.h>
 #include <inttypes.h>
 #include <math.h>
@@ -6,27 +9,23 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/progress.h"
-#include "repl/repl.h"
-
 static const char BLANKS[] = " \t\r\n";
 
 static bool is_blank(char c) {
-    return c != '\0' && strchr(BLANKS, c) != NULL;
+    return c != '\0' && strchr(BLANKS, c);
 }
 
-static void cut_end(char *text) {
+static void trim_end(char *text) {
     size_t length = strlen(text);
-    while (length > 0 && is_blank(text[length - 1])) {
+    while (length > 0 && is_blank(text[length - 1]))
         length--;
-    }
     text[length] = '\0';
 }
 
-char *word_trimmed(const char *text) {
+char *argument_trimmed(const char *text) {
     text += strspn(text, BLANKS);
-    char *copy = memory_text(text);
-    cut_end(copy);
+    char *copy = memory_strdup(text);
+    trim_end(copy);
     return copy;
 }
 
@@ -39,54 +38,49 @@ static bool read_count(const char *text, int64_t *count) {
 }
 
 // What the text stands for, which need not be finite. False after a message.
-static bool evaluate(Repl *repl, const char *text, double *number) {
-    PetriResult result;
-    if (petri_read_number(text, number) && isfinite(*number)) {
+static bool evaluate_number(Repl *repl, const char *text, double *number) {
+    PetriEvaluation result;
+    if (petri_parse_number(text, number) && isfinite(*number))
         return true;
-    }
     repl_busy(repl);
-    PetriStatus status = petri_evaluate(repl->session, text, PETRI_Z, &result, NULL, NULL);
+    PetriStatus status = petri_evaluate(repl->session, text, PETRI_NUL_TERMINATED, &result, NULL, NULL);
     repl_idle(repl);
-    if (!repl_status(repl, status)) {
+    if (!repl_status(repl, status))
         return false;
-    }
     *number = result.number;
     return true;
 }
 
-bool word_number(Repl *repl, const char *text, double *number) {
-    return evaluate(repl, text, number) && (isfinite(*number) || repl_fail(repl, "'%.40s' is no number", text));
+bool argument_number(Repl *repl, const char *text, double *number) {
+    return evaluate_number(repl, text, number) && (isfinite(*number) || repl_fail(repl, "'%.40s' is no number", text));
 }
 
-bool word_count(Repl *repl, const char *text, int64_t least, int64_t *count) {
+bool argument_count(Repl *repl, const char *text, int64_t min, int64_t *count) {
     static const double most = 9007199254740992; // beyond it not all whole numbers are there
     double value = 0;
-    if (text[0] == '\0' || (read_count(text, count) && *count >= least)) {
+    if (text[0] == '\0' || (read_count(text, count) && *count >= min))
         return true;
-    }
-    if (!evaluate(repl, text, &value)) {
+    if (!evaluate_number(repl, text, &value))
         return false;
-    }
-    if (!(value == floor(value) && value >= (double)least && value <= most)) {
-        return repl_fail(repl, "'%.40s' is no whole number from %" PRId64, text, least);
-    }
+    if (!(value == floor(value) && value >= (double)min && value <= most))
+        return repl_fail(repl, "'%.40s' is no whole number from %" PRId64, text, min);
     *count = (int64_t)value;
     return true;
 }
 
-bool word_limit(Repl *repl, char *text, int64_t *limit) {
+bool argument_limit(Repl *repl, char *text, int64_t *limit) {
     static const char option[] = "--limit";
     char *at = text;
-    while ((at = strstr(at, option)) != NULL) {
+    while ((at = strstr(at, option))) {
         char *word = at + sizeof option - 1 + strspn(at + sizeof option - 1, " \t=");
         char *end = word + strcspn(word, BLANKS);
         char *after = end + strspn(end, BLANKS);
         if ((at == text || is_blank(at[-1])) && (at == text || *after == '\0')) {
-            SCOPED_TEXT number = memory_copied(word, (size_t)(end - word));
-            bool good = number[0] != '\0' ? word_count(repl, number, 1, limit)
+            SCOPED_TEXT number = memory_strndup(word, (size_t)(end - word));
+            bool good = number[0] != '\0' ? argument_count(repl, number, 1, limit)
                                           : repl_fail(repl, "--limit needs a number of frames");
             memmove(at, after, strlen(after) + 1);
-            cut_end(text);
+            trim_end(text);
             return good;
         }
         at++;
@@ -96,39 +90,36 @@ bool word_limit(Repl *repl, char *text, int64_t *limit) {
 
 static char *last_word(char *text) {
     char *last = text + strlen(text);
-    while (last > text && !is_blank(last[-1])) {
+    while (last > text && !is_blank(last[-1]))
         last--;
-    }
     return last;
 }
 
-void word_last_count(char *text, int64_t *count) {
+void argument_last_count(char *text, int64_t *count) {
     char *last = last_word(text);
     int64_t value = 0;
     if (last > text && read_count(last, &value) && value > 0) {
         *count = value;
         *last = '\0';
-        cut_end(text);
+        trim_end(text);
     }
 }
 
 static size_t screen_lines(const Repl *repl, size_t around) {
-    enum { FEWEST = 5, USUAL = 24 };
-    int columns = 0, rows = USUAL;
+    enum { MIN_LINES = 5, DEFAULT_LINES = 24 };
+    int columns = 0, rows = DEFAULT_LINES;
     terminal_extent(STDOUT_FILENO, &columns, &rows);
-    return !repl->terminal ? SIZE_MAX : (size_t)rows > around + FEWEST ? (size_t)rows - around : FEWEST;
+    return !repl->terminal ? SIZE_MAX : (size_t)rows > around + MIN_LINES ? (size_t)rows - around : MIN_LINES;
 }
 
-size_t word_lines(const Repl *repl, char *text, size_t around) {
+size_t argument_lines(const Repl *repl, char *text, size_t around) {
     char *last = last_word(text), *before = last;
-    while (before > text && is_blank(before[-1])) {
+    while (before > text && is_blank(before[-1]))
         before--;
-    }
     int64_t count = 0;
     bool all = strcmp(last, "all") == 0, open = before > text && before[-1] == ';'; // what goes on with a key
-    if (open || (!all && !(read_count(last, &count) && count > 0))) {
+    if (open || (!all && !(read_count(last, &count) && count > 0)))
         return screen_lines(repl, around);
-    }
     *before = '\0';
     return all ? SIZE_MAX : (size_t)count;
 }
@@ -148,11 +139,9 @@ static bool is_word(const char *name, const char *word, size_t length) {
 }
 
 const char *bare_alias(const char *name, size_t length) {
-    for (size_t i = 0; i < BARE_COUNT; i++) {
-        if (is_word(bare_words[i].word, name, length)) {
+    for (size_t i = 0; i < BARE_COUNT; i++)
+        if (is_word(bare_words[i].word, name, length))
             return bare_words[i].command;
-        }
-    }
     return NULL;
 }
 
@@ -160,16 +149,12 @@ const char *bare_alias(const char *name, size_t length) {
 static bool is_bound(Repl *repl, const char *word, size_t length) {
     PetriBuiltin builtin;
     const char *name;
-    for (size_t i = 0; (name = petri_name(repl->session, i)) != NULL; i++) {
-        if (is_word(name, word, length)) {
+    for (size_t i = 0; (name = petri_visible_name(repl->session, i)); i++)
+        if (is_word(name, word, length))
             return true;
-        }
-    }
-    for (size_t i = 0; petri_builtin(i, &builtin); i++) {
-        if (is_word(builtin.name, word, length)) {
+    for (size_t i = 0; petri_builtin(i, &builtin); i++)
+        if (is_word(builtin.name, word, length))
             return true;
-        }
-    }
     return false;
 }
 
@@ -178,47 +163,45 @@ static size_t word_length(const char *text) {
 }
 
 // Names are known once something was evaluated.
-static void learn_names(Repl *repl) {
-    PetriResult result;
+static void compile_names(Repl *repl) {
+    PetriEvaluation result;
     repl_busy(repl);
-    petri_evaluate(repl->session, "0", PETRI_Z, &result, NULL, NULL);
+    petri_evaluate(repl->session, "0", PETRI_NUL_TERMINATED, &result, NULL, NULL);
     repl_idle(repl);
 }
 
 // `help`, `quit` and the like.
-static bool take_alias(Repl *repl, const char *word, size_t length, const char *rest, Bytes *remark) {
+static bool execute_alias(Repl *repl, const char *word, size_t length, const char *rest, ByteBuffer *remark) {
     bool alone = rest[0] == '\0' || strcmp(rest, "()") == 0;
     const char *command = bare_alias(word, length);
     bool topic = length > 1 || word[0] == '?'; // something may follow `help` and `?`
-    if (command == NULL || !(alone || (topic && strcmp(command, ".help") == 0))) {
+    if (!command || !(alone || (topic && strcmp(command, ".help") == 0)))
         return false;
-    }
     if (is_bound(repl, word, length)) {
-        bytes_format(remark, "%.*s is a name here; the command is %s", (int)length, word, command);
+        byte_buffer_format(remark, "%.*s is a name here; the command is %s", (int)length, word, command);
         return false;
     }
-    SCOPED_BYTES line = {0};
+    SCOPED_BYTE_BUFFER line = {0};
     size_t inner = strlen(rest);
     bool called = !alone && rest[0] == '(' && rest[inner - 1] == ')'; // help(sin)
-    bytes_format(&line, "%s %.*s", command, (int)(alone ? 0 : inner - 2 * called), rest + called);
+    byte_buffer_format(&line, "%s %.*s", command, (int)(alone ? 0 : inner - 2 * called), rest + called);
     repl_command(repl, line.data);
     return true;
 }
 
-bool bare_take(Repl *repl, const char *text, Bytes *remark) {
-    SCOPED_TEXT line = word_trimmed(text);
+bool bare_execute(Repl *repl, const char *text, ByteBuffer *remark) {
+    SCOPED_TEXT line = argument_trimmed(text);
     size_t length = word_length(line);
-    SCOPED_TEXT rest = word_trimmed(line + length);
-    bool alias = bare_alias(line, length) != NULL, command = line[0] != '.' && repl_find_command(line, length) != NULL,
-         done = false;
-    if ((alias || command) && strchr(line, '\n') == NULL) {
-        learn_names(repl);
-        done = take_alias(repl, line, length, rest, remark);
+    SCOPED_TEXT rest = argument_trimmed(line + length);
+    bool alias = bare_alias(line, length), command = line[0] != '.' && repl_find_command(line, length), done = false;
+    if ((alias || command) && !strchr(line, '\n')) {
+        compile_names(repl);
+        done = execute_alias(repl, line, length, rest, remark);
         if (!done && !alias && !is_bound(repl, line, length)) {
             repl_fail(repl, "commands begin with a dot: did you mean .%s?", line);
             done = true;
         } else if (!done && command && rest[0] != '\0') {
-            bytes_format(remark, "commands begin with a dot: did you mean .%s?", line);
+            byte_buffer_format(remark, "commands begin with a dot: did you mean .%s?", line);
         }
     }
     return done;

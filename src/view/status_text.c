@@ -1,15 +1,16 @@
-// texts.c: see view.h.
+// status_text.c: see view.h.
+#include "cli/progress.h"
+#include "view/view.h"
+
 #include <inttypes.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/progress.h"
-#include "view/view.h"
-
 // Seconds: how long a notice stays; between two measures of the frame rate.
-static const double NOTICE = 4, MEASURE = 0.5;
+static const double NOTICE = 4, HINT = 3, MEASURE = 0.5;
+static const char KEYS[] = "h: keys";
 
 static void set_notice(View *view, const char *text, double ends) {
     view->redraw = overlay_set(view->overlay.notice, sizeof view->overlay.notice, text) || view->redraw;
@@ -25,37 +26,46 @@ void view_notice(View *view, const char *format, ...) {
     set_notice(view, text, clock_seconds() + NOTICE);
 }
 
-void view_settle_notice(View *view) {
+void view_hint_keys(View *view) {
+    const Overlay *overlay = &view->overlay;
+    bool free = overlay->error_text[0] == '\0' && overlay->mark[0] == '\0' && overlay->notice[0] == '\0';
+    if (free && view->live.options->verbosity > LOG_QUIET && !petri_key_is_bound(view->live.session, "h"))
+        set_notice(view, KEYS, clock_seconds() + HINT);
+}
+
+void view_reset_notice(View *view) {
     set_notice(view, view->paused ? "paused: space goes on, . steps" : "", INFINITY);
 }
 
 // What stops the script comes first; warnings are listed if that is wanted, else a mark tells that there are some.
-void view_update_trouble(View *view) {
+void view_update_error_text(View *view) {
     Overlay *overlay = &view->overlay;
-    const char *trouble = world_trouble(&view->world);
-    char text[sizeof overlay->trouble] = "", mark[sizeof overlay->mark] = "";
-    overlay->mild = trouble[0] == '\0';
-    if (overlay->mild && view->shows_warnings) {
-        warnings_list(&view->world.warnings, text, sizeof text);
-    } else if (overlay->mild) {
-        warnings_mark(&view->world.warnings, mark, sizeof mark);
-    }
-    bool changed = overlay_set(overlay->trouble, sizeof overlay->trouble, overlay->mild ? text : trouble);
+    const char *error_text = live_script_error_text(&view->live);
+    char text[sizeof overlay->error_text] = "", mark[sizeof overlay->mark] = "";
+    overlay->is_warning = error_text[0] == '\0';
+    if (overlay->is_warning && view->shows_warnings)
+        warnings_list(&view->live.warnings, text, sizeof text);
+    else if (overlay->is_warning)
+        warnings_mark(&view->live.warnings, mark, sizeof mark);
+    bool changed =
+        overlay_set(overlay->error_text, sizeof overlay->error_text, overlay->is_warning ? text : error_text);
     changed = overlay_set(overlay->mark, sizeof overlay->mark, mark) || changed;
+    if ((overlay->error_text[0] != '\0' || overlay->mark[0] != '\0') && strcmp(overlay->notice, KEYS) == 0)
+        view_reset_notice(view);
     view->redraw = changed || view->redraw;
 }
 
 static void add_parameters(View *view, char *text, size_t size) {
-    SCOPED_BYTES more = {0};
+    SCOPED_BYTE_BUFFER more = {0};
     size_t length = strlen(text);
-    parameter_status(&view->parameters, &view->world, &more);
+    parameter_status(&view->parameters, &view->live, &more);
     snprintf(text + length, size - length, "%s", more.length == 0 ? "" : more.data);
 }
 
 void view_update_status(View *view) {
     char text[sizeof view->overlay.status] = "";
     if (view->shows_status) {
-        PetriFrame frame = petri_frame(view->world.session);
+        PetriFrame frame = petri_frame(view->live.session);
         double seconds = frame.time;
         snprintf(text, sizeof text,
                  "%.1f fps  frame %" PRId64 "  %d:%05.2f  beat %.2f\n"
@@ -71,11 +81,10 @@ void view_update_status(View *view) {
 
 void view_measure_rate(View *view) {
     double now = clock_seconds(), passed = now - view->measured;
-    if (passed < MEASURE) {
+    if (passed < MEASURE)
         return;
-    }
-    view->rate = (double)(view->world.frames - view->measured_frames) / passed;
+    view->rate = (double)(view->live.frames - view->measured_frames) / passed;
     view->measured = now;
-    view->measured_frames = view->world.frames;
+    view->measured_frames = view->live.frames;
     view_update_status(view);
 }

@@ -1,12 +1,12 @@
-// settings.c: what the script leaves to whoever runs it: parameters and rates.
-#include <stdlib.h>
-#include <string.h>
-
+// set_commands.c: what the script leaves to whoever runs it: parameters and rates.
 #include "cli/parameters.h"
 #include "repl/repl.h"
 
+#include <stdlib.h>
+#include <string.h>
+
 // Is a text, a name or NAME=VALUE, of the name?
-static bool is_of(const char *text, const char *name) {
+static bool defines_name(const char *text, const char *name) {
     size_t length = strlen(name);
     return strncmp(text, name, length) == 0 && (text[length] == '\0' || text[length] == '=');
 }
@@ -16,43 +16,39 @@ static bool is_of(const char *text, const char *name) {
 static bool is_bound(const Repl *repl, const char *name) {
     size_t seen = 0, defined = 0;
     const char *known;
-    for (size_t i = 0; (known = petri_name(repl->session, i)) != NULL; i++) {
-        seen += is_of(known, name);
-    }
-    for (size_t i = 0; i < repl->definitions.count; i++) {
-        defined += is_of(repl->definitions.items[i], name);
-    }
+    for (size_t i = 0; (known = petri_visible_name(repl->session, i)); i++)
+        seen += defines_name(known, name);
+    for (size_t i = 0; i < repl->definitions.count; i++)
+        defined += defines_name(repl->definitions.items[i], name);
     return seen > defined;
 }
 
 // `-- CELLS = 200  (1..500)  how many`
-static void say_parameter(Repl *repl, const PetriParameter *parameter) {
-    SCOPED_BYTES text = {0};
+static void note_parameter(Repl *repl, const PetriParameter *parameter) {
+    SCOPED_BYTE_BUFFER text = {0};
     parameter_describe(&text, parameter);
-    repl_say(repl, "%s%s%s", text.data, parameter->comment[0] == '\0' ? "" : "  ", parameter->comment);
+    repl_note(repl, "%s%s%s", text.data, parameter->comment[0] == '\0' ? "" : "  ", parameter->comment);
 }
 
 // What has become of a name that was set.
 static void report_set(Repl *repl, const char *name, bool warned) {
     PetriParameter parameter;
-    if (parameter_find(repl->session, name, &parameter)) {
-        say_parameter(repl, &parameter);
-    } else if (!warned && is_bound(repl, name)) {
-        repl_say(repl, "%s keeps the value that the script or the prompt gives it", name);
-    }
+    if (parameter_find(repl->session, name, &parameter))
+        note_parameter(repl, &parameter);
+    else if (!warned && is_bound(repl, name))
+        repl_note(repl, "%s keeps the value that the script or the prompt gives it", name);
 }
 
 // Defines the name and compiles the script for it. Where that fails everything is as before.
-static bool set(Repl *repl, const char *name, const char *definition) {
-    PetriConfig *before = petri_config(repl->session);
-    if (before == NULL) {
-        return repl_status(repl, PETRI_MEMORY);
-    }
+static bool set_parameter(Repl *repl, const char *name, const char *definition) {
+    PetriConfig *before = petri_config_get(repl->session);
+    if (!before)
+        return repl_status(repl, PETRI_OUT_OF_MEMORY);
     uint64_t warnings = petri_diagnostic_count(repl->session, PETRI_WARNING);
     bool good = petri_define(repl->session, definition) == PETRI_OK ||
                 repl_fail(repl, ".set expects NAME VALUE, such as .set COUNT 50");
     if (good && !repl_status(repl, petri_reload(repl->session, NULL))) {
-        petri_config_use(repl->session, before);
+        petri_config_apply(repl->session, before);
         good = false;
     }
     petri_config_free(before);
@@ -63,46 +59,44 @@ static bool set(Repl *repl, const char *name, const char *definition) {
     return good;
 }
 
-static bool show_one(Repl *repl, const char *name) {
+static bool note_named_parameter(Repl *repl, const char *name) {
     PetriParameter parameter;
     if (!parameter_find(repl->session, name, &parameter)) {
         return repl_fail(repl, ".set expects NAME VALUE, such as .set COUNT 50; '%.40s' is no parameter of the script",
                          name);
     }
-    say_parameter(repl, &parameter);
+    note_parameter(repl, &parameter);
     return true;
 }
 
 static bool run_parameters(Repl *repl, const char *rest) {
     (void)rest;
-    if (parameters_list(repl->session, &repl->output) == 0) {
-        repl_say(repl, "the script has no parameters; `let SIZE=SIZE or 20 -- 1..100 how large` makes one");
-    }
+    if (parameters_list(repl->session, &repl->output) == 0)
+        repl_note(repl, "the script has no parameters; `let SIZE=SIZE or 20 -- 1..100 how large` makes one");
     return true;
 }
 
 static bool run_set(Repl *repl, const char *rest) {
-    if (rest[0] == '\0') {
+    if (rest[0] == '\0')
         return run_parameters(repl, rest);
-    }
     size_t length = strcspn(rest, " \t=");
-    SCOPED_TEXT name = memory_copied(rest, length);
+    SCOPED_TEXT name = memory_strndup(rest, length);
     const char *value = rest + length + strspn(rest + length, " \t");
     bool given = *value != '\0';
-    SCOPED_TEXT text = word_trimmed(value + (*value == '='));
-    SCOPED_BYTES definition = {0};
-    bytes_format(&definition, "%s=%s", name, text);
-    bool good = given ? set(repl, name, definition.data) : show_one(repl, name);
+    SCOPED_TEXT text = argument_trimmed(value + (*value == '='));
+    SCOPED_BYTE_BUFFER definition = {0};
+    byte_buffer_format(&definition, "%s=%s", name, text);
+    bool good = given ? set_parameter(repl, name, definition.data) : note_named_parameter(repl, name);
     return good;
 }
 
-void repl_tell_hidden(Repl *repl, const char *name) {
+void repl_warn_shadowed(Repl *repl, const char *name) {
     PetriParameter parameter;
     if (parameter_find(repl->session, name, &parameter)) {
-        repl_say(repl, "the script keeps its own %s, which is %s; .set %s VALUE changes that", parameter.name,
-                 parameter.value, parameter.name);
+        repl_note(repl, "the script keeps its own %s, which is %s; .set %s VALUE changes that", parameter.name,
+                  parameter.value, parameter.name);
     } else {
-        repl_say(repl, "the script keeps its own %s; only what is typed here sees the new one", name);
+        repl_note(repl, "the script keeps its own %s; only what is typed here sees the new one", name);
     }
 }
 
@@ -111,16 +105,15 @@ static void show_number(Repl *repl, const char *name, double value) {
 }
 
 static bool read_rate(Repl *repl, const char *rest, double *value) {
-    return word_number(repl, rest, value) && (*value > 0 || repl_fail(repl, "'%s' is no number above 0", rest));
+    return argument_number(repl, rest, value) && (*value > 0 || repl_fail(repl, "'%s' is no number above 0", rest));
 }
 
 // Shows a rate of the clock, after a change if one is asked for.
 static bool show_rate(Repl *repl, const char *rest, const char *name, PetriStatus change(PetriSession *, double)) {
     double rate = 0;
     if (rest[0] != '\0') {
-        if (!read_rate(repl, rest, &rate) || change(repl->session, rate) != PETRI_OK) {
+        if (!read_rate(repl, rest, &rate) || change(repl->session, rate) != PETRI_OK)
             return false;
-        }
         repl->rates_changed = true;
     }
     PetriFrame frame = petri_frame(repl->session);
@@ -139,22 +132,19 @@ static bool run_fps(Repl *repl, const char *rest) {
 static bool run_resolution(Repl *repl, const char *rest) {
     double step = 0;
     bool off = strcmp(rest, "off") == 0;
-    if (rest[0] != '\0' && !off && !read_rate(repl, rest, &step)) {
+    if (rest[0] != '\0' && !off && !read_rate(repl, rest, &step))
         return false;
-    }
-    if (rest[0] != '\0') {
+    if (rest[0] != '\0')
         petri_set_resolution(repl->session, step);
-    }
     step = petri_resolution(repl->session);
-    if (step > 0) {
+    if (step > 0)
         show_number(repl, "resolution", step);
-    } else {
-        repl_say(repl, "each system's own resolution counts");
-    }
+    else
+        repl_note(repl, "each system's own resolution counts");
     return true;
 }
 
-const ReplCommand SETTING_COMMANDS[] = {
+const ReplCommand SET_COMMANDS[] = {
     {".parameters", "", NULL, "list the script's parameters: value, default, range, comment", run_parameters,
      COMPLETE_LANGUAGE},
     {".set", "[NAME [VALUE]]", NULL, "give a parameter of the script a value, as -D does; or show it", run_set,

@@ -1,0 +1,292 @@
+// hover.c: what is known of a word: petri's tables, the script itself, and values that never change.
+#include "base/source.h"
+#include "cli/help.h"
+#include "lsp/workspace.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_SHOWN = 600 }; // bytes of a value or a statement
+
+static bool text_equals(Str text, const char *name) {
+    return str_equal(text, str_from(name));
+}
+
+bool hover_kind(Str name, size_t *number, PetriNodeKind *kind) {
+    for (size_t i = *number; petri_node_kind(i, kind); i++) {
+        if (text_equals(name, kind->name)) {
+            *number = i;
+            return true;
+        }
+    }
+    return false;
+}
+
+bool hover_builtin(Str name, PetriBuiltin *builtin) {
+    for (size_t i = 0; petri_builtin(i, builtin); i++)
+        if (text_equals(name, builtin->name))
+            return true;
+    return false;
+}
+
+// Backwards within the statement, over what is in brackets: the node that begins what the attribute is added to.
+size_t hover_node_of(const Document *document, size_t token, const char **name) {
+    size_t depth = 0;
+    for (size_t i = token; i > 0; i--) {
+        Str text = document_token(document, i - 1);
+        if (text_equals(text, ")") || text_equals(text, "]")) {
+            depth++;
+        } else if (text_equals(text, "(") || text_equals(text, "[")) {
+            if (depth-- == 0)
+                return SIZE_MAX;
+        } else if (depth == 0 && document->tokens[i - 1].kind == PETRI_TOKEN_NODE) {
+            PetriNodeKind kind;
+            size_t number = 0;
+            bool found = hover_kind((Str){text.bytes + 1, text.len - 1}, &number, &kind);
+            *name = found ? kind.name : NULL;
+            return found ? number : SIZE_MAX;
+        }
+        if (document_begins(document, i - 1))
+            break;
+    }
+    return SIZE_MAX;
+}
+
+void hover_attribute(ByteBuffer *out, const PetriNodeAttribute *attribute) {
+    byte_buffer_format(out, "**%s** — %s", attribute->name, attribute->type);
+    if (attribute->unit[0] != '\0')
+        byte_buffer_format(out, ", in %s", attribute->unit);
+    if (attribute->default_value[0] != '\0')
+        byte_buffer_format(out, "; default `%s`", attribute->default_value);
+    byte_buffer_format(out, "%s%s", attribute->help[0] == '\0' ? "" : "  \n", attribute->help);
+}
+
+static void hover_kinds(ByteBuffer *out, Str name) {
+    PetriNodeKind kind;
+    PetriNodeAttribute attribute;
+    for (size_t i = 0; hover_kind(name, &i, &kind); i++) {
+        byte_buffer_format(out, "%s**!%s** (%s) — %s\n", out->length > 0 ? "\n---\n" : "", kind.name, kind.area,
+                           kind.help);
+        if (kind.formula[0] != '\0')
+            byte_buffer_format(out, "\n```text\n%s\n```\n%s\n", kind.formula, FORMULA_LETTERS);
+        for (size_t k = 0; petri_node_attribute(i, k, &attribute); k++) {
+            byte_buffer_add_text(out, "\n- ");
+            hover_attribute(out, &attribute);
+        }
+        byte_buffer_add_text(out, "\n");
+    }
+}
+
+static bool hover_topic(ByteBuffer *out, Str word) {
+    for (size_t i = 0; TOPICS[i].word; i++) {
+        if (text_equals(word, TOPICS[i].word)) {
+            byte_buffer_format(out, "```flitter\n%s\n```\n%s", TOPICS[i].form, TOPICS[i].help);
+            return true;
+        }
+    }
+    return false;
+}
+
+// --- values
+
+// Do all names in a part of the text stand for what never changes?
+static bool is_constant(const Document *document, size_t start, size_t end, unsigned depth) {
+    PetriBuiltin builtin;
+    for (size_t i = document_token_at(document, start); i < document->token_count && document->tokens[i].start < end;
+         i++)
+        if (document_is(document, i, "$") || document->tokens[i].kind == PETRI_TOKEN_NODE)
+            return false;
+    for (size_t i = 0; i < document->name_count; i++) {
+        const PetriBinding *name = &document->names[i];
+        if (name->kind != PETRI_NAME_USE || name->start < start || name->start >= end)
+            continue;
+        Str text = document_slice(document, name->start, name->end);
+        const PetriBinding *bound = document_binding(document, name);
+        if (!bound && !hover_builtin(text, &builtin) && str_word_number(text, "true false null pi tau inf nan") < 0)
+            return false;
+        bool within = bound && bound->start >= start && bound->start < end;
+        if (bound && !within &&
+            (depth > 8 || (bound->kind != PETRI_NAME_LET && bound->kind != PETRI_NAME_FUNC) ||
+             !is_constant(document, bound->value_start, bound->value_end, depth + 1)))
+            return false;
+    }
+    return !str_equal(document_slice(document, start, start + 5), STR("debug"));
+}
+
+static bool is_top_level(const PetriBinding *name) {
+    return name->depth == 0 && name->kind == PETRI_NAME_LET && name->is_sole;
+}
+
+// `let NAME=NAME or DEFAULT`: its default.
+static bool is_parameter(const Document *document, const PetriBinding *name) {
+    Str value = document_slice(document, name->value_start, name->value_end);
+    Str own = document_slice(document, name->start, name->end);
+    return str_starts_with(value, own) && value.len > own.len && value.bytes[own.len] == ' ';
+}
+
+static const PetriBinding *last_binding_of(const Document *document, const PetriBinding *name) {
+    const PetriBinding *last = hover_export(document, document_slice(document, name->start, name->end));
+    return last;
+}
+
+static void find_values(Server *server, Document *document) {
+    PetriOptions options = petri_default_options();
+    options.work_limit = 1 << 22; // some 40 ms
+    options.threads = 1;
+    options.stack_limit = server->host->stack_bytes;
+    options.read_unsaved = server_unsaved;
+    options.read_user_data = server;
+    PetriSession *session = petri_open(&options);
+    document->values = json_object_new_object();
+    bool loaded =
+        session && petri_load_text(session, document->path, document->text.data, document->text.length) == PETRI_OK;
+    for (size_t i = 0; loaded && i < document->name_count; i++) {
+        const PetriBinding *name = &document->names[i];
+        bool wanted = is_top_level(name) && last_binding_of(document, name) == name &&
+                      (is_parameter(document, name) || is_constant(document, name->value_start, name->value_end, 0));
+        SCOPED_BYTE_BUFFER value = {0};
+        PetriEvaluation result;
+        SCOPED_TEXT own = memory_strndup(document->text.data + name->start, name->end - name->start);
+        if (wanted && petri_evaluate(session, own, strlen(own), &result, byte_buffer_collect, &value) == PETRI_OK &&
+            value.length > 0) {
+            Str shown = str_truncate((Str){value.data, value.length}, MAX_SHOWN);
+            json_put(document->values, own, json_from(shown));
+        }
+    }
+    petri_close(&session);
+}
+
+const char *hover_value(Server *server, Document *document, const PetriBinding *name) {
+    if (!name || !is_top_level(name) || last_binding_of(document, name) != name)
+        return NULL;
+    if (!document->values)
+        find_values(server, document);
+    SCOPED_TEXT own = memory_strndup(document->text.data + name->start, name->end - name->start);
+    return json_text(document->values, own);
+}
+
+// --- the script's own names
+
+const PetriBinding *hover_export(const Document *document, Str text) {
+    const PetriBinding *found = NULL;
+    for (size_t i = 0; i < document->name_count; i++) {
+        const PetriBinding *name = &document->names[i];
+        if (name->kind != PETRI_NAME_USE && name->depth == 0 && name->kind != PETRI_NAME_LOOP &&
+            str_equal(document_slice(document, name->start, name->end), text) &&
+            name->scope_end >= document->text.length)
+            found = name;
+    }
+    return found;
+}
+
+// The lines of comment right above a statement, which say what it is for.
+static void add_comment_above(ByteBuffer *out, const Document *document, size_t start) {
+    size_t line, character, first;
+    document_position(document, start, true, &line, &character);
+    for (first = line; first > 0; first--) {
+        Str above = str_trim(document_slice(document, document->lines[first - 1], document->lines[first]));
+        if (!str_starts_with(above, STR("--")))
+            break;
+    }
+    for (; first < line; first++) {
+        Str text = str_trim(document_slice(document, document->lines[first], document->lines[first + 1]));
+        byte_buffer_add(out, text.bytes + 2, text.len - 2);
+        byte_buffer_add_text(out, "  \n");
+    }
+}
+
+void hover_binding(ByteBuffer *out, Server *server, Document *document, const PetriBinding *name) {
+    static const char *const kinds[] = {"", "let ", "", "parameter ", "for ", "import "};
+    size_t end = name->value_end > name->end ? name->value_end : name->end;
+    size_t start = name->kind == PETRI_NAME_FUNC ? name->value_start : name->start;
+    Str text = document_slice(document, start, end);
+    const char *stop = memchr(text.bytes, '\n', text.len);
+    bool head = stop && name->kind == PETRI_NAME_FUNC; // without its body
+    text = head ? (Str){text.bytes, (size_t)(stop - text.bytes)} : str_truncate(text, MAX_SHOWN);
+    byte_buffer_format(out, "```flitter\n%s%.*s\n```\n", kinds[name->kind], STR_ARGS(text));
+    const char *value = hover_value(server, document, name);
+    if (value)
+        byte_buffer_format(out, "= `%s`\n\n", value);
+    add_comment_above(out, document, start);
+    size_t behind = document_token_at(document, end);
+    if (!head && behind < document->token_count && document->tokens[behind].kind == PETRI_TOKEN_COMMENT &&
+        !memchr(document->text.data + end, '\n', document->tokens[behind].start - end)) {
+        Str comment = document_token(document, behind);
+        byte_buffer_add(out, comment.bytes + 2, comment.len - 2);
+    }
+}
+
+static void hover_name(ByteBuffer *out, const RequestContext *request, size_t token) {
+    const Document *document = request->document;
+    Str text = document_token(document, token);
+    const PetriBinding *name = document_name_at(document, document->tokens[token].start);
+    Workspace workspace;
+    workspace_open(&workspace, request->server, request->document, false);
+    BindingSet meant = workspace_resolve(&workspace, token);
+    if (meant.count > 0) {
+        hover_binding(out, request->server, workspace.documents[meant.items[0].file],
+                      workspace_name(&workspace, meant.items[0]));
+    }
+    workspace_close(&workspace);
+    if (meant.count > 0)
+        return;
+    const char *node = NULL;
+    size_t kind = !name && document_is(document, token + 1, "=") ? hover_node_of(document, token, &node) : SIZE_MAX;
+    PetriNodeAttribute attribute;
+    for (size_t k = 0; kind != SIZE_MAX && petri_node_attribute(kind, k, &attribute); k++) {
+        if (text_equals(text, attribute.name)) {
+            hover_attribute(out, &attribute);
+            byte_buffer_format(out, "\n\nof `!%s`", node);
+            return;
+        }
+    }
+    PetriBuiltin builtin;
+    if (hover_builtin(text, &builtin))
+        byte_buffer_format(out, "```flitter\n%s(%s)\n```\n%s", builtin.name, builtin.parameters, builtin.help);
+    else
+        hover_topic(out, text);
+}
+
+// A number with a suffix, or a time code, is not what it looks like.
+static void hover_number(ByteBuffer *out, Str text) {
+    SCOPED_TEXT copy = memory_strndup(text.bytes, text.len);
+    double x;
+    if (petri_parse_number(copy, &x))
+        byte_buffer_format(out, "= `%.17g`", x);
+}
+
+Json *answer_hover(const RequestContext *request, const char **problem) {
+    (void)problem;
+    Document *document = request->document;
+    size_t token = document_token_at(document, request->offset);
+    bool touches = token > 0 && document->tokens[token - 1].end == request->offset &&
+                   document->tokens[token - 1].kind != PETRI_TOKEN_OPERATOR; // the cursor is behind it
+    token -= touches ? 1 : 0;
+    if (token >= document->token_count || document->tokens[token].start > request->offset)
+        return NULL;
+    SCOPED_BYTE_BUFFER out = {0};
+    Str text = document_token(document, token);
+    switch (document->tokens[token].kind) {
+    case PETRI_TOKEN_NODE:
+        hover_kinds(&out, (Str){text.bytes + 1, text.len - 1});
+        break;
+    case PETRI_TOKEN_NAME:
+        hover_name(&out, request, token);
+        break;
+    case PETRI_TOKEN_NUMBER:
+        hover_number(&out, text);
+        break;
+    case PETRI_TOKEN_KEYWORD:
+        hover_topic(&out, text.bytes[0] == '%' ? (Str){text.bytes + 1, text.len - 1} : text);
+        break;
+    default:
+        hover_topic(&out, text);
+        break;
+    }
+    if (out.length == 0)
+        return NULL;
+    Json *result = json_put(json_object_new_object(), "contents", json_markdown(out.data));
+    return json_put(
+        result, "range",
+        document_range(document, document->tokens[token].start, document->tokens[token].end, request->server->utf8));
+}

@@ -1,0 +1,260 @@
+// inlay_hints.c: values of constants, colours, corrections, and the layout.
+#include "fmt/layout.h"
+#include "lsp/server.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_HINT = 40 };
+
+static Json *text_edit(const RequestContext *request, size_t start, size_t end, Str text) {
+    Json *range = document_range(request->document, start, end, request->server->utf8);
+    return json_put(json_put(json_object_new_object(), "range", range), "newText", json_from(text));
+}
+
+// Where in the text a position is that the editor asks for.
+static size_t position_offset(const RequestContext *request, const char *position) {
+    return document_offset(request->document, json_path(request->params, position), request->server->utf8);
+}
+
+// --- values of constants
+
+Json *answer_hints(const RequestContext *request, const char **problem) {
+    (void)problem;
+    Document *document = request->document;
+    size_t from = position_offset(request, "range.start"), to = position_offset(request, "range.end");
+    Json *list = json_object_new_array();
+    for (size_t i = 0; i < document->name_count; i++) {
+        const PetriBinding *name = &document->names[i];
+        if (name->kind != PETRI_NAME_LET || name->value_end < from || name->value_start > to)
+            continue;
+        const char *value = hover_value(request->server, document, name);
+        Str text = document_slice(document, name->value_start, name->value_end);
+        size_t first = document_token_at(document, name->value_start);
+        bool literal = first < document->token_count && document->tokens[first].end >= name->value_end;
+        if (!value || literal || strlen(value) > MAX_HINT || str_equal(text, str_from(value)))
+            continue;
+        SCOPED_BYTE_BUFFER label = {0};
+        byte_buffer_format(&label, "= %s", value);
+        Json *range = document_range(document, name->value_end, name->value_end, request->server->utf8);
+        Json *item = json_put(json_object_new_object(), "position", json_object_get(json_get(range, "end")));
+        json_object_put(range);
+        json_object_array_add(list, json_put_true(json_put_text(item, "label", label.data), "paddingLeft"));
+    }
+    return list;
+}
+
+// --- colours
+
+// Numbers with semicolons from a token on, up to `most`; *end is behind them.
+static size_t read_numbers(const Document *document, size_t token, double *numbers, size_t most, size_t *end) {
+    size_t count = 0;
+    for (size_t i = token; i < document->token_count && count < most; i += 2) {
+        Str text = document_token(document, i);
+        SCOPED_TEXT copy = memory_strndup(text.bytes, text.len);
+        if (document->tokens[i].kind != PETRI_TOKEN_NUMBER || !petri_parse_number(copy, &numbers[count]))
+            return 0;
+        count++;
+        *end = i;
+        if (!document_is(document, i + 1, ";"))
+            break;
+    }
+    return document_is(document, *end + 1, ";") ? 0 : count;
+}
+
+static double clamp_unit(double x) {
+    return x > 0 ? (x < 1 ? x : 1) : 0;
+}
+
+static void from_hsv(const double *hsv, double *rgb) {
+    for (int i = 0; i < 3; i++) {
+        double k = fmod(5 - 2 * i + (hsv[0] - floor(hsv[0])) * 6, 6), least = k < 4 - k ? k : 4 - k;
+        rgb[i] = clamp_unit(hsv[2]) * (1 - clamp_unit(hsv[1]) * clamp_unit(least));
+    }
+}
+
+static void to_hsv(const double *rgb, double *hsv) {
+    double most = fmax(rgb[0], fmax(rgb[1], rgb[2])), spread = most - fmin(rgb[0], fmin(rgb[1], rgb[2]));
+    double hue = spread <= 0      ? 0
+                 : most == rgb[0] ? (rgb[1] - rgb[2]) / spread + 6
+                 : most == rgb[1] ? (rgb[2] - rgb[0]) / spread + 2
+                                  : (rgb[0] - rgb[1]) / spread + 4;
+    hsv[0] = fmod(hue, 6) / 6;
+    hsv[1] = most > 0 ? spread / most : 0;
+    hsv[2] = most;
+}
+
+static void add_colour(const RequestContext *request, Json *list, size_t first, size_t last, const double *rgb,
+                       double alpha) {
+    static const char *const names[] = {"red", "green", "blue"};
+    const Document *document = request->document;
+    Json *colour = json_put(json_object_new_object(), "alpha", json_object_new_double(clamp_unit(alpha)));
+    for (int i = 0; i < 3; i++)
+        json_put(colour, names[i], json_object_new_double(clamp_unit(rgb[i])));
+    Json *range =
+        document_range(document, document->tokens[first].start, document->tokens[last].end, request->server->utf8);
+    json_object_array_add(list, json_put(json_put(json_object_new_object(), "range", range), "color", colour));
+}
+
+Json *answer_colours(const RequestContext *request, const char **problem) {
+    (void)problem;
+    const Document *document = request->document;
+    Json *list = json_object_new_array();
+    for (size_t i = 0; i + 2 < document->token_count; i++) {
+        double numbers[4] = {0, 0, 0, 1}, rgb[3];
+        size_t end = 0, count;
+        bool hsv = document_is(document, i, "hsv"), call = hsv || document_is(document, i, "rgb");
+        if (call && document_is(document, i + 1, "(")) {
+            count = read_numbers(document, i + 2, numbers, 3, &end);
+            if (count == 3 && document_is(document, end + 1, ")")) {
+                from_hsv(numbers, rgb);
+                add_colour(request, list, i, end + 1, hsv ? rgb : numbers, 1);
+            }
+        } else if (document_is(document, i, "color") && document_is(document, i + 1, "=")) {
+            count = read_numbers(document, i + 2, numbers, 4, &end);
+            if (count >= 3)
+                add_colour(request, list, i + 2, end, numbers, numbers[3]);
+        }
+    }
+    return list;
+}
+
+Json *answer_presentations(const RequestContext *request, const char **problem) {
+    (void)problem;
+    static const char *const names[] = {"red", "green", "blue"};
+    const Document *document = request->document;
+    size_t start = position_offset(request, "range.start"), end = position_offset(request, "range.end");
+    const Json *colour = json_get(request->params, "color");
+    double rgb[3], hsv[3], alpha = json_object_get_double(json_get(colour, "alpha"));
+    for (int i = 0; i < 3; i++)
+        rgb[i] = json_object_get_double(json_get(colour, names[i]));
+    to_hsv(rgb, hsv);
+    Str text = document_slice(document, start, end);
+    bool is_hsv = str_starts_with(text, STR("hsv")), call = is_hsv || str_starts_with(text, STR("rgb"));
+    SCOPED_BYTE_BUFFER label = {0};
+    const double *numbers = is_hsv ? hsv : rgb;
+    byte_buffer_format(&label, "%.*s%s", call ? 3 : 0, text.bytes, call ? "(" : "");
+    for (int i = 0; i < 3; i++)
+        byte_buffer_format(&label, "%s%g", i == 0 ? "" : ";", round(numbers[i] * 1000) / 1000);
+    if (call)
+        byte_buffer_add_text(&label, ")");
+    else if (alpha < 1)
+        byte_buffer_format(&label, ";%g", round(alpha * 1000) / 1000);
+    Json *item = json_put_text(json_object_new_object(), "label", label.data), *list = json_object_new_array();
+    json_put(item, "textEdit", text_edit(request, start, end, (Str){label.data, label.length}));
+    json_object_array_add(list, item);
+    return list;
+}
+
+// --- corrections
+
+// What is meant, of "did you mean 'X'?" or "did you mean X?"; empty if nothing is said.
+static Str suggested_word(const char *text) {
+    static const char question[] = "did you mean ";
+    const char *at = strstr(text, question);
+    if (!at)
+        return (Str){0};
+    at += strlen(question);
+    at += *at == '\'';
+    return (Str){at, strcspn(at, "'?")};
+}
+
+// The first word in quotes.
+static Str quoted_word(const char *text) {
+    const char *open = strchr(text, '\''), *close = !open ? NULL : strchr(open + 1, '\'');
+    return !close ? (Str){0} : (Str){open + 1, (size_t)(close - open - 1)};
+}
+
+// Where the wrong word stands in what is meant by a diagnostic.
+static bool find_invalid_word(const Document *document, const DocumentDiagnostic *diagnostic, Str meant, size_t *start,
+                              size_t *end) {
+    Str part = document_slice(document, diagnostic->start, diagnostic->end), wrong = quoted_word(diagnostic->text);
+    for (size_t i = 0; wrong.len > 0 && i + wrong.len <= part.len; i++) {
+        if (memcmp(part.bytes + i, wrong.bytes, wrong.len) == 0) {
+            *start = diagnostic->start + i;
+            *end = *start + wrong.len;
+            return true;
+        }
+    }
+    size_t token = document_token_at(document, diagnostic->start);
+    bool node = token < document->token_count && document->tokens[token].kind == PETRI_TOKEN_NODE;
+    if (node && meant.bytes[0] == '!') {
+        *start = document->tokens[token].start;
+        *end = document->tokens[token].end;
+    }
+    return node && meant.bytes[0] == '!';
+}
+
+// Hints that say what to write instead of all that is meant.
+static Str replacement_of(const char *hint) {
+    static const char *const forms[] = {"a node is written ", "to compare write "};
+    for (size_t i = 0; i < sizeof forms / sizeof forms[0]; i++) {
+        if (strncmp(hint, forms[i], strlen(forms[i])) == 0) {
+            const char *word = hint + strlen(forms[i]);
+            return (Str){word, strcspn(word, " ,;")};
+        }
+    }
+    return (Str){0};
+}
+
+static void add_action(const RequestContext *request, Json *list, const DocumentDiagnostic *diagnostic) {
+    size_t start = diagnostic->start, end = diagnostic->end;
+    Str meant = suggested_word(diagnostic->hint);
+    meant = meant.len > 0 ? meant : suggested_word(diagnostic->text);
+    if (meant.len > 0) {
+        if (!find_invalid_word(request->document, diagnostic, meant, &start, &end))
+            return;
+    } else if ((meant = replacement_of(diagnostic->hint)).len == 0) {
+        return;
+    }
+    SCOPED_BYTE_BUFFER title = {0};
+    byte_buffer_format(&title, "write %.*s", STR_ARGS(meant));
+    Json *edits = json_object_new_array(), *item = json_put_text(json_object_new_object(), "title", title.data);
+    json_object_array_add(edits, text_edit(request, start, end, meant));
+    Json *changes = json_put(json_object_new_object(), request->document->uri, edits);
+    json_put_true(json_put_text(item, "kind", "quickfix"), "isPreferred");
+    json_object_array_add(list, json_put(item, "edit", json_put(json_object_new_object(), "changes", changes)));
+}
+
+Json *answer_actions(const RequestContext *request, const char **problem) {
+    (void)problem;
+    Document *document = request->document;
+    size_t from = position_offset(request, "range.start"), to = position_offset(request, "range.end");
+    Json *list = json_object_new_array();
+    if (document->unchecked)
+        diagnostics_publish(request->server, document);
+    for (size_t i = 0; i < document->diagnostic_count; i++)
+        if (document->diagnostics[i].start <= to && document->diagnostics[i].end >= from)
+            add_action(request, list, &document->diagnostics[i]);
+    return list;
+}
+
+// --- layout
+
+// One edit, of the lines that change. A script with errors stays as it is.
+Json *answer_format(const RequestContext *request, const char **problem) {
+    (void)problem;
+    const Document *document = request->document;
+    PetriSession *session = request->server->session;
+    Str text = {document->text.data, document->text.length};
+    SCOPED_BYTE_BUFFER out = {0};
+    if (!session || !layout_text(session, text, &out) ||
+        !layout_same(session, document->path, text, (Str){out.data, out.length}))
+        return NULL;
+    size_t start = 0, end = 0, most = text.len < out.length ? text.len : out.length;
+    while (start < most && text.bytes[start] == out.data[start])
+        start++;
+    while (start > 0 && text.bytes[start - 1] != '\n')
+        start--;
+    while (end < most - start && text.bytes[text.len - 1 - end] == out.data[out.length - 1 - end])
+        end++;
+    while (end > 0 && text.bytes[text.len - end] != '\n')
+        end--;
+    Json *edits = json_object_new_array();
+    if (text.len != out.length || start + end < text.len) {
+        json_object_array_add(
+            edits, text_edit(request, start, text.len - end, (Str){out.data + start, out.length - end - start}));
+    }
+    return edits;
+}

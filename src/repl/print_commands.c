@@ -1,0 +1,278 @@
+// print_commands.c: what a frame holds, as text: state, nodes, particles, and expressions that are watched.
+#include "cli/motion.h"
+#include "cli/text_table.h"
+#include "repl/repl.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { RESERVED_LINES = 3 }; // lines of the screen that a long output leaves: the command, the closing line, the prompt
+
+// Looks through the lines of a section of the frame's text.
+typedef struct Filter {
+    Repl *repl;
+    const char *wanted;
+    size_t depth; // of the node whose subtree is being written, SIZE_MAX outside
+    size_t found;
+    size_t lines; // that were to be written, of which the first `most` are
+    size_t max_lines;
+    void (*handle_line)(struct Filter *filter, const char *line, size_t length);
+} Filter;
+
+static bool collect_unless_stopped(void *bytes, const char *text, size_t length) {
+    return byte_buffer_collect(bytes, text, length) && !repl_interrupted();
+}
+
+// Writes a section through a filter; returns how much it has found.
+static size_t print_filtered(Repl *repl, unsigned section, Filter *filter) {
+    SCOPED_BYTE_BUFFER text = {0};
+    Str line;
+    size_t at = 0;
+    filter->depth = SIZE_MAX;
+    repl_busy(repl);
+    petri_print(repl->session, section, collect_unless_stopped, &text);
+    byte_buffer_next_line(&text, &at, &line); // the frame's `@` line
+    while (byte_buffer_next_line(&text, &at, &line) && filter->repl->output.error == 0 && !repl_interrupted())
+        filter->handle_line(filter, line.bytes, line.len + 1);
+    repl_idle(repl);
+    return filter->found;
+}
+
+static void write_line(Filter *filter, const char *line, size_t length) {
+    if (filter->lines++ < filter->max_lines)
+        output_write(&filter->repl->output, line, length);
+}
+
+// What was left out, and how it is seen: `asked` is what was typed, without a number of lines.
+static void note_remaining(const Filter *filter, const char *command, const char *asked) {
+    if (filter->lines > filter->max_lines) {
+        repl_note(filter->repl, "%zu more lines; %s%s%s all shows all", filter->lines - filter->max_lines, command,
+                  asked[0] == '\0' ? "" : " ", asked);
+    }
+}
+
+// `$:cells = …` and `$(:cells;0) = …` are both under `:cells`, and under `$:cells`, `(:cells)` and `cells` as well.
+static void filter_entry(Filter *filter, const char *line, size_t length) {
+    const char *key = line + 1 + (line[1] == '(');
+    key += key[0] == ':' && filter->wanted[0] != ':';
+    size_t wanted = strlen(filter->wanted), rest = length - (size_t)(key - line);
+    bool under = wanted == 0 || (rest > wanted && memcmp(key, filter->wanted, wanted) == 0 &&
+                                 (key[wanted] == ';' || key[wanted] == ')' || key[wanted] == ' '));
+    if (under) {
+        filter->found++;
+        write_line(filter, line, length);
+    }
+}
+
+static bool run_state(Repl *repl, const char *rest) {
+    SCOPED_TEXT asked = memory_strdup(rest);
+    // A number alone is a key.
+    bool counted = strpbrk(asked, " \t") || strcmp(asked, "all") == 0;
+    size_t most = argument_lines(repl, counted ? asked : (char[]){""}, RESERVED_LINES);
+    const char *prefix = asked + (asked[0] == '$');
+    bool enclosed = prefix[0] == '(';
+    size_t length = strlen(prefix) - enclosed;
+    length -= enclosed && length > 0 && prefix[length] == ')';
+    SCOPED_TEXT wanted = memory_strndup(prefix + enclosed, length);
+    Filter filter = {.wanted = wanted, .repl = repl, .handle_line = filter_entry, .max_lines = most};
+    if (print_filtered(repl, PETRI_PRINT_STATE, &filter) == 0)
+        repl_note(repl, wanted[0] == '\0' ? "the state is empty" : "nothing in the state is under %s", wanted);
+    note_remaining(&filter, ".state", asked);
+    return true;
+}
+
+static void filter_node(Filter *filter, const char *line, size_t length) {
+    size_t depth = strspn(line, " "), wanted = strlen(filter->wanted);
+    if (filter->depth == SIZE_MAX || depth <= filter->depth) {
+        const char *kind = line + depth + 1;
+        bool same = wanted == 0 || (strncmp(kind, filter->wanted, wanted) == 0 && strchr(" \n", kind[wanted]));
+        filter->depth = same ? depth : SIZE_MAX;
+        filter->found += same;
+    }
+    if (filter->depth != SIZE_MAX) {
+        size_t cut = wanted == 0 ? 0 : filter->depth;
+        write_line(filter, line + cut, length - cut);
+    }
+}
+
+static bool run_tree(Repl *repl, const char *rest) {
+    SCOPED_TEXT asked = memory_strdup(rest);
+    size_t most = argument_lines(repl, asked, RESERVED_LINES);
+    const char *kind = asked + (asked[0] == '!');
+    repl_busy(repl);
+    PetriStatus status = petri_preview(repl->session);
+    repl_idle(repl);
+    Filter filter = {.repl = repl, .wanted = kind, .handle_line = filter_node, .max_lines = most};
+    if (status == PETRI_OK && print_filtered(repl, PETRI_PRINT_TREE, &filter) == 0)
+        repl_note(repl, kind[0] == '\0' ? "the frame has no nodes" : "the frame has no node !%s", kind);
+    note_remaining(&filter, ".tree", asked);
+    return repl_status(repl, status);
+}
+
+static bool matches_name(const char *name, const char *wanted) {
+    return wanted[0] == '\0' || strcmp(name, wanted) == 0 || (name[0] == ':' && strcmp(name + 1, wanted) == 0);
+}
+
+// What a table is asked for.
+typedef struct SystemRequest {
+    const char *system; // "": all of them
+    size_t max_lines;   // rows of each
+} SystemRequest;
+
+// Calls `show` for each system that is meant.
+static bool print_systems(Repl *repl, const SystemRequest *request,
+                          void (*show)(Repl *, size_t, const PetriSystem *, const SystemRequest *)) {
+    PetriSystem system;
+    const char *wanted = request->system;
+    size_t count = 0, shown = 0;
+    repl_complete_frame(repl);
+    for (; petri_system(repl->session, count, &system); count++) {
+        if (matches_name(system.name, wanted)) {
+            show(repl, count, &system, request);
+            shown++;
+        }
+    }
+    if (count == 0) {
+        repl_note(repl, petri_frame(repl->session).number < 0
+                            ? "there are no particles before the first frame; .step makes it"
+                            : "no particle system was updated in this frame");
+    } else if (shown == 0) {
+        return repl_fail(repl, "there is no system '%.40s'", wanted);
+    }
+    return true;
+}
+
+static void add_vector(TextTable *table, const double *vector, uint32_t dimensions) {
+    SCOPED_BYTE_BUFFER cell = {0};
+    for (uint32_t k = 0; k < dimensions && vector; k++)
+        byte_buffer_format(&cell, "%s%.6g", k == 0 ? "" : ";", vector[k]);
+    text_table_add(table, !vector ? "-" : cell.data);
+}
+
+static void add_number(TextTable *table, double x) {
+    add_vector(table, &x, 1);
+}
+
+static const double *particle_row(PetriColumn column, uint32_t particle) {
+    return !column.data ? NULL : column.data + particle * column.stride;
+}
+
+static bool is_anchor(const PetriSystem *system, uint32_t particle) {
+    return system->anchor[particle * system->anchor_stride];
+}
+
+static uint32_t count_anchors(const PetriSystem *system) {
+    uint32_t anchors = 0;
+    for (uint32_t i = 0; i < system->particle_count; i++)
+        anchors += is_anchor(system, i);
+    return anchors;
+}
+
+static void print_particles(Repl *repl, size_t number, const PetriSystem *system, const SystemRequest *request) {
+    SCOPED_TEXT_TABLE table = text_table_new(5);
+    uint32_t anchors = count_anchors(system), moving = system->particle_count - anchors;
+    output_format(&repl->output, "%s: %" PRIu32 " particle%s", system->name, moving, moving == 1 ? "" : "s");
+    if (anchors > 0)
+        output_format(&repl->output, ", %" PRIu32 " anchor%s", anchors, anchors == 1 ? "" : "s");
+    output_write(&repl->output, "\n", 1);
+    const char *const heads[] = {"id", "position", "velocity", "speed", "force"};
+    for (size_t i = 0; i < 5; i++)
+        text_table_add(&table, heads[i]);
+    for (uint32_t i = 0; i < request->max_lines && i < system->particle_count; i++) {
+        const char *id = petri_format_value(repl->session, petri_particle_id(repl->session, number, i));
+        text_table_add(&table, !id ? "" : id);
+        add_vector(&table, particle_row(system->position, i), system->dimensions);
+        add_vector(&table, particle_row(system->velocity, i), system->dimensions);
+        add_number(&table, particle_speed(system, i));
+        if (is_anchor(system, i))
+            text_table_add(&table, "anchor");
+        else
+            add_vector(&table, particle_row(system->force, i), system->dimensions);
+    }
+    text_table_write(&table, &repl->output);
+    if (system->particle_count > request->max_lines) {
+        repl_note(repl, "%zu more; .particles%s%s all shows all", system->particle_count - request->max_lines,
+                  request->system[0] == '\0' ? "" : " ", request->system);
+    }
+}
+
+static bool run_particles(Repl *repl, const char *rest) {
+    enum {
+        RESERVED_TABLE_LINES = 5
+    }; // lines of the screen beside the rows: command, title, heads, closing line, prompt
+    SCOPED_TEXT system = memory_strdup(rest);
+    SystemRequest request = {.system = system, .max_lines = argument_lines(repl, system, RESERVED_TABLE_LINES)};
+    bool good = print_systems(repl, &request, print_particles);
+    return good;
+}
+
+static void print_energy(Repl *repl, size_t number, const PetriSystem *system, const SystemRequest *request) {
+    (void)request;
+    Motion motion = motion_measure(system);
+    output_format(&repl->output, "%s: %" PRIu32 " particle%s, %" PRIu64 " step%s\n", system->name, motion.moving,
+                  motion.moving == 1 ? "" : "s", system->steps, system->steps == 1 ? "" : "s");
+    if (motion.moving > 0) {
+        SCOPED_BYTE_BUFFER fastest = {0};
+        SCOPED_TEXT_TABLE table = text_table_new(2);
+        text_table_add(&table, "  kinetic energy");
+        add_number(&table, motion.kinetic_energy);
+        text_table_add(&table, "  momentum");
+        add_vector(&table, motion.momentum, system->dimensions);
+        text_table_add(&table, "  fastest");
+        const char *id =
+            petri_format_value(repl->session, petri_particle_id(repl->session, number, motion.fastest_particle));
+        byte_buffer_format(&fastest, "%s at %.6g", !id ? "" : id, motion.fastest);
+        text_table_add(&table, fastest.data);
+        text_table_write(&table, &repl->output);
+    }
+    motion_free(&motion);
+}
+
+static bool run_energy(Repl *repl, const char *wanted) {
+    return print_systems(repl, &(SystemRequest){.system = wanted}, print_energy);
+}
+
+static bool run_watch(Repl *repl, const char *rest) {
+    PetriEvaluation result;
+    for (size_t i = 0; i < repl->watched.count && rest[0] == '\0'; i++)
+        repl_note(repl, "%s", repl->watched.items[i]);
+    if (rest[0] == '\0')
+        return true;
+    SCOPED_BYTE_BUFFER value = {0};
+    if (!repl_status(repl,
+                     petri_evaluate(repl->session, rest, PETRI_NUL_TERMINATED, &result, byte_buffer_collect, &value)))
+        return false;
+    output_format(&repl->output, "%s = %s\n", rest, value.data);
+    if (!texts_contain(&repl->watched, rest)) // once is enough
+        texts_add(&repl->watched, rest);
+    return true;
+}
+
+static bool run_unwatch(Repl *repl, const char *rest) {
+    size_t kept = 0, count = repl->watched.count;
+    for (size_t i = 0; i < count; i++)
+        if (rest[0] == '\0' || strcmp(rest, repl->watched.items[i]) == 0)
+            free(repl->watched.items[i]);
+        else
+            repl->watched.items[kept++] = repl->watched.items[i];
+    repl->watched.count = kept;
+    return rest[0] == '\0' || kept < count || repl_fail(repl, "'%s' is not watched", rest);
+}
+
+const ReplCommand PRINT_COMMANDS[] = {
+    {".state", "[KEY] [N|all]", NULL, "print the state, or the part of it under a key such as :cells; N lines of it",
+     run_state, COMPLETE_KEYS},
+    {".tree", "[KIND] [N|all]", NULL, "print the frame's nodes, or those of a kind", run_tree, COMPLETE_KINDS},
+    {".particles", "[SYSTEM] [N|all]", NULL, "print particles as a table: id, position, velocity, speed, force",
+     run_particles, COMPLETE_SYSTEMS},
+    {".energy", "[SYSTEM]", NULL, "print kinetic energy, momentum and the fastest particle of each system", run_energy,
+     COMPLETE_SYSTEMS},
+    {".watch", "[EXPR]", NULL, "print the expression after each step; alone, list what is watched", run_watch,
+     COMPLETE_LANGUAGE},
+    {".unwatch", "[EXPR]", NULL, "watch it no more; alone, nothing any more", run_unwatch, COMPLETE_LANGUAGE},
+    {0},
+};

@@ -1,0 +1,344 @@
+// live_script.c: see live_script.h.
+#include "view/live_script.h"
+
+#include "cli/parameters.h"
+#include "cli/script.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { MAX_LOG = 1 << 16, MAX_ERROR_TEXT = 4000, MAX_WARNINGS = 3500 };
+
+static void log_text(LiveScript *live, const char *text) {
+    if (!live->hold_messages)
+        fputs(text, stderr);
+    else if (live->log.length < MAX_LOG)
+        byte_buffer_add_text(&live->log, text);
+}
+
+static void warnings_add(Warnings *warnings, const PetriDiagnostic *diagnostic) {
+    warnings->count += diagnostic->level == PETRI_NOTE ? 0 : 1;
+    if (warnings->text.length < MAX_WARNINGS)
+        byte_buffer_add_text(&warnings->text, diagnostic->rendered);
+}
+
+static void warnings_clear(Warnings *warnings) {
+    byte_buffer_free(&warnings->text);
+    *warnings = (Warnings){0};
+}
+
+static void on_diagnostic(void *context, const PetriDiagnostic *diagnostic) {
+    LiveScript *live = context;
+    live->invalid_definition = live->invalid_definition || is_invalid_definition(diagnostic);
+    if (diagnostic->level != PETRI_NOTE) // notes belong to the diagnostic before them
+        live->shown = diagnostic->level == PETRI_ERROR || live->options->verbosity > LOG_QUIET;
+    if (live->shown) {
+        log_text(live, diagnostic->rendered);
+        warnings_add(&live->warnings, diagnostic);
+    }
+    if (diagnostic->level == PETRI_ERROR && live->error_text.length < MAX_ERROR_TEXT)
+        byte_buffer_add_text(&live->error_text, diagnostic->rendered);
+}
+
+static void clear_error_text(LiveScript *live) {
+    byte_buffer_free(&live->error_text);
+}
+
+static void truncate_error_text(LiveScript *live, size_t length) {
+    if (live->error_text.length > length) {
+        live->error_text.length = length;
+        live->error_text.data[length] = '\0';
+    }
+}
+
+const char *live_script_error_text(const LiveScript *live) {
+    return live->error_text.length > 0 ? live->error_text.data : "";
+}
+
+// Puts a line before what is wrong, if anything is.
+static void prefix_error_text(LiveScript *live, const char *line) {
+    ByteBuffer whole = {0};
+    byte_buffer_format(&whole, "%s\n%s", line, live_script_error_text(live));
+    byte_buffer_free(&live->error_text);
+    live->error_text = whole;
+}
+
+// The script, and what it includes and imports as far as that is known.
+static void watch_sources(LiveScript *live) {
+    const char *source;
+    file_watch_add(live->watch, live->options->script);
+    for (size_t i = 0; (source = petri_source_file(live->session, i)); i++)
+        file_watch_add(live->watch, source);
+}
+
+static int load_initial(LiveScript *live) {
+    PetriStatus status = script_load(live->session, live->options->script);
+    if (status != PETRI_OK)
+        return live->invalid_definition ? STATUS_USAGE : STATUS_FAILED;
+    state_file_restore(&live->state, live->session, live->options->state_file);
+    return OPTIONS_READ;
+}
+
+int live_script_open(LiveScript *live, const CommandContext *host, const Options *options) {
+    live->options = options;
+    live->detail = 1;
+    int status = options_open(options, host, on_diagnostic, live, &live->session);
+    if (status != OPTIONS_READ)
+        return status;
+    live->watch = file_watch_new();
+    live->painter = petri_painter_open();
+    watch_sources(live);
+    if (!live->painter) {
+        message("out of memory");
+        return STATUS_FAILED;
+    }
+    status = load_initial(live);
+    clear_error_text(live);
+    return status;
+}
+
+void live_script_close(LiveScript *live) {
+    if (!recording_end(&live->recording, false)) {
+        message("%s", live->recording.error_text);
+        live->failed = true;
+    }
+    recording_free(&live->recording);
+    petri_picture_free(&live->picture);
+    petri_painter_close(&live->painter);
+    history_free(&live->history);
+    petri_close(&live->session);
+    file_watch_free(live->watch);
+    byte_buffer_free(&live->log);
+    byte_buffer_free(&live->error_text);
+    warnings_clear(&live->warnings);
+}
+
+bool live_script_check_drawn(LiveScript *live, PetriStatus status) {
+    if (status == PETRI_OUT_OF_MEMORY && !live->memory_reported) {
+        log_text(live, "petri: out of memory: a picture could not be drawn\n");
+        live->memory_reported = live->failed = true;
+    }
+    return status == PETRI_OK;
+}
+
+// Files that the script's `!record` nodes name.
+static void record_frame(LiveScript *live) {
+    if (live->awaits_display)
+        return;
+    live->recording.fps = petri_frame(live->session).fps;
+    if (petri_picture_needs_history(live->picture) && !recording_add(&live->recording, live->picture, live->painter))
+        live->failed = true;
+    petri_picture_report(live->session, live->picture);
+}
+
+static PetriPictureOptions picture_options(const LiveScript *live) {
+    PetriPictureOptions options = petri_default_picture_options();
+    options.automatic = live->options->automatic ? PETRI_AUTO_ALWAYS : PETRI_AUTO_IF_NEEDED;
+    return options;
+}
+
+// Of an early frame, unless there is a picture that can stay for so long, only the size is wanted.
+static void update_picture(LiveScript *live) {
+    PetriPictureOptions options = picture_options(live);
+    options.detail = live->detail;
+    live->before_first_picture = !petri_picture_ready(live->session, &options);
+    if (live->before_first_picture && live->picture)
+        return;
+    live->picture_hidden = live->before_first_picture;
+    petri_picture_free(&live->picture);
+    PetriStatus status = petri_picture(live->session, &options, &live->picture);
+    if (live_script_check_drawn(live, status) && !live->before_first_picture)
+        record_frame(live);
+}
+
+void world_set_detail(LiveScript *live, double detail) {
+    bool changed = detail != live->detail;
+    live->detail = detail;
+    // A picture that looks back is made once, in full detail.
+    if (changed && live->picture && !live->before_first_picture && !petri_picture_needs_history(live->picture))
+        update_picture(live);
+}
+
+void live_script_begin(LiveScript *live) {
+    live->awaits_display = false;
+    if (live->picture && !live->before_first_picture)
+        record_frame(live);
+}
+
+bool live_script_step(LiveScript *live) {
+    size_t before = live->error_text.length;
+    PetriStatus status = live->keeps_history ? history_step(&live->history, live->session) : petri_step(live->session);
+    PetriFrame frame = petri_frame(live->session);
+    if (status != PETRI_OK) {
+        char line[100];
+        snprintf(line, sizeof line, "stopped in frame %" PRId64 "%s", frame.number,
+                 status == PETRI_OUT_OF_MEMORY ? ": out of memory" : "");
+        log_text(live, "petri: ");
+        log_text(live, line);
+        log_text(live, "\n");
+        prefix_error_text(live, line);
+        live->halted = true;
+        return false;
+    }
+    watch_sources(live); // modules are imported by frames
+    update_picture(live);
+    live->frames += live->before_first_picture ? 0 : 1;
+    truncate_error_text(live, before); // faults of a frame that went on are told on standard error, as in a run
+    if (live->options->verbosity >= LOG_DEBUG) {
+        char line[200];
+        snprintf(line, sizeof line, "petri: frame %" PRId64 ": script %.3f ms, physics %.3f ms, %" PRIu64 " steps\n",
+                 frame.number, frame.evaluation_seconds * 1e3, frame.physics_seconds * 1e3, frame.physics_steps);
+        log_text(live, line);
+    }
+    return true;
+}
+
+// After an attempt to load: what it said counts if it went well, what was said before if not.
+static void choose_warnings(LiveScript *live, Warnings *before, bool loaded) {
+    if (loaded) {
+        warnings_clear(before);
+    } else {
+        warnings_clear(&live->warnings);
+        live->warnings = *before;
+    }
+}
+
+bool live_script_reload(LiveScript *live) {
+    if (!file_watch_changed(live->watch))
+        return false;
+    Warnings before = live->warnings;
+    live->warnings = (Warnings){0};
+    clear_error_text(live);
+    bool loaded = petri_reload(live->session, live->options->script) == PETRI_OK;
+    choose_warnings(live, &before, loaded);
+    if (loaded) {
+        live->halted = live->broken = false;
+        watch_sources(live);
+        clear_error_text(live); // of a load that went well, errors are only warnings to the eye
+    } else {
+        live->broken = true;
+        prefix_error_text(live, "The script was changed but cannot be loaded. The last good version is running.");
+    }
+    petri_resync_clock(live->session);
+    return true;
+}
+
+bool live_script_set_parameter(LiveScript *live, const char *name, const char *value) {
+    size_t before = live->error_text.length;
+    Warnings known = live->warnings;
+    live->warnings = (Warnings){0};
+    bool done = petri_set_parameter(live->session, name, value) == PETRI_OK;
+    choose_warnings(live, &known, done);
+    if (done) {
+        live->halted = false;
+        truncate_error_text(live, live->broken ? before : 0);
+    }
+    petri_resync_clock(live->session);
+    return done;
+}
+
+bool live_script_enable_history(LiveScript *live) {
+    live->history.live = live->options->realtime;
+    live->keeps_history = history_start(&live->history, live->session, NULL);
+    if (!live->keeps_history)
+        message("out of memory");
+    return live->keeps_history;
+}
+
+bool live_script_go_back(LiveScript *live, int64_t count, ByteBuffer *why) {
+    int64_t now = petri_frame(live->session).number, first = live->history.first + 1;
+    if (now <= first) {
+        byte_buffer_format(why, "there is nothing to go back to: %s",
+                           !live->history.why ? "this is the start" : live->history.why);
+        return false;
+    }
+    PetriStatus status = history_goto(&live->history, live->session, count < now - first ? now - count : first, why);
+    if (status == PETRI_OK) {
+        live->halted = false;
+        update_picture(live);
+    } else if (why->length == 0) {
+        byte_buffer_add_text(why, petri_status_text(status));
+    }
+    petri_resync_clock(live->session);
+    return status == PETRI_OK;
+}
+
+void live_script_reset(LiveScript *live) {
+    petri_reset(live->session);
+    if (live->keeps_history)
+        history_start(&live->history, live->session, NULL);
+    live->halted = false;
+    if (!live->broken)
+        clear_error_text(live);
+}
+
+// The script's name without folders and suffix.
+static void base_name(const char *script, char *name, size_t size) {
+    const char *slash = strrchr(script, '/');
+    snprintf(name, size, "%s", !slash ? script : slash + 1);
+    char *dot = strrchr(name, '.');
+    if (dot && dot != name)
+        *dot = '\0';
+}
+
+// Writes the last frame's picture, in full detail.
+static bool save_picture(LiveScript *live, const char *name) {
+    PetriPictureOptions options = picture_options(live);
+    PetriPicture *full = NULL;
+    if (live->detail < 1 && petri_frame(live->session).number == petri_picture_frame(live->picture))
+        petri_picture(live->session, &options, &full);
+    PetriPicture *picture = full ? full : live->picture;
+    bool saved = petri_picture_save(picture, live->painter, name) == PETRI_OK;
+    petri_picture_report(live->session, picture);
+    petri_picture_free(&full);
+    return saved;
+}
+
+bool live_script_screenshot(LiveScript *live, char *name, size_t size) {
+    char base[200];
+    if (!live->picture || live->picture_hidden) {
+        snprintf(name, size, "a picture, for there is none");
+        return false;
+    }
+    base_name(live->options->script, base, sizeof base);
+    int64_t frame = petri_picture_frame(live->picture);
+    snprintf(name, size, "%s-%05" PRId64 ".png", base, frame);
+    for (int i = 2; access(name, F_OK) == 0; i++)
+        snprintf(name, size, "%s-%05" PRId64 "-%d.png", base, frame, i);
+    return save_picture(live, name);
+}
+
+void live_script_save(LiveScript *live, bool at_once) {
+    const char *news = state_file_save(&live->state, live->session, at_once);
+    if (news) {
+        log_text(live, "petri: ");
+        log_text(live, news);
+        log_text(live, "\n");
+    }
+}
+
+void live_script_release_messages(LiveScript *live) {
+    live->hold_messages = false;
+    if (live->log.length > 0)
+        fputs(live->log.data, stderr);
+    byte_buffer_free(&live->log);
+}
+
+void warnings_mark(const Warnings *warnings, char *text, size_t size) {
+    text[0] = '\0';
+    if (warnings->count > 0)
+        snprintf(text, size, "%d warning%s: w", warnings->count, warnings->count == 1 ? "" : "s");
+}
+
+void warnings_list(const Warnings *warnings, char *text, size_t size) {
+    if (warnings->count == 0) {
+        snprintf(text, size, "No warnings. w hides this.");
+        return;
+    }
+    snprintf(text, size, "%d warning%s. w hides this.\n%s%s", warnings->count, warnings->count == 1 ? "" : "s",
+             warnings->text.data, warnings->text.length < MAX_WARNINGS ? "" : "… more are on standard error.");
+}
