@@ -1,12 +1,12 @@
 // completion.c: completions for bash, zsh and fish, of the commands, their options and what these take.
 //
 // Each is the shell's own few lines, with the words of the tables between them.
-#include <stdio.h>
-#include <string.h>
-
 #include "cli/options.h"
 #include "packaging/packaging.h"
 #include "petri.h"
+
+#include <stdio.h>
+#include <string.h>
 
 static void write_text(Output *output, const char *text) {
     output_format(output, "%s", text);
@@ -14,28 +14,24 @@ static void write_text(Output *output, const char *text) {
 
 // Text within single quotes of a shell; `escaped` has the characters that take a backslash before them.
 static void write_quoted(Output *output, const char *text, const char *escaped) {
-    for (const char *c = text; *c != '\0'; c++) {
-        if (*c == '\'') {
+    for (const char *c = text; *c != '\0'; c++)
+        if (*c == '\'')
             write_text(output, "'\\''");
-        } else {
-            output_format(output, strchr(escaped, *c) != NULL ? "\\%c" : "%c", *c);
-        }
-    }
+        else
+            output_format(output, strchr(escaped, *c) ? "\\%c" : "%c", *c);
 }
 
 // The option's words, with something before and behind them.
-static void write_around(Output *output, const char *before, const OptionSpec *option, const char *behind) {
-    write_text(output, before);
-    for (int i = 0; option->words[i] != NULL; i++) {
+static void write_wrapped(Output *output, const char *prefix, const OptionSpec *option, const char *suffix) {
+    write_text(output, prefix);
+    for (int i = 0; option->words[i]; i++)
         output_format(output, i == 0 ? "%s" : " %s", option->words[i]);
-    }
-    write_text(output, behind);
+    write_text(output, suffix);
 }
 
 static void write_command_names(Output *output) {
-    for (size_t i = 0; COMMANDS[i] != NULL; i++) {
+    for (size_t i = 0; COMMANDS[i]; i++)
         output_format(output, i == 0 ? "%s" : " %s", COMMANDS[i]->name);
-    }
 }
 
 // What `petri help` tells of: commands, functions, nodes.
@@ -43,32 +39,28 @@ static void write_topics(Output *output) {
     write_text(output, "builtins nodes version ");
     write_command_names(output);
     PetriBuiltin builtin;
-    for (size_t i = 0; petri_builtin(i, &builtin); i++) {
+    for (size_t i = 0; petri_builtin(i, &builtin); i++)
         output_format(output, " %s", builtin.name);
-    }
     PetriNodeKind kind;
-    for (size_t i = 0; petri_node_kind(i, &kind); i++) {
+    for (size_t i = 0; petri_node_kind(i, &kind); i++)
         output_format(output, " %s", kind.name);
-    }
 }
 
 // `COMMAND --OPTION|COMMAND -O`, as a pattern of bash. Each shell takes what is no command for a script to run.
 static void write_bash_pattern(Output *output, const Command *command, const OptionSpec *option) {
     output_format(output, "    '%s --%s'", command->name, option->name);
-    if (option->letter != '\0') {
+    if (option->letter != '\0')
         output_format(output, " | '%s -%c'", command->name, option->letter);
-    }
     write_text(output, ") ");
 }
 
 static void write_bash_values(Output *output, const Command *command) {
-    for (const OptionSpec *option = NULL; (option = option_after(command, option)) != NULL;) {
-        if (option->value == NULL) {
+    for (const OptionSpec *option = NULL; (option = option_after(command, option));) {
+        if (!option->value)
             continue;
-        }
         write_bash_pattern(output, command, option);
-        if (option->words != NULL) {
-            write_around(output, option_takes(option, "LIST") ? "_petri_list '" : "_petri_words '", option, "'");
+        if (option->words) {
+            write_wrapped(output, option_takes(option, "LIST") ? "_petri_list '" : "_petri_words '", option, "'");
         } else {
             write_text(output, option_takes(option, "FILE")  ? "_petri_files -f"
                                : option_takes(option, "DIR") ? "_petri_files -d"
@@ -106,9 +98,8 @@ void completion_bash(Output *output) {
                        "    fi\n"
                        "    case $command in\n"
                        "    ");
-    for (size_t i = 0; COMMANDS[i] != NULL; i++) {
+    for (size_t i = 0; COMMANDS[i]; i++)
         output_format(output, "%s%s", i == 0 ? "" : " | ", COMMANDS[i]->name);
-    }
     write_text(output, ") ;;\n"
                        "    *) command=run ;;\n"
                        "    esac\n"
@@ -116,17 +107,15 @@ void completion_bash(Output *output) {
                        "        _petri_words '");
     write_command_names(output);
     write_text(output, "'\n        _petri_scripts\n        return\n    fi\n    case \"$command $previous\" in\n");
-    for (size_t i = 0; COMMANDS[i] != NULL; i++) {
+    for (size_t i = 0; COMMANDS[i]; i++)
         write_bash_values(output, COMMANDS[i]);
-    }
     write_text(output, "    'help help') _petri_words '");
     write_topics(output);
     write_text(output, "' ;;\n    *)\n        case $command in\n");
-    for (size_t i = 0; COMMANDS[i] != NULL; i++) {
+    for (size_t i = 0; COMMANDS[i]; i++) {
         output_format(output, "        %s) options='--help", COMMANDS[i]->name);
-        for (const OptionSpec *option = NULL; (option = option_after(COMMANDS[i], option)) != NULL;) {
+        for (const OptionSpec *option = NULL; (option = option_after(COMMANDS[i], option));)
             output_format(output, " --%s", option->name);
-        }
         write_text(output, "' ;;\n");
     }
     write_text(output, "        esac\n"
@@ -143,19 +132,18 @@ void completion_bash(Output *output) {
 
 static void write_zsh_option(Output *output, const OptionSpec *option) {
     output_format(output, "            ");
-    if (option->letter != '\0') {
+    if (option->letter != '\0')
         output_format(output, "{-%c+,--%s=}", option->letter, option->name);
-    } else {
-        output_format(output, "--%s%s", option->name, option->value == NULL ? "" : "=");
-    }
+    else
+        output_format(output, "--%s%s", option->name, !option->value ? "" : "=");
     write_text(output, "'[");
     write_quoted(output, option->help, "[]:\\");
     write_text(output, "]");
-    if (option->value != NULL) {
+    if (option->value) {
         output_format(output, ":%s:", option->value);
         bool list = option_takes(option, "LIST");
-        if (option->words != NULL) {
-            write_around(output, list ? "_values -s , LIST " : "(", option, list ? "" : ")");
+        if (option->words) {
+            write_wrapped(output, list ? "_values -s , LIST " : "(", option, list ? "" : ")");
         } else {
             write_text(output, option_takes(option, "FILE")  ? "_files"
                                : option_takes(option, "DIR") ? "_files -/"
@@ -173,7 +161,7 @@ void completion_zsh(Output *output) {
                        "    typeset -A opt_args\n"
                        "    local -a commands\n"
                        "    commands=(\n");
-    for (size_t i = 0; COMMANDS[i] != NULL; i++) {
+    for (size_t i = 0; COMMANDS[i]; i++) {
         output_format(output, "        '%s:", COMMANDS[i]->name);
         write_quoted(output, COMMANDS[i]->summary, ":\\");
         write_text(output, "'\n");
@@ -193,14 +181,12 @@ void completion_zsh(Output *output) {
                        "    help) compadd -- ");
     write_topics(output);
     write_text(output, " ;;\n");
-    for (size_t i = 0; COMMANDS[i] != NULL; i++) {
-        if (COMMANDS[i]->raw) {
+    for (size_t i = 0; COMMANDS[i]; i++) {
+        if (COMMANDS[i]->parses_arguments)
             continue;
-        }
         output_format(output, "    %s)\n        _arguments -s -S \\\n", COMMANDS[i]->name);
-        for (const OptionSpec *option = NULL; (option = option_after(COMMANDS[i], option)) != NULL;) {
+        for (const OptionSpec *option = NULL; (option = option_after(COMMANDS[i], option));)
             write_zsh_option(output, option);
-        }
         write_text(output, "            '--help[tell of the command and its options]' \\\n"
                            "            '*:script:_files -g \"*.fl\"'\n"
                            "        ;;\n");
@@ -216,14 +202,13 @@ void completion_zsh(Output *output) {
 
 static void write_fish_option(Output *output, const OptionSpec *option, const char *condition) {
     output_format(output, "complete -c petri -n '%s' -l %s", condition, option->name);
-    if (option->letter != '\0') {
+    if (option->letter != '\0')
         output_format(output, " -s %c", option->letter);
-    }
-    if (option->words != NULL && option_takes(option, "LIST")) {
-        write_around(output, " -x -a '(__fish_append , ", option, ")'");
-    } else if (option->words != NULL) {
-        write_around(output, " -x -a '", option, "'");
-    } else if (option->value != NULL) {
+    if (option->words && option_takes(option, "LIST")) {
+        write_wrapped(output, " -x -a '(__fish_append , ", option, ")'");
+    } else if (option->words) {
+        write_wrapped(output, " -x -a '", option, "'");
+    } else if (option->value) {
         write_text(output, option_takes(option, "FILE")  ? " -r -F"
                            : option_takes(option, "DIR") ? " -x -a '(__fish_complete_directories)'"
                                                          : " -x");
@@ -235,26 +220,25 @@ static void write_fish_option(Output *output, const OptionSpec *option, const ch
 
 void completion_fish(Output *output) {
     write_text(output, "# petri's completion for fish.\n");
-    for (size_t i = 0; COMMANDS[i] != NULL; i++) {
+    for (size_t i = 0; COMMANDS[i]; i++) {
         output_format(output, "complete -c petri -n __fish_use_subcommand -a %s -d '", COMMANDS[i]->name);
         write_quoted(output, COMMANDS[i]->summary, "\\");
         write_text(output, "'\n");
     }
-    for (size_t i = 0; COMMANDS[i] != NULL; i++) {
-        Bytes condition = {0};
+    for (size_t i = 0; COMMANDS[i]; i++) {
+        ByteBuffer condition = {0};
         if (COMMANDS[i] == &RUN_COMMAND) { // also where a script stands in the command's place
-            bytes_add_text(&condition, "not __fish_seen_subcommand_from");
-            for (size_t k = 0; COMMANDS[k] != NULL; k++) {
-                bytes_format(&condition, "%s%s", COMMANDS[k] == &RUN_COMMAND ? "" : " ",
-                             COMMANDS[k] == &RUN_COMMAND ? "" : COMMANDS[k]->name);
+            byte_buffer_add_text(&condition, "not __fish_seen_subcommand_from");
+            for (size_t k = 0; COMMANDS[k]; k++) {
+                byte_buffer_format(&condition, "%s%s", COMMANDS[k] == &RUN_COMMAND ? "" : " ",
+                                   COMMANDS[k] == &RUN_COMMAND ? "" : COMMANDS[k]->name);
             }
         } else {
-            bytes_format(&condition, "__fish_seen_subcommand_from %s", COMMANDS[i]->name);
+            byte_buffer_format(&condition, "__fish_seen_subcommand_from %s", COMMANDS[i]->name);
         }
-        for (const OptionSpec *option = NULL; (option = option_after(COMMANDS[i], option)) != NULL;) {
+        for (const OptionSpec *option = NULL; (option = option_after(COMMANDS[i], option));)
             write_fish_option(output, option, condition.data);
-        }
-        bytes_free(&condition);
+        byte_buffer_free(&condition);
     }
     write_text(output, "complete -c petri -l help -d 'tell of the command and its options'\n"
                        "complete -c petri -n '__fish_seen_subcommand_from help' -f -a '");

@@ -1,13 +1,13 @@
 // language.c: petri(5), what scripts are made of: words, functions and nodes, from the tables of the command and
 // libpetri.
-#include <stdio.h>
-#include <string.h>
-
-#include "cli/bytes.h"
+#include "cli/byte_buffer.h"
 #include "cli/help.h"
 #include "packaging/packaging.h"
 #include "packaging/roff.h"
 #include "petri.h"
+
+#include <stdio.h>
+#include <string.h>
 
 static const char DESCRIPTION[] = "A script describes one frame, and is evaluated from its first line to its last for "
                                   "every frame. It yields a tree of "
@@ -26,7 +26,7 @@ static const char DESCRIPTION[] = "A script describes one frame, and is evaluate
                                   "state, which the next frame reads with $.";
 
 static void write_words(Output *output) {
-    for (const Topic *topic = TOPICS; topic->word != NULL; topic++) {
+    for (const Topic *topic = TOPICS; topic->word; topic++) {
         // Two words may be told of in one: $ and state.
         if (topic == TOPICS || strcmp(topic->form, topic[-1].form) != 0) {
             roff_item(output, topic->form, "");
@@ -49,18 +49,17 @@ static void write_functions(Output *output) {
 
 static void write_attributes(Output *output, size_t kind) {
     PetriNodeAttribute attribute;
-    if (!petri_node_attribute(kind, 0, &attribute)) {
+    if (!petri_node_attribute(kind, 0, &attribute))
         return;
-    }
     output_format(output, ".RS\n");
     for (size_t i = 0; petri_node_attribute(kind, i, &attribute); i++) {
         roff_item(output, attribute.name, "");
         roff_text(output, attribute.type);
         roff_text(output, attribute.unit[0] != '\0' ? ", in " : "");
         roff_text(output, attribute.unit);
-        if (attribute.fallback[0] != '\0') {
+        if (attribute.default_value[0] != '\0') {
             roff_text(output, " (");
-            roff_text(output, attribute.fallback);
+            roff_text(output, attribute.default_value);
             roff_text(output, ")");
         }
         roff_text(output, attribute.help[0] != '\0' ? ": " : "");
@@ -74,7 +73,7 @@ static void write_attributes(Output *output, size_t kind) {
 static void write_formula(Output *output, const PetriNodeKind *kind) {
     for (const char *line = kind->formula; *line != '\0'; line += line[0] == '\n') {
         size_t length = strcspn(line, "\n");
-        SCOPED_TEXT text = memory_copied(line, length);
+        SCOPED_TEXT text = memory_strndup(line, length);
         output_format(output, ".br\n");
         roff_text(output, text);
         output_format(output, "\n");

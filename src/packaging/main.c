@@ -1,10 +1,10 @@
 // main.c: writes one page of the manual, what a shell completes, or a grammar for editors to standard output. The build
 // runs it; nobody has it afterwards.
-#include <stdio.h>
-#include <string.h>
-
 #include "cli/help.h"
 #include "packaging/packaging.h"
+
+#include <stdio.h>
+#include <string.h>
 
 static const struct {
     const char *name;
@@ -21,7 +21,7 @@ static bool write_product(Output *output, const char *name) {
             return true;
         }
     }
-    for (size_t i = 0; COMMANDS[i] != NULL; i++) {
+    for (size_t i = 0; COMMANDS[i]; i++) {
         char page[32];
         snprintf(page, sizeof page, "petri-%s.1", COMMANDS[i]->name);
         if (strcmp(page, name) == 0) {

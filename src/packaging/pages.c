@@ -1,22 +1,21 @@
 // pages.c: petri(1) and the page of each command, made of the tables that `petri help` is made of.
-#include <stdio.h>
-#include <string.h>
-
 #include "cli/help.h"
 #include "packaging/packaging.h"
 #include "packaging/roff.h"
 #include "repl/repl.h"
 
+#include <stdio.h>
+#include <string.h>
+
 const OptionSpec *option_after(const Command *command, const OptionSpec *after) {
-    const OptionSpec *option = after == NULL ? OPTIONS : after + 1;
-    while (option->name != NULL && !(option->commands & command->options)) {
+    const OptionSpec *option = !after ? OPTIONS : after + 1;
+    while (option->name && !(option->commands & command->options))
         option++;
-    }
-    return option->name == NULL ? NULL : option;
+    return !option->name ? NULL : option;
 }
 
 bool option_takes(const OptionSpec *option, const char *value) {
-    return option->value != NULL && strcmp(option->value, value) == 0;
+    return option->value && strcmp(option->value, value) == 0;
 }
 
 const PageRow PAGE_VARIABLES[] = {
@@ -36,7 +35,7 @@ const PageRow PAGE_STATUSES[] = {
 };
 
 static void write_items(Output *output, const PageRow *rows) {
-    for (; rows->name != NULL; rows++) {
+    for (; rows->name; rows++) {
         roff_item(output, rows->name, "");
         roff_text(output, rows->help);
         output_format(output, "\n");
@@ -50,7 +49,7 @@ void page_of_petri(Output *output) {
     roff_heading(output, "DESCRIPTION");
     roff_paragraphs(output, HELP_BEGINNING);
     roff_heading(output, "COMMANDS");
-    for (size_t i = 0; COMMANDS[i] != NULL; i++) {
+    for (size_t i = 0; COMMANDS[i]; i++) {
         output_format(output, ".TP\n.BR petri\\-%s (1)\n", COMMANDS[i]->name);
         roff_text(output, COMMANDS[i]->summary);
         output_format(output, "\n");
@@ -72,7 +71,7 @@ static void write_option(Output *output, const OptionSpec *option) {
     }
     snprintf(name, sizeof name, "--%s", option->name);
     roff_bold(output, name);
-    if (option->value != NULL) {
+    if (option->value) {
         output_format(output, " \\fI");
         roff_text(output, option->value);
         output_format(output, "\\fR");
@@ -88,9 +87,8 @@ static void write_examples(Output *output, const char *examples) {
     while (*examples != '\0') {
         int length = (int)strcspn(examples, "\n"), end = length < COMMENT_COLUMN ? length : COMMENT_COLUMN;
         const char *comment = examples + end;
-        while (end > 0 && examples[end - 1] == ' ') {
+        while (end > 0 && examples[end - 1] == ' ')
             end--;
-        }
         char text[256];
         snprintf(text, sizeof text, "%.*s", end - 2, examples + 2);
         roff_item(output, text, "");
@@ -103,7 +101,7 @@ static void write_examples(Output *output, const char *examples) {
 
 static void write_prompt_commands(Output *output) {
     const ReplCommand *command;
-    for (size_t i = 0; (command = repl_command_at(i)) != NULL; i++) {
+    for (size_t i = 0; (command = repl_command_at(i)); i++) {
         char rest[64];
         snprintf(rest, sizeof rest, "%s%s", command->operands[0] == '\0' ? "" : " ", command->operands);
         roff_item(output, command->name, rest);
@@ -122,17 +120,15 @@ void page_of_command(Output *output, const Command *command) {
     output_format(output, "\n");
     roff_heading(output, "DESCRIPTION");
     roff_paragraphs(output, command->details);
-    if (command->options != 0) {
+    if (command->options != 0)
         roff_heading(output, "OPTIONS");
-    }
-    for (const OptionSpec *option = NULL; (option = option_after(command, option)) != NULL;) {
+    for (const OptionSpec *option = NULL; (option = option_after(command, option));)
         write_option(output, option);
-    }
     if (command == &REPL_COMMAND) {
         roff_heading(output, "COMMANDS OF THE PROMPT");
         write_prompt_commands(output);
     }
-    if (command->examples != NULL) {
+    if (command->examples) {
         roff_heading(output, "EXAMPLES");
         write_examples(output, command->examples);
     }

@@ -1,15 +1,15 @@
 // roff.c: see roff.h.
 #include "packaging/roff.h"
 
+#include "petri.h"
+
 #include <ctype.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "petri.h"
-
 // What roff reads as something else than itself.
-static const char *special(char c) {
+static const char *escape_for(char c) {
     switch (c) {
     case '\\':
         return "\\e";
@@ -28,10 +28,10 @@ static const char *special(char c) {
     }
 }
 
-static void write_piece(Output *output, const char *text, size_t length) {
+static void write_escaped(Output *output, const char *text, size_t length) {
     for (size_t i = 0; i < length; i++) {
-        const char *other = special(text[i]);
-        if (other != NULL) {
+        const char *other = escape_for(text[i]);
+        if (other) {
             output_format(output, "%s", other);
         } else {
             // A dot that begins a line would make it a request.
@@ -41,14 +41,13 @@ static void write_piece(Output *output, const char *text, size_t length) {
 }
 
 void roff_text(Output *output, const char *text) {
-    write_piece(output, text, strlen(text));
+    write_escaped(output, text, strlen(text));
 }
 
 void roff_begin(Output *output, const char *name, int section, const char *summary) {
     output_format(output, ".TH ");
-    for (const char *c = name; *c != '\0'; c++) {
+    for (const char *c = name; *c != '\0'; c++)
         output_format(output, *c == '-' ? "\\-" : "%c", toupper((unsigned char)*c));
-    }
     output_format(output, " %d \"\" \"petri %s\" petri\n.SH NAME\n", section, petri_version());
     roff_text(output, name);
     output_format(output, " \\- ");
@@ -80,15 +79,14 @@ void roff_paragraphs(Output *output, const char *text) {
             as_it_is = false;
         }
         // Two paragraphs, or text that goes on behind lines that stay as they are.
-        if (length > 0 && !first && (empty || (indented && !as_it_is))) {
+        if (length > 0 && !first && (empty || (indented && !as_it_is)))
             output_format(output, ".PP\n");
-        }
         if (indented && !as_it_is) {
             output_format(output, ".EX\n");
             as_it_is = true;
         }
         if (length > 0) {
-            write_piece(output, text, length);
+            write_escaped(output, text, length);
             output_format(output, "\n");
             first = false;
         }
@@ -107,12 +105,12 @@ void roff_item(Output *output, const char *head, const char *rest) {
 
 void roff_see_also(Output *output, const char *const *pages) {
     roff_heading(output, "SEE ALSO");
-    for (size_t i = 0; pages[i] != NULL; i++) {
+    for (size_t i = 0; pages[i]; i++) {
         char name[64];
         size_t length = strcspn(pages[i], "(");
         snprintf(name, sizeof name, "%.*s", (int)length, pages[i]);
         output_format(output, ".BR ");
         roff_text(output, name);
-        output_format(output, " %s%s\n", pages[i] + length, pages[i + 1] == NULL ? "" : ",");
+        output_format(output, " %s%s\n", pages[i] + length, !pages[i + 1] ? "" : ",");
     }
 }

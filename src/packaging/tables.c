@@ -1,5 +1,5 @@
 // tables.c: all that petri's tables tell of commands and language, as JSON, for the manual as a site (src/web/site).
-#include "cli/bytes.h"
+#include "cli/byte_buffer.h"
 #include "cli/help.h"
 #include "cli/json.h"
 #include "packaging/packaging.h"
@@ -7,10 +7,10 @@
 #include "repl/repl.h"
 
 // Names and texts by turns, ended by NULL, as an object that is still open.
-static void add_row(Bytes *out, const char *const texts[]) {
-    bytes_add_text(out, out->data[out->length - 1] == '}' ? ",\n{" : "\n{");
-    for (size_t i = 0; texts[i] != NULL; i += 2) {
-        bytes_format(out, "%s\"%s\": ", i == 0 ? "" : ", ", texts[i]);
+static void add_row(ByteBuffer *out, const char *const texts[]) {
+    byte_buffer_add_text(out, out->data[out->length - 1] == '}' ? ",\n{" : "\n{");
+    for (size_t i = 0; texts[i]; i += 2) {
+        byte_buffer_format(out, "%s\"%s\": ", i == 0 ? "" : ", ", texts[i]);
         json_add_text(out, texts[i + 1]);
     }
 }
@@ -18,80 +18,80 @@ static void add_row(Bytes *out, const char *const texts[]) {
 #define ROW(out, ...) add_row(out, (const char *const[]){__VA_ARGS__, NULL})
 
 static const char *or_none(const char *text) {
-    return text == NULL ? "" : text;
+    return !text ? "" : text;
 }
 
-static void add_list(Bytes *out, const char *name) {
-    bytes_format(out, ", \"%s\": [", name);
+static void add_list(ByteBuffer *out, const char *name) {
+    byte_buffer_format(out, ", \"%s\": [", name);
 }
 
-static void add_commands(Bytes *out) {
-    for (size_t i = 0; COMMANDS[i] != NULL; i++) {
+static void add_commands(ByteBuffer *out) {
+    for (size_t i = 0; COMMANDS[i]; i++) {
         const Command *command = COMMANDS[i];
         ROW(out, "name", command->name, "operands", command->operands, "summary", command->summary, "details",
             command->details, "examples", or_none(command->examples));
         add_list(out, "options");
-        for (const OptionSpec *option = NULL; (option = option_after(command, option)) != NULL;) {
+        for (const OptionSpec *option = NULL; (option = option_after(command, option));) {
             ROW(out, "letter", (char[]){option->letter, '\0'}, "name", option->name, "value", or_none(option->value),
                 "help", option->help);
-            bytes_add_text(out, "}");
+            byte_buffer_add_text(out, "}");
         }
-        bytes_add_text(out, "]}");
+        byte_buffer_add_text(out, "]}");
     }
 }
 
-static void add_prompt(Bytes *out) {
+static void add_prompt(ByteBuffer *out) {
     const ReplCommand *command;
-    for (size_t i = 0; (command = repl_command_at(i)) != NULL; i++) {
+    for (size_t i = 0; (command = repl_command_at(i)); i++) {
         ROW(out, "name", command->name, "operands", command->operands, "help", command->help);
-        bytes_add_text(out, "}");
+        byte_buffer_add_text(out, "}");
     }
 }
 
-static void add_words(Bytes *out) {
-    for (const Topic *topic = TOPICS; topic->word != NULL; topic++) {
+static void add_words(ByteBuffer *out) {
+    for (const Topic *topic = TOPICS; topic->word; topic++) {
         ROW(out, "word", topic->word, "form", topic->form, "help", topic->help);
-        bytes_add_text(out, "}");
+        byte_buffer_add_text(out, "}");
     }
 }
 
-static void add_functions(Bytes *out) {
+static void add_functions(ByteBuffer *out) {
     PetriBuiltin builtin;
     for (size_t i = 0; petri_builtin(i, &builtin); i++) {
         ROW(out, "name", builtin.name, "parameters", builtin.parameters, "help", builtin.help);
-        bytes_add_text(out, "}");
+        byte_buffer_add_text(out, "}");
     }
 }
 
-static void add_nodes(Bytes *out) {
+static void add_nodes(ByteBuffer *out) {
     PetriNodeKind kind;
     for (size_t i = 0; petri_node_kind(i, &kind); i++) {
         ROW(out, "name", kind.name, "area", kind.area, "help", kind.help, "formula", kind.formula);
         add_list(out, "attributes");
         PetriNodeAttribute attribute;
         for (size_t k = 0; petri_node_attribute(i, k, &attribute); k++) {
-            ROW(out, "name", attribute.name, "type", attribute.type, "fallback", attribute.fallback, "unit",
+            ROW(out, "name", attribute.name, "type", attribute.type, "fallback", attribute.default_value, "unit",
                 attribute.unit, "help", attribute.help);
-            bytes_add_text(out, "}");
+            byte_buffer_add_text(out, "}");
         }
-        bytes_add_text(out, "]}");
+        byte_buffer_add_text(out, "]}");
     }
 }
 
-static void add_page_rows(Bytes *out, const PageRow *rows) {
-    for (; rows->name != NULL; rows++) {
+static void add_page_rows(ByteBuffer *out, const PageRow *rows) {
+    for (; rows->name; rows++) {
         ROW(out, "name", rows->name, "help", rows->help);
-        bytes_add_text(out, "}");
+        byte_buffer_add_text(out, "}");
     }
 }
 
 void tables_as_json(Output *output) {
-    SCOPED_BYTES out = {0};
-    bytes_add_text(&out, " ");
+    SCOPED_BYTE_BUFFER out = {0};
+    byte_buffer_add_text(&out, " ");
     ROW(&out, "version", petri_version(), "title", HELP_TITLE, "beginning", HELP_BEGINNING, "letters", FORMULA_LETTERS);
     static const struct {
         const char *name;
-        void (*add)(Bytes *out);
+        void (*add)(ByteBuffer *out);
     } lists[] = {{"commands", add_commands},
                  {"prompt", add_prompt},
                  {"words", add_words},
@@ -100,13 +100,13 @@ void tables_as_json(Output *output) {
     for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++) {
         add_list(&out, lists[i].name);
         lists[i].add(&out);
-        bytes_add_text(&out, "]");
+        byte_buffer_add_text(&out, "]");
     }
     add_list(&out, "statuses");
     add_page_rows(&out, PAGE_STATUSES);
-    bytes_add_text(&out, "]");
+    byte_buffer_add_text(&out, "]");
     add_list(&out, "variables");
     add_page_rows(&out, PAGE_VARIABLES);
-    bytes_add_text(&out, "]}\n");
+    byte_buffer_add_text(&out, "]}\n");
     output_write(output, out.data, out.length);
 }

@@ -2,40 +2,36 @@
 //
 // `@builtins|@` stands for the names of all functions with `|` between them; `nodes` and `values` likewise.
 // The separator may be any text without `@`.
-#include <stdio.h>
-#include <string.h>
-
-#include "cli/bytes.h"
+#include "cli/byte_buffer.h"
 #include "cli/help.h"
 #include "packaging/packaging.h"
 #include "petri.h"
 
-static void add(TextList *list, const char *name) {
-    if (!texts_hold(list, name)) {
+#include <stdio.h>
+#include <string.h>
+
+static void add_unique(TextList *list, const char *name) {
+    if (!texts_contain(list, name))
         texts_add(list, name);
-    }
 }
 
 static void list_builtins(TextList *list) {
     PetriBuiltin builtin;
-    for (size_t i = 0; petri_builtin(i, &builtin); i++) {
-        add(list, builtin.name);
-    }
+    for (size_t i = 0; petri_builtin(i, &builtin); i++)
+        add_unique(list, builtin.name);
 }
 
 static void list_nodes(TextList *list) {
     PetriNodeKind kind;
-    for (size_t i = 0; petri_node_kind(i, &kind); i++) {
-        add(list, kind.name);
-    }
+    for (size_t i = 0; petri_node_kind(i, &kind); i++)
+        add_unique(list, kind.name);
 }
 
 // What petri gives to each frame, and constants: the topics before the words of the language.
 static void list_values(TextList *list) {
-    for (size_t i = 0; TOPICS[i].word != NULL && strcmp(TOPICS[i].word, "let") != 0; i++) {
-        add(list, TOPICS[i].word);
-    }
-    add(list, "tau");
+    for (size_t i = 0; TOPICS[i].word && strcmp(TOPICS[i].word, "let") != 0; i++)
+        add_unique(list, TOPICS[i].word);
+    add_unique(list, "tau");
 }
 
 static const struct {
@@ -47,9 +43,8 @@ static const struct {
 static bool write_list(Output *output, Str between) {
     for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++) {
         Str name = str_from(lists[i].name);
-        if (!str_starts_with(between, name)) {
+        if (!str_starts_with(between, name))
             continue;
-        }
         TextList words = {0};
         lists[i].list(&words);
         for (size_t k = 0; k < words.count; k++) {
@@ -63,13 +58,12 @@ static bool write_list(Output *output, Str between) {
 }
 
 bool template_fill(Output *output, const char *path) {
-    SCOPED_BYTES text = {0};
-    if (!bytes_read_file(&text, path)) {
+    SCOPED_BYTE_BUFFER text = {0};
+    if (!byte_buffer_read_file(&text, path))
         return false;
-    }
-    for (const char *at = text.data; at != NULL && *at != '\0';) {
-        const char *open = strchr(at, '@'), *close = open == NULL ? NULL : strchr(open + 1, '@');
-        if (close == NULL) {
+    for (const char *at = text.data; at && *at != '\0';) {
+        const char *open = strchr(at, '@'), *close = !open ? NULL : strchr(open + 1, '@');
+        if (!close) {
             output_format(output, "%s", at);
             break;
         }

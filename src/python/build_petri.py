@@ -43,9 +43,9 @@ ffi.cdef(declarations(Path(headers) / "petri.h") + declarations(Path(headers) / 
 helpers = (here / "helpers.h").read_text(encoding="utf-8")
 ffi.cdef(re.sub(r"^#.*\n", "", helpers, flags=re.M))
 ffi.cdef("""
-    extern "Python" void petri_python_diagnostic(void *host, const PetriDiagnostic *diagnostic);
-    extern "Python" bool petri_python_write(void *host, const char *text, size_t length);
-    extern "Python+C" void petri_python_called(PetriCall *call, void *host, const PetriValue *arguments, uint32_t count,
+    extern "Python" void petri_python_diagnostic(void *user_data, const PetriDiagnostic *diagnostic);
+    extern "Python" bool petri_python_write(void *user_data, const char *text, size_t length);
+    extern "Python+C" void petri_python_called(PetriCall *call, void *user_data, const PetriValue *arguments, uint32_t count,
                                                PetriValue *out);
 """)
 ffi.set_source(

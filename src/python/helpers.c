@@ -2,73 +2,65 @@
 #include <signal.h>
 #include <string.h>
 
-static PetriSession *volatile under_way; // of the main thread
+static PetriSession *volatile active_session; // of the main thread
 static volatile sig_atomic_t interrupted;
 static struct sigaction outer; // Python's handler
 
 static void on_interrupt(int number, siginfo_t *info, void *context) {
     interrupted = 1;
-    petri_interrupt(under_way);
-    if (outer.sa_flags & SA_SIGINFO) {
+    petri_interrupt(active_session);
+    if (outer.sa_flags & SA_SIGINFO)
         outer.sa_sigaction(number, info, context);
-    } else {
+    else
         outer.sa_handler(number);
-    }
 }
 
 // Ctrl-C is for the session that is being stepped. False if nobody is told: then nobody listens.
-static bool listen(void) {
+static bool install_handler(void) {
     struct sigaction ours = {.sa_flags = SA_SIGINFO | SA_RESTART};
     ours.sa_sigaction = on_interrupt;
     interrupted = 0;
     return outer.sa_handler != SIG_IGN && outer.sa_handler != SIG_DFL && sigaction(SIGINT, &ours, NULL) == 0;
 }
 
-PetriStatus petri_python_step(PetriSession *session, size_t count, bool heed, const bool *stop) {
+PetriStatus petri_python_step(PetriSession *session, size_t count, bool interruptible, const bool *stop) {
     PetriStatus status = session ? PETRI_OK : PETRI_INVALID;
-    PetriSession *before = under_way; // whose script has called a function of Python's, which steps another session
+    PetriSession *before =
+        active_session; // whose script has called a function of Python's, which steps another session
     struct sigaction now = {0};
-    heed = heed && session && sigaction(SIGINT, NULL, &now) == 0;
-    bool nested = heed && now.sa_flags & SA_SIGINFO && now.sa_sigaction == on_interrupt;
-    if (heed) {
-        under_way = session;
-    }
-    if (heed && !nested) {
+    interruptible = interruptible && session && sigaction(SIGINT, NULL, &now) == 0;
+    bool nested = interruptible && now.sa_flags & SA_SIGINFO && now.sa_sigaction == on_interrupt;
+    if (interruptible)
+        active_session = session;
+    if (interruptible && !nested) {
         outer = now;
-        heed = listen();
+        interruptible = install_handler();
     }
-    while (status == PETRI_OK && !(stop && *stop) && count-- > 0) {
+    while (status == PETRI_OK && !(stop && *stop) && count-- > 0)
         status = petri_step(session);
-    }
-    if (heed && !nested) {
+    if (interruptible && !nested) {
         sigaction(SIGINT, &outer, NULL);
-        if (interrupted && status != PETRI_INTERRUPTED) {
-            petri_interrupted(session); // it came too late, and is none of the next step's business
-        }
+        if (interrupted && status != PETRI_INTERRUPTED)
+            petri_clear_interrupt(session); // it came too late, and is none of the next step's business
     }
-    if (nested) {
-        under_way = before;
-    }
+    if (nested)
+        active_session = before;
     return status;
 }
 
 int petri_python_system(PetriSession *session, int number, const char *name, PetriSystem *system) {
-    if (number >= 0 && petri_system(session, (size_t)number, system) && (!name || strcmp(system->name, name) == 0)) {
+    if (number >= 0 && petri_system(session, (size_t)number, system) && (!name || strcmp(system->name, name) == 0))
         return number;
-    }
-    for (int i = 0; name && petri_system(session, (size_t)i, system); i++) {
-        if (strcmp(system->name, name) == 0) {
+    for (int i = 0; name && petri_system(session, (size_t)i, system); i++)
+        if (strcmp(system->name, name) == 0)
             return i;
-        }
-    }
     return -1;
 }
 
 bool petri_python_view(PetriSession *session, int number, const char *name, char which, PetriPythonView *view) {
     PetriSystem system;
-    if (petri_python_system(session, number, name, &system) < 0) {
+    if (petri_python_system(session, number, name, &system) < 0)
         return false;
-    }
     const PetriColumn *column = which == 'p'   ? &system.position
                                 : which == 'v' ? &system.velocity
                                 : which == 'f' ? &system.force
@@ -91,11 +83,12 @@ bool petri_python_pair(PetriSession *session, double symbol, double number, Petr
     return petri_python_state(session, (const double[]){symbol, number}, 2, value);
 }
 
-void petri_python_called(PetriCall *call, void *host, const PetriValue *arguments, uint32_t count, PetriValue *out);
+void petri_python_called(PetriCall *call, void *user_data, const PetriValue *arguments, uint32_t count,
+                         PetriValue *out);
 
-PetriValue petri_python_call(PetriCall *call, void *host, const PetriValue *arguments, uint32_t count) {
+PetriValue petri_python_call(PetriCall *call, void *user_data, const PetriValue *arguments, uint32_t count) {
     PetriValue result = {0};
-    petri_python_called(call, host, arguments, count, &result);
+    petri_python_called(call, user_data, arguments, count, &result);
     return result;
 }
 

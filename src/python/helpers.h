@@ -4,9 +4,9 @@
 
 #include "petri-draw.h"
 
-// Makes so many frames, until one fails, or a function of Python's sets `stop` (NULL: there are none). `heed`: Ctrl-C
-// interrupts them; for the main thread only, whose handler then tells Python.
-PetriStatus petri_python_step(PetriSession *session, size_t count, bool heed, const bool *stop);
+// Makes so many frames, until one fails, or a function of Python's sets `stop` (NULL: there are none). `interruptible`:
+// Ctrl-C interrupts them; for the main thread only, whose handler then tells Python.
+PetriStatus petri_python_step(PetriSession *session, size_t count, bool interruptible, const bool *stop);
 
 // The system of this name, looked for first where it was; -1 if there is none. NULL stands for any name.
 int petri_python_system(PetriSession *session, int number, const char *name, PetriSystem *system);
@@ -27,7 +27,7 @@ bool petri_python_state(PetriSession *session, const double *key, uint32_t lengt
 bool petri_python_pair(PetriSession *session, double symbol, double number, PetriValue *value);
 
 // The PetriFunctionCall of a function of Python's, whose handle `host` is.
-PetriValue petri_python_call(PetriCall *call, void *host, const PetriValue *arguments, uint32_t count);
+PetriValue petri_python_call(PetriCall *call, void *user_data, const PetriValue *arguments, uint32_t count);
 
 // What takes a handle by its address, for finalizers; and what Python cannot call, since it is inline.
 void petri_python_close(PetriSession *session);

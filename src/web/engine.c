@@ -1,47 +1,46 @@
 // engine.c: petri.h for JavaScript: functions that take and give numbers and texts only (host.h). What of petri.h is
 // like that is exported as it is (meson.build); what has structs or callbacks is here.
-#include "web/host.h"
-
 #include "cli/particles.h"
 #include "petri-draw.h"
+#include "web/host.h"
 
 #include <stdio.h>
 #include <string.h>
 
-static void tell(void *host, const PetriDiagnostic *told) {
-    (void)host;
+static void on_diagnostic(void *user_data, const PetriDiagnostic *told) {
+    (void)user_data;
     host_diagnostic((int)told->level, told->file, told->text, told->code, told->hint, told->rendered, told->line,
                     told->column, told->end_line, told->end_column);
 }
 
-static const char *read_file(void *host, const char *name, size_t *length) {
-    (void)host;
+static const char *read_file(void *user_data, const char *name, size_t *length) {
+    (void)user_data;
     return host_read(name, length);
 }
 
-static bool write_text(void *host, const char *text, size_t length) {
-    (void)host;
+static bool write_text(void *user_data, const char *text, size_t length) {
+    (void)user_data;
     host_write(text, length);
     return true;
 }
 
-static bool wants_end(void *host) {
-    (void)host;
-    return host_wants_end();
+static bool should_interrupt(void *user_data) {
+    (void)user_data;
+    return host_should_interrupt();
 }
 
 // fps, memory in bytes, work of a call and stack in bytes: 0 is the default.
 EXPORT(PetriSession *, web_open, double fps, double memory, double work, double stack) {
     PetriOptions options = petri_default_options();
     options.fps = fps > 0 ? fps : options.fps;
-    options.memory_bytes = memory > 0 ? (size_t)memory : options.memory_bytes;
-    options.work = work > 0 ? (uint64_t)work : options.work;
-    options.stack_bytes = stack > 0 ? (size_t)stack : options.stack_bytes;
+    options.memory_limit = memory > 0 ? (size_t)memory : options.memory_limit;
+    options.work_limit = work > 0 ? (uint64_t)work : options.work_limit;
+    options.stack_limit = stack > 0 ? (size_t)stack : options.stack_limit;
     options.threads = 1;
-    options.interruptible = true;
-    options.diagnostic = tell;
-    options.read = read_file;
-    options.wants_end = wants_end;
+    options.rollback_frames = true;
+    options.on_diagnostic = on_diagnostic;
+    options.read_file = read_file;
+    options.should_interrupt = should_interrupt;
     return petri_open(&options);
 }
 
@@ -56,20 +55,20 @@ EXPORT(void, web_frame, const PetriSession *session) {
 }
 
 // Many short texts are one for JavaScript.
-typedef struct Gathered {
+typedef struct TextBuffer {
     size_t used;
     char text[1 << 14];
-} Gathered;
+} TextBuffer;
 
-static void pass_on(Gathered *gathered) {
+static void flush_text(TextBuffer *gathered) {
     host_write(gathered->text, gathered->used);
     gathered->used = 0;
 }
 
-static bool gather(void *host, const char *text, size_t length) {
-    Gathered *gathered = host;
+static bool append_text(void *user_data, const char *text, size_t length) {
+    TextBuffer *gathered = user_data;
     if (gathered->used + length > sizeof gathered->text)
-        pass_on(gathered);
+        flush_text(gathered);
     if (length > sizeof gathered->text)
         return write_text(NULL, text, length);
     memcpy(gathered->text + gathered->used, text, length);
@@ -81,13 +80,13 @@ static bool gather(void *host, const char *text, size_t length) {
 // line with the columns' names. Gives that, 0 if memory is used up, or
 // UINT32_MAX if it was to end, of which nothing is left for the next call.
 EXPORT(uint32_t, web_particles, PetriSession *session, uint32_t dimensions) {
-    Gathered gathered = {.used = 0};
+    TextBuffer gathered = {.used = 0};
     uint32_t have = dimensions ? dimensions : particles_dimensions(session);
     if (!dimensions)
-        particles_header(have, gather, &gathered);
-    bool done = particles_rows(session, have, gather, &gathered);
-    pass_on(&gathered);
-    return done ? have : petri_interrupted(session) ? UINT32_MAX : 0;
+        particles_header(have, append_text, &gathered);
+    bool done = particles_rows(session, have, append_text, &gathered);
+    flush_text(&gathered);
+    return done ? have : petri_clear_interrupt(session) ? UINT32_MAX : 0;
 }
 
 EXPORT(PetriStatus, web_print, PetriSession *session, unsigned sections) {
@@ -101,14 +100,14 @@ EXPORT(PetriStatus, web_log, PetriSession *session) {
 EXPORT(void, web_parameters, PetriSession *session) {
     PetriParameter p;
     for (size_t i = 0; petri_parameter(session, i, &p); i++)
-        host_parameter(p.name, p.fallback, p.value, p.comment, p.number, p.fallback_number, p.least, p.most, p.step,
+        host_parameter(p.name, p.default_value, p.value, p.comment, p.number, p.default_number, p.min, p.max, p.step,
                        p.defined, p.settable, p.line, p.column);
 }
 
 EXPORT(void, web_systems, PetriSession *session) {
     PetriSystem system;
     for (size_t i = 0; petri_system(session, i, &system); i++) {
-        const PetriColumn ids = petri_ids(session, i);
+        const PetriColumn ids = petri_particle_ids(session, i);
         host_system(system.name, system.dimensions, system.particle_count, system.force_count, (double)system.steps);
         host_column("position", system.position.data, system.position.stride);
         host_column("velocity", system.velocity.data, system.velocity.stride);
@@ -124,55 +123,55 @@ EXPORT(void, web_state, PetriSession *session) {
     PetriValue key, value;
     for (uint32_t at = 0; petri_state_next(session, &at, &key, &value);) {
         char name[256];
-        const char *text = petri_text(session, key);
+        const char *text = petri_format_value(session, key);
         snprintf(name, sizeof name, "%s", text ? text : "");
-        host_entry(name, value.numbers, value.length, value.numbers ? NULL : petri_text(session, value));
+        host_entry(name, value.numbers, value.length, value.numbers ? NULL : petri_format_value(session, value));
     }
 }
 
-EXPORT(PetriStatus, web_give, PetriSession *session, const char *name, const double *numbers, uint32_t length) {
-    return petri_give(session, name, (PetriValue){.length = length, .numbers = numbers});
+EXPORT(PetriStatus, web_set_global, PetriSession *session, const char *name, const double *numbers, uint32_t length) {
+    return petri_set_global(session, name, (PetriValue){.length = length, .numbers = numbers});
 }
 
 EXPORT(bool, web_symbol_name, const PetriSession *session, double number) {
     const char *name = petri_symbol_name(session, number);
     if (name)
         host_write(name, strlen(name));
-    return name != NULL;
+    return name;
 }
 
 EXPORT(PetriStatus, web_pointer, PetriSession *session, bool inside, double x, double y, unsigned buttons) {
-    return petri_pointer(session, &(PetriPointer){.inside = inside, .x = x, .y = y, .buttons = buttons});
+    return petri_report_pointer(session, &(PetriPointer){.inside = inside, .x = x, .y = y, .buttons = buttons});
 }
 
 EXPORT(PetriStatus, web_prompt, PetriSession *session, const char *text, size_t length) {
-    PetriPrompted done;
+    PetriPromptResult done;
     return petri_prompt(session, text, length, write_text, NULL, &done);
 }
 
 // An expression: its text is written, the number that it is an entry, NaN if it is none.
 EXPORT(PetriStatus, web_evaluate, PetriSession *session, const char *text, size_t length) {
-    PetriResult result = {.number = __builtin_nan("")};
+    PetriEvaluation result = {.number = __builtin_nan("")};
     PetriStatus status = petri_evaluate(session, text, length, &result, write_text, NULL);
     host_entry("", &result.number, 1, NULL);
     return status;
 }
 
-static bool draw_canvas(void *host, const double *numbers, size_t count, int width, int height, uint32_t *pixels) {
-    (void)host;
+static bool draw_canvas(void *user_data, const double *numbers, size_t count, int width, int height, uint32_t *pixels) {
+    (void)user_data;
     return host_draw(numbers, count, width, height, pixels);
 }
 
-static const uint32_t *find_image(void *host, const char *file, int *width, int *height) {
-    (void)host;
+static const uint32_t *find_image(void *user_data, const char *file, int *width, int *height) {
+    (void)user_data;
     return host_image(file, width, height);
 }
 
 // NULL without WebGL 2.
 EXPORT(PetriPainter *, web_painter, void) {
-    const PetriCanvasHost host = {.draw = draw_canvas, .image = find_image};
+    const PetriCanvasBackend host = {.draw = draw_canvas, .image = find_image};
     PetriPainter *painter = petri_painter_open();
-    if (painter && (petri_painter_use_host(painter, &host) != PETRI_OK || petri_painter_use_gl(painter) != PETRI_OK))
+    if (painter && (petri_painter_use_backend(painter, &host) != PETRI_OK || petri_painter_use_gl(painter) != PETRI_OK))
         petri_painter_close(&painter);
     return painter;
 }
@@ -181,10 +180,10 @@ EXPORT(void, web_painter_close, PetriPainter *painter) {
     petri_painter_close(&painter);
 }
 
-static PetriStatus give_numbers(PetriPicture *picture, bool ready) {
+static PetriStatus send_display_list(PetriPicture *picture, bool ready) {
     const double *numbers;
     size_t count;
-    PetriStatus status = petri_picture_numbers(picture, &numbers, &count);
+    PetriStatus status = petri_picture_display_list(picture, &numbers, &count);
     if (status == PETRI_OK)
         host_picture(numbers, count, petri_picture_title(picture), ready);
     return status;
@@ -192,26 +191,32 @@ static PetriStatus give_numbers(PetriPicture *picture, bool ready) {
 
 // The picture of the last frame, which is kept for web_picture, and made for those of later frames; NULL: there is
 // none.
-EXPORT(PetriPicture *, web_follow, PetriSession *session, PetriPainter *painter) {
+EXPORT(PetriPicture *, web_render_if_needed, PetriSession *session, PetriPainter *painter) {
     PetriPictureOptions options = petri_default_picture_options();
     PetriPicture *picture;
     if (petri_picture(session, &options, &picture) == PETRI_OK) {
-        petri_picture_make(picture, painter);
-        petri_picture_tell(session, picture);
+        petri_picture_render(picture, painter);
+        petri_picture_report(session, picture);
     }
     return picture;
+}
+
+// What the automatic picture shows depends on the frames before.
+EXPORT(void, web_follow_frame, PetriSession *session) {
+    PetriPictureOptions options = petri_default_picture_options();
+    petri_picture_follow(session, &options);
 }
 
 EXPORT(void, web_picture_free, PetriPicture *picture) {
     petri_picture_free(&picture);
 }
 
-static PetriStatus show(PetriSession *session, PetriPainter *painter, PetriPicture *picture, bool ready) {
+static PetriStatus render_picture(PetriSession *session, PetriPainter *painter, PetriPicture *picture, bool ready) {
     int width, height;
     petri_picture_size(picture, &width, &height);
     host_screen(width, height);
-    PetriStatus status = petri_painter_show(painter, picture, NULL, 0, 1, width, height);
-    petri_picture_tell(session, picture);
+    PetriStatus status = petri_painter_present(painter, picture, NULL, 0, 1, width, height);
+    petri_picture_report(session, picture);
     if (status == PETRI_OK)
         host_shown(petri_picture_title(picture), ready);
     return status;
@@ -225,22 +230,22 @@ EXPORT(PetriStatus, web_picture, PetriSession *session, PetriPainter *painter, P
     PetriPicture *picture = followed;
     PetriStatus status = picture ? PETRI_OK : petri_picture(session, &options, &picture);
     bool ready = petri_picture_ready(session, &options);
-    bool shown = status == PETRI_OK && painter && !petri_picture_is_numbers(picture) &&
-                 show(session, painter, picture, ready) == PETRI_OK;
+    bool shown = status == PETRI_OK && painter && !petri_picture_is_display_list(picture) &&
+                 render_picture(session, painter, picture, ready) == PETRI_OK;
     if (status == PETRI_OK && !shown) // what of it takes no screen
-        status = give_numbers(picture, ready);
+        status = send_display_list(picture, ready);
     if (!followed)
         petri_picture_free(&picture);
     return status;
 }
 
-static void take_token(void *host, const PetriToken *token) {
-    (void)host;
+static void add_token(void *user_data, const PetriToken *token) {
+    (void)user_data;
     host_token((int)token->kind, token->start, token->end);
 }
 
 EXPORT(PetriStatus, web_tokens, PetriSession *session, const char *text, size_t length) {
-    return petri_tokens(session, text, length, take_token, NULL);
+    return petri_tokenise(session, text, length, add_token, NULL);
 }
 
 EXPORT(void, web_help, const PetriSession *session) {
@@ -252,9 +257,9 @@ EXPORT(void, web_help, const PetriSession *session) {
         host_help("node", kind.name, kind.area, "", "", kind.help);
         PetriNodeAttribute attribute;
         for (size_t k = 0; petri_node_attribute(i, k, &attribute); k++)
-            host_help("attribute", attribute.name, attribute.type, attribute.fallback, attribute.unit, attribute.help);
+            host_help("attribute", attribute.name, attribute.type, attribute.default_value, attribute.unit, attribute.help);
     }
     const char *name;
-    for (size_t i = 0; session && (name = petri_name(session, i)); i++)
+    for (size_t i = 0; session && (name = petri_visible_name(session, i)); i++)
         host_help("name", name, "", "", "", "");
 }

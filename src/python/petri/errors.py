@@ -22,7 +22,7 @@ class Diagnostic(NamedTuple):
     rendered: str
 
 
-class _Told(Exception):
+class _ScriptMessage(Exception):
     """The file, line, column and code of the first diagnostic, and all of them."""
 
     def __init__(self, message: str, diagnostics: tuple[Diagnostic, ...] = ()):
@@ -33,7 +33,7 @@ class _Told(Exception):
         self.code, self.text = first.code, first.text
 
 
-class PetriError(_Told):
+class PetriError(_ScriptMessage):
     """What failed. `diagnostics` tell why; `file`, `line`, `column`, `code` and `text` are those of the first."""
 
 
@@ -57,15 +57,15 @@ class InterruptedStep(PetriError):
     """Session.interrupt() was called: what was under way was given up and changed nothing."""
 
 
-class PetriWarning(_Told, UserWarning):
+class PetriWarning(_ScriptMessage, UserWarning):
     """What is hardly meant, or does less than it seems. Has the attributes of PetriError."""
 
 
 _ERRORS = {
     lib.PETRI_INVALID: (ScriptError, "there is no such script, or it makes no sense"),
-    lib.PETRI_LIMIT: (LimitError, "a limit was reached"),
-    lib.PETRI_MEMORY: (OutOfMemoryError, "out of memory"),
-    lib.PETRI_MISSING: (MissingLibraryError, "this build cannot draw"),
+    lib.PETRI_LIMIT_EXCEEDED: (LimitError, "a limit was reached"),
+    lib.PETRI_OUT_OF_MEMORY: (OutOfMemoryError, "out of memory"),
+    lib.PETRI_UNSUPPORTED: (MissingLibraryError, "this build cannot draw"),
     lib.PETRI_INTERRUPTED: (InterruptedStep, "interrupted"),
 }
 
@@ -75,8 +75,8 @@ def _text(pointer) -> str:
 
 
 @ffi.def_extern()
-def petri_python_diagnostic(host, diagnostic) -> None:
-    ffi.from_handle(host).append(Diagnostic(
+def petri_python_diagnostic(user_data, diagnostic) -> None:
+    ffi.from_handle(user_data).append(Diagnostic(
         _LEVELS[diagnostic.level],
         _text(diagnostic.file) if diagnostic.file else None,
         diagnostic.line,

@@ -35,7 +35,7 @@ class Functions:
                  for text in (name, self._parameters(function), (inspect.getdoc(function) or "").split("\n")[0])]
         made = ffi.new("PetriFunction *", {
             "size": ffi.sizeof("PetriFunction"), "name": texts[0], "parameters": texts[1], "help": texts[2],
-            "call": ffi.addressof(lib, "petri_python_call"), "host": handle})
+            "call": ffi.addressof(lib, "petri_python_call"), "user_data": handle})
         self._keep.append(handle)
         self._session._call(lib.petri_add_function, made, message=f"{name} is no name for a function, or one is taken")
 
@@ -64,16 +64,16 @@ def _result(given: Any) -> tuple:
 def _failed(_: Any, error: BaseException, trace: Any) -> None:
     """Whatever was raised, be it Ctrl-C on the way into the function or out of it, comes out of the session's call."""
     arguments = trace.tb_frame.f_locals
-    owner = ffi.from_handle(arguments["host"])[0]
-    lib.petri_call_fault(arguments["call"], f"{type(error).__name__}: {error}".encode())
+    owner = ffi.from_handle(arguments["user_data"])[0]
+    lib.petri_call_error(arguments["call"], f"{type(error).__name__}: {error}".encode())
     owner.raised.append(error)
     owner.stop[0] = True
     owner.lend(False)
 
 
 @ffi.def_extern(onerror=_failed)
-def petri_python_called(call: Any, host: Any, arguments: Any, count: int, out: Any) -> None:
-    owner, function, defaults = ffi.from_handle(host)
+def petri_python_called(call: Any, user_data: Any, arguments: Any, count: int, out: Any) -> None:
+    owner, function, defaults = ffi.from_handle(user_data)
     owner.lend(True)
     given = [values.decode(owner.pointer, arguments[i]) for i in range(count)]
     for i, default in enumerate(defaults):  # null stands for one that was left out

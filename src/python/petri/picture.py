@@ -34,7 +34,7 @@ class Picture:
         with session._lock:
             status = draw(session._open_painter())
             if session._c:
-                lib.petri_picture_tell(session._c, self._c)
+                lib.petri_picture_report(session._c, self._c)
         finish(status, session._told)
 
     @property

@@ -25,8 +25,8 @@ class Options:
 
     fps: Optional[float] = None
     threads: int = 0
-    memory_bytes: Optional[int] = None
-    work: Optional[int] = None
+    memory_limit: Optional[int] = None
+    work_limit: Optional[int] = None
     realtime: bool = False
     simplify: bool = True
     keep_forces: bool = False
@@ -66,8 +66,8 @@ class Snapshot:
 
 
 @ffi.def_extern(onerror=lambda *error: False)
-def petri_python_write(host: Any, text: Any, length: int) -> bool:
-    ffi.from_handle(host).append(ffi.buffer(text, length)[:])
+def petri_python_write(user_data: Any, text: Any, length: int) -> bool:
+    ffi.from_handle(user_data).append(ffi.buffer(text, length)[:])
     return True
 
 
@@ -77,7 +77,7 @@ class Session:
     `source` is the script's file, or its text if there is a line end in it. Further keywords define names for the
     script: `petri.Session("dish.fl", CELLS=20)` is `-D CELLS=20`. What is wrong with the script is raised
     (ScriptError, …), what is hardly meant is a PetriWarning. `given` has names that the script reads like its own, and
-    whose values may be others in each frame (give). Several threads may use a session, one after the other.
+    whose values may be others in each frame (set_global). Several threads may use a session, one after the other.
 
     `functions` are called by the script like built-in ones: they take and return numbers, Text, tuples of them, and
     None; symbols they take only. They may not use the session. Where one raises something the script sees null, the
@@ -104,7 +104,7 @@ class Session:
             self._stop = self._functions.stop
         self._given: set[str] = set(given or ())
         for name, value in (given or {}).items():
-            self.give(name, value)
+            self.set_global(name, value)
         if isinstance(source, str) and "\n" in source:
             data = source.encode()
             self._call(lib.petri_load_text, b"<string>", data, len(data))
@@ -114,7 +114,7 @@ class Session:
     def _open(self, wanted: Options) -> Any:
         options = ffi.new("PetriOptions *")
         lib.petri_options_init(options, ffi.sizeof("PetriOptions"))
-        for name in ("fps", "threads", "memory_bytes", "work", "realtime", "simplify", "keep_forces", "no_files"):
+        for name in ("fps", "threads", "memory_limit", "work_limit", "realtime", "simplify", "keep_forces", "no_files"):
             value = getattr(wanted, name)
             if value is not None:
                 setattr(options, name, value)
@@ -124,9 +124,9 @@ class Session:
             folders = ffi.new("const char *[]", [*texts, ffi.NULL])
             keep += [texts, folders]
             setattr(options, name, folders)
-        options.interruptible = True
-        options.diagnostic = lib.petri_python_diagnostic
-        options.host = handle = ffi.new_handle(self._told)
+        options.rollback_frames = True
+        options.on_diagnostic = lib.petri_python_diagnostic
+        options.user_data = handle = ffi.new_handle(self._told)
         pointer = lib.petri_open(options)
         if not pointer:
             raise ValueError(f"there is no session with {wanted}")
@@ -135,7 +135,7 @@ class Session:
     def _printed(self, value: Any) -> str:
         with self._lock:
             encoded, keep = values.encode(self._c, value)
-            text = lib.petri_text(self._c, encoded)
+            text = lib.petri_format_value(self._c, encoded)
             if not text:
                 raise ValueError(f"{value!r} is no value of the language")
             return ffi.string(text).decode()
@@ -193,7 +193,7 @@ class Session:
     def evaluate(self, text: str) -> values.Value:
         """The value of an expression, in the frame that was made last."""
         data = text.encode()
-        return values.parse(self._collect(lib.petri_evaluate, data, len(data), ffi.new("PetriResult *")))
+        return values.parse(self._collect(lib.petri_evaluate, data, len(data), ffi.new("PetriEvaluation *")))
 
     def interrupt(self) -> None:
         """Has another thread's step end with InterruptedStep; the frame at hand is given up. For any thread."""
@@ -225,13 +225,13 @@ class Session:
         text = ffi.NULL if value is None else (value if isinstance(value, str) else self._printed(value)).encode()
         self._call(lib.petri_set_parameter, name.encode(), text, message=f"the script has no parameter {name}")
 
-    def give(self, name: str, value: Any) -> None:
+    def set_global(self, name: str, value: Any) -> None:
         """Gives a name that was `given` at first another value, from the next frame on."""
         if name not in self._given:
             raise KeyError(f"{name!r} was not given when the session began: petri.Session(..., given={{{name!r}: ...}})")
         with self._lock:
             encoded, keep = values.encode(self._c, value)
-        self._call(lib.petri_give, name.encode(), encoded, message=f"{name!r} cannot be given as {value!r}")
+        self._call(lib.petri_set_global, name.encode(), encoded, message=f"{name!r} cannot be given as {value!r}")
 
     def text(self, *sections: str) -> str:
         """What `petri run --print` writes of the frame: any of "tree", "state", "log", "error", "hash"."""

@@ -59,13 +59,13 @@ class System:
         with self._owner._lock:
             session = self._owner._c
             if not lib.petri_python_view(session, self._number, self._printed, letter.encode(), view):
-                raise self._gone()
+                raise self._missing_error()
             place = address, count, width, stride = view.address, view.count, view.width, view.stride
             # What lies where the last array lay is what that array shows.
             if letter in self._arrays:
                 if self._arrays[letter][0] == place:
                     return self._arrays[letter][1]
-                self._owner.systems._forget_arrays()
+                self._owner.systems._clear_arrays()
             shape = (count, width) if letter in "pvf" else (count,)
             if address == 0:
                 array = numpy.zeros(shape)
@@ -82,11 +82,11 @@ class System:
         with self._owner._lock:
             number = lib.petri_python_system(self._owner._c, self._number, self._printed, self._struct)
         if number < 0:
-            raise self._gone()
+            raise self._missing_error()
         self._number = number
         return self._struct
 
-    def _gone(self) -> LookupError:
+    def _missing_error(self) -> LookupError:
         return LookupError(f"the last frame has no system {self.name!r}")
 
     position = _column("p", "Where the particles are: float64, N×d, read-only.")
@@ -128,7 +128,7 @@ class System:
         count = self._fetch().particle_count
         with self._owner._lock:
             session = self._owner._c
-            return [values.whole(values.decode(session, lib.petri_id(session, self._number, i))) for i in range(count)]
+            return [values.whole(values.decode(session, lib.petri_particle_id(session, self._number, i))) for i in range(count)]
 
     def index(self, id: Any) -> int:
         """The row of the particle with this id; KeyError if there is none."""
@@ -136,7 +136,7 @@ class System:
         found = ffi.new("uint32_t *")
         with self._owner._lock:
             encoded, keep = values.encode(self._owner._c, id)
-            if not lib.petri_find(self._owner._c, self._number, encoded, found):
+            if not lib.petri_find_particle(self._owner._c, self._number, encoded, found):
                 raise KeyError(id)
         return found[0]
 
@@ -188,7 +188,7 @@ class Systems(Mapping):
                 names.append(ffi.string(struct.name))
         return names
 
-    def _forget_arrays(self) -> None:
+    def _clear_arrays(self) -> None:
         """Gives back what only this module still holds of where particles were, unless a user does."""
         for system in self._known.values():
             system._arrays.clear()

@@ -1,7 +1,7 @@
-// drawing.mjs: draws a picture that petri has written as numbers (petri-draw.h, petri_picture_numbers) on a Canvas 2D.
+// drawing.mjs: draws a picture that petri has written as numbers (petri-draw.h, petri_picture_display_list) on a Canvas 2D.
 import { drawFiltered, readFilter } from './filters.mjs';
 import { noisePixels } from './noise.mjs';
-import { drawSystems } from './systems.mjs';
+import { drawSystems } from './automatic.mjs';
 
 const TURN = 2 * Math.PI;
 const JOINS = ['miter', 'round', 'bevel'];
@@ -16,7 +16,7 @@ const MODULATE = 0, COMPOSITES = ['multiply', 'clear', 'copy', null, 'source-ove
     'exclusion', 'hue', 'saturation', 'color', 'luminosity'];
 // Canvas 2D does not keep these to the figure.
 const UNBOUNDED = new Set(['clear', 'copy', 'source-in', 'destination-in', 'source-out', 'destination-atop']);
-const PIECE_SIZES = [2, 2, 4, 6, 6, 6, 7, 0];
+const PATH_ELEMENT_SIZES = [2, 2, 4, 6, 6, 6, 7, 0];
 const FONTS = { Helvetica: '"Liberation Sans"', Arial: '"Liberation Sans"', Menlo: '"DejaVu Sans Mono"' };
 
 // The product of two canvases, alpha and all, for which Canvas 2D has no word.
@@ -54,7 +54,7 @@ function arcTo(path, [x0, y0], n, at) {
 function tracePath(path, n, at, end) {
     let here = [0, 0], first = here;
     while (at < end) {
-        const kind = n[at++], size = PIECE_SIZES[kind];
+        const kind = n[at++], size = PATH_ELEMENT_SIZES[kind];
         if (kind === 0) {
             path.moveTo(n[at], n[at + 1]);
             first = [n[at], n[at + 1]];
@@ -91,7 +91,7 @@ class Painter {
         this.n = numbers;
         this.at = 2;
         this.layers = [];
-        this.undrawn = new Set();
+        this.unsupported = new Set();
         this.image = options.image ?? (() => null);
         this.background = options.background === undefined ? '#000' : options.background;
         const { width, height } = context.canvas, scale = Math.min(width / numbers[0], height / numbers[1]);
@@ -164,7 +164,7 @@ class Painter {
 
     figure() {
         const [fill, stroke, rule] = this.take(3), path = this.path(), inside = rule & 1 ? 'evenodd' : 'nonzero';
-        this.paintFigure(fill, stroke, (context, isFill) => {
+        this.paintPath(fill, stroke, (context, isFill) => {
             if (!isFill)
                 return context.stroke(path);
             if (rule < 2)
@@ -190,7 +190,7 @@ class Painter {
 
     // Fill and stroke are one figure: drawn through a mask where something would shine through, act beyond it, or (`masked`)
     // where the paint would follow another matrix than its own.
-    paintFigure(fill, stroke, act, masked) {
+    paintPath(fill, stroke, act, masked) {
         const composite = COMPOSITES[this.line.composite];
         if (!composite)
             return;
@@ -217,12 +217,12 @@ class Painter {
         else
             this.paintAll({});
         this.context = context;
-        this.layOver(all, mask.canvas, 'destination-in');
-        this.layOver(context, mask.canvas, 'destination-out');
-        this.layOver(context, all.canvas, 'lighter');
+        this.compositeOver(all, mask.canvas, 'destination-in');
+        this.compositeOver(context, mask.canvas, 'destination-out');
+        this.compositeOver(context, all.canvas, 'lighter');
     }
 
-    layOver(context, canvas, composite, alpha = 1, x = 0, y = 0) {
+    compositeOver(context, canvas, composite, alpha = 1, x = 0, y = 0) {
         context.save();
         context.setTransform(1, 0, 0, 1, 0, 0);
         context.globalAlpha = alpha;
@@ -275,7 +275,7 @@ class Painter {
     // Another canvas combined with what a context has, by a number of petri's words.
     combine(context, other, composite) {
         if (COMPOSITES[composite])
-            this.layOver(context, other, COMPOSITES[composite]);
+            this.compositeOver(context, other, COMPOSITES[composite]);
         return context;
     }
 
@@ -293,7 +293,7 @@ class Painter {
         const drawn = 100; // pixels; sizes below one are not drawn by everyone
         const font = `${SLANTS[slant]} ${Math.min(Math.max(weight, 1), 1000)} ${STRETCHES[width] ?? 'normal'} `
             + `${drawn}px ${families.join(',') || 'sans-serif'}`;
-        this.paintFigure(fill, stroke, (here, isFill) => {
+        this.paintPath(fill, stroke, (here, isFill) => {
             here.save();
             here.font = font;
             if (here.fontKerning !== undefined)
@@ -317,7 +317,7 @@ class Painter {
         if (image)
             this.drawImage(image, ...box);
         else
-            this.undrawn.add(`the image ${name}`);
+            this.unsupported.add(`the image ${name}`);
     }
 
     // What the numbers hold of a picture.
@@ -366,7 +366,7 @@ class Painter {
             const name = this.text();
             image = this.image(name);
             if (!image) {
-                this.undrawn.add(`the image ${name}`);
+                this.unsupported.add(`the image ${name}`);
                 return 'transparent';
             }
         }
@@ -388,7 +388,7 @@ class Painter {
     }
 
     // A paint that is made of pixels, those of what is drawn on: `make` draws it on a canvas of its own.
-    ofPixels(alpha, make) {
+    imageOfPixels(alpha, make) {
         Object.assign(this, { solid: false, alpha, round: null });
         return () => {
             const { context } = this, made = this.beside(), pattern = context.createPattern(make(made).canvas, 'no-repeat');
@@ -399,12 +399,12 @@ class Painter {
 
     blend() {
         const [ratio, mode, alpha] = this.take(3), paints = [this.readSource(), this.readSource()];
-        return this.ofPixels(alpha, made => {
+        return this.imageOfPixels(alpha, made => {
             const { width, height } = made.canvas;
             const [first, second] = paints.map(paint => this.apart(width, height, 0, 0, () => this.paintAll(paint)).canvas);
-            this.layOver(made, first, 'source-over', ratio < 0 ? 1 : 1 - ratio);
+            this.compositeOver(made, first, 'source-over', ratio < 0 ? 1 : 1 - ratio);
             if (ratio >= 0)
-                this.layOver(made, second, 'lighter', ratio);
+                this.compositeOver(made, second, 'lighter', ratio);
             else
                 this.combine(made, second, mode);
             if (alpha < 1) {
@@ -417,7 +417,7 @@ class Painter {
 
     noise() {
         const noise = this.take(8);
-        return this.ofPixels(noise[7], made => {
+        return this.imageOfPixels(noise[7], made => {
             const { width, height } = made.canvas;
             made.putImageData(noisePixels(noise, this.context.getTransform().invertSelf(), width, height), 0, 0);
             return made;
@@ -444,7 +444,7 @@ class Painter {
     endLayer() {
         const [alpha] = this.take(1), { canvas } = this.context;
         this.context = this.layers.pop();
-        this.layOver(this.context, canvas, 'source-over', alpha);
+        this.compositeOver(this.context, canvas, 'source-over', alpha);
     }
 
     command(kind) {
@@ -467,7 +467,7 @@ class Painter {
         case 10: this.context.restore(); break;
         case 11: this.beginLayer(); break;
         case 12: this.endLayer(); break;
-        case 13: this.undrawn.add(this.text()); break;
+        case 13: this.unsupported.add(this.text()); break;
         case 14: this.systems(); break;
         case 15: {
             const box = this.take(5), picture = this.pixels();
@@ -544,7 +544,7 @@ class Painter {
             this.context.fillRect(0, 0, canvas.width, canvas.height);
             this.context.restore();
         }
-        return [...this.undrawn];
+        return [...this.unsupported];
     }
 }
 

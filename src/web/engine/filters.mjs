@@ -1,8 +1,8 @@
 // filters.mjs: what is drawn through a filter on a Canvas 2D (lib/draw/filters.c): drawn on a sheet of its own, which is
 // then changed.
-import { Sheet } from './sheets.mjs';
+import { FloatImage } from './float_image.mjs';
 
-const WIDEST = 256, FARTHEST = 2000; // of a blur and of a move, pixels
+const MAX_SIGMA = 256, MAX_OFFSET = 2000; // of a blur and of a move, pixels
 const KINDS = ['blur', 'shadow', 'offset', 'dilate', 'erode', 'matrix', 'paint', 'blend', 'drawn'];
 
 // The filter at painter.at (petri-draw.h, PETRI_FILTER_…).
@@ -40,8 +40,8 @@ function needsOf(filter, matrix) {
     const needs = inputs.map(input => needsOf(input, matrix)), radius = Math.max(...inPixels(radii, matrix));
     const blurs = filter.kind === 'blur' || filter.kind === 'shadow';
     return {
-        margin: Math.min(Math.max(...moved(offset, matrix).map(Math.abs)), FARTHEST)
-            + (blurs ? 3 * Math.min(radius, WIDEST) : Math.min(radius, FARTHEST)) + needs.reduce((sum, need) => sum + need.margin, 0),
+        margin: Math.min(Math.max(...moved(offset, matrix).map(Math.abs)), MAX_OFFSET)
+            + (blurs ? 3 * Math.min(radius, MAX_SIGMA) : Math.min(radius, MAX_OFFSET)) + needs.reduce((sum, need) => sum + need.margin, 0),
         everywhere: filter.matrix?.[19] || filter.factors?.[3] || needs.some(need => need.everywhere),
     };
 }
@@ -105,10 +105,10 @@ export function drawFiltered(painter, act, composite) {
     if (!ink || !composite)
         return;
     const box = boxOf(all, ink, edge), [x, y, ...size] = box;
-    const sheetOf = made => Sheet.of(made, 0, 0, ...size), empty = () => painter.beside({ width: size[0], height: size[1] }, true);
+    const sheetOf = made => FloatImage.of(made, 0, 0, ...size), empty = () => painter.beside({ width: size[0], height: size[1] }, true);
     const result = applyFilter(filter, {
         matrix,
-        drawn: Sheet.of(apart, ...box),
+        drawn: FloatImage.of(apart, ...box),
         paintAll: paint => sheetOf(painter.apart(...size, x - edge, y - edge, () => painter.paintAll(paint))),
         blend(mode, below, above) {
             const made = empty(), other = above.put(empty());
@@ -116,5 +116,5 @@ export function drawFiltered(painter, act, composite) {
             return sheetOf(painter.combine(made, other, mode));
         },
     });
-    painter.layOver(context, result.put(empty()), composite, 1, x - edge, y - edge);
+    painter.compositeOver(context, result.put(empty()), composite, 1, x - edge, y - edge);
 }

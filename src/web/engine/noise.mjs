@@ -4,8 +4,8 @@ const LATTICE = 256, CHANNELS = 4, FOLDED = 1, IMPROVED = 2;
 
 // The numbers of SVG: 1 to 2³¹ − 2.
 function* numbersFrom(seed) {
-    const MODULUS = 2147483647, FACTOR = 16807, MOST = MODULUS - 1, whole = Math.trunc(seed);
-    let number = whole <= 0 ? 1 - whole % MOST : Math.min(whole, MOST);
+    const MODULUS = 2147483647, FACTOR = 16807, MAX_VALUE = MODULUS - 1, whole = Math.trunc(seed);
+    let number = whole <= 0 ? 1 - whole % MAX_VALUE : Math.min(whole, MAX_VALUE);
     for (;;)
         yield number = FACTOR * number % MODULUS; // below 2⁵³
 }

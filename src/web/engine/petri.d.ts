@@ -46,7 +46,7 @@ export interface Options {
      * nothing has changed. Calls that only look at what is there are made to their end.
      * It may look at a clock, or at a SharedArrayBuffer that another thread writes.
      */
-    wantsEnd?: () => boolean;
+    shouldInterrupt?: () => boolean;
 }
 
 export interface Engine {
@@ -72,15 +72,15 @@ export interface Frame {
 /** A name that may be set from outside: `let NAME=NAME or DEFAULT -- LEAST..MOST|STEP comment`. */
 export interface Parameter {
     name: string;
-    fallback: string;
+    defaultValue: string;
     value: string;
     comment: string;
     /** NaN unless the value is one number. */
     number: number;
-    fallbackNumber: number;
+    defaultNumber: number;
     /** The range; infinite without one. */
-    least: number;
-    most: number;
+    min: number;
+    max: number;
     /** 0: none. */
     step: number;
     defined: boolean;
@@ -111,8 +111,8 @@ export interface System {
 }
 
 export interface Token {
-    kind: 'name' | 'keyword' | 'number' | 'string' | 'symbol' | 'node' | 'tag' | 'operator' | 'comment' | 'wrong'
-        | 'line-end' | 'indent' | 'dedent';
+    kind: 'name' | 'keyword' | 'number' | 'string' | 'symbol' | 'node' | 'tag' | 'operator' | 'comment' | 'invalid'
+        | 'newline' | 'indent' | 'dedent';
     /** In bytes of UTF-8. */
     start: number;
     end: number;
@@ -124,7 +124,7 @@ export interface Help {
     name: string;
     /** Of a function; the area of a node; the type of an attribute. */
     parameters: string;
-    fallback: string;
+    defaultValue: string;
     unit: string;
     help: string;
 }
@@ -132,12 +132,12 @@ export interface Help {
 export type Section = 'tree' | 'state' | 'log' | 'error' | 'hash';
 
 /** A picture that WebGL 2 has drawn. */
-export interface Shown {
+export interface RenderedImage {
     image: ImageBitmap;
     title: string;
     ready: boolean;
     /** What is left out, as words. */
-    undrawn: string[];
+    unsupported: string[];
     screen: true;
 }
 
@@ -163,7 +163,7 @@ export interface Session {
     /** The value as a script would write it; null: the default. */
     setParameter(name: string, value: string | number | null): this;
     /** A name for scripts that are loaded from now on, whose value may be another at any time. */
-    give(name: string, value: number | ArrayLike<number>): this;
+    setGlobal(name: string, value: number | ArrayLike<number>): this;
     /** Views that the next call which changes something makes invalid; copy what is to be kept. */
     readonly systems: System[];
     /** Printed keys; numbers, or the printed form of what is none. */
@@ -171,7 +171,7 @@ export interface Session {
     /** The SHA-256 of the state: the same on every machine. */
     hash(): string;
     /**
-     * The particles of the last frame as comma-separated values, as `petri run --trajectory way.csv` writes them: the first
+     * The particles of the last frame as comma-separated values, as `petri run --trajectory run.csv` writes them: the first
      * call gives a header, too, and the dimensions that the columns have, for the calls in later frames.
      */
     table(dimensions?: number): { text: string; dimensions: number };
@@ -185,16 +185,16 @@ export interface Session {
     /** Whether the last frame has anything to draw. */
     readonly drawable: boolean;
     /** What the last frame shows, as numbers for `drawPicture`; null if there is nothing to draw. */
-    picture(options?: { automatic?: boolean }): Picture | null;
+    displayList(options?: { automatic?: boolean }): Picture | null;
     /**
      * The same, but with all that takes WebGL 2 (three dimensions, effects, several canvases), as an image that is the
      * caller's; numbers where they are all of it, or there is no WebGL 2.
      */
-    show(options?: { automatic?: boolean }): Picture | Shown | null;
+    render(options?: { automatic?: boolean }): Picture | RenderedImage | null;
     /** Whether the pictures of the last frame depend on those before (`!feedback`, `!reference`, …). */
-    readonly looksBack: boolean;
+    readonly needsHistory: boolean;
     /** To be called after each step whose picture is not shown: makes it if later ones depend on it, and says whether they do. */
-    follow(): boolean;
+    renderIfNeeded(): boolean;
     tokens(text: string): Token[];
     help(): Help[];
     symbol(name: string): number;
@@ -209,12 +209,12 @@ export interface Session {
 }
 
 export interface Picture {
-    /** As petri-draw.h describes them (petri_picture_numbers). */
+    /** As petri-draw.h describes them (petri_picture_display_list). */
     numbers: Float64Array;
     title: string;
     /** false: particles are not yet where they will be seen. */
     ready: boolean;
-    /** Of `show`: whether there is WebGL 2. */
+    /** Of `render`: whether there is WebGL 2. */
     screen?: boolean;
 }
 

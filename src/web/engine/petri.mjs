@@ -6,7 +6,7 @@ import { compile, instantiate } from './wasm.mjs';
 
 export const STATUS = ['ok', 'invalid', 'limit', 'memory', 'missing', 'interrupted'];
 const LEVELS = ['error', 'warning', 'note'];
-const TOKENS = ['name', 'keyword', 'number', 'string', 'symbol', 'node', 'tag', 'operator', 'comment', 'wrong', 'line-end',
+const TOKENS = ['name', 'keyword', 'number', 'string', 'symbol', 'node', 'tag', 'operator', 'comment', 'invalid', 'newline',
     'indent', 'dedent'];
 const SECTIONS = { tree: 1, state: 2, log: 4, error: 8, hash: 16 };
 // Browsers give WebAssembly about a megabyte of stack besides what petri sees of it; with this much, 500 calls of one
@@ -40,7 +40,7 @@ class Engine {
         const now = () => this.session;
         this.memory = instantiate(module, {
             write: (at, length) => now().written.push(this.memory.text(at, length)),
-            wants_end: () => (now().mayEnd && now().wantsEnd?.() ? 1 : 0),
+            should_interrupt: () => (now().mayInterrupt && now().shouldInterrupt?.() ? 1 : 0),
             read: (name, length) => now().readFile(text(name), length),
             diagnostic: (level, file, message, code, hint, rendered, line, column, endLine, endColumn) =>
                 now().tell({
@@ -49,11 +49,11 @@ class Engine {
                 }),
             frame: (number, time, beat, fps, tempo, steps, evaluationSeconds, physicsSeconds) =>
                 now().taken.push({ number, time, beat, fps, tempo, steps, evaluationSeconds, physicsSeconds }),
-            parameter: (name, fallback, value, comment, number, fallbackNumber, least, most, step, defined, settable,
+            parameter: (name, defaultValue, value, comment, number, defaultNumber, min, max, step, defined, settable,
                 line, column) =>
                 now().taken.push({
-                    name: text(name), fallback: text(fallback), value: text(value), comment: text(comment), number,
-                    fallbackNumber, least, most, step, defined: !!defined, settable: !!settable, line, column,
+                    name: text(name), defaultValue: text(defaultValue), value: text(value), comment: text(comment), number,
+                    defaultNumber, min, max, step, defined: !!defined, settable: !!settable, line, column,
                 }),
             system: (name, dimensions, count, forces, steps) =>
                 now().taken.push({ name: text(name), dimensions, count, forces, steps }),
@@ -70,11 +70,11 @@ class Engine {
             screen: (width, height) => this.memory.screen.resize(width, height),
             shown: (title, ready) => now().taken.push({ image: this.memory.screen.take(), title: text(title), ready: !!ready }),
             draw: (numbers, count, width, height, pixels) => now().drawCanvas(numbers, count, width, height, pixels),
-            image: (name, width, height) => now().giveImage(text(name), width, height),
+            image: (name, width, height) => now().imagePixels(text(name), width, height),
             token: (kind, start, end) => now().taken.push({ kind: TOKENS[kind], start, end }),
-            help: (kind, name, parameters, fallback, unit, help) =>
+            help: (kind, name, parameters, defaultValue, unit, help) =>
                 now().taken.push({
-                    kind: text(kind), name: text(name), parameters: text(parameters), fallback: text(fallback),
+                    kind: text(kind), name: text(name), parameters: text(parameters), defaultValue: text(defaultValue),
                     unit: text(unit), help: text(help),
                 }),
         });
@@ -90,15 +90,15 @@ class Engine {
 }
 
 export class Session {
-    constructor(engine, { fps = 0, memory = MEMORY, work = CALL_WORK, files = {}, image = () => null, onDiagnostic, wantsEnd } = {}) {
+    constructor(engine, { fps = 0, memory = MEMORY, work = CALL_WORK, files = {}, image = () => null, onDiagnostic, shouldInterrupt } = {}) {
         this.engine = engine;
         this.memory = engine.memory;
         this.onDiagnostic = onDiagnostic;
-        this.wantsEnd = wantsEnd;
+        this.shouldInterrupt = shouldInterrupt;
         this.image = image;
         this.painter = null; // 0: there can be none
         this.followed = null; // the picture that was made last, if others depend on it
-        this.undrawn = new Set();
+        this.unsupported = new Set();
         this.files = new Map();
         this.kept = []; // addresses of files, until the session is closed
         this.written = [];
@@ -131,12 +131,12 @@ export class Session {
 
     // Everything that enters the engine goes through here. An exception that comes out of it means that the engine is
     // in the middle of something, for good. The host may end only what can tell that it was ended.
-    run(act, mayEnd = false) {
+    run(act, mayInterrupt = false) {
         if (this.engine.broken)
             throw this.engine.broken;
         const outer = this.engine.session;
         this.engine.session = this;
-        this.mayEnd = mayEnd;
+        this.mayInterrupt = mayInterrupt;
         this.told = [];
         this.written = [];
         this.taken = [];
@@ -199,7 +199,7 @@ export class Session {
     }
 
     clear() {
-        this.run(wasm => wasm.petri_clear(this.handle));
+        this.run(wasm => wasm.petri_reset(this.handle));
     }
 
     get frame() {
@@ -267,11 +267,11 @@ export class Session {
     }
 
     // A name that scripts loaded from now on see: a number or numbers, another value at any time.
-    give(name, value) {
+    setGlobal(name, value) {
         const numbers = Float64Array.from(typeof value === 'number' ? [value] : value);
         return this.check(`the name ${name}`, this.with(name, (wasm, called) =>
             this.memory.withText(new Uint8Array(numbers.buffer), at =>
-                wasm.web_give(this.handle, called, numbers.length ? at : 0, numbers.length))));
+                wasm.web_set_global(this.handle, called, numbers.length ? at : 0, numbers.length))));
     }
 
     // An expression in the last frame.
@@ -289,24 +289,26 @@ export class Session {
     }
 
     // What the last frame shows, as numbers that drawing.mjs knows; null if there is nothing to draw.
-    picture({ automatic = false } = {}) {
+    displayList({ automatic = false } = {}) {
         this.run(wasm => wasm.web_picture(this.handle, 0, 0, automatic ? 1 : 0));
         return this.taken[0] ?? null;
     }
 
-    // Whether the pictures of the last frame depend on those before: then `follow` is to be called after each step.
-    get looksBack() {
-        return !!this.run(wasm => wasm.petri_looks_back(this.handle));
+    // Whether the pictures of the last frame depend on those before: then `renderIfNeeded` is to be called after each step.
+    get needsHistory() {
+        return !!this.run(wasm => wasm.petri_needs_history(this.handle));
     }
 
     // Makes the pictures of the last frame, which nobody looks at, if later ones depend on them; whether they do.
-    follow() {
-        if (!this.looksBack)
+    // Also extends what the automatic picture shows by that frame.
+    renderIfNeeded() {
+        this.run(wasm => wasm.web_follow_frame(this.handle));
+        if (!this.needsHistory)
             return false;
         const { number } = this.frame;
         if (this.followed?.number !== number && this.openPainter()) {
             this.forgetPicture();
-            this.followed = { number, at: this.run(wasm => wasm.web_follow(this.handle, this.painter)) };
+            this.followed = { number, at: this.run(wasm => wasm.web_render_if_needed(this.handle, this.painter)) };
         }
         return true;
     }
@@ -329,25 +331,25 @@ export class Session {
     }
 
     // The same with all that takes WebGL 2, as an image; as numbers where there is none, or no need of it.
-    show({ automatic = false } = {}) {
+    render({ automatic = false } = {}) {
         this.openPainter();
-        this.undrawn.clear();
-        const followed = this.follow() && !automatic ? this.followed?.at ?? 0 : 0;
+        this.unsupported.clear();
+        const followed = this.renderIfNeeded() && !automatic ? this.followed?.at ?? 0 : 0;
         this.run(wasm => wasm.web_picture(this.handle, this.painter, followed, automatic ? 1 : 0));
         const shown = this.taken[0] ?? null;
-        return shown && { ...shown, screen: this.painter > 0, ...(shown.image && { undrawn: [...this.undrawn] }) };
+        return shown && { ...shown, screen: this.painter > 0, ...(shown.image && { unsupported: [...this.unsupported] }) };
     }
 
     drawCanvas(numbers, count, width, height, pixels) {
         const context = pixelContext(width, height), { image } = this;
-        const undrawn = drawPicture(context, this.memory.numbers(numbers, count), { image, background: null });
-        undrawn.forEach(what => this.undrawn.add(what));
+        const unsupported = drawPicture(context, this.memory.numbers(numbers, count), { image, background: null });
+        unsupported.forEach(what => this.unsupported.add(what));
         readPixels(context, this.memory.words(pixels, width * height));
         return true;
     }
 
     // The pixels of an image, which stay until the next one is wanted.
-    giveImage(name, width, height) {
+    imagePixels(name, width, height) {
         const image = this.image(name);
         this.memory.wasm.free(this.pixels ?? 0);
         this.pixels = image ? this.memory.wasm.malloc(4 * image.width * image.height) : 0;
@@ -363,7 +365,7 @@ export class Session {
     }
 
     get drawable() {
-        return !!this.run(wasm => wasm.petri_drawable(this.handle));
+        return !!this.run(wasm => wasm.petri_has_picture(this.handle));
     }
 
     tokens(text) {
@@ -391,7 +393,7 @@ export class Session {
 
     key(name, pressed) {
         return this.check(`the key ${name}`, this.with(name, (wasm, at) =>
-            wasm.petri_key(this.handle, at, pressed ? 1 : 0)));
+            wasm.petri_report_key(this.handle, at, pressed ? 1 : 0)));
     }
 
     // All that decides how a session goes on. Free it before the session is closed.

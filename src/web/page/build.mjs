@@ -8,7 +8,7 @@ const here = dirname(fileURLToPath(import.meta.url));
 const [, , output, samples] = process.argv;
 await build({
     entryPoints: {
-        page: join(here, 'main.mjs'), start: join(here, 'start.mjs'), worker: join(here, 'worker.mjs'),
+        page: join(here, 'main.mjs'), start: join(here, 'preload.mjs'), worker: join(here, 'worker.mjs'),
         'petri-dish': join(here, 'embed.mjs'),
     },
     outdir: output, bundle: true, minify: true, format: 'esm', target: 'es2022', loader: { '.css': 'text' },

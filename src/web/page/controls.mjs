@@ -47,7 +47,7 @@ export class Controls {
     show(answer) {
         const $ = this.get;
         $('number').textContent = `frame ${answer.frame}, ${answer.time.toFixed(2)} s`;
-        Object.assign($('time'), { max: Math.max(answer.most, 0), value: answer.frame });
+        Object.assign($('time'), { max: Math.max(answer.lastFrame, 0), value: answer.frame });
         this.parameters.show(answer.parameters);
     }
 

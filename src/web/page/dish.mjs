@@ -1,9 +1,9 @@
 // dish.mjs: a script on a canvas: loads, runs, goes back. The page and <petri-dish> are made of it.
 import { Remote } from './engine.mjs';
 import { addImage, paint, sizeOf } from './paint.mjs';
-import { NO_ENGINE, hasEngine } from './simd.mjs';
+import { NO_ENGINE, hasEngine } from './feature_check.mjs';
 
-const MOST_STEPS = 8; // frames between two pictures: a script that is slower falls behind
+const MAX_STEPS = 8; // frames between two pictures: a script that is slower falls behind
 const SLOW = 500; // ms: what takes longer, a person may want to stop
 const FIRST_SEEN = 2; // before, particles are not where they will be seen
 
@@ -12,7 +12,7 @@ export class Dish {
     // not any more; and, where they are, loaded() and slow(whether).
     constructor(canvas, host, { source, worker }) {
         Object.assign(this, {
-            canvas, host, running: false, loaded: null, name: null, frame: -1, most: -1, fps: 60, speed: 1, behind: 0, last: 0, turn: 0,
+            canvas, host, running: false, loaded: null, name: null, frame: -1, lastFrame: -1, fps: 60, speed: 1, behind: 0, last: 0, turn: 0,
             files: new Map(), images: new Map(), wanted: null, pressed: new Set(),
         });
         this.remote = hasEngine() ? new Remote(source, worker) : null;
@@ -69,7 +69,7 @@ export class Dish {
     }
 
     show(answer) {
-        Object.assign(this, { frame: answer.frame, most: answer.most, fps: answer.fps, parameters: answer.parameters });
+        Object.assign(this, { frame: answer.frame, lastFrame: answer.lastFrame, fps: answer.fps, parameters: answer.parameters });
         const left = this.draw(answer);
         this.host.shown(answer, left);
         if (left.includes('canvas3d'))
@@ -124,7 +124,7 @@ export class Dish {
     async tick(now, turn) {
         if (!this.running || turn !== this.turn)
             return;
-        this.behind = Math.min(this.behind + Math.max(now - this.last, 0) / 1000 * this.fps * this.speed, MOST_STEPS);
+        this.behind = Math.min(this.behind + Math.max(now - this.last, 0) / 1000 * this.fps * this.speed, MAX_STEPS);
         this.last = now;
         const count = Math.floor(this.behind);
         this.behind -= count;
@@ -193,8 +193,8 @@ export class Dish {
         canvas.onpointermove = canvas.onpointerdown = canvas.onpointerup = event => this.point(event, true);
         canvas.onpointerleave = event => this.point(event, false);
         canvas.onkeydown = event => this.press(event);
-        canvas.onkeyup = event => this.letGo(keyName(event));
-        canvas.onblur = () => this.pressed.forEach(name => this.letGo(name));
+        canvas.onkeyup = event => this.releaseKey(keyName(event));
+        canvas.onblur = () => this.pressed.forEach(name => this.releaseKey(name));
     }
 
     point(event, inside) {
@@ -219,7 +219,7 @@ export class Dish {
         this.ask('key', { name, pressed: true }).catch(() => {});
     }
 
-    letGo(name) {
+    releaseKey(name) {
         if (this.pressed.delete(name))
             this.ask('key', { name, pressed: false }).catch(() => {});
     }
@@ -240,10 +240,10 @@ function keyName({ key, code }) {
 }
 
 // What to say of an error.
-export const sayError = error => error.type === 'stopped' ? 'Stopped; the frame before is still there.'
+export const errorText = error => error.type === 'stopped' ? 'Stopped; the frame before is still there.'
     : error.type === 'ended' ? 'Stopped. What the frame was at is given up; Run starts anew.'
         : error.type === 'broken' ? `${error.message}. Run starts anew.` : error.message.split('\n')[0];
 
 // What to say of what a picture leaves out.
-export const sayLeft = ({ picture }, left) =>
+export const unsupportedText = ({ picture }, left) =>
     `Not drawn in the browser${picture.screen ? '' : ', which has no WebGL 2'}: ${left.join(', ')}.`;

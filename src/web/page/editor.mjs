@@ -180,5 +180,5 @@ function nodeAt(state, at) {
     return [...text.slice(0, at - from).matchAll(/!([\p{L}_][\p{L}\p{N}_]*)/gu)].at(-1)?.[1] ?? null;
 }
 
-const describe = ({ kind, help, parameters, fallback, unit }) => kind !== 'attribute' ? help
-    : [help, [parameters, unit && `in ${unit}`, fallback && `default ${fallback}`].filter(Boolean).join(', ')].filter(Boolean).join(' · ');
+const describe = ({ kind, help, parameters, defaultValue, unit }) => kind !== 'attribute' ? help
+    : [help, [parameters, unit && `in ${unit}`, defaultValue && `default ${defaultValue}`].filter(Boolean).join(', ')].filter(Boolean).join(' · ');

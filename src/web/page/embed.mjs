@@ -2,7 +2,7 @@
 // the element comes into view, and is that of the folder where this file is.
 import { loadEngine } from '../engine/petri.mjs';
 import { CONTROLS, Controls } from './controls.mjs';
-import { Dish, sayError, sayLeft } from './dish.mjs';
+import { Dish, errorText, unsupportedText } from './dish.mjs';
 import style from './embed.css';
 import { packLink } from './link.mjs';
 
@@ -10,7 +10,7 @@ import { packLink } from './link.mjs';
 let compiled = null;
 const engine = () => (compiled ??= loadEngine(new URL('petri/engine.wasm', import.meta.url)).then(({ module }) => module));
 
-const MOST_PROBLEMS = 4; // that are told below a picture
+const MAX_PROBLEMS = 4; // that are told below a picture
 
 // Element names and their attributes, most of all `on…`, stay out of this.
 const TEMPLATE = `<style>${style}</style>
@@ -175,9 +175,9 @@ class PetriDish extends HTMLElement {
     shown(answer, left) {
         const problems = this.hasAttribute('editor') ? answer.told.filter(({ level }) => level !== 'note') : [];
         if (problems.length)
-            this.say(problems.slice(0, MOST_PROBLEMS).map(({ rendered }) => rendered.trimEnd()).join('\n'));
+            this.say(problems.slice(0, MAX_PROBLEMS).map(({ rendered }) => rendered.trimEnd()).join('\n'));
         else if (left.length)
-            this.say(sayLeft(answer, left));
+            this.say(unsupportedText(answer, left));
         this.controls.show(answer);
         this.get('picture').dataset.frame = answer.frame;
         this.tell('petri-frame', { frame: answer.frame, time: answer.time });
@@ -185,7 +185,7 @@ class PetriDish extends HTMLElement {
 
     failed(error, told) {
         const [problem] = told.filter(({ level }) => level !== 'note');
-        this.say(problem?.rendered ?? sayError(error), true);
+        this.say(problem?.rendered ?? errorText(error), true);
         this.tell('petri-error', { message: error.message, diagnostics: told });
     }
 

@@ -2,16 +2,16 @@
 import { Film } from './film.mjs';
 import { paint, sizeOf } from './paint.mjs';
 
-const TELL_EVERY = 10; // frames
+const REPORT_INTERVAL = 10; // frames
 
 // Goes through frames; `see` is called after each.
-async function each(player, { from, to, wantsEnd, tell }, see) {
+async function each(player, { from, to, shouldInterrupt, tell }, see) {
     for (let frame = from; frame <= to; frame++) {
-        if (wantsEnd())
+        if (shouldInterrupt())
             throw Object.assign(new Error('stopped'), { status: 'interrupted' });
         player.seek(frame);
         await see();
-        if ((frame - from) % TELL_EVERY === 0)
+        if ((frame - from) % REPORT_INTERVAL === 0)
             tell(frame - from, to - from + 1);
     }
 }
@@ -31,7 +31,7 @@ export async function makeFilm(player, images, show, range) {
     return film.end();
 }
 
-// As `petri run --trajectory way.csv` writes it.
+// As `petri run --trajectory run.csv` writes it.
 export async function makeTable(player, range) {
     const parts = [];
     let columns = 0;

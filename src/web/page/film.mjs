@@ -4,7 +4,7 @@ import { packFilm } from './webm.mjs';
 const CODECS = [['vp09.00.51.08', 'V_VP9'], ['vp8', 'V_VP8']];
 const BITS = 0.2; // for a pixel of a frame
 const KEY_EVERY = 60; // frames
-const MOST_WAITING = 4; // frames that the encoder has been given and has not made
+const MAX_WAITING = 4; // frames that the encoder has been given and has not made
 
 async function chooseCodec(settings) {
     for (const [codec, name] of globalThis.VideoEncoder ? CODECS : []) {
@@ -40,7 +40,7 @@ export class Film {
         const frame = new VideoFrame(this.canvas, { timestamp: microseconds(this.count), duration: microseconds(1) });
         this.encoder.encode(frame, { keyFrame: this.count++ % KEY_EVERY === 0 });
         frame.close();
-        while (this.encoder.encodeQueueSize > MOST_WAITING && !this.error)
+        while (this.encoder.encodeQueueSize > MAX_WAITING && !this.error)
             await new Promise(resolve => this.encoder.addEventListener('dequeue', resolve, { once: true }));
         if (this.error)
             throw this.error;

@@ -2,8 +2,8 @@
 // changes of parameters as [after which frame, name, value], f frame, h the hash of the state there.
 
 const VERSION = 1;
-const LONGEST = 100000; // characters: what browsers and mail still pass on
-const MOST_TEXT = 4 << 20; // of what it unpacks to
+const MAX_LENGTH = 100000; // characters: what browsers and mail still pass on
+const MAX_TEXT = 4 << 20; // of what it unpacks to
 
 async function through(stream, bytes, most = Infinity) {
     const reader = new Blob([bytes]).stream().pipeThrough(stream).getReader(), parts = [];
@@ -29,8 +29,8 @@ export async function packLink({ text, name, changes = [], frame, hash }) {
     for (const byte of packed)
         binary += String.fromCharCode(byte);
     const link = '#' + btoa(binary).replaceAll('+', '-').replaceAll('/', '_').replace(/=+$/, '');
-    if (link.length > LONGEST)
-        throw new Error(`the script is too long for a link: ${link.length} characters, ${LONGEST} at the most; save it as a file`);
+    if (link.length > MAX_LENGTH)
+        throw new Error(`the script is too long for a link: ${link.length} characters, ${MAX_LENGTH} at the most; save it as a file`);
     return link;
 }
 
@@ -41,11 +41,11 @@ const isChange = change => Array.isArray(change) && change.length === 3 && Numbe
 export async function readLink(link) {
     const packed = link.replace(/^#/, '').replaceAll('-', '+').replaceAll('_', '/');
     let json;
-    if (packed.length > LONGEST)
+    if (packed.length > MAX_LENGTH)
         throw new Error('the link is too long');
     try {
         const bytes = Uint8Array.from(atob(packed), character => character.charCodeAt(0));
-        const text = await through(new DecompressionStream('deflate-raw'), bytes, MOST_TEXT);
+        const text = await through(new DecompressionStream('deflate-raw'), bytes, MAX_TEXT);
         json = JSON.parse(new TextDecoder('utf-8', { fatal: true }).decode(text));
     } catch (error) {
         throw new Error(error.message.startsWith('the link') ? error.message

@@ -1,8 +1,8 @@
 // main.mjs: the page: an editor beside a dish, and what the buttons do.
 import { CONTROLS, Controls } from './controls.mjs';
-import { Dish, sayError, sayLeft } from './dish.mjs';
+import { Dish, errorText, unsupportedText } from './dish.mjs';
 import { Editor } from './editor.mjs';
-import { Keeper, keptScripts } from './kept.mjs';
+import { ScriptSaver, savedScripts } from './saved_scripts.mjs';
 import { packLink, readLink } from './link.mjs';
 import { Plot } from './plot.mjs';
 import { Problems } from './problems.mjs';
@@ -36,13 +36,13 @@ const host = {
         if (answer.picture)
             document.title = answer.picture.title ? `${answer.picture.title} · petri` : 'petri';
         if (left.length)
-            say(sayLeft(answer, left));
+            say(unsupportedText(answer, left));
         document.body.dataset.frame = answer.frame;
         look();
     },
     failed(error, told) {
         problems.add(told);
-        say(sayError(error), true);
+        say(errorText(error), true);
     },
     slow(is) {
         document.body.classList.toggle('busy', is);
@@ -73,7 +73,7 @@ async function ready({ always = false } = {}) {
 
 // --- the text
 
-const keeper = new Keeper();
+const keeper = new ScriptSaver();
 let checking = 0, opening = false;
 function changed(text) {
     if (!opening) {
@@ -161,7 +161,7 @@ function fillMenu() {
     const menu = $('samples'), { value } = menu;
     menu.replaceChildren(new Option('choose …', ''),
         ...group('Samples', Object.keys(samples).map(sample => new Option(sample.replace(/\.fl$/, ''), sample))),
-        ...group('Written here', keptScripts().map(({ name: own, when }) =>
+        ...group('Written here', savedScripts().map(({ name: own, when }) =>
             new Option(`${own}, ${new Date(when).toLocaleString()}`, when))));
     menu.value = value;
 }
@@ -172,7 +172,7 @@ function listen() {
     $('open').onclick = () => $('file').click();
     $('file').onchange = () => takeFiles($('file').files);
     $('samples').onchange = () => {
-        const chosen = $('samples').value, own = keptScripts().find(({ when }) => String(when) === chosen);
+        const chosen = $('samples').value, own = savedScripts().find(({ when }) => String(when) === chosen);
         if (own)
             openText(own.text, own.name);
         else if (chosen)
@@ -194,7 +194,7 @@ function listen() {
 }
 
 async function begin() {
-    const [before] = keptScripts();
+    const [before] = savedScripts();
     $('below').innerHTML = CONTROLS;
     dish = new Dish($('picture'), host, globalThis.petriStart ?? { source: new URL('petri/engine.wasm', location.href).href });
     const given = await (await fetch('samples.json')).json();

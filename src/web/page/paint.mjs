@@ -4,14 +4,14 @@ import { drawPicture, pictureSize } from '../engine/drawing.mjs';
 export const sizeOf = ({ image, numbers }) => image ?? pictureSize(numbers);
 
 // Draws what WebGL 2 has made, or draws by itself. Returns what is left out, as words.
-export function paint(context, { image, numbers, undrawn }, images) {
+export function paint(context, { image, numbers, unsupported }, images) {
     if (!image)
         return drawPicture(context, numbers, { image: name => imageOf(images, name) });
     const { width, height } = context.canvas;
     context.clearRect(0, 0, width, height); // nothing of the picture before is seen through it
     context.drawImage(image, 0, 0, width, height);
     image.close();
-    return undrawn;
+    return unsupported;
 }
 
 const IMAGE = /\.(png|jpe?g|gif|webp)$/i;

@@ -11,8 +11,8 @@ export class Parameters {
     // Rows are made anew when the script has other parameters; else only values that nobody is changing.
     show(parameters) {
         const settable = parameters.filter(parameter => parameter.settable);
-        const signature = JSON.stringify(settable.map(({ name, least, most, step, comment, fallback }) =>
-            [name, least, most, step, comment, fallback]));
+        const signature = JSON.stringify(settable.map(({ name, min, max, step, comment, defaultValue }) =>
+            [name, min, max, step, comment, defaultValue]));
         if (signature !== this.shown) {
             this.shown = signature;
             this.rows.clear();
@@ -25,8 +25,8 @@ export class Parameters {
     }
 
     row(parameter) {
-        const { name, comment, least, most, number } = parameter, label = document.createElement('label');
-        const field = document.createElement('input'), numeric = !Number.isNaN(parameter.fallbackNumber);
+        const { name, comment, min, max, number } = parameter, label = document.createElement('label');
+        const field = document.createElement('input'), numeric = !Number.isNaN(parameter.defaultNumber);
         label.textContent = name;
         label.title = comment;
         label.htmlFor = field.id = `parameter-${name}`;
@@ -35,14 +35,14 @@ export class Parameters {
         if (numeric)
             field.step = parameter.step || 'any';
         field.onchange = () => field.value !== '' && this.onSet(name, field.value);
-        if (!numeric || !Number.isFinite(least) || !Number.isFinite(most)) {
+        if (!numeric || !Number.isFinite(min) || !Number.isFinite(max)) {
             this.rows.set(name, [field]);
             return [label, document.createElement('span'), field];
         }
         const slider = document.createElement('input');
-        const whole = [least, most, number, parameter.fallbackNumber].every(Number.isInteger);
-        const step = parameter.step || (whole ? 1 : (most - least) / 200);
-        Object.assign(slider, { type: 'range', min: least, max: most, step, title: comment });
+        const whole = [min, max, number, parameter.defaultNumber].every(Number.isInteger);
+        const step = parameter.step || (whole ? 1 : (max - min) / 200);
+        Object.assign(slider, { type: 'range', min: min, max: max, step, title: comment });
         slider.setAttribute('aria-label', `${name}${comment ? `: ${comment}` : ''}`);
         slider.oninput = () => {
             field.value = slider.value;

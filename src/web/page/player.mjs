@@ -1,8 +1,8 @@
 // player.mjs: a script that is run, gone back in and changed: a session with keyframes, in the worker.
 
 const EVERY = 20; // frames between keyframes
-const MOST_KEYFRAMES = 64; // besides those where something was changed
-const MOST_BYTES = 256 << 20;
+const MAX_KEYFRAMES = 64; // besides those where something was changed
+const MAX_BYTES = 256 << 20;
 
 export class Player {
     // options: of the sessions, but for files; watches: what looks at each frame.
@@ -28,7 +28,7 @@ export class Player {
         }
         this.forget(-2);
         this.session?.close();
-        Object.assign(this, { session, text, name, changes, keyframes: [], every: EVERY, frame: -1, most: -1, torn: false });
+        Object.assign(this, { session, text, name, changes, keyframes: [], every: EVERY, frame: -1, lastFrame: -1, torn: false });
     }
 
     // Drops keyframes behind a frame.
@@ -41,10 +41,10 @@ export class Player {
     step() {
         this.torn = true; // until the frame is made, there is nothing to see
         this.session.step();
-        this.looksBack = this.session.follow();
+        this.needsHistory = this.session.renderIfNeeded();
         this.torn = false;
         this.frame++;
-        this.most = Math.max(this.most, this.frame);
+        this.lastFrame = Math.max(this.lastFrame, this.frame);
         this.watches.see(this);
         const later = this.changes.filter(([frame]) => frame === this.frame);
         for (const [, name, value] of later)
@@ -69,7 +69,7 @@ export class Player {
     thin() {
         const bytes = this.keyframes.reduce((sum, key) => sum + key.snapshot.bytes, 0);
         const usual = this.keyframes.filter(key => !key.changed);
-        if (usual.length < 2 || (usual.length <= MOST_KEYFRAMES && bytes <= MOST_BYTES))
+        if (usual.length < 2 || (usual.length <= MAX_KEYFRAMES && bytes <= MAX_BYTES))
             return;
         this.every *= 2;
         const dropped = usual.filter(key => key.frame % this.every !== 0);
@@ -82,8 +82,8 @@ export class Player {
     seek(frame, most = Infinity) {
         if (frame < this.frame || (frame === this.frame && this.torn)) {
             // Pictures that depend on those before are made from the first again.
-            const key = this.looksBack ? null : this.keyframes.findLast(other => other.frame < frame);
-            const end = this.most;
+            const key = this.needsHistory ? null : this.keyframes.findLast(other => other.frame < frame);
+            const end = this.lastFrame;
             if (key) {
                 this.session.rewind(key.snapshot);
                 this.frame = key.frame;
@@ -93,7 +93,7 @@ export class Player {
                 this.load(text, name, changes);
                 keyframes.forEach(old => old.snapshot.free());
             }
-            this.most = end;
+            this.lastFrame = end;
         }
         for (let i = 0; this.frame < frame && i < most; i++)
             this.step();
@@ -106,7 +106,7 @@ export class Player {
         this.changes = this.changes.filter(([frame, other]) => frame < this.frame || (frame === this.frame && other !== name));
         this.changes.push([this.frame, name, value]);
         this.forget(this.frame);
-        this.most = this.frame;
+        this.lastFrame = this.frame;
         this.watches.forget(this.frame);
         if (this.frame >= 0)
             this.keep(true);

@@ -16,7 +16,7 @@ export class Plot {
     constructor(root, dish) {
         const $ = id => root.getElementById(id);
         Object.assign(this, {
-            dish, canvas: $('plot-picture'), list: $('watched'), said: $('plot-said'), texts: [], asking: false, seen: false,
+            dish, canvas: $('plot-picture'), list: $('watched'), said: $('plot-summary'), texts: [], asking: false, seen: false,
         });
         $('watch').onsubmit = event => {
             event.preventDefault();

@@ -1,6 +1,6 @@
 // problems.mjs: what petri has told of the script: under the very words, and as a list.
 
-const MOST = 50;
+const MAX_SHOWN = 50;
 
 export class Problems {
     constructor(place, editor) {
@@ -12,7 +12,7 @@ export class Problems {
     show(told, name = this.name) {
         Object.assign(this, { told, name });
         this.editor.show(told.filter(({ file }) => file === name || file === null));
-        this.place.replaceChildren(...told.filter(({ level }) => level !== 'note').slice(0, MOST).map(problem => this.item(problem)));
+        this.place.replaceChildren(...told.filter(({ level }) => level !== 'note').slice(0, MAX_SHOWN).map(problem => this.item(problem)));
     }
 
     add(told) {

@@ -33,8 +33,8 @@ export class SaveDialog {
     open() {
         const { dish, get: $ } = this;
         dish.pause();
-        $('saving-said').textContent = '';
-        $('saving-to').value = Math.max(dish.most, Math.ceil(dish.fps * SECONDS) - 1);
+        $('export-status').textContent = '';
+        $('saving-to').value = Math.max(dish.lastFrame, Math.ceil(dish.fps * SECONDS) - 1);
         this.arrange();
         this.dialog.showModal();
     }
@@ -55,7 +55,7 @@ export class SaveDialog {
         }
         const at = dish.frame, [from, to] = [Number($('saving-from').value), Number($('saving-to').value)];
         if (to < from) {
-            $('saving-said').textContent = `There is no frame from ${from} to ${to}.`;
+            $('export-status').textContent = `There is no frame from ${from} to ${to}.`;
             return;
         }
         const progress = $('saving-progress');
@@ -73,6 +73,6 @@ export class SaveDialog {
         if (dish.loaded !== null)
             await dish.seek(at);
         if (!answer)
-            $('saving-said').textContent = 'It could not be saved; the message under the picture says why.';
+            $('export-status').textContent = 'It could not be saved; the message under the picture says why.';
     }
 }

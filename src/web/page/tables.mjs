@@ -65,9 +65,9 @@ export class Watches {
     }
 
     // Makes the frames before once more, as far as that goes fast.
-    refill(player, wantsEnd) {
+    refill(player, shouldInterrupt) {
         const at = player.frame, end = performance.now() + REFILL;
-        for (let frame = 0; frame <= player.most && performance.now() < end && !wantsEnd(); frame++)
+        for (let frame = 0; frame <= player.lastFrame && performance.now() < end && !shouldInterrupt(); frame++)
             player.seek(frame);
         player.seek(at);
     }

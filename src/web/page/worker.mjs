@@ -9,19 +9,19 @@ const SEEK_STEPS = 50; // frames between looks at what the page wants
 let engine, player, checker, told = [], flag = null, current = 0;
 
 // The page writes which question is to be given up, and all before it.
-const wantsEnd = () => flag !== null && Atomics.load(flag, 0) >= current;
+const shouldInterrupt = () => flag !== null && Atomics.load(flag, 0) >= current;
 const images = new Map();
 const tell = diagnostic => told.push(diagnostic);
 
 const watches = new Watches(told), stateTable = new StateTable();
 
-const picture = automatic => player.frame >= 0 ? player.session.show({ automatic }) : null;
+const picture = automatic => player.frame >= 0 ? player.session.render({ automatic }) : null;
 
 // What the page shows after a frame.
 function shown(extra = {}) {
     const { session } = player;
     return {
-        type: 'frame', frame: player.frame, most: player.most, time: session.frame.time, fps: session.frame.fps,
+        type: 'frame', frame: player.frame, lastFrame: player.lastFrame, time: session.frame.time, fps: session.frame.fps,
         picture: picture(player.automatic), log: player.frame >= 0 ? session.log() : '', parameters: session.parameters,
         told: take(), ...extra,
     };
@@ -33,7 +33,7 @@ const acts = {
     async open({ source, flag: shared }) {
         flag = shared;
         engine = await loadEngine(source);
-        player = new Player(engine, { onDiagnostic: tell, wantsEnd, image: name => imageOf(images, name) }, watches);
+        player = new Player(engine, { onDiagnostic: tell, shouldInterrupt, image: name => imageOf(images, name) }, watches);
         return { type: 'ready', version: engine.version, help: engine.open().help() };
     },
     async files({ files }) {
@@ -44,7 +44,7 @@ const acts = {
         return { type: 'done' };
     },
     check({ text, name }) {
-        checker ??= engine.open({ files: player.files, wantsEnd });
+        checker ??= engine.open({ files: player.files, shouldInterrupt });
         Object.entries(player.files).forEach(([file, bytes]) => checker.setFile(file, bytes));
         return { type: 'checked', told: checker.diagnose(text, name) };
     },
@@ -61,7 +61,7 @@ const acts = {
         player.session.reload(text, name);
         Object.assign(player, { text, name });
         player.forget(-2);
-        player.most = player.frame;
+        player.lastFrame = player.frame;
         return shown({ loaded: true });
     },
     step({ count }) {
@@ -70,7 +70,7 @@ const acts = {
         return shown();
     },
     async seek({ frame }) {
-        while (!wantsEnd() && !player.seek(frame, SEEK_STEPS))
+        while (!shouldInterrupt() && !player.seek(frame, SEEK_STEPS))
             await new Promise(resolve => setTimeout(resolve));
         return shown();
     },
@@ -98,13 +98,13 @@ const acts = {
     watch({ texts }) {
         watches.set(texts);
         if (player.frame >= 0)
-            watches.refill(player, wantsEnd);
+            watches.refill(player, shouldInterrupt);
         return { type: 'done' };
     },
-    series: () => ({ type: 'series', series: watches.series(player.most), frame: player.frame }),
+    series: () => ({ type: 'series', series: watches.series(player.lastFrame), frame: player.frame }),
     // Files to be saved, of frames from one to another.
     async save({ id, kind, from, to }) {
-        const range = { from, to, wantsEnd, tell: (done, of) => postMessage({ type: 'progress', id, done, of }) };
+        const range = { from, to, shouldInterrupt, tell: (done, of) => postMessage({ type: 'progress', id, done, of }) };
         return {
             type: 'saved',
             blob: await (kind === 'film' ? makeFilm(player, images, picture, range)
@@ -128,7 +128,7 @@ onmessage = ({ data }) => {
     last = last.then(async () => {
         current = data.id;
         try {
-            if (wantsEnd())
+            if (shouldInterrupt())
                 throw Object.assign(new Error('stopped'), { status: 'interrupted' });
             const answer = await acts[data.act](data);
             postMessage({ ...answer, id: data.id }, answer.picture ? [answer.picture.image ?? answer.picture.numbers.buffer] : []);

@@ -35,7 +35,7 @@ export class Examples {
                 session.step();
             if (!session.drawable)
                 return session.told?.some(({ level }) => level === 'error') ? 'none' : 'text';
-            const picture = session.picture();
+            const picture = session.displayList();
             // Nodes by their names are drawn by WebGL, which is not here; other things are drawn nowhere.
             const left = picture ? drawPicture(nothing, picture.numbers, { image: name => name in files ? nothing : null }) : [' '];
             return left.every(what => /^\w+$/.test(what)) ? 'dish' : 'text';

@@ -1,6 +1,6 @@
-// start.mjs: what takes longest, begun before the page has its editor: the engine, and the worker that it goes to.
+// preload.mjs: what takes longest, begun before the page has its editor: the engine, and the worker that it goes to.
 import { startWorker } from './engine.mjs';
-import { hasEngine } from './simd.mjs';
+import { hasEngine } from './feature_check.mjs';
 
 const url = new URL('petri/engine.wasm', location.href).href;
 if (hasEngine())

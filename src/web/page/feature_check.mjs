@@ -1,4 +1,4 @@
-// simd.mjs: whether the browser has what the engine takes.
+// feature_check.mjs: whether the browser has what the engine takes.
 
 // A function that uses SIMD.
 export const hasEngine = () => typeof WebAssembly !== 'undefined' && WebAssembly.validate(new Uint8Array([

@@ -1,18 +1,18 @@
-// sheets.mjs: pixels as numbers from 0 to 1, multiplied by alpha, and what filters make of them (lib/draw/sheets.c, for
+// float_image.mjs: pixels as numbers from 0 to 1, multiplied by alpha, and what filters make of them (lib/draw/float_image.c, for
 // hosts that have Canvas 2D only).
 
-const WIDEST = 256, WIDEST_EXACT = 8; // standard deviations of a blur, pixels
+const MAX_SIGMA = 256, MAX_EXACT_SIGMA = 8; // standard deviations of a blur, pixels
 
 // To the nearest whole number, ties to the even one.
 const nearest = x => (Math.abs(x % 1) === 0.5 ? 2 * Math.round(x / 2) : Math.round(x));
 
-export class Sheet {
+export class FloatImage {
     constructor(width, height, pixels = new Float32Array(4 * width * height)) {
         Object.assign(this, { width, height, pixels });
     }
 
     static of(context, x, y, width, height) {
-        const { data } = context.getImageData(x, y, width, height), sheet = new Sheet(width, height);
+        const { data } = context.getImageData(x, y, width, height), sheet = new FloatImage(width, height);
         for (let i = 0; i < data.length; i += 4) {
             const alpha = data[i + 3] / 255;
             for (let k = 0; k < 3; k++)
@@ -35,7 +35,7 @@ export class Sheet {
     }
 
     copy() {
-        return new Sheet(this.width, this.height, this.pixels.slice());
+        return new FloatImage(this.width, this.height, this.pixels.slice());
     }
 
     // Changes all rows (axis 0) or all columns; `change` gives the four numbers of a line's pixel.
@@ -55,7 +55,7 @@ export class Sheet {
     }
 
     blur(sigmas) {
-        sigmas.forEach((sigma, axis) => sigma > 0.05 && this.lines(axis, blurOf(Math.min(sigma, WIDEST))));
+        sigmas.forEach((sigma, axis) => sigma > 0.05 && this.lines(axis, blurOf(Math.min(sigma, MAX_SIGMA))));
         return this;
     }
 
@@ -70,7 +70,7 @@ export class Sheet {
     }
 
     move(dx, dy) {
-        const { width, height } = this, out = new Sheet(width, height), x0 = nearest(dx), y0 = nearest(dy);
+        const { width, height } = this, out = new FloatImage(width, height), x0 = nearest(dx), y0 = nearest(dy);
         const first = Math.max(x0, 0), last = Math.min(width, width + x0);
         for (let y = Math.max(y0, 0); y < Math.min(height, height + y0) && last > first; y++) {
             const from = 4 * ((y - y0) * width + first - x0);
@@ -138,7 +138,7 @@ function weigh(weights, from, count, at, to, i) {
 // A wide blur weighs cells of several pixels, and pixels lie between the middles of cells; both are blurs, too, of
 // (cell² − 1)/12 and twice that.
 function blurOf(sigma) {
-    const cell = sigma > WIDEST_EXACT ? Math.floor(sigma / 4) : 1;
+    const cell = sigma > MAX_EXACT_SIGMA ? Math.floor(sigma / 4) : 1;
     const narrow = Math.sqrt(sigma * sigma - (cell * cell - 1) / 4) / cell;
     const weights = Array.from({ length: Math.ceil(3 * narrow) + 1 }, (_, i) => Math.exp(-0.5 * i * i / (narrow * narrow)));
     const sum = weights.reduce((all, weight, i) => all + (i ? 2 : 1) * weight, 0);

@@ -1,9 +1,9 @@
-// systems.mjs: the automatic picture: particle systems by themselves, as lib/draw/automatic.c draws them.
+// automatic.mjs: the automatic picture: particle systems by themselves, as lib/draw/automatic.c draws them.
 
-const MARGIN = 0.04, LEAST_RADIUS = 2, EYE = 4;
+const MARGIN = 0.04, PANEL = 540, MIN_RADIUS = 2, LEAST_SEEN = 1.5, EYE = 4;
 const COS_YAW = 0.9004471023526769, SIN_YAW = 0.43496553411123023;
 const COS_PITCH = 0.9393727128473789, SIN_PITCH = 0.34289780745545134;
-const GROUND = [0.06, 0.07, 0.09], WALL = [0.75, 0.7, 0.55], LINK = [0.6, 0.65, 0.7];
+const GROUND = [0.06, 0.07, 0.09], WALL = [0.75, 0.7, 0.55], LINK = [0.6, 0.65, 0.7], MARK = [0.5, 0.55, 0.6];
 const CHARGES = [[0.25, 0.55, 1], [0.85, 0.87, 0.9], [1, 0.5, 0.15]];
 const SPEEDS = [[0.2, 0.35, 0.75], [0.2, 0.75, 0.7], [1, 0.95, 0.6]];
 
@@ -49,11 +49,11 @@ function ball(context, seen, radius, colour) {
 }
 
 function drawBody(context, panel, body, seen) {
-    const shown = clamp(body.radius * seen.size, LEAST_RADIUS * panel.pixel, 4 * (panel.width + panel.height));
-    const colour = inMist(panel, shade(panel.system, body.shade), seen.depth), small = shown <= 2 * panel.pixel;
+    const shown = clamp(body.radius * seen.size, panel.least, 4 * (panel.width + panel.height));
+    const colour = inMist(panel, shade(panel.system, body.shade), seen.depth), small = shown <= panel.least;
     if (body.anchor) {
         const line = 1.5 * panel.pixel;
-        circle(context, seen.x, seen.y, Math.max(shown - line / 2, 3 * panel.pixel));
+        circle(context, seen.x, seen.y, Math.max(shown - line / 2, panel.least, 3 * panel.pixel));
         context.lineWidth = line;
         context.strokeStyle = css(colour);
         context.stroke();
@@ -125,19 +125,49 @@ function drawGrid(context, panel, { point, normal: n }) {
         }
 }
 
+// Lines through the origin along the axes, as far as they are in the frame or near it.
+function drawOrigin(context, panel) {
+    const { middle, half, dimensions } = panel.system, solid = dimensions === 3;
+    const length = solid ? half : 2 * (panel.width + panel.height) / panel.scale;
+    context.beginPath();
+    for (let k = 0; k < (solid ? 3 : 2); k++) {
+        const end = side => see(panel, [0, 1, 2].map(i => i === k ? (solid ? 0 : middle[k]) + side * length : 0));
+        const from = end(-1), to = end(1);
+        context.moveTo(from.x, from.y);
+        context.lineTo(to.x, to.y);
+    }
+    context.lineWidth = panel.pixel;
+    context.strokeStyle = css(MARK, 0.25);
+    context.stroke();
+}
+
+function drawScale(context, panel) {
+    const left = panel.x - panel.width / 2, bottom = panel.y + panel.height / 2;
+    context.beginPath();
+    for (const [x1, y1, x2, y2] of panel.system.scale) {
+        context.moveTo(left + x1 * panel.pixel, bottom - y1 * panel.pixel);
+        context.lineTo(left + x2 * panel.pixel, bottom - y2 * panel.pixel);
+    }
+    context.lineWidth = 1.5 * panel.pixel;
+    context.strokeStyle = css(MARK, 0.8);
+    context.stroke();
+}
+
 function drawPanel(context, panel) {
     const { system } = panel, left = panel.x - panel.width / 2, top = panel.y - panel.height / 2;
     context.save();
     context.beginPath();
     context.rect(left, top, panel.width, panel.height);
     context.clip();
+    drawOrigin(context, panel);
     system.barriers.forEach(barrier => (system.dimensions === 3 ? drawGrid : drawWall)(context, panel, barrier));
     if (system.dimensions === 1) {
         const { y } = see(panel, [system.middle[0], 0, 0]);
-        line(context, { x: left, y }, { x: left + panel.width, y }, panel.pixel, css([0.5, 0.55, 0.6], 0.5));
+        line(context, { x: left, y }, { x: left + panel.width, y }, panel.pixel, css(MARK, 0.5));
     }
     drawLinks(context, panel);
     drawBodies(context, panel);
+    drawScale(context, panel);
     context.restore();
 }
 
@@ -152,7 +182,8 @@ function readSystem(n, at) {
     };
     const bodies = many(6, i => ({ position: three(i), radius: n[i + 3], shade: n[i + 4], anchor: n[i + 5] }));
     const links = many(2, i => [n[i], n[i + 1]]), barriers = many(6, i => ({ point: three(i), normal: three(i + 3) }));
-    return [{ dimensions, charged, middle, half, bodies, links, barriers }, at];
+    const scale = many(4, i => [n[i], n[i + 1], n[i + 2], n[i + 3]]);
+    return [{ dimensions, charged, middle, half, bodies, links, barriers, scale }, at];
 }
 
 // Draws the systems that begin at n[at]; returns what is behind them.
@@ -165,8 +196,10 @@ export function drawSystems(context, n, at, [scale, x0, y0]) {
     for (let i = 0; i < count; i++) {
         let system;
         [system, at] = readSystem(n, at);
+        const pixel = Math.min(width, height) / PANEL;
         drawPanel(context, {
-            system, side, width, height, scale: side / system.half, pixel: Math.min(width, height) / 540,
+            system, side, width, height, scale: side / system.half, pixel,
+            least: Math.max(MIN_RADIUS * pixel, LEAST_SEEN / scale),
             x: (i % columns + 0.5) * width, y: (Math.floor(i / columns) + 0.5) * height,
         });
     }
