@@ -20,7 +20,7 @@ int __wrap_posix_memalign(void **block, size_t alignment, size_t size);
 // Worker threads may allocate too.
 static atomic_uint_fast64_t count;
 
-static void counted(void) {
+static void count_allocation(void) {
     atomic_fetch_add_explicit(&count, 1, memory_order_relaxed);
 }
 
@@ -29,26 +29,26 @@ uint64_t allocations_so_far(void) {
 }
 
 void *__wrap_malloc(size_t size) {
-    counted();
+    count_allocation();
     return __real_malloc(size);
 }
 
 void *__wrap_calloc(size_t number, size_t size) {
-    counted();
+    count_allocation();
     return __real_calloc(number, size);
 }
 
 void *__wrap_realloc(void *block, size_t size) {
-    counted();
+    count_allocation();
     return __real_realloc(block, size);
 }
 
 void *__wrap_aligned_alloc(size_t alignment, size_t size) {
-    counted();
+    count_allocation();
     return __real_aligned_alloc(alignment, size);
 }
 
 int __wrap_posix_memalign(void **block, size_t alignment, size_t size) {
-    counted();
+    count_allocation();
     return __real_posix_memalign(block, alignment, size);
 }

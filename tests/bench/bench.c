@@ -86,7 +86,7 @@ static bool read_value(Bench *bench, const char *option, const char *value) {
     if (!strcmp(option, "--busy"))
         return (bench->busy = read_count(value)) > 0;
     if (!strcmp(option, "--rounds"))
-        return (bench->plan.rounds = read_count(value)) > 0 && bench->plan.rounds <= ROUNDS_MOST;
+        return (bench->plan.rounds = read_count(value)) > 0 && bench->plan.rounds <= ROUNDS_MAX;
     return false;
 }
 
@@ -113,7 +113,7 @@ static void fill_plan(Bench *bench) {
     plan->warm_steps = plan->tiny ? 2 : bench->quick ? 40 : 100;
     plan->starts = plan->tiny ? 1 : bench->quick ? 2 : 3;
     plan->patience = bench->quick ? 5 : 60;
-    plan->largest = bench->quick ? 20000 : UINT32_MAX;
+    plan->max_particles = bench->quick ? 20000 : UINT32_MAX;
 }
 
 // The path of this executable, which is started again for the workers.
@@ -213,9 +213,9 @@ static void warn_if_busy(const Results *results) {
                 rows);
 }
 
-static void run(const Bench *bench) {
-    enum { TABLES_MOST = 5 };
-    NamedTable tables[TABLES_MOST];
+static void run_bench(const Bench *bench) {
+    enum { TABLES_MAX = 5 };
+    NamedTable tables[TABLES_MAX];
     size_t count = 0;
     Table peers = {0};
     Results results = measure_all(bench);
@@ -270,10 +270,10 @@ int main(int argc, char **argv) {
         perror("bench: cannot find itself");
         return 1;
     }
-    if (bench.peers && !peers_there(BENCH_SOURCE "/peers", bench.lammps, sizeof bench.lammps))
+    if (bench.peers && !peers_available(BENCH_SOURCE "/peers", bench.lammps, sizeof bench.lammps))
         return 1;
     machine_describe(bench.machine, sizeof bench.machine, bench.plan.threads);
     start_busy(bench.busy);
-    run(&bench);
+    run_bench(&bench);
     return 0;
 }

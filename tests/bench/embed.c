@@ -17,8 +17,8 @@ static double speed_sum(const PetriSystem *system) {
 
 int main(int argc, char **argv) {
     PetriOptions options = petri_default_options();
-    options.memory_bytes = (size_t)8 << 30;
-    options.work = (uint64_t)100 << 30;
+    options.memory_limit = (size_t)8 << 30;
+    options.work_limit = (uint64_t)100 << 30;
     PetriSession *session = petri_open(&options);
     PetriStatus status = argc == 3 ? petri_load(session, argv[1]) : PETRI_INVALID;
     PetriSystem system;

@@ -32,7 +32,7 @@ static double now(void) {
 double limit_pair(uint32_t n, int dimensions) {
     size_t stride = (n + 7) / 8 * 8;
     double *data = aligned_alloc(64, 8 * stride * sizeof *data);
-    if (!data || cpu_here.level == CPU_SCALAR) {
+    if (!data || cpu_detected.level == CPU_SCALAR) {
         free(data);
         return 0;
     }
@@ -43,9 +43,9 @@ double limit_pair(uint32_t n, int dimensions) {
     }
     for (size_t i = 0; i < 8 * stride; i++)
         data[i] = (double)((i * 7919) % 10007) * 0.37 + 1;
-    void (*work)(const Cloud *) = cpu_here.level == CPU_AVX512 ? dimensions == 2 ? all_2_8 : all_3_8
-                                  : dimensions == 2            ? all_2_4
-                                                               : all_3_4;
+    void (*work)(const Cloud *) = cpu_detected.level == CPU_AVX512 ? dimensions == 2 ? all_2_8 : all_3_8
+                                  : dimensions == 2                ? all_2_4
+                                                                   : all_3_4;
     double best = INFINITY;
     for (int round = 0; round < 7; round++) {
         int calls = 0;

@@ -49,7 +49,7 @@ static void *zeroed(size_t bytes) {
 }
 
 #define STIFFNESS 1000.0
-#define MOST(dim) ((dim) == 2 ? 24 : 48) /* room for neighbours in a list */
+#define MAX_NEIGHBOURS(dim) ((dim) == 2 ? 24 : 48) /* room for neighbours in a list */
 #define INLINE AVX512 static inline __attribute__((always_inline))
 
 typedef struct {
@@ -60,8 +60,8 @@ typedef struct {
     double *spare[7];
     double *quad; /* place and radius side by side, for loads by number */
     int *id, *spare_id, *cell_of, *start;
-    int *list, *most; /* per block of 8: [k][8] neighbours, and their largest count */
-    size_t *at;       /* where a block's list begins */
+    int *list, *max_length; /* per block of 8: [k][8] neighbours, and their largest count */
+    size_t *at;             /* where a block's list begins */
     long rebuilds;
 } Box;
 
@@ -80,7 +80,7 @@ static void box_arrays(Box *b) {
     b->id = zeroed(4 * n), b->spare_id = zeroed(4 * n), b->cell_of = zeroed(4 * n);
     b->start = zeroed(4 * (size_t)(cells_of(b) + 2));
     b->blocks = (b->n + 7) / 8;
-    b->list = zeroed((size_t)b->blocks * MOST(b->dim) * 8 * 4), b->most = zeroed(4 * (size_t)b->blocks);
+    b->list = zeroed((size_t)b->blocks * MAX_NEIGHBOURS(b->dim) * 8 * 4), b->max_length = zeroed(4 * (size_t)b->blocks);
     b->at = zeroed(8 * (size_t)b->blocks);
 }
 
@@ -111,7 +111,7 @@ static void box_free(Box *b) {
         free(b->p[m]), free(b->u[m]), free(b->f[m]), free(b->p0[m]);
     for (int k = 0; k < 7; k++)
         free(b->spare[k]);
-    void *all[] = {b->r, b->quad, b->id, b->spare_id, b->cell_of, b->start, b->list, b->most, b->at};
+    void *all[] = {b->r, b->quad, b->id, b->spare_id, b->cell_of, b->start, b->list, b->max_length, b->at};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         free(all[i]);
 }
@@ -174,7 +174,7 @@ INLINE int box_near(const Box *b, int dim, int c, int i, int *raw) {
             _mm256_storeu_si256((void *)(raw + count),
                                 _mm512_cvtepi64_epi32(_mm512_maskz_compress_epi64(near, number)));
             count += __builtin_popcount(near);
-            if (count > MOST(dim)) {
+            if (count > MAX_NEIGHBOURS(dim)) {
                 fprintf(stderr, "limit: too many neighbours\n");
                 exit(1);
             }
@@ -186,7 +186,7 @@ INLINE int box_near(const Box *b, int dim, int c, int i, int *raw) {
 /* Neighbour lists within contact distance + skin, each in ascending order of id, eight particles side by side. */
 INLINE void box_lists(Box *b, int dim) {
     box_sort(b, dim);
-    int n = b->n, count[8], found[8][MOST(3)], raw[MOST(3) + 8];
+    int n = b->n, count[8], found[8][MAX_NEIGHBOURS(3)], raw[MAX_NEIGHBOURS(3) + 8];
     size_t used = 0;
     for (int i = 0, c = 0; i < n; i++) {
         while (i >= b->start[c + 1])
@@ -206,7 +206,7 @@ INLINE void box_lists(Box *b, int dim) {
             for (int k = 0; k < most; k++)
                 for (int m = 0; m < 8; m++)
                     list[k * 8 + m] = m <= (i & 7) && k < count[m] ? found[m][k] : b->blocks * 8;
-            b->most[block] = most, b->at[block] = used, used += (size_t)most * 8;
+            b->max_length[block] = most, b->at[block] = used, used += (size_t)most * 8;
         }
     }
     for (int m = 0; m < dim; m++)
@@ -271,7 +271,7 @@ INLINE void box_forces(Box *b, int dim) {
         __m512d here[3], sum[3], ri = _mm512_load_pd(b->r + i);
         for (int m = 0; m < dim; m++)
             here[m] = _mm512_load_pd(b->p[m] + i), sum[m] = _mm512_setzero_pd();
-        for (int k = 0; k < b->most[block]; k++) {
+        for (int k = 0; k < b->max_length[block]; k++) {
             __m512d other[4], d[3], d2 = _mm512_setzero_pd();
             box_quads(b, dim, list + k * 8, other);
             for (int m = 0; m < dim; m++) {
@@ -323,7 +323,7 @@ static void steps(Box *b, int count) {
 }
 
 double limit_soft(int dimensions, int side) {
-    if (cpu_here.level < CPU_AVX512)
+    if (cpu_detected.level < CPU_AVX512)
         return 0;
     Box b = box(dimensions, side, dimensions == 2 ? 0.6 : 0.45);
     int count = b.n > 250000 ? 15 : b.n > 40000 ? 60 : 400;
@@ -339,7 +339,7 @@ double limit_soft(int dimensions, int side) {
 }
 
 int limit_soft_run(int dimensions, int side, double step, int count, double *position, double *velocity) {
-    if (cpu_here.level < CPU_AVX512)
+    if (cpu_detected.level < CPU_AVX512)
         return 0;
     Box b = box(dimensions, side, 0.4);
     b.step = step, b.low = -1e300, b.high = 1e300;

@@ -13,7 +13,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { VARIANTS = 3, STARTS_MOST = 8 };
+enum { VARIANTS = 3, STARTS_MAX = 8 };
 
 // Whole words: "soft discs 10000" is not "soft discs 1000000", but has the row of ten steps.
 static bool begins_with_words(const char *name, const char *words) {
@@ -24,7 +24,7 @@ static bool begins_with_words(const char *name, const char *words) {
 bool measure_wanted(const Plan *plan, const Case *c) {
     if (plan->tiny)
         return c->n <= 200 || !strcmp(c->name, "script 500");
-    return plan->only ? begins_with_words(c->name, plan->only) : c->n <= plan->largest;
+    return plan->only ? begins_with_words(c->name, plan->only) : c->n <= plan->max_particles;
 }
 
 static int by_value(const void *a, const void *b) {
@@ -40,12 +40,12 @@ double measure_median(double *values, int count) {
 }
 
 bool measure_clean(const Sample *round) {
-    return round->share >= 0.97;
+    return round->cpu_share >= 0.97;
 }
 
 // The median over rounds of the member at this offset. Rounds that are not clean count only if none is.
 static double median_of(const Sample *rounds, int count, size_t member) {
-    double values[ROUNDS_MOST];
+    double values[ROUNDS_MAX];
     int clean = 0, kept = 0;
     for (int i = 0; i < count; i++)
         clean += measure_clean(&rounds[i]);
@@ -55,11 +55,11 @@ static double median_of(const Sample *rounds, int count, size_t member) {
     return measure_median(values, kept);
 }
 
-static double least_frame(const Sample *rounds, int count) {
-    double least = INFINITY;
+static double fastest_frame(const Sample *rounds, int count) {
+    double min = INFINITY;
     for (int i = 0; i < count; i++)
-        least = fmin(least, rounds[i].frame);
-    return least;
+        min = fmin(min, rounds[i].frame);
+    return min;
 }
 
 Worker measure_warm_worker(const Plan *plan, const Case *c, const char *executable, int threads) {
@@ -76,9 +76,9 @@ Worker measure_warm_worker(const Plan *plan, const Case *c, const char *executab
 
 // Neighbour lists are rebuilt every 10 to 15 steps: a round must hold several rebuilds.
 int measure_round_frames(Worker *worker, const Case *c, double budget) {
-    int least = c->unit == PER_STEP ? (30 + c->steps - 1) / c->steps : 3, most = 2000;
+    int min = c->unit == PER_STEP ? (30 + c->steps - 1) / c->steps : 3, max = 2000;
     double frame = worker_run(worker, 3, false).frame, frames = ceil(budget / frame);
-    return frames < least ? least : frames > most ? most : (int)frames;
+    return frames < min ? min : frames > max ? max : (int)frames;
 }
 
 double measure_command(const Plan *plan, const char *const *words) {
@@ -124,8 +124,8 @@ static double limit_once(const Case *c) {
 typedef struct Rounds {
     Worker workers[VARIANTS];
     bool present[VARIANTS]; // one thread, plan->threads, the other build
-    Sample samples[VARIANTS][ROUNDS_MOST];
-    double starts[ROUNDS_MOST * STARTS_MOST];
+    Sample samples[VARIANTS][ROUNDS_MAX];
+    double starts[ROUNDS_MAX * STARTS_MAX];
     int start_count;
     double limit;
     int done, clean; // rounds; those clean for all variants
@@ -168,7 +168,7 @@ static Figures figures_of(const Case *c, Rounds *r) {
     f.output = median_of(one, rounds, offsetof(Sample, output));
     f.allocations = median_of(one, rounds, offsetof(Sample, allocations));
     f.steps = median_of(one, rounds, offsetof(Sample, steps));
-    f.least = least_frame(one, rounds);
+    f.fastest = fastest_frame(one, rounds);
     f.load = one[0].load;
     // Later rounds have written text.
     f.peak = one[0].peak;
@@ -184,7 +184,7 @@ static Figures figures_of(const Case *c, Rounds *r) {
         f.other_evaluation = median_of(r->samples[2], rounds, offsetof(Sample, evaluation));
     }
     f.start_median = measure_median(r->starts, r->start_count);
-    f.start_least = r->starts[0];
+    f.fastest_start = r->starts[0];
     f.limit = r->limit > 0 ? r->limit : NAN;
     return f;
 }
@@ -199,10 +199,10 @@ Figures measure_case(const Plan *plan, const Case *c) {
             r.workers[k] = measure_warm_worker(plan, c, executables[k], k == 0 ? 1 : plan->threads);
     int frames = measure_round_frames(&r.workers[0], c, plan->budget);
     // More rounds than wanted if some were disturbed.
-    int most = 3 * rounds < ROUNDS_MOST ? 3 * rounds : ROUNDS_MOST;
+    int max = 3 * rounds < ROUNDS_MAX ? 3 * rounds : ROUNDS_MAX;
     do
         run_round(plan, c, &r, frames);
-    while (r.clean < rounds && r.done < most && clock_now() - start < plan->patience);
+    while (r.clean < rounds && r.done < max && clock_now() - start < plan->patience);
     for (int k = 0; k < VARIANTS; k++)
         if (r.present[k])
             worker_stop(&r.workers[k]);

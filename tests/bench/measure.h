@@ -14,7 +14,7 @@ typedef struct Plan {
     int starts;      // processes started per round
     double patience; // seconds after which a row makes do with the rounds that it has
     int threads;     // of the variant that is compared with one thread
-    uint32_t largest;
+    uint32_t max_particles;
     bool tiny;           // only what shows that everything works
     const char *only;    // the first words of the wanted rows, or NULL
     const char *self;    // this executable
@@ -28,7 +28,7 @@ typedef struct Figures {
     bool done;
     // On one thread.
     double evaluation, physics, frame, output;
-    double least;       // the frame of the fastest round
+    double fastest;     // the frame of the fastest round
     int rounds, clean;  // how many there were, and in how many no variant had to share its processor
     double steps;       // of simulation per frame
     double allocations; // per frame
@@ -38,7 +38,7 @@ typedef struct Figures {
     double physics_threads, frame_threads;
     double evaluation_threads;
     double other_evaluation, other_physics, other_frame; // the other build, on plan->threads too
-    double start_least, start_median;                    // of the process `petri run --frames 1`
+    double fastest_start, start_median;                  // of the process `petri run --frames 1`
     double limit;                                        // nanoseconds, as limit.h has them
 } Figures;
 
@@ -66,6 +66,6 @@ bool measure_clean(const Sample *round);
 // Sorts the values.
 double measure_median(double *values, int count);
 
-enum { ROUNDS_MOST = 31 };
+enum { ROUNDS_MAX = 31 };
 
 #endif

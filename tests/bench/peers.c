@@ -23,15 +23,16 @@ static const struct {
 
 // One run of LAMMPS, or a round of petri.
 typedef struct PeerRun {
-    char style[16]; // the one used; empty for petri
-    double rate;    // particle-steps per second
-    double share;   // of a processor that each rank or the script's thread had, in percent
+    char style[16];   // the one used; empty for petri
+    double rate;      // particle-steps per second
+    double cpu_share; // of a processor that each rank or the script's thread had, in percent
 } PeerRun;
 
 static FILE *open_command(const char *folder, const char *arguments) {
-    char command[4600];
-    snprintf(command, sizeof command, "'%s/lammps.sh' %s", folder, arguments);
-    FILE *pipe = popen(command, "r");
+    char command[256];
+    snprintf(command, sizeof command, "\"$PETRI_PEERS/lammps.sh\" %s", arguments);
+    // The shell does not parse the value of a variable, so the folder may contain quotes.
+    FILE *pipe = setenv("PETRI_PEERS", folder, 1) == 0 ? popen(command, "r") : NULL;
     if (!pipe) {
         fputs("bench: cannot run lammps.sh\n", stderr);
         exit(1);
@@ -39,7 +40,7 @@ static FILE *open_command(const char *folder, const char *arguments) {
     return pipe;
 }
 
-bool peers_there(const char *folder, char *version, size_t size) {
+bool peers_available(const char *folder, char *version, size_t size) {
     FILE *pipe = open_command(folder, "version");
     bool found = fgets(version, (int)size, pipe) != NULL;
     version[found ? strcspn(version, "\n") : 0] = '\0';
@@ -53,7 +54,7 @@ static PeerRun run_peer(const char *folder, const Case *c, const char *style, co
              plan->threads);
     PeerRun run = {0};
     FILE *pipe = open_command(folder, arguments);
-    int found = fscanf(pipe, "%15s %lf %lf", run.style, &run.rate, &run.share);
+    int found = fscanf(pipe, "%15s %lf %lf", run.style, &run.rate, &run.cpu_share);
     if (pclose(pipe) != 0 || found != 3) {
         fputs("bench: LAMMPS did not run; leave out --peers to measure petri alone\n", stderr);
         exit(1);
@@ -63,10 +64,10 @@ static PeerRun run_peer(const char *folder, const Case *c, const char *style, co
 
 // Runs that shared their processors with others count only if there are no clean ones.
 static double clean_median(const PeerRun *runs, int count, int *clean) {
-    double values[ROUNDS_MOST];
+    double values[ROUNDS_MAX];
     *clean = 0;
     for (int i = 0; i < count; i++)
-        if (runs[i].share >= 97)
+        if (runs[i].cpu_share >= 97)
             values[(*clean)++] = runs[i].rate;
     for (int i = 0; i < count && *clean == 0; i++)
         values[i] = runs[i].rate;
@@ -104,7 +105,7 @@ static void keep_ratio(PeerRatios *ratios, const Case *c, int ten, double ratio)
 static void measure_peer(const Plan *plan, const char *folder, const Case *c, Table *table, PeerRatios *ratios) {
     Worker workers[2];
     int frames[2];
-    PeerRun ours[2][ROUNDS_MOST], runs[STYLES][ROUNDS_MOST];
+    PeerRun ours[2][ROUNDS_MAX], runs[STYLES][ROUNDS_MAX];
     int rounds = c->n > 200000 && plan->rounds > 3 ? 3 : plan->rounds < 5 ? plan->rounds : 5;
     for (int k = 0; k < 2; k++) {
         workers[k] = measure_warm_worker(plan, &c[k], plan->self, plan->threads);
@@ -115,7 +116,7 @@ static void measure_peer(const Plan *plan, const char *folder, const Case *c, Ta
     for (; done < rounds && (done == 0 || clock_now() - start < 2 * plan->patience); done++)
         for (int k = 0; k < 2; k++) {
             Sample s = worker_run(&workers[k], frames[k], false);
-            ours[k][done] = (PeerRun){.rate = c->n * s.steps / s.frame, .share = s.share * 100};
+            ours[k][done] = (PeerRun){.rate = c->n * s.steps / s.frame, .cpu_share = s.cpu_share * 100};
             runs[k][done] = run_peer(folder, c, styles[k], plan);
         }
     for (int k = 0; k < 2; k++)

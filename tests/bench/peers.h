@@ -12,7 +12,7 @@ typedef struct PeerRatios {
 } PeerRatios;
 
 // Tells on stderr why LAMMPS cannot be run, if so.
-bool peers_there(const char *folder, char *version, size_t size);
+bool peers_available(const char *folder, char *version, size_t size);
 // One row per workload, steps per frame and style of force.
 Table peers_measure(const Plan *plan, const char *folder, PeerRatios *ratios);
 

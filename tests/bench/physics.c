@@ -45,15 +45,15 @@ static int by_value(const void *a, const void *b) {
 }
 
 // Median seconds of a frame of so many steps.
-static double measure(Workload *w, int steps, double budget) {
-    enum { MOST = 101 };
-    double taken[MOST], start = seconds();
+static double measure_steps(Workload *w, int steps, double budget) {
+    enum { MAX_SAMPLES = 101 };
+    double taken[MAX_SAMPLES], start = seconds();
     int count = 0;
     do {
         double begin = seconds();
         workload_frame(w, steps);
         taken[count++] = seconds() - begin;
-    } while (count < MOST && (count < 5 || seconds() - start < budget));
+    } while (count < MAX_SAMPLES && (count < 5 || seconds() - start < budget));
     qsort(taken, (size_t)count, sizeof *taken, by_value);
     return taken[count / 2];
 }
@@ -75,7 +75,7 @@ static double limit_of(const Case *c) {
     return c->kind == DISH ? limit_pair(c->n, 2) : c->kind == GRAVITY ? limit_pair(c->n, 3) : 0;
 }
 
-static void run(const Case *c, const Settings *settings, int threads, double limit) {
+static void run_case(const Case *c, const Settings *settings, int threads, double limit) {
     PhysOptions options = settings->options;
     options.threads = threads;
     Workload w = workload_open(c->kind, c->n, &options);
@@ -85,7 +85,7 @@ static void run(const Case *c, const Settings *settings, int threads, double lim
     for (int i = 0; i < warm; i++)
         workload_frame(&w, 1);
     uint64_t hash = hash_of(&w);
-    double one = measure(&w, 1, budget), ten = measure(&w, 10, budget) / 10;
+    double one = measure_steps(&w, 1, budget), ten = measure_steps(&w, 10, budget) / 10;
     workload_close(&w);
     double pairs = 0.5 * c->n * (c->n - 1.0), pair = ten / pairs * 1e9, step = ten / c->n * 1e9;
     double ratio = limit > 0 ? (c->side ? limit / step : limit / pair) : 0;
@@ -119,7 +119,7 @@ static bool read_option(const char *text, Settings *settings) {
 }
 
 int main(int argc, char **argv) {
-    Settings settings = {.options.cpu = cpu_here.level};
+    Settings settings = {.options.cpu = cpu_detected.level};
     for (int i = 1; i < argc; i++)
         if (!read_option(argv[i], &settings)) {
             fprintf(stderr, "bench: unknown option %s\n", argv[i]);
@@ -140,7 +140,7 @@ int main(int argc, char **argv) {
         double limit = limit_of(c);
         int first = settings.threads ? settings.threads : 1, last = settings.threads ? settings.threads : 2;
         for (int threads = first; threads <= last; threads++)
-            run(c, &settings, threads, limit);
+            run_case(c, &settings, threads, limit);
     }
     return 0;
 }

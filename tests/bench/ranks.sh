@@ -64,7 +64,7 @@ compare "gravity 4000" 120 "$workloads/gravity_n4000.fl"
 # traffic SIDE RANKS: own particles, those of others, bytes and messages of a step, decisions, bytes of a frame: of the
 # rank that has most.
 traffic() {
-    PETRI_APART=1 mpirun -n "$2" "$petri" run "$(discs "$1")" --fps 5 --frames 4 --stats 2>&1 | tr -d , | awk '
+    PETRI_NO_SHARED_MEMORY=1 mpirun -n "$2" "$petri" run "$(discs "$1")" --fps 5 --frames 4 --stats 2>&1 | tr -d , | awk '
         $1 == "particles" { own = $4; halo = $8 }
         $1 == "sent" { bytes = $7; messages = $10; frame = $14 }
         $1 == "agreed" { agreed = $3 }

@@ -59,7 +59,7 @@ static void workload_row(const Results *results, size_t index, Cell *row) {
     row[k++] = cell_number(f->evaluation * 1e6);
     row[k++] = cell_number(f->physics * 1e6);
     row[k++] = cell_number(f->frame * 1e6);
-    row[k++] = cell_number((f->frame / f->least - 1) * 100);
+    row[k++] = cell_number((f->frame / f->fastest - 1) * 100);
     row[k++] = cell_number(f->clean);
     row[k++] = cell_number(f->rounds);
     row[k++] = cell_number(f->output * 1e6);
@@ -71,7 +71,7 @@ static void workload_row(const Results *results, size_t index, Cell *row) {
     row[k++] = cell_number(f->frame_threads * 1e6);
     row[k++] = cell_number(f->physics / f->physics_threads);
     row[k++] = cell_number(exponent_of(results, index));
-    row[k++] = cell_number(f->start_least * 1e3);
+    row[k++] = cell_number(f->fastest_start * 1e3);
     row[k++] = cell_number(f->start_median * 1e3);
     row[k++] = cell_number(f->load * 1e3);
     row[k++] = cell_number(f->peak / 1048576);

@@ -20,19 +20,19 @@ Table sweeps_measure(const Plan *plan) {
     Table table = table_new("1000 runs of 100 frames: a dish of 50 cells, petri sweep", columns,
                             sizeof columns / sizeof *columns);
     int runs = plan->tiny ? 8 : 1000;
-    double least[2] = {INFINITY, INFINITY};
+    double fastest[2] = {INFINITY, INFINITY};
     for (int round = 0; round < plan->rounds; round++)
         for (int k = 0; k < 2; k++)
-            least[k] = fmin(least[k], time_sweep(plan, k == 0 ? 1 : plan->threads, runs));
+            fastest[k] = fmin(fastest[k], time_sweep(plan, k == 0 ? 1 : plan->threads, runs));
     for (int k = 0; k < 2; k++) {
         Cell *row = table_row(&table);
         int jobs = k == 0 ? 1 : plan->threads;
         row[0] = cell_text(k == 0 ? "one process" : "several processes");
         row[1] = cell_number(jobs);
-        row[2] = cell_number(least[k]);
-        row[3] = cell_number(runs / least[k]);
-        row[4] = cell_number(least[0] / least[k]);
-        row[5] = cell_number(least[0] / least[k] / jobs);
+        row[2] = cell_number(fastest[k]);
+        row[3] = cell_number(runs / fastest[k]);
+        row[4] = cell_number(fastest[0] / fastest[k]);
+        row[5] = cell_number(fastest[0] / fastest[k] / jobs);
     }
     return table;
 }

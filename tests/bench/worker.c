@@ -27,7 +27,7 @@ double clock_thread(void) {
     return clock_read(CLOCK_THREAD_CPUTIME_ID);
 }
 
-static void give_up(const char *what) {
+static void exit_with_error(const char *what) {
     fprintf(stderr, "bench: %s: %s\n", what, strerror(errno));
     exit(1);
 }
@@ -39,7 +39,7 @@ static void show_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     fputs(diagnostic->rendered, stderr);
 }
 
-static bool take_text(void *host, const char *text, size_t length) {
+static bool count_bytes(void *host, const char *text, size_t length) {
     (void)text;
     *(uint64_t *)host += length;
     return true;
@@ -76,7 +76,7 @@ static bool run_frames(PetriSession *session, int frames, Sample *sum) {
         sum->physics += frame.physics_seconds;
         sum->steps += (double)frame.physics_steps;
     }
-    sum->share = (clock_thread() - mine) / (clock_now() - start);
+    sum->cpu_share = (clock_thread() - mine) / (clock_now() - start);
     sum->frame /= frames;
     sum->allocations /= frames;
     sum->evaluation /= frames;
@@ -91,13 +91,13 @@ static double time_output(PetriSession *session) {
     int times = 0;
     uint64_t bytes = 0;
     do {
-        petri_print(session, PETRI_PRINT_STATE, take_text, &bytes);
+        petri_print(session, PETRI_PRINT_STATE, count_bytes, &bytes);
         times++;
     } while ((spent = clock_now() - begin) < 0.005);
     return spent / times;
 }
 
-static int serve(PetriSession *session, double base, double load) {
+static int serve_commands(PetriSession *session, double base, double load) {
     int frames, with_output;
     while (scanf("%d %d", &frames, &with_output) == 2) {
         Sample s = {.base = base, .load = load};
@@ -107,7 +107,7 @@ static int serve(PetriSession *session, double base, double load) {
         if (with_output)
             s.output = time_output(session);
         printf("%.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g\n", s.frame, s.evaluation, s.physics, s.output,
-               s.steps, s.share, s.allocations, s.load, s.base, s.peak);
+               s.steps, s.cpu_share, s.allocations, s.load, s.base, s.peak);
         fflush(stdout);
     }
     return 0;
@@ -119,13 +119,13 @@ int worker_main(int argc, char **argv) {
     PetriOptions options = petri_default_options();
     options.threads = atoi(argv[1]);
     options.fps = strtod(argv[2], NULL);
-    options.diagnostic = show_diagnostic;
+    options.on_diagnostic = show_diagnostic;
     double base = memory_figure("VmRSS");
     PetriSession *session = petri_open(&options);
     double begin = clock_now();
     if (!session || petri_load(session, argv[0]) != PETRI_OK)
         return 1;
-    int status = serve(session, base, clock_now() - begin);
+    int status = serve_commands(session, base, clock_now() - begin);
     petri_close(&session);
     return status;
 }
@@ -135,7 +135,7 @@ int worker_main(int argc, char **argv) {
 // A pipe that a later worker does not inherit: each worker must see the end of its own input.
 static void open_pipe(int ends[2]) {
     if (pipe(ends) || fcntl(ends[0], F_SETFD, FD_CLOEXEC) < 0 || fcntl(ends[1], F_SETFD, FD_CLOEXEC) < 0)
-        give_up("cannot talk to a worker");
+        exit_with_error("cannot talk to a worker");
 }
 
 Worker worker_start(const char *executable, const char *script, int threads, double fps) {
@@ -147,7 +147,7 @@ Worker worker_start(const char *executable, const char *script, int threads, dou
     snprintf(number[1], sizeof number[1], "%g", fps);
     pid_t process = fork();
     if (process < 0)
-        give_up("cannot start a worker");
+        exit_with_error("cannot start a worker");
     if (process == 0) {
         dup2(down[0], STDIN_FILENO);
         dup2(up[1], STDOUT_FILENO);
@@ -159,7 +159,7 @@ Worker worker_start(const char *executable, const char *script, int threads, dou
     close(up[1]);
     Worker worker = {.process = process, .to = fdopen(down[1], "w"), .from = fdopen(up[0], "r")};
     if (!worker.to || !worker.from)
-        give_up("cannot talk to a worker");
+        exit_with_error("cannot talk to a worker");
     return worker;
 }
 
@@ -168,7 +168,7 @@ Sample worker_run(Worker *worker, int frames, bool with_output) {
     fprintf(worker->to, "%d %d\n", frames, with_output);
     fflush(worker->to);
     if (fscanf(worker->from, "%lf %lf %lf %lf %lf %lf %lf %lf %lf %lf", &s.frame, &s.evaluation, &s.physics, &s.output,
-               &s.steps, &s.share, &s.allocations, &s.load, &s.base, &s.peak) != 10) {
+               &s.steps, &s.cpu_share, &s.allocations, &s.load, &s.base, &s.peak) != 10) {
         fputs("bench: a worker ended before its time\n", stderr);
         exit(1);
     }

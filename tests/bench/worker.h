@@ -15,9 +15,9 @@ typedef struct Sample {
     double frame; // all of petri_step
     double evaluation;
     double physics;
-    double output; // writing the last frame's state as text; 0 if not asked for
-    double steps;  // of simulation
-    double share;  // of a processor that the thread which runs the script had
+    double output;    // writing the last frame's state as text; 0 if not asked for
+    double steps;     // of simulation
+    double cpu_share; // of a processor that the thread which runs the script had
     double allocations;
     double load; // petri_load, once per worker
     double base; // bytes of memory in use before the session was opened

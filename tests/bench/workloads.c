@@ -147,7 +147,7 @@ static void add_box(const Workload *w) {
         phys_add_force(w->system, 0, &forces[i]);
 }
 
-static void describe(const Workload *w) {
+static void describe_system(const Workload *w) {
     phys_begin(w->system, w->dimensions);
     for (uint32_t i = 0; i < w->n; i++) {
         const Body *body = &w->bodies[i];
@@ -174,7 +174,7 @@ static void describe(const Workload *w) {
 }
 
 void workload_frame(Workload *w, int steps) {
-    describe(w);
+    describe_system(w);
     PhysTime time = {.last = w->clock, .clock = w->clock, .resolution = w->delta, .lockstep = true, .performance = 1};
     time.now = w->clock + steps * w->delta;
     PhysResult result = phys_simulate(w->system, &time);

@@ -161,7 +161,7 @@ check "… empty if nothing is wrong" [ "$(cat out)" = "[]" ]
 cp told.fl "t\"o ld.fl"
 petri check --format=sarif "t\"o ld.fl" clean.fl
 check "--format sarif: a run of the tool" has out '"version": "2.1.0"'
-check "… with the rules" has out '"rules": [{"id": "unbound-name"}, {"id": "text-arithmetic"}'
+check "… with the rules" has out '"rules": [{"id": "unbound-name"}, {"id": "string-arithmetic"}'
 check "… places by URI" has out '{"artifactLocation": {"uri": "t%22o%20ld.fl"}, "region": {"startLine": 1, "startColumn": 7, "endLine": 1, "endColumn": 10}}'
 check "… with exit status 0" status_is 0
 petri check --format=json --werror told.fl

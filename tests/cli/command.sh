@@ -27,6 +27,13 @@ check "help run tells of its options" has out "--frames N"
 cp out run_help
 petri run --help
 check "run --help is the same as help run" cmp -s out run_help
+# fits COLUMNS: no line of the output is longer.
+fits() { ! grep -Eq ".{$(($1 + 1))}" out; }
+for topic in '' view sweep particle builtins --frames; do
+    petri help $topic
+    check "help${topic:+ $topic} is wrapped at 80 columns where there is no terminal" fits 80
+done
+check "wrapped lines of a list begin below its text" grep -Eq '^ {30}[a-z]' run_help
 petri test --help
 check "test has help" has out "--update"
 petri check --help
@@ -196,16 +203,20 @@ check "Ctrl-C exits with 130" status_is 130
 check "Ctrl-C still gives the summary" has err " frames in "
 # A bare container has no pseudo-terminals.
 if script -qec true /dev/null >/dev/null 2>&1 </dev/null; then
-    script -qec "'$petri' run --frames 30 --realtime plain.fl" /dev/null >out 2>&1 </dev/null
+    script -qec "$(quoted "$petri") run --frames 30 --realtime plain.fl" /dev/null >out 2>&1 </dev/null
     check "there is a progress line on a terminal" has out "/30 frames, "
     check "the progress line is erased" has out "$(printf '\r\033[K')petri: 30 frames in "
-    script -qec "'$petri' run --frames 30 --quiet plain.fl" /dev/null >out 2>&1 </dev/null
+    script -qec "$(quoted "$petri") run --frames 30 --quiet plain.fl" /dev/null >out 2>&1 </dev/null
     check "--quiet has no progress line" empty out
-    NO_COLOR=1 script -qec "'$petri' run --frames 1 warn.fl" /dev/null >out 2>&1 </dev/null
+    script -qec "stty cols 60 rows 20; $(quoted "$petri") help view" /dev/null 2>&1 </dev/null | tr -d '\r' >out
+    check "help is wrapped at the terminal's width" fits 60
+    check "help fills the terminal's width" grep -Eq '.{55}' out
+    NO_COLOR=1 script -qec "$(quoted "$petri") run --frames 1 warn.fl" /dev/null >out 2>&1 </dev/null
     check "NO_COLOR is honoured" lacks out "$(printf '\033[3')"
     check "NO_COLOR keeps the message" has out "warning: "
 fi
-printf '#!%s\n!n a=1\n' "$petri" >direct.fl
+ln -s "$petri" direct-petri # there are no blanks in a #! line
+printf '#!%s\n!n a=1\n' "$work/direct-petri" >direct.fl
 chmod +x direct.fl
 ./direct.fl --frames 1 --print tree >out 2>err
 status=$?

@@ -65,7 +65,7 @@ check "… with exit status 1" status_is 1
 petri fmt --check "$root/samples"
 check "all samples have the layout" status_is 0
 grep -v '^#' "$root/tests/layouts.txt" | sed "s|^\\([^ ]*\\) .*|$root/\\1|" >listed
-xargs "$petri" fmt --check <listed 2>&1 >/dev/null |
+tr '\n' '\0' <listed | xargs -0 "$petri" fmt --check 2>&1 >/dev/null |
     sed -n 's/^petri: \(.*\) is not laid out by petri fmt$/\1/p; s/^\(.*\.fl\):[0-9:]* error: .*/\1/p' >unlike
 check "what tests/layouts.txt lists has another (./dev format looks at the rest)" cmp -s listed unlike
 

@@ -98,7 +98,7 @@ check "a definition that cannot be read" status_is 2
 
 if command -v node >/dev/null; then
     cat >page.mjs <<TEXT
-import { packLink, readLink } from '$root/src/web/page/link.mjs';
+import { packLink, readLink } from "$root/src/web/page/link.mjs";
 const linked = await readLink(process.argv[2]);
 console.log(JSON.stringify(linked));
 console.log(await packLink({ ...linked, text: linked.text + '-- é\n', changes: [...linked.changes, [3, 'N', '7']] }));

@@ -47,7 +47,8 @@ petri run --parameters plain.fl
 check "a script without parameters has none" empty out
 check "… and how to make one is told" has err "plain.fl has no parameters"
 petri help run
-check "help tells what a parameter is" has out "let CELLS=CELLS or 200 -- 1..500"
+tr '\n' ' ' <out >joined # the help is wrapped
+check "help tells what a parameter is" has joined "let CELLS=CELLS or 200 -- 1..500"
 check "help tells of --parameters" has out "--parameters"
 
 # What a script does not take is told, with the place, and does not fail the run.

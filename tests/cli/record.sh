@@ -9,34 +9,34 @@ cat >pair.fl <<'END'
 !physics state=:line dimensions=1 time=time
     !particle id=:p position=0.1
 END
-petri run pair.fl --frames 3 --trajectory way.csv
+petri run pair.fl --frames 3 --trajectory run.csv
 check "a trajectory is written" status_is 0
-check "… as CSV, with a row for each particle and frame" lines_are way.csv 13
-check "… with a header" has way.csv "frame,time,system,id,anchor,x1,x2,v1,v2,radius,mass,charge"
-check "… ids quoted where they must be" has way.csv "0,0,:w,\"'a,\"\"b'\",1,1,2,0,0,0,1,0"
-check "… where they are and how fast" has way.csv "2,0.20000000000000001,:w,7,0,4,4,5,0,0.5,2,-3"
-check "… components that a system lacks left empty" has way.csv "0,0,:line,:p,0,0.10000000000000001,,0,,0,1,0"
+check "… as CSV, with a row for each particle and frame" lines_are run.csv 13
+check "… with a header" has run.csv "frame,time,system,id,anchor,x1,x2,v1,v2,radius,mass,charge"
+check "… ids quoted where they must be" has run.csv "0,0,:w,\"'a,\"\"b'\",1,1,2,0,0,0,1,0"
+check "… where they are and how fast" has run.csv "2,0.20000000000000001,:w,7,0,4,4,5,0,0.5,2,-3"
+check "… components that a system lacks left empty" has run.csv "0,0,:line,:p,0,0.10000000000000001,,0,,0,1,0"
 check "… and nothing beside it" [ -z "$(find . -name '*.tmp')" ]
-petri run pair.fl --frames 5 --every 2 --trajectory way.xyz
-check "extended XYZ holds a block for each K-th frame" count_is way.xyz "Properties=species:S:1:pos:R:3:velo:R:3:" 3
-check "… all systems together" lines_are way.xyz 18
-check "… missing dimensions are 0" has way.xyz "X 5 4 0 5 0 0 0.5 2 -3 1 0 0"
+petri run pair.fl --frames 5 --every 2 --trajectory run.xyz
+check "extended XYZ holds a block for each K-th frame" count_is run.xyz "Properties=species:S:1:pos:R:3:velo:R:3:" 3
+check "… all systems together" lines_are run.xyz 18
+check "… missing dimensions are 0" has run.xyz "X 5 4 0 5 0 0 0.5 2 -3 1 0 0"
 petri run pair.fl --trajectory way.txt
 check "other kinds of trajectory are refused" status_is 2
 check "… naming those there are" has err "a file name that ends in .xyz, .csv or .h5"
-petri run pair.fl --trajectory absent/way.csv
+petri run pair.fl --trajectory absent/run.csv
 check "a trajectory that cannot be made is an error" status_is 1
-check "… which names the file" has err "cannot write absent/way.csv"
-cp way.csv before.csv
+check "… which names the file" has err "cannot write absent/run.csv"
+cp run.csv before.csv
 (
     trap '' XFSZ # the disk is full
     ulimit -f 8
-    exec timeout 100 "$petri" run pair.fl --frames 5000 --trajectory way.csv >out 2>err </dev/null
+    exec timeout 100 "$petri" run pair.fl --frames 5000 --trajectory run.csv >out 2>err </dev/null
 )
 status=$?
 check "a trajectory that the disk cannot hold is an error" status_is 1
-check "… told once" count_is err "cannot write way.csv: File too large" 1
-check "… the old file is left alone" cmp -s way.csv before.csv
+check "… told once" count_is err "cannot write run.csv: File too large" 1
+check "… the old file is left alone" cmp -s run.csv before.csv
 check "… and no half of a new one" [ -z "$(find . -name '*.tmp')" ]
 
 petri run pair.fl --frames 11 --stats

@@ -103,6 +103,11 @@ END
     printf '!physics state=:w dimensions=2\n    !particle id=1 radius=1\n' >bare.fl
     petri render bare.fl -o bare.png --frames 2
     check "physics alone has a picture too" sized bare.png 1080x1080
+    printf '!physics state=:w dimensions=2\n    !particle id=0 velocity=60;30\n' >lone.fl
+    petri render lone.fl -o lone%03d.png --frames 201 --every 40 --size 60x60
+    check "a lone particle is not followed" eval '! cmp -s lone040.png lone080.png && ! cmp -s lone080.png lone120.png'
+    petri render lone.fl -o lone.png --frame 200 --size 60x60
+    check "the picture of a frame does not depend on those that were drawn before" cmp -s lone.png lone200.png
     petri render disc.fl -o none.png --frames 1 --auto
     check "--auto without physics is an error" one_error
 

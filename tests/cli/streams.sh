@@ -73,7 +73,7 @@ petri render nowhere.fl -o -
 check "no script, no picture" empty out
 check "nothing is left in the folder for such things" [ -z "$(ls -d "$TMPDIR"/petri.* 2>/dev/null)" ]
 if script -qec true /dev/null >/dev/null 2>&1 </dev/null; then
-    script -qec "'$petri' render drawn.fl --frames 1 -o -" /dev/null >out 2>&1 </dev/null
+    script -qec "$(quoted "$petri") render drawn.fl --frames 1 -o -" /dev/null >out 2>&1 </dev/null
     check "no picture goes to a terminal" has out "standard output is a terminal"
     check "and there is a word on what to do" has out ">FILE"
 fi

@@ -6,15 +6,16 @@ set -u
 # shellcheck source=tests/support/check.sh
 . "$(dirname "$0")/../support/check.sh"
 scratch
-tell_more() {
+project="$work/Anna's Übung x" # a checkout may have such a path
+print_details() {
     for file in out err calls; do
         sed "s/^/  $file: /" $file | tail -n 15
     done
 }
 lines_at_most() { [ "$(wc -l <"$1")" -le "$2" ]; }
 
-# stand_in NAME: a program with this text.
-stand_in() {
+# fake_tool NAME: a program with this text.
+fake_tool() {
     rm -f "$work/$1" # it may be a link to the real one
     { echo '#!/bin/sh' && echo "echo \"${1##*/} \$*\" >>'$work/calls'" && cat; } >"$work/$1"
     chmod +x "$work/$1"
@@ -22,23 +23,26 @@ stand_in() {
 
 # machine: a new one, with the project and nothing else; root without a terminal, who has a network.
 machine() {
-    rm -rf "$work/bin" "$work/later" "$work/project" "$work/fonts" "$work/lists" "$work/mesa"
-    mkdir -p "$work/bin" "$work/later" "$work/project/.ci" "$work/fonts/truetype/dejavu" "$work/mesa/dri"
-    for tool in awk cat chmod cp cut dirname echo env fold grep head ln ls mkdir mktemp mv nproc rm sed sh sleep stty tail tee touch \
+    rm -rf "$work/bin" "$work/later" "$project" "$work/fonts" "$work/lists" "$work/mesa"
+    mkdir -p "$work/bin" "$work/later" "$project/.ci" "$work/fonts/truetype/dejavu" "$work/mesa/dri"
+    for tool in awk cat chmod cp cut dirname echo env fold grep head ln ls mkdir mktemp mv nproc rm sed sh sleep sort stty tail tee touch \
         tr true wc xargs; do
         ln -s "$(PATH=/usr/bin:/bin env which $tool)" "$work/bin/$tool"
     done
-    cp "$root/dev" "$work/project"
-    cp "$root"/.ci/* "$work/project/.ci"
+    cp "$root/dev" "$project"
+    cp "$root"/.ci/* "$project/.ci"
     sed -i "s|/usr/share/fonts|$work/fonts|; s|/usr/lib/\*|$work/mesa|;
-            s|:/usr/sbin:/sbin||; s|/usr/bin/python3|$work/bin/python3|" "$work/project/dev" "$work/project/.ci"/*
+            s|:/usr/sbin:/sbin||; s|/usr/bin/python3|$work/bin/python3|" "$project/dev" "$project/.ci"/*
     : >"$work/calls"
     uid=0 network=yes breaks=
-    stand_in bin/id <<'END'
+    fake_tool bin/id <<'END'
 case $1 in -un) echo somebody ;; *) echo "$FAKE_UID" ;; esac
 END
-    stand_in bin/apt-get <<'END'
-[ "$FAKE_UID" = 0 ] || { echo 'E: are you root?'; exit 100; }
+    fake_tool bin/apt-get <<'END'
+case " $* " in
+*' --print-uris '*) ;;
+*) [ "$FAKE_UID" = 0 ] || { echo 'E: are you root?'; exit 100; } ;;
+esac
 unreachable() { echo "$1: Failed to fetch http://archive.example/x  Temporary failure resolving 'archive.example'"; }
 case " $* " in
 *' update '*)
@@ -50,7 +54,8 @@ case " $* " in
     case " $* " in
     *' --print-uris '*)
         echo '0 upgraded, 3 newly installed, 0 to remove and 0 not upgraded.'
-        echo 'Need to get 61.2 MB of archives.'
+        echo 'Need to get 61.2 MB/70.0 MB of archives.'
+        echo 'After this operation, 212 MB of additional disk space will be used.'
         exit ;;
     esac
     [ "$NETWORK" = yes ] || { unreachable E; exit 100; }
@@ -58,6 +63,7 @@ case " $* " in
     for i in 1 2 3; do echo "Get:$i http://archive.example/debian stable/main amd64 part$i amd64 1.0-$i [20.4 MB]"; done
     for i in 1 2 3; do echo "Unpacking part$i (1.0-$i) ..."; done
     for i in 1 2 3; do echo "Setting up part$i (1.0-$i) ..."; done
+    [ "$BREAKS" != count ] || for i in 4 5 6 7; do echo "Setting up part$i (1.0-$i) ..."; done
     for package; do
         case $package in
         ninja-build) package=ninja ;;
@@ -89,7 +95,7 @@ case " $* " in
     ;;
 esac
 END
-    stand_in later/pkg-config <<'END'
+    fake_tool later/pkg-config <<'END'
 case $2 in
 cairo) test -e "$WORK/later/libcairo2-dev" ;;
 pangocairo) test -e "$WORK/later/libpango1.0-dev" ;;
@@ -108,12 +114,25 @@ cmocka) test -e "$WORK/later/libcmocka-dev" ;;
 x11) test -e "$WORK/later/libx11-dev" ;;
 esac
 END
-    stand_in later/meson <<'END'
+    fake_tool later/meson <<'END'
 case "$*" in
 setup*--reconfigure*) ;;
 setup*) mkdir -p "$2" && touch "$2/build.ninja" ;;
 test*--list*) printf 'petri:base / quick\npetri:view / slow\npetri:base / other\n' ;;
 test*)
+    mkdir -p build/meson-logs
+    cat >build/meson-logs/testlog.txt <<'LOG'
+==================================== 1/3 =====================================
+test:         petri:base / quick
+result:       exit status 77
+----------------------------------- stdout -----------------------------------
+==================================== 2/3 =====================================
+test:         petri:base / other
+result:       exit status 0
+----------------------------------- stdout -----------------------------------
+test: of other
+skipped: there is no node
+LOG
     echo '1/3 petri:base / quick   OK    0.01s'
     echo '2/3 petri:base / other   OK    0.01s'
     if [ "$BREAKS" = tests ]; then
@@ -126,7 +145,7 @@ test*)
     ;;
 esac
 END
-    stand_in later/ninja <<'END'
+    fake_tool later/ninja <<'END'
 mkdir -p "$2/src"
 [ ! -e "$2/src/petri" ] || { echo 'ninja: no work to do.'; exit; }
 echo "ninja: Entering directory"
@@ -135,17 +154,24 @@ for i in 1 2 3; do echo "[$i/4] Compiling part$i.c"; done
 echo '[4/4] Linking petri'
 cp "$WORK/later/petri" "$2/src/petri"
 END
-    stand_in later/petri <<'END'
+    fake_tool later/petri <<'END'
 case $1 in
 run) echo "this is petri $*" ;;
-test) echo "ok a.fl"; echo "5 passed, 0 failed" ;;
+test)
+    [ -z "${COLORTERM:-}${LANG:-}${WORK:-}" ] && [ "$(umask)" = 0022 ] || { echo "0 passed, 5 failed" && exit 1; }
+    case $2 in
+    *golden*) [ ! -e golden-fails ] || { echo "4 passed, 1 failed" && exit 1; } ;;
+    esac
+    echo "ok a.fl"
+    echo "5 passed, 0 failed"
+    ;;
 esac
 END
 }
 
 # with_sudo WHAT: sudo that lets the user do everything, or nothing.
 with_sudo() {
-    stand_in bin/sudo <<END
+    fake_tool bin/sudo <<END
 [ $1 = all ] || { echo 'somebody is not in the sudoers file.' >&2; exit 1; }
 [ "\$1" != -n ] || shift
 FAKE_UID=0
@@ -161,26 +187,44 @@ on_machine() {
 # dev ARGUMENTS...: without a terminal.
 dev() {
     : >"$work/calls"
-    on_machine sh "$work/project/dev" "$@" >"$work/out" 2>"$work/err" </dev/null
+    on_machine sh "$project/dev" "$@" >"$work/out" 2>"$work/err" </dev/null
     status=$?
 }
-# typed ANSWER ARGUMENTS...: at a terminal of 80 columns; all that is seen is in out.
+# typed ANSWER ARGUMENTS...: at a terminal of 110 columns; all that is seen is in out.
 script=$(command -v script) || script=
 typed() {
     answer=$1
     shift
     : >"$work/calls"
     : >"$work/err"
-    (sleep 1; printf '%s\n' "$answer") | on_machine TERM=xterm SHELL=/bin/sh "$script" -qec "stty cols 80; sh '$work/project/dev' $*" \
+    (sleep 1; printf '%s\n' "$answer") | on_machine TERM=xterm SHELL=/bin/sh "$script" -qec "stty cols 110 -echo; sh $(quoted "$project/dev") $*" \
         /dev/null >"$work/out" 2>&1
     status=$?
 }
+
+# odd COMMAND...: with an environment that changes tests.
+odd() {
+    (umask 077 && COLORTERM=truecolor LANG=de_DE.UTF-8 CDPATH=. POSIXLY_CORRECT=1 TMPDIR="/no such" TZ=Asia/Tokyo HOME=/proc PETRI_TESTS='' \
+        TRIES="a 'b'" PETRI_CPU=scalar "$root/.ci/clean-env" "$@") >out 2>err
+    status=$?
+}
+odd env
+check "tests see only what they are meant to see" [ "$(grep -cE '^(COLORTERM|LANG|CDPATH|POSIXLY_CORRECT|TMPDIR)=' out)" -eq 0 ]
+check "tests have a fixed locale" has out LC_ALL=C.UTF-8
+check "tests have a fixed time zone" has out TZ=UTC
+check "variables that select tests are passed" has out "TRIES=a 'b'"
+check "variables that Meson sets are passed" has out PETRI_CPU=scalar
+odd sh -c 'umask; touch "$HOME/x"; echo "$HOME"; exit 77'
+check "the status of a test is passed on" status_is 77
+check "tests have umask 022" has out 0022
+check "tests may write into their home folder" empty err
+check "the home folder is removed" [ ! -e "$(tail -n 1 out)" ]
 
 machine
 dev run dish.fl --every 7
 check "the first command does all" status_is 0
 check "it runs the script with its options" has out "this is petri run --show dish.fl --every 7"
-check "it says how much there is to fetch" has err "packages: 3 to install, 61.2 MB to download"
+check "it says how much there is to fetch" has err "packages: 3 to install, 61 MB to download, 212 MB of disk space"
 check "and how far it is" has err "packages: 3 of 3"
 check "and compiles" has err "compiling: 4 of 4"
 check "all that in few lines" lines_at_most err 20
@@ -190,7 +234,7 @@ check "and what shows pictures in terminals" grep -q 'apt-get .*install.* libcha
 check "nothing that a window needs" lacks calls libsdl2-dev
 check "nothing that only films need" lacks calls ffmpeg
 check "nothing that only tests need" lacks calls libcmocka-dev
-check "it compiles what runs, not the tests" has calls "ninja -C $work/project/build src/petri src/petri-pictures"
+check "it compiles what runs, not the tests" has calls "ninja -C $project/build src/petri src/petri-pictures"
 dev run dish.fl
 check "the second time it just runs" has out "this is petri run --show dish.fl"
 check "without a word" empty err
@@ -204,14 +248,33 @@ dev test
 check "test installs what tests need" grep -q ' libcmocka-dev tmux procps .* fonts-dejavu-extra' "$work/calls"
 check "tests pass" status_is 0
 check "the last line counts tests and scripts" [ "$(tail -n 1 "$work/out")" = "3 passed, 0 failed" ]
-mkdir -p "$work/project/samples" "$work/project/tests/golden"
+mkdir -p "$project/samples" "$project/tests/golden"
 dev test
 check "scripts are counted as well" [ "$(tail -n 1 "$work/out")" = "13 passed, 0 failed" ]
+check "reports why a test was skipped" has out "skipped: other: there is no node"
+check "reports a skipped test that gives no reason" has out "skipped: quick: it gives no reason"
+check "names no log when all tests pass" lacks out "to repeat"
+dev test base golden
+check "runs the tests of a suite" grep -q '^meson test .*--print-errorlogs .* quick other$' "$work/calls"
+check "runs a folder of scripts by its name" has out "scripts in tests/golden"
+check "runs no other folder" lacks out "scripts in samples"
+dev test samples
+check "runs no test for a folder" lacks calls "--print-errorlogs"
+check "counts the scripts of a single folder" [ "$(tail -n 1 "$work/out")" = "5 passed, 0 failed" ]
+dev test ase
+check "rejects an unknown test" status_is 1
+check "names the unknown test" has err "no such test or suite: 'ase'"
+touch "$project/golden-fails"
+dev test
+check "names a failed folder" has out "log: build/tests.log; to repeat: ./dev test golden"
+check "logs its scripts" grep -q '^4 passed, 1 failed$' "$project/build/tests.log"
+rm "$project/golden-fails"
 check "tests are counted while they run" has err "tests: 3 of 3"
 breaks=tests
 dev test
 check "a test that fails makes it fail" status_is 1
 check "the log of the test is shown" has out ">>> the log of slow"
+check "names the log and the command that repeats the failed test" has out "log: build/tests.log; to repeat: ./dev test slow"
 check "failures are counted" [ "$(tail -n 1 "$work/out")" = "12 passed, 1 failed" ]
 
 machine
@@ -224,6 +287,19 @@ check "the log is named" has err "build/compile.log"
 breaks=
 dev run dish.fl
 check "mended, it goes on" has out "this is petri"
+
+# A relative path, of which a shell with CDPATH prints where it leads.
+machine
+on_machine CDPATH="$work" sh "${project#"$work"/}/dev" run dish.fl >out 2>err </dev/null
+status=$?
+check "works with CDPATH" status_is 0
+check "runs the script with CDPATH" has out "this is petri"
+
+machine
+breaks=count
+dev run dish.fl
+check "never counts more packages than there are" lacks err " 4 of 3"
+breaks=
 
 machine
 uid=1000
@@ -248,7 +324,7 @@ check "and says so" has err "no network?"
 check "not as apt-get does" lacks err "E: "
 check "in few lines" lines_at_most err 3
 check "the log is named" has err "build/packages-lists.log"
-check "and there" grep -q 'Unable to locate package meson' "$work/project/build/packages-lists.log"
+check "and there" grep -q 'Unable to locate package meson' "$project/build/packages-lists.log"
 touch "$work/lists"
 dev run dish.fl
 check "old lists do not help" has err "no network?"
@@ -259,27 +335,44 @@ check "what goes wrong otherwise is told" has err "E: Sub-process dpkg returned 
 check "with the log" has err "build/packages.log"
 
 machine
-mkdir -p project/src/packaging
-stand_in project/src/packaging/package.sh </dev/null
+mkdir -p "$project/src/packaging"
+fake_tool "${project#"$work"/}/src/packaging/package.sh" </dev/null
 dev package
-check "packages are made" has calls "package.sh $work/project/build/package"
+check "packages are made" has calls "package.sh $project/build/package"
 check "with what makes them" grep -q 'apt-get .*install.* dpkg-dev debhelper dh-python' calls
 check "and what they are made of" has calls libsdl2-dev
-check "it says where they are" has err "what was made is in $work/project/build/package"
+check "it says where they are" has err "what was made is in $project/build/package"
 dev package --dynamic
 check "other packages there are not" has err "package knows --test, --wheel and --static only, not '--dynamic'"
 
 machine
 dev install "$work/some where"
 check "what is installed is compiled before" grep -q 'ninja .* installed' "$work/calls"
-check "it is installed where it was asked for" has calls "meson configure $work/project/build -Dprefix=$work/some where"
-check "by meson" has calls "meson install -C $work/project/build --no-rebuild"
-check "it says that this is not in PATH" has err "$work/some where/bin is not in PATH"
+check "it is installed where it was asked for" has calls "meson configure $project/build -Dprefix=$work/some where"
+check "by meson" has calls "meson install -C $project/build --no-rebuild"
+check "prints the line that extends PATH" has err "  export PATH=\"\$HOME/some where/bin:\$PATH\""
 dev install
 check "root installs for all" has calls "-Dprefix=/usr/local"
 uid=1000
 dev install
 check "a user installs for himself" has calls "-Dprefix=$work/.local"
+check "names no MANPATH where none is set" lacks err MANPATH
+# installed SHELL PROFILE: the user types the lines that dev prints; a new shell reads PROFILE.
+installed() {
+    rm -f "$work/$2"
+    on_machine SHELL="/bin/$1" MANPATH=/man sh "$project/dev" install >out 2>err </dev/null
+    grep '^  ' err >typed
+    on_machine MANPATH=/man sh -c '. ./typed && echo "$PATH $MANPATH"' >now 2>&1
+    on_machine MANPATH=/man sh -c ". ~/$2; echo \"\$PATH \$MANPATH\"" >next 2>&1
+    grep -qxF "$work/.local/bin:$work/bin $work/.local/share/man:/man" now && cmp now next
+}
+check "bash finds petri and its manual" installed bash .bashrc
+check "zsh finds petri and its manual" installed zsh .zshrc
+check "another shell finds petri and its manual" installed dash .profile
+on_machine SHELL=/usr/bin/fish sh "$project/dev" install >out 2>err </dev/null
+check "fish has a command for it" has err '  fish_add_path "$HOME/.local/bin"'
+on_machine PATH="$work/.local/bin:$work/bin" sh "$project/dev" install >out 2>err </dev/null
+check "prints no line where petri is found" lacks err "PATH"
 
 machine
 for tool in bash dirname mktemp unshare git; do
@@ -287,27 +380,33 @@ for tool in bash dirname mktemp unshare git; do
     ln -s "$(PATH=/usr/bin:/bin env which $tool)" "$work/bin/$tool"
 done
 uid=1000
-dev fresh
+dev clean-install
 check "a bare machine needs root" status_is 77
 check "and says so" has err "not possible here: it needs root"
 uid=0
-dev fresh
+dev clean-install
 check "it installs debootstrap" grep -q 'apt-get .* install debootstrap' "$work/calls"
 check "what is no checkout has no HEAD" status_is 77
 check "and says so" has err "not possible here: this is no git checkout"
-(cd "$work/project" && git init -q && git -c user.name=x -c user.email=x@y commit -q --allow-empty -m x)
-echo 'exit 1' | stand_in bin/unshare
-dev fresh
+(cd "$project" && git init -q && git -c user.name=x -c user.email=x@y commit -q --allow-empty -m x)
+echo 'exit 1' | fake_tool bin/unshare
+dev clean-install
 check "it needs namespaces" status_is 77
 check "and says so" has err "not possible here: no namespaces"
-check "it leaves nothing behind" [ -z "$(find /var/tmp -maxdepth 1 -name 'petri-fresh-run-*' -newer "$work/bin/unshare")" ]
+check "it leaves nothing behind" [ -z "$(find /var/tmp -maxdepth 1 -name 'petri-clean-run-*' -newer "$work/bin/unshare")" ]
 
 # A bare container has no pseudo-terminals.
 if [ -n "$script" ] && "$script" -qec true /dev/null >/dev/null 2>&1 </dev/null; then
     machine
     typed y run dish.fl
     check "at a terminal it asks" has out "[Y/n]"
-    check "what it will need later, too" has out "xvfb"
+    check "it asks once" count_is out "[Y/n]" 1
+    check "names the packages" has out "gcc libc6-dev meson ninja-build"
+    check "estimates sizes and time where there are no lists" has out \
+        "petri needs 19 Debian packages (about 204 with dependencies, 155 MB to download, 600 MB of disk space,"
+    check "estimates the time" has out "3 minutes): gcc"
+    check "says what the tests need" has out "more (about 327 with "
+    check "says that later commands do not ask" has out "Later commands install what they need without asking again"
     check "after yes it goes on" has out "this is petri run --show dish.fl"
     erase=$(printf '\r\033[K')
     check "packages are counted in one line" has out "${erase}dev: packages: 2 of 3, setting up part2${erase}"
@@ -320,9 +419,21 @@ if [ -n "$script" ] && "$script" -qec true /dev/null >/dev/null 2>&1 </dev/null;
     typed n run dish.fl
     check "after no it ends" status_is 1
     check "with what can be done by hand" has out "apt-get install --no-install-recommends gcc"
-    check "nothing was installed" lacks calls apt-get
+    check "nothing was installed" lacks calls "apt-get -qy update"
+    touch "$work/lists"
+    uid=1000
+    with_sudo all
+    typed n run dish.fl
+    check "sizes are those of the lists, which take no root" has out "packages (3 with dependencies, 61 MB to download, 212 MB of disk space,"
+    check "nobody became root for that" lacks calls sudo
+    uid=0
     typed '' run dish.fl
     check "no is not kept; Enter means yes" has out "this is petri"
+    "$root/.ci/hostile" 'tty; echo "$COLORTERM $LANG"; umask; printf "1 of 2\r\033[K2 of 2\n"; exit 3' >out 2>&1
+    status=$?
+    check "a hostile environment passes the status on" status_is 3
+    check "it is a terminal with odd settings" has out "truecolor de_DE.UTF-8"
+    check "it shows each line as it was last" [ "$(tail -n 2 out | tr '\n' ' ')" = "0077 2 of 2 " ]
 else
     echo "skipped: the questions, for there are no pseudo-terminals"
 fi

@@ -8,7 +8,8 @@
 # Rows under other headings count for nodes that name them only.
 set -u
 LC_ALL=C.UTF-8
-export LC_ALL
+COLUMNS=1000
+export LC_ALL COLUMNS
 if [ $# -ne 2 ]; then
     echo "usage: nodes.sh PETRI ROOT" >&2
     exit 2

@@ -17,14 +17,14 @@ if frame != 2
     for i in ..(2000 if frame > 1 else 0)
         !particle id=i position=sin(i);cos(i);i velocity=i;i;1/(i+1)
 END
-"$work/bare/petri" run pair.fl --frames 2 --trajectory way.h5 >out 2>err </dev/null
+"$work/bare/petri" run pair.fl --frames 2 --trajectory run.h5 >out 2>err </dev/null
 status=$?
 check "a petri without petri-hdf5 writes no H5MD" status_is 1
 check "… and says what it lacks" has err "built without HDF5 (Debian: libhdf5-dev)"
 if [ -x "$(dirname "$petri")/petri-hdf5" ]; then
-    petri run pair.fl --trajectory absent/way.h5
+    petri run pair.fl --trajectory absent/run.h5
     check "an H5MD file that cannot be made is an error" status_is 1
-    check "… which names the file" has err "cannot write absent/way.h5: No such file"
+    check "… which names the file" has err "cannot write absent/run.h5: No such file"
     echo old >full.h5
     (
         trap '' XFSZ # the disk is full
@@ -38,20 +38,20 @@ if [ -x "$(dirname "$petri")/petri-hdf5" ]; then
     check "… the old file is left alone" [ "$(cat full.h5)" = old ]
     check "… and no half of a new one" [ -z "$(find . -name '*.tmp')" ]
     for threads in 1 2; do
-        petri run pair.fl --frames 12 --threads $threads --trajectory way$threads.h5
+        petri run pair.fl --frames 12 --threads $threads --trajectory run$threads.h5
     done
-    check "the same run gives the same bytes" eval 'status_is 0 && cmp way1.h5 way2.h5'
+    check "the same run gives the same bytes" eval 'status_is 0 && cmp run1.h5 run2.h5'
     check "nothing is left beside it" [ -z "$(find . -name '*.tmp')" ]
 fi
 python=/usr/bin/python3
 if [ -x "$(dirname "$petri")/petri-hdf5" ] && $python -I -c 'import h5py' 2>err; then
     read_h5md() { $python -I "$here/../files/h5md.py" "$@" >out 2>err; }
-    petri run pair.fl --frames 12 --trajectory way.csv
-    check "H5MD holds what CSV does, as h5py reads it" eval 'read_h5md way1.h5 way.csv || { cat err; false; }'
+    petri run pair.fl --frames 12 --trajectory run.csv
+    check "H5MD holds what CSV does, as h5py reads it" eval 'read_h5md run1.h5 run.csv || { cat err; false; }'
     check "… of all systems" has out "3 systems, 20083 particles"
-    petri run pair.fl --frames 5 --every 2 --trajectory way.h5md
-    petri run pair.fl --frames 5 --every 2 --trajectory way.csv
-    check "… each K-th frame, also as .h5md" eval 'read_h5md way.h5md way.csv || { cat err; false; }'
+    petri run pair.fl --frames 5 --every 2 --trajectory run.h5md
+    petri run pair.fl --frames 5 --every 2 --trajectory run.csv
+    check "… each K-th frame, also as .h5md" eval 'read_h5md run.h5md run.csv || { cat err; false; }'
 
     # Whatever ends the run, the frames that are whole are there.
     printf '!physics state=:c dimensions=2\n    for i in ..300\n        !particle id=i velocity=1;i\n' >w.fl
@@ -59,12 +59,12 @@ if [ -x "$(dirname "$petri")/petri-hdf5" ] && $python -I -c 'import h5py' 2>err;
     at_work() {
         least=$(($1 - 1))
         shift
-        rm -f way.h5
-        env --default-signal=HUP,INT,TERM "$petri" run w.fl --frames 100000000 --trace --trajectory way.h5 "$@" 2>err </dev/null &
+        rm -f run.h5
+        env --default-signal=HUP,INT,TERM "$petri" run w.fl --frames 100000000 --trace --trajectory run.h5 "$@" 2>err </dev/null &
         job=$!
         while kill -0 $job && [ "$(grep -c 'petri: frame' err)" -le $least ]; do :; done
     }
-    kept() { read_h5md --frames way.h5 && [ "$(cat out)" -ge $least ]; }
+    kept() { read_h5md --frames run.h5 && [ "$(cat out)" -ge $least ]; }
     number=129
     for signal in HUP INT TERM; do
         at_work 20 >out
@@ -102,7 +102,7 @@ if [ -x "$(dirname "$petri")/petri-hdf5" ] && $python -I -c 'import h5py' 2>err;
     status=$?
     exec 7>&-
     tries=0
-    while [ ! -e way.h5 ] && [ $tries -lt 1000 ]; do
+    while [ ! -e run.h5 ] && [ $tries -lt 1000 ]; do
         tries=$((tries + 1))
         sleep 0.01
     done

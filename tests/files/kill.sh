@@ -1,6 +1,6 @@
 # kill.sh: kill -9 at any moment leaves the old file or the new one. Part of ../cli/run.sh.
 #
-# PETRI_KILLS processes are killed (20 if it is not set); `./dev kills` does 500.
+# PETRI_KILLS processes are killed (20 if it is not set); `./dev crash-test` does 500.
 
 kills=${PETRI_KILLS:-20}
 cat >w.fl <<'END'

@@ -65,11 +65,11 @@ chmod 600 s.state
 petri run g/t.fl --frames 3 --state link2.state
 check "… with its permissions" [ "$(mode_of s.state)" = -rw------- ]
 printf '!physics state=:c dimensions=2\n    !particle id=1 velocity=1\n' >p.fl
-mkfifo way.csv
-cat way.csv >got &
-petri run p.fl --frames 3 --trajectory way.csv
+mkfifo run.csv
+cat run.csv >got &
+petri run p.fl --frames 3 --trajectory run.csv
 wait
-check "a trajectory may go to a pipe" eval 'status_is 0 && [ -p way.csv ] && lines_are got 4'
+check "a trajectory may go to a pipe" eval 'status_is 0 && [ -p run.csv ] && lines_are got 4'
 petri new g/t
 check "petri new leaves what is there" eval 'status_is 1 && has g/t.fl "!n a=2"'
 check "nothing is left" nothing_beside

@@ -97,8 +97,8 @@ for format in $formats; do
     check "… and nothing is left beside it" [ -z "$(find . -name '*.tmp' -o -name '*.part')" ]
 done
 if [ -x "$h5md" ] && [ -e /proc/$$/task/$$/children ]; then
-    rm -f s way.h5
-    "$petri" run w.fl --frames 100000000 --state s --trajectory way.h5 --trace 2>err </dev/null &
+    rm -f s run.h5
+    "$petri" run w.fl --frames 100000000 --state s --trajectory run.h5 --trace 2>err </dev/null &
     job=$!
     while kill -0 $job && [ "$(grep -c 'petri: frame' err)" -lt 5 ]; do :; done
     kill -9 $(cat /proc/$job/task/*/children)
@@ -106,7 +106,7 @@ if [ -x "$h5md" ] && [ -e /proc/$$/task/$$/children ]; then
     status=$?
     check "without petri-hdf5 the run ends" status_is 1
     check "… which is told" has err "petri-hdf5, which writes the file, was ended by signal 9"
-    petri run w.fl --frames 1 --state s --trajectory way.h5
+    petri run w.fl --frames 1 --state s --trajectory run.h5
     check "… and the next goes on" eval 'status_is 0 && empty err'
 fi
 rm -f s

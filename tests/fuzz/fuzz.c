@@ -1,6 +1,8 @@
 // fuzz.c: see fuzz.h.
 #include "fuzz.h"
 
+#include "base/hash_index.h"
+
 #include <ftw.h>
 #include <inttypes.h>
 #include <signal.h>
@@ -10,8 +12,6 @@
 #include <string.h>
 #include <sys/time.h>
 #include <unistd.h>
-
-#include "base/table.h"
 
 static PetriSession *volatile watched;
 static volatile sig_atomic_t alarms;
@@ -26,11 +26,11 @@ void fuzz_fail(const char *format, ...) {
     abort();
 }
 
-int fuzz_patience = 80;
+int fuzz_interrupt_limit = 80;
 
 static void on_alarm(int number) {
     (void)number;
-    if (++alarms > fuzz_patience) {
+    if (++alarms > fuzz_interrupt_limit) {
         static const char text[] = "it does not react to petri_interrupt\n";
         (void)!write(STDERR_FILENO, text, sizeof text - 1);
         abort();
@@ -50,27 +50,27 @@ void fuzz_watch(PetriSession *session) {
     setitimer(ITIMER_VIRTUAL, &wait, NULL);
 }
 
-bool fuzz_rest(void) {
+bool fuzz_end_watch(void) {
     static const struct itimerval never;
     setitimer(ITIMER_VIRTUAL, &never, NULL);
     watched = NULL;
     return alarms > 0;
 }
 
-static void on_diagnostic(void *host, const PetriDiagnostic *told) {
+static void on_diagnostic(void *host, const PetriDiagnostic *reported) {
     (void)host;
-    seen += strlen(told->rendered) + strlen(told->text) + (told->code ? strlen(told->code) : 0);
-    if (told->level != PETRI_NOTE && told->file && (told->line == 0 || told->column == 0))
-        fuzz_fail("a diagnostic without a place: %s", told->rendered);
+    seen += strlen(reported->rendered) + strlen(reported->text) + (reported->code ? strlen(reported->code) : 0);
+    if (reported->level != PETRI_NOTE && reported->file && (reported->line == 0 || reported->column == 0))
+        fuzz_fail("a diagnostic without a place: %s", reported->rendered);
 }
 
 PetriOptions fuzz_options(void) {
     PetriOptions options = petri_default_options();
-    options.memory_bytes = (size_t)128 << 20;
-    options.stack_bytes = (size_t)2 << 20;
+    options.memory_limit = (size_t)128 << 20;
+    options.stack_limit = (size_t)2 << 20;
     options.threads = 1;
-    options.diagnostic = on_diagnostic;
-    options.interruptible = true;
+    options.on_diagnostic = on_diagnostic;
+    options.rollback_frames = true;
     options.keep_forces = true;
     return options;
 }
@@ -85,33 +85,33 @@ PetriSession *fuzz_open(const PetriOptions *options) {
 }
 
 void fuzz_close(PetriSession **session) {
-    fuzz_rest();
+    fuzz_end_watch();
     petri_close(session);
 }
 
 void fuzz_load(PetriSession *session, const char *script) {
-    if (petri_load_text(session, fuzz_file("fuzz.fl"), script, PETRI_Z) != PETRI_OK)
+    if (petri_load_text(session, fuzz_file("fuzz.fl"), script, PETRI_NUL_TERMINATED) != PETRI_OK)
         fuzz_fail("the harness's own script is wrong");
 }
 
-void fuzz_look(PetriSession *session) {
-    enum { MOST = 50 };
+void fuzz_check_frame(PetriSession *session) {
+    enum { MAX_COUNT = 50 };
     PetriSystem system;
     PetriForce force;
     PetriParameter parameter;
     for (size_t i = 0; i < 4 && petri_system(session, i, &system); i++) {
-        for (uint32_t j = 0; j < MOST && j < system.particle_count; j++) {
-            PetriValue id = petri_id(session, i, j);
-            const char *text = petri_text(session, id);
+        for (uint32_t j = 0; j < MAX_COUNT && j < system.particle_count; j++) {
+            PetriValue id = petri_particle_id(session, i, j);
+            const char *text = petri_format_value(session, id);
             uint32_t found = 0;
             seen += text ? strlen(text) : 0;
-            seen += petri_find(session, i, id, &found) ? found : 0;
+            seen += petri_find_particle(session, i, id, &found) ? found : 0;
             seen += (size_t)(system.position.data[j * system.position.stride + system.dimensions - 1] > 0);
         }
-        for (uint32_t j = 0; j < MOST && petri_force(session, i, j, &force); j++)
+        for (uint32_t j = 0; j < MAX_COUNT && petri_system_force(session, i, j, &force); j++)
             seen += strlen(force.kind);
     }
-    for (size_t i = 0; i < MOST && petri_parameter(session, i, &parameter); i++)
+    for (size_t i = 0; i < MAX_COUNT && petri_parameter(session, i, &parameter); i++)
         seen += strlen(parameter.name) + strlen(parameter.value) + strlen(parameter.comment);
 }
 
@@ -122,8 +122,8 @@ bool fuzz_sink(void *host, const char *text, size_t length) {
     return true;
 }
 
-bool fuzz_keep(void *host, const char *bytes, size_t length) {
-    enum { MOST = 1 << 22 };
+bool fuzz_append(void *host, const char *bytes, size_t length) {
+    enum { MAX_COUNT = 1 << 22 };
     FuzzText *text = host;
     if (text->length + length + 1 > text->capacity) {
         text->capacity = 2 * (text->length + length) + 64;
@@ -132,10 +132,10 @@ bool fuzz_keep(void *host, const char *bytes, size_t length) {
     memcpy(text->bytes + text->length, bytes, length);
     text->length += length;
     text->bytes[text->length] = 0;
-    return text->length < MOST;
+    return text->length < MAX_COUNT;
 }
 
-bool fuzz_same(const FuzzText *a, const FuzzText *b) {
+bool fuzz_texts_equal(const FuzzText *a, const FuzzText *b) {
     return a->length == b->length && (a->length == 0 || memcmp(a->bytes, b->bytes, a->length) == 0);
 }
 
@@ -166,7 +166,7 @@ static bool is_good_line(const char *line, size_t length) {
 
 void fuzz_check_state(PetriSession *session) {
     FuzzText text = {0};
-    petri_print(session, PETRI_PRINT_STATE, fuzz_keep, &text);
+    petri_print(session, PETRI_PRINT_STATE, fuzz_append, &text);
     for (const char *line = text.bytes; line && *line; line += strspn(line, "\n")) {
         size_t length = strcspn(line, "\n");
         if (!is_good_line(line, length))
@@ -211,9 +211,9 @@ void fuzz_put(const char *name, const void *bytes, size_t length) {
 void fuzz_put_state(const char *name, const void *text, size_t length) {
     FuzzText all = {0};
     char end[40];
-    fuzz_keep(&all, text, length);
+    fuzz_append(&all, text, length);
     int count = snprintf(end, sizeof end, "end %016" PRIx64 "\n", hash_bytes(0, all.bytes, length));
-    fuzz_keep(&all, end, (size_t)count);
+    fuzz_append(&all, end, (size_t)count);
     fuzz_put(name, all.bytes, all.length);
     free(all.bytes);
 }

@@ -1,9 +1,9 @@
 // fuzz_arguments.c: the input is a command line, its words parted by NUL, for a session that is opened as it says.
-#include <stdlib.h>
-#include <string.h>
-
 #include "cli/options.h"
 #include "fuzz.h"
+
+#include <stdlib.h>
+#include <string.h>
 
 static Command commands[4]; // the real ones, which here do nothing but open a session
 const Command *const COMMANDS[] = {&commands[0], &commands[1], &commands[2], &commands[3], NULL};
@@ -15,36 +15,37 @@ const Command *command_find(const char *name) {
     return NULL;
 }
 
-static int run(const Host *host, Options *options) {
+static int run_command(const CommandContext *host, Options *options) {
     PetriSession *session = NULL;
-    int status = options_open(options, host, fuzz_options().diagnostic, NULL, &session);
+    int status = options_open(options, host, fuzz_options().on_diagnostic, NULL, &session);
     if (!session)
         return status;
     fuzz_watch(session);
-    if (petri_load_text(session, "x.fl", "!a x=A y=B z=COUNT\n", PETRI_Z) == PETRI_OK && !options->realtime)
+    if (petri_load_text(session, "x.fl", "!a x=A y=B z=COUNT\n", PETRI_NUL_TERMINATED) == PETRI_OK &&
+        !options->realtime)
         petri_step(session);
     petri_print(session, options->sections, fuzz_sink, NULL);
     fuzz_close(&session);
     return STATUS_DONE;
 }
 
-static void take_commands(void) {
+static void copy_commands(void) {
     const Command *const real[] = {&RUN_COMMAND, &RENDER_COMMAND, &VIEW_COMMAND, &REPL_COMMAND};
     for (size_t i = 0; i < sizeof real / sizeof real[0]; i++) {
         commands[i] = *real[i];
-        commands[i].run = run;
+        commands[i].run = run_command;
     }
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    enum { MOST = 64 };
-    static const Host host = {.program = "petri", .called = "petri", .stack_bytes = 1 << 20};
-    char *text = calloc(1, size + 1), *words[MOST];
+    enum { MAX_WORDS = 64 };
+    static const CommandContext host = {.program = "petri", .invoked_as = "petri", .stack_bytes = 1 << 20};
+    char *text = calloc(1, size + 1), *words[MAX_WORDS];
     int count = 0;
-    take_commands();
+    copy_commands();
     if (size)
         memcpy(text, data, size);
-    for (char *at = text; count < MOST && at < text + size; at += strlen(at) + 1)
+    for (char *at = text; count < MAX_WORDS && at < text + size; at += strlen(at) + 1)
         words[count++] = at;
     command_run(COMMANDS[count % 4], &host, count, words);
     free(text);

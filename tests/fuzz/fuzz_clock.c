@@ -1,11 +1,11 @@
 // fuzz_clock.c: the input is what becomes of the clock: rates from 1e-300 to 1e300, frame numbers beyond 2^53, machines
 // that sleep for years. Each piece is a byte that says what, and a double.
+#include "fuzz.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <time.h>
-
-#include "fuzz.h"
 
 // What the machine's clocks show; the linker puts these in the place of the C library's (meson.build).
 static double now;
@@ -44,7 +44,7 @@ static void jump_to(PetriSession *session, double frame) {
     petri_restore(session, fuzz_file("state"));
 }
 
-static void take(PetriSession *session, PetriSnapshot **snapshot, int what, double x) {
+static void perform_action(PetriSession *session, PetriSnapshot **snapshot, int what, double x) {
     switch (what & 7) {
     case 0:
         petri_set_fps(session, x);
@@ -62,9 +62,9 @@ static void take(PetriSession *session, PetriSnapshot **snapshot, int what, doub
         jump_to(session, x);
         break;
     case 5:
-        petri_hold(session);
-        if (!(petri_due(session) >= 0))
-            fuzz_fail("a frame is due in %g s", petri_due(session));
+        petri_resync_clock(session);
+        if (!(petri_seconds_until_due(session) >= 0))
+            fuzz_fail("a frame is due in %g s", petri_seconds_until_due(session));
         break;
     case 6:
         petri_snapshot_free(*snapshot);
@@ -79,17 +79,17 @@ static void take(PetriSession *session, PetriSnapshot **snapshot, int what, doub
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    enum { PIECE = 1 + sizeof(double), MOST = 8 };
+    enum { ACTION_SIZE = 1 + sizeof(double), MAX_ACTIONS = 8 };
     PetriOptions options = fuzz_options();
     PetriSnapshot *snapshot = NULL;
     options.realtime = size > 0 && data[0] & 128;
     now = 1000;
     PetriSession *session = fuzz_open(&options);
     fuzz_load(session, SCRIPT);
-    for (size_t i = 0; i < MOST && size >= PIECE; i++, data += PIECE, size -= PIECE) {
+    for (size_t i = 0; i < MAX_ACTIONS && size >= ACTION_SIZE; i++, data += ACTION_SIZE, size -= ACTION_SIZE) {
         double x;
         memcpy(&x, data + 1, sizeof x);
-        take(session, &snapshot, data[0], x);
+        perform_action(session, &snapshot, data[0], x);
     }
     petri_print(session, PETRI_PRINT_TREE | PETRI_PRINT_STATE, fuzz_sink, NULL);
     petri_snapshot_free(snapshot);

@@ -4,7 +4,7 @@
 
 enum { SIDE = 64 };
 
-static void draw(PetriSession *session, PetriPainter *painter, PetriAutomatic automatic) {
+static void draw_picture(PetriSession *session, PetriPainter *painter, PetriAutomatic automatic) {
     static uint32_t pixels[SIDE * SIDE];
     PetriPictureOptions options = petri_default_picture_options();
     PetriPicture *picture = NULL;
@@ -12,7 +12,7 @@ static void draw(PetriSession *session, PetriPainter *painter, PetriAutomatic au
     if (petri_picture(session, &options, &picture) != PETRI_OK)
         return;
     petri_picture_draw(picture, painter, pixels, SIDE, SIDE, SIDE * sizeof *pixels);
-    petri_picture_tell(session, picture);
+    petri_picture_report(session, picture);
     PetriRecord record;
     for (size_t i = 0; petri_picture_record(picture, painter, i, &record); i++)
         fuzz_sink(NULL, record.file, 1);
@@ -22,13 +22,13 @@ static void draw(PetriSession *session, PetriPainter *painter, PetriAutomatic au
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     static PetriPainter *painter; // fonts take long to find
     painter = painter ? painter : petri_painter_open();
-    // Drawing one path is one call of Cairo: up to some seconds (MOST_WORK in lib/draw/paints.c), and longer with
+    // Drawing one path is one call of Cairo: up to some seconds (MOST_WORK in lib/draw/cairo_paint.c), and longer with
     // sanitizers.
-    fuzz_patience = 600;
+    fuzz_interrupt_limit = 600;
     PetriSession *session = fuzz_open(NULL);
     if (petri_load_text(session, fuzz_file("fuzz.fl"), (const char *)data, size) == PETRI_OK)
         for (int i = 0; i < 2 && petri_step(session) == PETRI_OK; i++)
-            draw(session, painter, i ? PETRI_AUTO_ALWAYS : PETRI_AUTO_IF_NEEDED);
+            draw_picture(session, painter, i ? PETRI_AUTO_ALWAYS : PETRI_AUTO_IF_NEEDED);
     fuzz_close(&session);
     return 0;
 }

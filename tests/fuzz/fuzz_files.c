@@ -15,7 +15,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     fuzz_put("data", data + 1, size - 1);
     PetriSession *session = fuzz_open(NULL);
     const char *script = scripts[data[0] % (sizeof scripts / sizeof scripts[0])];
-    if (petri_load_text(session, fuzz_file("fuzz.fl"), script, PETRI_Z) == PETRI_OK)
+    if (petri_load_text(session, fuzz_file("fuzz.fl"), script, PETRI_NUL_TERMINATED) == PETRI_OK)
         for (int i = 0; i < 3 && petri_step(session) == PETRI_OK; i++)
             petri_print(session, PETRI_PRINT_TREE | PETRI_PRINT_STATE, fuzz_sink, NULL);
     fuzz_close(&session);

@@ -20,6 +20,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     PetriPainter *painter = petri_painter_open();
     petri_picture_draw(picture, painter, pixels, SIDE, SIDE, SIDE * sizeof *pixels);
     petri_painter_close(&painter);
-    fuzz_rest();
+    fuzz_end_watch();
     return 0;
 }

@@ -1,8 +1,8 @@
 // fuzz_prompt.c: the input is what a host does with a session, in pieces that a byte 30 parts. The first byte of a
 // piece says what; the rest of it is text for that. Anything but a control character is typed at the prompt.
-#include <string.h>
-
 #include "fuzz.h"
+
+#include <string.h>
 
 static const char SCRIPT[] = "%pragma tempo 60\n"
                              "let A=A or 3 -- 1..9 how many\n"
@@ -17,7 +17,7 @@ static const char SCRIPT[] = "%pragma tempo 60\n"
                              "!window\n"
                              "    !key state=:k name='space'\n"
                              "!s a=A\n";
-enum { SNAPSHOTS = 4, MOST_PIECES = 40 };
+enum { SNAPSHOTS = 4, MAX_PIECES = 40 };
 
 typedef struct Host {
     PetriSession *session;
@@ -25,27 +25,27 @@ typedef struct Host {
     PetriSnapshot *snapshots[SNAPSHOTS];
 } Host;
 
-static void print(PetriSession *session) {
+static void print_frame(PetriSession *session) {
     petri_print(session, PETRI_PRINT_TREE | PETRI_PRINT_STATE | PETRI_PRINT_LOG, fuzz_sink, NULL);
-    fuzz_look(session);
+    fuzz_check_frame(session);
     fuzz_check_state(session);
 }
 
-static void list(PetriSession *session) {
-    for (size_t i = 0; petri_name(session, i); i++)
-        fuzz_sink(NULL, petri_name(session, i), 1);
+static void list_names(PetriSession *session) {
+    for (size_t i = 0; petri_visible_name(session, i); i++)
+        fuzz_sink(NULL, petri_visible_name(session, i), 1);
     for (size_t i = 0; petri_prompt_statement(session, i); i++)
         fuzz_sink(NULL, petri_prompt_statement(session, i), 1);
-    for (size_t i = 0; petri_source(session, i); i++)
-        fuzz_sink(NULL, petri_source(session, i), 1);
+    for (size_t i = 0; petri_source_file(session, i); i++)
+        fuzz_sink(NULL, petri_source_file(session, i), 1);
 }
 
-static void use_hands(PetriSession *session, const char *text, size_t length) {
+static void report_input(PetriSession *session, const char *text, size_t length) {
     PetriPointer pointer = {length > 0, length > 0 ? text[0] / 100.0 : 0, length > 1 ? text[1] / 100.0 : 0,
                             length > 2 ? (unsigned char)text[2] : 0};
-    petri_pointer(session, length % 7 == 6 ? NULL : &pointer);
-    petri_key(session, "space", length % 2);
-    fuzz_sink(NULL, "", petri_key_bound(session, "space"));
+    petri_report_pointer(session, length % 7 == 6 ? NULL : &pointer);
+    petri_report_key(session, "space", length % 2);
+    fuzz_sink(NULL, "", petri_key_is_bound(session, "space"));
 }
 
 static void set_parameter(PetriSession *session, const char *text, size_t length) {
@@ -56,15 +56,15 @@ static void set_parameter(PetriSession *session, const char *text, size_t length
     petri_set_parameter(session, "A", length ? value : NULL);
 }
 
-static void take(Host *host, const char *text, size_t length) {
+static void perform_action(Host *host, const char *text, size_t length) {
     PetriSession *session = host->session;
     PetriSnapshot **snapshot = &host->snapshots[length % SNAPSHOTS];
-    PetriResult result;
-    PetriPrompted done;
+    PetriEvaluation result;
+    PetriPromptResult done;
     switch (length ? text[0] : 0) {
     case 1:
         petri_step(session);
-        print(session);
+        print_frame(session);
         break;
     case 2:
         petri_snapshot_free(*snapshot);
@@ -75,10 +75,10 @@ static void take(Host *host, const char *text, size_t length) {
             petri_rewind(session, *snapshot);
         break;
     case 4:
-        petri_drop(session, length > 1);
+        petri_prompt_clear(session, length > 1);
         break;
     case 5:
-        petri_config_use(session, host->config);
+        petri_config_apply(session, host->config);
         break;
     case 6:
         petri_evaluate(session, text + 1, length - 1, &result, fuzz_sink, NULL);
@@ -88,10 +88,10 @@ static void take(Host *host, const char *text, size_t length) {
         break;
     case 8:
         petri_preview(session);
-        print(session);
+        print_frame(session);
         break;
     case 11:
-        petri_clear(session);
+        petri_reset(session);
         break;
     case 12:
         petri_set_tempo(session, length > 1 ? text[1] : 1);
@@ -101,16 +101,16 @@ static void take(Host *host, const char *text, size_t length) {
         petri_load_text(session, "fuzz.fl", text + 1, length - 1);
         break;
     case 15:
-        list(session);
+        list_names(session);
         break;
     case 16:
-        use_hands(session, text + 1, length - 1);
+        report_input(session, text + 1, length - 1);
         break;
     case 17:
         set_parameter(session, text + 1, length - 1);
         break;
     default:
-        petri_input(session, text, length);
+        petri_prompt_check(session, text, length);
         petri_prompt(session, text, length, fuzz_sink, NULL, &done);
     }
 }
@@ -119,10 +119,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     Host host = {.session = fuzz_open(NULL)};
     const char *at = (const char *)data, *end = at + size;
     fuzz_load(host.session, SCRIPT);
-    host.config = petri_config(host.session);
-    for (int i = 0; at < end && i < MOST_PIECES; i++) {
+    host.config = petri_config_get(host.session);
+    for (int i = 0; at < end && i < MAX_PIECES; i++) {
         const char *part = memchr(at, 30, (size_t)(end - at));
-        take(&host, at, (size_t)((part ? part : end) - at));
+        perform_action(&host, at, (size_t)((part ? part : end) - at));
         at = part ? part + 1 : end;
     }
     for (int i = 0; i < SNAPSHOTS; i++)

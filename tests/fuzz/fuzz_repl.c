@@ -1,13 +1,13 @@
 // fuzz_repl.c: the input is what is typed at `petri repl`. What would write outside of the harness's folder is left
 // out.
+#include "cli/cli.h"
+#include "fuzz.h"
+
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-#include "cli/cli.h"
-#include "fuzz.h"
 
 const Command *const COMMANDS[] = {&REPL_COMMAND, NULL};
 
@@ -24,7 +24,7 @@ static const char SCRIPT[] = "let SIZE=SIZE or 2 -- 1..9 how many\n"
                              "!shape size=SIZE at=$:n\n";
 
 // A line that begins with a dot, and names another folder.
-static bool leads_away(const uint8_t *data, size_t size) {
+static bool leaves_folder(const uint8_t *data, size_t size) {
     bool command = false, start = true;
     for (size_t i = 0; i < size; i++) {
         command = start && data[i] == '.' ? true : command && data[i] != '\n';
@@ -36,9 +36,9 @@ static bool leads_away(const uint8_t *data, size_t size) {
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    static const Host host = {.program = "petri", .called = "petri", .stack_bytes = 1 << 20};
+    static const CommandContext host = {.program = "petri", .invoked_as = "petri", .stack_bytes = 1 << 20};
     static char words[][16] = {"--threads", "1", "--limit", "20", "fuzz.fl"};
-    if (leads_away(data, size))
+    if (leaves_folder(data, size))
         return 0;
     fuzz_put("fuzz.fl", SCRIPT, sizeof SCRIPT - 1);
     fuzz_put("typed", data, size);
@@ -51,7 +51,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     char *arguments[] = {words[0], words[1], words[2], words[3], words[4], NULL};
     fuzz_watch(NULL);
     command_run(&REPL_COMMAND, &host, 5, arguments);
-    fuzz_rest();
+    fuzz_end_watch();
     sigaction(SIGINT, &before, NULL);
     return 0;
 }

@@ -7,7 +7,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     if (petri_load_text(session, "fuzz.fl", (const char *)data, size) == PETRI_OK) {
         for (int i = 0; i < 3 && petri_step(session) == PETRI_OK; i++) {
             petri_print(session, PETRI_PRINT_TREE | PETRI_PRINT_STATE | PETRI_PRINT_LOG, fuzz_sink, NULL);
-            fuzz_look(session);
+            fuzz_check_frame(session);
             fuzz_check_state(session);
         }
         petri_dump(session, PETRI_DUMP_AST, fuzz_sink, NULL);

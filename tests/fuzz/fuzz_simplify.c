@@ -1,34 +1,34 @@
 // fuzz_simplify.c: the input is a script, whose frames must be the same with the simplifier and without it. Without it
 // rounds of loops are run one by one, too, as when profiling.
-#include <stdlib.h>
-
 #include "fuzz.h"
+
+#include <stdlib.h>
 
 typedef struct Run {
     FuzzText frames;
     PetriStatus loaded;
-    bool given_up; // by a limit, which simplifying may well avoid
+    bool aborted; // by a limit, which simplifying may well avoid
 } Run;
 
-static Run run(const uint8_t *data, size_t size, bool simplify) {
+static Run run_script(const uint8_t *data, size_t size, bool simplify) {
     Run run = {0};
     PetriOptions options = fuzz_options();
     options.simplify = simplify;
     options.profile = !simplify;
     PetriSession *session = fuzz_open(&options);
     run.loaded = petri_load_text(session, "fuzz.fl", (const char *)data, size);
-    for (int i = 0; i < 3 && run.loaded == PETRI_OK && !run.given_up; i++)
-        run.given_up = petri_step(session) != PETRI_OK ||
-                       petri_print(session, PETRI_PRINT_TREE | PETRI_PRINT_STATE, fuzz_keep, &run.frames) != PETRI_OK;
-    run.given_up |= fuzz_rest();
+    for (int i = 0; i < 3 && run.loaded == PETRI_OK && !run.aborted; i++)
+        run.aborted = petri_step(session) != PETRI_OK ||
+                      petri_print(session, PETRI_PRINT_TREE | PETRI_PRINT_STATE, fuzz_append, &run.frames) != PETRI_OK;
+    run.aborted |= fuzz_end_watch();
     fuzz_close(&session);
     return run;
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    Run plain = run(data, size, false), simplified = run(data, size, true);
-    bool same = plain.loaded == simplified.loaded && fuzz_same(&plain.frames, &simplified.frames);
-    if (!same && !plain.given_up && !simplified.given_up)
+    Run plain = run_script(data, size, false), simplified = run_script(data, size, true);
+    bool same = plain.loaded == simplified.loaded && fuzz_texts_equal(&plain.frames, &simplified.frames);
+    if (!same && !plain.aborted && !simplified.aborted)
         fuzz_fail("--- without the simplifier\n%.3000s\n--- with it\n%.3000s",
                   plain.frames.bytes ? plain.frames.bytes : "", simplified.frames.bytes ? simplified.frames.bytes : "");
     free(plain.frames.bytes);

@@ -1,8 +1,8 @@
 // replay.c: runs a harness once for each file that is named, for builds without libFuzzer.
+#include "fuzz.h"
+
 #include <stdio.h>
 #include <stdlib.h>
-
-#include "fuzz.h"
 
 int main(int argc, char **argv) {
     for (int i = 1; i < argc; i++) {
@@ -12,9 +12,9 @@ int main(int argc, char **argv) {
         FILE *file = fopen(argv[i], "rb");
         if (!file)
             fuzz_fail("cannot read %s", argv[i]);
-        fuzz_keep(&text, "", 0);
+        fuzz_append(&text, "", 0);
         while ((length = fread(block, 1, sizeof block, file)) > 0)
-            fuzz_keep(&text, block, length);
+            fuzz_append(&text, block, length);
         fclose(file);
         fprintf(stderr, "%s\n", argv[i]);
         LLVMFuzzerTestOneInput((const uint8_t *)text.bytes, text.length);

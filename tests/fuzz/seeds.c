@@ -1,5 +1,10 @@
 // seeds.c: writes what the fuzzers begin with, from petri's own tables: FOLDER/dictionary, and inputs for each harness
 // in FOLDER/NAME. `fuzz_seeds FOLDER`.
+#include "cli/cli.h"
+#include "petri-draw.h"
+#include "petri.h"
+#include "repl/repl.h"
+
 #include <errno.h>
 #include <math.h>
 #include <stdarg.h>
@@ -7,11 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-
-#include "cli/cli.h"
-#include "petri-draw.h"
-#include "petri.h"
-#include "repl/repl.h"
 
 const Command *const COMMANDS[] = {&RUN_COMMAND, NULL};
 
@@ -40,7 +40,7 @@ static void make_folder(const char *name) {
     }
 }
 
-static FILE *begin(const char *folder, const char *name) {
+static FILE *open_seed(const char *folder, const char *name) {
     char path[900];
     snprintf(path, sizeof path, "%s/%s%s%s", root, folder, folder[0] ? "/" : "", name);
     FILE *file = fopen(path, "wb");
@@ -52,7 +52,7 @@ static FILE *begin(const char *folder, const char *name) {
 }
 
 static void write_seed(const char *folder, const char *name, const void *bytes, size_t size) {
-    FILE *file = begin(folder, name);
+    FILE *file = open_seed(folder, name);
     fwrite(bytes, 1, size, file);
     fclose(file);
 }
@@ -68,17 +68,16 @@ __attribute__((format(printf, 3, 4))) static void seed(const char *folder, const
 
 static void add_word(FILE *file, const char *word) {
     fputc('"', file);
-    for (; *word; word++) {
+    for (; *word; word++)
         if (*word == '"' || *word == '\\' || *word < ' ')
             fprintf(file, "\\x%02x", (unsigned char)*word);
         else
             fputc(*word, file);
-    }
     fputs("\"\n", file);
 }
 
 static void write_dictionary(void) {
-    FILE *file = begin("", "dictionary");
+    FILE *file = open_seed("", "dictionary");
     PetriBuiltin builtin;
     PetriNodeKind kind;
     PetriNodeAttribute attribute;
@@ -137,7 +136,7 @@ static void write_commands(void) {
                  name);
     }
     for (const OptionSpec *option = OPTIONS; option->name; option++) {
-        FILE *file = begin("arguments", option->name);
+        FILE *file = open_seed("arguments", option->name);
         fprintf(file, "--%s%c%s%c%s%c--frames%c2", option->name, 0, option->value ? "3" : "x.fl", 0, "x.fl", 0, 0);
         fclose(file);
     }
@@ -189,7 +188,7 @@ static void write_image(void) {
     if (session && painter &&
         petri_load_text(session, "x",
                         "!window size=9\n    !canvas\n        !rect size=5\n        !fill color=1;0;0.5\n",
-                        PETRI_Z) == PETRI_OK &&
+                        PETRI_NUL_TERMINATED) == PETRI_OK &&
         petri_step(session) == PETRI_OK && petri_picture(session, &how, &picture) == PETRI_OK)
         petri_picture_save(picture, painter, path);
     petri_picture_free(&picture);

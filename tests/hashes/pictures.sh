@@ -7,14 +7,15 @@
     echo "usage: $0 PATH-OF-PETRI..." >&2
     exit 2
 }
-programs=
 for path; do
-    programs="$programs $(program "$path")" || exit 2
+    petri=$(program "$path") || exit 2
+    shift
+    set -- "$@" "$petri"
 done
 
 scratch
 number=0
-for petri in $programs; do
+for petri; do
     for cpu in scalar avx2 avx512; do
         number=$((number + 1))
         PETRI_CPU=$cpu "$petri" render "$here/picture.fl" --frames 9 -o "$number.png" >out 2>err

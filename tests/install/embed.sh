@@ -47,12 +47,12 @@ int main(void) {
     PetriPicture *picture;
     uint32_t pixels[4];
     petri_load_text(session, "red.fl", "!window size=2;2\n    !canvas\n        !rect size=2;2 color=1;0;0 fill=true\n",
-                    PETRI_Z);
+                    PETRI_NUL_TERMINATED);
     petri_step(session);
     if (petri_picture(session, &wanted, &picture) != PETRI_OK)
         return 1;
     PetriStatus status = petri_picture_draw(picture, painter, pixels, 2, 2, 8);
-    return status == PETRI_MISSING ? 2 : status != PETRI_OK || pixels[3] != 0xffff0000u;
+    return status == PETRI_UNSUPPORTED ? 2 : status != PETRI_OK || pixels[3] != 0xffff0000u;
 }
 EOF
 # shellcheck disable=SC2046 # options are words

@@ -10,6 +10,6 @@ allocators="$allocators|getcwd|get_current_dir_name|canonicalize_file_name"
 calls=$(${NM:-nm} -A -u lib/*/*.p/*.o grammar/*.p/*.o)
 [ "$(echo "$calls" | cut -d: -f1 | uniq | wc -l)" -gt 100 ] || { echo "nearly no objects in $2"; exit 1; }
 if echo "$calls" | grep -v '/heap\.c\.o:' | grep -E " U ($allocators)(@.*)?\$"; then
-    echo "memory is heap_take's and its kin's business (lib/base/heap.h)"
+    echo "memory is heap_alloc's and its kin's business (lib/base/heap.h)"
     exit 1
 fi

@@ -13,7 +13,7 @@ for header in lib/*/*.h src/*/*.h tests/support/*.h; do
     # What takes a library is for builds that have it.
     isa=
     case $header in
-    lib/draw/draw.h | lib/draw/light.h | lib/draw/shade.h | lib/draw/sheets.h)
+    lib/draw/draw.h | lib/draw/hdr_composite.h | lib/draw/hdr_paint.h | lib/draw/float_image.h)
         pkg-config --exists pangocairo 2>/dev/null || continue
         isa=$(pkg-config --cflags pangocairo)
         ;;
@@ -36,7 +36,7 @@ for header in lib/*/*.h src/*/*.h tests/support/*.h; do
 done
 
 if command -v "${CXX:-c++}" >/dev/null 2>&1; then
-    printf '#include "petri-draw.h"\nint main() { return petri_version() == nullptr || petri_picture_format(""); }\n' >"$scratch/alone.cc"
+    printf '#include "petri-draw.h"\nint main() { return petri_version() == nullptr || petri_picture_can_save(""); }\n' >"$scratch/alone.cc"
     if ! "${CXX:-c++}" -std=c++17 -fsyntax-only -Wall -Wextra -Werror -Ilib/include "$scratch/alone.cc"; then
         echo "petri-draw.h, with petri.h in it, does not compile as C++"
         faults=1

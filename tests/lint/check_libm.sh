@@ -7,13 +7,13 @@ inexact='acos asin atan atan2 cos sin tan sincos acosh asinh atanh cosh sinh tan
 pow cbrt hypot erf erfc lgamma tgamma'
 faults=0
 
-# Each source must be looked at, but those that this build does without: none.c of a room, or all else of it, and what is for pages.
+# Each source must have an object file, except those that this build leaves out: a library's no_*.c, which replaces its other
+# files in builds without an optional dependency, or those other files; and sources of the web page.
 for source in "$1"/lib/*/*.c; do
     name=${source#"$1"/}
-    case $name in *_web.c) continue ;; esac
     folder=${name%/*} file=${name##*/}
-    if ! ls "$folder"/*.p/"$file".o >/dev/null 2>&1 &&
-        { [ ! -e "$1/$folder/none.c" ] || { [ "$file" != none.c ] && ! ls "$folder"/*.p/none.c.o >/dev/null 2>&1; }; }; then
+    case $file in *_web.c | no_*.c) continue ;; esac
+    if ! ls "$folder"/*.p/"$file".o >/dev/null 2>&1 && ! ls "$folder"/*.p/no_*.c.o >/dev/null 2>&1; then
         echo "no object file of $name in $2"
         faults=1
     fi

@@ -30,6 +30,13 @@ for file in $(find lib grammar src tests samples -name node_modules -prune -o -n
         if grep -n "$(printf '\t')" "$file"; then
             complain "$file: tabs"
         fi
+        case $file in
+        lib/* | src/*)
+            if grep -n '== NULL' "$file"; then
+                complain "$file: write !p in place of p == NULL"
+            fi
+            ;;
+        esac
         lines=$(wc -l <"$file")
         case $file in
         *_tables.h) ;;

@@ -133,7 +133,7 @@ check("what changes has none", "= `" in spot("let a=frame\n!n a=§a\n", "hover")
 check("a number with a suffix", spot("!n a=9§0deg\n", "hover")["contents"]["value"], "= `0.25`")
 check("nothing on blanks", spot("!n  §  a=1\n", "hover"), None)
 for topic in ("builtins", "nodes"):
-    listed = subprocess.run([petri, "help", topic], capture_output=True, text=True).stdout.split("\n")
+    listed = subprocess.run([petri, "help", topic], capture_output=True, text=True, env={**os.environ, "COLUMNS": "1000"}).stdout.split("\n")
     words = {line.split("(")[0] for line in listed if line} if topic == "builtins" else {
         line.strip().split(":")[0] for line in listed if line.startswith("  !")}
     check(f"there are {topic}", len(words) > 60)

@@ -17,7 +17,7 @@ local function write(name, lines)
     vim.fn.writefile(lines, name)
 end
 vim.cmd('edit script.fl')
-local client = vim.lsp.start_client({ name = 'petri', cmd = { '$petri', 'lsp' } })
+local client = vim.lsp.start_client({ name = 'petri', cmd = { [[$petri]], 'lsp' } })
 vim.lsp.buf_attach_client(0, client)
 vim.wait(20000, function() return #vim.diagnostic.get(0) > 0 end, 10)
 write('diagnostics', vim.tbl_map(function(d)

@@ -16,6 +16,7 @@ tries=${TRIES:-12}
 [ "$tries" != all ] || tries=1000000
 
 scratch
+cp "$library" fail_nth.so # LD_PRELOAD splits its value at blanks
 unset NO_COLOR
 TMPDIR=$work
 TERM=xterm
@@ -88,7 +89,7 @@ run() {
     mkdir new
     cp -r old/. new
     # shellcheck disable=SC2086 # a program, or nothing
-    timeout 60 $terminal env LD_PRELOAD="$library" "$way=$n" COUNT_FILE=count "$@" >out 2>err <"$input"
+    timeout 60 $terminal env LD_PRELOAD="$work/fail_nth.so" "$way=$n" COUNT_FILE=count "$@" >out 2>err <"$input"
     status=$?
 }
 
@@ -125,9 +126,9 @@ whole() {
             esac || return 1
     done
 }
-judged() { same || { told && whole; }; }
+is_acceptable() { same || { told && whole; }; }
 
-tell_more() { tail -n 3 out err | sed 's/^/  /'; }
+print_details() { tail -n 3 out err | sed 's/^/  /'; }
 
 # fail NAME COMMAND...: for each allocation; `input` is its standard input.
 fail() {
@@ -145,9 +146,9 @@ fail() {
     at=1
     while [ "$at" -le "$total" ]; do
         run $at FAIL_AT "$@"
-        check "$act: allocation $at fails" judged
+        check "$act: allocation $at fails" is_acceptable
         run $at FAIL_FROM "$@"
-        check "$act: allocation $at and later ones fail" judged
+        check "$act: allocation $at and later ones fail" is_acceptable
         at=$((at + stride))
     done
 }
@@ -279,7 +280,8 @@ if command -v script >/dev/null; then
     terminal=./in_terminal
     printf '#!/bin/sh\nexec script -qec "$*" /dev/null\n' >in_terminal
     chmod +x in_terminal
+    ln -s "$pictures" petri-pictures # in_terminal does not quote its arguments
     # Frame 0 is not shown, and no more than 30 others a second.
-    fail view "$pictures" view --terminal --frames 6 s.fl
+    fail view "$work/petri-pictures" view --terminal --frames 6 s.fl
 fi
 finish

@@ -15,7 +15,7 @@ typedef struct Case {
     // its velocity, :NAME=… for another key of the system, $=… for that of the prefix itself, =none for a key that is
     // not there.
     const char *wanted;
-    const char *told; // the kinds of all diagnostics up to then; NULL: none
+    const char *reported; // the kinds of all diagnostics up to then; NULL: none
 } Case;
 
 static inline void case_key(const char *name, size_t len, char key[64]) {
@@ -33,7 +33,7 @@ static inline void check_case(const Case *row, const char *file, int line) {
     world_to(&world, row->frame);
     for (const char *at = row->wanted; *at; at += strspn(at, " ")) {
         char key[64];
-        double wanted[WORLD_MOST_NUMBERS], found[WORLD_MOST_NUMBERS];
+        double wanted[WORLD_MAX_NUMBERS], found[WORLD_MAX_NUMBERS];
         const char *equals = strchr(at, '=');
         case_key(at, (size_t)(equals - at), key);
         int count = -1;
@@ -47,11 +47,11 @@ static inline void check_case(const Case *row, const char *file, int line) {
         if (!same) {
             print_error("%s: wanted %s, the state at frame %d is\n%s", row->title, row->wanted, row->frame,
                         world_state(&world));
-            world_print_told(&world);
+            world_print_reported(&world);
             _fail(file, line);
         }
     }
-    check_told(&world, row->told ? row->told : "", row->title, file, line);
+    check_reported(&world, row->reported ? row->reported : "", row->title, file, line);
     world_close(&world);
 }
 

@@ -167,7 +167,7 @@ static uint64_t run_script(const char *script, int frames, size_t way) {
     return hash;
 }
 
-static uint64_t run(size_t scene, size_t way) {
+static uint64_t hash_scene(size_t scene, size_t way) {
     return run_script(scenes[scene].script, scenes[scene].frames, way);
 }
 
@@ -175,7 +175,7 @@ static void test_constants(void **state) {
     (void)state;
     bool same = true;
     for (size_t i = 0; i < COUNT_OF(scenes); i++) {
-        uint64_t hash = run(i, 0);
+        uint64_t hash = hash_scene(i, 0);
         if (hash != scenes[i].hash) {
             same = false;
             print_error("%s: found 0x%016llx, wanted 0x%016llx\n", scenes[i].name, (unsigned long long)hash,
@@ -189,7 +189,7 @@ static void test_ways(void **state) {
     (void)state;
     for (size_t i = 0; i < COUNT_OF(scenes); i++)
         for (size_t k = 0; k < COUNT_OF(ways); k++)
-            if (run(i, k) != scenes[i].hash)
+            if (hash_scene(i, k) != scenes[i].hash)
                 fail_msg("%s: not the same with %s", scenes[i].name, ways[k].name);
 }
 

@@ -13,17 +13,17 @@ static char *state_with(const char *node, const char *attribute, const char *cod
     char *script = text_of(P2 "%s %s %s\n", bodies, node, attribute);
     world_open(&world, 16, script);
     world_to(&world, 4);
-    check_told(&world, codes, script, __FILE__, __LINE__);
+    check_reported(&world, codes, script, __FILE__, __LINE__);
     // The message says where and what.
-    for (int i = 0; i < world.told_count; i++) {
+    for (int i = 0; i < world.reported_count; i++) {
         char kind[32];
         snprintf(kind, sizeof kind, "%.*s", (int)strcspn(node, " "), node);
-        assert_ptr_equal(strstr(world.told[i].text, kind), world.told[i].text);
+        assert_ptr_equal(strstr(world.reported[i].text, kind), world.reported[i].text);
         size_t len = strcspn(attribute, "=");
         char name[32];
         snprintf(name, sizeof name, "%.*s", (int)len, attribute);
-        assert_non_null(strstr(world.told[i].text, name));
-        assert_int_equal(world.told[i].level, PETRI_WARNING);
+        assert_non_null(strstr(world.reported[i].text, name));
+        assert_int_equal(world.reported[i].level, PETRI_WARNING);
     }
     char *text = text_of("%s", world_state(&world));
     world_close(&world);
@@ -32,8 +32,8 @@ static char *state_with(const char *node, const char *attribute, const char *cod
 }
 
 // `attribute` in the form `value` makes the same (or not the same) scene as in the form `other`; empty: not given.
-static void compare(const char *node, const char *attribute, const char *value, const char *other, bool same,
-                    const char *codes) {
+static void compare_states(const char *node, const char *attribute, const char *value, const char *other, bool same,
+                           const char *codes) {
     char *first = text_of("%s%s%s", *value ? attribute : "", *value ? "=" : "", value);
     char *second = text_of("%s%s%s", *other ? attribute : "", *other ? "=" : "", other);
     char *found = state_with(node, first, codes), *wanted = state_with(node, second, "");
@@ -115,12 +115,12 @@ static const Row body_floats[] = {
 static void check_float(const Row *row) {
     static const char *const wrong[] = {"1;2", "\"3\"", ":x;1", "!node", "nan", "uniform(:x)[..3]"};
     if (*row->fallback)
-        compare(row->node, row->attribute, row->fallback, "", true, "");
-    compare(row->node, row->attribute, "null", "", true, "");
-    compare(row->node, row->attribute, "uniform(:x)", "", true, ""); // a stream is null
-    compare(row->node, row->attribute, row->other, "", false, "");
+        compare_states(row->node, row->attribute, row->fallback, "", true, "");
+    compare_states(row->node, row->attribute, "null", "", true, "");
+    compare_states(row->node, row->attribute, "uniform(:x)", "", true, ""); // a stream is null
+    compare_states(row->node, row->attribute, row->other, "", false, "");
     for (size_t i = 0; i < COUNT_OF(wrong); i++)
-        compare(row->node, row->attribute, wrong[i], "", true, "bad-attribute");
+        compare_states(row->node, row->attribute, wrong[i], "", true, "bad-attribute");
 }
 
 static void test_floats(void **state) {
@@ -154,8 +154,8 @@ static void test_body_floats(void **state) {
             world_to(&world, 4);
             assert_string_equal(world_state(&world), found[0]);
             EXPECT_TOLD(&world, "bad-attribute");
-            assert_non_null(strstr(world.told[0].text, row.attribute));
-            assert_non_null(strstr(world.told[0].text, "id=:p"));
+            assert_non_null(strstr(world.reported[0].text, row.attribute));
+            assert_non_null(strstr(world.reported[0].text, "id=:p"));
             world_close(&world);
             free(script);
         }
@@ -184,12 +184,12 @@ static void test_vectors(void **state) {
     static const char *const wrong[] = {"1;2;3", "\"x\"", "1;\"x\"", "!node", "..9"};
     for (size_t i = 0; i < COUNT_OF(vectors); i++) {
         const Row *row = &vectors[i];
-        compare(row->node, row->attribute, row->fallback, "", true, "");
-        compare(row->node, row->attribute, "null", "", true, "");
-        compare(row->node, row->attribute, row->other, "", false, "");
-        compare(row->node, row->attribute, "3", "3;3", true, "");
+        compare_states(row->node, row->attribute, row->fallback, "", true, "");
+        compare_states(row->node, row->attribute, "null", "", true, "");
+        compare_states(row->node, row->attribute, row->other, "", false, "");
+        compare_states(row->node, row->attribute, "3", "3;3", true, "");
         for (size_t k = 0; k < COUNT_OF(wrong); k++)
-            compare(row->node, row->attribute, wrong[k], "", true, "bad-attribute");
+            compare_states(row->node, row->attribute, wrong[k], "", true, "bad-attribute");
     }
 }
 
@@ -223,7 +223,7 @@ static void test_ease_is_linear(void **state) {
             free(script);
         }
         for (int frame = 1; frame <= 6; frame++) {
-            double full[WORLD_MOST_NUMBERS], factor = frame > 4 ? 1 : (frame - 1) / 4.0;
+            double full[WORLD_MAX_NUMBERS], factor = frame > 4 ? 1 : (frame - 1) / 4.0;
             char key[64];
             snprintf(key, sizeof key, ":s;:a;%d;:velocity", frame);
             world_to(&plain, frame);

@@ -39,7 +39,7 @@ typedef struct Cells {
 static void read_cells(World *world, Cells *cells) {
     for (int i = 0; i < CELLS; i++) {
         char key[64];
-        double numbers[WORLD_MOST_NUMBERS];
+        double numbers[WORLD_MAX_NUMBERS];
         snprintf(key, sizeof key, ":s;%d", i);
         assert_int_equal(world_numbers(world, key, numbers), 2);
         memcpy(cells->place[i], numbers, sizeof cells->place[i]);
@@ -54,10 +54,10 @@ static void read_cells(World *world, Cells *cells) {
 }
 
 static double fastest(const Cells *cells) {
-    double most = 0;
+    double max = 0;
     for (int i = 0; i < CELLS; i++)
-        most = fmax(most, hypot(cells->velocity[i][0], cells->velocity[i][1]));
-    return most;
+        max = fmax(max, hypot(cells->velocity[i][0], cells->velocity[i][1]));
+    return max;
 }
 
 // How far cells overlap, added up, and the sum of the charge products of those that touch.
@@ -72,7 +72,7 @@ static void contacts(const Cells *cells, double *overlap, double *products) {
         }
 }
 
-static void run(const char *electrostatic, const char *collision, const char *random, int frames, Cells *cells) {
+static void run_dish(const char *electrostatic, const char *collision, const char *random, int frames, Cells *cells) {
     World world;
     char *script = dish("", electrostatic, collision, random, DRAG);
     world_open(&world, 60, script);
@@ -105,9 +105,9 @@ static void test_clumps(void **state) {
     (void)state;
     Cells before, after, without;
     double overlap[3], products[3];
-    run(ELECTROSTATIC, COLLISION, RANDOM, 1, &before);
-    run(ELECTROSTATIC, COLLISION, RANDOM, 1500, &after);
-    run("", COLLISION, RANDOM, 1500, &without);
+    run_dish(ELECTROSTATIC, COLLISION, RANDOM, 1, &before);
+    run_dish(ELECTROSTATIC, COLLISION, RANDOM, 1500, &after);
+    run_dish("", COLLISION, RANDOM, 1500, &without);
     contacts(&before, &overlap[0], &products[0]);
     contacts(&after, &overlap[1], &products[1]);
     contacts(&without, &overlap[2], &products[2]);
@@ -120,8 +120,8 @@ static void test_no_overlap(void **state) {
     (void)state;
     Cells with, without;
     double overlap[2], products[2];
-    run(ELECTROSTATIC, COLLISION, RANDOM, 1500, &with);
-    run(ELECTROSTATIC, "", RANDOM, 1500, &without);
+    run_dish(ELECTROSTATIC, COLLISION, RANDOM, 1500, &with);
+    run_dish(ELECTROSTATIC, "", RANDOM, 1500, &without);
     contacts(&with, &overlap[0], &products[0]);
     contacts(&without, &overlap[1], &products[1]);
     assert_true(overlap[0] < overlap[1] / 4);
@@ -132,8 +132,8 @@ static void test_no_overlap(void **state) {
 static void test_equilibrium(void **state) {
     (void)state;
     Cells still, moved;
-    run("", COLLISION, "", 6000, &still);
-    run("", COLLISION, RANDOM, 6000, &moved);
+    run_dish("", COLLISION, "", 6000, &still);
+    run_dish("", COLLISION, RANDOM, 6000, &moved);
     assert_true(fastest(&still) < 1);
     assert_true(fastest(&moved) > 5);
 }
@@ -141,7 +141,7 @@ static void test_equilibrium(void **state) {
 // Eased in over ten beats, overlapping cells move apart gently.
 static void test_eased_in(void **state) {
     (void)state;
-    double most[2] = {0, 0};
+    double max[2] = {0, 0};
     for (int sudden = 0; sudden < 2; sudden++) {
         World world;
         char *script = dish("", "", sudden ? "!collision strength=1000" : COLLISION, "", "!drag strength=0.02");
@@ -150,12 +150,12 @@ static void test_eased_in(void **state) {
             Cells cells;
             world_to(&world, frame);
             read_cells(&world, &cells);
-            most[sudden] = fmax(most[sudden], fastest(&cells));
+            max[sudden] = fmax(max[sudden], fastest(&cells));
         }
         world_close(&world);
         free(script);
     }
-    assert_true(most[0] < most[1] / 2);
+    assert_true(max[0] < max[1] / 2);
 }
 
 // The beat is the clock: twice the tempo, twice the speed; the resolution fits, so that a frame is one step.

@@ -92,7 +92,7 @@ static char *scene(int n, const char *place, const char *turn) {
 }
 
 // Compares two scenes of n dimensions: component k of the second is component axis[k] of the first, positions shifted.
-static void compare(int n, const char *place, const char *turn, const int *axis, const double *shift) {
+static void compare_states(int n, const char *place, const char *turn, const int *axis, const double *shift) {
     char *scripts[2] = {scene(n, "v", "v"), scene(n, place, turn)};
     double numbers[2][80];
     for (int i = 0; i < 2; i++) {
@@ -112,19 +112,19 @@ static void compare(int n, const char *place, const char *turn, const int *axis,
 static void test_translated(void **state) {
     (void)state;
     static const int axis[] = {0, 1, 2, 3, 4};
-    compare(1, "v+100", "v", axis, (const double[]){100});
-    compare(2, "v+(100;-7)", "v", axis, (const double[]){100, -7});
-    compare(3, "v+(1;20;-30)", "v", axis, (const double[]){1, 20, -30});
-    compare(5, "v+(1;2;3;-4;5)", "v", axis, (const double[]){1, 2, 3, -4, 5});
+    compare_states(1, "v+100", "v", axis, (const double[]){100});
+    compare_states(2, "v+(100;-7)", "v", axis, (const double[]){100, -7});
+    compare_states(3, "v+(1;20;-30)", "v", axis, (const double[]){1, 20, -30});
+    compare_states(5, "v+(1;2;3;-4;5)", "v", axis, (const double[]){1, 2, 3, -4, 5});
 }
 
 static void test_permuted(void **state) {
     (void)state;
     static const double none[5] = {0};
-    compare(2, "v[1;0]", "v[1;0]", (const int[]){1, 0}, none);
-    compare(3, "v[2;0;1]", "v[2;0;1]", (const int[]){2, 0, 1}, none);
-    compare(3, "v[1;0;2]", "v[1;0;2]", (const int[]){1, 0, 2}, none);
-    compare(5, "v[4;2;0;1;3]", "v[4;2;0;1;3]", (const int[]){4, 2, 0, 1, 3}, none);
+    compare_states(2, "v[1;0]", "v[1;0]", (const int[]){1, 0}, none);
+    compare_states(3, "v[2;0;1]", "v[2;0;1]", (const int[]){2, 0, 1}, none);
+    compare_states(3, "v[1;0;2]", "v[1;0;2]", (const int[]){1, 0, 2}, none);
+    compare_states(5, "v[4;2;0;1;3]", "v[4;2;0;1;3]", (const int[]){4, 2, 0, 1, 3}, none);
 }
 
 // The same in more dimensions: a scene whose last components are all zero moves as it does without them. (Not drag and

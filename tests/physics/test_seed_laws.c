@@ -36,7 +36,7 @@ static void check_momentum(int n, const char *force) {
         double sum[5] = {0};
         world_to(&world, frame);
         for (int i = 0; i < COUNT; i++) {
-            double p[WORLD_MOST_NUMBERS], v[WORLD_MOST_NUMBERS];
+            double p[WORLD_MAX_NUMBERS], v[WORLD_MAX_NUMBERS];
             char id[16];
             snprintf(id, sizeof id, "%d", i);
             assert_int_equal(read_body(&world, id, p, v), n);
@@ -84,7 +84,7 @@ static void test_spring_period(void **state) {
         static const double lengths[] = {1.25, 1, 0.75, 1, 1.25};
         world_open(&world, 10, script);
         for (int frame = 3; frame <= 120; frame += 3) {
-            double p[WORLD_MOST_NUMBERS], v[WORLD_MOST_NUMBERS];
+            double p[WORLD_MAX_NUMBERS], v[WORLD_MAX_NUMBERS];
             world_to(&world, frame);
             NEAR(sqrt(square(read_body(&world, ":a", p, v), p)), lengths[frame / 3 % 4], 2e-3);
         }
@@ -121,7 +121,7 @@ static void test_terminal_velocity(void **state) {
         World world;
         world_open(&world, 60, script);
         world_to(&world, 3600);
-        double speed = sqrt(2 * 10 / (0.3 * pow(0.5, n - 1))), p[WORLD_MOST_NUMBERS], v[WORLD_MOST_NUMBERS];
+        double speed = sqrt(2 * 10 / (0.3 * pow(0.5, n - 1))), p[WORLD_MAX_NUMBERS], v[WORLD_MAX_NUMBERS];
         for (int k = 0; k < 2; k++) {
             assert_int_equal(read_body(&world, k ? ":a" : ":b", p, v), n);
             NEAR(v[n - 1], -speed, 1e-9 * speed);
@@ -144,7 +144,7 @@ static void test_orbit(void **state) {
                                cases[i][0], cases[i][1], cases[i][2]);
         World world;
         world_open(&world, 1, script);
-        double p[WORLD_MOST_NUMBERS], v[WORLD_MOST_NUMBERS], start = i == 2 ? 1.44 / 2 - 1 : -0.5, product = 0;
+        double p[WORLD_MAX_NUMBERS], v[WORLD_MAX_NUMBERS], start = i == 2 ? 1.44 / 2 - 1 : -0.5, product = 0;
         for (int turn = 1; turn <= 10; turn++) {
             world_to(&world, turn);
             int n = read_body(&world, ":a", p, v);
@@ -192,7 +192,7 @@ static void test_bounce_height(void **state) {
                                    " !constant acceleration=%.*s-10\n !barrier normal=%.*s1 restitution=%g\n",
                                    n, 2 * (n - 1), "0;0;", 2 * (n - 1), "0;0;", 2 * (n - 1), "0;0;", restitutions[i]);
             World world;
-            double top = 0, p[WORLD_MOST_NUMBERS], v[WORLD_MOST_NUMBERS];
+            double top = 0, p[WORLD_MAX_NUMBERS], v[WORLD_MAX_NUMBERS];
             world_open(&world, 400, script);
             // It falls 4 in sqrt(0.8) s, and rises again for e times that.
             for (int frame = 360; frame < 360 + 400; frame += 2) {
@@ -225,7 +225,7 @@ static void test_buoyant_equilibrium(void **state) {
                                n, n);
         world_open(&world, 60, script);
         world_to(&world, 60);
-        double p[WORLD_MOST_NUMBERS], v[WORLD_MOST_NUMBERS];
+        double p[WORLD_MAX_NUMBERS], v[WORLD_MAX_NUMBERS];
         assert_int_equal(read_body(&world, ":a", p, v), n);
         NEAR(square(n, p) + square(n, v), 0, 0);
         world_close(&world);
@@ -261,7 +261,7 @@ static void test_drag_never_reverses(void **state) {
         double last = 8;
         world_open(&world, 10, script);
         for (int frame = 1; frame < 40; frame++) {
-            double p[WORLD_MOST_NUMBERS], v[WORLD_MOST_NUMBERS];
+            double p[WORLD_MAX_NUMBERS], v[WORLD_MAX_NUMBERS];
             world_to(&world, frame);
             read_body(&world, ":a", p, v);
             // v - flow stays along (6; -2; -4), shorter and shorter.
@@ -330,13 +330,13 @@ static void test_resolution_tames(void **state) {
                                " !distance from=:o to=:a fixed=1 strength=20000\n",
                                fine ? "resolution=1/1000" : "");
         World world;
-        double most = 0;
+        double max = 0;
         world_open(&world, 60, script);
         for (int frame = 1; frame < 100; frame++) {
             world_to(&world, frame);
-            most = fmax(most, fabs(world_number(&world, ":s;:a")));
+            max = fmax(max, fabs(world_number(&world, ":s;:a")));
         }
-        assert_true(fine ? most < 1.55 : most > 10);
+        assert_true(fine ? max < 1.55 : max > 10);
         world_close(&world);
         free(script);
     }
@@ -345,7 +345,7 @@ static void test_resolution_tames(void **state) {
 // Gravity within the radii is constant, so two that fall through each other stay slow; points do not.
 static void test_radii_tame_gravity(void **state) {
     (void)state;
-    double most[2] = {0, 0};
+    double max[2] = {0, 0};
     for (int points = 0; points < 2; points++) {
         char *script = text_of("!physics state=:s dimensions=1\n !particle id=:a position=-1 radius=%s\n"
                                " !particle id=:b position=1.003 radius=%s\n !gravity\n",
@@ -354,14 +354,14 @@ static void test_radii_tame_gravity(void **state) {
         world_open(&world, 60, script);
         for (int frame = 1; frame < 600; frame++) {
             world_to(&world, frame);
-            most[points] = fmax(most[points], fabs(world_number(&world, ":s;:a;:velocity")));
+            max[points] = fmax(max[points], fabs(world_number(&world, ":s;:a;:velocity")));
         }
         world_close(&world);
         free(script);
     }
     // From 2 to 1/2 apart the potential falls by 3/2, then by 4 · 1/2: v² = 3.5 at the most.
-    NEAR(most[0], sqrt(3.5), 0.05);
-    assert_true(most[1] > 3 * most[0]);
+    NEAR(max[0], sqrt(3.5), 0.05);
+    assert_true(max[1] > 3 * max[0]);
 }
 
 // Without drag the energy of bouncing goes on; drag takes it out.
@@ -377,7 +377,7 @@ static void test_drag_takes_energy(void **state) {
         World world;
         world_open(&world, 60, script);
         for (int frame = 1; frame <= 1201; frame += 1200) {
-            double sum = 0, p[WORLD_MOST_NUMBERS], v[WORLD_MOST_NUMBERS];
+            double sum = 0, p[WORLD_MAX_NUMBERS], v[WORLD_MAX_NUMBERS];
             world_to(&world, frame);
             for (int i = 0; i < 6; i++) {
                 char id[16];

@@ -11,11 +11,11 @@ static void check_report(const Report *row) {
     World world;
     world_open(&world, 1, row->script);
     world_to(&world, 5);
-    check_told(&world, row->code, row->script, __FILE__, __LINE__);
-    assert_int_equal(petri_diagnostic_count(world.session, PETRI_WARNING), world.told_count);
+    check_reported(&world, row->code, row->script, __FILE__, __LINE__);
+    assert_int_equal(petri_diagnostic_count(world.session, PETRI_WARNING), world.reported_count);
     for (int i = 0; i < 4 && row->parts[i]; i++)
-        if (!strstr(world.told[0].text, row->parts[i]))
-            fail_msg("'%s' does not say %s", world.told[0].text, row->parts[i]);
+        if (!strstr(world.reported[0].text, row->parts[i]))
+            fail_msg("'%s' does not say %s", world.reported[0].text, row->parts[i]);
     world_close(&world);
 }
 
@@ -83,7 +83,7 @@ static void test_names(void **state) {
     world_to(&world, 2);
     EXPECT_TOLD(&world, "unknown-attribute unknown-node");
     for (int i = 0; i < 2; i++)
-        assert_null(strstr(world.told[i].text, "did you mean"));
+        assert_null(strstr(world.reported[i].text, "did you mean"));
     world_close(&world);
     // What stands outside of systems is not their business.
     world_open(&world, 1, "!particle raduis=1\n!canvas size=1\n!window\n !physics\n");
@@ -101,11 +101,11 @@ static void test_ids(void **state) {
         {P1 " !particle id=nan\n", "missing-id", {"!particle", "id"}},
         {P1 " !particle id=:a\n !particle id=:a\n", "duplicate-id", {"!particle", ":a"}},
         {P1 " !particle id=1;2\n !group\n  !anchor id=1;2\n", "duplicate-id", {"!anchor", "1;2"}},
-        {P1 " !particle id=:a\n !distance from=:a to=:b max=1\n", "no-such-particle", {"!distance", "to", ":b"}},
-        {P1 " !particle id=:b\n !distance from=:a to=:b max=1\n", "no-such-particle", {"!distance", "from", ":a"}},
-        {P1 " !particle id=:b\n !distance to=:b max=1\n", "no-such-particle", {"!distance", "from"}},
-        {P1 " !distance max=1\n", "no-such-particle", {"!distance"}},
-        {P1 " !particle id=:b\n !distance from=:velocity to=:b max=1\n", "no-such-particle", {":velocity"}},
+        {P1 " !particle id=:a\n !distance from=:a to=:b max=1\n", "unknown-particle", {"!distance", "to", ":b"}},
+        {P1 " !particle id=:b\n !distance from=:a to=:b max=1\n", "unknown-particle", {"!distance", "from", ":a"}},
+        {P1 " !particle id=:b\n !distance to=:b max=1\n", "unknown-particle", {"!distance", "from"}},
+        {P1 " !distance max=1\n", "unknown-particle", {"!distance"}},
+        {P1 " !particle id=:b\n !distance from=:velocity to=:b max=1\n", "unknown-particle", {":velocity"}},
     };
     check_reports(rows, COUNT_OF(rows));
     // Told or not, the others go on.
@@ -153,28 +153,28 @@ static void test_reserved_ids(void **state) {
 static void test_systems(void **state) {
     (void)state;
     static const Report rows[] = {
-        {"!physics dimensions=1\n !particle id=:a\n", "skipped-system", {"!physics", "state"}},
-        {"!physics state=null dimensions=1\n", "skipped-system", {"!physics", "state"}},
-        {"!physics state=!node dimensions=1\n", "skipped-system", {"!physics", "state"}},
-        {"!physics state=:s\n !particle id=:a\n", "skipped-system", {"!physics", ":s", "dimensions"}},
-        {"!physics state=:s dimensions=null\n", "skipped-system", {":s", "dimensions"}},
-        {"!physics state=:s dimensions=0\n", "skipped-system", {":s", "dimensions"}},
-        {"!physics state=:s dimensions=-1\n", "skipped-system", {":s", "dimensions"}},
-        {"!physics state=:s dimensions=0.99\n", "skipped-system", {":s", "dimensions"}},
-        {"!physics state=:s dimensions=inf\n", "skipped-system", {":s", "dimensions"}},
-        {"!physics state=:s dimensions=1 resolution=0\n", "skipped-system", {":s", "resolution"}},
-        {"!physics state=:s dimensions=1 resolution=-1\n", "skipped-system", {":s", "resolution"}},
-        {"!physics state=:s dimensions=1 resolution=inf\n", "skipped-system", {":s", "resolution"}},
-        {"!physics state=:s dimensions=1 resolution=-inf\n", "skipped-system", {":s", "resolution"}},
-        {"!physics state=:s dimensions=1 time=nan\n", "skipped-system", {":s", "time"}},
-        {"!physics state=:s dimensions=1 time=-inf\n", "skipped-system", {":s", "time"}},
-        {P1 "!physics state=:s dimensions=2\n", "shared-prefix", {"!physics", ":s"}},
-        {P1 P1 P1, "shared-prefix", {":s"}},
+        {"!physics dimensions=1\n !particle id=:a\n", "invalid-system", {"!physics", "state"}},
+        {"!physics state=null dimensions=1\n", "invalid-system", {"!physics", "state"}},
+        {"!physics state=!node dimensions=1\n", "invalid-system", {"!physics", "state"}},
+        {"!physics state=:s\n !particle id=:a\n", "invalid-system", {"!physics", ":s", "dimensions"}},
+        {"!physics state=:s dimensions=null\n", "invalid-system", {":s", "dimensions"}},
+        {"!physics state=:s dimensions=0\n", "invalid-system", {":s", "dimensions"}},
+        {"!physics state=:s dimensions=-1\n", "invalid-system", {":s", "dimensions"}},
+        {"!physics state=:s dimensions=0.99\n", "invalid-system", {":s", "dimensions"}},
+        {"!physics state=:s dimensions=inf\n", "invalid-system", {":s", "dimensions"}},
+        {"!physics state=:s dimensions=1 resolution=0\n", "invalid-system", {":s", "resolution"}},
+        {"!physics state=:s dimensions=1 resolution=-1\n", "invalid-system", {":s", "resolution"}},
+        {"!physics state=:s dimensions=1 resolution=inf\n", "invalid-system", {":s", "resolution"}},
+        {"!physics state=:s dimensions=1 resolution=-inf\n", "invalid-system", {":s", "resolution"}},
+        {"!physics state=:s dimensions=1 time=nan\n", "invalid-system", {":s", "time"}},
+        {"!physics state=:s dimensions=1 time=-inf\n", "invalid-system", {":s", "time"}},
+        {P1 "!physics state=:s dimensions=2\n", "duplicate-prefix", {"!physics", ":s"}},
+        {P1 P1 P1, "duplicate-prefix", {":s"}},
     };
     check_reports(rows, COUNT_OF(rows));
     // A skipped system changes nothing.
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
-        if (strcmp(rows[i].code, "skipped-system") != 0)
+        if (strcmp(rows[i].code, "invalid-system") != 0)
             continue;
         World world;
         world_open(&world, 1, rows[i].script);
@@ -194,9 +194,9 @@ static void test_malformed_dimensions(void **state) {
         world_open(&world, 1, script);
         world_to(&world, 3);
         assert_string_equal(world_state(&world), "");
-        assert_int_equal(world_heard(&world, "skipped-system"), 1);
+        assert_int_equal(world_heard(&world, "invalid-system"), 1);
         assert_true(world_heard(&world, "bad-attribute") <= 1);
-        assert_int_equal(world.told_count, 1 + world_heard(&world, "bad-attribute"));
+        assert_int_equal(world.reported_count, 1 + world_heard(&world, "bad-attribute"));
         world_close(&world);
         free(script);
     }

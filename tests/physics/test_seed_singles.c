@@ -188,7 +188,7 @@ static void test_random_is_normal(void **state) {
     double sums[5] = {0};
     for (int i = 0; i < COUNT; i++) {
         char key[64];
-        double v[WORLD_MOST_NUMBERS];
+        double v[WORLD_MAX_NUMBERS];
         // Searching 8000 lines for each key would be slow, and the lines come in order.
         static const char *at;
         at = i ? at : world_state(&world);

@@ -3,20 +3,19 @@
 #ifndef PETRI_TESTS_PHYSICS_WORLD_H
 #define PETRI_TESTS_PHYSICS_WORLD_H
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include "petri.h"
 
 #include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
 #include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include <cmocka.h>
 
 #define COUNT_OF(array) (sizeof(array) / sizeof *(array))
 
@@ -26,7 +25,7 @@
 #define P3 "!physics state=:s dimensions=3\n"
 #define P5 "!physics state=:s dimensions=5\n"
 
-enum { WORLD_MOST_TOLD = 32, WORLD_MOST_NUMBERS = 64 };
+enum { WORLD_MAX_REPORTED = 32, WORLD_MAX_NUMBERS = 64 };
 
 typedef struct Told {
     PetriLevel level;
@@ -38,30 +37,30 @@ typedef struct World {
     PetriSession *session;
     char *text; // the printed state, or NULL if it has not been printed since the last step
     size_t len;
-    Told told[WORLD_MOST_TOLD];
-    int told_count; // also counts those beyond WORLD_MOST_TOLD
+    Told reported[WORLD_MAX_REPORTED];
+    int reported_count; // also counts those beyond WORLD_MAX_REPORTED
 } World;
 
 static inline void world_hear(void *host, const PetriDiagnostic *diagnostic) {
     World *world = host;
-    if (world->told_count < WORLD_MOST_TOLD) {
-        Told *told = &world->told[world->told_count];
+    if (world->reported_count < WORLD_MAX_REPORTED) {
+        Told *told = &world->reported[world->reported_count];
         told->level = diagnostic->level;
         snprintf(told->code, sizeof told->code, "%s", diagnostic->code ? diagnostic->code : "-");
         snprintf(told->text, sizeof told->text, "%s", diagnostic->text);
     }
-    world->told_count++;
+    world->reported_count++;
 }
 
 // A session at `fps` frames a second, in lockstep unless `options` says otherwise. The world must not be moved.
 static inline void world_open_with(World *world, PetriOptions options, const char *script) {
     *world = (World){0};
-    options.diagnostic = world_hear;
-    options.host = world;
+    options.on_diagnostic = world_hear;
+    options.user_data = world;
     world->session = petri_open(&options);
     assert_non_null(world->session);
-    if (petri_load_text(world->session, "world.fl", script, PETRI_Z) != PETRI_OK) {
-        print_error("%s\n%s\n", script, world->told_count ? world->told[0].text : "?");
+    if (petri_load_text(world->session, "world.fl", script, PETRI_NUL_TERMINATED) != PETRI_OK) {
+        print_error("%s\n%s\n", script, world->reported_count ? world->reported[0].text : "?");
         fail_msg("the script cannot be loaded");
     }
 }
@@ -100,7 +99,7 @@ static inline void world_to(World *world, int64_t frame) {
     world->text = NULL;
 }
 
-static inline bool world_take(void *host, const char *text, size_t len) {
+static inline bool world_append_text(void *host, const char *text, size_t len) {
     World *world = host;
     char *grown = realloc(world->text, world->len + len + 1);
     if (!grown)
@@ -116,7 +115,7 @@ static inline bool world_take(void *host, const char *text, size_t len) {
 static inline const char *world_text(World *world) {
     if (!world->text) {
         world->len = 0;
-        assert_int_equal(petri_print(world->session, PETRI_PRINT_STATE, world_take, world), PETRI_OK);
+        assert_int_equal(petri_print(world->session, PETRI_PRINT_STATE, world_append_text, world), PETRI_OK);
     }
     return world->text;
 }
@@ -143,7 +142,7 @@ static inline int read_numbers(const char *text, double *numbers, const char **e
     char *next = (char *)text;
     do {
         const char *start = next + (count > 0);
-        assert_true(count < WORLD_MOST_NUMBERS);
+        assert_true(count < WORLD_MAX_NUMBERS);
         numbers[count] = strtod(start, &next);
         assert_true(next > start);
         count++;
@@ -160,7 +159,7 @@ static inline int world_numbers(World *world, const char *key, double *numbers) 
 }
 
 static inline double world_number(World *world, const char *key) {
-    double numbers[WORLD_MOST_NUMBERS];
+    double numbers[WORLD_MAX_NUMBERS];
     int count = world_numbers(world, key, numbers);
     if (count != 1)
         fail_msg("%s: %d numbers, wanted one\n%s", key, count, world_state(world));
@@ -170,20 +169,20 @@ static inline double world_number(World *world, const char *key) {
 // How many diagnostics of this kind were given.
 static inline int world_heard(const World *world, const char *code) {
     int count = 0;
-    for (int i = 0; i < world->told_count && i < WORLD_MOST_TOLD; i++)
-        count += strcmp(world->told[i].code, code) == 0;
+    for (int i = 0; i < world->reported_count && i < WORLD_MAX_REPORTED; i++)
+        count += strcmp(world->reported[i].code, code) == 0;
     return count;
 }
 
-static inline void world_print_told(const World *world) {
-    for (int i = 0; i < world->told_count && i < WORLD_MOST_TOLD; i++)
-        print_error("  told: [%s] %s\n", world->told[i].code, world->told[i].text);
+static inline void world_print_reported(const World *world) {
+    for (int i = 0; i < world->reported_count && i < WORLD_MAX_REPORTED; i++)
+        print_error("  told: [%s] %s\n", world->reported[i].code, world->reported[i].text);
 }
 
 // Numbers that are equal, or within a tolerance; a nan is never wanted.
 static inline void check_numbers(World *world, const char *key, double tolerance, int count, const double *wanted,
                                  const char *file, int line) {
-    double found[WORLD_MOST_NUMBERS];
+    double found[WORLD_MAX_NUMBERS];
     int n = world_numbers(world, key, found);
     bool same = n == count;
     for (int i = 0; same && i < count; i++)
@@ -197,7 +196,7 @@ static inline void check_numbers(World *world, const char *key, double tolerance
     for (int i = 0; i < count; i++)
         print_error(" %.17g", wanted[i]);
     print_error("\n");
-    world_print_told(world);
+    world_print_reported(world);
     _fail(file, line);
 }
 
@@ -222,7 +221,8 @@ static inline void check_near(double found, double wanted, double tolerance, con
 #define NEAR(found, wanted, tolerance) check_near(found, wanted, tolerance, __FILE__, __LINE__)
 
 // Exactly these diagnostics, by kind, in any order: "bad-attribute bad-attribute", or "" for none.
-static inline void check_told(const World *world, const char *codes, const char *title, const char *file, int line) {
+static inline void check_reported(const World *world, const char *codes, const char *title, const char *file,
+                                  int line) {
     int wanted = 0;
     bool all = true;
     for (const char *at = codes; *at; at += strspn(at, " ")) {
@@ -236,13 +236,13 @@ static inline void check_told(const World *world, const char *codes, const char 
         wanted++;
         at += len;
     }
-    if (all && world->told_count == wanted)
+    if (all && world->reported_count == wanted)
         return;
     print_error("%s: wanted the diagnostics \"%s\"\n", title, codes);
-    world_print_told(world);
+    world_print_reported(world);
     _fail(file, line);
 }
 
-#define EXPECT_TOLD(world, codes) check_told(world, codes, "", __FILE__, __LINE__)
+#define EXPECT_TOLD(world, codes) check_reported(world, codes, "", __FILE__, __LINE__)
 
 #endif

@@ -3,28 +3,27 @@
 #define PETRI_TESTS_DRAWN_H
 
 #include "check.h"
+#include "petri-draw.h"
 
 #include <stdlib.h>
 
-#include "petri-draw.h"
-
-enum { MOST_DRAWN = 1920 * 1080, TOLD = 20000 };
+enum { MAX_DRAWN = 1920 * 1080, TOLD = 20000 };
 
 typedef struct Drawn {
     PetriSession *session;
     PetriPainter *painter;
     int width;
     int height;
-    uint32_t *pixels; // of the frame that was drawn last: rows from the top
-    char told[TOLD];  // diagnostics, a line each: LINE [CODE] TEXT
-    unsigned column;  // of the last one
+    uint32_t *pixels;    // of the frame that was drawn last: rows from the top
+    char reported[TOLD]; // diagnostics, a line each: LINE [CODE] TEXT
+    unsigned column;     // of the last one
 } Drawn;
 
-static inline void drawn_tell(void *host, const PetriDiagnostic *diagnostic) {
+static inline void drawn_on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     Drawn *drawn = host;
-    size_t at = strlen(drawn->told);
+    size_t at = strlen(drawn->reported);
     drawn->column = diagnostic->column;
-    snprintf(drawn->told + at, TOLD - at, "%u [%s] %s\n", diagnostic->line, diagnostic->code, diagnostic->text);
+    snprintf(drawn->reported + at, TOLD - at, "%u [%s] %s\n", diagnostic->line, diagnostic->code, diagnostic->text);
 }
 
 static inline void drawn_next(Drawn *drawn) {
@@ -33,11 +32,11 @@ static inline void drawn_next(Drawn *drawn) {
     assert_int_equal(petri_step(drawn->session), PETRI_OK);
     assert_int_equal(petri_picture(drawn->session, &options, &picture), PETRI_OK);
     petri_picture_size(picture, &drawn->width, &drawn->height);
-    assert_true(drawn->width * drawn->height <= MOST_DRAWN);
+    assert_true(drawn->width * drawn->height <= MAX_DRAWN);
     assert_int_equal(petri_picture_draw(picture, drawn->painter, drawn->pixels, drawn->width, drawn->height,
                                         (size_t)drawn->width * sizeof *drawn->pixels),
                      PETRI_OK);
-    petri_picture_tell(drawn->session, picture);
+    petri_picture_report(drawn->session, picture);
     petri_picture_free(&picture);
 }
 
@@ -51,10 +50,10 @@ static inline void drawn_close(Drawn *drawn) {
 // Draws so many frames, with so much memory (0: as usual); the last one is seen.
 static inline void drawn_open_with(Drawn *drawn, const char *script, int frames, size_t memory) {
     PetriOptions options = petri_default_options();
-    options.memory_bytes = memory > 0 ? memory : options.memory_bytes;
-    *drawn = (Drawn){.pixels = malloc(MOST_DRAWN * sizeof(uint32_t))};
-    options.diagnostic = drawn_tell;
-    options.host = drawn;
+    options.memory_limit = memory > 0 ? memory : options.memory_limit;
+    *drawn = (Drawn){.pixels = malloc(MAX_DRAWN * sizeof(uint32_t))};
+    options.on_diagnostic = drawn_on_diagnostic;
+    options.user_data = drawn;
     drawn->session = petri_open(&options);
     drawn->painter = petri_painter_open();
     assert_true(drawn->session && drawn->painter && drawn->pixels);
@@ -76,9 +75,9 @@ static inline int drawn_byte(const Drawn *drawn, int x, int y, int channel) {
 static inline bool drawn_can_run(void) {
     Drawn drawn;
     drawn_open(&drawn, "!window size=2;2\n    !vignette\n        !canvas\n", 1);
-    bool can = strstr(drawn.told, "needs-gpu") == NULL;
+    bool can = strstr(drawn.reported, "needs-gpu") == NULL;
     if (!can)
-        printf("skipped: %s", drawn.told);
+        printf("skipped: %s", drawn.reported);
     drawn_close(&drawn);
     return can;
 }

@@ -8,7 +8,7 @@
 static const double TURN = 6.283185307179586;
 
 // What stands behind ` name=`.
-static const char *find(const char *attrs, const char *name) {
+static const char *find_attr(const char *attrs, const char *name) {
     size_t length = strlen(name);
     for (const char *at = attrs; (at = strstr(at, name)) != NULL; at++)
         if (at[length] == '=' && (at == attrs || at[-1] == ' '))
@@ -17,29 +17,29 @@ static const char *find(const char *attrs, const char *name) {
 }
 
 bool model_has(const char *attrs, const char *name) {
-    return find(attrs, name) != NULL;
+    return find_attr(attrs, name) != NULL;
 }
 
-static double read(const char *at) {
+static double read_number_at(const char *at) {
     return strncmp(at, "true", 4) == 0 ? 1 : strtod(at, NULL);
 }
 
 double model_number(const char *attrs, const char *name, int k, double fallback) {
-    const char *at = find(attrs, name);
+    const char *at = find_attr(attrs, name);
     if (!at)
         return fallback;
-    double first = read(at);
+    double first = read_number_at(at);
     for (const char *next = at; k > 0; k--) {
         next += strcspn(next, "; ");
         if (*next != ';')
             return first;
-        first = read(++next);
+        first = read_number_at(++next);
     }
     return first;
 }
 
 bool model_word(const char *attrs, const char *name, const char *word) {
-    const char *at = find(attrs, name);
+    const char *at = find_attr(attrs, name);
     return at && *at == ':' && strncmp(at + 1, word, strlen(word)) == 0 && strchr(" ", at[1 + strlen(word)]);
 }
 
@@ -97,9 +97,9 @@ Edges model_edges(const char *attrs, bool clamped) {
     return edges;
 }
 
-static Px combine(const char *attrs, Px s, Px d) {
+static Px combine_pixels(const char *attrs, Px s, Px d) {
     Px m;
-    for (int k = 0; k < 4; k++) {
+    for (int k = 0; k < 4; k++)
         if (model_word(attrs, "composite", "dest_over"))
             m.c[k] = s.c[k] * (1 - d.c[3]) + d.c[k];
         else if (model_word(attrs, "composite", "lighten"))
@@ -114,7 +114,6 @@ static Px combine(const char *attrs, Px s, Px d) {
             m.c[k] = s.c[k] * d.c[k];
         else
             m.c[k] = s.c[k] + d.c[k] * (1 - s.c[3]);
-    }
     return m;
 }
 
@@ -122,7 +121,7 @@ Px model_merge(const Work *work, const Edges *edges, double u, double v) {
     Px m = {{0}};
     for (int i = 0; i < work->n; i++) {
         Px t = model_sample(&work->in[i], edges, u, v);
-        m = i == 0 ? t : combine(work->attrs, t, m);
+        m = i == 0 ? t : combine_pixels(work->attrs, t, m);
     }
     return m;
 }

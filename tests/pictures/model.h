@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { MOST_SIDE = 48, MOST_INPUTS = 3 };
+enum { MAX_SIDE = 48, MAX_INPUTS = 3 };
 
 typedef struct Px {
     double c[4]; // r, g, b multiplied by a
@@ -16,7 +16,7 @@ typedef struct Px {
 typedef struct Pic {
     int w;
     int h;
-    Px at[MOST_SIDE * MOST_SIDE]; // rows from the bottom
+    Px at[MAX_SIDE * MAX_SIDE]; // rows from the bottom
 } Pic;
 
 // What is beyond the edges: a colour, or the picture again, or its last pixel.
@@ -31,7 +31,7 @@ typedef struct Edges {
 typedef struct Work {
     const char *kind;
     const char *attrs; // as in the script
-    Pic in[MOST_INPUTS];
+    Pic in[MAX_INPUTS];
     int n;
     int w;
     int h;

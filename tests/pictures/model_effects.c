@@ -37,7 +37,7 @@ static double alpha(const Pass *pass) {
     return number(pass, "alpha", 1);
 }
 
-static void run(const Pass *usual, const Pic *last, bool reduced, Program *program, Pic *out) {
+static void run_pass(const Pass *usual, const Pic *last, bool reduced, Program *program, Pic *out) {
     Pass pass = *usual;
     int down = reduced ? (int)model_number(pass.attrs, "downsample", 0, 2) : 1;
     pass.last = last;
@@ -409,13 +409,13 @@ void model_effect(const Work *work, Pic *out) {
     Pass pass = {.work = work, .attrs = work->attrs, .edges = model_edges(work->attrs, effects[e].clamped)};
     pass.t = &work->in[0];
     if (effects[e].merges && work->n > 1) {
-        run(&pass, NULL, false, merge_pass, &merged);
+        run_pass(&pass, NULL, false, merge_pass, &merged);
         pass.t = &merged;
     }
     const Pic *last = NULL;
     for (int i = 0; i < 4 && effects[e].passes[i]; i++) {
         bool end = i == 3 || !effects[e].passes[i + 1];
-        run(&pass, last, effects[e].reduced && !end, effects[e].passes[i], &results[i]);
+        run_pass(&pass, last, effects[e].reduced && !end, effects[e].passes[i], &results[i]);
         last = &results[i];
     }
     *out = *last;

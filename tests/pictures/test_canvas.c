@@ -1,18 +1,16 @@
-// test_canvas.c: canvases against the formulas of the specification (canvas.md 4 to 7), written down here once more,
-// pixel by pixel, in doubles.
+// test_canvas.c: canvases against the formulas of the specification (canvas.md 4 to 7), pixel by pixel, in doubles.
 #include "drawn.h"
-
 #include "model.h"
 #include "turbulence.h"
 
 #include <math.h>
 
 // Draws a canvas of 60 x 60 with what is in it: lines that are indented by eight spaces.
-static void draw(Drawn *drawn, const char *canvas, const char *inside) {
+static void draw_script(Drawn *drawn, const char *canvas, const char *inside) {
     char script[8000];
     snprintf(script, sizeof script, "!window size=60;60\n    !canvas %s\n%s", canvas, inside);
     drawn_open(drawn, script, 1);
-    assert_string_equal(drawn->told, "");
+    assert_string_equal(drawn->reported, "");
 }
 
 static void check_pixel(const Drawn *drawn, int x, int y, const double c[3], const char *what) {
@@ -105,7 +103,7 @@ static void test_modes(void **state) {
                  "        !rect size=60 fill=true color=0.3;0.6;0.95;0.8\n"
                  "        !rect point=10;10 size=20.5;20 fill=true color=0.9;0.35;0.2;0.7 composite=:%s\n",
                  how->word);
-        draw(&drawn, canvas, inside);
+        draw_script(&drawn, canvas, inside);
         blend(how, above, below, out);
         for (int k = 0; k < 3; k++) {
             whole[k] = out[k];
@@ -142,7 +140,7 @@ static void test_filter_blend(void **state) {
                  "        !blend mode=:%s\n            !source\n            !paint color=0.9;0.35;0.2;0.7\n"
                  "        !rect size=60 fill=true color=0.3;0.6;0.95;0.8\n",
                  how->word);
-        draw(&drawn, "", inside);
+        draw_script(&drawn, "", inside);
         blend(how, above, below, out);
         for (int k = 0; k < 3; k++)
             out[k] = fmin(out[k], fmin(out[3], 1));
@@ -162,7 +160,7 @@ static void test_filter_blend(void **state) {
             "        !rect point=30;0 size=30;60 fill=true color=0.95;0.6;0.3\n"
             "        !rect point=30;0 size=30;60 fill=true color=%s composite=:%s\n",
             word, s, s, word);
-        draw(&drawn, "", inside);
+        draw_script(&drawn, "", inside);
         double right[3];
         for (int k = 0; k < 3; k++)
             right[k] = drawn_byte(&drawn, 45, 20, k) / 255.0;
@@ -183,7 +181,7 @@ static void test_filter_blend(void **state) {
                  "        !blend %s\n            !source\n            !paint color=0.9;0.35;0.2;0.7\n"
                  "        !rect size=60 fill=true color=0.3;0.6;0.95;0.8\n",
                  sums[i].attrs);
-        draw(&drawn, "", inside);
+        draw_script(&drawn, "", inside);
         for (int c = 3; c >= 0; c--) {
             double s = c < 3 ? above[c] * above[3] : above[3], d = c < 3 ? below[c] * below[3] : below[3];
             out[c] = sums[i].k[0] * s * d + sums[i].k[1] * s + sums[i].k[2] * d + sums[i].k[3];
@@ -223,7 +221,7 @@ static void test_color_matrix(void **state) {
         Drawn drawn;
         snprintf(inside, sizeof inside,
                  "        !color_matrix %s\n        !rect size=60 fill=true color=0.3;0.6;0.95;0.8\n", cases[i].attrs);
-        draw(&drawn, "", inside);
+        draw_script(&drawn, "", inside);
         for (int row = 0; row < 4; row++) {
             const double *bcs = cases[i].bcs;
             out[row] = 0;
@@ -254,7 +252,7 @@ static void test_blur(void **state) {
                      "        !blur radius=%s%g%s\n        !rect point=%s size=%s fill=true color=1\n",
                      across ? "0;" : "", sigmas[i], across ? "" : ";0", across ? "-500;20" : "20;-500",
                      across ? "1000;20" : "20;1000");
-            draw(&drawn, "", inside);
+            draw_script(&drawn, "", inside);
             for (int x = 0; x < 60; x++) {
                 double at = x + 0.5, part = sigmas[i] * sqrt(2);
                 double light = (erf((at - 20) / part) - erf((at - 40) / part)) / 2;
@@ -278,9 +276,9 @@ static void test_blur(void **state) {
 static void test_other_filters(void **state) {
     (void)state;
     Drawn drawn;
-    draw(&drawn, "",
-         "        !shadow radius=6;0 offset=10;4 color=0;1;0;0.5\n"
-         "        !rect point=10;-500 size=20;530 fill=true color=1;0;0\n");
+    draw_script(&drawn, "",
+                "        !shadow radius=6;0 offset=10;4 color=0;1;0;0.5\n"
+                "        !rect point=10;-500 size=20;530 fill=true color=1;0;0\n");
     for (int x = 0; x < 60; x++) {
         double part = 6 * sqrt(2), at = x + 0.5 - 10;
         double shade = 0.5 * (erf((at - 10) / part) - erf((at - 30) / part)) / 2;
@@ -297,7 +295,7 @@ static void test_other_filters(void **state) {
             snprintf(inside, sizeof inside,
                      "        !%s radius=%d;2\n        !rect point=20;20 size=17;20 fill=true color=0.2;0.4;1\n",
                      grows ? "dilate" : "erode", r);
-            draw(&drawn, "", inside);
+            draw_script(&drawn, "", inside);
             for (int x = 0; x < 60; x++) {
                 int high = grows ? 2 : -2, y = 20 - high;
                 double on = x >= 20 - by && x < 37 + by;
@@ -326,7 +324,7 @@ static void test_wide(void **state) {
         Drawn drawn;
         snprintf(text, sizeof text, script, bits);
         drawn_open(&drawn, text, 1);
-        assert_string_equal(drawn.told, "");
+        assert_string_equal(drawn.reported, "");
         check_pixel(&drawn, 20, 20, (double[]){model_enc(0.5), model_enc(0.0625), model_enc(0.25)}, "added");
         // An edge of half a pixel: 128/255 of it each time.
         double k = 128.0 / 255;
@@ -367,7 +365,7 @@ static void test_wide_sources(void **state) {
         "            !rect point=0;50 size=60;10 fill=true\n";
     Drawn drawn;
     drawn_open(&drawn, script, 1);
-    assert_string_equal(drawn.told, "");
+    assert_string_equal(drawn.reported, "");
     double end = model_lin(102 / 255.0) * 0.125;
     for (int x = 0; x < 60; x++) {
         check_light(&drawn, x, 5, (x + 0.5) / 60 * end, "linear");
@@ -405,7 +403,7 @@ static void test_noise(void **state) {
             inside, sizeof inside,
             "        !noise %s\n        !transform translate=3;-2\n            !rect point=-3;2 size=60 fill=true\n",
             cases[i].attrs);
-        draw(&drawn, "", inside);
+        draw_script(&drawn, "", inside);
         turbulence_init(&t, cases[i].seed);
         for (int p = 0; p < 3600; p += 7) {
             double c[4];
@@ -444,7 +442,7 @@ static void test_arc_to(void **state) {
                  "        !path\n            !move_to point=20;30\n"
                  "            !arc_to point=40;30 radius=15;30 large=%s ccw=%s\n            !fill color=1\n",
                  large ? "true" : "false", ccw ? "true" : "false");
-        draw(&drawn, "", inside);
+        draw_script(&drawn, "", inside);
         // Clockwise, from left to right, one goes over the top; the middle is below if that is the smaller part.
         double half = sqrt(1 - 100.0 / 225) * 30, middle = 30 + (large == ccw ? half : -half) * 1;
         for (int p = 0; p < 3600; p++) {
@@ -462,7 +460,8 @@ static void test_arc_to(void **state) {
 static void test_path_effects(void **state) {
     (void)state;
     Drawn drawn;
-    draw(&drawn, "", "        !round_corners radius=16\n        !rect point=10;10 size=40;40 fill=true color=1\n");
+    draw_script(&drawn, "",
+                "        !round_corners radius=16\n        !rect point=10;10 size=40;40 fill=true color=1\n");
     for (int p = 0; p < 3600; p++) {
         double x = fmin(p % 60 + 0.5 - 10, 50 - (p % 60 + 0.5)) / 16,
                y = fmin(p / 60 + 0.5 - 10, 50 - (p / 60 + 0.5)) / 16;
@@ -476,14 +475,15 @@ static void test_path_effects(void **state) {
             assert_int_equal(is_on(&drawn, p % 60, p / 60), along > 1);
     }
     drawn_close(&drawn);
-    draw(&drawn, "",
-         "        !path_matrix matrix=0;-1;40;2;0;5;0;0;1\n        !rect point=5;10 size=20;10 fill=true color=1\n");
+    draw_script(
+        &drawn, "",
+        "        !path_matrix matrix=0;-1;40;2;0;5;0;0;1\n        !rect point=5;10 size=20;10 fill=true color=1\n");
     for (int p = 0; p < 3600; p++) // x' = 40 − y, y' = 2x + 5
         assert_int_equal(is_on(&drawn, p % 60, p / 60), p % 60 >= 20 && p % 60 < 30 && p / 60 >= 15 && p / 60 < 55);
     drawn_close(&drawn);
-    draw(&drawn, "",
-         "        !path_matrix scale=2;1 rotate=0.25 translate=50;5\n            !dash intervals=6;4 offset=2\n"
-         "        !line points=0;20;20;20 stroke=true stroke_width=4 color=1\n");
+    draw_script(&drawn, "",
+                "        !path_matrix scale=2;1 rotate=0.25 translate=50;5\n            !dash intervals=6;4 offset=2\n"
+                "        !line points=0;20;20;20 stroke=true stroke_width=4 color=1\n");
     for (int y = 0; y < 60; y++) { // along x: dashes 0 to 4, 8 to 14, 18 to 20; twice as long, and down
         double x = (y + 0.5 - 5) / 2;
         bool on = x > 0 && x < 20 && (x < 4 || (x > 8 && x < 14) || x > 18);
@@ -505,7 +505,7 @@ static void test_jitter(void **state) {
                  "        !jitter length=3 deviation=5 seed=%d\n        !line points=-5;30;65;30 stroke=true color=1 "
                  "stroke_width=2\n",
                  i);
-        draw(&drawn, "", inside);
+        draw_script(&drawn, "", inside);
         int off = 0;
         for (int p = 0; p < 3600; p++) {
             int from = abs(p / 60 - 30);
@@ -563,7 +563,7 @@ static void test_memory(void **state) {
                  "        !rect point=2000;0 size=1000;3000 fill=true color=0;0;1\n",
                  cases[i].script);
         drawn_open_with(&drawn, script, i == 0 ? 3 : 1, 100 << 20); // the frame before is kept, too
-        assert_string_equal(drawn.told, cases[i].told);
+        assert_string_equal(drawn.reported, cases[i].told);
         check_pixel(&drawn, 10, 30, (double[]){0, 1, 0}, "before");
         check_pixel(&drawn, 50, 30, (double[]){0, 0, 1}, "after");
         assert_true(abs(drawn_byte(&drawn, 30, 30, 0) - cases[i].red) <= 2);
@@ -596,7 +596,7 @@ static void test_pictures_of_nodes(void **state) {
                  "        !rect point=30;0 size=30;60 fill=true\n",
                  cases[i].node);
         drawn_open(&drawn, script, 1);
-        assert_string_equal(drawn.told, "");
+        assert_string_equal(drawn.reported, "");
         double light = cases[i].light;
         for (int x = 15; x < 60; x += 30)
             check_pixel(&drawn, x, 30, (double[]){light, light, light}, cases[i].node);
@@ -669,8 +669,8 @@ static void test_bad_input(void **state) {
                  "        !rect point=40;0 size=20;60 fill=true color=0;0;1\n",
                  cases[i].inside);
         drawn_open(&drawn, script, 3);
-        if (strcmp(drawn.told, cases[i].told) != 0)
-            fail_msg("%s\nis told:\n%s", script, drawn.told);
+        if (strcmp(drawn.reported, cases[i].told) != 0)
+            fail_msg("%s\nis told:\n%s", script, drawn.reported);
         check_pixel(&drawn, 50, 30, (double[]){0, 0, 1}, "after");
         if (i + 1 < COUNT_OF(cases)) // the last one is shown through others
             check_pixel(&drawn, 15, 30, (double[]){0, 1, 0}, "before");

@@ -1,7 +1,6 @@
 // test_canvas_memory.c: each allocation of a drawing fails in turn, also while something is drawn on a surface of its
 // own. What Cairo made for it is given back.
 #include "drawn.h"
-
 #include "heap.h"
 
 #include <cairo.h>
@@ -46,13 +45,13 @@ static const char script[] = "!window size=40;40\n"
                              "            !rect size=20;20 fill=true color=3\n";
 
 // One drawing by a new painter; whether it was drawn.
-static PetriStatus draw(PetriPicture *picture, uint32_t *pixels, long fail_at, bool all) {
+static PetriStatus draw_failing(PetriPicture *picture, uint32_t *pixels, long fail_at, bool all) {
     heap_fail(fail_at, all);
     PetriPainter *painter = petri_painter_open();
     PetriStatus status =
-        painter ? petri_picture_draw(picture, painter, pixels, 40, 40, 40 * sizeof *pixels) : PETRI_MEMORY;
+        painter ? petri_picture_draw(picture, painter, pixels, 40, 40, 40 * sizeof *pixels) : PETRI_OUT_OF_MEMORY;
     long count = heap.count;
-    heap_heal();
+    heap_restore();
     petri_painter_close(&painter);
     heap.count = count;
     return status;
@@ -67,20 +66,20 @@ static void test_each_allocation(void **state) {
     drawn_open(&drawn, script, 0);
     assert_int_equal(petri_step(drawn.session), PETRI_OK);
     assert_int_equal(petri_picture(drawn.session, &options, &picture), PETRI_OK);
-    assert_int_equal(draw(picture, wanted, -1, false), PETRI_OK);
-    petri_picture_tell(drawn.session, picture);
-    assert_string_equal(drawn.told, "");
+    assert_int_equal(draw_failing(picture, wanted, -1, false), PETRI_OK);
+    petri_picture_report(drawn.session, picture);
+    assert_string_equal(drawn.reported, "");
     long count = heap.count, failed = 0;
     assert_true(count > 30);
     assert_int_equal(contexts, 0);
     for (long i = 0; i < 2 * count; i++) {
-        PetriStatus status = draw(picture, pixels, i / 2, i % 2);
+        PetriStatus status = draw_failing(picture, pixels, i / 2, i % 2);
         assert_int_equal(contexts, 0);
-        failed += status == PETRI_MEMORY;
+        failed += status == PETRI_OUT_OF_MEMORY;
         if (status == PETRI_OK)
             assert_memory_equal(pixels, wanted, sizeof wanted);
         else
-            assert_int_equal(status, PETRI_MEMORY);
+            assert_int_equal(status, PETRI_OUT_OF_MEMORY);
     }
     assert_true(failed > count);
     petri_picture_free(&picture);

@@ -1,13 +1,12 @@
 // test_effects.c: the pictures of programs and effects against the model (model.h), each pixel within 2 bytes.
 #include "drawn.h"
-
 #include "model.h"
 
 enum { WIDTH = 30, HEIGHT = 20 };
 
 // The inputs are programs of their own; in C and in GLSL the same formulas. The third has another size.
-static const int sizes[MOST_INPUTS][2] = {{WIDTH, HEIGHT}, {WIDTH, HEIGHT}, {11, 7}};
-static const char *const formulas[MOST_INPUTS] = {
+static const int sizes[MAX_INPUTS][2] = {{WIDTH, HEIGHT}, {WIDTH, HEIGHT}, {11, 7}};
+static const char *const formulas[MAX_INPUTS] = {
     ("    float a = p.x < 0.5 ? 1.0 : 1.0 - 0.6 * p.y;\n"
      "    bool bright = p.x > 0.31 && p.x < 0.62 && p.y > 0.22 && p.y < 0.53;\n"
      "    vec3 c = vec3(1.3 * p.x, 0.5 * p.y, 0.4 + 0.3 * sin(7.0 * p.x + 5.0 * p.y + 40.0 * beat));\n"
@@ -47,13 +46,13 @@ typedef struct Case {
     int frames; // 0: one
 } Case;
 
-static void write_script(const Case *of, char *out, size_t room) {
+static void write_script(const Case *of, char *out, size_t size) {
     bool window = strcmp(of->kind, "window") == 0;
-    int at = snprintf(out, room, "!window size=%d;%d colorbits=32 %s\n", WIDTH, HEIGHT, window ? of->attrs : "");
+    int at = snprintf(out, size, "!window size=%d;%d colorbits=32 %s\n", WIDTH, HEIGHT, window ? of->attrs : "");
     if (!window)
-        at += snprintf(out + at, room - (size_t)at, "    !%s %s\n", of->kind, of->attrs);
+        at += snprintf(out + at, size - (size_t)at, "    !%s %s\n", of->kind, of->attrs);
     for (int i = 0; i < of->inputs; i++)
-        at += snprintf(out + at, room - (size_t)at,
+        at += snprintf(out + at, size - (size_t)at,
                        "        !shader size=%d;%d fragment=\"\"\"${HEADER}\nin vec2 coord;\nout vec4 color;\n"
                        "uniform float beat;\nvoid main() {\n    vec2 p = coord;\n%s}\n\"\"\"\n",
                        sizes[i][0], sizes[i][1], formulas[i]);
@@ -92,10 +91,10 @@ static bool check_case(const Case *of) {
         work.last = wanted;
         work.past = true;
     }
-    if (worst > 2 || drawn.told[0])
+    if (worst > 2 || drawn.reported[0])
         print_error("!%s %s, %d inputs: off by %d at %d;%d\n%s", of->kind, of->attrs, of->inputs, worst, x, y,
-                    drawn.told);
-    bool good = worst <= 2 && !drawn.told[0];
+                    drawn.reported);
+    bool good = worst <= 2 && !drawn.reported[0];
     drawn_close(&drawn);
     return good;
 }
@@ -255,7 +254,7 @@ static void test_numbers(void **state) {
     assert_int_equal(drawn.pixels[0], 0xff03ffff);
     assert_int_equal(drawn.pixels[511 * 512 + 511], 0xffff0303);
     assert_int_equal(drawn.pixels[256 * 512 + 256], 0xffbcbbbb);
-    assert_string_equal(drawn.told, "");
+    assert_string_equal(drawn.reported, "");
     drawn_close(&drawn);
 }
 

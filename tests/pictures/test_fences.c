@@ -85,7 +85,7 @@ static void test_fences(void **state) {
     for (int i = 0; i < TIMES * (int)COUNT_OF(scripts); i++) {
         Drawn drawn;
         drawn_open(&drawn, scripts[i % (int)COUNT_OF(scripts)], FRAMES);
-        assert_string_equal(drawn.told, "");
+        assert_string_equal(drawn.reported, "");
         drawn_close(&drawn);
     }
     if (atomic_load(&slowed) == 0)

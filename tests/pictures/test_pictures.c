@@ -6,6 +6,8 @@
 // since versions of FreeType and fonts differ) and `-- frames N`: how many frames are made (1 if not said).
 // What needs OpenGL is skipped where none starts. --update stores what is drawn; --write stores it elsewhere. The
 // folder that has a gallery.fl must have all nodes.
+#include "petri-draw.h"
+
 #include <cairo.h>
 #include <dirent.h>
 #include <stdbool.h>
@@ -14,21 +16,19 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "petri-draw.h"
-
-enum { MOST_SCRIPTS = 200, MOST_SEEN = 4000, AUTO_SIZE = 160, USUAL_TOLERANCE = 2 };
+enum { MAX_SCRIPTS = 200, MAX_SEEN = 4000, AUTO_SIZE = 160, USUAL_TOLERANCE = 2 };
 
 // Which attributes of which nodes occur: lines `kind attribute`.
-static char *seen[MOST_SEEN];
+static char *seen[MAX_SEEN];
 static size_t seen_count;
 
-static void remember(const char *kind, size_t kind_length, const char *attribute, size_t length) {
+static void note_seen(const char *kind, size_t kind_length, const char *attribute, size_t length) {
     char text[200];
     snprintf(text, sizeof text, "%.*s %.*s", (int)kind_length, kind, (int)length, attribute);
     for (size_t i = 0; i < seen_count; i++)
         if (strcmp(seen[i], text) == 0)
             return;
-    if (seen_count < MOST_SEEN)
+    if (seen_count < MAX_SEEN)
         seen[seen_count++] = strdup(text);
 }
 
@@ -46,7 +46,7 @@ typedef struct Notes {
     size_t length;
 } Notes;
 
-static bool collect(void *host, const char *text, size_t length) {
+static bool collect_bytes(void *host, const char *text, size_t length) {
     Notes *notes = host;
     notes->text = realloc(notes->text, notes->length + length + 1);
     memcpy(notes->text + notes->length, text, length);
@@ -56,20 +56,20 @@ static bool collect(void *host, const char *text, size_t length) {
 }
 
 // Reads `!kind … name=value …` lines of a printed tree. A value that looks like an attribute does no harm here.
-static void look_at_tree(PetriSession *session) {
+static void note_tree(PetriSession *session) {
     Notes notes = {0};
-    petri_print(session, PETRI_PRINT_TREE, collect, &notes);
+    petri_print(session, PETRI_PRINT_TREE, collect_bytes, &notes);
     for (char *line = strtok(notes.text, "\n"); line; line = strtok(NULL, "\n")) {
         const char *kind = line + strspn(line, " ");
         if (*kind++ != '!')
             continue;
         size_t kind_length = strcspn(kind, " ");
-        remember(kind, kind_length, "", 0);
+        note_seen(kind, kind_length, "", 0);
         for (const char *at = kind + kind_length; *at; at += strcspn(at, " ")) {
             at += strspn(at, " ");
             size_t length = strcspn(at, "= ");
             if (at[length] == '=')
-                remember(kind, kind_length, at, length);
+                note_seen(kind, kind_length, at, length);
         }
     }
     free(notes.text);
@@ -78,7 +78,7 @@ static void look_at_tree(PetriSession *session) {
 static bool without_gpu; // the script needs OpenGL, and there is none
 static size_t skipped;
 
-static void tell(void *host, const PetriDiagnostic *diagnostic) {
+static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     without_gpu |= diagnostic->code && strcmp(diagnostic->code, "needs-gpu") == 0;
     printf("%s: %s", (const char *)host, diagnostic->rendered);
 }
@@ -112,16 +112,16 @@ static PetriPicture *make_picture(PetriSession *session, PetriPainter *painter, 
         petri_picture_free(&picture);
         if (petri_step(session) != PETRI_OK)
             return NULL;
-        if ((i == frames - 1 || petri_looks_back(session)) && petri_picture(session, &options, &picture) == PETRI_OK &&
-            petri_looks_back(session))
-            petri_picture_make(picture, painter);
+        if ((i == frames - 1 || petri_needs_history(session)) &&
+            petri_picture(session, &options, &picture) == PETRI_OK && petri_needs_history(session))
+            petri_picture_render(picture, painter);
     }
-    look_at_tree(session);
+    note_tree(session);
     return picture;
 }
 
 // Compares two files; the number of pixels that differ by more than is tolerated, or -1 if their sizes differ.
-static long compare(cairo_surface_t *stored, cairo_surface_t *drawn, int tolerance, int *worst) {
+static long compare_surfaces(cairo_surface_t *stored, cairo_surface_t *drawn, int tolerance, int *worst) {
     int width = cairo_image_surface_get_width(drawn), height = cairo_image_surface_get_height(drawn);
     if (cairo_surface_status(stored) != CAIRO_STATUS_SUCCESS || cairo_surface_status(drawn) != CAIRO_STATUS_SUCCESS ||
         cairo_image_surface_get_width(stored) != width || cairo_image_surface_get_height(stored) != height)
@@ -169,7 +169,7 @@ static bool check_picture(PetriPicture *picture, PetriPainter *painter, const ch
     bool saved = handle >= 0 && petri_picture_save(picture, painter, beside) == PETRI_OK;
     cairo_surface_t *drawn = cairo_image_surface_create_from_png(beside);
     cairo_surface_t *stored = cairo_image_surface_create_from_png(file);
-    long count = saved ? compare(stored, drawn, tolerance, &worst) : -1;
+    long count = saved ? compare_surfaces(stored, drawn, tolerance, &worst) : -1;
     bool same = saved && same_as_drawn(picture, painter, drawn);
     cairo_surface_destroy(drawn);
     cairo_surface_destroy(stored);
@@ -188,13 +188,13 @@ static bool check_picture(PetriPicture *picture, PetriPainter *painter, const ch
     return saved && count == 0 && same;
 }
 
-static bool run(const char *folder, const char *name, const char *write) {
+static bool check_script(const char *folder, const char *name, const char *write) {
     char script[1000], file[1100];
     snprintf(script, sizeof script, "%s/%s.fl", folder, name);
     snprintf(file, sizeof file, "%s/%s.png", write ? write : folder, name);
     PetriOptions options = petri_default_options();
-    options.diagnostic = tell;
-    options.host = (void *)(uintptr_t)name;
+    options.on_diagnostic = on_diagnostic;
+    options.user_data = (void *)(uintptr_t)name;
     PetriSession *session = petri_open(&options);
     PetriPainter *painter = petri_painter_open();
     Options wanted = read_options(script);
@@ -202,8 +202,8 @@ static bool run(const char *folder, const char *name, const char *write) {
     PetriPicture *picture = make_picture(session, painter, script, wanted.frames);
     bool good = picture != NULL;
     if (picture) {
-        petri_picture_make(picture, painter);
-        petri_picture_tell(session, picture);
+        petri_picture_render(picture, painter);
+        petri_picture_report(session, picture);
     }
     if (picture && without_gpu)
         skipped++;
@@ -214,7 +214,7 @@ static bool run(const char *folder, const char *name, const char *write) {
     else
         printf("FAIL %s: there is no picture\n", name);
     if (picture)
-        petri_picture_tell(session, picture);
+        petri_picture_report(session, picture);
     // Nothing here is wrong: each diagnostic is a failure.
     good = good && petri_diagnostic_count(session, PETRI_ERROR) + petri_diagnostic_count(session, PETRI_WARNING) == 0;
     petri_picture_free(&picture);
@@ -290,7 +290,7 @@ static int compare_names(const void *a, const void *b) {
 static size_t list_scripts(const char *folder, char **names) {
     DIR *directory = opendir(folder);
     size_t count = 0;
-    for (struct dirent *entry; directory && (entry = readdir(directory)) && count < MOST_SCRIPTS;) {
+    for (struct dirent *entry; directory && (entry = readdir(directory)) && count < MAX_SCRIPTS;) {
         size_t length = strlen(entry->d_name);
         if (length > 3 && strcmp(entry->d_name + length - 3, ".fl") == 0 && strcmp(entry->d_name, "gallery.fl") != 0)
             names[count++] = strndup(entry->d_name, length - 3);
@@ -307,11 +307,11 @@ int main(int argc, char **argv) {
     const char *write = argc > 3 && strcmp(argv[2], "--write") == 0    ? argv[3]
                         : argc > 2 && strcmp(argv[2], "--update") == 0 ? argv[1]
                                                                        : NULL;
-    char *names[MOST_SCRIPTS];
+    char *names[MAX_SCRIPTS];
     size_t count = list_scripts(argv[1], names);
     int failed = 0;
     for (size_t i = 0; i < count; i++) {
-        failed += !run(argv[1], names[i], write);
+        failed += !check_script(argv[1], names[i], write);
         free(names[i]);
     }
     char gallery[1000];

@@ -19,8 +19,8 @@ static const char *const files[][2] = {
 
 typedef struct Row {
     const char *name;
-    const char *script; // after BALL
-    const char *told;   // NULL: that a file cannot be read
+    const char *script;   // after BALL
+    const char *reported; // NULL: that a file cannot be read
 } Row;
 
 static const Row rows[] = {
@@ -92,19 +92,20 @@ static void test_rows(void **state) {
         Drawn drawn;
         snprintf(script, sizeof script, "%s%s", BALL, rows[i].script);
         drawn_open(&drawn, script, 3);
-        if (!rows[i].told)
-            snprintf(drawn.told, sizeof drawn.told, "%s", strstr(drawn.told, "[cannot-read]") ? "" : "nothing");
-        size_t length = rows[i].told ? strlen(rows[i].told) : 0;
-        if (length > 0 && rows[i].told[length - 1] != '\n') // how it begins
-            drawn.told[length] = 0;
-        assert_text(rows[i].name, drawn.told, rows[i].told ? rows[i].told : "");
+        if (!rows[i].reported)
+            snprintf(drawn.reported, sizeof drawn.reported, "%s",
+                     strstr(drawn.reported, "[cannot-read]") ? "" : "nothing");
+        size_t length = rows[i].reported ? strlen(rows[i].reported) : 0;
+        if (length > 0 && rows[i].reported[length - 1] != '\n') // how it begins
+            drawn.reported[length] = 0;
+        assert_text(rows[i].name, drawn.reported, rows[i].reported ? rows[i].reported : "");
         assert_claim(rows[i].name, drawn_byte(&drawn, 32, 32, 0) > 200);
         assert_claim(rows[i].name, drawn_byte(&drawn, 32, 32, 1) < 100);
         drawn_close(&drawn);
     }
 }
 
-static int begin(void **state) {
+static int setup(void **state) {
     static char folder[] = "/tmp/petri-faults-XXXXXX";
     *state = folder;
     if (!mkdtemp(folder) || chdir(folder) != 0)
@@ -117,7 +118,7 @@ static int begin(void **state) {
     return 0;
 }
 
-static int end(void **state) {
+static int teardown(void **state) {
     for (size_t i = 0; i < sizeof files / sizeof *files; i++)
         remove(files[i][0]);
     return rmdir(*state);
@@ -126,6 +127,6 @@ static int end(void **state) {
 int main(void) {
     if (!drawn_can_run())
         return 77;
-    const struct CMUnitTest tests[] = {cmocka_unit_test_setup_teardown(test_rows, begin, end)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test_setup_teardown(test_rows, setup, teardown)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -35,7 +35,7 @@ static void test_places(void **state) {
     (void)state;
     Drawn drawn;
     drawn_open(&drawn, script, 1);
-    assert_text("diagnostics", drawn.told, "");
+    assert_text("diagnostics", drawn.reported, "");
     for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
         const Place *place = &places[i];
         double x = 0, y = 0, count = 0;

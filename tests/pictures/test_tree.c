@@ -20,7 +20,7 @@ static void check_color(const char *row, const char *script, int frames, int red
     drawn_open(&drawn, script, frames);
     if (abs(at(&drawn, 0) - red) > 1 || abs(at(&drawn, 1) - green) > 1 || abs(at(&drawn, 2) - blue) > 1)
         print_error("%d %d %d\n", at(&drawn, 0), at(&drawn, 1), at(&drawn, 2));
-    assert_text(row, drawn.told, "");
+    assert_text(row, drawn.reported, "");
     assert_claim(row, abs(at(&drawn, 0) - red) <= 1);
     assert_claim(row, abs(at(&drawn, 1) - green) <= 1);
     assert_claim(row, abs(at(&drawn, 2) - blue) <= 1);
@@ -28,10 +28,10 @@ static void check_color(const char *row, const char *script, int frames, int red
 }
 
 // Draws two frames: each thing is told once, and this colour is seen.
-static void check_told(const char *row, const char *script, const char *told, int red, int green, int blue) {
+static void check_reported(const char *row, const char *script, const char *told, int red, int green, int blue) {
     Drawn drawn;
     drawn_open(&drawn, script, 2);
-    assert_text(row, drawn.told, told);
+    assert_text(row, drawn.reported, told);
     assert_int_equal(at(&drawn, 0), red);
     assert_int_equal(at(&drawn, 1), green);
     assert_int_equal(at(&drawn, 2), blue);
@@ -157,8 +157,8 @@ static void test_bad_programs(void **state) {
                 SIZE "    !shader fragment=\"\"\"\n#version 330\nout vec4 color;\nvoid main() { color = vec4(0.2, 0.0, "
                      "0.0, 1.0); }\n\"\"\"\n",
                 1, 124, 0, 0);
-    check_told("templates", SIZE "    !shader fragment=\"${HEADER} ${more}\"\n    !vignette inset=0\n        " RED,
-               "2 [bad-shader] !shader: of templates only ${HEADER} can be used\n", 255, 0, 0);
+    check_reported("templates", SIZE "    !shader fragment=\"${HEADER} ${more}\"\n    !vignette inset=0\n        " RED,
+                   "2 [bad-shader] !shader: of templates only ${HEADER} can be used\n", 255, 0, 0);
     // The compiler's words come from the driver; the line is the script's, where the text stands there.
     static const struct {
         const char *row;
@@ -191,11 +191,11 @@ static void test_bad_programs(void **state) {
                  bad[i].script);
         drawn_open(&drawn, script, 2);
         assert_claim(bad[i].row, at(&drawn, 0) == 255);
-        unsigned line = (unsigned)strtoul(drawn.told, NULL, 10);
-        snprintf(told, sizeof told, "%u:%u%s", line, drawn.column, strchr(drawn.told, ' '));
+        unsigned line = (unsigned)strtoul(drawn.reported, NULL, 10);
+        snprintf(told, sizeof told, "%u:%u%s", line, drawn.column, strchr(drawn.reported, ' '));
         told[strlen(bad[i].told)] = 0;
         assert_text(bad[i].row, told, bad[i].told);
-        assert_claim(bad[i].row, strchr(drawn.told, '\n') == drawn.told + strlen(drawn.told) - 1); // once
+        assert_claim(bad[i].row, strchr(drawn.reported, '\n') == drawn.reported + strlen(drawn.reported) - 1); // once
         drawn_close(&drawn);
     }
     remove("bad.glsl");
@@ -204,39 +204,41 @@ static void test_bad_programs(void **state) {
 static void test_bad_input(void **state) {
     (void)state;
     static char deep[20000];
-    check_told("beyond all sizes", SIZE "    !blur size=100000;4\n        " RED "    !vignette inset=0\n        " RED,
-               "2 [bad-size] !blur: a picture can have 1 to 16384 pixels in width and height\n", 255, 0, 0);
-    check_told("nan",
-               SIZE "    !blur radius=0/0 sigma=1/0\n        !transform rotate=0/0 scale=1e300\n            !canvas\n"
-                    "    !vignette inset=0/0\n        " RED,
-               "2 [bad-attribute] !blur: radius should be one number or two, not nan\n"
-               "2 [bad-attribute] !blur: sigma should be one number or two, not inf\n"
-               "3 [bad-attribute] !transform: rotate should be number, not nan\n"
-               "5 [bad-attribute] !vignette: inset should be number, not nan\n",
-               255, 0, 0);
-    check_told("unknown word to combine",
-               SIZE "    !blur composite=:nonsense\n        " RED "        " RED
-                    "    !vignette inset=0\n        " GREEN,
-               "2 [bad-attribute] !blur: composite should be :over, :dest_over, :lighten, :darken, :add, :difference "
-               "or :multiply, not :nonsense\n",
-               0, 255, 0);
-    check_told("ids in a circle",
-               SIZE "    !blur id=:a\n        !reference id=:b\n    !blur id=:b\n        !reference id=:a\n"
-                    "        " RED,
-               "", 255, 0, 0);
+    check_reported("beyond all sizes",
+                   SIZE "    !blur size=100000;4\n        " RED "    !vignette inset=0\n        " RED,
+                   "2 [bad-size] !blur: a picture can have 1 to 16384 pixels in width and height\n", 255, 0, 0);
+    check_reported("nan",
+                   SIZE
+                   "    !blur radius=0/0 sigma=1/0\n        !transform rotate=0/0 scale=1e300\n            !canvas\n"
+                   "    !vignette inset=0/0\n        " RED,
+                   "2 [bad-attribute] !blur: radius should be one number or two, not nan\n"
+                   "2 [bad-attribute] !blur: sigma should be one number or two, not inf\n"
+                   "3 [bad-attribute] !transform: rotate should be number, not nan\n"
+                   "5 [bad-attribute] !vignette: inset should be number, not nan\n",
+                   255, 0, 0);
+    check_reported(
+        "unknown word to combine",
+        SIZE "    !blur composite=:nonsense\n        " RED "        " RED "    !vignette inset=0\n        " GREEN,
+        "2 [bad-attribute] !blur: composite should be :over, :dest_over, :lighten, :darken, :add, :difference "
+        "or :multiply, not :nonsense\n",
+        0, 255, 0);
+    check_reported("ids in a circle",
+                   SIZE "    !blur id=:a\n        !reference id=:b\n    !blur id=:b\n        !reference id=:a\n"
+                        "        " RED,
+                   "", 255, 0, 0);
     int end = snprintf(deep, sizeof deep, SIZE);
     for (int i = 0; i < 98; i++)
         end += snprintf(deep + end, sizeof deep - (size_t)end, "%*s!vignette inset=0\n", i + 1, "");
     snprintf(deep + end, sizeof deep - (size_t)end, "%*s!canvas\n%*s!rect size=9;9 fill=true color=1;0;0\n", 99, "",
              100, "");
-    check_told("98 deep", deep, "", 255, 0, 0);
+    check_reported("98 deep", deep, "", 255, 0, 0);
     end = snprintf(deep, sizeof deep, SIZE " !canvas\n  !rect size=9;9 fill=true color=0;1;0\n");
     for (int i = 0; i < 100; i++)
         end += snprintf(deep + end, sizeof deep - (size_t)end, "%*s!vignette inset=0\n", i + 1, "");
     snprintf(deep + end, sizeof deep - (size_t)end, "%*s!canvas\n%*s!rect size=9;9 fill=true color=1;0;0\n", 101, "",
              102, "");
-    check_told("100 deep", deep, "0 [too-deep] pictures are nested more than 100 deep; the innermost are left out\n", 0,
-               255, 0);
+    check_reported("100 deep", deep,
+                   "0 [too-deep] pictures are nested more than 100 deep; the innermost are left out\n", 0, 255, 0);
 }
 
 // Where no OpenGL starts, what is inside of programs is seen as it is. The last test: nothing starts after it.
@@ -248,8 +250,9 @@ static void test_without(void **state) {
     drawn_open(&drawn, SIZE "    !adjust exposure=-9\n        " RED "    !blur radius=3 alpha=0\n        " GREEN, 2);
     assert_int_equal(at(&drawn, 0), 255);
     assert_int_equal(at(&drawn, 1), 0);
-    assert_claim(drawn.told, strstr(drawn.told, "[needs-gpu] effects and three dimensions are left out: ") != NULL);
-    assert_claim(drawn.told, strchr(drawn.told, '\n') == drawn.told + strlen(drawn.told) - 1);
+    assert_claim(drawn.reported,
+                 strstr(drawn.reported, "[needs-gpu] effects and three dimensions are left out: ") != NULL);
+    assert_claim(drawn.reported, strchr(drawn.reported, '\n') == drawn.reported + strlen(drawn.reported) - 1);
     drawn_close(&drawn);
 }
 
@@ -271,12 +274,12 @@ static void test_memory(void **state) {
         Drawn drawn;
         snprintf(script, sizeof script, SIZE "    !vignette inset=0\n        " GREEN "%s", nodes[i]);
         drawn_open_with(&drawn, script, 3, 60 << 20);
-        assert_text("memory", drawn.told, told[i]);
+        assert_text("memory", drawn.reported, told[i]);
         assert_int_equal(at(&drawn, 1), 255);
         assert_int_equal(at(&drawn, 0), 0);
         drawn_close(&drawn);
         drawn_open(&drawn, script, 1);
-        assert_text("usual memory", drawn.told, "");
+        assert_text("usual memory", drawn.reported, "");
         assert_in_range(at(&drawn, 0), 200, 255);
         drawn_close(&drawn);
     }

@@ -77,12 +77,12 @@ static const PetriLabel label = {.text = "on top",
                                  .size = 13,
                                  .line_height = 19,
                                  .padding = 5,
-                                 .back = {0.1, 0.2, 0.3, 0.8},
-                                 .front = {1, 1, 1, 1},
-                                 .edge = {1, 0, 0, 1}};
+                                 .background = {0.1, 0.2, 0.3, 0.8},
+                                 .foreground = {1, 1, 1, 1},
+                                 .accent = {1, 0, 0, 1}};
 
 // Shows frames with one painter, with another one draws their pixels and lays the label over: so far they are apart.
-static int show(const char *script, int frames, size_t labels) {
+static int present_script(const char *script, int frames, size_t labels) {
     uint32_t seen[WIDTH * HEIGHT], wanted[WIDTH * HEIGHT];
     Drawn drawn;
     PetriPictureOptions options = petri_default_picture_options();
@@ -97,22 +97,22 @@ static int show(const char *script, int frames, size_t labels) {
         glClearColor(1, 0, 1, 1);
         glBindFramebuffer(GL_FRAMEBUFFER, 0);
         glClear(GL_COLOR_BUFFER_BIT);
-        assert_int_equal(petri_painter_show(painter, picture, &label, labels, 1.5, WIDTH, HEIGHT), PETRI_OK);
+        assert_int_equal(petri_painter_present(painter, picture, &label, labels, 1.5, WIDTH, HEIGHT), PETRI_OK);
         read_window(seen);
-        assert_int_equal(petri_painter_read_backs(painter), 0);
+        assert_int_equal(petri_painter_readback_count(painter), 0);
         use_window(false);
         assert_int_equal(petri_picture_draw(picture, drawn.painter, wanted, WIDTH, HEIGHT, WIDTH * sizeof *wanted),
                          PETRI_OK);
         use_window(true);
-        petri_picture_tell(drawn.session, picture);
+        petri_picture_report(drawn.session, picture);
         petri_picture_free(&picture);
     }
     for (int i = 0; i < WIDTH * HEIGHT; i++)
         wanted[i] |= 0xff000000u;
     assert_int_equal(
-        petri_painter_labels(drawn.painter, &label, labels, 1.5, wanted, WIDTH, HEIGHT, WIDTH * sizeof *wanted),
+        petri_painter_draw_labels(drawn.painter, &label, labels, 1.5, wanted, WIDTH, HEIGHT, WIDTH * sizeof *wanted),
         PETRI_OK);
-    assert_string_equal(drawn.told, "");
+    assert_string_equal(drawn.reported, "");
     petri_painter_close(&painter);
     use_window(false);
     drawn_close(&drawn);
@@ -127,39 +127,42 @@ static int show(const char *script, int frames, size_t labels) {
 
 static void test_same_bytes(void **state) {
     (void)state;
-    assert_int_equal(show("!window size=150;90\n" LIGHTS, 1, 0), 0);
-    assert_int_equal(show("!window size=150;90 colorbits=32\n" LIGHTS, 1, 0), 0);
-    assert_int_equal(show("!offscreen size=150;90 id=:o alpha=0.7\n" LIGHTS, 1, 0), 0);
-    assert_int_equal(show("!window size=150;90\n    !feedback mixer=0.9 translate=5;3\n        !canvas\n"
-                          "            !ellipse point=20+20*frame;40 radius=15 color=1;0.5;0.2 fill=true\n",
-                          4, 0),
+    assert_int_equal(present_script("!window size=150;90\n" LIGHTS, 1, 0), 0);
+    assert_int_equal(present_script("!window size=150;90 colorbits=32\n" LIGHTS, 1, 0), 0);
+    assert_int_equal(present_script("!offscreen size=150;90 id=:o alpha=0.7\n" LIGHTS, 1, 0), 0);
+    assert_int_equal(present_script("!window size=150;90\n    !feedback mixer=0.9 translate=5;3\n        !canvas\n"
+                                    "            !ellipse point=20+20*frame;40 radius=15 color=1;0.5;0.2 fill=true\n",
+                                    4, 0),
                      0);
 }
 
 // Pixels of Cairo are drawn at the window's size.
 static void test_canvases(void **state) {
     (void)state;
-    assert_int_equal(show("!window size=70;70\n    !canvas\n        !ellipse point=35;35 radius=30 color=1;0.5;0.2 "
-                          "fill=true\n",
-                          1, 0),
-                     0);
-    assert_int_equal(show("!window size=150;90 alpha=0.8\n    !canvas\n        !rect size=90;70 color=1;0.5;0.2 "
-                          "fill=true\n",
-                          1, 0),
-                     0);
+    assert_int_equal(
+        present_script("!window size=70;70\n    !canvas\n        !ellipse point=35;35 radius=30 color=1;0.5;0.2 "
+                       "fill=true\n",
+                       1, 0),
+        0);
+    assert_int_equal(
+        present_script("!window size=150;90 alpha=0.8\n    !canvas\n        !rect size=90;70 color=1;0.5;0.2 "
+                       "fill=true\n",
+                       1, 0),
+        0);
 }
 
 // Cairo mixes pixels by 128ths.
 static void test_other_sizes(void **state) {
     (void)state;
-    assert_in_range(show("!window size=300;100\n" LIGHTS, 1, 0), 0, 2);
-    assert_in_range(show("!window size=67;83\n" LIGHTS, 1, 0), 0, 2);
+    assert_in_range(present_script("!window size=300;100\n" LIGHTS, 1, 0), 0, 2);
+    assert_in_range(present_script("!window size=67;83\n" LIGHTS, 1, 0), 0, 2);
 }
 
 static void test_labels(void **state) {
     (void)state;
-    assert_in_range(show("!window size=150;90\n" LIGHTS, 1, 1), 0, 2);
-    assert_in_range(show("!window size=150;90\n    !canvas\n        !rect size=90;70 fill=true color=1\n", 1, 1), 0, 2);
+    assert_in_range(present_script("!window size=150;90\n" LIGHTS, 1, 1), 0, 2);
+    assert_in_range(
+        present_script("!window size=150;90\n    !canvas\n        !rect size=90;70 fill=true color=1\n", 1, 1), 0, 2);
 }
 
 static void test_without_picture(void **state) {
@@ -167,17 +170,17 @@ static void test_without_picture(void **state) {
     uint32_t seen[WIDTH * HEIGHT];
     PetriPainter *painter = petri_painter_open();
     use_window(true);
-    assert_int_equal(petri_painter_show(painter, NULL, NULL, 0, 1, WIDTH, HEIGHT), PETRI_INVALID);
+    assert_int_equal(petri_painter_present(painter, NULL, NULL, 0, 1, WIDTH, HEIGHT), PETRI_INVALID);
     assert_int_equal(petri_painter_use_gl(painter), PETRI_OK);
     assert_int_equal(petri_painter_use_gl(painter), PETRI_INVALID);
-    assert_int_equal(petri_painter_show(painter, NULL, NULL, 1, 1, WIDTH, HEIGHT), PETRI_INVALID);
-    assert_int_equal(petri_painter_show(painter, NULL, NULL, 0, 1, 0, HEIGHT), PETRI_INVALID);
-    assert_int_equal(petri_painter_show(painter, NULL, NULL, 0, 1, WIDTH, HEIGHT), PETRI_OK);
+    assert_int_equal(petri_painter_present(painter, NULL, NULL, 1, 1, WIDTH, HEIGHT), PETRI_INVALID);
+    assert_int_equal(petri_painter_present(painter, NULL, NULL, 0, 1, 0, HEIGHT), PETRI_INVALID);
+    assert_int_equal(petri_painter_present(painter, NULL, NULL, 0, 1, WIDTH, HEIGHT), PETRI_OK);
     read_window(seen);
     for (int i = 0; i < WIDTH * HEIGHT; i++)
         assert_int_equal(seen[i], 0xff000000u);
     use_window(false);
-    assert_int_equal(petri_painter_show(painter, NULL, NULL, 0, 1, WIDTH, HEIGHT), PETRI_INVALID); // not current
+    assert_int_equal(petri_painter_present(painter, NULL, NULL, 0, 1, WIDTH, HEIGHT), PETRI_INVALID); // not current
     petri_painter_close(&painter);
 }
 
@@ -187,11 +190,11 @@ static void test_too_late(void **state) {
     drawn_open(&drawn, "!window size=2;2\n    !vignette\n        !canvas\n", 1);
     use_window(true);
     assert_int_equal(petri_painter_use_gl(drawn.painter), PETRI_INVALID);
-    assert_int_equal(petri_painter_read_backs(drawn.painter), 1);
+    assert_int_equal(petri_painter_readback_count(drawn.painter), 1);
     use_window(false);
     drawn_close(&drawn);
     PetriPainter *painter = petri_painter_open();
-    assert_int_equal(petri_painter_use_gl(painter), PETRI_MISSING); // no context
+    assert_int_equal(petri_painter_use_gl(painter), PETRI_UNSUPPORTED); // no context
     petri_painter_close(&painter);
 }
 

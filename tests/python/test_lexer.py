@@ -17,7 +17,7 @@ CLASSES = [(Operator.Word, lib.PETRI_TOKEN_KEYWORD), (Operator, lib.PETRI_TOKEN_
            (Punctuation, lib.PETRI_TOKEN_OPERATOR), (Keyword, lib.PETRI_TOKEN_KEYWORD), (Number, lib.PETRI_TOKEN_NUMBER),
            (String.Symbol, lib.PETRI_TOKEN_SYMBOL), (String, lib.PETRI_TOKEN_STRING), (Comment, lib.PETRI_TOKEN_COMMENT),
            (Name.Class, lib.PETRI_TOKEN_NODE), (Name.Entity, lib.PETRI_TOKEN_NODE), (Name.Decorator, lib.PETRI_TOKEN_TAG),
-           (Name, lib.PETRI_TOKEN_NAME), (Error, lib.PETRI_TOKEN_WRONG)]
+           (Name, lib.PETRI_TOKEN_NAME), (Error, lib.PETRI_TOKEN_INVALID)]
 options = ffi.new("PetriOptions *")
 lib.petri_options_init(options, ffi.sizeof("PetriOptions"))
 session = lib.petri_open(options)
@@ -30,7 +30,7 @@ def by_petri(text):
     def take(_, token):
         if token.end > token.start:
             tokens.append((data[token.start:token.end].decode(), token.kind))
-    assert lib.petri_tokens(session, data, len(data), take, ffi.NULL) == lib.PETRI_OK
+    assert lib.petri_tokenise(session, data, len(data), take, ffi.NULL) == lib.PETRI_OK
     return tokens
 
 

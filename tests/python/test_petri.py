@@ -201,11 +201,11 @@ class Running(unittest.TestCase):
         session = petri.Session("!x v=2*wind\n", given={"wind": (1, 2)})
         session.step()
         self.assertIn("!x v=2;4", session.text("tree"))
-        session.give("wind", numpy.float64(5))
+        session.set_global("wind", numpy.float64(5))
         session.step()
         self.assertIn("!x v=10", session.text("tree"))
         with self.assertRaises(KeyError):
-            session.give("rain", 1)
+            session.set_global("rain", 1)
         with self.assertRaises(petri.ScriptError):
             petri.Session("!x\n", given={"time": 1})
 
@@ -352,7 +352,7 @@ class Sweeps(unittest.TestCase):
 
     def test_a_run_that_fails_is_a_row(self):
         table = petri.sweep("let N=N or 1\n    LONG=sum(i*i for i in ..N*10000)+frame\n", {"N": [1, 1000, 2]},
-                            {"twice": "2*N"}, frames=9, until="frame == 3", options=petri.Options(work=5 << 20), jobs=2)
+                            {"twice": "2*N"}, frames=9, until="frame == 3", options=petri.Options(work_limit=5 << 20), jobs=2)
         self.assertEqual(table["twice"], [2, None, 4])
         self.assertEqual([table["frame"][0], table["frame"][2]], [3, 3])
         self.assertIn("takes more than", table["error"][1])
@@ -421,7 +421,7 @@ class Diagnostics(unittest.TestCase):
         self.assertIn("nowhere.fl", str(caught.exception))
 
     def test_limits(self):
-        session = petri.Session("for i in ..1000000\n    !x y=i+frame\n", options=petri.Options(work=10000))
+        session = petri.Session("for i in ..1000000\n    !x y=i+frame\n", options=petri.Options(work_limit=10000))
         with self.assertRaises(petri.LimitError) as caught:
             session.step()
         self.assertEqual((caught.exception.code, caught.exception.line), ("work-limit", 2))
@@ -446,7 +446,7 @@ class Diagnostics(unittest.TestCase):
             petri.Session(DISH).state[object()]
 
 
-class Elsewhere(unittest.TestCase):
+class OtherPackages(unittest.TestCase):
     def test_pictures(self):
         session = petri.Session(RED)
         session.step()
@@ -501,7 +501,7 @@ class Elsewhere(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:  # what petri run writes is read as well
             script = Path(folder) / "dish.fl"
             script.write_text(DISH)
-            file = Path(folder) / "way.xyz"
+            file = Path(folder) / "run.xyz"
             subprocess.run([os.environ["PETRI"], "run", script, "--frames", "4", "--trajectory", file], check=True)
             frames = ase.io.read(file, index=":")
         self.assertEqual(len(frames), 4)

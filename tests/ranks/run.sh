@@ -45,16 +45,16 @@ END
 "$petri" run stars.fl --frames 5 --print hash,log --every 4 --trajectory one.csv --stats >one 2>stats
 # Numbers of discs go through memory that ranks have in common, or else by messages.
 for count in 2 3 4 7; do
-    apart=$((count % 2))
-    [ -w /dev/shm ] || apart=1
-    export PETRI_APART=${apart#0}
+    no_shared_memory=$((count % 2))
+    [ -w /dev/shm ] || no_shared_memory=1
+    export PETRI_NO_SHARED_MEMORY=${no_shared_memory#0}
     ranks $count run stars.fl --frames 5 --print hash,log --every 4 --stats --threads $((count % 2 + 1))
     check "$count ranks come to the bits of one, and say it once" same one out
     check "in one table, too" [ "$(grep momentum err)" = "$(grep momentum stats)" ]
     check "with stars shared by pairs, discs by region" [ "$(grep -c "on $count ranks  *by \(pairs\|region\)" err)" -eq 2 ]
-    check "as messages between machines only" [ "$(grep -c ", 0 bytes a frame" err)" -eq $((2 - apart)) ]
+    check "as messages between machines only" [ "$(grep -c ", 0 bytes a frame" err)" -eq $((2 - no_shared_memory)) ]
 done
-unset PETRI_APART
+unset PETRI_NO_SHARED_MEMORY
 ranks 2 stars.fl --frames 5 --print hash,log --every 4 --trajectory two.csv
 check "as does a script without command" same one out
 check "one of them writes the trajectory" same one.csv two.csv

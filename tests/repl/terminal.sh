@@ -3,8 +3,9 @@
 # together, a script that is changed meanwhile. Exit status 77 (skipped) where there is no tmux.
 # shellcheck disable=SC2016 # dollars are for the prompt
 set -u
-here=$(cd "$(dirname "$0")" && pwd)
-petri=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
+# shellcheck source=tests/support/check.sh
+. "$(dirname "$0")/../support/check.sh"
+petri=$(program "$1") || exit 2
 if ! command -v tmux >/dev/null 2>&1; then
     echo "skipped: there is no tmux (Debian package tmux)"
     exit 77
@@ -19,8 +20,6 @@ cd "$work" || exit 1
 XDG_STATE_HOME=$work/state
 export XDG_STATE_HOME
 unset NO_COLOR TMUX
-passed=0
-failed=0
 patience=600 # tenths of a second, for the machine may have much else to do
 
 t() { tmux -L "$server" -f /dev/null "$@" 2>/dev/null; }
@@ -32,7 +31,7 @@ start() {
     t kill-server
     servers=$((servers + 1)) # a new one: the old one may take its time to go
     server=petri-repl-$$-$servers
-    t new-session -d -x 120 -y 50 "trap : INT; LC_ALL=${locale:-C.UTF-8} '$petri' repl $* 2>&1; echo left with \$?; exec sleep 1000"
+    t new-session -d -x 120 -y 50 "trap : INT; LC_ALL=${locale:-C.UTF-8} $(quoted "$petri") repl $* 2>&1; echo left with \$?; exec sleep 1000"
     expect "the prompt comes ($*)" '> *$'
 }
 
@@ -255,6 +254,13 @@ if [ "$(screen | grep -c '^!shape size=2$')" -ne 2 ]; then
 fi
 type_keys '.quit' Enter
 expect ".quit leaves" '^left with 0$'
+
+start --color never cells.fl
+t resize-window -x 50 -y 50
+type_keys '.help .step' Enter '.help random' Enter
+expect "help is wrapped at the terminal's width" '^    a pair: r radius, m mass, q charge, v$'
+type_keys '.quit' Enter
+expect ".quit leaves the narrow terminal" '^left with 0$'
 
 locale=C
 start --color always cells.fl

@@ -2,17 +2,16 @@
 #ifndef PETRI_TESTS_CHECK_H
 #define PETRI_TESTS_CHECK_H
 
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-
-#include <math.h>
-#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
+
+#include <cmocka.h>
 
 #define COUNT_OF(array) (sizeof(array) / sizeof *(array))
 

@@ -1,6 +1,9 @@
 # check.sh: checks that are counted, for tests in shell. Sourced; `here` is the folder of the test, `root` the project.
+unset CDPATH
 here=$(cd "$(dirname "$0")" && pwd)
 root=${here%/tests/*}
+# A test that is started by hand gets the environment that meson gives it.
+[ "${PETRI_TESTS:-}" = clean ] || exec "$root/.ci/clean-env" "$here/$(basename "$0")" "$@"
 passed=0
 failed=0
 failures=
@@ -19,14 +22,14 @@ check() {
         echo "$failure"
         failures="$failures$failure
 "
-        tell_more
+        print_details
     fi
 }
 
-# tell_more: what helps to see why a check has failed; tests may have one of their own.
-tell_more() {
-    for told_in in out err; do
-        [ ! -s "$told_in" ] || head -c 600 "$told_in" | sed "s/^/  $told_in: /"
+# print_details: what helps to see why a check has failed; tests may have one of their own.
+print_details() {
+    for output_file in out err; do
+        [ ! -s "$output_file" ] || head -c 600 "$output_file" | sed "s/^/  $output_file: /"
     done
 }
 
@@ -53,6 +56,9 @@ program() {
     fi
     echo "$(cd "$(dirname "$1")" && pwd)/$(basename "$1")"
 }
+
+# quoted TEXT: prints it quoted for a shell; the path of the checkout may contain blanks and apostrophes.
+quoted() { printf "'%s'\n" "$(printf '%s\n' "$1" | sed "s/'/'\\\\''/g")"; }
 
 status_is() { [ "$status" -eq "$1" ]; }
 has() { grep -Fq -e "$2" "$1"; }

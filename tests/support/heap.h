@@ -34,11 +34,11 @@ static inline void heap_fail(long number, bool all) {
 }
 
 // Allocations are as usual again.
-static inline void heap_heal(void) {
+static inline void heap_restore(void) {
     heap.counts = false;
 }
 
-static inline bool heap_refuses(void) {
+static inline bool heap_must_fail(void) {
     if (!heap.counts)
         return false;
     long number = heap.count++;
@@ -46,23 +46,23 @@ static inline bool heap_refuses(void) {
 }
 
 void *__wrap_malloc(size_t size) {
-    return heap_refuses() ? NULL : __real_malloc(size);
+    return heap_must_fail() ? NULL : __real_malloc(size);
 }
 
 void *__wrap_calloc(size_t count, size_t size) {
-    return heap_refuses() ? NULL : __real_calloc(count, size);
+    return heap_must_fail() ? NULL : __real_calloc(count, size);
 }
 
 void *__wrap_realloc(void *bytes, size_t size) {
-    return heap_refuses() ? NULL : __real_realloc(bytes, size);
+    return heap_must_fail() ? NULL : __real_realloc(bytes, size);
 }
 
 void *__wrap_aligned_alloc(size_t alignment, size_t size) {
-    return heap_refuses() ? NULL : __real_aligned_alloc(alignment, size);
+    return heap_must_fail() ? NULL : __real_aligned_alloc(alignment, size);
 }
 
 void *__wrap_arena_alloc_slow(Arena *arena, size_t size) {
-    if (heap_refuses())
+    if (heap_must_fail())
         arena_exhausted(arena);
     return __real_arena_alloc_slow(arena, size);
 }

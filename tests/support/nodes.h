@@ -1,4 +1,4 @@
-// nodes.h: nodes and values of them, made one by one. Programs make theirs in lists (vm/make.c).
+// nodes.h: nodes and values of them, made one by one. Programs make theirs in lists (vm/construct.c).
 #ifndef PETRI_TESTS_NODES_H
 #define PETRI_TESTS_NODES_H
 

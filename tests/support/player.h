@@ -3,7 +3,6 @@
 #define PETRI_TESTS_PLAYER_H
 
 #include "check.h"
-
 #include "petri.h"
 
 #include <stdlib.h>
@@ -13,8 +12,8 @@ typedef struct Notebook {
     size_t len;
 } Notebook;
 
-static inline bool note(void *host, const char *text, size_t len) {
-    Notebook *book = host;
+static inline bool note(void *user_data, const char *text, size_t len) {
+    Notebook *book = user_data;
     book->text = realloc(book->text, book->len + len + 1);
     assert_non_null(book->text);
     memcpy(book->text + book->len, text, len);
@@ -27,33 +26,33 @@ typedef struct Player {
     PetriSession *session;
     // `level file:line:column text [code]`, one line each; the place only if there is one, and not of what is said of a
     // node by its name, which tests look at apart (test_session_host).
-    Notebook told;
-    Notebook shown; // what was printed last
+    Notebook diagnostics;
+    Notebook printed; // what was printed last
 } Player;
 
-static inline void player_tell(void *host, const PetriDiagnostic *diagnostic) {
+static inline void player_report(void *user_data, const PetriDiagnostic *diagnostic) {
     static const char *const levels[] = {"error", "warning", "note"};
-    Player *player = host;
+    Player *player = user_data;
     char line[4000], place[1000] = "";
     if (diagnostic->file && diagnostic->text[0] != '!')
         snprintf(place, sizeof place, "%s:%u:%u ", diagnostic->file, diagnostic->line, diagnostic->column);
     assert_true(diagnostic->rendered[strlen(diagnostic->rendered) - 1] == '\n');
     int len = snprintf(line, sizeof line, "%s %s%s [%s]\n", levels[diagnostic->level], place, diagnostic->text,
                        diagnostic->code ? diagnostic->code : "");
-    note(&player->told, line, (size_t)len < sizeof line ? (size_t)len : sizeof line - 1);
+    note(&player->diagnostics, line, (size_t)len < sizeof line ? (size_t)len : sizeof line - 1);
 }
 
 static inline PetriOptions player_options(Player *player) {
     PetriOptions options = petri_default_options();
-    options.diagnostic = player_tell;
-    options.host = player;
+    options.on_diagnostic = player_report;
+    options.user_data = player;
     return options;
 }
 
 static inline void player_open_with(Player *player, const PetriOptions *options) {
     *player = (Player){0};
-    note(&player->told, "", 0);
-    note(&player->shown, "", 0);
+    note(&player->diagnostics, "", 0);
+    note(&player->printed, "", 0);
     player->session = petri_open(options);
     assert_non_null(player->session);
 }
@@ -66,12 +65,12 @@ static inline void player_open(Player *player) {
 static inline void player_close(Player *player) {
     petri_close(&player->session);
     assert_null(player->session);
-    free(player->told.text);
-    free(player->shown.text);
+    free(player->diagnostics.text);
+    free(player->printed.text);
 }
 
 static inline PetriStatus player_load(Player *player, const char *script) {
-    return petri_load_text(player->session, "t.fl", script, PETRI_Z);
+    return petri_load_text(player->session, "t.fl", script, PETRI_NUL_TERMINATED);
 }
 
 // A fresh session with other options.
@@ -89,21 +88,21 @@ static inline void player_realtime(Player *player, double fps) {
 }
 
 // What has been told since this was asked last. Valid until the next diagnostic.
-static inline const char *player_told(Player *player) {
-    player->told.len = 0;
-    return player->told.text;
+static inline const char *player_diagnostics(Player *player) {
+    player->diagnostics.len = 0;
+    return player->diagnostics.text;
 }
 
 static inline void player_forget(Player *player) {
-    player->told.len = 0;
-    player->told.text[0] = 0;
+    player->diagnostics.len = 0;
+    player->diagnostics.text[0] = 0;
 }
 
 // Sections of the frame, without the `@` line.
 static inline const char *player_print(Player *player, unsigned sections) {
-    player->shown.len = 0;
-    assert_int_equal(petri_print(player->session, sections, note, &player->shown), PETRI_OK);
-    return strchr(player->shown.text, '\n') + 1;
+    player->printed.len = 0;
+    assert_int_equal(petri_print(player->session, sections, note, &player->printed), PETRI_OK);
+    return strchr(player->printed.text, '\n') + 1;
 }
 
 static inline const char *player_tree(Player *player) {
@@ -122,7 +121,7 @@ static inline void player_step(Player *player, int frames) {
 // Loads a script that must be accepted and makes frames.
 static inline void player_run(Player *player, const char *script, int frames) {
     if (player_load(player, script) != PETRI_OK) {
-        print_error("%s\n%s", script, player_told(player));
+        print_error("%s\n%s", script, player_diagnostics(player));
         fail();
     }
     player_step(player, frames);

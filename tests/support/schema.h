@@ -3,22 +3,21 @@
 #define PETRI_TESTS_SCHEMA_H
 
 #include "check.h"
-
 #include "schema/reader.h"
 
 typedef struct Fixture {
     Arena arena;
     SymbolTable symbols;
     Schema schema;
-    char told[2000]; // `!node text [code]`, one line each
+    char reported[2000]; // `!node text [code]`, one line each
 } Fixture;
 
-static inline void fixture_tell(void *host, DiagLevel level, const char *code, const Origin *origin, Str node, Str key,
-                                Str text) {
+static inline void fixture_report(void *user_data, DiagLevel level, const char *code, const Origin *origin, Str node,
+                                  Str key, Str text) {
     (void)level, (void)origin, (void)key;
-    Fixture *f = host;
-    size_t len = strlen(f->told);
-    snprintf(f->told + len, sizeof f->told - len, "%.*s %.*s [%s]\n", (int)node.len, node.bytes, (int)text.len,
+    Fixture *f = user_data;
+    size_t len = strlen(f->reported);
+    snprintf(f->reported + len, sizeof f->reported - len, "%.*s %.*s [%s]\n", (int)node.len, node.bytes, (int)text.len,
              text.bytes, code);
 }
 
@@ -26,7 +25,7 @@ static inline void begin(Fixture *f) {
     *f = (Fixture){0};
     arena_init(&f->arena, "test", SIZE_MAX);
     f->symbols = symbol_table_new(&f->arena);
-    schema_init(&f->schema, &f->symbols, (SchemaHost){f, fixture_tell});
+    schema_init(&f->schema, &f->symbols, (SchemaSink){f, fixture_report});
 }
 
 static inline void end(Fixture *f) {

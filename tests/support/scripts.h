@@ -40,7 +40,7 @@ static inline void scripts_each(VisitScript *visit) {
         scripts_walk(script_folders[i]);
 }
 
-static inline void scripts_take_folders(int argc, char **argv) {
+static inline void scripts_set_folders(int argc, char **argv) {
     script_folder_count = argc - 1;
     script_folders = argv + 1;
 }

@@ -4,9 +4,8 @@
 
 #include "check.h"
 #include "nodes.h"
-
 #include "value/format.h"
-#include "value/seed.h"
+#include "value/value_hash.h"
 
 #include <stdlib.h>
 
@@ -39,7 +38,7 @@ static inline const Symbol *name_of(World *world, const char *name) {
 }
 
 static inline double symbol_of(World *world, const char *name) {
-    return symbol_know(&world->symbols, str_from(name))->number;
+    return symbol_register(&world->symbols, str_from(name))->number;
 }
 
 static inline Value text_of(World *world, const char *text) {

@@ -202,7 +202,7 @@ wait $child 2>/dev/null
 
 # A process of the crew is ended from outside, as the system does that is short of memory: the run is made again.
 crew() { pgrep -P "$1" | head -n 1; }
-end_one() {
+kill_one() {
     for try in 1 2 3 4 5 6 7 8 9; do
         rm -f slow.csv*
         "$petri" sweep slow.fl -D N='1;1;1;1;1;1' --frames 30 --metric x=BIG --jobs 1 --quiet -o slow.csv 2>err &
@@ -216,10 +216,10 @@ end_one() {
     done
 }
 if command -v pgrep >/dev/null; then
-    end_one -KILL
+    kill_one -KILL
     check "a killed process is no failure" status_is 0
     check "its run is made again" [ "$(grep -c ',29,333328333350000,$' slow.csv)" -eq 6 ]
-    end_one -ABRT
+    kill_one -ABRT
     check "a crash is a row" [ "$(grep -c '^[2-6],1,0,,crashed: signal 6' slow.csv)" -eq 1 ]
     check "of one run" [ "$(grep -c ',29,333328333350000,$' slow.csv)" -eq 5 ]
 fi

@@ -20,7 +20,7 @@ let SIZE=SIZE or 3          -- 1..9 how large
     !canvas
         !ellipse point=32;32 radius=SIZE fill=true color=1
 END
-type_keys "$petri view --terminal --quiet --listen sock script.fl; echo status \$?" Enter
+type_keys "$(quoted "$petri") view --terminal --quiet --listen sock script.fl; echo status \$?" Enter
 check "the view opens its socket" soon test -S sock
 check "… which its owner alone may use" [ "$(stat -c %a sock)" = 600 ]
 send '1+SIZE'

@@ -20,12 +20,19 @@ typed() {
     type_keys "clear; $*; echo status \$?" Enter
 }
 
-typed "'$petri' run --show dish.fl"
+typed "$(quoted "$petri") run --show dish.fl"
 check "the picture is there, on the other screen" started
 type_keys q
 check "it can be ended before its time" soon shows 'status 0'
-typed "'$petri' run --show --frames 30 dish.fl"
+started_at=$(date +%s)
+sed '1s/^/%pragma fps 20\n/' dish.fl >slow.fl
+typed "$(quoted "$petri") run --show slow.fl"
+check "a slow script ends too" soon shows 'status 0'
+check "after ten seconds, not after 600 frames" [ $(($(date +%s) - started_at)) -lt 25 ]
+typed "$(quoted "$petri") run --show --frames 30 dish.fl"
 check "it ends by itself" soon shows 'status 0'
+check "the last picture stays" eval 'screen | grep -q "[▀▄█▌▐]"'
+check "nothing is said of the graphics card" hides 'graphics card'
 check "with a line that sums up" soon shows 'petri: 30 frames in '
 check "it says how to see more of it" soon shows 'petri: to see it: '
 check "and how to keep it" soon shows 'petri: to keep a picture of it: '
@@ -38,18 +45,18 @@ hint=$(screen | sed -n 's/^petri: to see it: //p')
 typed "$hint --frames 3"
 check "and works" soon shows 'petri: 3 frames in '
 
-typed "'$petri' run --show --frames 2 --print state --every 1 dish.fl | head -n 1"
+typed "$(quoted "$petri") run --show --frames 2 --print state --every 1 dish.fl | head -n 1"
 check "into a pipe goes text" soon shows '@0 time=0'
-typed "'$petri' run --show --frames 2 --print tree text.fl"
+typed "$(quoted "$petri") run --show --frames 2 --print tree text.fl"
 check "what asks for text gets text" soon shows '@1 time='
-typed "'$petri' run --show --frames 2 --print=state --every 100 dish.fl"
+typed "$(quoted "$petri") run --show --frames 2 --print=state --every 100 dish.fl"
 check "even where there is something to see" soon shows '@0 time=0'
-typed "'$petri' run --show --frames 2 text.fl"
+typed "$(quoted "$petri") run --show --frames 2 text.fl"
 check "what has no picture prints what it prints" soon shows "> 'only text'"
-typed "'$petri' run --show --frames 2 missing.fl"
+typed "$(quoted "$petri") run --show --frames 2 missing.fl"
 check "what is wrong is told" soon shows 'status 1'
 check "once" [ "$(screen | grep -c missing.fl)" -eq 1 ]
-typed "TERM=dumb '$petri' run --show --frames 2 --verbose dish.fl"
+typed "TERM=dumb $(quoted "$petri") run --show --frames 2 --verbose dish.fl"
 check "a terminal that can nothing is shown nothing" soon shows 'physics step'
 "$petri" run --show --frames 2 --print log text.fl >out 2>err </dev/null
 check "without a terminal it is as without --show" has out "> 'only text'"
@@ -57,10 +64,10 @@ check "in silence" [ ! -s err ]
 
 if ! "$petri" open '#' 2>&1 | grep -q 'built without'; then
     "$petri" link dish.fl --frame 9 >link
-    typed "'$petri' open - <link"
+    typed "$(quoted "$petri") open - <link"
     check "petri open tells that the frame of a link is the same" soon shows 'frame 9 has the same state'
     check "below its picture" eval 'screen | grep -q "[▀▄█▌▐]"'
-    typed "'$petri' open --quiet - <link"
+    typed "$(quoted "$petri") open --quiet - <link"
     check "quietly there is the hash alone" soon shows 'status 0'
     check "and no picture" eval '! screen | grep -q "[▀▄█▌▐]"'
 fi

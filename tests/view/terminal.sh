@@ -10,7 +10,7 @@
 # start [options] SCRIPT: a view in the terminal; `status N` is on the screen when it has ended.
 start() {
     wipe
-    view="$petri view $* 2>err; code=\$?"
+    view="$(quoted "$petri") view $* 2>err; code=\$?"
     type_keys "clear; echo before; stty -a >stty.before; $view; stty -a >stty.after; echo status \$code" Enter
 }
 # ended STATUS: it has ended so, the screen is as it was, and so is the terminal.
@@ -58,6 +58,27 @@ start left.fl
 started
 type_keys Escape
 check "Escape quits" ended 0
+
+# Effects are drawn with the pixels that the cells show.
+cat >blurred.fl <<'END'
+!window size=640;384
+    !blur radius=8
+        !canvas
+            !ellipse point=320;192 radius=150 fill=true color=1
+END
+start blurred.fl --frames 3 --debug
+check "a blurred picture is shown" ended 0
+check "in the size of the terminal" grep -q 'pictures shown, the last of 240 x 144 pixels' err
+start left.fl
+check "the start names the key that lists keys" soon shows 'h: keys'
+check "for some seconds" soon hides 'h: keys'
+type_keys q
+check "q quits, with or without it" ended 0
+start left.fl --quiet
+started
+check "--quiet does not name it" hides 'h: keys'
+type_keys q
+check "q quits as quietly" ended 0
 
 # A high picture stands in the middle.
 sed "s/size=640;384/size=192;384/; s/in ..6/in ..3/; s/left/high/" left.fl >high.fl
@@ -228,21 +249,21 @@ cat >last.fl <<'END'
         !rect size=640;384 fill=true color=((0;1;0) if frame==4 else (1;0;0))
 END
 wipe
-type_keys "clear; script -qec '$petri view --terminal --lockstep --frames 5 last.fl' typed >/dev/null; echo status \$?" Enter
+type_keys "clear; script -qec $(quoted "$(quoted "$petri") view --terminal --lockstep --frames 5 last.fl") typed >/dev/null; echo status \$?" Enter
 check "a short run ends" soon shows 'status 0'
 check "and its last frame was seen, however quick it was" grep -aq '8;2;0;255;0m\|8;5;46m' typed
 wipe
-type_keys "clear; echo before; $petri view left.fl --frames 12; echo status \$?" Enter
+type_keys "clear; echo before; $(quoted "$petri") view left.fl --frames 12; echo status \$?" Enter
 check "on the screen that is there again one line sums up" soon shows 'petri: 12 frames in '
 check "the rest of it is as before" soon shows 'before'
 check "and it ended well" soon shows 'status 0'
 wipe
-type_keys "clear; $petri view left.fl --frames 12 --quiet; echo status \$?" Enter
+type_keys "clear; $(quoted "$petri") view left.fl --frames 12 --quiet; echo status \$?" Enter
 check "not with --quiet" soon shows 'status 0'
 check "which says nothing" soon hides 'frames in'
 if [ "${3:-sdl}" = none ]; then
     wipe
-    type_keys "clear; DISPLAY=:77 $petri view left.fl --frames 3; echo status \$?" Enter
+    type_keys "clear; DISPLAY=:77 $(quoted "$petri") view left.fl --frames 3; echo status \$?" Enter
     check "where there could be a window, it says how to get one" soon shows "'./dev build' adds windows"
 fi
 # Others may be at work on this machine: ours is that in this folder.
@@ -274,7 +295,7 @@ soon shows 'left.fl'
 
 # A display that is not there, as an old ssh session leaves it: the terminal it is, and soon.
 for place in DISPLAY=:9999 DISPLAY=localhost:99.0 WAYLAND_DISPLAY=wayland-none; do
-    type_keys "clear; env XDG_RUNTIME_DIR=. $place $petri view left.fl 2>err; echo status \$?" Enter
+    type_keys "clear; env XDG_RUNTIME_DIR=. $place $(quoted "$petri") view left.fl 2>err; echo status \$?" Enter
     check "with $place it is the terminal" started
     check "which shows the picture" soon filled 22 24 1 38
     type_keys q

@@ -15,7 +15,7 @@ LC_ALL=C.UTF-8
 export LC_ALL
 
 screen() { mux capture-pane -p -t view; }
-tell_more() { screen | sed 's/^/  | /'; }
+print_details() { screen | sed 's/^/  | /'; }
 type_keys() { mux send-keys -t view "$@"; }
 shows() { screen | grep -Fq -e "$1"; }
 hides() { ! shows "$1"; }

@@ -45,7 +45,7 @@ soon has_number || skip "Xvfb does not start: $(cat server.log)"
 DISPLAY=:$(cat number)
 export DISPLAY
 
-tell_more() {
+print_details() {
     sed 's/^/  stderr: /' err | head -n 20
     [ -z "${KEEP:-}" ] || cp -r "$work" "$KEEP"
 }
@@ -155,7 +155,7 @@ if lacks err needs-gpu; then
     check "nothing is said" [ ! -s err ]
     # Where the window has OpenGL ES it stays on the card.
     unset SDL_RENDER_DRIVER
-    view ball ball.fl --verbose
+    view ball ball.fl --debug
     check "it is drawn on the window as in files" soon shows ball.png
     press h
     check "with texts over it" dark 150 178
@@ -165,7 +165,7 @@ if lacks err needs-gpu; then
     check "q closes it" ended 0
     check "nothing was read back" has err "read back from the graphics card: 0"
     touch mark
-    view ball ball.fl --verbose
+    view ball ball.fl --debug
     check "s saves it" shot
     check "as it is" cmp -s "$shot" ball.png
     press q

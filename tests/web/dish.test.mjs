@@ -19,7 +19,7 @@ function made() {
         postMessage({ act, id, count, frame }) {
             world.frame = act === 'load' ? 0 : act === 'step' ? world.frame + count : act === 'seek' ? frame : world.frame;
             world.asked.push(act === 'step' ? count : act === 'seek' ? `to ${frame}` : act);
-            const data = { type: 'frame', id, frame: world.frame, most: world.frame, fps: 60, parameters: [], told: [] };
+            const data = { type: 'frame', id, frame: world.frame, lastFrame: world.frame, fps: 60, parameters: [], told: [] };
             const answer = () => worker.onmessage({ data });
             world.holds ? world.held.push(answer) : queueMicrotask(answer);
         },

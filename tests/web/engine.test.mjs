@@ -56,7 +56,7 @@ test('types are there for each method, and no others', () => {
     const types = read('src/web/engine/petri.d.ts').match(/interface Session \{([^]*?)\n\}/)[1];
     const declared = [...types.matchAll(/^ {4}(?:readonly )?(\w+)[(:]/gm)].map(match => match[1]).sort();
     const session = engine.open();
-    const inner = ['constructor', 'run', 'check', 'with', 'tell', 'readFile', 'listFolder', 'addColumn', 'drawCanvas', 'giveImage',
+    const inner = ['constructor', 'run', 'check', 'with', 'tell', 'readFile', 'listFolder', 'addColumn', 'drawCanvas', 'imagePixels',
         'openPainter', 'closePainter', 'forgetPicture'];
     const real = Object.getOwnPropertyNames(Object.getPrototypeOf(session)).filter(name => !inner.includes(name)).sort();
     assert.deepEqual(declared, real);
@@ -104,7 +104,7 @@ test('a script that asks for too much is given up, and the session goes on', () 
 
 test('what goes on for long is ended when the host wants it, and has changed nothing', () => {
     let asked = 0, wanted = false;
-    const session = engine.open({ wantsEnd: () => (asked++, wanted) });
+    const session = engine.open({ shouldInterrupt: () => (asked++, wanted) });
     session.load('!counter state=:c rate=1\n!a x=sum(i*j for i in ..3000 for j in ..(3000 if frame==2 else 1))\n').step().step();
     const before = session.print('state');
     [asked, wanted] = [0, true];
@@ -119,16 +119,16 @@ test('what goes on for long is ended when the host wants it, and has changed not
 
 test('an end that is wanted is met or forgotten: it never comes to the next call', () => {
     let wanted = false;
-    const session = engine.open({ wantsEnd: () => wanted });
+    const session = engine.open({ shouldInterrupt: () => wanted });
     const script = 'let N=N or 3\n!counter state=:c rate=1\n!physics state=:p dimensions=2 time=time\n    for i in ..2000\n'
         + "        !particle id=(:q;i) position=i;0 charge='word'\n!window\n    !canvas\n        !rect size=9;9\n";
     session.load(script).step().step();
     const whole = { state: session.state, parameters: session.parameters, systems: session.systems.length, table: session.table().text,
-        picture: session.picture().numbers, help: session.help(), tokens: session.tokens(script), evaluated: session.evaluate('sum(..99)'),
+        picture: session.displayList().numbers, help: session.help(), tokens: session.tokens(script), evaluated: session.evaluate('sum(..99)'),
         told: session.diagnose(`${script}!x a=`).length, hash: session.hash(), symbol: session.symbolName(session.symbol('q')),
         drawable: true };
     const acts = { state: () => session.state, parameters: () => session.parameters, systems: () => session.systems.length,
-        table: () => session.table().text, picture: () => session.picture()?.numbers, help: () => session.help(),
+        table: () => session.table().text, picture: () => session.displayList()?.numbers, help: () => session.help(),
         tokens: () => session.tokens(script), evaluated: () => session.evaluate('sum(..99)'), hash: () => session.hash(),
         told: () => session.diagnose(`${script}!x a=`).length, symbol: () => session.symbolName(session.symbol('q')),
         drawable: () => session.drawable };
@@ -166,7 +166,7 @@ test('recursion that is too deep is told, and the engine goes on', () => {
 test('parameters', () => {
     const session = opened('let SIZE=SIZE or 20 -- 1..100|5 how large\n!a x=SIZE\n').step();
     const [size] = session.parameters;
-    assert.deepEqual([size.name, size.number, size.least, size.most, size.step, size.comment, size.settable],
+    assert.deepEqual([size.name, size.number, size.min, size.max, size.step, size.comment, size.settable],
         ['SIZE', 20, 1, 100, 5, 'how large', true]);
     assert.match(session.setParameter('SIZE', 30).step().print('tree'), /x=30/);
     assert.match(session.setParameter('SIZE', null).step().print('tree'), /x=20/);
@@ -187,10 +187,10 @@ test('files are those that are given', () => {
 
 test('values come in and out', () => {
     const session = engine.open({ fps: 10 });
-    session.give('GIVEN', [1, 2.5]);
+    session.setGlobal('GIVEN', [1, 2.5]);
     session.load('!a x=GIVEN t=time\n').step().step();
     assert.match(session.print('tree'), /x=1;2.5 t=0.1/);
-    session.give('GIVEN', 7);
+    session.setGlobal('GIVEN', 7);
     assert.match(session.step().print('tree'), /x=7/);
     assert.deepEqual(session.evaluate('1+2'), { text: '3', number: 3 });
     assert.ok(Number.isNaN(session.evaluate("'é'").number));

@@ -38,7 +38,7 @@ const beside = { ...options, skip: options.skip || (existsSync(petri) ? false : 
 
 test('particles are saved as petri run --trajectory writes them', beside, () => opened('', {
     use: async page => {
-        const scratch = mkdtempSync(join(tmpdir(), 'petri-')), way = join(scratch, 'way.csv');
+        const scratch = mkdtempSync(join(tmpdir(), 'petri-')), way = join(scratch, 'run.csv');
         execFileSync(petri, ['run', join(root, 'samples/dish.fl'), '--frames', '25', '--trajectory', way, '--quiet', '--print', 'state']);
         const { name, path } = await exported(page, 'particles', 24);
         assert.equal(name, 'dish.csv');
@@ -95,7 +95,7 @@ test('a browser without WebCodecs is told to make no films, and goes on', option
         await page.check('#saving input[value=film]');
         await page.fill('#saving-to', '9');
         await page.click('#saving-go');
-        await page.waitForFunction(() => document.getElementById('saving-said').textContent);
+        await page.waitForFunction(() => document.getElementById('export-status').textContent);
         assert.match(await page.textContent('#message'), /this browser cannot make films: it has no WebCodecs/);
         await page.keyboard.press('Escape');
         await atFrame(page, 2);
@@ -113,7 +113,7 @@ test('an export is given up', options, () => opened('', {
         await page.waitForSelector('#saving-progress', { state: 'visible' });
         await page.click('#saving-cancel');
         await page.waitForFunction(() => document.getElementById('message').textContent.startsWith('Stopped'));
-        await page.waitForFunction(() => document.getElementById('saving-said').textContent);
+        await page.waitForFunction(() => document.getElementById('export-status').textContent);
         await atFrame(page, 2);
         await page.click('#step');
         await atFrame(page, 3);

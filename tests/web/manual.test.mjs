@@ -30,7 +30,7 @@ test('examples give in WebAssembly what the manual shows', built, async () => {
             session.load(text);
             for (let i = 0; i < 3; i++)
                 session.step();
-            assert.ok(session.picture().numbers.length > 2, where);
+            assert.ok(session.displayList().numbers.length > 2, where);
             session.close();
             continue;
         }

@@ -39,7 +39,7 @@ test('watched expressions are plotted, for frames before, too', options, () => o
         await running(page, NOW);
         await seek(page, 3);
         await page.click('#tab-plot');
-        const said = wanted => page.waitForFunction(text => document.getElementById('plot-said').textContent === text, wanted);
+        const said = wanted => page.waitForFunction(text => document.getElementById('plot-summary').textContent === text, wanted);
         await page.fill('#watch-line', 'round(frame*10)');
         await page.press('#watch-line', 'Enter');
         await said('round(frame*10) = 30 in frame 3');

@@ -97,15 +97,15 @@ async function install() {
         session.load(text);
         for (let i = 0; i <= frame; i++) {
             session.step();
-            session.follow();
+            session.renderIfNeeded();
         }
-        const picture = session.show(), { width, height } = picture.image ?? pictureSize(picture.numbers);
+        const picture = session.render(), { width, height } = picture.image ?? pictureSize(picture.numbers);
         const canvas = context(width, height);
-        const undrawn = picture.image ? picture.undrawn : drawPicture(canvas, picture.numbers, { image });
+        const unsupported = picture.image ? picture.unsupported : drawPicture(canvas, picture.numbers, { image });
         if (picture.image)
             canvas.drawImage(picture.image, 0, 0);
         session.close();
-        return { told, undrawn, ...await window.compare(canvas.canvas, png) };
+        return { told, unsupported, ...await window.compare(canvas.canvas, png) };
     };
 }
 
@@ -115,8 +115,8 @@ function render(script, frame) {
     return readFileSync(png).toString('base64');
 }
 
-function judge({ told = [], undrawn = [], outside, colours, ...sizes }, share) {
-    assert.deepEqual([told, undrawn, sizes], [[], [], {}]);
+function judge({ told = [], unsupported = [], outside, colours, ...sizes }, share) {
+    assert.deepEqual([told, unsupported, sizes], [[], [], {}]);
     assert.ok(outside <= share, `${outside} of the pixels are otherwise`);
     assert.ok(colours > 2, `there are ${colours} bytes only`);
 }
@@ -200,6 +200,6 @@ test('letters and lines have paints that follow another matrix', options, () =>
 test('light beyond 1 is not there, and that is told', options, async () => {
     const script = join(pictures, 'canvas_wide.fl');
     const files = { 'images/small.png': readFileSync(join(pictures, 'images/small.png')).toString('base64') };
-    const { undrawn } = await page.evaluate(given => window.draw(...given), [readFileSync(script, 'utf8'), 2, files, render(script, 2)]);
-    assert.deepEqual(undrawn, ['light beyond 1 (colorbits)']);
+    const { unsupported } = await page.evaluate(given => window.draw(...given), [readFileSync(script, 'utf8'), 2, files, render(script, 2)]);
+    assert.deepEqual(unsupported, ['light beyond 1 (colorbits)']);
 });

@@ -1,11 +1,11 @@
 // use.ts: what a program in TypeScript makes of the package; types.test.mjs checks its types, then runs it.
 import { loadEngine, PetriError, STATUS } from 'petri';
-import type { Column, Diagnostic, Engine, Frame, Help, Options, Parameter, Picture, Shown, Snapshot, Status, System, Token } from 'petri';
+import type { Column, Diagnostic, Engine, Frame, Help, Options, Parameter, Picture, RenderedImage, Snapshot, Status, System, Token } from 'petri';
 import { pictureSize } from 'petri/drawing';
 
 const told: Diagnostic[] = [];
 const options: Options = {
-    fps: 30, memory: 2 ** 28, work: 2 ** 26, onDiagnostic: one => { told.push(one); }, wantsEnd: () => false,
+    fps: 30, memory: 2 ** 28, work: 2 ** 26, onDiagnostic: one => { told.push(one); }, shouldInterrupt: () => false,
     files: { 'parts.fl': 'let SPEED=3\n', 'rows.csv': new Uint8Array([49, 44, 50, 10]) },
 };
 const SCRIPT = `import SPEED from 'parts.fl'
@@ -23,7 +23,7 @@ debug(frame)
 
 export async function run(wasm: Uint8Array<ArrayBuffer>): Promise<Record<string, unknown>> {
     const engine: Engine = await loadEngine(wasm);
-    const session = engine.open(options).define('UNUSED=2').give('GIVEN', [1]).load(SCRIPT, 'use.fl');
+    const session = engine.open(options).define('UNUSED=2').setGlobal('GIVEN', [1]).load(SCRIPT, 'use.fl');
     session.step().stepAt(0.5, 1).pointer(true, 0.5, 0.5, 1).key('a', true);
     const frame: Frame = session.frame, log: string = session.log();
     const parameters: Parameter[] = session.parameters;
@@ -31,8 +31,8 @@ export async function run(wasm: Uint8Array<ArrayBuffer>): Promise<Record<string,
     const position: Column | null | undefined = systems[0]?.position;
     const place: number = position?.data[position.stride] ?? NaN;
     const state: number[] | string | undefined = session.state.get(':world;1');
-    const picture: Picture | null = session.picture({ automatic: true });
-    const shown: Picture | Shown | null = session.show();
+    const picture: Picture | null = session.displayList({ automatic: true });
+    const shown: Picture | RenderedImage | null = session.render();
     const size = picture && pictureSize(picture.numbers);
     const table = session.table(), rows: string = session.table(2).text;
     const snapshot: Snapshot = session.snapshot();
@@ -55,7 +55,7 @@ export async function run(wasm: Uint8Array<ArrayBuffer>): Promise<Record<string,
     }
     session.setParameter('COUNT', 7).setParameter('COUNT', null).setFile('parts.fl', null);
     const name: string | null = session.symbolName(session.symbol('world'));
-    const kinds: boolean[] = [session.drawable, session.looksBack, session.follow()];
+    const kinds: boolean[] = [session.drawable, session.needsHistory, session.renderIfNeeded()];
 
     // @ts-expect-error A view is read: the session has no setter for it.
     const wrong = () => { session.frame = frame; };

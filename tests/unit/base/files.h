@@ -2,9 +2,8 @@
 #ifndef PETRI_TESTS_BASE_FILES_H
 #define PETRI_TESTS_BASE_FILES_H
 
-#include "folder.h"
-
 #include "base/arena.h"
+#include "folder.h"
 
 static Arena arena;
 static Folder folder;

@@ -1,7 +1,6 @@
 // test_base_arena.c: regions: alignment, marks, growth, budget.
-#include "check.h"
-
 #include "base/arena.h"
+#include "check.h"
 
 static void test_alignment(void **state) {
     (void)state;

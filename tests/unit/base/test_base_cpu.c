@@ -1,22 +1,21 @@
 // test_base_cpu.c: PETRI_CPU lowers what the processor has. Also run with PETRI_CPU=scalar and with a word that is
 // none.
-#include "check.h"
-
 #include "base/cpu.h"
+#include "check.h"
 
 #include <stdlib.h>
 
-static void test_here(void **state) {
+static void test_detected_level(void **state) {
     (void)state;
     const char *wish = getenv("PETRI_CPU");
     if (wish && !strcmp(wish, "scalar")) {
-        assert_int_equal(cpu_here.level, CPU_SCALAR);
-        assert_false(cpu_here.fma);
+        assert_int_equal(cpu_detected.level, CPU_SCALAR);
+        assert_false(cpu_detected.fma);
         return;
     }
 #if defined(__x86_64__)
-    assert_int_equal(cpu_here.level > CPU_SCALAR, __builtin_cpu_supports("avx2") != 0);
-    assert_int_equal(cpu_here.fma, cpu_here.level > CPU_SCALAR && __builtin_cpu_supports("fma"));
+    assert_int_equal(cpu_detected.level > CPU_SCALAR, __builtin_cpu_supports("avx2") != 0);
+    assert_int_equal(cpu_detected.fma, cpu_detected.level > CPU_SCALAR && __builtin_cpu_supports("fma"));
 #endif
 }
 
@@ -33,11 +32,11 @@ static void test_choices(void **state) {
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         CpuLevel level;
         assert_int_equal(cpu_choose(rows[i].wish, &level), rows[i].known);
-        assert_int_equal(level, cpu_here.level < rows[i].at_most ? cpu_here.level : rows[i].at_most);
+        assert_int_equal(level, cpu_detected.level < rows[i].at_most ? cpu_detected.level : rows[i].at_most);
     }
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_here), cmocka_unit_test(test_choices)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_detected_level), cmocka_unit_test(test_choices)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,6 @@
 // test_base_diag.c: how diagnostics are kept and how they read (cli.md 3.5).
-#include "check.h"
-
 #include "base/diag.h"
+#include "check.h"
 
 static Arena arena;
 static DiagSink sink;
@@ -105,7 +104,7 @@ static void test_long_lines(void **state) {
     }
 }
 
-static bool tell(const Source *source, uint32_t start, const char *text) {
+static bool report_at(const Source *source, uint32_t start, const char *text) {
     return diag_report(
         &sink, &(Diag){.level = DIAG_ERROR, .source = source, .span = {start, start + 1}, .text = str_from(text)});
 }
@@ -113,14 +112,14 @@ static bool tell(const Source *source, uint32_t start, const char *text) {
 static void test_once_per_place(void **state) {
     (void)state;
     const Source *a = source_of("aaaa"), *b = source_of("bbbb");
-    assert_true(tell(a, 0, "x"));
-    assert_false(tell(a, 0, "x"));
-    assert_true(tell(a, 1, "x"));
-    assert_true(tell(a, 0, "y"));
-    assert_true(tell(b, 0, "x"));
-    assert_true(tell(NULL, 0, "x"));
+    assert_true(report_at(a, 0, "x"));
+    assert_false(report_at(a, 0, "x"));
+    assert_true(report_at(a, 1, "x"));
+    assert_true(report_at(a, 0, "y"));
+    assert_true(report_at(b, 0, "x"));
+    assert_true(report_at(NULL, 0, "x"));
     for (int i = 0; i < 10; i++)
-        assert_false(tell(b, 0, "x"));
+        assert_false(report_at(b, 0, "x"));
     assert_int_equal(sink.count, 5);
     assert_int_equal(sink.error_count, 5);
     assert_true(str_equal(sink.items[2].text, STR("y"))); // in the order of reporting
@@ -141,7 +140,7 @@ static void test_limit(void **state) {
     char text[20];
     for (int i = 0; i < 250; i++) {
         snprintf(text, sizeof text, "text %d", i);
-        assert_true(tell(NULL, 0, text) == (i < 100));
+        assert_true(report_at(NULL, 0, text) == (i < 100));
     }
     assert_int_equal(sink.count, 100);
     assert_int_equal(sink.dropped, 150);

@@ -1,7 +1,6 @@
 // test_base_file.c: whole files in and out.
-#include "files.h"
-
 #include "base/file.h"
+#include "files.h"
 
 static const char *content(const char *name, size_t limit) {
     Str bytes;
@@ -65,15 +64,15 @@ static void test_normal(void **state) {
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         char normal[PATH_MAX];
-        assert_true(reach_normal(rows[i][0], normal));
+        assert_true(file_access_normalise(rows[i][0], normal));
         assert_string_equal(normal, rows[i][1]);
     }
     static char longest[PATH_MAX + 1];
     char normal[PATH_MAX];
     memset(longest, 'a', PATH_MAX);
-    assert_false(reach_normal(longest, normal));
+    assert_false(file_access_normalise(longest, normal));
     longest[PATH_MAX - 1] = 0;
-    assert_true(reach_normal(longest, normal));
+    assert_true(file_access_normalise(longest, normal));
     assert_string_equal(normal, longest);
 }
 

@@ -1,7 +1,6 @@
 // test_base_number.c: doubles to text and back, in any locale.
-#include "check.h"
-
 #include "base/number.h"
+#include "check.h"
 
 #include <locale.h>
 #include <stdlib.h>

@@ -1,14 +1,13 @@
 // test_base_replace.c: files that are replaced as a whole.
-#include "files.h"
-
 #include "base/file.h"
 #include "base/replace.h"
+#include "files.h"
 
 #include <errno.h>
 #include <fcntl.h>
 #include <sys/file.h>
 
-static void expect(const char *name, const char *text) {
+static void check_content(const char *name, const char *text) {
     Str bytes;
     const char *problem;
     assert_true(file_read(&arena, NULL, folder_file(&folder, name), true, 1000, &bytes, NULL, &problem));
@@ -37,11 +36,11 @@ static void test_whole(void **state) {
     (void)state;
     for (int i = 0; i < 2; i++) {
         assert_null(file_replace(folder_file(&folder, "new"), STR("one"), ways[i]));
-        expect("new", "one");
+        check_content("new", "one");
         assert_null(file_replace(folder_file(&folder, "new"), STR(""), ways[i]));
-        expect("new", "");
+        check_content("new", "");
         assert_null(file_replace(folder_file(&folder, "new"), STR("a longer text"), ways[i]));
-        expect("new", "a longer text");
+        check_content("new", "a longer text");
         assert_int_equal(count_files(), 1);
         assert_int_equal(unlink(folder_file(&folder, "new")), 0);
     }
@@ -71,12 +70,12 @@ static void test_links(void **state) {
     assert_int_equal(symlink("target", folder_file(&folder, "link")), 0);
     assert_null(file_replace(folder_file(&folder, "link"), STR("new"), 0));
     assert_true(S_ISLNK(mode_of("link")));
-    expect("target", "new");
+    check_content("target", "new");
     assert_int_equal(symlink("later", folder_file(&folder, "first")), 0);
     assert_int_equal(symlink("first", folder_file(&folder, "second")), 0);
     assert_null(file_replace(folder_file(&folder, "second"), STR("made"), 0));
     assert_true(S_ISLNK(mode_of("second")) && S_ISLNK(mode_of("first")));
-    expect("later", "made");
+    check_content("later", "made");
     assert_int_equal(symlink("round", folder_file(&folder, "round")), 0);
     assert_string_equal(file_replace(folder_file(&folder, "round"), STR("x"), 0), strerror(ELOOP));
     Replacement replacement; // who has resolved the path himself follows no link
@@ -106,24 +105,24 @@ static void test_no_regular_file(void **state) {
 static void test_only_new(void **state) {
     (void)state;
     for (int i = 0; i < 2; i++) {
-        assert_null(file_replace(folder_file(&folder, "new"), STR("one"), REPLACE_NONE | ways[i]));
-        assert_string_equal(file_replace(folder_file(&folder, "new"), STR("two"), REPLACE_NONE | ways[i]),
+        assert_null(file_replace(folder_file(&folder, "new"), STR("one"), REPLACE_CREATE_ONLY | ways[i]));
+        assert_string_equal(file_replace(folder_file(&folder, "new"), STR("two"), REPLACE_CREATE_ONLY | ways[i]),
                             strerror(EEXIST));
-        expect("new", "one");
+        check_content("new", "one");
         unlink(folder_file(&folder, "new"));
         // Somebody else is faster.
         Replacement replacement;
-        assert_true(replace_begin(&replacement, folder_file(&folder, "new"), REPLACE_NONE | ways[i]));
+        assert_true(replace_begin(&replacement, folder_file(&folder, "new"), REPLACE_CREATE_ONLY | ways[i]));
         folder_write(&folder, "new", "theirs");
         assert_false(replace_commit(&replacement));
         assert_int_equal(errno, EEXIST);
-        expect("new", "theirs");
+        check_content("new", "theirs");
         assert_int_equal(count_files(), 1);
         unlink(folder_file(&folder, "new"));
     }
 }
 
-static void test_abandoned(void **state) {
+static void test_abort(void **state) {
     (void)state;
     folder_write(&folder, "old", "old");
     for (int i = 0; i < 2; i++) {
@@ -131,15 +130,15 @@ static void test_abandoned(void **state) {
         assert_true(replace_begin(&replacement, folder_file(&folder, "old"), ways[i]));
         assert_true(file_write(replacement.file, "half", 4));
         assert_int_equal(count_files(), 1 + i);
-        replace_abandon(&replacement);
-        replace_abandon(&replacement);
-        expect("old", "old");
+        replace_abort(&replacement);
+        replace_abort(&replacement);
+        check_content("old", "old");
         assert_int_equal(count_files(), 1);
     }
 }
 
 // What was left by a process that was killed goes with the next file; what one at work has stays.
-static void test_swept(void **state) {
+static void test_removes_stale_files(void **state) {
     (void)state;
     folder_write(&folder, "old", "old");
     folder_write(&folder, ".petri-0123456789abcdef.tmp", "left");
@@ -149,17 +148,22 @@ static void test_swept(void **state) {
     assert_int_equal(flock(file, LOCK_EX), 0);
     assert_null(file_replace(folder_file(&folder, "old"), STR("new"), 0));
     assert_int_equal(count_files(), 3);
-    expect(".petri-fedcba9876543210.tmp", "of one at work");
+    check_content(".petri-fedcba9876543210.tmp", "of one at work");
     close(file);
     assert_null(file_replace(folder_file(&folder, "another"), STR("new"), REPLACE_NAMED));
     assert_int_equal(count_files(), 3);
-    expect(".petri-0123456789abcdef.tmp.mine", "another's");
+    check_content(".petri-0123456789abcdef.tmp.mine", "another's");
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        FILE_TEST(test_whole),    FILE_TEST(test_permissions), FILE_TEST(test_links), FILE_TEST(test_no_regular_file),
-        FILE_TEST(test_only_new), FILE_TEST(test_abandoned),   FILE_TEST(test_swept),
+        FILE_TEST(test_whole),
+        FILE_TEST(test_permissions),
+        FILE_TEST(test_links),
+        FILE_TEST(test_no_regular_file),
+        FILE_TEST(test_only_new),
+        FILE_TEST(test_abort),
+        FILE_TEST(test_removes_stale_files),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,6 @@
 // test_base_sha256.c: SHA-256 against the examples of its standard, and against sha256sum(1) where blocks end.
-#include "check.h"
-
 #include "base/sha256.h"
+#include "check.h"
 
 // Of `count` times the text, added in pieces of `piece` bytes.
 static const char *hashed(const char *text, size_t count, size_t piece) {

@@ -1,7 +1,6 @@
 // test_base_source.c: line ends, places and paths.
-#include "check.h"
-
 #include "base/source.h"
+#include "check.h"
 
 static Arena arena;
 
@@ -63,7 +62,7 @@ static void test_places(void **state) {
         {4000000000, 4, 5, "last"},
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
-        SourcePlace place = source_locate(source, rows[i].offset);
+        SourcePosition place = source_locate(source, rows[i].offset);
         assert_int_equal(place.line, rows[i].line);
         assert_int_equal(place.column, rows[i].column);
         assert_text("line", str_to_c(&arena, place.text), rows[i].text);
@@ -82,7 +81,7 @@ static void test_many_lines(void **state) {
     const Source *source = source_of(text_str(&text));
     uint32_t line = 1, column = 1;
     for (uint32_t at = 0; at < source->text.len; at++) {
-        SourcePlace place = source_locate(source, at);
+        SourcePosition place = source_locate(source, at);
         assert_int_equal(place.line, line);
         assert_int_equal(place.column, column);
         column = source->text.bytes[at] == '\n' ? 1 : column + 1;

@@ -1,7 +1,6 @@
 // test_base_str.c: slices, UTF-8 and the growing text.
-#include "check.h"
-
 #include "base/str.h"
+#include "check.h"
 
 static int32_t decode(const char *bytes, size_t len, size_t *used) {
     size_t at = 0;
@@ -131,14 +130,14 @@ static void test_distance(void **state) {
         {"radius", "charge", 6},
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
-        assert_claim(rows[i].a, str_distance(str_from(rows[i].a), str_from(rows[i].b)) == rows[i].distance);
-        assert_claim(rows[i].a, str_distance(str_from(rows[i].b), str_from(rows[i].a)) == rows[i].distance);
+        assert_claim(rows[i].a, str_edit_distance(str_from(rows[i].a), str_from(rows[i].b)) == rows[i].distance);
+        assert_claim(rows[i].a, str_edit_distance(str_from(rows[i].b), str_from(rows[i].a)) == rows[i].distance);
     }
     char longer[65], shorter[64];
     memset(longer, 'x', sizeof longer);
     memset(shorter, 'x', sizeof shorter);
-    assert_int_equal(str_distance((Str){longer, 65}, (Str){longer, 65}), 64); // beyond 64 bytes: far apart
-    assert_int_equal(str_distance((Str){shorter, 64}, (Str){shorter, 63}), 1);
+    assert_int_equal(str_edit_distance((Str){longer, 65}, (Str){longer, 65}), 64); // beyond 64 bytes: far apart
+    assert_int_equal(str_edit_distance((Str){shorter, 64}, (Str){shorter, 63}), 1);
 }
 
 static void test_text(void **state) {

@@ -1,7 +1,6 @@
 // test_base_unicode.c: the classes of code points of language.md L2.4 and L18.1.
-#include "check.h"
-
 #include "base/unicode.h"
+#include "check.h"
 
 // Counts and a sum over all code points of name_ranges.txt (Unicode 16.0).
 static void test_classes_as_a_whole(void **state) {

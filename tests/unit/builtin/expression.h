@@ -5,7 +5,7 @@
 
 #include "nodes.h"
 #include "value/ops.h"
-#include "value/seed.h"
+#include "value/value_hash.h"
 #include "world.h"
 
 #include <ctype.h>
@@ -18,7 +18,7 @@ typedef struct Reader {
 
 static Value read_composition(Reader *r);
 
-static bool take(Reader *r, const char *token) {
+static bool accept_token(Reader *r, const char *token) {
     while (*r->at == ' ')
         r->at++;
     if (strncmp(r->at, token, strlen(token)) != 0)
@@ -27,8 +27,8 @@ static bool take(Reader *r, const char *token) {
     return true;
 }
 
-static void need(Reader *r, const char *token) {
-    if (!take(r, token))
+static void expect_token(Reader *r, const char *token) {
+    if (!accept_token(r, token))
         fail_msg("expected %s at: %s", token, r->at);
 }
 
@@ -57,9 +57,9 @@ static Value read_call(Reader *r, const Builtin *builtin) {
     Value args[16], named[16];
     const Symbol *names[16];
     uint32_t count = 0, named_count = 0;
-    while (!take(r, ")")) {
+    while (!accept_token(r, ")")) {
         if (count + named_count)
-            need(r, ",");
+            expect_token(r, ",");
         while (*r->at == ' ')
             r->at++;
         const char *start = r->at;
@@ -78,18 +78,18 @@ static Value read_call(Reader *r, const Builtin *builtin) {
 
 static Value read_atom(Reader *r) {
     Arena *arena = &r->world->frame;
-    if (take(r, "(")) {
+    if (accept_token(r, "(")) {
         Value v = read_composition(r);
-        need(r, ")");
+        expect_token(r, ")");
         return v;
     }
-    if (take(r, "'"))
+    if (accept_token(r, "'"))
         return read_string(r, '\'');
-    if (take(r, "\""))
+    if (accept_token(r, "\""))
         return read_string(r, '"');
-    if (take(r, ":"))
-        return value_number(symbol_know(&r->world->symbols, read_name(r))->number);
-    if (take(r, "!"))
+    if (accept_token(r, ":"))
+        return value_number(symbol_register(&r->world->symbols, read_name(r))->number);
+    if (accept_token(r, "!"))
         return value_node(arena, node_new(arena, symbol_intern(&r->world->symbols, read_name(r))));
     if (isdigit((unsigned char)*r->at)) {
         // Not strtod: a number followed by ".." is the start of a range.
@@ -108,7 +108,7 @@ static Value read_atom(Reader *r) {
     const Builtin *builtin = builtin_find(name);
     if (!builtin)
         fail_msg("unknown name at: %s", name.bytes);
-    if (take(r, "("))
+    if (accept_token(r, "("))
         return read_call(r, builtin);
     Function *function = arena_alloc(&r->world->frame, sizeof *function);
     *function = (Function){.name = name, .builtin = builtin};
@@ -126,65 +126,63 @@ static Value index_value(Arena *arena, Value v, Value index) {
 
 static Value read_postfix(Reader *r) {
     Value v = read_atom(r);
-    while (take(r, "[")) {
+    while (accept_token(r, "[")) {
         v = index_value(&r->world->frame, v, read_composition(r));
-        need(r, "]");
+        expect_token(r, "]");
     }
     return v;
 }
 
 static Value read_unary(Reader *r) {
-    if (take(r, "-"))
+    if (accept_token(r, "-"))
         return op_negate(&r->world->frame, read_unary(r));
     Value v = read_postfix(r);
-    return take(r, "**") ? op_arith(&r->world->frame, ARITH_POW, v, read_unary(r)) : v;
+    return accept_token(r, "**") ? op_arith(&r->world->frame, ARITH_POW, v, read_unary(r)) : v;
 }
 
 static Value read_product(Reader *r) {
     Value v = read_unary(r);
-    for (;;) {
-        if (take(r, "*"))
+    for (;;)
+        if (accept_token(r, "*"))
             v = op_arith(&r->world->frame, ARITH_MUL, v, read_unary(r));
-        else if (take(r, "/"))
+        else if (accept_token(r, "/"))
             v = op_arith(&r->world->frame, ARITH_DIV, v, read_unary(r));
         else
             return v;
-    }
 }
 
 static Value read_sum(Reader *r) {
     Value v = read_product(r);
-    for (;;) {
-        if (take(r, "+"))
+    for (;;)
+        if (accept_token(r, "+"))
             v = op_arith(&r->world->frame, ARITH_ADD, v, read_product(r));
-        else if (take(r, "-"))
+        else if (accept_token(r, "-"))
             v = op_arith(&r->world->frame, ARITH_SUB, v, read_product(r));
         else
             return v;
-    }
 }
 
 static Value read_range(Reader *r) {
     bool too_long = false;
     Value start = VALUE_NULL, step = VALUE_NULL;
-    if (!take(r, "..")) {
+    if (!accept_token(r, "..")) {
         start = read_sum(r);
-        if (!take(r, ".."))
+        if (!accept_token(r, ".."))
             return start;
     }
     Value stop = read_sum(r);
-    if (take(r, "|"))
+    if (accept_token(r, "|"))
         step = read_sum(r);
     return op_range(&r->world->frame, start, stop, step, &too_long);
 }
 
 static Value read_comparison(Reader *r) {
     Value v = read_range(r);
-    if (take(r, "=="))
+    if (accept_token(r, "=="))
         return value_number(value_equal(NULL, v, read_range(r)));
-    if (take(r, "<"))
+    if (accept_token(r, "<"))
         return value_number(value_compare(NULL, v, read_range(r)) == -1);
-    if (take(r, ">"))
+    if (accept_token(r, ">"))
         return value_number(value_compare(NULL, v, read_range(r)) == 1);
     return v;
 }
@@ -193,7 +191,7 @@ static Value read_composition(Reader *r) {
     Vector vector = vector_new(&r->world->frame);
     do
         vector_add(&vector, read_comparison(r));
-    while (take(r, ";"));
+    while (accept_token(r, ";"));
     return vector_finish(&vector);
 }
 

@@ -303,15 +303,15 @@ static void test_exhaustion(void **state) {
     World *world = place->world;
     write_file(place, "a.txt", "some text that does not fit");
     jmp_buf escape;
-    size_t budget = world->frame.budget;
+    size_t budget = world->frame.limit;
     if (setjmp(escape) == 0) {
         world->frame.escape = &escape;
         evaluate(world, "0");
-        world->frame.budget = 260;
+        world->frame.limit = 260;
         for (;;)
             evaluate(world, "read('a.txt')");
     }
-    world->frame.budget = budget;
+    world->frame.limit = budget;
     world->frame.escape = NULL;
     arena_reset(&world->frame);
     assert_true(check(world, "read('a.txt') => 'some text that does not fit'"));

@@ -2,15 +2,15 @@
 #include "value/node.h"
 #include "world.h"
 
-enum { LONG = 1000000, MOST_SAMPLES = 32, MOST_ARGUMENTS = 6 };
+enum { LONG = 1000000, MAX_SAMPLES = 32, MAX_ARGUMENTS = 6 };
 
 typedef struct Samples {
-    Value values[MOST_SAMPLES];
+    Value values[MAX_SAMPLES];
     uint32_t count;
 } Samples;
 
-static void add(Samples *samples, Value v) {
-    assert_true(samples->count < MOST_SAMPLES);
+static void add_sample(Samples *samples, Value v) {
+    assert_true(samples->count < MAX_SAMPLES);
     samples->values[samples->count++] = v;
 }
 
@@ -33,28 +33,28 @@ static Samples samples_new(World *world) {
     Samples samples = {.count = 0};
     Arena *arena = &world->session;
     static const double lone[] = {0, -0.0, 1, -1, 0.5, 2.5, 1e308, -1e300, 1e19, 4e9, 5e-324, INFINITY, -INFINITY, NAN};
-    add(&samples, VALUE_NULL);
+    add_sample(&samples, VALUE_NULL);
     for (size_t i = 0; i < sizeof lone / sizeof lone[0]; i++)
-        add(&samples, value_number(lone[i]));
+        add_sample(&samples, value_number(lone[i]));
     Value string = value_string(arena, STR("a,b\n\xc3\xa9")), empty = value_string(arena, STR(""));
     const Symbol *kind = symbol_intern(&world->symbols, STR("kind"));
     Function *function = arena_alloc(arena, sizeof *function);
     *function = (Function){.name = STR("f")};
     Item node = {ITEM_NODE, .as.node = node_new(arena, kind)}, call = {ITEM_FUNCTION, .as.function = function};
     Item nan = {ITEM_NUMBER, .as.number = NAN}, text = string.as.items[0];
-    add(&samples, string);
-    add(&samples, empty);
-    add(&samples, value_item(arena, node));
-    add(&samples, value_item(arena, call));
-    add(&samples, mixed(arena, (Item[]){nan, text, node, call, text, nan}, 6));
-    add(&samples, mixed(arena, (Item[]){text, empty.as.items[0], text}, 3));
-    add(&samples, value_stream(STREAM_UNIFORM, 12345));
-    add(&samples, value_stream(STREAM_NORMAL, 0));
-    add(&samples, value_number(symbol_know(&world->symbols, STR("seed"))->number));
-    add(&samples, numbers(arena, 3, -1, 1.5));
-    add(&samples, quaternion_like(arena, 4));
-    add(&samples, numbers(arena, 3, NAN, 0));
-    add(&samples, numbers(arena, 9, 0, 0));
+    add_sample(&samples, string);
+    add_sample(&samples, empty);
+    add_sample(&samples, value_item(arena, node));
+    add_sample(&samples, value_item(arena, call));
+    add_sample(&samples, mixed(arena, (Item[]){nan, text, node, call, text, nan}, 6));
+    add_sample(&samples, mixed(arena, (Item[]){text, empty.as.items[0], text}, 3));
+    add_sample(&samples, value_stream(STREAM_UNIFORM, 12345));
+    add_sample(&samples, value_stream(STREAM_NORMAL, 0));
+    add_sample(&samples, value_number(symbol_register(&world->symbols, STR("seed"))->number));
+    add_sample(&samples, numbers(arena, 3, -1, 1.5));
+    add_sample(&samples, quaternion_like(arena, 4));
+    add_sample(&samples, numbers(arena, 3, NAN, 0));
+    add_sample(&samples, numbers(arena, 9, 0, 0));
     return samples;
 }
 
@@ -78,8 +78,8 @@ static void test_one_kind(void **state) {
     Samples samples = samples_new(world);
     for (uint32_t b = 0; b < builtin_table_count; b++)
         for (uint32_t s = 0; s < samples.count; s++)
-            for (uint32_t count = 0; count <= MOST_ARGUMENTS + 1; count++) {
-                Value args[MOST_ARGUMENTS + 1];
+            for (uint32_t count = 0; count <= MAX_ARGUMENTS + 1; count++) {
+                Value args[MAX_ARGUMENTS + 1];
                 for (uint32_t i = 0; i < count; i++)
                     args[i] = samples.values[s];
                 try_call(world, &builtin_table[b], args, count);
@@ -103,12 +103,12 @@ static void test_more_arguments(void **state) {
     for (uint32_t b = 0; b < builtin_table_count; b++) {
         const Builtin *builtin = &builtin_table[b];
         for (uint32_t round = 0; (builtin->fixed >= 3 || builtin->variadic) && round < 3000; round++) {
-            Value args[MOST_ARGUMENTS];
-            for (uint32_t i = 0; i < MOST_ARGUMENTS; i++) {
+            Value args[MAX_ARGUMENTS];
+            for (uint32_t i = 0; i < MAX_ARGUMENTS; i++) {
                 random = random * 6364136223846793005u + 1442695040888963407u;
                 args[i] = samples.values[(random >> 33) % samples.count];
             }
-            try_call(world, builtin, args, builtin->variadic ? 1 + round % MOST_ARGUMENTS : builtin->fixed);
+            try_call(world, builtin, args, builtin->variadic ? 1 + round % MAX_ARGUMENTS : builtin->fixed);
         }
     }
 }
@@ -136,7 +136,7 @@ static void test_long(void **state) {
         for (uint32_t at = 0; at < count; at++)
             for (uint32_t l = 0; l < sizeof longs / sizeof longs[0]; l++)
                 for (uint32_t p = 0; p < (count > 1 ? sizeof plain / sizeof plain[0] : 1); p++) {
-                    Value args[MOST_ARGUMENTS];
+                    Value args[MAX_ARGUMENTS];
                     for (uint32_t i = 0; i < count; i++)
                         args[i] = i == at ? longs[l] : plain[p];
                     try_call(world, builtin, args, count);

@@ -118,7 +118,7 @@ static void test_constants(void **state) {
 // A host without callbacks is valid and silent.
 static void test_silent_host(void **state) {
     World *world = *state;
-    world->context.fault = NULL;
+    world->context.report_error = NULL;
     world->context.log = NULL;
     Value one = value_number(1);
     assert_true(value_is_null(builtin_call(&world->context, builtin_find(STR("sin")), NULL, 0, NULL, NULL, 0)));

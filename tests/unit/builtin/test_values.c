@@ -1,7 +1,6 @@
 // test_values.c: values of every built-in (spec builtins.md), mostly its own examples.
-#include "expression.h"
-
 #include "base/cpu.h"
+#include "expression.h"
 
 // B1
 static void test_maths(void **state) {
@@ -231,7 +230,7 @@ static void test_text(void **state) {
 }
 
 // Beyond the examples of the specification.
-static void test_more(void **state) {
+static void test_builtin_edge_cases(void **state) {
     static const char *const lines[] = {
         // B1
         "sin(inf);cos(nan);sin(-0);cos(0.5) => nan;nan;-0;-1",
@@ -468,7 +467,7 @@ static void test_noise_points(void **state) {
     World *world = *state;
     enum { COUNT = 4003 };
     double *x = malloc(3 * COUNT * sizeof *x), *y = x + COUNT, *found = y + COUNT;
-    const CpuLevel here = cpu_here.level;
+    const CpuLevel here = cpu_detected.level;
     for (int level = 0; level <= (int)here; level++) {
         uint64_t bits = 7;
         for (int i = 0; i < COUNT; i++) {
@@ -483,7 +482,7 @@ static void test_noise_points(void **state) {
             x[i] = special[i / 12];
             y[i] = special[i % 12];
         }
-        cpu_here.level = (CpuLevel)level;
+        cpu_detected.level = (CpuLevel)level;
         for (uint32_t count = 1; count <= COUNT; count = count * 3 + 8) {
             builtin_noise_points(&world->context, value_number(3), x, y, count, found);
             for (uint32_t i = 0; i < count; i++) {
@@ -494,7 +493,7 @@ static void test_noise_points(void **state) {
             }
         }
     }
-    cpu_here.level = here;
+    cpu_detected.level = here;
     free(x);
 }
 
@@ -544,7 +543,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(test_noise, world_setup, world_teardown),
         cmocka_unit_test_setup_teardown(test_colours, world_setup, world_teardown),
         cmocka_unit_test_setup_teardown(test_text, world_setup, world_teardown),
-        cmocka_unit_test_setup_teardown(test_more, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_builtin_edge_cases, world_setup, world_teardown),
         cmocka_unit_test_setup_teardown(test_node_seeds, world_setup, world_teardown),
         cmocka_unit_test_setup_teardown(test_faults, world_setup, world_teardown),
         cmocka_unit_test_setup_teardown(test_too_long, world_setup, world_teardown),

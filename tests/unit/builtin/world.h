@@ -2,21 +2,20 @@
 #ifndef PETRI_TESTS_BUILTIN_WORLD_H
 #define PETRI_TESTS_BUILTIN_WORLD_H
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include "base/number.h"
 #include "builtin/builtin.h"
 #include "builtin/files.h"
 #include "builtin/noise.h"
 
 #include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
+
+#include <cmocka.h>
 
 typedef struct World {
     Arena session;
@@ -32,14 +31,14 @@ static inline void world_note(World *world, Str text) {
     snprintf(world->text, sizeof world->text, "%.*s", (int)text.len, text.bytes);
 }
 
-static inline void world_fault(void *host, Str text) {
-    World *world = host;
+static inline void world_fault(void *user_data, Str text) {
+    World *world = user_data;
     world->faults++;
     world_note(world, text);
 }
 
-static inline void world_log(void *host, Str text) {
-    World *world = host;
+static inline void world_log(void *user_data, Str text) {
+    World *world = user_data;
     world->logs++;
     world_note(world, text);
 }
@@ -56,9 +55,9 @@ static inline World *world_new(void) {
         .files = file_cache_new(),
         .noise = noise_cache_new(),
         .directory = STR(""),
-        .fault = world_fault,
+        .report_error = world_fault,
         .log = world_log,
-        .host = &world,
+        .user_data = &world,
     };
     return &world;
 }

@@ -1,8 +1,7 @@
 // Reading nodes into a drawing: types, words, reports. What the nodes look like is tested by tests/pictures.
+#include "canvas/read.h"
 #include "nodes.h"
 #include "schema.h"
-
-#include "canvas/read.h"
 
 static const Symbol *name(Fixture *f, const char *text) {
     return symbol_intern(&f->symbols, str_from(text));
@@ -19,7 +18,7 @@ static const DrawNode *read_one(Fixture *f, const char *kind, const char *attrib
         node_set_attrs(&f->arena, node_new(&f->arena, name(f, kind)), &(Attr){name(f, attribute), v}, 1);
     const Node *canvas = node_append(&f->arena, node_new(&f->arena, name(f, "canvas")), value_node(&f->arena, inner));
     const Node *window = node_append(&f->arena, node_new(&f->arena, name(f, "window")), value_node(&f->arena, canvas));
-    f->told[0] = 0;
+    f->reported[0] = 0;
     const DrawNode *read = canvas_read(&f->schema, &f->arena, window);
     assert_int_equal(read->child_count, 1);
     return read->children[0]->child_count ? read->children[0]->children[0] : NULL;
@@ -48,7 +47,7 @@ static void test_types(void **state) {
     assert_true(draw_number(node, ATTR_FONT_WEIGHT) == 700);
     node = read_one(&f, "text", "text", NUMBERS(&f, 1, 2.5));
     assert_string_equal(draw_attr(node, ATTR_TEXT)->as.text.bytes, "12.5");
-    assert_string_equal(f.told, "");
+    assert_string_equal(f.reported, "");
     end(&f);
 }
 
@@ -102,7 +101,7 @@ static void test_reports(void **state) {
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         const DrawNode *node = read_one(&f, rows[i].kind, rows[i].attribute, numbers(&f, rows[i].count, rows[i].x));
-        assert_text(rows[i].told, f.told, rows[i].told);
+        assert_text(rows[i].told, f.reported, rows[i].told);
         assert_int_equal(node != NULL, rows[i].kept);
         assert_true(!node || node->attr_count == 0);
     }
@@ -114,29 +113,29 @@ static void test_lint(void **state) {
     (void)state;
     Fixture f;
     begin(&f);
-    static const char told[] = "!paint color=0;255;0 is beyond white, which is 1;1;1: parts that go up to 255 are "
-                               "written (r;g;b)/255 [colour-range]\n";
+    static const char reported[] = "!paint color=0;255;0 is beyond white, which is 1;1;1: parts that go up to 255 are "
+                                   "written (r;g;b)/255 [colour-range]\n";
     for (int lint = 0; lint <= 1; lint++) {
         f.schema.lint = lint;
         assert_non_null(read_one(&f, "paint", "color", NUMBERS(&f, 0, 255, 0)));
-        assert_string_equal(f.told, lint ? told : "");
+        assert_string_equal(f.reported, lint ? reported : "");
         assert_non_null(read_one(&f, "paint", "color", NUMBERS(&f, 4.5, 3, 1)));
-        assert_string_equal(f.told, "");
+        assert_string_equal(f.reported, "");
         assert_non_null(read_one(&f, "paint", "color", NUMBERS(&f, 1, 1, 1, 1)));
-        assert_string_equal(f.told, "");
+        assert_string_equal(f.reported, "");
     }
     end(&f);
 }
 
 // What Flitter draws and petri does not is no misspelling of what petri draws.
-static void test_undrawn(void **state) {
+static void test_unsupported_nodes(void **state) {
     (void)state;
     Fixture f;
     begin(&f);
     assert_null(read_one(&f, "video", "size", value_number(1)));
-    assert_string_equal(f.told, "!canvas '!video' is not drawn; it is left out [undrawn-node]\n");
+    assert_string_equal(f.reported, "!canvas '!video' is not drawn; it is left out [unsupported-node]\n");
     assert_null(read_one(&f, "canvaz", "size", value_number(1)));
-    assert_string_equal(f.told,
+    assert_string_equal(f.reported,
                         "!canvas '!canvaz' is not drawn; it is left out, did you mean '!canvas'? [unknown-node]\n");
     end(&f);
 }
@@ -146,7 +145,7 @@ int main(void) {
         cmocka_unit_test(test_types),
         cmocka_unit_test(test_reports),
         cmocka_unit_test(test_lint),
-        cmocka_unit_test(test_undrawn),
+        cmocka_unit_test(test_unsupported_nodes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,5 @@
-// What the automatic picture shows of space: all that matters, and the same from frame to frame as long as it goes.
+// test_draw_framing.c: the frame of the automatic picture shows all that matters, and only grows; its scale.
 #include "check.h"
-
 #include "draw/automatic.h"
 
 #include <math.h>
@@ -18,11 +17,11 @@ static void scene_begin(Scene *scene, uint32_t dimensions) {
     scene->system.bodies = scene->bodies;
 }
 
-static void add(Scene *scene, double x, double y, double radius) {
+static void add_body(Scene *scene, double x, double y, double radius) {
     scene->bodies[scene->system.body_count++] = (AutoBody){.position = {x, y, 0}, .radius = radius};
 }
 
-static void choose(Scene *scene) {
+static void choose_frame(Scene *scene) {
     Arena arena;
     arena_init(&arena, "test", SIZE_MAX);
     auto_frame(&arena, &scene->frame, &scene->system);
@@ -38,35 +37,77 @@ static void test_shows_all(void **state) {
     (void)state;
     Scene scene;
     scene_begin(&scene, 2);
-    add(&scene, -30, 5, 4);
-    add(&scene, 100, 40, 1);
-    choose(&scene);
+    add_body(&scene, -30, 5, 4);
+    add_body(&scene, 100, 40, 1);
+    choose_frame(&scene);
     assert_true(shows(&scene, -34, 5));
     assert_true(shows(&scene, 101, 40));
     assert_true(scene.frame.half < 150);
 }
 
-static void test_stays(void **state) {
+static void test_only_grows(void **state) {
     (void)state;
     Scene scene;
     scene_begin(&scene, 2);
-    add(&scene, -10, 0, 1);
-    add(&scene, 10, 0, 1);
-    choose(&scene);
+    add_body(&scene, -10, 0, 1);
+    add_body(&scene, 10, 0, 1);
+    choose_frame(&scene);
     AutoFrame first = scene.frame;
     for (int i = 0; i < 50; i++) { // wobbles, and shrinks to half
         scene.bodies[0].position[0] = -10 + i * 0.1 + sin(i) * 0.3;
         scene.bodies[1].position[1] = cos(i);
-        choose(&scene);
+        choose_frame(&scene);
         assert_memory_equal(&scene.frame, &first, sizeof first);
     }
     scene.bodies[0].position[0] = -40;
-    choose(&scene);
+    choose_frame(&scene);
+    AutoFrame grown = scene.frame;
     assert_true(shows(&scene, -41, 0));
-    assert_true(scene.frame.half > first.half);
+    assert_true(grown.half > first.half && grown.half < 1.6 * 41 && grown.middle[0] == first.middle[0]);
     scene.bodies[0].position[0] = 9;
-    choose(&scene);
-    assert_true(scene.frame.half < first.half);
+    choose_frame(&scene);
+    assert_memory_equal(&scene.frame, &grown, sizeof grown);
+}
+
+// A body by itself is not followed: it is seen to move from the origin.
+static void test_lone(void **state) {
+    (void)state;
+    Scene scene;
+    scene_begin(&scene, 2);
+    add_body(&scene, 0, 0, 1);
+    scene.bodies[0].velocity[0] = 60;
+    scene.bodies[0].velocity[1] = 30;
+    choose_frame(&scene);
+    AutoFrame first = scene.frame;
+    assert_true(shows(&scene, 0, 0) && shows(&scene, 120, 60) && first.half < 120);
+    scene.bodies[0].position[0] = 120;
+    scene.bodies[0].position[1] = 60;
+    choose_frame(&scene);
+    assert_memory_equal(&scene.frame, &first, sizeof first);
+    scene.bodies[0].position[0] = 1200;
+    choose_frame(&scene);
+    assert_true(shows(&scene, 1200, 60) && shows(&scene, 0, 0));
+    scene_begin(&scene, 2); // at rest, it does not fill the picture
+    add_body(&scene, 0, 0, 10);
+    choose_frame(&scene);
+    assert_true(scene.frame.half >= 80);
+}
+
+static void test_scale(void **state) {
+    (void)state;
+    static const struct { double half, length; } rows[] = {{1, 0.2}, {12, 5}, {160, 50}, {1e9, 2e8}, {3e-7, 1e-7}};
+    for (size_t i = 0; i < COUNT_OF(rows); i++) {
+        Arena arena;
+        AutoSystem system = {.dimensions = 2, .frame.half = rows[i].half};
+        arena_init(&arena, "test", SIZE_MAX);
+        auto_scale(&arena, &system);
+        const double unit = AUTO_PANEL / 2 * (1 - 2 * AUTO_MARGIN) / rows[i].half;
+        assert_true(system.scale_count > 3);
+        assert_true(fabs((system.scale[0].x2 - system.scale[0].x1) / unit / rows[i].length - 1) < 1e-9);
+        for (uint32_t k = 0; k < system.scale_count; k++)
+            assert_true(system.scale[k].x1 >= 0 && system.scale[k].x2 < AUTO_PANEL / 2 && system.scale[k].y1 >= 0);
+        arena_free(&arena);
+    }
 }
 
 // One that flies away does not make the others too small to see.
@@ -75,9 +116,9 @@ static void test_forgets_the_lost(void **state) {
     Scene scene;
     scene_begin(&scene, 2);
     for (int i = 0; i < 30; i++)
-        add(&scene, i % 6, i / 6, 0.5);
-    add(&scene, 1e12, -1e12, 0.5);
-    choose(&scene);
+        add_body(&scene, i % 6, i / 6, 0.5);
+    add_body(&scene, 1e12, -1e12, 0.5);
+    choose_frame(&scene);
     assert_true(scene.frame.half < 20);
     assert_true(shows(&scene, 5, 4));
 }
@@ -85,26 +126,29 @@ static void test_forgets_the_lost(void **state) {
 static void test_degenerate(void **state) {
     (void)state;
     Scene scene;
+    scene_begin(&scene, 3); // the first frame that has bodies chooses
+    choose_frame(&scene);
+    assert_true(scene.frame.half == 0);
     scene_begin(&scene, 3);
-    choose(&scene);
-    assert_true(scene.frame.half > 0);
+    add_body(&scene, 0, 0, 3);
+    scene.bodies[0].velocity[0] = INFINITY;
+    choose_frame(&scene);
+    assert_true(scene.frame.half > 0 && isfinite(scene.frame.half));
     scene_begin(&scene, 2);
-    add(&scene, 7, 7, 0);
-    choose(&scene);
+    add_body(&scene, 7, 7, 0);
+    choose_frame(&scene);
     assert_true(scene.frame.half > 0 && shows(&scene, 7, 7));
     scene_begin(&scene, 1);
-    add(&scene, -1e300, 0, 0);
-    add(&scene, 1e300, 0, 0);
-    choose(&scene);
+    add_body(&scene, -1e300, 0, 0);
+    add_body(&scene, 1e300, 0, 0);
+    choose_frame(&scene);
     assert_true(isfinite(scene.frame.half) && shows(&scene, 1e300, 0));
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_shows_all),
-        cmocka_unit_test(test_stays),
-        cmocka_unit_test(test_forgets_the_lost),
-        cmocka_unit_test(test_degenerate),
+        cmocka_unit_test(test_shows_all), cmocka_unit_test(test_only_grows),       cmocka_unit_test(test_lone),
+        cmocka_unit_test(test_scale),     cmocka_unit_test(test_forgets_the_lost), cmocka_unit_test(test_degenerate),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,6 @@
 // petri_picture: copies of frames that are drawn later, and what there is to draw.
-#include "player.h"
-
 #include "petri-draw.h"
+#include "player.h"
 
 #include <dirent.h>
 
@@ -10,7 +9,7 @@ static const char DISC[] = "!window size=8;4 title=\"disc \";frame\n"
                            "        !rect point=frame;0 size=1;4 fill=true color=1;0;0 antialias=false\n"
                            "    !record filename=\"a.png\" if frame==1\n";
 
-static PetriPicture *take(Player *player, PetriPictureOptions options, PetriStatus wanted) {
+static PetriPicture *make_picture(Player *player, PetriPictureOptions options, PetriStatus wanted) {
     PetriPicture *picture = NULL;
     assert_int_equal(petri_picture(player->session, &options, &picture), wanted);
     assert_true((picture != NULL) == (wanted == PETRI_OK));
@@ -23,7 +22,7 @@ static int red_column(PetriPicture *picture) {
     PetriPainter *painter = petri_painter_open();
     PetriStatus status = petri_picture_draw(picture, painter, pixels, 8, 4, 8 * sizeof *pixels);
     petri_painter_close(&painter);
-    if (status == PETRI_MISSING)
+    if (status == PETRI_UNSUPPORTED)
         return -2;
     assert_int_equal(status, PETRI_OK);
     int column = -1;
@@ -50,7 +49,7 @@ static int thread_count(void) {
 static void test_no_fonts_without_text(void **state) {
     Player *player = *state;
     player_run(player, DISC, 1);
-    PetriPicture *picture = take(player, petri_default_picture_options(), PETRI_OK);
+    PetriPicture *picture = make_picture(player, petri_default_picture_options(), PETRI_OK);
     int before = thread_count();
     uint32_t pixels[8 * 4];
     PetriPainter *painter = petri_painter_open();
@@ -64,21 +63,21 @@ static void test_independent(void **state) {
     Player *player = *state;
     int width, height;
     player_run(player, DISC, 2);
-    PetriPicture *second = take(player, petri_default_picture_options(), PETRI_OK);
-    assert_true(petri_looks_back(player->session));
+    PetriPicture *second = make_picture(player, petri_default_picture_options(), PETRI_OK);
+    assert_true(petri_needs_history(player->session));
     player_step(player, 3);
-    PetriPicture *fifth = take(player, petri_default_picture_options(), PETRI_OK);
-    assert_false(petri_looks_back(player->session));
-    assert_int_equal(petri_load_text(player->session, "t.fl", "!x", PETRI_Z), PETRI_OK);
+    PetriPicture *fifth = make_picture(player, petri_default_picture_options(), PETRI_OK);
+    assert_false(petri_needs_history(player->session));
+    assert_int_equal(petri_load_text(player->session, "t.fl", "!x", PETRI_NUL_TERMINATED), PETRI_OK);
     PetriOptions options = player_options(player);
     player_reopen(player, &options); // closes the first session
     assert_string_equal(petri_picture_title(second), "disc 1");
     assert_int_equal(petri_picture_frame(fifth), 4);
     PetriPainter *painter = petri_painter_open();
     PetriRecord record;
-    assert_true(petri_picture_looks_back(second));
-    assert_false(petri_picture_looks_back(fifth));
-    if (petri_picture_make(second, painter) != PETRI_MISSING) {
+    assert_true(petri_picture_needs_history(second));
+    assert_false(petri_picture_needs_history(fifth));
+    if (petri_picture_render(second, painter) != PETRI_UNSUPPORTED) {
         assert_true(petri_picture_record(second, painter, 0, &record));
         assert_string_equal(record.file, "a.png");
         assert_false(petri_picture_record(second, painter, 1, &record));
@@ -99,7 +98,7 @@ static void test_independent(void **state) {
 
 static void check_size(Player *player, PetriPictureOptions options, int width, int height) {
     int w, h;
-    PetriPicture *picture = take(player, options, PETRI_OK);
+    PetriPicture *picture = make_picture(player, options, PETRI_OK);
     petri_picture_size(picture, &w, &h);
     assert_int_equal(w, width);
     assert_int_equal(h, height);
@@ -113,20 +112,25 @@ static void test_sizes(void **state) {
     options.scale = 2.5;
     check_size(player, options, 20, 10);
     options.scale = 1e6;
-    take(player, options, PETRI_INVALID);
+    make_picture(player, options, PETRI_INVALID);
     assert_text(
-        "scale", player_told(player),
+        "scale", player_diagnostics(player),
         "error a picture can have 1 to 16384 pixels in width and height, not 8000000 x 4000000 [cannot-draw]\n");
     options = petri_default_picture_options();
     options.width = 5;
     options.height = 3;
     check_size(player, options, 5, 3);
     options.height = -1;
-    take(player, options, PETRI_INVALID);
-    take(player, (PetriPictureOptions){.scale = 1, .window = -1}, PETRI_INVALID); // not initialised
+    make_picture(player, options, PETRI_INVALID);
+    make_picture(player, (PetriPictureOptions){.scale = 1, .window = -1}, PETRI_INVALID); // not initialised
+    PetriPictureOptions coarse = petri_default_picture_options();
+    coarse.detail = 0;
+    make_picture(player, coarse, PETRI_INVALID);
+    coarse.detail = 1.5;
+    make_picture(player, coarse, PETRI_INVALID);
     options = petri_default_picture_options();
     options.size++; // of a later petri-draw.h
-    take(player, options, PETRI_INVALID);
+    make_picture(player, options, PETRI_INVALID);
     player_run(player, "!window\n    !canvas\n", 1);
     check_size(player, petri_default_picture_options(), 512, 512);
     player_run(player, "!window\n    !canvas size=30;20\n", 1);
@@ -137,25 +141,25 @@ static void test_sizes(void **state) {
 static void test_choice(void **state) {
     Player *player = *state;
     PetriPictureOptions options = petri_default_picture_options();
-    take(player, options, PETRI_INVALID);
+    make_picture(player, options, PETRI_INVALID);
     player_run(player, "!x\n", 1);
-    assert_false(petri_drawable(player->session));
-    take(player, options, PETRI_INVALID);
+    assert_false(petri_has_picture(player->session));
+    make_picture(player, options, PETRI_INVALID);
     player_run(player, "!window size=3;3\n    !video\n!offscreen size=4;4\n    !canvas\n", 1);
-    assert_true(petri_drawable(player->session));
+    assert_true(petri_has_picture(player->session));
     check_size(player, options, 4, 4);
     options.window = 0;
     check_size(player, options, 3, 3);
     options.window = 2;
-    take(player, options, PETRI_INVALID);
+    make_picture(player, options, PETRI_INVALID);
     options = petri_default_picture_options();
     options.automatic = PETRI_AUTO_ALWAYS;
-    take(player, options, PETRI_INVALID);
+    make_picture(player, options, PETRI_INVALID);
     player_run(player, "!physics state=:a dimensions=2\n    !particle id=1 position=0/0;0\n    !particle id=2\n", 1);
-    assert_true(petri_drawable(player->session));
+    assert_true(petri_has_picture(player->session));
     check_size(player, petri_default_picture_options(), 1080, 1080);
     options.automatic = PETRI_AUTO_NEVER;
-    take(player, options, PETRI_INVALID);
+    make_picture(player, options, PETRI_INVALID);
 }
 
 typedef struct Bytes {
@@ -163,14 +167,14 @@ typedef struct Bytes {
     size_t length;
 } Bytes;
 
-static bool collect(void *host, const char *text, size_t length) {
+static bool collect_bytes(void *host, const char *text, size_t length) {
     Bytes *bytes = host;
     bytes->length = length < sizeof bytes->text ? length : sizeof bytes->text;
     memcpy(bytes->text, text, bytes->length);
     return true;
 }
 
-static bool refuse(void *host, const char *text, size_t length) {
+static bool reject_bytes(void *host, const char *text, size_t length) {
     (void)host, (void)text, (void)length;
     return false;
 }
@@ -179,20 +183,20 @@ static bool refuse(void *host, const char *text, size_t length) {
 static void test_bytes(void **state) {
     Player *player = *state;
     player_run(player, DISC, 1);
-    PetriPicture *picture = take(player, petri_default_picture_options(), PETRI_OK);
+    PetriPicture *picture = make_picture(player, petri_default_picture_options(), PETRI_OK);
     PetriPainter *painter = petri_painter_open();
     Bytes bytes = {.length = 0};
-    PetriStatus status = petri_picture_write(picture, painter, ".png", collect, &bytes);
-    if (status != PETRI_MISSING) {
+    PetriStatus status = petri_picture_encode(picture, painter, ".png", collect_bytes, &bytes);
+    if (status != PETRI_UNSUPPORTED) {
         assert_int_equal(status, PETRI_OK);
         assert_memory_equal(bytes.text, "\x89PNG\r\n", 6);
-        assert_int_equal(petri_picture_write(picture, painter, "any.svg", collect, &bytes), PETRI_OK);
+        assert_int_equal(petri_picture_encode(picture, painter, "any.svg", collect_bytes, &bytes), PETRI_OK);
         assert_memory_equal(bytes.text, "<?xml", 5);
-        assert_int_equal(petri_picture_write(picture, painter, ".svg", refuse, NULL), PETRI_INVALID);
+        assert_int_equal(petri_picture_encode(picture, painter, ".svg", reject_bytes, NULL), PETRI_INVALID);
     }
-    assert_int_equal(petri_picture_write(picture, painter, ".svg", NULL, NULL), PETRI_INVALID);
-    assert_int_equal(petri_picture_write(picture, painter, "svg", collect, &bytes), PETRI_INVALID);
-    assert_int_equal(petri_picture_write(picture, NULL, ".svg", collect, &bytes), PETRI_INVALID);
+    assert_int_equal(petri_picture_encode(picture, painter, ".svg", NULL, NULL), PETRI_INVALID);
+    assert_int_equal(petri_picture_encode(picture, painter, "svg", collect_bytes, &bytes), PETRI_INVALID);
+    assert_int_equal(petri_picture_encode(picture, NULL, ".svg", collect_bytes, &bytes), PETRI_INVALID);
     petri_picture_free(&picture);
     petri_painter_close(&painter);
 }
@@ -201,14 +205,14 @@ static void test_misuse(void **state) {
     Player *player = *state;
     uint32_t pixels[16];
     player_run(player, DISC, 1);
-    PetriPicture *picture = take(player, petri_default_picture_options(), PETRI_OK);
+    PetriPicture *picture = make_picture(player, petri_default_picture_options(), PETRI_OK);
     PetriPainter *painter = petri_painter_open();
     assert_int_equal(petri_picture_draw(picture, painter, pixels, 0, 4, 64), PETRI_INVALID);
     assert_int_equal(petri_picture_draw(picture, painter, pixels, 4, 4, 15), PETRI_INVALID);
     assert_int_equal(petri_picture_draw(picture, painter, pixels, 4, 1, 12), PETRI_INVALID);
     assert_int_equal(petri_picture_save(picture, painter, "x.jpg"), PETRI_INVALID);
-    petri_picture_tell(player->session, picture);
-    assert_text("suffix", player_told(player),
+    petri_picture_report(player->session, picture);
+    assert_text("suffix", player_diagnostics(player),
                 "error cannot write 'x.jpg': a picture's name ends in .png, .svg or .pdf [cannot-write]\n");
     petri_picture_free(&picture);
     petri_painter_close(&painter);
@@ -236,7 +240,7 @@ static void test_ready(void **state) {
         for (int frame = 0; frame < 3; frame++) {
             if (frame == 0) {
                 player_run(player, script, 1);
-                petri_clear(player->session);
+                petri_reset(player->session);
             }
             player_step(player, 1);
             assert_int_equal(petri_frame(player->session).number, frame);
@@ -267,16 +271,16 @@ static void test_labels(void **state) {
                         .size = 8,
                         .line_height = 10,
                         .padding = 6,
-                        .back = {128 / 255.0, 0, 0, 1},
-                        .front = {1, 1, 1, 1},
-                        .edge = {0, 1, 0, 1}};
+                        .background = {128 / 255.0, 0, 0, 1},
+                        .foreground = {1, 1, 1, 1},
+                        .accent = {0, 1, 0, 1}};
     PetriPainter *painter = petri_painter_open();
     for (int y = 0; y < HEIGHT; y++)
         for (int x = 0; x < WIDTH; x++)
             pixels[y][x] = blue;
-    PetriStatus status = petri_painter_labels(painter, &label, 1, 2, pixels[0], WIDTH, HEIGHT, sizeof pixels[0]);
+    PetriStatus status = petri_painter_draw_labels(painter, &label, 1, 2, pixels[0], WIDTH, HEIGHT, sizeof pixels[0]);
     petri_painter_close(&painter);
-    if (status == PETRI_MISSING)
+    if (status == PETRI_UNSUPPORTED)
         return;
     int letter_pixels = 0;
     for (int y = 0; y < HEIGHT; y++)
@@ -292,7 +296,7 @@ static void test_labels(void **state) {
 }
 
 // Images come from the host that gives files, not from the disk.
-static const char *give_image(void *host, const char *name, size_t *length) {
+static const char *provide_image(void *host, const char *name, size_t *length) {
     (void)host;
     static const char bytes[] = "these are no pixels";
     *length = sizeof bytes - 1;
@@ -303,18 +307,18 @@ static void test_images_of_the_host(void **state) {
     Player *player = *state;
     uint32_t pixels[8 * 4];
     PetriOptions options = player_options(player);
-    options.read = give_image;
+    options.read_file = provide_image;
     player_reopen(player, &options);
     player_run(player,
                "!window size=8;4\n    !canvas\n        !image filename='images/./a.png' size=4;4\n"
                "        !image filename='/etc/passwd' size=4;4\n",
                1);
-    PetriPicture *picture = take(player, petri_default_picture_options(), PETRI_OK);
+    PetriPicture *picture = make_picture(player, petri_default_picture_options(), PETRI_OK);
     PetriPainter *painter = petri_painter_open();
     PetriStatus status = petri_picture_draw(picture, painter, pixels, 8, 4, 8 * sizeof *pixels);
-    petri_picture_tell(player->session, picture);
-    const char *told = player_told(player);
-    if (status != PETRI_MISSING) {
+    petri_picture_report(player->session, picture);
+    const char *told = player_diagnostics(player);
+    if (status != PETRI_UNSUPPORTED) {
         assert_non_null(strstr(told, "cannot read 'images/./a.png': it is neither PNG nor JPEG"));
         assert_non_null(strstr(told, "cannot read '/etc/passwd': No such file"));
     }
@@ -328,7 +332,7 @@ static const char *kinds_of(PetriPicture *picture) {
     static char letters[256];
     const double *n;
     size_t count, length = 0;
-    assert_int_equal(petri_picture_numbers(picture, &n, &count), PETRI_OK);
+    assert_int_equal(petri_picture_display_list(picture, &n, &count), PETRI_OK);
     for (size_t at = 2; at < count; length++) {
         int kind = (int)n[at++];
         letters[length] = (char)('a' + kind);
@@ -336,12 +340,12 @@ static const char *kinds_of(PetriPicture *picture) {
         if (kind == PETRI_DRAW_LINEAR || kind == PETRI_DRAW_RADIAL) {
             size = kind == PETRI_DRAW_LINEAR ? 6 : 8;
             size += 5 * (size_t)n[at + size - 1];
-        } else if (kind == PETRI_DRAW_LINE) {
+        } else if (kind == PETRI_DRAW_STROKE_STYLE) {
             size = 7 + (size_t)n[at + 5];
-        } else if (kind == PETRI_DRAW_FIGURE || kind == PETRI_DRAW_CLIP) {
-            size = kind == PETRI_DRAW_FIGURE ? 4 : 3;
+        } else if (kind == PETRI_DRAW_PATH || kind == PETRI_DRAW_CLIP) {
+            size = kind == PETRI_DRAW_PATH ? 4 : 3;
             size += (size_t)n[at + size - 1];
-        } else if (kind == PETRI_DRAW_TEXT || kind == PETRI_DRAW_IMAGE || kind == PETRI_DRAW_UNDRAWN) {
+        } else if (kind == PETRI_DRAW_TEXT || kind == PETRI_DRAW_IMAGE || kind == PETRI_DRAW_UNSUPPORTED) {
             size = kind == PETRI_DRAW_TEXT ? 9 : kind == PETRI_DRAW_IMAGE ? 5 : 0;
             for (int texts = kind == PETRI_DRAW_TEXT ? 2 : 1; texts > 0; texts--)
                 size += 1 + (size_t)n[at + size];
@@ -355,7 +359,7 @@ static const char *kinds_of(PetriPicture *picture) {
 
 static void check_kinds(Player *player, const char *script, const char *wanted) {
     player_run(player, script, 1);
-    PetriPicture *picture = take(player, petri_default_picture_options(), PETRI_OK);
+    PetriPicture *picture = make_picture(player, petri_default_picture_options(), PETRI_OK);
     assert_string_equal(kinds_of(picture), wanted);
     petri_picture_free(&picture);
 }
@@ -381,22 +385,23 @@ static void test_numbers(void **state) {
                 "abeffffffffffffffffffffnfffff");
     player_run(player, "!physics state=:p dimensions=2 time=time\n    !particle id=1 position=3;4 radius=2 charge=1\n",
                3);
-    PetriPicture *picture = take(player, petri_default_picture_options(), PETRI_OK);
-    assert_int_equal(petri_picture_numbers(picture, &n, &count), PETRI_OK);
+    PetriPicture *picture = make_picture(player, petri_default_picture_options(), PETRI_OK);
+    assert_int_equal(petri_picture_display_list(picture, &n, &count), PETRI_OK);
     static const double body[] = {1, 3, 4, 0, 2,
                                   1, 0, 0, 0}; // count, place, radius, shade, anchor; no links, no barriers
-    assert_true(n[2] == PETRI_DRAW_SYSTEMS && n[3] == 1 && n[4] == 2 && n[5] == 1);
-    assert_int_equal(count, 19);
+    assert_true(n[2] == PETRI_DRAW_PARTICLES && n[3] == 1 && n[4] == 2 && n[5] == 1);
+    assert_true(n[19] > 3); // lines of the scale
+    assert_int_equal(count, 20 + 4 * (size_t)n[19]);
     assert_memory_equal(n + 10, body, sizeof body);
-    assert_int_equal(petri_picture_numbers(picture, NULL, &count), PETRI_INVALID);
-    assert_int_equal(petri_picture_numbers(NULL, &n, &count), PETRI_INVALID);
+    assert_int_equal(petri_picture_display_list(picture, NULL, &count), PETRI_INVALID);
+    assert_int_equal(petri_picture_display_list(NULL, &n, &count), PETRI_INVALID);
     petri_picture_free(&picture);
 }
 
 static void check_whole(Player *player, const char *script, bool whole) {
     player_run(player, script, 1);
-    PetriPicture *picture = take(player, petri_default_picture_options(), PETRI_OK);
-    assert_int_equal(petri_picture_is_numbers(picture), whole);
+    PetriPicture *picture = make_picture(player, petri_default_picture_options(), PETRI_OK);
+    assert_int_equal(petri_picture_is_display_list(picture), whole);
     petri_picture_free(&picture);
 }
 
@@ -407,11 +412,11 @@ static void test_whole(void **state) {
     check_whole(player, "!window\n    !canvas3d\n", false);
     check_whole(player, "!window\n    !bloom\n        !canvas\n", false);
     check_whole(player, "!physics state=:p dimensions=2 time=time\n    !particle id=1\n", true);
-    assert_false(petri_picture_is_numbers(NULL));
+    assert_false(petri_picture_is_display_list(NULL));
 }
 
 // Fills the left half, or the whole of what is taller than it is wide; green for each command there is.
-static bool fill(void *host, const double *numbers, size_t count, int width, int height, uint32_t *pixels) {
+static bool fill_black(void *host, const double *numbers, size_t count, int width, int height, uint32_t *pixels) {
     ++*(int *)host;
     assert_int_equal(numbers[0], width);
     assert_int_equal(numbers[1], height);
@@ -420,7 +425,7 @@ static bool fill(void *host, const double *numbers, size_t count, int width, int
     return count > 2;
 }
 
-static const uint32_t *give(void *host, const char *file, int *width, int *height) {
+static const uint32_t *provide_pixels(void *host, const char *file, int *width, int *height) {
     static const uint32_t pixels[] = {0xff0000ffu, 0xff0000ffu};
     (void)host;
     *width = 2, *height = 1;
@@ -433,20 +438,20 @@ static void test_host(void **state) {
     PetriPainter *painter = petri_painter_open();
     int calls = 0;
     uint32_t pixels[8];
-    PetriCanvasHost host = {.draw = fill, .image = give, .host = &calls};
-    assert_int_equal(petri_painter_use_host(NULL, &host), PETRI_INVALID);
-    assert_int_equal(petri_painter_use_host(painter, NULL), PETRI_INVALID);
-    PetriStatus status = petri_painter_use_host(painter, &host);
+    PetriCanvasBackend host = {.draw = fill_black, .image = provide_pixels, .user_data = &calls};
+    assert_int_equal(petri_painter_use_backend(NULL, &host), PETRI_INVALID);
+    assert_int_equal(petri_painter_use_backend(painter, NULL), PETRI_INVALID);
+    PetriStatus status = petri_painter_use_backend(painter, &host);
     player_run(player,
                "!window size=4;2\n    !image filename='a.png' size=4;2\n    !image filename='b.png'\n    !canvas\n"
                "        !rect size=1 fill=true\n",
                1);
-    PetriPicture *picture = take(player, petri_default_picture_options(), PETRI_OK);
-    if (status != PETRI_MISSING) {
+    PetriPicture *picture = make_picture(player, petri_default_picture_options(), PETRI_OK);
+    if (status != PETRI_UNSUPPORTED) {
         assert_int_equal(status, PETRI_OK);
         assert_int_equal(petri_picture_draw(picture, painter, pixels, 4, 2, 4 * sizeof *pixels), PETRI_OK);
-        petri_picture_tell(player->session, picture);
-        assert_non_null(strstr(player_told(player), "cannot read 'b.png'"));
+        petri_picture_report(player->session, picture);
+        assert_non_null(strstr(player_diagnostics(player), "cannot read 'b.png'"));
         assert_int_equal(calls, 1);
         assert_int_equal(pixels[1] >> 16, 0xff00);
         assert_true((pixels[1] & 0xff00) > 0 && (pixels[1] & 0xff) == 0);

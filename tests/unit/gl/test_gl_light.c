@@ -2,13 +2,12 @@
 //
 // The surface is a wall at z = 0, or the nearest point of a sphere; its script and its model come from one record.
 #include "check.h"
-
-#include <stdlib.h>
-
 #include "petri-draw.h"
 #include "petri.h"
 
-enum { SIZE = 32, TOLERANCE = 2, MOST_LIGHTS = 3 };
+#include <stdlib.h>
+
+enum { SIZE = 32, TOLERANCE = 2, LIGHTS_MAX = 3 };
 
 typedef struct Light {
     enum { NONE, AMBIENT, DIRECTIONAL, SPOT, POINT, LINE } kind;
@@ -37,7 +36,7 @@ typedef struct Case {
     double fog_min;
     double fog_max;
     double fog_curve;
-    Light lights[MOST_LIGHTS];
+    Light lights[LIGHTS_MAX];
 } Case;
 
 static double dot(const double a[3], const double b[3]) {
@@ -55,7 +54,7 @@ static double norm(double a[3]) {
     return length;
 }
 
-static void add(double out[3], const double a[3], double x, const double b[3]) {
+static void add_scaled(double out[3], const double a[3], double x, const double b[3]) {
     for (int k = 0; k < 3; k++)
         out[k] = a[k] + x * b[k];
 }
@@ -86,7 +85,7 @@ static void step(Point *at, const Light *light, const double L[3], double d, dou
     if (most < 1e-3 * (last ? at->alpha2 : 1))
         return;
     double H[3];
-    add(H, at->V, 1, L);
+    add_scaled(H, at->V, 1, L);
     norm(H);
     double HV = clamp(dot(H, at->V), 0, 1), NH = clamp(dot(at->N, H), 0, 1);
     double Dn = at->alpha2 / pow(NH * NH * (at->alpha2 - 1) + 1, 2), G = at->GV * NL / (NL * (1 - at->k) + at->k);
@@ -99,7 +98,7 @@ static void step(Point *at, const Light *light, const double L[3], double d, dou
 
 static void point_light(Point *at, const Light *light, double Q[3]) {
     double r = light->radius, L[3], R[3], l[3], zero[3] = {0};
-    add(L, Q, 0, zero);
+    add_scaled(L, Q, 0, zero);
     double d = norm(L);
     if (r == 0) {
         step(at, light, L, d, 1, true, true);
@@ -107,17 +106,17 @@ static void point_light(Point *at, const Light *light, double Q[3]) {
     }
     double b = clamp(1 - r / d, 0.005, 1);
     step(at, light, L, d - fmin(r, 0.99 * d), b, true, false);
-    add(R, at->V, -2 * dot(at->V, at->N), at->N);
-    add(l, zero, dot(Q, R), R);
-    add(l, l, -1, Q);
-    add(L, Q, fmin(0.99, r / size_of(l)), l);
+    add_scaled(R, at->V, -2 * dot(at->V, at->N), at->N);
+    add_scaled(l, zero, dot(Q, R), R);
+    add_scaled(l, l, -1, Q);
+    add_scaled(L, Q, fmin(0.99, r / size_of(l)), l);
     d = norm(L);
     step(at, light, L, d, b, false, true);
 }
 
 static void line_light(Point *at, const Light *light, const double Q[3]) {
     double a[3], near[3], R[3], l[3], zero[3] = {0}, r = light->radius;
-    add(a, light->direction, -1, light->position);
+    add_scaled(a, light->direction, -1, light->position);
     double len = norm(a), cp = clamp(-dot(Q, a), 0, len), ip = clamp(-dot(Q, at->N) / dot(a, at->N), 0, len);
     double mu = len / 2;
     if (dot(Q, at->N) < 0) {
@@ -127,33 +126,33 @@ static void line_light(Point *at, const Light *light, const double Q[3]) {
         mu = ip / 2;
         cp = fmin(cp, ip);
     }
-    add(near, Q, (3 * cp + mu) / 4, a);
+    add_scaled(near, Q, (3 * cp + mu) / 4, a);
     double d = norm(near);
     step(at, light, near, d - fmin(r, 0.99 * d), clamp(1 - r / d, 0, 1), true, false);
-    add(R, at->V, -2 * dot(at->V, at->N), at->N);
+    add_scaled(R, at->V, -2 * dot(at->V, at->N), at->N);
     double s = dot(R, a), beta = (dot(Q, a) - s * dot(Q, R)) / (1 - s * s);
-    add(near, Q, clamp(-beta, 0, len), a);
-    add(l, zero, dot(near, R), R);
-    add(l, l, -1, near);
+    add_scaled(near, Q, clamp(-beta, 0, len), a);
+    add_scaled(l, zero, dot(near, R), R);
+    add_scaled(l, l, -1, near);
     double D0 = size_of(near), b = clamp(1 - r / D0, 0, 1);
-    add(near, near, fmin(0.99, r / D0), l);
+    add_scaled(near, near, fmin(0.99, r / D0), l);
     d = norm(near);
     step(at, light, near, d, b, false, true);
 }
 
-static void shine(Point *at, const Light *light) {
+static void add_light(Point *at, const Light *light) {
     double Q[3], L[3], zero[3] = {0}, towards[3];
-    add(Q, light->position, -1, at->p);
+    add_scaled(Q, light->position, -1, at->p);
     if (light->kind == AMBIENT) {
         for (int k = 0; k < 3; k++)
             at->diffuse[k] += (1 - at->F0[k]) * (1 - at->c->metal) * at->c->color[k] * light->color[k] * at->c->ao;
     } else if (light->kind == DIRECTIONAL) {
-        add(L, zero, -1, light->direction);
+        add_scaled(L, zero, -1, light->direction);
         norm(L);
         step(at, light, L, 1, 1, true, true);
     } else if (light->kind == SPOT) {
         const double pi = 3.141592653589793;
-        add(towards, light->direction, -1, light->position);
+        add_scaled(towards, light->direction, -1, light->position);
         norm(towards);
         double d = norm(Q), x = -dot(Q, towards), i = cos(pi * light->inner), o = cos(pi * light->outer);
         step(at, light, Q, d, 1 - clamp((i - x) / (i - o), 0, 1), true, true);
@@ -169,7 +168,7 @@ static void shine(Point *at, const Light *light) {
 static void come_through(Point *at, const Case *c, double *opacity) {
     const Light *light = &c->lights[0];
     double T = pow(0.5, 1 / c->translucency), towards[3], zero[3] = {0};
-    add(towards, zero, 1, light->direction);
+    add_scaled(towards, zero, 1, light->direction);
     norm(towards);
     for (int k = 0; k < 3; k++) {
         double in =
@@ -184,7 +183,7 @@ static void model(const Case *c, const double p[3], const double N[3], double ou
     double eye[3] = {0, 0, 4};
     Point at = {.c = c, .p = {p[0], p[1], p[2]}, .N = {N[0], N[1], N[2]}, .V = {0, 0, 1}, .D = 4 - p[2]};
     if (!c->orthographic) {
-        add(at.V, eye, -1, p);
+        add_scaled(at.V, eye, -1, p);
         at.D = norm(at.V);
     }
     double R = c->roughness, l = lum(c->emissive), f0 = pow((c->ior - 1) / (c->ior + 1), 2);
@@ -197,8 +196,8 @@ static void model(const Case *c, const double p[3], const double N[3], double ou
         at.F0[k] = f0 * (1 - c->metal) + c->color[k] * c->metal;
         at.specular[k] = l <= 1 ? e : e / l + (e - e / l) * dot(at.N, at.V);
     }
-    for (int i = 0; i < MOST_LIGHTS; i++)
-        shine(&at, &c->lights[i]);
+    for (int i = 0; i < LIGHTS_MAX; i++)
+        add_light(&at, &c->lights[i]);
     double opacity = 1 - c->transparency;
     if (c->translucency > 0)
         come_through(&at, c, &opacity);
@@ -252,7 +251,7 @@ static void write_script(char *out, const Case *c, const char *surface) {
                    c->monochrome ? "true" : "false");
     out += add_three(out, "tint", c->tint);
     out += sprintf(out, "\n");
-    for (int i = 0; i < MOST_LIGHTS && c->lights[i].kind; i++) {
+    for (int i = 0; i < LIGHTS_MAX && c->lights[i].kind; i++) {
         write_light(out, &c->lights[i]);
         out += strlen(out);
     }
@@ -265,7 +264,7 @@ static void write_script(char *out, const Case *c, const char *surface) {
 
 static bool missing; // OpenGL
 
-static void hear(void *host, const PetriDiagnostic *diagnostic) {
+static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     (void)host;
     missing |= diagnostic->code && strcmp(diagnostic->code, "needs-gpu") == 0;
     if (!missing)
@@ -273,9 +272,9 @@ static void hear(void *host, const PetriDiagnostic *diagnostic) {
 }
 
 // False if there is no OpenGL.
-static bool draw(const char *script, uint32_t pixels[SIZE * SIZE]) {
+static bool draw_script(const char *script, uint32_t pixels[SIZE * SIZE]) {
     PetriOptions options = petri_default_options();
-    options.diagnostic = hear;
+    options.on_diagnostic = on_diagnostic;
     PetriSession *session = petri_open(&options);
     PetriPainter *painter = petri_painter_open();
     PetriPictureOptions picture_options = petri_default_picture_options();
@@ -284,7 +283,7 @@ static bool draw(const char *script, uint32_t pixels[SIZE * SIZE]) {
     assert_int_equal(petri_step(session), PETRI_OK);
     assert_int_equal(petri_picture(session, &picture_options, &picture), PETRI_OK);
     assert_int_equal(petri_picture_draw(picture, painter, pixels, SIZE, SIZE, SIZE * 4), PETRI_OK);
-    petri_picture_tell(session, picture);
+    petri_picture_report(session, picture);
     petri_picture_free(&picture);
     petri_painter_close(&painter);
     petri_close(&session);
@@ -421,7 +420,7 @@ static void check_wall(const Case *c) {
     char script[4000];
     int worst = 0;
     write_script(script, c, "!box size=40;40;1 position=0;0;-0.5");
-    if (!draw(script, pixels))
+    if (!draw_script(script, pixels))
         return;
     for (int y = 0; y < SIZE; y++)
         for (int x = 0; x < SIZE; x++) {
@@ -442,7 +441,7 @@ static bool hit_sphere(bool orthographic, int x, int y, double p[3]) {
     double a = dot(ray, ray), b = dot(ray, from), c = dot(from, from) - 4, root = b * b - a * c;
     if (root < a)
         return false;
-    add(p, from, (-b - sqrt(root)) / a, ray);
+    add_scaled(p, from, (-b - sqrt(root)) / a, ray);
     return true;
 }
 
@@ -457,14 +456,14 @@ static void check_sphere(const Case *c, bool orthographic, int segments, int tol
     char sphere[100];
     snprintf(sphere, sizeof sphere, "!sphere segments=%d size=2", segments);
     write_script(script, &seen, sphere);
-    if (!draw(script, pixels))
+    if (!draw_script(script, pixels))
         return;
     for (int y = 0; y < SIZE; y++)
         for (int x = 0; x < SIZE; x++) {
             double p[3], N[3], wanted[3], zero[3] = {0};
             if (!hit_sphere(orthographic, x, y, p))
                 continue;
-            add(N, zero, 0.5, p);
+            add_scaled(N, zero, 0.5, p);
             model(&seen, p, N, wanted);
             worst = worst_of(wanted, pixels[y * SIZE + x], worst);
             count++;
@@ -503,7 +502,7 @@ static void test_number(void **state) {
     uint32_t pixels[SIZE * SIZE];
     char script[4000];
     write_script(script, &cases[0], "!box size=40;40;1 position=0;0;-0.5");
-    if (!draw(script, pixels))
+    if (!draw_script(script, pixels))
         skip();
     assert_int_equal(pixels[SIZE * SIZE / 2 + SIZE / 2] & 0xffffff, 0xfcfcfc);
 }

@@ -1,19 +1,18 @@
 // test_gl_mesh.c: the triangles of models (spec canvas3d.md 6 to 8), without OpenGL.
 #include "check.h"
+#include "gl/scene_mesh.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "gl/scene_mesh.h"
-
-static int begin(void **state) {
+static int setup(void **state) {
     static Arena arena;
     arena_init(&arena, "test", SIZE_MAX);
     *state = &arena;
     return 0;
 }
 
-static int end(void **state) {
+static int teardown(void **state) {
     arena_free(*state);
     return 0;
 }
@@ -78,7 +77,7 @@ static void test_box(void **state) {
     mesh = mesh_box(*state, true);
     assert_true(has_vertex(&mesh, (const float[]){.5f, .5f, -.5f, 0, 0, -1, 0, 1}));
     float low[3], high[3];
-    mesh_box_of(&mesh, low, high);
+    mesh_bounds(&mesh, low, high);
     for (int k = 0; k < 3; k++)
         assert_true(low[k] == -0.5f && high[k] == 0.5f);
 }
@@ -176,14 +175,14 @@ static void test_remap(void **state) {
 }
 
 static bool from_file(Arena *arena, const char *text, Mesh *mesh) {
-    MeshFault fault = {0};
+    MeshError fault = {0};
     return mesh_from_file(arena, str_copy(arena, str_from(text)), mesh, &fault);
 }
 
 // What is wrong with a file, and in which line; 0: in none in particular.
 static void check_bad(Arena *arena, const char *text, uint32_t line, const char *problem) {
     Mesh mesh;
-    MeshFault fault = {0};
+    MeshError fault = {0};
     bool good = mesh_from_file(arena, str_copy(arena, str_from(text)), &mesh, &fault);
     assert_claim(text, !good && fault.text);
     assert_claim(text, fault.line == line);
@@ -249,7 +248,7 @@ static void test_stl(void **state) {
     binary[80] = 1;
     float corners[9] = {0, 0, 0, 0, 2, 0, 0, 0, 2};
     memcpy(binary + 84 + 12, corners, sizeof corners);
-    MeshFault problem;
+    MeshError problem;
     assert_true(mesh_from_file(*state, (Str){binary, sizeof binary}, &mesh, &problem));
     assert_true(has_vertex(&mesh, (const float[]){0, 2, 0, 1, 0, 0, 0, 0}));
     for (size_t cut = 1; cut < sizeof binary; cut++) // any part of it is no model, and does no harm
@@ -323,16 +322,16 @@ static void test_hull(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_box, begin, end),
-        cmocka_unit_test_setup_teardown(test_sphere, begin, end),
-        cmocka_unit_test_setup_teardown(test_round, begin, end),
-        cmocka_unit_test_setup_teardown(test_flat_and_invert, begin, end),
-        cmocka_unit_test_setup_teardown(test_snap, begin, end),
-        cmocka_unit_test_setup_teardown(test_remap, begin, end),
-        cmocka_unit_test_setup_teardown(test_obj, begin, end),
-        cmocka_unit_test_setup_teardown(test_stl, begin, end),
-        cmocka_unit_test_setup_teardown(test_lists, begin, end),
-        cmocka_unit_test_setup_teardown(test_hull, begin, end),
+        cmocka_unit_test_setup_teardown(test_box, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_sphere, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_round, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_flat_and_invert, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_snap, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_remap, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_obj, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_stl, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_lists, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_hull, setup, teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

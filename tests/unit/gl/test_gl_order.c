@@ -1,49 +1,48 @@
 // test_gl_order.c: what is read of a scene and what a camera sees of it: limits, which balls are drawn as discs and
 // where those are; without OpenGL.
 #include "check.h"
+#include "gl/draw_order.h"
+#include "gl/scene_mesh.h"
+#include "gl/sphere_impostor.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "gl/scene_disc.h"
-#include "gl/scene_mesh.h"
-#include "gl/scene_order.h"
-
 // Three balls of radius 10 in a row before a camera that looks at them from the side; and what a case changes.
-enum { WIDTH = 400, MOST = 60 };
+enum { WIDTH = 400, MAX_INSTANCES = 60 };
 typedef struct Stage {
     Arena arena;
     Scene scene;
     SceneGroup group;
     SceneGroup *groups[1];
-    SceneInstance instances[MOST];
+    SceneInstance instances[MAX_INSTANCES];
     SceneMaterial material;
     SceneMaterial opaque;
     SceneModel model;
     SceneTextures textures;
-    Look3D look;
+    GraphicsState3D graphics_state;
     Eye eye;
     bool deep; // discs are compared with depths
 } Stage;
 
 static void set_stage(Stage *stage) {
     *stage = (Stage){
-        .look = {.fov = 0.25, .near = 1, .far = 1000},
+        .graphics_state = {.fov = 0.25, .near = 1, .far = 1000},
         .eye = {.position = {30, 20, 300}, .up = {0, 1, 0}, .near = 1, .far = 1000, .width = WIDTH, .aspect = 1},
         .material = {.surface = {.transparency = 0.5f, .roughness = 0.3f}},
         .opaque = {.surface = {.roughness = 0.3f}},
         .model = {.kind = KIND_SPHERE, .segments = 64, .snap = 0.5}};
     arena_init(&stage->arena, "test", SIZE_MAX);
-    stage->eye.look = &stage->look;
-    for (int i = 0; i < MOST; i++) {
+    stage->eye.state = &stage->graphics_state;
+    for (int i = 0; i < MAX_INSTANCES; i++) {
         Matrix *place = &stage->instances[i].matrix;
-        *place = matrix_one;
+        *place = matrix_identity;
         place->m[0] = place->m[5] = place->m[10] = 10;
         place->m[12] = 40.0 * (i % 3 - 1);
         place->m[14] = -5.0 * i;
         stage->instances[i].material = &stage->material;
     }
-    stage->group = (SceneGroup){.look = {.depth_sort = true, .depth_test = true, .face_cull = true},
+    stage->group = (SceneGroup){.state = {.depth_sort = true, .depth_test = true, .face_cull = true},
                                 .instances = stage->instances,
                                 .instance_count = 3};
     stage->groups[0] = &stage->group;
@@ -61,7 +60,7 @@ static void set_stage(Stage *stage) {
 static uint32_t count_discs(Stage *stage) {
     const SceneBox box = {{-1, -1, -1}, {1, 1, 1}, 2048};
     Matrix view = matrix_view(&stage->eye), projection = matrix_projection(&stage->eye);
-    SceneOrder order = scene_order(&stage->scene, &stage->eye, &view, &projection, WIDTH, &box);
+    DrawOrder order = draw_order(&stage->scene, &stage->eye, &view, &projection, WIDTH, &box);
     uint32_t count = 0;
     assert_int_equal(order.count, stage->group.instance_count);
     for (uint32_t i = 0; i < order.draw_count; i++) {
@@ -84,21 +83,21 @@ static void test_choice(void **state) {
     stage.instances[1].material = &stage.opaque;
     assert_int_equal(count_discs(&stage), 0);
     set_stage(&stage); // which many are compared with
-    stage.group.instance_count = stage.scene.instance_count = MOST;
+    stage.group.instance_count = stage.scene.instance_count = MAX_INSTANCES;
     stage.instances[1].material = &stage.opaque;
-    assert_int_equal(count_discs(&stage), MOST - 1);
+    assert_int_equal(count_discs(&stage), MAX_INSTANCES - 1);
     assert_true(stage.deep);
     set_stage(&stage); // what is translucent, too, and needs its backs
     stage.material.surface.translucency = 1;
     assert_int_equal(count_discs(&stage), 0);
     set_stage(&stage); // without sorting all leave it
-    stage.group.look.depth_sort = false;
+    stage.group.state.depth_sort = false;
     assert_int_equal(count_discs(&stage), 0);
     set_stage(&stage); // the far sides are seen, too
-    stage.group.look.face_cull = false;
+    stage.group.state.face_cull = false;
     assert_int_equal(count_discs(&stage), 0);
     set_stage(&stage); // only they
-    stage.group.look.cull_face = FACE_FRONT;
+    stage.group.state.cull_face = FACE_FRONT;
     assert_int_equal(count_discs(&stage), 0);
     set_stage(&stage);
     stage.model.flat = true;
@@ -153,7 +152,7 @@ static void test_sorting(void **state) {
     }
     stage.eye.position[0] = stage.eye.position[1] = 0; // so that depth is along z
     Matrix view = matrix_view(&stage.eye), projection = matrix_projection(&stage.eye);
-    SceneOrder order = scene_order(&stage.scene, &stage.eye, &view, &projection, WIDTH, boxes);
+    DrawOrder order = draw_order(&stage.scene, &stage.eye, &view, &projection, WIDTH, boxes);
     assert_int_equal(order.count, ROWS);
     for (uint32_t i = 0; i < ROWS; i++)
         assert_int_equal(order.instances[i] - stage.instances, wanted[i]);
@@ -167,16 +166,16 @@ static double apart(const double a[3], const double b[3]) {
 
 // A ray from the camera through the disc's rim touches the ball: Pythagoras.
 static void check_rim(Stage *stage, const Matrix *place) {
-    SceneDisc disc;
+    SphereImpostor disc;
     Matrix view = matrix_view(&stage->eye);
-    assert_true(scene_disc(&stage->eye, &view, place, &disc));
+    assert_true(sphere_impostor(&stage->eye, &view, place, &disc));
     double *eye = stage->eye.position, away = apart(eye, disc.middle), turned = 0;
     for (int i = 0; i < 16; i++) {
         double angle = i * 0.3927, rim[3], on[3] = {cos(angle), sin(angle), 0}, outwards[3], towards[3], normal[3];
         matrix_point(&disc.place, on, rim);
         for (int k = 0; k < 3; k++) {
             outwards[k] = rim[k] - disc.middle[k];
-            towards[k] = stage->look.orthographic ? eye[k] - stage->eye.focus[k] : eye[k] - rim[k];
+            towards[k] = stage->graphics_state.orthographic ? eye[k] - stage->eye.focus[k] : eye[k] - rim[k];
         }
         assert_true(fabs(apart(rim, disc.middle) - disc.radius) < 1e-9 * disc.radius);
         assert_true(fabs(vector_dot(outwards, towards)) < 1e-8 * away * disc.radius);
@@ -185,7 +184,7 @@ static void check_rim(Stage *stage, const Matrix *place) {
         turned += vector_dot(normal, towards) > 0;
     }
     assert_int_equal((int)turned, 16);
-    assert_true(fabs(disc.near - (stage->look.orthographic ? 0 : disc.radius / away)) < 1e-12);
+    assert_true(fabs(disc.near - (stage->graphics_state.orthographic ? 0 : disc.radius / away)) < 1e-12);
 }
 
 static void test_rim(void **state) {
@@ -196,7 +195,7 @@ static void test_rim(void **state) {
         check_rim(&stage, &stage.instances[i].matrix);
     stage.eye.position[1] = 150, stage.eye.up[0] = 1;
     check_rim(&stage, &stage.instances[0].matrix);
-    stage.look.orthographic = true;
+    stage.graphics_state.orthographic = true;
     for (int i = 0; i < 3; i++)
         check_rim(&stage, &stage.instances[i].matrix);
     arena_free(&stage.arena);
@@ -245,8 +244,8 @@ static void test_limits(void **state) {
         uint32_t most;
         const char *code;
     } rows[] = {
-        {KIND_SPHERE, ATTR_SIZE, 1000000, SCENE_MOST_INSTANCES, "too-many-models"},
-        {KIND_LIGHT, ATTR_COLOR, 5000, SCENE_MOST_LIGHTS, "too-many-lights"},
+        {KIND_SPHERE, ATTR_SIZE, 1000000, SCENE_MAX_INSTANCES, "too-many-models"},
+        {KIND_LIGHT, ATTR_COLOR, 5000, SCENE_MAX_LIGHTS, "too-many-lights"},
         {KIND_CAMERA, ATTR_ID, 200, 100, "too-many-cameras"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
@@ -270,8 +269,8 @@ static void test_limits(void **state) {
             Eye eye = scene_eye(scene, &scene->cameras[0]);
             Matrix view = matrix_view(&eye), projection = matrix_projection(&eye);
             projection.m[0] *= 1e6, view.m[12] = view.m[13] = 0;
-            SceneOrder order = scene_order(scene, &eye, &view, &projection, WIDTH, &box);
-            assert_true(order.cut && order.triangles <= SCENE_MOST_TRIANGLES && order.count > 10000);
+            DrawOrder order = draw_order(scene, &eye, &view, &projection, WIDTH, &box);
+            assert_true(order.cut && order.triangles <= SCENE_MAX_TRIANGLES && order.count > 10000);
         }
         diag_sink_free(&faults);
         arena_free(&arena);

@@ -3,7 +3,6 @@
 #define PETRI_TESTS_MATHS_MODEL_H
 
 #include "check.h"
-
 #include "maths/fast.h"
 #include "maths/maths.h"
 

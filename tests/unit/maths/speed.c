@@ -3,9 +3,8 @@
 // usage: maths_speed [NAME]. The best of many runs over 1024 arguments, taken in turns, so that a busy machine disturbs
 // both alike. `plain` is the instance without fused multiply-add, `exact` the accurate path alone.
 #include "check.h"
-
+#include "maths/arrays.h"
 #include "maths/fast.h"
-#include "maths/many.h"
 #include "maths/maths.h"
 
 #include <stdlib.h>
@@ -46,12 +45,12 @@ static const Row rows[] = {
     TWO_ROW(pow, 0, 10, -5, 5),
 };
 
-static void fill(double *to, double low, double high, uint64_t *seed) {
+static void fill_arguments(double *to, double low, double high, uint64_t *seed) {
     for (int i = 0; i < COUNT; i++)
         to[i] = low + (high - low) * (double)(next_bits(seed) >> 11) * 0x1p-53;
 }
 
-static void keep_least(double *best, double start) {
+static void store_minimum(double *best, double start) {
     double t = (now() - start) / COUNT;
     if (t < *best)
         *best = t;
@@ -62,8 +61,8 @@ static void run_row(const Row *row) {
     uint64_t seed = 1;
     for (int r = 0; r < ROUNDS; r++) {
         if (r % 100 == 0) {
-            fill(x, row->low, row->high, &seed);
-            fill(y, row->y_low, row->y_high, &seed);
+            fill_arguments(x, row->low, row->high, &seed);
+            fill_arguments(y, row->y_low, row->y_high, &seed);
         }
         for (int k = 0; k < (r % 100 == 0 ? 4 : 3); k++) {
             double start = now();
@@ -73,7 +72,7 @@ static void run_row(const Row *row) {
             else
                 for (int i = 0; i < COUNT; i++)
                     out[i] = row->two[k](x[i], y[i]);
-            keep_least(&best[k], start);
+            store_minimum(&best[k], start);
         }
     }
     printf("%-34s C library %6.2f  petri %6.2f (%.2f)  plain %6.2f  exact %7.1f\n", row->text, best[0], best[1],
@@ -83,25 +82,25 @@ static void run_row(const Row *row) {
 static void run_vectors(CpuLevel level) {
     double best[5] = {1e9, 1e9, 1e9, 1e9, 1e9};
     uint64_t seed = 1;
-    fill(x, 0, 1, &seed);
-    fill(y, -2, 2, &seed);
+    fill_arguments(x, 0, 1, &seed);
+    fill_arguments(y, -2, 2, &seed);
     for (int r = 0; r < ROUNDS; r++) {
         double start = now();
-        maths_log_many(level, x, COUNT, out);
-        keep_least(&best[0], start);
+        maths_log_array(level, x, COUNT, out);
+        store_minimum(&best[0], start);
         start = now();
-        maths_exp_many(level, y, COUNT, out);
-        keep_least(&best[1], start);
+        maths_exp_array(level, y, COUNT, out);
+        store_minimum(&best[1], start);
         start = now();
-        maths_sin_cos_many(level, y, COUNT, out, out2);
-        keep_least(&best[2], start);
+        maths_sin_cos_array(level, y, COUNT, out, out2);
+        store_minimum(&best[2], start);
         start = now();
-        maths_pow_many(level, x, y, COUNT, out);
-        keep_least(&best[3], start);
+        maths_pow_array(level, x, y, COUNT, out);
+        store_minimum(&best[3], start);
         start = now();
-        maths_log_many(level, x, COUNT, out2);
-        maths_sin_cos_many(level, y, COUNT, out, out2);
-        keep_least(&best[4], start);
+        maths_log_array(level, x, COUNT, out2);
+        maths_sin_cos_array(level, y, COUNT, out, out2);
+        store_minimum(&best[4], start);
     }
     printf("%-7s log %.2f  exp %.2f  sin and cos %.2f  pow %.2f  log + sin + cos %.2f\n", cpu_name(level), best[0],
            best[1], best[2], best[3], best[4]);
@@ -111,7 +110,7 @@ int main(int count, char **words) {
     for (size_t i = 0; i < COUNT_OF(rows); i++)
         if (count < 2 || !strcmp(words[1], rows[i].name))
             run_row(&rows[i]);
-    for (int level = 0; count < 2 && level <= (int)cpu_here.level; level++)
+    for (int level = 0; count < 2 && level <= (int)cpu_detected.level; level++)
         run_vectors((CpuLevel)level);
     return 0;
 }

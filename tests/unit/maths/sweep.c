@@ -37,14 +37,14 @@ static double unit(uint64_t *seed) {
     return (double)(next_bits(seed) >> 11) * 0x1p-53;
 }
 
-static double pick(uint64_t *seed, bool exponents, double low, double high) {
+static double random_argument(uint64_t *seed, bool exponents, double low, double high) {
     if (!exponents)
         return low + (high - low) * unit(seed);
     double x = ldexp(1 + unit(seed), (int)floor(low + (high - low) * unit(seed)));
     return next_bits(seed) & 1 ? x : -x;
 }
 
-static uint64_t sweep(const Subject *subject, const Watched *watched, uint64_t count) {
+static uint64_t sweep_function(const Subject *subject, const Watched *watched, uint64_t count) {
     const Range *mine[8];
     unsigned kinds = 0;
     for (size_t i = 0; i < COUNT_OF(ranges); i++)
@@ -55,8 +55,8 @@ static uint64_t sweep(const Subject *subject, const Watched *watched, uint64_t c
     for (uint64_t i = 0; i < count; i++) {
         // The first range has half of the arguments.
         const Range *range = mine[i % 2 ? 0 : i / 2 % kinds];
-        double x = pick(&seed, range->exponents, range->low, range->high);
-        double y = pick(&seed, range->exponents, range->y_low, range->y_high);
+        double x = random_argument(&seed, range->exponents, range->low, range->high);
+        double y = random_argument(&seed, range->exponents, range->y_low, range->y_high);
         bool positive = watched->positive;
         x = positive ? fabs(x) : x;
         wrong += (uint64_t)wrong_cases(subject, x, y, i % 16 == 0);
@@ -82,7 +82,7 @@ int main(int count, char **words) {
         if (count > 2 && strcmp(words[2], subjects[i].name))
             continue;
         known++;
-        wrong += sweep(&subjects[i], &watched_functions[i], strtoull(words[1], NULL, 10));
+        wrong += sweep_function(&subjects[i], &watched_functions[i], strtoull(words[1], NULL, 10));
     }
     return wrong || !known;
 }

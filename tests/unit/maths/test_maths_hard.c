@@ -1,8 +1,7 @@
 // test_maths_hard.c: arguments that are hard to round, against MPFR: the public functions, the instance without FMA,
 // and the accurate path alone.
-#include "model.h"
-
 #include "hard_cases.h"
+#include "model.h"
 
 static const Subject *subject_of(const char *name) {
     for (size_t i = 0; i < COUNT_OF(subjects); i++)

@@ -1,6 +1,5 @@
 // test_maths_random.c: the worked examples of builtins.md B1.2 and B9.
 #include "check.h"
-
 #include "maths/random.h"
 
 static const uint64_t empty_key = UINT64_C(0xe220a8397b1dcdaf), one_key = UINT64_C(0x03953eea0e693074);

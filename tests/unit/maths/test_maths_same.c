@@ -1,7 +1,6 @@
 // test_maths_same.c: the bits of many results, as one number per function. They follow from mathematics: any compiler,
 // with any optimisation, on any processor, with and without fused multiply-add, must find the same.
 #include "check.h"
-
 #include "maths/fast.h"
 #include "maths/maths.h"
 
@@ -30,7 +29,7 @@ static const Row rows[] = {
     TWO_ROW(pow, -5, 5, UINT64_C(0x0ca1dd77e9445d74)),
 };
 
-static double pick(uint64_t *seed, double low, double high) {
+static double random_argument(uint64_t *seed, double low, double high) {
     double x = 1 + (double)(next_bits(seed) >> 12) * 0x1p-52;
     uint64_t r = next_bits(seed);
     x = ldexp(x, (int)low + (int)(r % (uint64_t)(high - low)));
@@ -43,14 +42,14 @@ static uint64_t bits_of_nan_or(double x) {
     return isnan(x) ? 0 : bits;
 }
 
-static void test_same(void **state) {
+static void test_results_have_recorded_bits(void **state) {
     (void)state;
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         const Row *row = &rows[i];
         for (int k = 0; k < 2; k++) {
             uint64_t seed = 1, sum = 0;
             for (int n = 0; n < COUNT; n++) {
-                double x = pick(&seed, row->low, row->high), y = pick(&seed, -4, 4);
+                double x = random_argument(&seed, row->low, row->high), y = random_argument(&seed, -4, 4);
                 if (row->name[0] == 'l' || row->name[0] == 'p')
                     x = fabs(x);
                 double r = row->one[k] ? row->one[k](x) : row->two[k](x, y);
@@ -65,6 +64,6 @@ static void test_same(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_same)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_results_have_recorded_bits)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

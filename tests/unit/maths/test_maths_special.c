@@ -1,6 +1,5 @@
 // test_maths_special.c: C17 Annex F, with the bits that each row must have; no reference is needed.
 #include "check.h"
-
 #include "maths/fast.h"
 #include "maths/maths.h"
 
@@ -217,14 +216,14 @@ static const RowTwo two_rows[] = {
     TWO_ROW(pow, 0x1.0000000000001p+0, 1.0, 0x1.0000000000001p+0),
 };
 
-static void test_one(void **state) {
+static void test_unary_special_values(void **state) {
     (void)state;
     for (size_t i = 0; i < COUNT_OF(one_rows); i++)
         for (int k = 0; k < 3; k++)
             assert_number(one_rows[i].text, one_rows[i].functions[k](one_rows[i].x), one_rows[i].wanted);
 }
 
-static void test_two(void **state) {
+static void test_binary_special_values(void **state) {
     (void)state;
     for (size_t i = 0; i < COUNT_OF(two_rows); i++)
         for (int k = 0; k < 3; k++)
@@ -259,7 +258,8 @@ static void test_symmetry(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_one), cmocka_unit_test(test_two),
-                                       cmocka_unit_test(test_made_nan), cmocka_unit_test(test_symmetry)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_unary_special_values),
+                                       cmocka_unit_test(test_binary_special_values), cmocka_unit_test(test_made_nan),
+                                       cmocka_unit_test(test_symmetry)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

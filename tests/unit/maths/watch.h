@@ -54,7 +54,7 @@ static inline void watch_start(void) {
 }
 
 // |high + low| 2^k - |f(x, y)|, over the bound; k takes out the scale that exp and pow add only at the end.
-static inline double watch_share(const Subject *subject, const Watch *watch, double x, double y) {
+static inline double watch_error_ratio(const Subject *subject, const Watch *watch, double x, double y) {
     mpfr_t scale, f, sum;
     mpfr_inits2(200, scale, f, sum, (mpfr_ptr)0);
     model_value(subject, f, x, y);
@@ -85,7 +85,7 @@ static inline void watch_next(const Subject *subject, const Watched *watched, do
         // What is decided for a subnormal x of a logarithm is not taken.
         if (!measure || !watch->asked || !isnormal(r) || (watched->positive && x < 0x1p-1022))
             continue;
-        double share = watch_share(subject, watch, x, y);
+        double share = watch_error_ratio(subject, watch, x, y);
         if (share > watch->worst && isfinite(share))
             watch->worst = share;
     }

@@ -3,7 +3,7 @@
 
 #define JOIN_NAME(name, number) name##number
 #define NUMBERED(name, number) JOIN_NAME(name, number)
-#define INSTANCE NUMBERED(watched, WATCHED)
+#define MATHS_ISA NUMBERED(watched, WATCHED)
 #define HOOK NUMBERED(watch_hook, WATCHED)
 
 extern void (*HOOK)(double high, double low, double error, int instance);
@@ -15,4 +15,4 @@ void (*HOOK)(double high, double low, double error, int instance);
 #define DECLARE_TWO(name) double NUMBERED(maths_##name##_watched, WATCHED)(double x, double y);
 MATHS_FUNCTIONS(DECLARE_ONE, DECLARE_TWO)
 
-#include "maths/instance.c"
+#include "maths/maths_isa.c"

@@ -203,12 +203,11 @@ static inline void reference_constraint(const Model *model, const ModelForce *f,
     for (size_t k = 0; k < model->n; k++)
         s = s + (p->position[k] - f->vector[k]) * f->vector2[k];
     const PhysForce *b = &f->force;
-    for (size_t k = 0; k < model->n; k++) {
+    for (size_t k = 0; k < model->n; k++)
         if (b->has_minimum && b->minimum > 0 && 0 <= s && s < b->minimum)
             p->force[k] = p->force[k] + f->vector2[k] * (to_the_power(b->minimum - s, b->power) * f->strength);
         else if (b->has_maximum && s > b->maximum)
             p->force[k] = p->force[k] - f->vector2[k] * (to_the_power(s - b->maximum, b->power) * f->strength);
-    }
 }
 
 static inline void reference_motion(const Model *model, ModelParticle *p, double delta, double speed_of_light) {

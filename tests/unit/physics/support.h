@@ -2,20 +2,19 @@
 #ifndef TESTS_UNIT_PHYSICS_SUPPORT_H
 #define TESTS_UNIT_PHYSICS_SUPPORT_H
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include "physics/system.h"
 
 #include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
 #include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include <cmocka.h>
 
 #define VEC(...) ((const double[]){__VA_ARGS__})
 #define COUNT_OF(array) (sizeof(array) / sizeof *(array))

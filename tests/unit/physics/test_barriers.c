@@ -150,7 +150,7 @@ static void test_bounce_height(void **state) {
 }
 
 // A ball that has come to rest stays on the floor and does not tremble.
-static void test_rest(void **state) {
+static void test_ball_comes_to_rest(void **state) {
     (void)state;
     PhysSystem *system = ball_and_floor(VEC(0, 1), NULL, 0.5, 0.5);
     PhysForce fall = gravity();
@@ -179,11 +179,16 @@ static void test_speed_of_light(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_elastic),     cmocka_unit_test(test_restitution),
-        cmocka_unit_test(test_not_crossed), cmocka_unit_test(test_leaving),
-        cmocka_unit_test(test_outside),     cmocka_unit_test(test_anchor_and_massless),
-        cmocka_unit_test(test_corner),      cmocka_unit_test(test_bounce_height),
-        cmocka_unit_test(test_rest),        cmocka_unit_test(test_speed_of_light),
+        cmocka_unit_test(test_elastic),
+        cmocka_unit_test(test_restitution),
+        cmocka_unit_test(test_not_crossed),
+        cmocka_unit_test(test_leaving),
+        cmocka_unit_test(test_outside),
+        cmocka_unit_test(test_anchor_and_massless),
+        cmocka_unit_test(test_corner),
+        cmocka_unit_test(test_bounce_height),
+        cmocka_unit_test(test_ball_comes_to_rest),
+        cmocka_unit_test(test_speed_of_light),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,7 +9,7 @@
 enum { STEPS = 160 };
 static const double step = 1.0 / 256; // so that times are exact
 
-static void simulate(uint32_t dimensions, uint32_t n, double *position, double *velocity) {
+static void simulate_particles(uint32_t dimensions, uint32_t n, double *position, double *velocity) {
     PhysSystem *system = phys_new();
     phys_begin(system, dimensions);
     for (size_t i = 0; i < n; i++) {
@@ -30,7 +30,7 @@ static void simulate(uint32_t dimensions, uint32_t n, double *position, double *
     phys_free(system);
 }
 
-static void compare(uint32_t dimensions, uint32_t side) {
+static void compare_with_limit(uint32_t dimensions, uint32_t side) {
     uint32_t n = dimensions == 2 ? side * side : side * side * side;
     size_t count = (size_t)n * dimensions;
     double *numbers[4]; // position and velocity, of both
@@ -44,7 +44,7 @@ static void compare(uint32_t dimensions, uint32_t side) {
             numbers[0][at] = numbers[2][at] = (rest % side + 0.5) * 0.95;
             numbers[1][at] = numbers[3][at] = 4 * (seed / 4294967296.0 - 0.5);
         }
-    simulate(dimensions, n, numbers[0], numbers[1]);
+    simulate_particles(dimensions, n, numbers[0], numbers[1]);
     int lists = limit_soft_run((int)dimensions, (int)side, step, STEPS, numbers[2], numbers[3]);
     assert_in_range(lists, 3, STEPS / 2);
     assert_memory_equal(numbers[0], numbers[2], count * sizeof *numbers[0]);
@@ -55,16 +55,16 @@ static void compare(uint32_t dimensions, uint32_t side) {
 
 static void test_discs(void **state) {
     (void)state;
-    compare(2, 35);
+    compare_with_limit(2, 35);
 }
 
 static void test_spheres(void **state) {
     (void)state;
-    compare(3, 11);
+    compare_with_limit(3, 11);
 }
 
 int main(void) {
-    if (cpu_here.level < CPU_AVX512)
+    if (cpu_detected.level < CPU_AVX512)
         return 77; // the kernel has no other form
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_discs), cmocka_unit_test(test_spheres)};
     return cmocka_run_group_tests(tests, NULL, NULL);

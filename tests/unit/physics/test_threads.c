@@ -10,30 +10,30 @@
 enum { JOBS = 3000 };
 
 typedef struct Job {
-    atomic_int done[PHYS_MOST_SHARES];
+    atomic_int done[PHYS_MAX_CHUNKS];
     atomic_int wrong;
     int shares;
 } Job;
 
-static void work(void *context, int share, int shares) {
+static void count_chunk(void *context, int chunk, int chunks) {
     Job *job = context;
-    if (shares != job->shares || share < 0 || share >= shares)
+    if (chunks != job->shares || chunk < 0 || chunk >= chunks)
         atomic_fetch_add(&job->wrong, 1);
     else
-        atomic_fetch_add(&job->done[share], 1);
+        atomic_fetch_add(&job->done[chunk], 1);
 }
 
 static void run_jobs(const PhysSystem *system, int jobs) {
     for (int number = 0; number < jobs; number++) {
-        Job job = {.shares = 1 + number % PHYS_MOST_SHARES};
-        phys_parallel(system, job.shares, work, &job);
+        Job job = {.shares = 1 + number % PHYS_MAX_CHUNKS};
+        phys_parallel(system, job.shares, count_chunk, &job);
         assert_int_equal(atomic_load(&job.wrong), 0);
-        for (int share = 0; share < PHYS_MOST_SHARES; share++)
-            assert_int_equal(atomic_load(&job.done[share]), share < job.shares);
+        for (int chunk = 0; chunk < PHYS_MAX_CHUNKS; chunk++)
+            assert_int_equal(atomic_load(&job.done[chunk]), chunk < job.shares);
     }
 }
 
-static void test_each_share_once(void **state) {
+static void test_each_chunk_runs_once(void **state) {
     (void)state;
     for (int threads = 1; threads <= 8; threads++) {
         PhysSystem *system = phys_new();
@@ -67,11 +67,11 @@ typedef struct Slow {
     atomic_int helped;
 } Slow;
 
-static void work_slowly(void *context, int share, int shares) {
-    (void)shares;
+static void count_chunk_slowly(void *context, int chunk, int chunks) {
+    (void)chunks;
     Slow *slow = context;
     if (pthread_equal(slow->caller, pthread_self())) {
-        for (volatile int i = 0; share == 0 && i < 20000; i++)
+        for (volatile int i = 0; chunk == 0 && i < 20000; i++)
             continue;
         return;
     }
@@ -82,41 +82,41 @@ static void work_slowly(void *context, int share, int shares) {
 // Nobody is asked any more after the first time, for a while.
 static void test_slow_threads(void **state) {
     (void)state;
-    enum { MOST_TRIES = 1000000, SLOW_JOBS = 400, MOST_HELPED = 40 };
+    enum { MAX_TRIES = 1000000, SLOW_JOBS = 400, MAX_HELPED = 40 };
     PhysSystem *system = phys_new();
     phys_set_options(system, &(PhysOptions){.threads = 2});
     Slow slow = {.caller = pthread_self()};
-    for (int i = 0; i < MOST_TRIES && atomic_load(&slow.helped) == 0; i++)
-        phys_parallel(system, 2, work_slowly, &slow);
+    for (int i = 0; i < MAX_TRIES && atomic_load(&slow.helped) == 0; i++)
+        phys_parallel(system, 2, count_chunk_slowly, &slow);
     assert_true(atomic_load(&slow.helped) > 0);
     for (int i = 0; i < SLOW_JOBS; i++)
-        phys_parallel(system, 2, work_slowly, &slow);
-    assert_true(atomic_load(&slow.helped) < MOST_HELPED);
+        phys_parallel(system, 2, count_chunk_slowly, &slow);
+    assert_true(atomic_load(&slow.helped) < MAX_HELPED);
     phys_free(system);
 }
 
-static void test_shares_of_counts(void **state) {
+static void test_chunk_counts(void **state) {
     (void)state;
     PhysSystem *system = phys_new();
-    assert_int_equal(phys_shares(system, 1000000, 10), 1); // one thread
+    assert_int_equal(phys_chunk_count(system, 1000000, 10), 1); // one thread
     phys_set_options(system, &(PhysOptions){.threads = 2});
-    assert_int_equal(phys_shares(system, 9, 10), 1);
-    assert_int_equal(phys_shares(system, 10, 10), 2 * PHYS_SHARES_EACH);
+    assert_int_equal(phys_chunk_count(system, 9, 10), 1);
+    assert_int_equal(phys_chunk_count(system, 10, 10), 2 * PHYS_CHUNKS_PER_THREAD);
     phys_set_options(system, &(PhysOptions){.threads = 64});
-    assert_int_equal(phys_shares(system, 10, 10), PHYS_MOST_SHARES);
-    for (int shares = 1; shares <= PHYS_MOST_SHARES; shares++) {
-        assert_int_equal(phys_share(1000003, 0, shares), 0);
-        assert_int_equal(phys_share(1000003, shares, shares), 1000003);
+    assert_int_equal(phys_chunk_count(system, 10, 10), PHYS_MAX_CHUNKS);
+    for (int chunks = 1; chunks <= PHYS_MAX_CHUNKS; chunks++) {
+        assert_int_equal(phys_chunk_begin(1000003, 0, chunks), 0);
+        assert_int_equal(phys_chunk_begin(1000003, chunks, chunks), 1000003);
     }
     phys_free(system);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_each_share_once),
+        cmocka_unit_test(test_each_chunk_runs_once),
         cmocka_unit_test(test_systems_share_threads),
         cmocka_unit_test(test_slow_threads),
-        cmocka_unit_test(test_shares_of_counts),
+        cmocka_unit_test(test_chunk_counts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,7 +12,7 @@ static void for_each_variant(Check *check, void *context) {
         {.threads = 1, .neighbours = PHYS_NEIGHBOURS_ALWAYS}, {.threads = 8, .neighbours = PHYS_NEIGHBOURS_ALWAYS},
         {.threads = 2, .neighbours = PHYS_NEIGHBOURS_AUTO},
     };
-    for (int cpu = 0; cpu <= (int)cpu_here.level; cpu++)
+    for (int cpu = 0; cpu <= (int)cpu_detected.level; cpu++)
         for (size_t i = cpu == CPU_SCALAR ? COUNT_OF(options) - 3 : 0; i < COUNT_OF(options); i++) {
             PhysOptions variant = options[i];
             variant.cpu = (CpuLevel)cpu;
@@ -60,7 +60,7 @@ typedef struct Bodies {
     uint32_t group[LARGE];
 } Bodies;
 
-static void strange(Dice *dice, PhysParticle *p, double *position) {
+static void set_strange_numbers(Dice *dice, PhysParticle *p, double *position) {
     static const double places[] = {NAN, INFINITY, -INFINITY, 1e300, -1e300, 1e16, 5e-324};
     static const double radii[] = {0, 1e6, 30, 1e-12, 1e300, INFINITY};
     if (dice_below(dice, 2))
@@ -69,7 +69,7 @@ static void strange(Dice *dice, PhysParticle *p, double *position) {
         p->radius = radii[dice_below(dice, COUNT_OF(radii))];
 }
 
-static void start(const Scene *scene, Bodies *bodies) {
+static void place_bodies(const Scene *scene, Bodies *bodies) {
     Dice dice = {scene->count * 77 + scene->dimensions};
     memset(bodies, 0, sizeof *bodies);
     for (uint32_t i = 0; i < scene->count; i++) {
@@ -87,11 +87,11 @@ static void start(const Scene *scene, Bodies *bodies) {
             bodies->velocity[i][k] = p->anchor ? 0 : dice_between(&dice, -3, 3);
         }
         if (dice_between(&dice, 0, 1) < scene->extremes)
-            strange(&dice, p, bodies->position[i]);
+            set_strange_numbers(&dice, p, bodies->position[i]);
     }
 }
 
-static void describe(const Scene *scene, Bodies *bodies, PhysSystem *system, int frame) {
+static void describe_scene(const Scene *scene, Bodies *bodies, PhysSystem *system, int frame) {
     phys_begin(system, scene->dimensions);
     for (uint32_t g = 1; g < scene->groups; g++)
         phys_add_group(system, g == 3 ? 1 : g - 1);
@@ -110,7 +110,7 @@ static void describe(const Scene *scene, Bodies *bodies, PhysSystem *system, int
         phys_add_force(system, scene->force_group[f], &scene->forces[f]);
 }
 
-static void take(const Scene *scene, Bodies *bodies, const PhysSystem *system, int frame) {
+static void copy_results(const Scene *scene, Bodies *bodies, const PhysSystem *system, int frame) {
     for (uint32_t i = 0; i < scene->count; i++) {
         memcpy(bodies->position[i], phys_position(system, i), scene->dimensions * sizeof(double));
         memcpy(bodies->velocity[i], phys_velocity(system, i), scene->dimensions * sizeof(double));
@@ -121,7 +121,7 @@ static void take(const Scene *scene, Bodies *bodies, const PhysSystem *system, i
     }
 }
 
-static void simulate(PhysSystem *system, int frame) {
+static void simulate_frame(PhysSystem *system, int frame) {
     PhysTime time = {.last = frame * 0.03, .now = frame * 0.03 + 0.03, .clock = frame * 0.03, .resolution = 0.01};
     time.lockstep = true;
     time.performance = 1;
@@ -134,15 +134,15 @@ typedef struct Recording {
     Bodies *now;
 } Recording;
 
-static void play(const Recording *recording, const PhysOptions *options, Bodies *bodies) {
+static void play_recording(const Recording *recording, const PhysOptions *options, Bodies *bodies) {
     PhysSystem *system = phys_new();
     assert_non_null(system);
     phys_set_options(system, options);
     *bodies = *recording->start;
     for (int frame = 0; frame < recording->scene->frames; frame++) {
-        describe(recording->scene, bodies, system, frame);
-        simulate(system, frame);
-        take(recording->scene, bodies, system, frame);
+        describe_scene(recording->scene, bodies, system, frame);
+        simulate_frame(system, frame);
+        copy_results(recording->scene, bodies, system, frame);
     }
     phys_free(system);
 }
@@ -150,7 +150,7 @@ static void play(const Recording *recording, const PhysOptions *options, Bodies 
 static void check_large(const PhysOptions *options, void *context) {
     const Recording *recording = context;
     const Scene *scene = recording->scene;
-    play(recording, options, recording->now);
+    play_recording(recording, options, recording->now);
     for (uint32_t i = 0; i < scene->count; i++) {
         if (same_bits(recording->now->position[i], recording->end->position[i], scene->dimensions) &&
             same_bits(recording->now->velocity[i], recording->end->velocity[i], scene->dimensions))
@@ -166,9 +166,9 @@ static void check_scene(const Scene *scene) {
     Bodies *bodies = calloc(3, sizeof *bodies);
     assert_non_null(bodies);
     Recording recording = {.scene = scene, .start = bodies, .end = bodies + 1, .now = bodies + 2};
-    start(scene, recording.start);
-    play(&recording, &(PhysOptions){.threads = 1, .cpu = CPU_SCALAR, .neighbours = PHYS_NEIGHBOURS_NEVER},
-         recording.end);
+    place_bodies(scene, recording.start);
+    play_recording(&recording, &(PhysOptions){.threads = 1, .cpu = CPU_SCALAR, .neighbours = PHYS_NEIGHBOURS_NEVER},
+                   recording.end);
     for_each_variant(check_large, &recording);
     free(bodies);
 }

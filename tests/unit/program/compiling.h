@@ -3,32 +3,31 @@
 #ifndef PETRI_TESTS_COMPILING_H
 #define PETRI_TESTS_COMPILING_H
 
-#include "values.h"
-
 #include "program/code.h"
 #include "syntax/parse.h"
 #include "value/ops.h"
+#include "values.h"
 
 typedef struct Desk {
     World world;
     Arena program;
     Arena scratch;
     CompileOptions options;
-    uint32_t asked;    // how often something was to be evaluated ahead
-    uint32_t included; // how often a file was to be included
-    Text told;         // `line:column text [code]` of each diagnostic, one a line
+    uint32_t evaluate_calls; // how often something was to be evaluated ahead
+    uint32_t include_calls;  // how often a file was to be included
+    Text reported;           // `line:column text [code]` of each diagnostic, one a line
     const Program *compiled;
 } Desk;
 
 // Sums, products, compositions, nodes without anything and functions; all else is not known ahead.
 static inline bool calculate(void *host, const Code *code, Value *value) {
-    enum { MOST = 64 };
+    enum { MAX_REGISTERS = 64 };
     Desk *desk = host;
     Arena *arena = &desk->program;
-    Value memory[MOST], *slots = memory + code->constant_count;
-    desk->asked++;
+    Value memory[MAX_REGISTERS], *slots = memory + code->constant_count;
+    desk->evaluate_calls++;
     *value = VALUE_NULL;
-    assert_true(code->constant_count + code->register_count <= MOST);
+    assert_true(code->constant_count + code->register_count <= MAX_REGISTERS);
     memcpy(memory, code->constants, code->constant_count * sizeof *memory);
     for (const Instr *instr = code->instrs;; instr++) {
         Vector vector = vector_new(arena);
@@ -79,12 +78,12 @@ static inline const Ast *parse_text(Desk *desk, const char *name, const char *te
 }
 
 // The one file that there is to include binds `inner` and makes a node.
-static inline const Ast *include_file(void *host, Str path, const Source **source, Str *why) {
+static inline const Ast *include_file(void *host, Str path, const Source **source, Str *reason) {
     Desk *desk = host;
-    desk->included++;
+    desk->include_calls++;
     if (str_equal(path, STR("inc.fl")))
         return parse_text(desk, "inc.fl", "let inner=seen+1\n!included v=inner\n", source);
-    *why = STR("there is no such file");
+    *reason = STR("there is no such file");
     return NULL;
 }
 
@@ -95,7 +94,7 @@ static inline int desk_setup(void **state) {
     arena_init(&desk->program, "program", (size_t)1 << 30);
     arena_init(&desk->scratch, "compiler", (size_t)1 << 30);
     desk->options = (CompileOptions){.simplify = true, .host = {desk, include_file, calculate}};
-    desk->told = text_new(&desk->world.arena);
+    desk->reported = text_new(&desk->world.arena);
     *state = desk;
     return 0;
 }
@@ -114,15 +113,15 @@ static inline int desk_teardown(void **state) {
 
 static inline const Program *compile(Desk *desk, const char *script) {
     const Source *source;
-    desk->asked = desk->included = 0;
-    desk->told.len = 0;
+    desk->evaluate_calls = desk->include_calls = 0;
+    desk->reported.len = 0;
     const Ast *ast = parse_text(desk, "t.fl", script, &source);
     DiagSink sink = diag_sink_new(&desk->program, 50);
     desk->compiled =
         program_compile(&desk->program, &desk->scratch, &desk->world.symbols, source, ast, &desk->options, &sink);
     for (uint32_t i = 0; i < sink.count; i++) {
-        SourcePlace at = source_locate(sink.items[i].source, sink.items[i].span.start);
-        text_add_format(&desk->told, "%u:%u %.*s [%s]\n", at.line, at.column, (int)sink.items[i].text.len,
+        SourcePosition at = source_locate(sink.items[i].source, sink.items[i].span.start);
+        text_add_format(&desk->reported, "%u:%u %.*s [%s]\n", at.line, at.column, (int)sink.items[i].text.len,
                         sink.items[i].text.bytes, sink.items[i].code);
     }
     diag_sink_free(&sink);

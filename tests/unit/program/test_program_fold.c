@@ -29,7 +29,7 @@ static void test_branches(void **state) {
 }
 
 // What is dynamic, or was found to be, is not asked for again with all that is around it.
-static void test_asked(void **state) {
+static void test_static_evaluation_requests(void **state) {
     static const struct {
         const char *script;
         uint32_t asked;
@@ -48,9 +48,9 @@ static void test_asked(void **state) {
     Desk *desk = *state;
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         compile(desk, rows[i].script);
-        if (desk->asked != rows[i].asked)
-            print_error("%s asked %u\n", rows[i].script, desk->asked);
-        assert_int_equal(desk->asked, rows[i].asked);
+        if (desk->evaluate_calls != rows[i].asked)
+            print_error("%s asked %u\n", rows[i].script, desk->evaluate_calls);
+        assert_int_equal(desk->evaluate_calls, rows[i].asked);
     }
     desk->options.simplify = false;
     assert_text("without", code_of(desk, "1+2\n"), "add r0 = 1 2\nreturn r0\n");
@@ -61,9 +61,9 @@ static void test_closures(void **state) {
     static const CodeRow rows[] = {
         {"let f=func(x) x\nf\n", "move r0 = (<anon>)\nmove r1 = (<anon>)\nreturn r1\n"},
         {"for i in frame\n    func() 1\n",
-         "global r2 = frame\nfor loop 0 r0 = r2 to 5\nclosure r3 = () <anon>\nadd part loop 0 r3\nnext loop 0 r0 = to "
+         "global r2 = frame\nfor loop 0 r0 = r2 to 5\nclosure r3 = () <anon>\nyield loop 0 r3\nnext loop 0 r0 = to "
          "2\n"
-         "collect r1 = loop 0\nreturn r1\n\n<anon>: parameters=0 captures=0 registers=0\nreturn 1\n"},
+         "end loop r1 = loop 0\nreturn r1\n\n<anon>: parameters=0 captures=0 registers=0\nreturn 1\n"},
     };
     Desk *desk = *state;
     check_code(desk, rows, COUNT_OF(rows));
@@ -103,9 +103,9 @@ static void test_includes(void **state) {
         desk->options.simplify = simplify;
         for (size_t i = 0; i < COUNT_OF(rows); i++) {
             compile(desk, rows[i].script);
-            assert_int_equal(desk->included, rows[i].included);
+            assert_int_equal(desk->include_calls, rows[i].included);
             if (rows[i].told)
-                assert_text(rows[i].script, text_c(&desk->told), rows[i].told);
+                assert_text(rows[i].script, text_c(&desk->reported), rows[i].told);
         }
     }
     assert_text("names", code_of(desk, "let seen=5\n%include 'inc.fl'\n"),
@@ -114,7 +114,7 @@ static void test_includes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        DESK_TEST(test_constants), DESK_TEST(test_branches), DESK_TEST(test_asked),
+        DESK_TEST(test_constants), DESK_TEST(test_branches), DESK_TEST(test_static_evaluation_requests),
         DESK_TEST(test_closures),  DESK_TEST(test_memory),   DESK_TEST(test_includes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -52,9 +52,9 @@ static void test_nodes_and_loops(void **state) {
         {"(frame v=1 w=2)\n", "global r1 = frame\ndecorate r0 = r1 (1, 2) v w\nreturn r0\n"},
         {"frame << !a\n", "global r1 = frame\nnode r2 = () none a\nappend r0 = r1 r2\nreturn r0\n"},
         {"for i in frame;1\n    !a v=i\n    !b\n",
-         "global r3 = frame\ncompose r2 = (r3, 1)\nfor loop 0 r0 = r2 to 8\nnode r3 = (v=r0) none a\nadd part loop 0 "
+         "global r3 = frame\ncompose r2 = (r3, 1)\nfor loop 0 r0 = r2 to 8\nnode r3 = (v=r0) none a\nyield loop 0 "
          "r3\n"
-         "node r3 = () none b\nadd part loop 0 r3\nnext loop 0 r0 = to 3\ncollect r1 = loop 0\nreturn r1\n"},
+         "node r3 = () none b\nyield loop 0 r3\nnext loop 0 r0 = to 3\nend loop r1 = loop 0\nreturn r1\n"},
     };
     Desk *desk = *state;
     desk->options.simplify = false;
@@ -75,25 +75,25 @@ static void test_places(void **state) {
     assert_int_equal(code->count, COUNT_OF(rows));
     for (uint32_t i = 0; i < code->count; i++) {
         const Instr *instr = &code->instrs[i];
-        SourcePlace place = source_locate(instr->at->source, instr->at->span.start);
+        SourcePosition place = source_locate(instr->at->source, instr->at->span.start);
         if (instr->op != rows[i].op || place.line != rows[i].line || place.column != rows[i].column)
             print_error("%u: %u at %u:%u\n", i, instr->op, place.line, place.column);
         assert_true(instr->op == rows[i].op && place.line == rows[i].line && place.column == rows[i].column);
         if (rows[i].inner)
-            assert_int_equal(source_locate(code->source, instr->as.inner->span.start).column, rows[i].inner);
+            assert_int_equal(source_locate(code->source, instr->as.inner_origin->span.start).column, rows[i].inner);
         assert_true(instr->op == OP_COMPOSE || instr->op == OP_RETURN || code->lines[i] == rows[i].line);
     }
 }
 
 // What a statement of a loaded program holds: two instructions with their places, a node, its names and constants.
 static void test_memory(void **state) {
-    enum { STATEMENTS = 1000, MOST_BYTES = 600 };
+    enum { STATEMENTS = 1000, MAX_BYTES = 600 };
     Desk *desk = *state;
     Text script = text_new(&desk->world.arena);
     for (int i = 0; i < STATEMENTS; i++)
         text_add_c(&script, "!a v=frame+1\n");
     compile(desk, text_c(&script));
-    assert_true(desk->program.used < STATEMENTS * MOST_BYTES);
+    assert_true(desk->program.used < STATEMENTS * MAX_BYTES);
 }
 
 int main(void) {

@@ -12,13 +12,13 @@ static const char *parameters_of(Desk *desk, const char *script) {
     for (uint32_t i = 0; i < program->parameter_count; i++) {
         const Parameter *parameter = &program->parameters[i];
         text_add_format(&out, "%s%.*s=%.*s", i ? ", " : "", (int)parameter->name->name.len, parameter->name->name.bytes,
-                        (int)parameter->fallback.len, parameter->fallback.bytes);
+                        (int)parameter->default_text.len, parameter->default_text.bytes);
         if (parameter->is_static) {
             text_add_char(&out, ':');
             format_value(&out, &desk->world.symbols, parameter->value);
         }
-        if (parameter->least > -INFINITY || parameter->most < INFINITY)
-            text_add_format(&out, " %g..%g|%g", parameter->least, parameter->most, parameter->step);
+        if (parameter->min > -INFINITY || parameter->max < INFINITY)
+            text_add_format(&out, " %g..%g|%g", parameter->min, parameter->max, parameter->step);
         if (parameter->comment.len)
             text_add_format(&out, " -- %.*s", (int)parameter->comment.len, parameter->comment.bytes);
     }
@@ -49,7 +49,7 @@ static void test_parameters(void **state) {
 static void test_definitions(void **state) {
     Desk *desk = *state;
     assert_text("value", code_of(desk, "let n=n or 5\nn\n"), "move r0 = 5\nmove r1 = 5\nreturn r1\n");
-    assert_text("value", text_c(&desk->told), "");
+    assert_text("value", text_c(&desk->reported), "");
     Define define = {.name = name_of(&desk->world, "n"), .value = value_number(7)};
     desk->options.defines = &define;
     desk->options.define_count = 1;
@@ -63,7 +63,7 @@ static void test_definitions(void **state) {
 static void test_lint(void **state) {
     static const ParameterRow rows[] = {
         {"let n=n or 5 -- 0..3 few\n!a v=n\n",
-         "1:5 the default of 'n' is outside the range in its comment [outside-range]\n"},
+         "1:5 the default of 'n' is outside the range in its comment [out-of-range]\n"},
         {"let n=n or (1;2) -- 0..3 few\n!a v=n\n", ""},
         {"let n=n or frame -- 0..3 few\n!a v=n\n", ""},
     };
@@ -73,7 +73,7 @@ static void test_lint(void **state) {
         desk->options.simplify = simplify;
         for (size_t i = 0; i < COUNT_OF(rows); i++) {
             compile(desk, rows[i].script);
-            assert_text(rows[i].script, text_c(&desk->told), rows[i].parameters);
+            assert_text(rows[i].script, text_c(&desk->reported), rows[i].parameters);
         }
     }
 }

@@ -32,7 +32,7 @@ static void test_captures(void **state) {
     assert_int_equal(f->captures[0].kind, CAPTURE_SLOT);
     assert_int_equal(f->captures[0].slot, 0);
     assert_int_equal(f->captures[1].slot, 1);
-    static const Capture wanted[] = {{CAPTURE_AGAIN, 0}, {CAPTURE_AGAIN, 1}, {CAPTURE_SLOT, 0}, {CAPTURE_SELF, 0}};
+    static const Capture wanted[] = {{CAPTURE_OUTER, 0}, {CAPTURE_OUTER, 1}, {CAPTURE_SLOT, 0}, {CAPTURE_SELF, 0}};
     assert_int_equal(g->capture_count, COUNT_OF(wanted));
     for (size_t i = 0; i < COUNT_OF(wanted); i++)
         assert_true(g->captures[i].kind == wanted[i].kind && g->captures[i].slot == wanted[i].slot);
@@ -60,7 +60,7 @@ static void test_outside(void **state) {
     desk->options.module = true;
     assert_text("module", code_of(desk, "frame\n"), "unbound r0 = frame\nreturn r0\n");
     assert_text("module", code_of(desk, "d\n"), "unbound r0 = d\nreturn r0\n");
-    assert_text("module", text_c(&desk->told), "");
+    assert_text("module", text_c(&desk->reported), "");
 }
 
 static void test_unbound(void **state) {
@@ -73,7 +73,7 @@ static void test_unbound(void **state) {
     Desk *desk = *state;
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         compile(desk, rows[i].script);
-        assert_text(rows[i].script, text_c(&desk->told), rows[i].code);
+        assert_text(rows[i].script, text_c(&desk->reported), rows[i].code);
     }
 }
 

@@ -2,9 +2,8 @@
 //
 // Trees are made by hand and live as long as the test, as those of a program do; an update breaks off where its arena's
 // budget ends.
-#include "values.h"
-
 #include "scene/scene.h"
+#include "values.h"
 
 typedef struct Stage {
     World *world;
@@ -16,17 +15,19 @@ typedef struct Stage {
     double time;
 } Stage;
 
-static void ignore(void *host, DiagLevel level, const char *code, const Origin *origin, Str node, Str key, Str text) {
+static void ignore_report(void *host, DiagLevel level, const char *code, const Origin *origin, Str node, Str key,
+                          Str text) {
     (void)host, (void)level, (void)code, (void)origin, (void)node, (void)key, (void)text;
 }
 
-static const Node *made(World *world, const char *kind, const char *name, Value value) {
+static const Node *make_node(World *world, const char *kind, const char *name, Value value) {
     return node_set_attrs(&world->arena, node_new(&world->arena, name_of(world, kind)),
                           &(Attr){name_of(world, name), value}, 1);
 }
 
-static Value with(World *world, Value system, const char *kind, const char *name, Value value, const char *vector) {
-    const Node *node = made(world, kind, name, value);
+static Value append_node(World *world, Value system, const char *kind, const char *name, Value value,
+                         const char *vector) {
+    const Node *node = make_node(world, kind, name, value);
     node = node_set_attrs(&world->arena, node, &(Attr){name_of(world, vector), value_number(3)}, 1);
     return value_node(&world->arena,
                       node_append(&world->arena, system.as.items->as.node, value_node(&world->arena, node)));
@@ -35,19 +36,19 @@ static Value with(World *world, Value system, const char *kind, const char *name
 // A system in two dimensions: particles 1 … count, and three forces of the same size. A vector of one number takes the
 // frame's memory when it is read.
 static Value system_of(World *world, int count, double force) {
-    const Node *node = made(world, "physics", "state", read_value(world, ":s"));
+    const Node *node = make_node(world, "physics", "state", read_value(world, ":s"));
     node = node_set_attrs(&world->arena, node, &(Attr){name_of(world, "dimensions"), value_number(2)}, 1);
     Value tree = value_node(&world->arena, node);
     for (int i = 1; i <= count; i++)
-        tree = with(world, tree, "particle", "id", value_number(i), "position");
+        tree = append_node(world, tree, "particle", "id", value_number(i), "position");
     for (int i = 0; i < 3; i++)
-        tree = with(world, tree, "constant", "strength", value_number(force), "force");
-    value_keep(tree);
+        tree = append_node(world, tree, "constant", "strength", value_number(force), "force");
+    value_mark_program_lifetime(tree);
     return tree;
 }
 
 // One frame; false if it broke off.
-static bool update(Stage *stage, Value tree, size_t budget) {
+static bool update_scene(Stage *stage, Value tree, size_t budget) {
     volatile bool whole = false;
     arena_init(&stage->arena, "frame", budget);
     stage->arena.escape = &stage->escape;
@@ -62,49 +63,49 @@ static bool update(Stage *stage, Value tree, size_t budget) {
     return whole;
 }
 
-static Value entry(const Stage *stage, const char *key) {
+static Value get_entry(const Stage *stage, const char *key) {
     return state_get(stage->state, read_value(stage->world, key));
 }
 
-static bool has(const Stage *stage, const char *key) {
-    return entry(stage, key).len > 0;
+static bool has_entry(const Stage *stage, const char *key) {
+    return get_entry(stage, key).len > 0;
 }
 
 // Frames of `first`, `second`, which may break off, and `third`.
-static bool play(Stage *stage, World *world, Value first, Value second, Value third, size_t budget) {
+static bool run_frames(Stage *stage, World *world, Value first, Value second, Value third, size_t budget) {
     *stage = (Stage){.world = world, .state = state_new(NULL)};
-    schema_init(&stage->schema, &world->symbols, (SchemaHost){NULL, ignore});
+    schema_init(&stage->schema, &world->symbols, (SchemaSink){NULL, ignore_report});
     stage->scene = scene_new(&world->arena, &stage->schema);
-    assert_true(update(stage, first, SIZE_MAX));
-    assert_true(update(stage, first, SIZE_MAX));
-    assert_true(has(stage, ":s;1") && has(stage, ":s;2") && has(stage, ":s;2;:velocity"));
-    bool whole = budget > 0 && update(stage, second, budget);
+    assert_true(update_scene(stage, first, SIZE_MAX));
+    assert_true(update_scene(stage, first, SIZE_MAX));
+    assert_true(has_entry(stage, ":s;1") && has_entry(stage, ":s;2") && has_entry(stage, ":s;2;:velocity"));
+    bool whole = budget > 0 && update_scene(stage, second, budget);
     if (budget == 0)
         stage->time += 1;
-    assert_true(update(stage, third, SIZE_MAX));
+    assert_true(update_scene(stage, third, SIZE_MAX));
     return whole;
 }
 
-static void end(Stage *stage) {
+static void free_stage(Stage *stage) {
     scene_free(stage->scene);
     state_free(stage->state);
 }
 
-enum { MOST = 1000, BY = 8, PLACES = 4 }; // budgets; where an update breaks off, at least
+enum { MAX_BUDGET = 1000, BY = 8, PLACES = 4 }; // budgets; where an update breaks off, at least
 
 // Particles of the last whole tree go from the state with the next whole one.
 static void test_vanished(void **state) {
     World *world = *state;
     Value two = system_of(world, 2, 1), one = system_of(world, 1, 1), three = system_of(world, 3, 1);
     int broken = 0;
-    for (size_t budget = 1; budget < MOST; budget += BY) {
+    for (size_t budget = 1; budget < MAX_BUDGET; budget += BY) {
         Stage stage;
-        broken += !play(&stage, world, two, three, one, budget);
-        assert_true(has(&stage, ":s;1"));
-        assert_false(has(&stage, ":s;2") || has(&stage, ":s;2;:velocity") || has(&stage, ":s;3"));
-        end(&stage);
+        broken += !run_frames(&stage, world, two, three, one, budget);
+        assert_true(has_entry(&stage, ":s;1"));
+        assert_false(has_entry(&stage, ":s;2") || has_entry(&stage, ":s;2;:velocity") || has_entry(&stage, ":s;3"));
+        free_stage(&stage);
     }
-    assert_true(broken >= PLACES && broken < MOST / BY);
+    assert_true(broken >= PLACES && broken < MAX_BUDGET / BY);
 }
 
 // Forces of a tree that was not read to its end do not act.
@@ -112,22 +113,22 @@ static void test_forces(void **state) {
     World *world = *state;
     Value pushed = system_of(world, 2, 1), pulled = system_of(world, 2, -5);
     Stage expected;
-    play(&expected, world, pushed, pulled, pushed, 0);
+    run_frames(&expected, world, pushed, pulled, pushed, 0);
     int broken = 0;
-    for (size_t budget = 1; budget < MOST; budget += BY) {
+    for (size_t budget = 1; budget < MAX_BUDGET; budget += BY) {
         Stage stage;
-        if (!play(&stage, world, pushed, pulled, pushed, budget)) {
+        if (!run_frames(&stage, world, pushed, pulled, pushed, budget)) {
             broken++;
-            assert_true(value_equal(NULL, entry(&stage, ":s;1"), entry(&expected, ":s;1")));
-            assert_true(value_equal(NULL, entry(&stage, ":s;2;:velocity"), entry(&expected, ":s;2;:velocity")));
+            assert_true(value_equal(NULL, get_entry(&stage, ":s;1"), get_entry(&expected, ":s;1")));
+            assert_true(value_equal(NULL, get_entry(&stage, ":s;2;:velocity"), get_entry(&expected, ":s;2;:velocity")));
         }
-        end(&stage);
+        free_stage(&stage);
     }
-    end(&expected);
-    assert_true(broken >= PLACES && broken < MOST / BY);
+    free_stage(&expected);
+    assert_true(broken >= PLACES && broken < MAX_BUDGET / BY);
 }
 
-static size_t held(const Arena *arena) {
+static size_t arena_bytes(const Arena *arena) {
     size_t bytes = 0;
     for (const ArenaBlock *block = arena->first; block; block = block->next)
         bytes += sizeof *block + block->capacity;
@@ -141,18 +142,18 @@ static void test_ids_are_charged(void **state) {
     Stage stage;
     SceneView view;
     const double *ids;
-    Meter meter = {.memory_limit = SIZE_MAX};
-    meter_begin(&meter, UINT64_MAX, NULL);
-    world->arena.meter = &meter;
-    size_t of_world = held(&world->arena);
-    play(&stage, world, two, two, two, 0);
-    world->arena.meter = NULL;
+    Budget meter = {.memory_limit = SIZE_MAX};
+    budget_begin(&meter, UINT64_MAX, NULL);
+    world->arena.budget = &meter;
+    size_t of_world = arena_bytes(&world->arena);
+    run_frames(&stage, world, two, two, two, 0);
+    world->arena.budget = NULL;
     assert_true(scene_view(stage.scene, stage.state, 0, &view));
     size_t before = meter.memory;
     assert_true(scene_view_ids(stage.state, &view, &ids));
     assert_true(ids[0] == 1 && ids[1] == 2);
     assert_int_equal(meter.memory, before + 2 * sizeof *ids);
-    assert_true(update(&stage, three, SIZE_MAX));
+    assert_true(update_scene(&stage, three, SIZE_MAX));
     assert_true(scene_view(stage.scene, stage.state, 0, &view));
     meter.memory_limit = meter.memory;
     assert_false(scene_view_ids(stage.state, &view, &ids));
@@ -161,8 +162,8 @@ static void test_ids_are_charged(void **state) {
     assert_true(scene_view_ids(stage.state, &view, &ids));
     assert_true(ids[2] == 3);
     scene_reset(stage.scene);
-    assert_int_equal(meter.memory, held(&world->arena) - of_world);
-    end(&stage);
+    assert_int_equal(meter.memory, arena_bytes(&world->arena) - of_world);
+    free_stage(&stage);
 }
 
 int main(void) {

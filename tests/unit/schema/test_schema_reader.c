@@ -17,7 +17,7 @@ static void read_node(Fixture *f, NodeKind kind, const Given *given, uint32_t co
     const Symbol *name = symbol_intern(&f->symbols, str_from(schema_kinds[kind].name));
     const Node *node = node_set_attrs(&f->arena, node_new(&f->arena, name), attrs, count);
     const Reader reader = {&f->schema, &f->arena, node, kind, 2};
-    f->told[0] = 0;
+    f->reported[0] = 0;
     schema_defaults(kind, record);
     reader_fill(&reader, record);
 }
@@ -29,19 +29,19 @@ static void test_texts(void **state) {
     (void)state;
     for (int i = 0; i < ROW_COUNT; i++) {
         const SchemaRow *row = &schema_rows[i];
-        const char *text = row->fallback.text, *inherited = "inherited, at first ";
-        if (row->fallback.inherited) {
+        const char *text = row->default_value.text, *inherited = "inherited, at first ";
+        if (row->default_value.inherited) {
             assert_memory_equal(text, inherited, strlen(inherited));
             text += strlen(inherited);
         }
         char *last;
         double x = strtod(text, &last);
         if (last > text && *last == 0)
-            assert_number(schema_names[row->name], row->fallback.value, x);
+            assert_number(schema_names[row->name], row->default_value.value, x);
         bool known = text[0] != ':';
         for (int w = 0; !known && w < WORD_COUNT; w++)
             known = schema_words[w].type == row->type && str_equal(schema_words[w].text, str_from(text + 1)) &&
-                    schema_words[w].value == row->fallback.value;
+                    schema_words[w].value == row->default_value.value;
         assert_true(known);
     }
 }
@@ -78,14 +78,14 @@ static void test_limits(void **state) {
     assert_true(body.numbers.mass == 1 && body.numbers.radius == 0 && body.numbers.charge == -2);
     READ(&f, KIND_ADHESION, &force, {"overlap", 3}, {"strength", INFINITY});
     assert_true(force.force.overlap == 1 && force.force.strength == INFINITY && force.force.ease == 0);
-    assert_string_equal(f.told, "");
+    assert_string_equal(f.reported, "");
     READ(&f, KIND_ADHESION, &force, {"overlap", NAN});
     assert_true(force.force.overlap == 0.25);
-    assert_string_equal(f.told, "!adhesion overlap should be one number, not nan [bad-attribute]\n");
+    assert_string_equal(f.reported, "!adhesion overlap should be one number, not nan [bad-attribute]\n");
     f.schema.lint = true;
     READ(&f, KIND_PARTICLE, &body, {"mass", -1});
     assert_true(body.numbers.mass == 0);
-    assert_string_equal(f.told, "!particle mass=-1 is below 0 and counts as 0 [below-zero]\n");
+    assert_string_equal(f.reported, "!particle mass=-1 is below 0 and counts as 0 [negative-value]\n");
     end(&f);
 }
 
@@ -119,10 +119,10 @@ static void test_aliases(void **state) {
     assert_true(force.force.minimum == 3);
     READ(&f, KIND_DISTANCE, &force, {"minimum", 3}, {"min", 2});
     assert_true(force.force.minimum == 3);
-    assert_string_equal(f.told, "");
+    assert_string_equal(f.reported, "");
     READ(&f, KIND_DISTANCE, &force, {"minimum", NAN}, {"min", 2});
     assert_true(force.force.minimum == 2);
-    assert_non_null(strstr(f.told, "minimum should be one number"));
+    assert_non_null(strstr(f.reported, "minimum should be one number"));
     end(&f);
 }
 
@@ -133,12 +133,12 @@ static void test_complaints(void **state) {
     BodyAttrs body = {0}; // no row of an anchor names its velocity
     CounterAttrs counter;
     READ(&f, KIND_ANCHOR, &body, {"id", 7}, {"velocity", 1}, {"mss", 1});
-    assert_string_equal(f.told, "!anchor id=7 unknown attribute 'mss', did you mean 'mass'? [unknown-attribute]\n");
+    assert_string_equal(f.reported, "!anchor id=7 unknown attribute 'mss', did you mean 'mass'? [unknown-attribute]\n");
     assert_null(body.numbers.velocity);
     READ(&f, KIND_COUNTER, &counter, {"qqqqqq", 1});
-    assert_string_equal(f.told, "!counter unknown attribute 'qqqqqq' [unknown-attribute]\n");
+    assert_string_equal(f.reported, "!counter unknown attribute 'qqqqqq' [unknown-attribute]\n");
     assert_true(counter.rate.as.number == 0 && counter.minimum.len == 0 && counter.state.len == 0);
-    assert_int_equal(f.schema.reports, 2);
+    assert_int_equal(f.schema.report_count, 2);
     end(&f);
 }
 

@@ -2,7 +2,7 @@
 #include "player.h"
 
 // What is told in three frames of a system with these lines in it.
-static const char *told_of(Player *player, const char *lines) {
+static const char *reports_of(Player *player, const char *lines) {
     PetriOptions options = player_options(player);
     player_reopen(player, &options);
     Notebook script = {0};
@@ -11,12 +11,12 @@ static const char *told_of(Player *player, const char *lines) {
         note(&script, parts[i], strlen(parts[i]));
     player_run(player, script.text, 3);
     free(script.text);
-    return player_told(player);
+    return player_diagnostics(player);
 }
 
-static void check_told(Player *player, const ScriptRow *rows, size_t count) {
+static void check_reported(Player *player, const ScriptRow *rows, size_t count) {
     for (size_t i = 0; i < count; i++)
-        assert_text(rows[i].script, told_of(player, rows[i].script), rows[i].wanted);
+        assert_text(rows[i].script, reports_of(player, rows[i].script), rows[i].wanted);
 }
 
 #define BAD(node, text) "warning " node ": " text " [bad-attribute]\n"
@@ -50,18 +50,18 @@ static void test_shapes(void **state) {
         {"!distance from=1 to=1 fixed='x' min=1", BAD("!distance", "fixed should be one number, not 'x'")},
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
-        const char *told = told_of(*state, rows[i].script);
+        const char *reported = reports_of(*state, rows[i].script);
         // In whatever order the attributes are read.
         size_t len = 0;
         for (const char *line = rows[i].wanted; *line; line = strchr(line, '\n') + 1) {
             char part[300];
             snprintf(part, sizeof part, "%.*s", (int)(strchr(line, '\n') + 1 - line), line);
-            if (!strstr(told, part))
-                assert_text(rows[i].script, told, rows[i].wanted);
+            if (!strstr(reported, part))
+                assert_text(rows[i].script, reported, rows[i].wanted);
             len += strlen(part);
         }
-        if (strlen(told) != len)
-            assert_text(rows[i].script, told, rows[i].wanted);
+        if (strlen(reported) != len)
+            assert_text(rows[i].script, reported, rows[i].wanted);
     }
 }
 
@@ -84,7 +84,7 @@ static void test_unknown(void **state) {
         {"!group anything=3 strength='x'", ""}, // attributes of groups are ignored
         {"!group\n        !drag x=1", "warning !drag: unknown attribute 'x' [unknown-attribute]\n"},
     };
-    check_told(*state, rows, COUNT_OF(rows));
+    check_reported(*state, rows, COUNT_OF(rows));
 }
 
 static void test_ids(void **state) {
@@ -101,14 +101,14 @@ static void test_ids(void **state) {
         {"!particle id='1'", ""},
         {"!particle id=1;1", ""},
         {"!particle id=-0\n    !particle id=0", ""}, // different keys
-        {"!distance from=1 to=9", "warning !distance: to=9 names no particle; ignored [no-such-particle]\n"},
-        {"!distance from='q' to=1", "warning !distance: from='q' names no particle; ignored [no-such-particle]\n"},
-        {"!distance to=1", "warning !distance: from=null names no particle; ignored [no-such-particle]\n"},
+        {"!distance from=1 to=9", "warning !distance: to=9 names no particle; ignored [unknown-particle]\n"},
+        {"!distance from='q' to=1", "warning !distance: from='q' names no particle; ignored [unknown-particle]\n"},
+        {"!distance to=1", "warning !distance: from=null names no particle; ignored [unknown-particle]\n"},
         {"!barrier normal=0;0 min=1",
          "warning !barrier: normal is no direction; the barrier is ignored [bad-normal]\n"},
         {"!barrier min=1", "warning !barrier: normal is no direction; the barrier is ignored [bad-normal]\n"},
     };
-    check_told(*state, rows, COUNT_OF(rows));
+    check_reported(*state, rows, COUNT_OF(rows));
 }
 
 static void test_skipped_systems(void **state) {
@@ -136,10 +136,10 @@ static void test_skipped_systems(void **state) {
         snprintf(wanted, sizeof wanted, "!physics%s%s", rows[i][1][0] == ':' ? "" : " ", rows[i][1]);
         player_run(player, script, 3);
         assert_text(script, player_state(player), ""); // a skipped frame changes nothing
-        const char *told = player_told(player);
-        const char *found = strstr(told, "[skipped-system]\n");
-        assert_claim(script, strstr(told, wanted) != NULL);
-        assert_claim(script, found && !strstr(found + 1, "[skipped-system]")); // once
+        const char *reported = player_diagnostics(player);
+        const char *found = strstr(reported, "[invalid-system]\n");
+        assert_claim(script, strstr(reported, wanted) != NULL);
+        assert_claim(script, found && !strstr(found + 1, "[invalid-system]")); // once
     }
 }
 

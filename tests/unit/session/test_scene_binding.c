@@ -78,7 +78,7 @@ static const char *const worlds[] = {
 };
 
 // The states of all frames.
-static char *play(Player *player, const char *world, bool simplify, Folder *folder) {
+static char *run_frames(Player *player, const char *world, bool simplify, Folder *folder) {
     Notebook book = {0};
     PetriOptions options = player_options(player);
     options.simplify = simplify;
@@ -97,13 +97,14 @@ static char *play(Player *player, const char *world, bool simplify, Folder *fold
     return book.text;
 }
 
-static void test_worlds(void **state) {
+static void test_continued_systems_match_restored(void **state) {
     Player *player = *state;
     Folder folder;
     folder_open(&folder);
     for (size_t i = 0; i < COUNT_OF(worlds); i++) {
-        char *from_scratch = play(player, worlds[i], true, &folder), *kept = play(player, worlds[i], true, NULL);
-        char *not_kept = play(player, worlds[i], false, NULL);
+        char *from_scratch = run_frames(player, worlds[i], true, &folder),
+             *kept = run_frames(player, worlds[i], true, NULL);
+        char *not_kept = run_frames(player, worlds[i], false, NULL);
         assert_text(worlds[i], kept, from_scratch);
         assert_text(worlds[i], not_kept, from_scratch);
         assert_non_null(strstr(kept, "$"));
@@ -116,7 +117,7 @@ static void test_worlds(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_worlds),
+        PLAYER_TEST(test_continued_systems_match_restored),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -36,6 +36,18 @@ static void test_values(void **state) {
         {"rate=1 initial=1;2;3", 2, "1.1;2.1;3.1"},
         {"rate=1;10", 3, "0.2;2"},
         {"initial=0;1;2;3 rate=1;-1", 2, "0.1;0.9;2.1;2.9"},
+        // The first value is `initial`: the other attributes do not make it longer, except for the clamps.
+        {"rate=1;2", 1, "0"},
+        {"rate=1;2", 2, "0.1;0.2"},
+        {"initial=7 time=frame;frame*2", 1, "7"},
+        {"initial=7 reset=0;1", 1, "7"},
+        {"minimum=1;2", 1, "1;2"},
+        {"rate=1 time=((0;1) if frame==0 else 5)", 2, "5;4"}, // the last time may be longer than the value
+        // After that, `initial` counts only where `reset` is true.
+        {"rate=1 initial=(0 if frame==0 else (1;2))", 2, "0.1"},
+        {"rate=1 initial=(0 if frame==0 else (1;2)) reset=0", 2, "0.1"},
+        {"rate=1 initial=(0 if frame==0 else (1;2)) reset=frame==1", 2, "1;2"},
+        {"rate=1 initial=(0 if frame==0 else (1;2;3)) reset=0;1", 2, "0.1;2;0.1"},
         // Clamps, also of the initial value; first from below, then from above.
         {"initial=5 maximum=3", 1, "3"},
         {"initial=-5 minimum=-3", 1, "-3"},
@@ -129,11 +141,11 @@ static void test_two_of_one_key(void **state) {
 static void test_complaints(void **state) {
     Player *player = *state;
     static const ScriptRow rows[] = {
-        {"!counter\n", "warning !counter: no usable state key; the counter is skipped [skipped-system]\n"},
+        {"!counter\n", "warning !counter: no usable state key; the counter is skipped [invalid-system]\n"},
         {"!counter state=0/0\n",
-         "warning !counter state=nan: no usable state key; the counter is skipped [skipped-system]\n"},
+         "warning !counter state=nan: no usable state key; the counter is skipped [invalid-system]\n"},
         {"!counter state=!a\n",
-         "warning !counter state=(!a): no usable state key; the counter is skipped [skipped-system]\n"},
+         "warning !counter state=(!a): no usable state key; the counter is skipped [invalid-system]\n"},
         {"!counter state=:c rat=2\n",
          "warning !counter state=:c: unknown attribute 'rat', did you mean 'rate'? [unknown-attribute]\n"},
         {"!counter state=:c zzzzz=2\n", "warning !counter state=:c: unknown attribute 'zzzzz' [unknown-attribute]\n"},
@@ -151,7 +163,7 @@ static void test_complaints(void **state) {
         PetriOptions options = player_options(player);
         player_reopen(player, &options);
         player_run(player, rows[i].script, 3);
-        assert_text(rows[i].script, player_told(player), rows[i].wanted);
+        assert_text(rows[i].script, player_diagnostics(player), rows[i].wanted);
     }
 }
 

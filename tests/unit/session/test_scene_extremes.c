@@ -5,11 +5,11 @@
 #include <math.h>
 #include <stdarg.h>
 
-enum { SCRIPTS = 100, FRAMES = 4, MOST_TEXT = 6000 };
+enum { SCRIPTS = 100, FRAMES = 4, MAX_TEXT = 6000 };
 
 typedef struct Author {
     uint64_t state;
-    char text[MOST_TEXT];
+    char text[MAX_TEXT];
     size_t len;
 } Author;
 
@@ -21,9 +21,9 @@ static unsigned below(Author *author, unsigned n) {
 __attribute__((format(printf, 2, 3))) static void add(Author *author, const char *format, ...) {
     va_list list;
     va_start(list, format);
-    author->len += (size_t)vsnprintf(author->text + author->len, MOST_TEXT - author->len, format, list);
+    author->len += (size_t)vsnprintf(author->text + author->len, MAX_TEXT - author->len, format, list);
     va_end(list);
-    assert_true(author->len < MOST_TEXT);
+    assert_true(author->len < MAX_TEXT);
 }
 
 static const char *number(Author *author) {

@@ -8,20 +8,20 @@ static const char *const KEY = "!window\n    !key name=:space state=:k\n!see dow
                                "toggled=$(:k;:toggled)\n";
 
 // The `!see` line of the next frame.
-static const char *next(Player *player) {
+static const char *next_tree_line(Player *player) {
     player_step(player, 1);
     const char *line = strstr(player_tree(player), "!see");
     assert_non_null(line);
     return line;
 }
 
-static void point(Player *player, double x, double y, unsigned buttons) {
+static void move_pointer(Player *player, double x, double y, unsigned buttons) {
     const PetriPointer pointer = {.inside = true, .x = x, .y = y, .buttons = buttons};
-    assert_int_equal(petri_pointer(player->session, &pointer), PETRI_OK);
+    assert_int_equal(petri_report_pointer(player->session, &pointer), PETRI_OK);
 }
 
-static void press(Player *player, const char *key, bool down) {
-    assert_int_equal(petri_key(player->session, key, down), PETRI_OK);
+static void press_key(Player *player, const char *key, bool down) {
+    assert_int_equal(petri_report_key(player->session, key, down), PETRI_OK);
 }
 
 static void open_slow(Player *player) {
@@ -35,74 +35,74 @@ static void test_silent(void **state) {
     Player *player = *state;
     player_run(player, "!window\n    !pointer state=:m\n    !key name=:a state=:k\n", 5);
     assert_text("state", player_state(player), "");
-    assert_text("told", player_told(player), "");
+    assert_text("told", player_diagnostics(player), "");
 }
 
 static void test_pointer(void **state) {
     Player *player = *state;
     player_run(player, POINTER, 1);
-    point(player, 0.25, 0.75, 0);
-    assert_text("inside", next(player), "!see at=0.25;0.75 left=0 right=0\n");
-    point(player, 0.5, 0, PETRI_BUTTON_LEFT | 8);
-    assert_text("pressed", next(player), "!see at=0.5;0 left=1 right=0 fourth=1\n");
-    assert_text("held", next(player), "!see at=0.5;0 left=1 right=0 fourth=1\n");
-    point(player, 7, -7, PETRI_BUTTON_RIGHT);
-    assert_text("beyond", next(player), "!see at=1;0 left=0 right=1 fourth=0\n");
+    move_pointer(player, 0.25, 0.75, 0);
+    assert_text("inside", next_tree_line(player), "!see at=0.25;0.75 left=0 right=0\n");
+    move_pointer(player, 0.5, 0, PETRI_BUTTON_LEFT | 8);
+    assert_text("pressed", next_tree_line(player), "!see at=0.5;0 left=1 right=0 fourth=1\n");
+    assert_text("held", next_tree_line(player), "!see at=0.5;0 left=1 right=0 fourth=1\n");
+    move_pointer(player, 7, -7, PETRI_BUTTON_RIGHT);
+    assert_text("beyond", next_tree_line(player), "!see at=1;0 left=0 right=1 fourth=0\n");
     const PetriPointer outside = {.buttons = PETRI_BUTTON_RIGHT};
-    assert_int_equal(petri_pointer(player->session, &outside), PETRI_OK);
-    assert_text("outside", next(player), "!see left=0 right=1 fourth=0\n");
-    assert_int_equal(petri_pointer(player->session, NULL), PETRI_OK);
-    assert_text("away", next(player), "!see left=0 right=0 fourth=0\n");
+    assert_int_equal(petri_report_pointer(player->session, &outside), PETRI_OK);
+    assert_text("outside", next_tree_line(player), "!see left=0 right=1 fourth=0\n");
+    assert_int_equal(petri_report_pointer(player->session, NULL), PETRI_OK);
+    assert_text("away", next_tree_line(player), "!see left=0 right=0 fourth=0\n");
 }
 
 static void test_click_between_frames(void **state) {
     Player *player = *state;
     player_run(player, POINTER, 1);
-    point(player, 0, 0, PETRI_BUTTON_LEFT);
-    point(player, 0, 0, 0);
-    assert_text("click", next(player), "!see at=0;0 left=1 right=0\n");
-    assert_text("after", next(player), "!see at=0;0 left=0 right=0\n");
+    move_pointer(player, 0, 0, PETRI_BUTTON_LEFT);
+    move_pointer(player, 0, 0, 0);
+    assert_text("click", next_tree_line(player), "!see at=0;0 left=1 right=0\n");
+    assert_text("after", next_tree_line(player), "!see at=0;0 left=0 right=0\n");
 }
 
 static void test_not_finite(void **state) {
     static const double bad[][2] = {{NAN, 0}, {0, NAN}, {INFINITY, 0}, {0, -INFINITY}};
     Player *player = *state;
     player_run(player, POINTER, 1);
-    point(player, 0.5, 0.5, 0);
+    move_pointer(player, 0.5, 0.5, 0);
     for (size_t i = 0; i < COUNT_OF(bad); i++) {
         const PetriPointer pointer = {.inside = true, .x = bad[i][0], .y = bad[i][1], .buttons = PETRI_BUTTON_LEFT};
-        assert_int_equal(petri_pointer(player->session, &pointer), PETRI_INVALID);
-        assert_text("unchanged", next(player), "!see at=0.5;0.5 left=0 right=0\n");
+        assert_int_equal(petri_report_pointer(player->session, &pointer), PETRI_INVALID);
+        assert_text("unchanged", next_tree_line(player), "!see at=0.5;0.5 left=0 right=0\n");
     }
     const PetriPointer outside = {.inside = false, .x = NAN, .y = NAN}; // do not count
-    assert_int_equal(petri_pointer(player->session, &outside), PETRI_OK);
-    assert_text("outside", next(player), "!see left=0 right=0\n");
+    assert_int_equal(petri_report_pointer(player->session, &outside), PETRI_OK);
+    assert_text("outside", next_tree_line(player), "!see left=0 right=0\n");
 }
 
 static void test_key(void **state) {
     Player *player = *state;
     open_slow(player);
     player_run(player, KEY, 1);
-    assert_text("nothing heard", next(player), "!see\n");
-    press(player, "a", true); // not asked for
-    assert_text("up", next(player), "!see down=0 pushed=0 released=1 toggled=0\n");
-    press(player, "space", true);
-    assert_text("down", next(player), "!see down=1 pushed=1 at=3 released=0 toggled=1\n");
-    press(player, "space", true); // repeated by the keyboard
-    assert_text("held", next(player), "!see down=1 pushed=1 at=3 released=0 toggled=1\n");
-    press(player, "space", false);
-    assert_text("let go", next(player), "!see down=0 pushed=0 at=3 released=1 until=5 toggled=1\n");
-    press(player, "space", true);
-    press(player, "space", false);
-    assert_text("tapped", next(player), "!see down=1 pushed=1 at=6 released=0 until=5 toggled=0\n");
-    assert_text("after", next(player), "!see down=0 pushed=0 at=6 released=1 until=7 toggled=0\n");
-    press(player, "space", true);
-    assert_text("down", next(player), "!see down=1 pushed=1 at=8 released=0 until=7 toggled=1\n");
-    press(player, "space", false);
-    press(player, "space", true);
-    assert_text("anew", next(player), "!see down=1 pushed=1 at=9 released=0 until=7 toggled=0\n");
-    petri_pointer(player->session, NULL);
-    assert_text("away", next(player), "!see down=0 pushed=0 at=9 released=1 until=10 toggled=0\n");
+    assert_text("nothing heard", next_tree_line(player), "!see\n");
+    press_key(player, "a", true); // not asked for
+    assert_text("up", next_tree_line(player), "!see down=0 pushed=0 released=1 toggled=0\n");
+    press_key(player, "space", true);
+    assert_text("down", next_tree_line(player), "!see down=1 pushed=1 at=3 released=0 toggled=1\n");
+    press_key(player, "space", true); // repeated by the keyboard
+    assert_text("held", next_tree_line(player), "!see down=1 pushed=1 at=3 released=0 toggled=1\n");
+    press_key(player, "space", false);
+    assert_text("let go", next_tree_line(player), "!see down=0 pushed=0 at=3 released=1 until=5 toggled=1\n");
+    press_key(player, "space", true);
+    press_key(player, "space", false);
+    assert_text("tapped", next_tree_line(player), "!see down=1 pushed=1 at=6 released=0 until=5 toggled=0\n");
+    assert_text("after", next_tree_line(player), "!see down=0 pushed=0 at=6 released=1 until=7 toggled=0\n");
+    press_key(player, "space", true);
+    assert_text("down", next_tree_line(player), "!see down=1 pushed=1 at=8 released=0 until=7 toggled=1\n");
+    press_key(player, "space", false);
+    press_key(player, "space", true);
+    assert_text("anew", next_tree_line(player), "!see down=1 pushed=1 at=9 released=0 until=7 toggled=0\n");
+    petri_report_pointer(player->session, NULL);
+    assert_text("away", next_tree_line(player), "!see down=0 pushed=0 at=9 released=1 until=10 toggled=0\n");
 }
 
 static void test_names_of_keys(void **state) {
@@ -111,11 +111,11 @@ static void test_names_of_keys(void **state) {
     Player *player = *state;
     player_run(player, "!window\n    !key name='9' state=:nine\n    !key name=:z state=:zed\n", 1);
     for (size_t i = 0; i < COUNT_OF(good); i++)
-        assert_claim(good[i], petri_key(player->session, good[i], true) == PETRI_OK);
+        assert_claim(good[i], petri_report_key(player->session, good[i], true) == PETRI_OK);
     for (size_t i = 0; i < COUNT_OF(bad); i++)
-        assert_claim(bad[i], petri_key(player->session, bad[i], true) == PETRI_INVALID);
-    assert_true(petri_key_bound(player->session, "9") && petri_key_bound(player->session, "z"));
-    assert_false(petri_key_bound(player->session, "a") || petri_key_bound(player->session, "spcae"));
+        assert_claim(bad[i], petri_report_key(player->session, bad[i], true) == PETRI_INVALID);
+    assert_true(petri_key_is_bound(player->session, "9") && petri_key_is_bound(player->session, "z"));
+    assert_false(petri_key_is_bound(player->session, "a") || petri_key_is_bound(player->session, "spcae"));
     player_step(player, 1);
     assert_non_null(strstr(player_state(player), "$:nine = 1\n"));
     assert_non_null(strstr(player_state(player), "$:zed = 1\n"));
@@ -125,11 +125,11 @@ static void test_names_of_keys(void **state) {
 static void test_keys_differ(void **state) {
     Player *player = *state;
     player_run(player, "!window\n    !key name=:menu state=:m\n    !key name=:a state=:a\n!see m=$:m a=$:a\n", 1);
-    press(player, "menu", true);
-    assert_text("menu", next(player), "!see m=1 a=0\n");
-    press(player, "a", true);
-    press(player, "menu", false);
-    assert_text("a", next(player), "!see m=0 a=1\n");
+    press_key(player, "menu", true);
+    assert_text("menu", next_tree_line(player), "!see m=1 a=0\n");
+    press_key(player, "a", true);
+    press_key(player, "menu", false);
+    assert_text("a", next_tree_line(player), "!see m=0 a=1\n");
 }
 
 static void test_mistakes(void **state) {
@@ -137,14 +137,14 @@ static void test_mistakes(void **state) {
         const char *script;
         const char *told;
     } rows[] = {
-        {"!window\n    !pointer\n", "warning !pointer: no usable state key; skipped [skipped-input]\n"},
+        {"!window\n    !pointer\n", "warning !pointer: no usable state key; skipped [invalid-input-node]\n"},
         {"!window\n    !pointer state=(!a)\n",
-         "warning !pointer state=(!a): no usable state key; skipped [skipped-input]\n"},
-        {"!window\n    !key state=:k\n", "warning !key state=:k: it names no key; skipped [skipped-input]\n"},
+         "warning !pointer state=(!a): no usable state key; skipped [invalid-input-node]\n"},
+        {"!window\n    !key state=:k\n", "warning !key state=:k: it names no key; skipped [invalid-input-node]\n"},
         {"!window\n    !key name=:spcae state=:k\n",
-         "warning !key state=:k: there is no key called :spcae; skipped [skipped-input]\n"},
+         "warning !key state=:k: there is no key called :spcae; skipped [invalid-input-node]\n"},
         {"!window\n    !key name=5 state=:k\n",
-         "warning !key state=:k: there is no key called 5; skipped [skipped-input]\n"},
+         "warning !key state=:k: there is no key called 5; skipped [invalid-input-node]\n"},
         {"!window\n    !key name=:a state=:k nmae=:b\n",
          "warning !key state=:k: unknown attribute 'nmae', did you mean 'name'? [unknown-attribute]\n"},
     };
@@ -152,7 +152,7 @@ static void test_mistakes(void **state) {
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         player_forget(player);
         player_run(player, rows[i].script, 3);
-        assert_text(rows[i].script, player_told(player), rows[i].told);
+        assert_text(rows[i].script, player_diagnostics(player), rows[i].told);
     }
 }
 
@@ -163,7 +163,7 @@ static void test_places(void **state) {
                "!pointer state=:top\n!group\n    !pointer state=:inner\n!window\n    !pointer state=:a;1\n"
                "    !canvas\n        !pointer state=:deep\n!window\n    !pointer state=:b\n    !pointer state='c'\n",
                1);
-    point(player, 1, 0, 0);
+    move_pointer(player, 1, 0, 0);
     player_step(player, 1);
     const char *found = player_state(player);
     assert_text("state", found,
@@ -173,18 +173,18 @@ static void test_places(void **state) {
 }
 
 // A node that is gone leaves what it wrote; one that is back goes on. A reloaded script keeps what is pressed.
-static void test_comes_and_goes(void **state) {
+static void test_input_nodes_can_disappear(void **state) {
     Player *player = *state;
     player_run(player, "!window\n    if frame%2==0\n        !key name=:a state=:k\n", 1);
-    press(player, "a", true);
+    press_key(player, "a", true);
     player_step(player, 1);
     assert_true(strncmp(player_state(player), "$:k = 1\n", 8) == 0);
-    press(player, "a", false);
+    press_key(player, "a", false);
     player_step(player, 1);
     assert_true(strncmp(player_state(player), "$:k = 1\n", 8) == 0);
     player_step(player, 1);
     assert_true(strncmp(player_state(player), "$:k = 0\n", 8) == 0);
-    press(player, "a", true);
+    press_key(player, "a", true);
     player_run(player, "!window\n    !key name=:a state=:other\n", 2);
     assert_non_null(strstr(player_state(player), "$:other = 1\n"));
 }
@@ -193,7 +193,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_silent),      PLAYER_TEST(test_pointer), PLAYER_TEST(test_click_between_frames),
         PLAYER_TEST(test_not_finite),  PLAYER_TEST(test_key),     PLAYER_TEST(test_names_of_keys),
-        PLAYER_TEST(test_mistakes),    PLAYER_TEST(test_places),  PLAYER_TEST(test_comes_and_goes),
+        PLAYER_TEST(test_mistakes),    PLAYER_TEST(test_places),  PLAYER_TEST(test_input_nodes_can_disappear),
         PLAYER_TEST(test_keys_differ),
     };
     return cmocka_run_group_tests_name("input", tests, NULL, NULL);

@@ -8,7 +8,7 @@ static const char *state_after(Player *player, const char *script, int frames) {
     options.fps = 8;
     player_reopen(player, &options);
     player_run(player, script, frames);
-    char *line = (char *)player_state(player), *out = player->shown.text;
+    char *line = (char *)player_state(player), *out = player->printed.text;
     for (char *end; *line; line = end) {
         end = strchr(line, '\n') + 1;
         static const char *const clocks[] = {";:clock)", ";:iteration)", ";:last)", ";:run)"};
@@ -23,7 +23,7 @@ static const char *state_after(Player *player, const char *script, int frames) {
         }
     }
     *out = 0;
-    return player->shown.text;
+    return player->printed.text;
 }
 
 typedef struct StateRow {
@@ -87,6 +87,25 @@ static void test_coming_and_going(void **state) {
         // A particle that turns into an anchor keeps its key.
         {SYSTEM "    if frame<2\n        !particle id=1 velocity=8\n    else\n        !anchor id=1 position=-1\n", 3,
          "$:s = 0\n$(:s;1) = -1\n$(:s;1;:velocity) = 0\n"},
+    };
+    check_states(*state, rows, COUNT_OF(rows));
+}
+
+#define PAUSED "!physics state=:s dimensions=1 time=(0;1;1;2)[frame]/8\n" // in frame 2
+
+// Keys of living particles stay when a particle that shares them vanishes, also in a frame that does not simulate.
+static void test_vanished_particle_leaves_shared_keys(void **state) {
+    static const char velocity_vanishes[] = PAUSED "    !particle id=0 position=5 velocity=8\n"
+                                                   "    if frame<2\n"
+                                                   "        !particle id=0;:velocity position=3 velocity=16\n";
+    static const char position_vanishes[] = PAUSED "    if frame<2\n"
+                                                   "        !particle id=0 position=5 velocity=8\n"
+                                                   "    !particle id=0;:velocity position=3 velocity=16\n";
+    static const StateRow rows[] = {
+        {velocity_vanishes, 3, "$:s = 0\n$(:s;0) = 6\n$(:s;0;:velocity) = 5\n"},
+        {velocity_vanishes, 4, "$:s = 0\n$(:s;0) = 6.625\n$(:s;0;:velocity) = 5\n"},
+        {position_vanishes, 3, "$:s = 0\n$(:s;0;:velocity) = 5\n$(:s;0;:velocity;:velocity) = 16\n"},
+        {position_vanishes, 4, "$:s = 0\n$(:s;0;:velocity) = 7\n$(:s;0;:velocity;:velocity) = 16\n"},
     };
     check_states(*state, rows, COUNT_OF(rows));
 }
@@ -168,8 +187,8 @@ static void test_several_systems(void **state) {
     player_run(
         player,
         "!physics state=:z dimensions=1\n    !particle id=1\n!physics state=:z dimensions=1\n    !particle id=2\n", 3);
-    assert_text("told", player_told(player),
-                "warning !physics state=:z: another system has the same state prefix [shared-prefix]\n");
+    assert_text("told", player_diagnostics(player),
+                "warning !physics state=:z: another system has the same state prefix [duplicate-prefix]\n");
     assert_non_null(
         strstr(player_state(player), "$(:z;:iteration) = 5\n")); // updated twice a frame, one after the other
 }
@@ -187,7 +206,7 @@ static void test_order_of_systems(void **state) {
     snprintf(wanted, sizeof wanted, "%s", player_state(player));
     snprintf(script, sizeof script, "%s(a;b;y;z) if frame %% 2 == 0 else (b;y;a;z) if frame %% 3 else (y;z;b;a)\n",
              systems);
-    petri_clear(player->session);
+    petri_reset(player->session);
     player_run(player, script, 6);
     assert_text("another order", player_state(player), wanted);
 }
@@ -233,7 +252,7 @@ static void test_step_limit(void **state) {
     Player *player = *state;
     player_run(player, "!physics state=:s dimensions=1 resolution=1e-9\n", 2);
     assert_true(petri_frame(player->session).physics_steps <= 1000000);
-    assert_non_null(strstr(player_told(player), "[dropped-time]"));
+    assert_non_null(strstr(player_diagnostics(player), "[step-limit]"));
 }
 
 int main(void) {
@@ -241,6 +260,7 @@ int main(void) {
         PLAYER_TEST(test_first_frames),
         PLAYER_TEST(test_anchors),
         PLAYER_TEST(test_coming_and_going),
+        PLAYER_TEST(test_vanished_particle_leaves_shared_keys),
         PLAYER_TEST(test_runs),
         PLAYER_TEST(test_time),
         PLAYER_TEST(test_absent_systems),

@@ -1,7 +1,6 @@
 // test_session_allocations.c: a warm frame does not touch the heap: everything that it needs has its place
 // from the frames before. The allocator of glibc is wrapped to count; other builds and sanitizers go without this test.
 #include "player.h"
-
 #include "session/session.h"
 
 extern void *__libc_malloc(size_t size);
@@ -59,19 +58,19 @@ static const Row rows[] = {
 };
 
 // A host that reads all that there is of the systems.
-static void look(PetriSession *session) {
+static void look_up_everything(PetriSession *session) {
     PetriSystem system;
     PetriValue key, value = {0};
     for (uint32_t at = 0; petri_state_next(session, &at, &key, &value);) {
         assert_ptr_equal(petri_state_get(session, key).numbers, value.numbers); // nothing is copied
         assert_int_equal(petri_state_set(session, key, value), PETRI_OK);
     }
-    assert_int_equal(petri_give(session, "given", value), PETRI_OK);
+    assert_int_equal(petri_set_global(session, "given", value), PETRI_OK);
     for (size_t s = 0; petri_system(session, s, &system); s++) {
         uint32_t found = 0;
-        petri_ids(session, s);
+        petri_particle_ids(session, s);
         for (uint32_t i = 0; i < system.particle_count; i++) {
-            assert_true(petri_find(session, s, petri_id(session, s, i), &found));
+            assert_true(petri_find_particle(session, s, petri_particle_id(session, s, i), &found));
             assert_int_equal(found, i);
         }
     }
@@ -87,13 +86,13 @@ static void test_warm_frames(void **state) {
             options.simplify = simplify;
             player_reopen(player, &options);
             player_run(player, rows[i].script, 5);
-            look(player->session);
-            look(player->session); // two values of a name are kept
+            look_up_everything(player->session);
+            look_up_everything(player->session); // two values of a name are kept
             size_t before = allocations;
             assert_true(before > 0); // they are counted at all
             for (int frame = 0; frame < 20; frame++) {
                 petri_step(player->session);
-                look(player->session);
+                look_up_everything(player->session);
             }
             assert_number(rows[i].what, (double)(allocations - before), 0);
         }

@@ -14,7 +14,7 @@ typedef struct Head {
     uint64_t mark;
 } Head;
 enum { ALIGNMENT = 16, JUNK = 0xa5 };
-static const uint64_t GIVEN = 0x7065747269, TAKEN_BACK = 1;
+static const uint64_t ALLOCATED = 0x7065747269, RELEASED = 1;
 
 typedef struct Host {
     atomic_long asked;
@@ -25,57 +25,57 @@ typedef struct Host {
     bool all;            // … and those after it
 } Host;
 
-static bool refuses(Host *host, size_t bytes) {
+static bool should_fail(Host *host, size_t bytes) {
     long number = ++host->asked;
     host->strayed = host->strayed || bytes == 0;
     return number == host->fail_at || (host->all && host->fail_at > 0 && number > host->fail_at);
 }
 
-static void *give_out(Host *host, Head *head, size_t bytes) {
-    *head = (Head){bytes, GIVEN};
+static void *record_allocation(Host *host, Head *head, size_t bytes) {
+    *head = (Head){bytes, ALLOCATED};
     host->bytes += (long)bytes;
     return head + 1;
 }
 
-static bool take_back(Host *host, Head *head) {
-    if (head->mark != GIVEN) {
+static bool record_release(Host *host, Head *head) {
+    if (head->mark != ALLOCATED) {
         host->strayed = true;
         return false;
     }
     host->bytes -= (long)head->bytes;
-    head->mark = TAKEN_BACK;
+    head->mark = RELEASED;
     return true;
 }
 
 static void *host_allocate(void *context, size_t bytes) {
     Host *host = context;
-    Head *head = refuses(host, bytes) ? NULL : malloc(sizeof *head + bytes);
+    Head *head = should_fail(host, bytes) ? NULL : malloc(sizeof *head + bytes);
     if (!head)
         return NULL;
     host->blocks++;
     memset(head + 1, JUNK, bytes); // nobody may think that blocks are clear
-    return give_out(host, head, bytes);
+    return record_allocation(host, head, bytes);
 }
 
 static void *host_resize(void *context, void *block, size_t bytes) {
     Host *host = context;
     Head *head = (Head *)block - 1, *moved = NULL;
-    if (refuses(host, bytes) || !take_back(host, head) || !(moved = malloc(sizeof *head + bytes))) {
-        if (head->mark == TAKEN_BACK)
-            give_out(host, head, head->bytes);
+    if (should_fail(host, bytes) || !record_release(host, head) || !(moved = malloc(sizeof *head + bytes))) {
+        if (head->mark == RELEASED)
+            record_allocation(host, head, head->bytes);
         return NULL;
     }
     size_t kept = head->bytes < bytes ? head->bytes : bytes;
     memcpy(moved + 1, head + 1, kept);
     memset((unsigned char *)(moved + 1) + kept, JUNK, bytes - kept);
     free(head);
-    return give_out(host, moved, bytes);
+    return record_allocation(host, moved, bytes);
 }
 
 static void host_release(void *context, void *block) {
     Host *host = context;
     Head *head = (Head *)block - 1;
-    if (!take_back(host, head))
+    if (!record_release(host, head))
         return;
     host->blocks--;
     memset(block, JUNK, head->bytes);
@@ -95,7 +95,7 @@ static void use_host(void) {
 }
 
 // All is back, and nothing came that was not out.
-static void check_back(const char *when) {
+static void check_all_released(const char *when) {
     assert_number(when, (double)host.blocks, 0);
     assert_number(when, (double)host.bytes, 0);
     assert_false(host.strayed);
@@ -126,42 +126,43 @@ typedef struct Life {
     bool short_of;
 } Life;
 
-static bool take_note(void *context, const char *text, size_t length) {
+static bool write_note(void *context, const char *text, size_t length) {
     return note(&((Life *)context)->written, text, length);
 }
 
-static void expect(Life *life, PetriStatus status) {
+static void check_status(Life *life, PetriStatus status) {
     if (status != PETRI_OK)
-        assert_int_equal(status, PETRI_MEMORY);
-    life->short_of |= status == PETRI_MEMORY;
+        assert_int_equal(status, PETRI_OUT_OF_MEMORY);
+    life->short_of |= status == PETRI_OUT_OF_MEMORY;
 }
 
 static void use_session(Life *life, PetriSession *session) {
-    PetriPrompted done;
-    PetriResult result;
+    PetriPromptResult done;
+    PetriEvaluation result;
     PetriParameter parameter;
     PetriValue seven = {1, &(double){7}, NULL};
-    expect(life, petri_give(session, "given", seven));
-    expect(life, petri_load(session, folder_file(life->folder, "s.fl")));
+    check_status(life, petri_set_global(session, "given", seven));
+    check_status(life, petri_load(session, folder_file(life->folder, "s.fl")));
     if (life->short_of)
         return;
     for (int i = 0; i < 2; i++)
-        expect(life, petri_step(session));
+        check_status(life, petri_step(session));
     petri_parameter(session, 0, &parameter);
-    expect(life, petri_prompt(session, "let more=area(2)", PETRI_Z, take_note, life, &done));
-    expect(life, petri_evaluate(session, "uniform(:x)[..3];'t'", PETRI_Z, &result, take_note, life));
+    check_status(life, petri_prompt(session, "let more=area(2)", PETRI_NUL_TERMINATED, write_note, life, &done));
+    check_status(life,
+                 petri_evaluate(session, "uniform(:x)[..3];'t'", PETRI_NUL_TERMINATED, &result, write_note, life));
     PetriSnapshot *snapshot = petri_snapshot(session);
-    PetriConfig *config = petri_config(session);
+    PetriConfig *config = petri_config_get(session);
     life->short_of |= !snapshot || !config;
-    expect(life, petri_set_parameter(session, "N", "3"));
-    expect(life, petri_step(session));
-    expect(life, petri_save(session, folder_file(life->folder, "state")));
-    expect(life, petri_restore(session, folder_file(life->folder, "state")));
+    check_status(life, petri_set_parameter(session, "N", "3"));
+    check_status(life, petri_step(session));
+    check_status(life, petri_save(session, folder_file(life->folder, "state")));
+    check_status(life, petri_restore(session, folder_file(life->folder, "state")));
     if (snapshot)
-        expect(life, petri_rewind(session, snapshot));
-    expect(life, petri_step(session));
-    petri_ids(session, 0);
-    expect(life, petri_print(session, PETRI_PRINT_TREE | PETRI_PRINT_STATE | PETRI_PRINT_LOG, take_note, life));
+        check_status(life, petri_rewind(session, snapshot));
+    check_status(life, petri_step(session));
+    petri_particle_ids(session, 0);
+    check_status(life, petri_print(session, PETRI_PRINT_TREE | PETRI_PRINT_STATE | PETRI_PRINT_LOG, write_note, life));
     petri_config_free(config);
     petri_snapshot_free(snapshot);
 }
@@ -172,21 +173,21 @@ static void use_picture(Life *life, PetriSession **session) {
     PetriPictureOptions options = petri_default_picture_options();
     PetriPicture *picture = NULL;
     PetriPainter *painter = petri_painter_open();
-    expect(life, painter ? PETRI_OK : PETRI_MEMORY);
-    expect(life, petri_picture(*session, &options, &picture));
+    check_status(life, painter ? PETRI_OK : PETRI_OUT_OF_MEMORY);
+    check_status(life, petri_picture(*session, &options, &picture));
     petri_close(session);
     if (picture && painter) {
         PetriStatus status = petri_picture_draw(picture, painter, pixels, 40, 40, 160);
-        if (status != PETRI_MISSING) { // a build without Cairo
-            expect(life, status);
-            expect(life, petri_picture_save(picture, painter, folder_file(life->folder, "a.png")));
+        if (status != PETRI_UNSUPPORTED) { // a build without Cairo
+            check_status(life, status);
+            check_status(life, petri_picture_save(picture, painter, folder_file(life->folder, "a.png")));
         }
     }
     petri_picture_free(&picture);
     petri_painter_close(&painter);
 }
 
-static void live(Life *life) {
+static void run_lifetime(Life *life) {
     PetriOptions options = petri_default_options();
     options.simplify = life->simplify;
     options.profile = true;
@@ -194,7 +195,7 @@ static void live(Life *life) {
     life->short_of = false;
     life->written.len = 0;
     PetriSession *session = petri_open(&options);
-    expect(life, session ? PETRI_OK : PETRI_MEMORY);
+    check_status(life, session ? PETRI_OK : PETRI_OUT_OF_MEMORY);
     if (!session)
         return;
     use_session(life, session);
@@ -203,14 +204,14 @@ static void live(Life *life) {
     petri_close(&session);
 }
 
-static void test_all_comes_back(void **state) {
+static void test_everything_is_released(void **state) {
     Life own = {.folder = *state, .simplify = true}, theirs = own;
-    live(&own);
+    run_lifetime(&own);
     use_host();
-    live(&theirs);
+    run_lifetime(&theirs);
     assert_false(own.short_of || theirs.short_of);
     assert_true(host.asked > 100);
-    check_back("a whole life");
+    check_all_released("a whole life");
     assert_string_equal(theirs.written.text, own.written.text);
     free(own.written.text);
     free(theirs.written.text);
@@ -221,7 +222,7 @@ static void test_each_fails(void **state) {
     const char *tries = getenv("TRIES");
     Life life = {.folder = *state, .simplify = true};
     use_host();
-    live(&life);
+    run_lifetime(&life);
     long total = host.asked, stride = 1 + total / (tries ? strtol(tries, NULL, 10) : 40), short_of = 0;
     for (long number = 1; number <= total; number += stride)
         for (int all = 0; all < 2; all++) {
@@ -230,9 +231,9 @@ static void test_each_fails(void **state) {
             use_host();
             host.fail_at = number;
             host.all = all;
-            live(&life);
+            run_lifetime(&life);
             short_of += life.short_of;
-            check_back(when);
+            check_all_released(when);
         }
     assert_true(short_of > 20);
     free(life.written.text);
@@ -255,12 +256,12 @@ static void test_refusals(void **state) {
     session = petri_open(&options);
     assert_int_equal(petri_set_allocator(&allocator), PETRI_INVALID);
     assert_int_equal(petri_set_allocator(NULL), PETRI_INVALID);
-    assert_int_equal(petri_load_text(session, "t.fl", "!a x=1\n", PETRI_Z), PETRI_OK);
+    assert_int_equal(petri_load_text(session, "t.fl", "!a x=1\n", PETRI_NUL_TERMINATED), PETRI_OK);
     petri_close(&session);
     PetriPainter *painter = petri_painter_open();
     assert_int_equal(petri_set_allocator(NULL), PETRI_INVALID);
     petri_painter_close(&painter);
-    check_back("refused");
+    check_all_released("refused");
     assert_true(host.asked > 0);
     assert_int_equal(other.asked, 0);
     assert_int_equal(petri_set_allocator(&allocator), PETRI_OK);
@@ -275,7 +276,7 @@ static void test_refusals(void **state) {
 }
 
 // Sessions of several threads have the heap in common.
-static void *live_apart(void *context) {
+static void *run_in_thread(void *context) {
     Player player;
     player_open(&player);
     for (int i = 0; i < 20; i++)
@@ -290,11 +291,11 @@ static void test_threads(void **state) {
     pthread_t threads[4];
     use_host();
     for (size_t i = 0; i < COUNT_OF(threads); i++)
-        assert_int_equal(pthread_create(&threads[i], NULL, live_apart, NULL), 0);
+        assert_int_equal(pthread_create(&threads[i], NULL, run_in_thread, NULL), 0);
     for (size_t i = 0; i < COUNT_OF(threads); i++)
         pthread_join(threads[i], NULL);
     assert_true(host.asked > 100);
-    check_back("four threads");
+    check_all_released("four threads");
 }
 
 static int set_up(void **state) {
@@ -312,17 +313,17 @@ static int tear_down(void **state) {
 }
 
 // What the heap of one test has given out is back before the next one's.
-static int own_heap(void **state) {
+static int restore_heap(void **state) {
     (void)state;
     return petri_set_allocator(NULL) == PETRI_OK ? 0 : -1;
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_teardown(test_all_comes_back, own_heap),
-        cmocka_unit_test_teardown(test_each_fails, own_heap),
-        cmocka_unit_test_teardown(test_refusals, own_heap),
-        cmocka_unit_test_teardown(test_threads, own_heap),
+        cmocka_unit_test_teardown(test_everything_is_released, restore_heap),
+        cmocka_unit_test_teardown(test_each_fails, restore_heap),
+        cmocka_unit_test_teardown(test_refusals, restore_heap),
+        cmocka_unit_test_teardown(test_threads, restore_heap),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

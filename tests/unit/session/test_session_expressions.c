@@ -142,7 +142,7 @@ static void test_checks(void **state) {
 }
 
 // What the text says beside its examples.
-static void test_more(void **state) {
+static void test_expression_edge_cases(void **state) {
     static const Check checks[] = {
         {"x<=x where x=(0/0;1)", "1"}, // the same object (L5.5 rule 1)
         {"uniform(:a)", "null"},
@@ -176,6 +176,6 @@ static void test_more(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {PLAYER_TEST(test_checks), PLAYER_TEST(test_more)};
+    const struct CMUnitTest tests[] = {PLAYER_TEST(test_checks), PLAYER_TEST(test_expression_edge_cases)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -30,7 +30,7 @@ static void load(Desk *desk, const char *script) {
     player_forget(&desk->player);
     PetriStatus status = petri_load(desk->player.session, folder_file(&desk->folder, "main.fl"));
     if (status != PETRI_OK)
-        print_error("%s", player_told(&desk->player));
+        print_error("%s", player_diagnostics(&desk->player));
     assert_int_equal(status, PETRI_OK);
 }
 
@@ -40,10 +40,10 @@ static void check_run(Desk *desk, const char *script, const char *tree) {
     assert_text(script, player_tree(&desk->player), tree);
 }
 
-static void check_told(Desk *desk, const char *part) {
-    const char *told = player_told(&desk->player);
-    if (!strstr(told, part))
-        assert_text("told", told, part);
+static void check_reported(Desk *desk, const char *part) {
+    const char *reported = player_diagnostics(&desk->player);
+    if (!strstr(reported, part))
+        assert_text("told", reported, part);
 }
 
 static void test_import(void **state) {
@@ -52,9 +52,9 @@ static void test_import(void **state) {
     check_run(desk, "import a;b from 'm.fl'\n!x v=a;b f=fps\n", "!x v=10;2 f=60\n"); // the last binding, and no pragmas
     check_run(desk, "let k=5\nimport twice from 'm.fl'\n!x v=twice(2)\n", "!x\n");   // k comes after it there
     check_run(desk, "for n in 'm';'none'\n    import a from n;'.fl'\n    !x v=a\n", "!x v=10\n!x\n");
-    check_told(desk, "cannot import");
+    check_reported(desk, "cannot import");
     check_run(desk, "import a;c from 'm.fl'\n!x v=a;c\n", "!x v=10\n");
-    check_told(desk, "[no-such-name]");
+    check_reported(desk, "[unknown-import]");
     folder_write(&desk->folder, "n.fl", "import a from 'm.fl'\nlet z=a+1\n"); // names that it imports are its own
     check_run(desk, "import a;z from 'n.fl'\n!x v=a;z\n", "!x v=10;11\n");
 }
@@ -69,13 +69,13 @@ static void test_reach(void **state) {
     snprintf(script, sizeof script, "import a from '%s/m.fl'\n!x v=a t=read('%s/t.txt')\n", desk->folder.path,
              desk->folder.path);
     check_run(desk, script, "!x v=1 t='text'\n");
-    PetriConfig *before = petri_config(desk->player.session);
+    PetriConfig *before = petri_config_get(desk->player.session);
     assert_int_equal(player_load(&desk->player, script), PETRI_OK);
     player_step(&desk->player, 1);
     assert_text("outside", player_tree(&desk->player), "!x\n");
-    check_told(desk, "cannot import");
-    check_told(desk, "a script may not read there; '--allow-read ");
-    petri_config_use(desk->player.session, before);
+    check_reported(desk, "cannot import");
+    check_reported(desk, "a script may not read there; '--allow-read ");
+    petri_config_apply(desk->player.session, before);
     player_step(&desk->player, 1);
     assert_text("inside again", player_tree(&desk->player), "!x v=1 t='text'\n");
     petri_config_free(before);
@@ -89,7 +89,7 @@ static void test_reach(void **state) {
     options.no_files = true;
     player_reopen(&desk->player, &options);
     check_run(desk, script, "!x\n");
-    check_told(desk, "scripts may use no files here (--no-files)");
+    check_reported(desk, "scripts may use no files here (--no-files)");
 }
 
 // A module sees built-ins only; its functions see the caller's state.
@@ -100,7 +100,7 @@ static void test_module_names(void **state) {
     load(desk, "import v;w;look from 'm.fl'\n!counter state=:c initial=7 rate=0\n!x v=v w=w s=look(:c) d=d\n");
     player_step(&desk->player, 2);
     assert_text("tree", strstr(player_tree(&desk->player), "!x"), "!x w=1 s=7 d=3\n");
-    check_told(desk, "m.fl:1:7 unbound name 'frame' is null [unbound-name]");
+    check_reported(desk, "m.fl:1:7 unbound name 'frame' is null [unbound-name]");
 }
 
 static void test_changed_module(void **state) {
@@ -128,12 +128,12 @@ static void test_cycles(void **state) {
     folder_write(&desk->folder, "a.fl", "import y from 'b.fl'\nlet x=1;y\n");
     folder_write(&desk->folder, "b.fl", "import x from 'a.fl'\nlet y=2;x\n");
     check_run(desk, "import x from 'a.fl'\n!x v=x\n", "!x v=1;2\n");
-    check_told(desk, "circular import");
+    check_reported(desk, "circular import");
     check_run(desk, "let q=1\nimport q from 'main.fl'\n!x v=q\n", "!x\n");
-    check_told(desk, "circular import");
+    check_reported(desk, "circular import");
     folder_write(&desk->folder, "s.fl", "let q=1\nimport q from 's.fl'\n");
     check_run(desk, "import q from 's.fl'\n!x v=q\n", "!x\n");
-    check_told(desk, "circular import");
+    check_reported(desk, "circular import");
 }
 
 static void test_import_of_what_is_no_script(void **state) {
@@ -145,7 +145,7 @@ static void test_import_of_what_is_no_script(void **state) {
         char script[100];
         snprintf(script, sizeof script, "import a from %s\n!x v=a\n", files[i]);
         check_run(desk, script, "!x\n");
-        check_told(desk, "cannot import");
+        check_reported(desk, "cannot import");
     }
 }
 
@@ -158,18 +158,18 @@ static void test_include(void **state) {
     check_run(desk, "func f(k)\n    %include 'i.fl'\nf(1)\nf(2)\n", "!i k=1\n!i k=5\n!i k=2\n!i k=5\n");
     check_run(desk, "let k=1 n='i'\n%include n;'.fl'\n", "!i k=1\n!i k=5\n"); // static names and operators
     check_run(desk, "%include null\n!a\n", "!a\n");
-    assert_string_equal(player_told(&desk->player), "");
+    assert_string_equal(player_diagnostics(&desk->player), "");
     check_run(desk, "let k=1\n%include 'i.fl'\n%include 'i.fl'\n", "!i k=1\n!i k=5\n");
-    check_told(desk, "main.fl:3:10 cannot include");
+    check_reported(desk, "main.fl:3:10 cannot include");
     check_run(desk, "%include 'main.fl'\n!a\n", "!a\n");
-    check_told(desk, "included already");
+    check_reported(desk, "included already");
     check_run(desk, "%include 'none.fl'\n!a\n", "!a\n");
-    check_told(desk, "cannot include");
+    check_reported(desk, "cannot include");
     check_run(desk, "%include frame;'.fl'\n!a\n", "!a\n");
-    check_told(desk, "must be known when the program is loaded");
+    check_reported(desk, "must be known when the program is loaded");
     folder_write(&desk->folder, "bad.fl", "!a )\n");
     check_run(desk, "%include 'bad.fl'\n!a\n", "!a\n");
-    check_told(desk, "bad.fl:1:4 unexpected ')'");
+    check_reported(desk, "bad.fl:1:4 unexpected ')'");
     check_run(desk, "import k from 'j.fl'\n!a k=k\n", "!a\n");
     folder_write(&desk->folder, "k.fl", "let k=77\n!k\n");
     folder_write(&desk->folder, "j.fl", "let k=3\n%include 'k.fl'\n"); // names bound in it are not visible after it
@@ -187,10 +187,10 @@ static void test_what_cannot_be_loaded(void **state) {
     Desk *desk = *state;
     PetriSession *session = desk->player.session;
     assert_int_equal(petri_load(session, folder_file(&desk->folder, "none.fl")), PETRI_INVALID);
-    check_told(desk, "error cannot read '");
+    check_reported(desk, "error cannot read '");
     player_forget(&desk->player);
     assert_int_equal(petri_load(session, desk->folder.path), PETRI_INVALID);
-    check_told(desk, "directory");
+    check_reported(desk, "directory");
     folder_write(&desk->folder, "empty.fl", "");
     assert_int_equal(petri_load(session, folder_file(&desk->folder, "empty.fl")), PETRI_OK);
     player_step(&desk->player, 1);
@@ -206,7 +206,7 @@ static void test_check(void **state) {
     player_forget(&desk->player);
     assert_int_equal(petri_check(session, folder_file(&desk->folder, "bad.fl")), PETRI_INVALID);
     assert_int_equal(petri_diagnostic_count(session, PETRI_ERROR), 3);
-    check_told(desk, "bad.fl:4:5 ");
+    check_reported(desk, "bad.fl:4:5 ");
     folder_write(&desk->folder, "good.fl", "!z v=unknown\n");
     assert_int_equal(petri_check(session, folder_file(&desk->folder, "good.fl")), PETRI_OK);
     assert_true(petri_diagnostic_count(session, PETRI_WARNING) >= 1);
@@ -214,7 +214,7 @@ static void test_check(void **state) {
     assert_int_equal(petri_define(session, "NAME=:x;1"), PETRI_OK);
     player_forget(&desk->player);
     assert_int_equal(petri_check(session, folder_file(&desk->folder, "frame.fl")), PETRI_OK);
-    check_told(desk, "unknown attribute 'mas'");
+    check_reported(desk, "unknown attribute 'mas'");
     player_step(&desk->player, 1); // the loaded script runs on
     assert_text("no state of the other's frame", player_state(&desk->player), "");
     assert_text("still", player_tree(&desk->player), "!a\n");
@@ -233,7 +233,7 @@ typedef struct Shelf {
     int asked;
 } Shelf;
 
-static const char *give_file(void *host, const char *name, size_t *length) {
+static const char *read_shelf_file(void *host, const char *name, size_t *length) {
     Shelf *shelf = host;
     shelf->asked++;
     for (size_t i = 0; i < COUNT_OF(shelf->files); i++)
@@ -254,24 +254,24 @@ static void test_files_of_the_host(void **state) {
                              {"words.txt", "ein Wort"},
                              {"dish/t.csv", "1,2\n"}}};
     PetriOptions options = player_options(player);
-    options.read = give_file;
-    options.read_host = &shelf;
+    options.read_file = read_shelf_file;
+    options.read_user_data = &shelf;
     options.no_files = true;
     player_reopen(player, &options);
     assert_int_equal(petri_load(player->session, "dish/main.fl"), PETRI_OK);
     player_step(player, 1);
     assert_text("all of them", player_tree(player), "!part\n!a x=20 y='ein Wort' z=1;2\n");
-    assert_string_equal(petri_source(player->session, 0), "dish/main.fl");
-    assert_string_equal(petri_source(player->session, 1), "dish/part.fl");
-    assert_string_equal(petri_source(player->session, 2), "dish/m.fl");
+    assert_string_equal(petri_source_file(player->session, 0), "dish/main.fl");
+    assert_string_equal(petri_source_file(player->session, 1), "dish/part.fl");
+    assert_string_equal(petri_source_file(player->session, 2), "dish/m.fl");
     // Another text of the same length is another file; nothing is compiled or read as long as it is the same.
     shelf.files[1].text = "func f(x)\n    x*11\n";
     shelf.files[3].text = "zwei W..";
     player_step(player, 1);
     assert_text("changed", player_tree(player), "!part\n!a x=22 y='zwei W..' z=1;2\n");
-    assert_string_equal(player_told(player), "");
+    assert_string_equal(player_diagnostics(player), "");
     assert_int_equal(petri_check(player->session, "dish/main.fl"), PETRI_OK);
-    assert_string_equal(player_told(player), "");
+    assert_string_equal(player_diagnostics(player), "");
 }
 
 static void test_folders_of_the_host(void **state) {
@@ -286,14 +286,14 @@ static void test_folders_of_the_host(void **state) {
                              {"a.txt", ""},
                              {"b.txt", ""}}};
     PetriOptions options = player_options(player);
-    options.read = give_file;
-    options.read_host = &shelf;
+    options.read_file = read_shelf_file;
+    options.read_user_data = &shelf;
     player_reopen(player, &options);
     assert_int_equal(petri_load(player->session, "main.fl"), PETRI_OK);
     player_step(player, 1);
     assert_text("globs", player_tree(player),
                 "!a x='a.txt';'b.txt' y='d/m.dat';'d/n.dat' z='d/n.dat' w='d/m.dat' v='d'\n");
-    assert_string_equal(player_told(player), "");
+    assert_string_equal(player_diagnostics(player), "");
 }
 
 // What the host does not give is not there, whatever is on the disk.
@@ -303,12 +303,12 @@ static void test_no_other_files(void **state) {
     char script[800];
     Shelf shelf = {0};
     PetriOptions options = player_options(player);
-    options.read = give_file;
-    options.read_host = &shelf;
+    options.read_file = read_shelf_file;
+    options.read_user_data = &shelf;
     player_reopen(player, &options);
     folder_write(&desk->folder, "s.fl", "!a\n");
     assert_int_equal(petri_load(player->session, folder_file(&desk->folder, "s.fl")), PETRI_INVALID);
-    check_told(desk, "No such file");
+    check_reported(desk, "No such file");
     snprintf(script, sizeof script,
              "import f from '%s/s.fl'\n%%include '%s/s.fl'\n!a x=read('%s/s.fl') y=glob('*') z=f(1)\n",
              desk->folder.path, desk->folder.path, desk->folder.path);
@@ -316,14 +316,14 @@ static void test_no_other_files(void **state) {
     player_run(player, script, 2);
     assert_text("nothing", player_tree(player), "!a\n");
     assert_true(shelf.asked >= 3);
-    check_told(desk, "there is no such file");
+    check_reported(desk, "there is no such file");
 }
 
-static const char *give_unsaved(void *host, const char *name, size_t *length) {
+static const char *read_unsaved(void *host, const char *name, size_t *length) {
     Shelf *shelf = host;
     const char *slash = strrchr(name, '/');
     assert_true(name[0] == '/' && !strstr(name, "/../"));
-    return give_file(shelf, slash + 1, length);
+    return read_shelf_file(shelf, slash + 1, length);
 }
 
 // What an editor has not saved stands for files that scripts import and include, if these are there and within reach.
@@ -335,8 +335,8 @@ static void test_unsaved_files(void **state) {
     PetriOptions options = player_options(player);
     const char *const folders[] = {desk->folder.path, NULL};
     options.read_folders = folders;
-    options.unsaved = give_unsaved;
-    options.read_host = &shelf;
+    options.read_unsaved = read_unsaved;
+    options.read_user_data = &shelf;
     player_reopen(player, &options);
     folder_write(&desk->folder, "m.fl", "func f(x)\n    x\n");
     folder_write(&desk->folder, "part.fl", "!old\n");
@@ -349,14 +349,14 @@ static void test_unsaved_files(void **state) {
     shelf.files[0].text = "func f(x)\n    x*11\n";
     player_step(player, 1);
     assert_text("changed", player_tree(player), "!part\n!kept\n!a x=22\n");
-    assert_int_equal(petri_check_text(player->session, "s.fl", script, PETRI_Z), PETRI_OK);
+    assert_int_equal(petri_check_text(player->session, "s.fl", script, PETRI_NUL_TERMINATED), PETRI_OK);
     shelf.files[0].name = NULL;
     player_step(player, 1);
     assert_text("saved", player_tree(player), "!part\n!kept\n!a x=2\n");
-    assert_string_equal(player_told(player), "");
+    assert_string_equal(player_diagnostics(player), "");
     snprintf(script, sizeof script, "%%include '%s/new.fl'\n", desk->folder.path);
-    petri_load_text(player->session, "s.fl", script, PETRI_Z);
-    check_told(desk, "No such file");
+    petri_load_text(player->session, "s.fl", script, PETRI_NUL_TERMINATED);
+    check_reported(desk, "No such file");
 }
 
 int main(void) {

@@ -11,7 +11,7 @@ typedef struct Calls {
 // Adds up all numbers.
 static PetriValue sum(PetriCall *call, void *host, const PetriValue *arguments, uint32_t count) {
     Calls *calls = host;
-    double *result = petri_call_numbers(call, 1);
+    double *result = petri_call_alloc_numbers(call, 1);
     assert_non_null(result);
     *result = 0;
     calls->count++;
@@ -19,7 +19,7 @@ static PetriValue sum(PetriCall *call, void *host, const PetriValue *arguments, 
     for (uint32_t i = 0; i < count; i++)
         for (uint32_t k = 0; k < arguments[i].length; k++) {
             if (!arguments[i].numbers) {
-                petri_call_fault(call, "only numbers can be added");
+                petri_call_error(call, "only numbers can be added");
                 return (PetriValue){0};
             }
             *result += arguments[i].numbers[k];
@@ -41,8 +41,8 @@ static PetriValue twice(PetriCall *call, void *host, const PetriValue *arguments
     return (PetriValue){.length = 2, .items = items};
 }
 
-static PetriStatus add(Player *player, const char *name, const char *parameters, bool pure, PetriFunctionCall *call,
-                       void *host) {
+static PetriStatus add_function(Player *player, const char *name, const char *parameters, bool pure,
+                                PetriFunctionCall *call, void *host) {
     return petri_add_function(player->session, &(PetriFunction){sizeof(PetriFunction), name, parameters,
                                                                 "A function of a test.", pure, call, host});
 }
@@ -50,23 +50,23 @@ static PetriStatus add(Player *player, const char *name, const char *parameters,
 static void test_calls(void **state) {
     Player *player = *state;
     Calls calls = {0};
-    assert_int_equal(add(player, "total", "x, y=0, ...", false, sum, &calls), PETRI_OK);
-    assert_int_equal(add(player, "twice", "text", false, twice, NULL), PETRI_OK);
+    assert_int_equal(add_function(player, "total", "x, y=0, ...", false, sum, &calls), PETRI_OK);
+    assert_int_equal(add_function(player, "twice", "text", false, twice, NULL), PETRI_OK);
     player_run(player,
                "let f=total\n!a x=total(1;2, 3) y=f(4) z=total(y=1, x=2) w=total(1, 2, 3, 4;5)\n!b t=twice('é') n=f",
                2);
     assert_text("results", player_tree(player), "!a x=6 y=4 z=3 w=15\n!b t='é';'é' n=(total)\n");
     assert_int_equal(calls.count, 8); // in each frame
-    assert_string_equal(player_told(player), "");
+    assert_string_equal(player_diagnostics(player), "");
 }
 
 static void test_faults(void **state) {
     Player *player = *state;
     Calls calls = {0};
-    assert_int_equal(add(player, "total", "x, y=0", false, sum, &calls), PETRI_OK);
-    assert_int_equal(add(player, "twice", "text", false, twice, NULL), PETRI_OK);
+    assert_int_equal(add_function(player, "total", "x, y=0", false, sum, &calls), PETRI_OK);
+    assert_int_equal(add_function(player, "twice", "text", false, twice, NULL), PETRI_OK);
     player_run(player, "!a x=total('a') y=total() z=total(1, 2, 3) v=total(1, q=3) w=twice(1)\n!b x=totel(1)", 3);
-    assert_text("faults", player_told(player),
+    assert_text("faults", player_diagnostics(player),
                 "warning t.fl:2:6 unbound name 'totel' is null [unbound-name]\n"
                 "warning t.fl:1:6 total: only numbers can be added [bad-call]\n"
                 "warning t.fl:1:19 total: too few arguments: 0 given to total(x, y=0) [bad-call]\n"
@@ -83,7 +83,7 @@ static void test_faults(void **state) {
 static void test_pure(void **state) {
     Player *player = *state;
     Calls calls = {0};
-    assert_int_equal(add(player, "total", "x, y=0", true, sum, &calls), PETRI_OK);
+    assert_int_equal(add_function(player, "total", "x, y=0", true, sum, &calls), PETRI_OK);
     player_run(player, "!a x=total(1;2)+1", 3);
     assert_text("result", player_tree(player), "!a x=4\n");
     assert_int_equal(calls.count, 1);
@@ -91,49 +91,53 @@ static void test_pure(void **state) {
 }
 
 // A check calls it, too, in a session of its own; nothing that is going on may be stepped from within.
-static void test_within(void **state) {
+static void test_step_within_call_fails(void **state) {
     Player *player = *state;
     Calls calls = {.session = player->session};
-    assert_int_equal(add(player, "total", "x", false, sum, &calls), PETRI_OK);
+    assert_int_equal(add_function(player, "total", "x", false, sum, &calls), PETRI_OK);
     player_run(player, "!a x=total(1)", 1);
     assert_int_equal(calls.stepped, PETRI_INVALID);
     assert_int_equal(petri_frame(player->session).number, 0);
-    assert_int_equal(petri_check_text(player->session, "c.fl", "!window size=total(2);1", PETRI_Z), PETRI_OK);
-    assert_string_equal(player_told(player), "");
+    assert_int_equal(petri_check_text(player->session, "c.fl", "!window size=total(2);1", PETRI_NUL_TERMINATED),
+                     PETRI_OK);
+    assert_string_equal(player_diagnostics(player), "");
 }
 
-static void test_refused(void **state) {
+static void test_invalid_functions_are_rejected(void **state) {
     Player *player = *state;
     PetriBuiltin found;
     static const char *const names[] = {"", "a b", "sin", "pi", "time", "1"};
     static const char *const bad[] = {"x,y", "x, ", "x=1, y", "..., x", "a, b, c, d, e, f, g, h, i", "1"};
     static const char *const good[] = {"", "...", "x, ...", "x=1, y=2", "a, b, c, d, e, f, g, h, ..."};
     for (size_t i = 0; i < COUNT_OF(names); i++)
-        assert_int_equal(add(player, names[i], "x", false, sum, NULL), PETRI_INVALID);
+        assert_int_equal(add_function(player, names[i], "x", false, sum, NULL), PETRI_INVALID);
     for (size_t i = 0; i < COUNT_OF(bad); i++)
-        assert_int_equal(add(player, "f", bad[i], false, sum, NULL), PETRI_INVALID);
-    assert_false(petri_function(player->session, 0, &found));
+        assert_int_equal(add_function(player, "f", bad[i], false, sum, NULL), PETRI_INVALID);
+    assert_false(petri_host_function(player->session, 0, &found));
     for (size_t i = 0; i < COUNT_OF(good); i++) {
         const char name[] = {(char)('a' + i), 0};
-        assert_int_equal(add(player, name, good[i], false, sum, NULL), PETRI_OK);
-        assert_true(petri_function(player->session, i, &found));
+        assert_int_equal(add_function(player, name, good[i], false, sum, NULL), PETRI_OK);
+        assert_true(petri_host_function(player->session, i, &found));
         assert_string_equal(found.name, name);
         assert_string_equal(found.parameters, good[i]);
         assert_string_equal(found.help, "A function of a test.");
     }
-    assert_int_equal(add(player, "a", "x", false, sum, NULL), PETRI_INVALID);
-    assert_int_equal(add(player, "f", "x", false, NULL, NULL), PETRI_INVALID);
+    assert_int_equal(add_function(player, "a", "x", false, sum, NULL), PETRI_INVALID);
+    assert_int_equal(add_function(player, "f", "x", false, NULL, NULL), PETRI_INVALID);
     assert_int_equal(petri_add_function(player->session, &(PetriFunction){.name = "f"}), PETRI_INVALID);
     assert_int_equal(petri_add_function(player->session, NULL), PETRI_INVALID);
     assert_int_equal(petri_add_function(NULL, NULL), PETRI_INVALID);
-    assert_null(petri_call_numbers(NULL, 1));
-    petri_call_fault(NULL, "");
+    assert_null(petri_call_alloc_numbers(NULL, 1));
+    petri_call_error(NULL, "");
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_calls),  PLAYER_TEST(test_faults),  PLAYER_TEST(test_pure),
-        PLAYER_TEST(test_within), PLAYER_TEST(test_refused),
+        PLAYER_TEST(test_calls),
+        PLAYER_TEST(test_faults),
+        PLAYER_TEST(test_pure),
+        PLAYER_TEST(test_step_within_call_fails),
+        PLAYER_TEST(test_invalid_functions_are_rejected),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

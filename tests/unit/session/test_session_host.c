@@ -21,11 +21,11 @@ static void test_options(void **state) {
     assert_number("fps", options.fps, 60);
     assert_false(options.realtime);
     assert_true(isnan(options.run_time));
-    assert_int_equal(options.stack_bytes, 4 << 20);
-    assert_int_equal(options.memory_bytes, (size_t)2 << 30);
+    assert_int_equal(options.stack_limit, 4 << 20);
+    assert_int_equal(options.memory_limit, (size_t)2 << 30);
     PetriSession *session = petri_open(&options); // without a callback
     assert_non_null(session);
-    assert_int_equal(petri_load_text(session, "t.fl", "!a )", PETRI_Z), PETRI_INVALID);
+    assert_int_equal(petri_load_text(session, "t.fl", "!a )", PETRI_NUL_TERMINATED), PETRI_INVALID);
     assert_int_equal(petri_diagnostic_count(session, PETRI_ERROR), 1);
     petri_close(&session);
     assert_null(session);
@@ -36,9 +36,9 @@ static void test_without_a_script(void **state) {
     Player *player = *state;
     assert_int_equal(petri_step(player->session), PETRI_INVALID);
     assert_int_equal(petri_frame(player->session).number, -1);
-    assert_int_equal(petri_dump(player->session, PETRI_DUMP_AST, note, &player->shown), PETRI_INVALID);
+    assert_int_equal(petri_dump(player->session, PETRI_DUMP_AST, note, &player->printed), PETRI_INVALID);
     assert_text("nothing", player_print(player, 15), "");
-    assert_string_equal(player->shown.text, "@-1 time=0 beat=0\n");
+    assert_string_equal(player->printed.text, "@-1 time=0 beat=0\n");
 }
 
 static void test_text_lengths(void **state) {
@@ -48,7 +48,7 @@ static void test_text_lengths(void **state) {
     assert_text("two bytes", player_tree(player), "!a\n");
     assert_int_equal(petri_load_text(player->session, "t.fl", "", 0), PETRI_OK);
     char text[] = "!a x='s'";
-    assert_int_equal(petri_load_text(player->session, "t.fl", text, PETRI_Z), PETRI_OK);
+    assert_int_equal(petri_load_text(player->session, "t.fl", text, PETRI_NUL_TERMINATED), PETRI_OK);
     memset(text, '!', sizeof text - 1); // the text need only live until the call returns
     player_step(player, 2);
     assert_text("copied", player_tree(player), "!a x='s'\n");
@@ -84,24 +84,24 @@ static void test_print(void **state) {
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         player_print(player, rows[i].sections);
-        assert_text("sections", player->shown.text, rows[i].wanted);
+        assert_text("sections", player->printed.text, rows[i].wanted);
     }
-    player->shown.len = 0;
-    assert_int_equal(petri_print_log(player->session, note, &player->shown), PETRI_OK);
-    assert_text("log", player->shown.text, "> 1\n> 'x'\n");
+    player->printed.len = 0;
+    assert_int_equal(petri_print_log(player->session, note, &player->printed), PETRI_OK);
+    assert_text("log", player->printed.text, "> 1\n> 'x'\n");
 }
 
-static bool refuse(void *host, const char *text, size_t len) {
+static bool stop_writing(void *host, const char *text, size_t len) {
     (void)text;
     (void)len;
     return ++*(int *)host < 1;
 }
 
-static void test_writer_says_stop(void **state) {
+static void test_writer_can_stop(void **state) {
     Player *player = *state;
     player_run(player, "for i in ..30000\n    !a v=i\n", 1);
     int calls = 0;
-    assert_int_equal(petri_print(player->session, PETRI_PRINT_TREE, refuse, &calls), PETRI_INVALID);
+    assert_int_equal(petri_print(player->session, PETRI_PRINT_TREE, stop_writing, &calls), PETRI_INVALID);
     assert_int_equal(calls, 1);
     assert_true(strlen(player_tree(player)) > 200000); // and all of it to one that goes on
 }
@@ -109,12 +109,12 @@ static void test_writer_says_stop(void **state) {
 static void test_dumps(void **state) {
     Player *player = *state;
     player_run(player, "let x=frame\n!a v=x\n", 1);
-    player->shown.len = 0;
-    assert_int_equal(petri_dump(player->session, PETRI_DUMP_AST, note, &player->shown), PETRI_OK);
-    assert_non_null(strstr(player->shown.text, "attr v  @2:4"));
-    player->shown.len = 0;
-    assert_int_equal(petri_dump(player->session, PETRI_DUMP_CODE, note, &player->shown), PETRI_OK);
-    assert_non_null(strstr(player->shown.text, "frame"));
+    player->printed.len = 0;
+    assert_int_equal(petri_dump(player->session, PETRI_DUMP_AST, note, &player->printed), PETRI_OK);
+    assert_non_null(strstr(player->printed.text, "attr v  @2:4"));
+    player->printed.len = 0;
+    assert_int_equal(petri_dump(player->session, PETRI_DUMP_CODE, note, &player->printed), PETRI_OK);
+    assert_non_null(strstr(player->printed.text, "frame"));
 }
 
 static void note_token(void *host, const PetriToken *token) {
@@ -141,19 +141,22 @@ static void test_tokens(void **state) {
     };
     Player *player = *state;
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
-        player->shown.len = 0;
-        note(&player->shown, "", 0);
-        assert_int_equal(petri_tokens(player->session, rows[i].text, PETRI_Z, note_token, &player->shown), PETRI_OK);
-        assert_string_equal(player->shown.text, rows[i].tokens);
+        player->printed.len = 0;
+        note(&player->printed, "", 0);
+        assert_int_equal(
+            petri_tokenise(player->session, rows[i].text, PETRI_NUL_TERMINATED, note_token, &player->printed),
+            PETRI_OK);
+        assert_string_equal(player->printed.text, rows[i].tokens);
     }
 }
 
-static void note_name(void *host, const PetriTextName *name) {
+static void note_name(void *host, const PetriBinding *name) {
     char line[60];
     int len = name->kind != PETRI_NAME_USE ? snprintf(line, sizeof line, "%c%zu[%zu-%zu] ", "?lfpxi"[name->kind],
                                                       name -> start, name -> scope_start, name -> scope_end)
-              : name->bound == PETRI_Z     ? snprintf(line, sizeof line, "%zu? ", name->start)
-                                           : snprintf(line, sizeof line, "%zu=%zu ", name->start, name->bound);
+              : name->binding_start == PETRI_NUL_TERMINATED
+                  ? snprintf(line, sizeof line, "%zu? ", name->start)
+                  : snprintf(line, sizeof line, "%zu=%zu ", name->start, name->binding_start);
     note(host, line, (size_t)len);
 }
 
@@ -177,10 +180,11 @@ static void test_names(void **state) {
     };
     Player *player = *state;
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
-        player->shown.len = 0;
-        note(&player->shown, "", 0);
-        assert_int_equal(petri_names(player->session, rows[i].text, PETRI_Z, note_name, &player->shown), PETRI_OK);
-        assert_string_equal(player->shown.text, rows[i].names);
+        player->printed.len = 0;
+        note(&player->printed, "", 0);
+        assert_int_equal(
+            petri_bindings(player->session, rows[i].text, PETRI_NUL_TERMINATED, note_name, &player->printed), PETRI_OK);
+        assert_string_equal(player->printed.text, rows[i].names);
     }
 }
 
@@ -190,15 +194,15 @@ static const char profiled_script[] = "let a=frame\n\n!b x=a\n!counter state=:c 
 static void test_profile(void **state) {
     Player *player = *state;
     player_run(player, profiled_script, 3);
-    assert_int_equal(petri_profile(player->session, 0, note, &player->shown), PETRI_INVALID);
+    assert_int_equal(petri_profile(player->session, 0, note, &player->printed), PETRI_INVALID);
     PetriOptions options = player_options(player);
     options.profile = true;
     player_reopen(player, &options);
     for (int round = 0; round < 2; round++) { // a script that is loaded again starts anew
         player_run(player, profiled_script, 3);
-        player->shown.len = 0;
-        assert_int_equal(petri_profile(player->session, 0.5, note, &player->shown), PETRI_OK);
-        const char *text = player->shown.text;
+        player->printed.len = 0;
+        assert_int_equal(petri_profile(player->session, 0.5, note, &player->printed), PETRI_OK);
+        const char *text = player->printed.text;
         assert_non_null(strstr(text, "ms a frame in 3 frames\n"));
         assert_non_null(strstr(text, "166.6667               output\n"));
         assert_non_null(strstr(text, " 1  t.fl:1: let a=frame\n"));
@@ -209,7 +213,7 @@ static void test_profile(void **state) {
         assert_text("the same frames", player_tree(player), "!b x=2\n!counter state=:c rate=1\n");
     }
     int calls = 0;
-    assert_int_equal(petri_profile(player->session, 0, refuse, &calls), PETRI_INVALID);
+    assert_int_equal(petri_profile(player->session, 0, stop_writing, &calls), PETRI_INVALID);
 }
 
 static void test_failed_load_keeps_the_script(void **state) {
@@ -219,7 +223,7 @@ static void test_failed_load_keeps_the_script(void **state) {
     for (size_t i = 0; i < COUNT_OF(bad); i++) {
         player_forget(player);
         assert_claim(bad[i], player_load(player, bad[i]) == PETRI_INVALID);
-        assert_claim(bad[i], strstr(player_told(player), "error t.fl:") != NULL);
+        assert_claim(bad[i], strstr(player_diagnostics(player), "error t.fl:") != NULL);
         assert_text("the frame is still there", player_tree(player)[1] == 'a' ? "!a" : "?", "!a");
         player_step(player, 1);
         assert_int_equal(petri_frame(player->session).number, 3 + i);
@@ -235,16 +239,16 @@ static void test_once_per_place_and_load(void **state) {
                                  "warning t.fl:1:6 not callable: a string [not-callable]\n"
                                  "warning !physics state=:s: unknown attribute 'colour' [unknown-attribute]\n";
     player_run(player, script, 5);
-    assert_text("first load", player_told(player), wanted);
+    assert_text("first load", player_diagnostics(player), wanted);
     player_forget(player);
     player_step(player, 5);
-    assert_text("no more", player_told(player), "");
+    assert_text("no more", player_diagnostics(player), "");
     player_run(player, script, 5);
-    assert_text("second load", player_told(player), wanted);
+    assert_text("second load", player_diagnostics(player), wanted);
     for (int i = 0; i < 2; i++) {
         player_forget(player);
         assert_int_equal(player_load(player, "!a )\n"), PETRI_INVALID);
-        assert_text("an error is told at every try", player_told(player),
+        assert_text("an error is told at every try", player_diagnostics(player),
                     "error t.fl:1:4 unexpected ')', expected end of line or '<<' [syntax]\n");
     }
 }
@@ -264,7 +268,7 @@ static void test_print_after_load(void **state) {
     player_run(player, "!a v='s'(1)\ndebug('old')\n", 1);
     assert_int_equal(player_load(player, "!b\n"), PETRI_OK);
     player_print(player, 15);
-    assert_text("nothing", player->shown.text, "@-1 time=0 beat=0\n");
+    assert_text("nothing", player->printed.text, "@-1 time=0 beat=0\n");
 }
 
 static void test_no_more_than_a_thousand(void **state) {
@@ -285,7 +289,7 @@ static void test_no_more_than_a_thousand(void **state) {
         note(&script, line, (size_t)len);
     }
     player_run(player, script.text, 2);
-    assert_non_null(strstr(player_told(player), "no more are shown"));
+    assert_non_null(strstr(player_diagnostics(player), "no more are shown"));
     count = petri_diagnostic_count(player->session, PETRI_WARNING);
     player_step(player, 1);
     assert_int_equal(petri_diagnostic_count(player->session, PETRI_WARNING), count);
@@ -304,8 +308,8 @@ static void test_two_sessions(void **state) {
     }
     assert_text("first", player_tree(first), "!a v=6;10;1\n!counter state=:c rate=1\n");
     assert_text("second", player_tree(&second), "!b v=3;60\n");
-    assert_text("told", player_told(first), "");
-    assert_non_null(strstr(player_told(&second), "unbound name 'd'"));
+    assert_text("told", player_diagnostics(first), "");
+    assert_non_null(strstr(player_diagnostics(&second), "unbound name 'd'"));
     // A symbol known to one session only is a number in the other.
     player_run(first, "!a v=:spring\n", 1);
     player_run(&second, "!a v=:sprung+0\n", 1);
@@ -321,13 +325,13 @@ static void test_rendered(void **state) {
     options.colour = true;
     player_open_with(&player, &options);
     assert_int_equal(player_load(&player, "!a )"), PETRI_INVALID);
-    assert_text("colour is in `rendered` only", player_told(&player),
+    assert_text("colour is in `rendered` only", player_diagnostics(&player),
                 "error t.fl:1:4 unexpected ')', expected end of line or '<<' [syntax]\n");
     player_close(&player);
 }
 
 // What is said of a node tells where the node stands, whether it was made ahead, in a loop or by a function.
-static void remember(void *host, const PetriDiagnostic *diagnostic) {
+static void store_position(void *host, const PetriDiagnostic *diagnostic) {
     snprintf(host, 100, "%s:%u:%u", diagnostic->file ? diagnostic->file : "", diagnostic->line, diagnostic->column);
 }
 
@@ -351,10 +355,10 @@ static void test_places_of_nodes(void **state) {
             char place[100] = "";
             PetriOptions options = petri_default_options();
             options.simplify = simplify;
-            options.diagnostic = remember;
-            options.host = place;
+            options.on_diagnostic = store_position;
+            options.user_data = place;
             PetriSession *session = petri_open(&options);
-            assert_int_equal(petri_load_text(session, "t.fl", rows[i].script, PETRI_Z), PETRI_OK);
+            assert_int_equal(petri_load_text(session, "t.fl", rows[i].script, PETRI_NUL_TERMINATED), PETRI_OK);
             assert_int_equal(petri_step(session), PETRI_OK);
             assert_text(rows[i].script, place, rows[i].wanted);
             petri_close(&session);
@@ -362,7 +366,7 @@ static void test_places_of_nodes(void **state) {
 }
 
 // A loop that makes many nodes with one mistake has one mistake; the same mistake on two lines is two.
-static void test_one_place_is_told_once(void **state) {
+static void test_one_place_is_reported_once(void **state) {
     (void)state;
     Player player;
     player_open(&player);
@@ -386,11 +390,11 @@ static void test_helpers(void **state) {
     assert_true(count > 60);
     assert_false(petri_builtin(count + 1000, &builtin));
     double x = 0;
-    assert_true(petri_read_number("1:30", &x));
+    assert_true(petri_parse_number("1:30", &x));
     assert_number("time code", x, 90);
-    assert_true(petri_read_number("10m", &x));
+    assert_true(petri_parse_number("10m", &x));
     assert_number("suffix", x, 0.01);
-    assert_false(petri_read_number("soon", &x));
+    assert_false(petri_parse_number("soon", &x));
     assert_true(strlen(petri_version()) > 0);
 }
 
@@ -403,7 +407,7 @@ static void test_nodes(void **state) {
         assert_true(kind.name[0] && kind.help[0]);
         groups += strcmp(kind.name, "group") == 0;
         for (size_t i = 0; petri_node_attribute(kinds, i, &attribute); i++) {
-            assert_true(attribute.name[0] && attribute.type[0] && attribute.fallback && attribute.help);
+            assert_true(attribute.name[0] && attribute.type[0] && attribute.default_value && attribute.help);
             rects += strcmp(kind.name, "rect") == 0 && strcmp(attribute.name, "radius") == 0;
         }
     }
@@ -414,7 +418,7 @@ static void test_nodes(void **state) {
 }
 
 // The last diagnostics stay with the session, in order, copied.
-static void test_kept_diagnostics(void **state) {
+static void test_retained_diagnostics(void **state) {
     Player *player = *state;
     PetriDiagnostic kept;
     assert_false(petri_diagnostic(player->session, 0, &kept));
@@ -422,7 +426,7 @@ static void test_kept_diagnostics(void **state) {
     assert_true(petri_diagnostic(player->session, 0, &kept));
     assert_string_equal(kept.file, "t.fl");
     assert_int_equal(kept.level, PETRI_ERROR);
-    petri_forget_diagnostics(player->session);
+    petri_clear_diagnostics(player->session);
     assert_false(petri_diagnostic(player->session, 0, &kept));
     player_run(player, "!a x=one y=two\n!b x=three\n", 1);
     static const char *const names[] = {"one", "two", "three"};
@@ -434,7 +438,7 @@ static void test_kept_diagnostics(void **state) {
     }
     assert_false(petri_diagnostic(player->session, 3, &kept));
     // Of more than there is room for the first ones go.
-    petri_forget_diagnostics(player->session);
+    petri_clear_diagnostics(player->session);
     for (int load = 0; load < 3; load++) {
         char script[4000] = "!a";
         for (int i = 0; i < 45; i++)
@@ -446,10 +450,10 @@ static void test_kept_diagnostics(void **state) {
         count++;
     assert_int_equal(count, 100);
     assert_true(petri_diagnostic(player->session, 0, &kept));
-    const char *first = strstr(player_told(player), kept.text);
+    const char *first = strstr(player_diagnostics(player), kept.text);
     assert_non_null(first);
     assert_true(petri_diagnostic(player->session, 99, &kept));
-    assert_true(strstr(player_told(player), kept.text) > first);
+    assert_true(strstr(player_diagnostics(player), kept.text) > first);
 }
 
 static void test_words(void **state) {
@@ -467,13 +471,13 @@ static void test_words(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_kept_diagnostics),
+        PLAYER_TEST(test_retained_diagnostics),
         PLAYER_TEST(test_words),
         cmocka_unit_test(test_options),
         PLAYER_TEST(test_without_a_script),
         PLAYER_TEST(test_text_lengths),
         PLAYER_TEST(test_print),
-        PLAYER_TEST(test_writer_says_stop),
+        PLAYER_TEST(test_writer_can_stop),
         PLAYER_TEST(test_dumps),
         PLAYER_TEST(test_profile),
         PLAYER_TEST(test_failed_load_keeps_the_script),
@@ -486,7 +490,7 @@ int main(void) {
         PLAYER_TEST(test_tokens),
         PLAYER_TEST(test_names),
         cmocka_unit_test(test_places_of_nodes),
-        cmocka_unit_test(test_one_place_is_told_once),
+        cmocka_unit_test(test_one_place_is_reported_once),
         cmocka_unit_test(test_helpers),
         PLAYER_TEST(test_print_after_load), // last: it used to read freed memory
     };

@@ -5,13 +5,13 @@
 static void test_work(void **state) {
     Player *player = *state;
     PetriOptions options = player_options(player);
-    options.work = 1 << 27;
+    options.work_limit = 1 << 27;
     player_reopen(player, &options);
     assert_int_equal(
         player_load(player, "!counter state=:c rate=1\nlet v=..20000\n!a v=(frame if 0 for y in v for x in v)\n"),
         PETRI_OK);
-    assert_int_equal(petri_step(player->session), PETRI_LIMIT);
-    assert_non_null(strstr(player_told(player),
+    assert_int_equal(petri_step(player->session), PETRI_LIMIT_EXCEEDED);
+    assert_non_null(strstr(player_diagnostics(player),
                            "the frame takes more than its 134217728 units of work; it is given up [work-limit]"));
     assert_text("state", player_state(player), "");
     player_run(player, "!a v=1\n", 1);
@@ -20,7 +20,7 @@ static void test_work(void **state) {
 
 static void open_small(Player *player, size_t memory_bytes) {
     PetriOptions options = player_options(player);
-    options.memory_bytes = memory_bytes;
+    options.memory_limit = memory_bytes;
     player_reopen(player, &options);
 }
 
@@ -30,8 +30,8 @@ static void test_memory(void **state) {
     assert_int_equal(player_load(player, "!counter state=:c rate=1\n!a v=len(..1e6+frame) if frame==1\n"), PETRI_OK);
     player_step(player, 1);
     assert_text("before", player_state(player), "$:c = 0\n$(:c;:time) = 0\n");
-    assert_int_equal(petri_step(player->session), PETRI_LIMIT);
-    assert_text("told", player_told(player),
+    assert_int_equal(petri_step(player->session), PETRI_LIMIT_EXCEEDED);
+    assert_text("told", player_diagnostics(player),
                 "error t.fl:2:10 the frame needs more than its 1 MiB of memory; it is given up [memory-limit]\n");
     assert_text("unchanged", player_state(player), "$:c = 0\n$(:c;:time) = 0\n");
     assert_text("no tree", player_tree(player), "");
@@ -52,7 +52,7 @@ static void test_memory_anywhere(void **state) {
                                  "    for i in ..40\n"
                                  "        !particle id=i position=1\n"
                                  "!counter state=:d initial=..500\n";
-    int given_up = 0, done = 0;
+    int aborted = 0, done = 0;
     for (size_t bytes = 2 << 10; bytes < 64 << 10; bytes += 256) {
         open_small(player, bytes);
         assert_int_equal(player_load(player, script), PETRI_OK);
@@ -61,18 +61,18 @@ static void test_memory_anywhere(void **state) {
         for (int frame = 0; frame < 3; frame++) {
             PetriStatus status = petri_step(player->session);
             const char *after = player_state(player);
-            if (status == PETRI_LIMIT)
+            if (status == PETRI_LIMIT_EXCEEDED)
                 assert_text("a frame that hits a limit leaves the state as it was", after, before.text);
             else
                 assert_int_equal(status, PETRI_OK);
-            given_up += status == PETRI_LIMIT;
+            aborted += status == PETRI_LIMIT_EXCEEDED;
             done += status == PETRI_OK;
             before.len = 0;
             note(&before, after, strlen(after));
         }
         free(before.text);
     }
-    assert_true(given_up > 20);
+    assert_true(aborted > 20);
     assert_true(done > 20);
 }
 

@@ -57,28 +57,28 @@ static void ignore(void *host, const PetriDiagnostic *diagnostic) {
 }
 
 static void open_stage(Stage *stage, bool interruptible) {
-    PetriPrompted done;
+    PetriPromptResult done;
     PetriOptions options = player_options(&stage->player);
-    options.interruptible = interruptible;
-    options.diagnostic = ignore;
+    options.rollback_frames = interruptible;
+    options.on_diagnostic = ignore;
     options.threads = 1;
     options.profile = true;
     player_open_with(&stage->player, &options);
     PetriSession *session = stage->player.session;
     assert_int_equal(petri_load(session, folder_file(&stage->folder, "s.fl")), PETRI_OK);
-    assert_int_equal(petri_prompt(session, "let typed=frame*2", PETRI_Z, NULL, NULL, &done), PETRI_OK);
-    assert_int_equal(petri_prompt(session, "!typed x=typed", PETRI_Z, NULL, NULL, &done), PETRI_OK);
+    assert_int_equal(petri_prompt(session, "let typed=frame*2", PETRI_NUL_TERMINATED, NULL, NULL, &done), PETRI_OK);
+    assert_int_equal(petri_prompt(session, "!typed x=typed", PETRI_NUL_TERMINATED, NULL, NULL, &done), PETRI_OK);
     player_step(&stage->player, 2);
-    petri_key(session, "space", true);
+    petri_report_key(session, "space", true);
     player_step(&stage->player, 1);
     stage->early = petri_snapshot(session);
-    stage->config = petri_config(session);
+    stage->config = petri_config_get(session);
     assert_non_null(stage->early);
     assert_int_equal(petri_define(session, "M=1"), PETRI_OK);
     assert_int_equal(petri_save(session, folder_file(&stage->folder, "state")), PETRI_OK);
     player_step(&stage->player, 1);
-    petri_key(session, "space", false);
-    petri_pointer(session, &(PetriPointer){.inside = true, .x = 0.5, .y = 0.25, .buttons = 1});
+    petri_report_key(session, "space", false);
+    petri_report_pointer(session, &(PetriPointer){.inside = true, .x = 0.5, .y = 0.25, .buttons = 1});
     note(&stage->written, "", 0);
 }
 
@@ -90,12 +90,12 @@ static void close_stage(Stage *stage) {
     stage->written = (Notebook){0};
 }
 
-static void forget(Stage *stage) {
+static void clear_written(Stage *stage) {
     stage->written.len = 0;
     stage->written.text[0] = 0;
 }
 
-static bool take_text(void *host, const char *text, size_t len) {
+static bool write_text(void *host, const char *text, size_t len) {
     bool counts = heap.counts;
     heap.counts = false; // the notebook's allocations are not libpetri's
     note(host, text, len);
@@ -106,7 +106,7 @@ static bool take_text(void *host, const char *text, size_t len) {
 // --- the acts
 
 static PetriStatus of_pointer(const void *pointer) {
-    return pointer ? PETRI_OK : PETRI_MEMORY;
+    return pointer ? PETRI_OK : PETRI_OUT_OF_MEMORY;
 }
 
 static PetriStatus act_open(Stage *stage) {
@@ -129,11 +129,12 @@ static PetriStatus act_load(Stage *stage) {
 }
 
 static PetriStatus act_load_text(Stage *stage) {
-    return petri_load_text(stage->player.session, "t.fl", "let A=A or 3\n!counter state=:other rate=A*2\n", PETRI_Z);
+    return petri_load_text(stage->player.session, "t.fl", "let A=A or 3\n!counter state=:other rate=A*2\n",
+                           PETRI_NUL_TERMINATED);
 }
 
 static PetriStatus act_load_wrong(Stage *stage) {
-    PetriStatus status = petri_load_text(stage->player.session, "t.fl", "!a x=\n", PETRI_Z);
+    PetriStatus status = petri_load_text(stage->player.session, "t.fl", "!a x=\n", PETRI_NUL_TERMINATED);
     return status == PETRI_INVALID ? PETRI_OK : status;
 }
 
@@ -156,13 +157,13 @@ static PetriStatus act_step(Stage *stage) {
 static PetriStatus act_config(Stage *stage) {
     petri_set_tempo(stage->player.session, 90);
     petri_set_tempo(stage->player.session, 60);
-    PetriConfig *config = petri_config(stage->player.session);
+    PetriConfig *config = petri_config_get(stage->player.session);
     petri_config_free(config);
     return of_pointer(config);
 }
 
-static PetriStatus act_config_use(Stage *stage) {
-    petri_config_use(stage->player.session, stage->config);
+static PetriStatus act_config_apply(Stage *stage) {
+    petri_config_apply(stage->player.session, stage->config);
     return PETRI_OK;
 }
 
@@ -188,10 +189,12 @@ static PetriStatus act_systems(Stage *stage) {
     PetriSystem system;
     uint32_t particle = 0;
     PetriForce force;
-    bool found = petri_system(stage->player.session, 1, &system) &&
-                 petri_find(stage->player.session, 0, petri_id(stage->player.session, 0, 1), &particle) &&
-                 petri_ids(stage->player.session, 0).data != NULL && petri_force(stage->player.session, 0, 0, &force);
-    return found ? PETRI_OK : PETRI_MEMORY;
+    bool found =
+        petri_system(stage->player.session, 1, &system) &&
+        petri_find_particle(stage->player.session, 0, petri_particle_id(stage->player.session, 0, 1), &particle) &&
+        petri_particle_ids(stage->player.session, 0).data != NULL &&
+        petri_system_force(stage->player.session, 0, 0, &force);
+    return found ? PETRI_OK : PETRI_OUT_OF_MEMORY;
 }
 
 static const PetriString some_text = {"some text", 9};
@@ -200,17 +203,18 @@ static const PetriValue some_value = {.length = 2, .items = some_items};
 
 static PetriStatus act_state(Stage *stage) {
     PetriStatus status = petri_state_set(stage->player.session, some_value, some_value);
-    if (status == PETRI_OK && !petri_text(stage->player.session, petri_state_get(stage->player.session, some_value)))
-        status = petri_state_set(stage->player.session, some_value, (PetriValue){0}) == PETRI_OK ? PETRI_MEMORY
+    if (status == PETRI_OK &&
+        !petri_format_value(stage->player.session, petri_state_get(stage->player.session, some_value)))
+        status = petri_state_set(stage->player.session, some_value, (PetriValue){0}) == PETRI_OK ? PETRI_OUT_OF_MEMORY
                                                                                                  : PETRI_INVALID;
     return status;
 }
 
-static PetriStatus act_give(Stage *stage) {
-    return petri_give(stage->player.session, "given", some_value);
+static PetriStatus act_set_global(Stage *stage) {
+    return petri_set_global(stage->player.session, "given", some_value);
 }
 
-static PetriValue give_nothing(PetriCall *call, void *host, const PetriValue *arguments, uint32_t count) {
+static PetriValue return_null(PetriCall *call, void *host, const PetriValue *arguments, uint32_t count) {
     (void)call;
     (void)host;
     (void)arguments;
@@ -219,8 +223,8 @@ static PetriValue give_nothing(PetriCall *call, void *host, const PetriValue *ar
 }
 
 static PetriStatus act_add_function(Stage *stage) {
-    return petri_add_function(stage->player.session, &(PetriFunction){sizeof(PetriFunction), "f", "x, y=0", "help",
-                                                                      false, give_nothing, NULL});
+    return petri_add_function(stage->player.session,
+                              &(PetriFunction){sizeof(PetriFunction), "f", "x, y=0", "help", false, return_null, NULL});
 }
 
 static PetriStatus act_picture(Stage *stage) {
@@ -241,12 +245,13 @@ static PetriStatus act_automatic_picture(Stage *stage) {
 }
 
 static PetriStatus act_print(Stage *stage) {
-    return petri_print(stage->player.session, 15, take_text, &stage->written);
+    return petri_print(stage->player.session, 15, write_text, &stage->written);
 }
 
 static PetriStatus act_dump(Stage *stage) {
-    PetriStatus status = petri_dump(stage->player.session, PETRI_DUMP_AST, take_text, &stage->written);
-    return status == PETRI_OK ? petri_dump(stage->player.session, PETRI_DUMP_CODE, take_text, &stage->written) : status;
+    PetriStatus status = petri_dump(stage->player.session, PETRI_DUMP_AST, write_text, &stage->written);
+    return status == PETRI_OK ? petri_dump(stage->player.session, PETRI_DUMP_CODE, write_text, &stage->written)
+                              : status;
 }
 
 static void ignore_token(void *host, const PetriToken *token) {
@@ -254,31 +259,32 @@ static void ignore_token(void *host, const PetriToken *token) {
     (void)token;
 }
 
-static void ignore_name(void *host, const PetriTextName *name) {
+static void ignore_name(void *host, const PetriBinding *name) {
     (void)host;
     (void)name;
 }
 
 static PetriStatus act_names(Stage *stage) {
-    return petri_names(stage->player.session, "let other_name=(1;'two';:three)\nfunc g(x)\n    x\n", PETRI_Z,
-                       ignore_name, NULL);
+    return petri_bindings(stage->player.session, "let other_name=(1;'two';:three)\nfunc g(x)\n    x\n",
+                          PETRI_NUL_TERMINATED, ignore_name, NULL);
 }
 
 static PetriStatus act_tokens(Stage *stage) {
-    return petri_tokens(stage->player.session, "let new_name=(1;'two';:three) -- four\n", PETRI_Z, ignore_token, NULL);
+    return petri_tokenise(stage->player.session, "let new_name=(1;'two';:three) -- four\n", PETRI_NUL_TERMINATED,
+                          ignore_token, NULL);
 }
 
-static PetriStatus act_input(Stage *stage) {
+static PetriStatus act_prompt_check(Stage *stage) {
     uint64_t errors = petri_diagnostic_count(stage->player.session, PETRI_ERROR);
-    if (petri_input(stage->player.session, "area(1;", PETRI_Z) == PETRI_INPUT_PART)
+    if (petri_prompt_check(stage->player.session, "area(1;", PETRI_NUL_TERMINATED) == PETRI_INCOMPLETE)
         return PETRI_OK;
     assert_true(petri_diagnostic_count(stage->player.session, PETRI_ERROR) > errors); // it is said
-    return PETRI_MEMORY;
+    return PETRI_OUT_OF_MEMORY;
 }
 
 static PetriStatus prompt(Stage *stage, const char *text) {
-    PetriPrompted done;
-    return petri_prompt(stage->player.session, text, PETRI_Z, take_text, &stage->written, &done);
+    PetriPromptResult done;
+    return petri_prompt(stage->player.session, text, PETRI_NUL_TERMINATED, write_text, &stage->written, &done);
 }
 
 static PetriStatus act_prompt_value(Stage *stage) {
@@ -294,12 +300,13 @@ static PetriStatus act_prompt_node(Stage *stage) {
 }
 
 static PetriStatus act_evaluate(Stage *stage) {
-    PetriResult result;
-    return petri_evaluate(stage->player.session, "area(typed)", PETRI_Z, &result, take_text, &stage->written);
+    PetriEvaluation result;
+    return petri_evaluate(stage->player.session, "area(typed)", PETRI_NUL_TERMINATED, &result, write_text,
+                          &stage->written);
 }
 
-static PetriStatus act_drop(Stage *stage) {
-    return petri_drop(stage->player.session, false) == 1 ? PETRI_OK : PETRI_MEMORY;
+static PetriStatus act_prompt_clear(Stage *stage) {
+    return petri_prompt_clear(stage->player.session, false) == 1 ? PETRI_OK : PETRI_OUT_OF_MEMORY;
 }
 
 static PetriStatus act_preview(Stage *stage) {
@@ -309,36 +316,37 @@ static PetriStatus act_preview(Stage *stage) {
 
 static PetriStatus act_parameters(Stage *stage) {
     PetriParameter parameter;
-    return petri_parameter(stage->player.session, 0, &parameter) ? PETRI_OK : PETRI_MEMORY;
+    return petri_parameter(stage->player.session, 0, &parameter) ? PETRI_OK : PETRI_OUT_OF_MEMORY;
 }
 
 static PetriStatus act_texts(Stage *stage) {
     assert_string_equal(petri_prompt_statement(stage->player.session, 1), "!typed x=typed");
-    assert_non_null(petri_source(stage->player.session, 0));
-    return of_pointer(petri_name(stage->player.session, 0));
+    assert_non_null(petri_source_file(stage->player.session, 0));
+    return of_pointer(petri_visible_name(stage->player.session, 0));
 }
 
 static PetriStatus act_simple(Stage *stage) {
-    petri_clear(stage->player.session);
+    petri_reset(stage->player.session);
     petri_set_fps(stage->player.session, 30);
-    petri_hold(stage->player.session);
-    petri_drawable(stage->player.session);
-    petri_looks_back(stage->player.session);
-    return petri_key(stage->player.session, "a", true);
+    petri_resync_clock(stage->player.session);
+    petri_has_picture(stage->player.session);
+    petri_needs_history(stage->player.session);
+    return petri_report_key(stage->player.session, "a", true);
 }
 
 static PetriStatus act_check_text(Stage *stage) {
-    return petri_check_text(stage->player.session, "t.fl", "let A=3\n!counter state=:other rate=A*2\n", PETRI_Z);
+    return petri_check_text(stage->player.session, "t.fl", "let A=3\n!counter state=:other rate=A*2\n",
+                            PETRI_NUL_TERMINATED);
 }
 
 static PetriStatus act_print_log(Stage *stage) {
-    return petri_print_log(stage->player.session, take_text, &stage->written);
+    return petri_print_log(stage->player.session, write_text, &stage->written);
 }
 
 // Seconds are written that differ each time.
 static PetriStatus act_profile(Stage *stage) {
     Notebook seconds = {0};
-    PetriStatus status = petri_profile(stage->player.session, 0, take_text, &seconds);
+    PetriStatus status = petri_profile(stage->player.session, 0, write_text, &seconds);
     free(seconds.text);
     return status;
 }
@@ -347,7 +355,7 @@ static PetriStatus act_records(Stage *stage) {
     PetriPicture *picture;
     PetriPictureOptions options = petri_default_picture_options();
     bool ready = petri_picture_ready(stage->player.session, &options),
-         records = petri_looks_back(stage->player.session);
+         records = petri_needs_history(stage->player.session);
     PetriStatus status = petri_picture(stage->player.session, &options, &picture);
     if (status == PETRI_OK) {
         assert_true(ready && !records);
@@ -355,7 +363,7 @@ static PetriStatus act_records(Stage *stage) {
         PetriRecord record;
         assert_false(painter && petri_picture_record(picture, painter, 0, &record)); // it has not been made
         petri_painter_close(&painter);
-        petri_picture_tell(stage->player.session, picture);
+        petri_picture_report(stage->player.session, picture);
     }
     petri_picture_free(&picture);
     return status;
@@ -374,12 +382,12 @@ static PetriStatus act_paint(Stage *stage) {
         status = petri_picture_draw(picture, painter, pixels, 100, 100, 400);
     const PetriLabel label = {.text = "label", .width = 50, .height = 20, .size = 10, .line_height = 12};
     if (status == PETRI_OK)
-        status = petri_painter_labels(painter, &label, 1, 1, pixels, 100, 100, 400);
+        status = petri_painter_draw_labels(painter, &label, 1, 1, pixels, 100, 100, 400);
     if (status == PETRI_OK)
         status = petri_picture_save(picture, painter, folder_file(&stage->folder, "a.png"));
     petri_painter_close(&painter);
     petri_picture_free(&picture);
-    return status == PETRI_MISSING ? PETRI_OK : status;
+    return status == PETRI_UNSUPPORTED ? PETRI_OK : status;
 }
 
 typedef struct Row {
@@ -399,14 +407,14 @@ static const Row rows[] = {
     {"check", act_check, false},
     {"step", act_step, true},
     {"config", act_config, false},
-    {"config use", act_config_use, false},
+    {"config use", act_config_apply, false},
     {"snapshot", act_snapshot, false},
     {"rewind", act_rewind, false},
     {"save", act_save, false},
     {"restore", act_restore, false},
     {"systems", act_systems, false},
     {"state", act_state, false},
-    {"give", act_give, false},
+    {"give", act_set_global, false},
     {"add a function", act_add_function, false},
     {"picture", act_picture, false},
     {"automatic picture", act_automatic_picture, false},
@@ -414,12 +422,12 @@ static const Row rows[] = {
     {"dump", act_dump, false},
     {"tokens", act_tokens, false},
     {"names", act_names, false},
-    {"input", act_input, false},
+    {"input", act_prompt_check, false},
     {"prompt value", act_prompt_value, false},
     {"prompt binding", act_prompt_binding, false},
     {"prompt node", act_prompt_node, false},
     {"evaluate", act_evaluate, false},
-    {"drop", act_drop, false},
+    {"drop", act_prompt_clear, false},
     {"preview", act_preview, false},
     {"parameters", act_parameters, false},
     {"texts", act_texts, false},
@@ -453,12 +461,12 @@ static void check_failure(Stage *stage, const Row *row, long number, bool all, c
     write_frame(stage, &before);
     heap_fail(number, all);
     PetriStatus status = row->act(stage);
-    heap_heal();
+    heap_restore();
     if (status != PETRI_OK) {
-        assert_number(name, status, PETRI_MEMORY);
+        assert_number(name, status, PETRI_OUT_OF_MEMORY);
         write_frame(stage, &after);
         assert_text(name, after.text, before.text);
-        forget(stage);
+        clear_written(stage);
         assert_number(name, row->act(stage), PETRI_OK);
     }
     char *found = outcome(stage);
@@ -470,7 +478,7 @@ static void check_failure(Stage *stage, const Row *row, long number, bool all, c
 }
 
 // So many allocations of an act are tried; all of them with TRIES=1000000.
-static long most_tries(void) {
+static long max_tries(void) {
     const char *tries = getenv("TRIES");
     return tries ? strtol(tries, NULL, 10) : 50;
 }
@@ -482,7 +490,7 @@ static void test_failures(void **state) {
         heap_fail(-1, false);
         assert_number(rows[i].name, rows[i].act(stage), PETRI_OK);
         heap.counts = false;
-        long total = heap.count, stride = 1 + total / most_tries();
+        long total = heap.count, stride = 1 + total / max_tries();
         char *wanted = outcome(stage);
         close_stage(stage);
         for (long number = 0; number <= total; number += stride)
@@ -500,9 +508,9 @@ static void test_plain_step(void **state) {
         open_stage(stage, false);
         heap_fail(number, true);
         PetriStatus status = petri_step(stage->player.session);
-        heap_heal();
+        heap_restore();
         total = status == PETRI_OK && heap.count <= number ? 0 : number + 2;
-        assert_true(status == PETRI_OK || status == PETRI_MEMORY);
+        assert_true(status == PETRI_OK || status == PETRI_OUT_OF_MEMORY);
         for (int i = 0; i < 3; i++) {
             PetriStatus again = petri_step(stage->player.session);
             if (again != PETRI_OK)

@@ -2,22 +2,21 @@
 // of definitions that it does not take.
 #include "folder.h"
 #include "player.h"
-
 #include "session/session.h"
 
 // One line each: `NAME value (default) number least..most|step 'comment' place`.
 static const char *list(Player *player) {
     PetriParameter row;
-    player->shown.len = 0;
-    note(&player->shown, "", 0);
+    player->printed.len = 0;
+    note(&player->printed, "", 0);
     for (size_t i = 0; petri_parameter(player->session, i, &row); i++) {
         char line[1000];
         int len = snprintf(line, sizeof line, "%s %s (%s) %g/%g %g..%g|%g '%s' %u:%u%s%s\n", row.name, row.value,
-                           row.fallback, row.number, row.fallback_number, row.least, row.most, row.step, row.comment,
+                           row.default_value, row.number, row.default_number, row.min, row.max, row.step, row.comment,
                            row.line, row.column, row.defined ? " defined" : "", row.settable ? "" : " fixed");
-        note(&player->shown, line, (size_t)len);
+        note(&player->printed, line, (size_t)len);
     }
-    return player->shown.text;
+    return player->printed.text;
 }
 
 static const char *list_of(Player *player, const char *script) {
@@ -62,7 +61,7 @@ static void test_which_lets(void **state) {
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         assert_text(rows[i].script, list_of(*state, rows[i].script), rows[i].wanted);
-        const char *told = player_told(*state);
+        const char *told = player_diagnostics(*state);
         assert_claim(rows[i].script, rows[i].quiet == (told[0] == 0));
         assert_claim(rows[i].script, rows[i].quiet || strstr(told, "[unbound-name]") != NULL);
     }
@@ -112,8 +111,8 @@ static void test_values(void **state) {
          "warning t.fl:1:5 N=0 has no effect: 0 is false, so that `or` takes the default 3 "
          "[unused-definition]\n"},
         {"N=5;1", "!a v=5;1;2\n", ""},
-        {"N=11", "!a v=11;2\n", "warning t.fl:1:5 N=11 is outside the range 1..10 [outside-range]\n"},
-        {"N=nan", "!a v=nan;2\n", "warning t.fl:1:5 N=nan is outside the range 1..10 [outside-range]\n"},
+        {"N=11", "!a v=11;2\n", "warning t.fl:1:5 N=11 is outside the range 1..10 [out-of-range]\n"},
+        {"N=nan", "!a v=nan;2\n", "warning t.fl:1:5 N=nan is outside the range 1..10 [out-of-range]\n"},
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++)
         for (int simplify = 1; simplify >= 0; simplify--) {
@@ -123,7 +122,7 @@ static void test_values(void **state) {
             assert_int_equal(petri_define(player->session, rows[i].definition), PETRI_OK);
             player_run(player, "let N=N or 3 -- 1..10\n!a v=N;2\n", 1);
             assert_text(rows[i].definition, player_tree(player), rows[i].tree);
-            assert_text(rows[i].definition, player_told(player), rows[i].told);
+            assert_text(rows[i].definition, player_diagnostics(player), rows[i].told);
         }
 }
 
@@ -155,30 +154,31 @@ static void test_unused(void **state) {
         player_reopen(player, &options);
         assert_int_equal(petri_define(player->session, rows[i].definition), PETRI_OK);
         player_run(player, rows[i].script, 1);
-        assert_text(rows[i].script, player_told(player), rows[i].told);
+        assert_text(rows[i].script, player_diagnostics(player), rows[i].told);
     }
     Player *player = *state; // of several the last counts, and only that one is spoken of
     assert_int_equal(petri_define(player->session, "N=77"), PETRI_OK);
     assert_int_equal(petri_define(player->session, "N=3"), PETRI_OK);
     player_run(player, "let N=N or 2 -- 1..9\n!a v=N;sin\n", 1);
-    assert_text("last", player_told(player), "");
+    assert_text("last", player_diagnostics(player), "");
 }
 
 // Hints are a line of the rendered text.
-static void keep_rendered(void *host, const PetriDiagnostic *diagnostic) {
+static void store_rendered(void *host, const PetriDiagnostic *diagnostic) {
     Player *player = host;
-    note(&player->told, diagnostic->rendered, strlen(diagnostic->rendered));
+    note(&player->diagnostics, diagnostic->rendered, strlen(diagnostic->rendered));
 }
 
 static void test_rendered(void **state) {
     Player *player = *state;
     PetriOptions options = player_options(player);
-    options.diagnostic = keep_rendered;
+    options.on_diagnostic = store_rendered;
     player_reopen(player, &options);
     assert_int_equal(petri_define(player->session, "CELS=5"), PETRI_OK);
     assert_int_equal(petri_define(player->session, "DISH=5"), PETRI_OK);
-    assert_int_equal(petri_load_text(player->session, "t.fl", "let CELLS=CELLS or 2 DISH=3\n", PETRI_Z), PETRI_OK);
-    assert_text("rendered", player_told(player),
+    assert_int_equal(petri_load_text(player->session, "t.fl", "let CELLS=CELLS or 2 DISH=3\n", PETRI_NUL_TERMINATED),
+                     PETRI_OK);
+    assert_text("rendered", player_diagnostics(player),
                 "t.fl:1:5: warning: the definition of 'CELS' has no effect: t.fl never reads it [unknown-parameter]\n"
                 "    let CELLS=CELLS or 2 DISH=3\n"
                 "        ^~~~~\n"
@@ -217,7 +217,7 @@ static void test_wrong_values(void **state) {
         assert_int_equal(petri_define(player->session, rows[i].definition), PETRI_OK);
         bool wrong = rows[i].told[0] != 0;
         assert_int_equal(player_load(player, script), wrong ? PETRI_INVALID : PETRI_OK);
-        assert_text(rows[i].definition, player_told(player), rows[i].told);
+        assert_text(rows[i].definition, player_diagnostics(player), rows[i].told);
     }
     static const char *const bad[] = {"5=3", "a b=3", " a=3", "a-b=3", "'=3", "a'b=3"};
     for (size_t i = 0; i < COUNT_OF(bad); i++)
@@ -240,7 +240,7 @@ static void test_set(void **state) {
     player_run(player, DISH, 3);
     player_forget(player);
     assert_int_equal(petri_set_parameter(player->session, "N", "5"), PETRI_OK);
-    assert_text("what was told stays told", player_told(player), "");
+    assert_text("what was told stays told", player_diagnostics(player), "");
     assert_text("set", list(player),
                 "N 5 (3) 5/3 1..5|2 'rounds' 1:5 defined\nS 'a' ('a') nan/nan -inf..inf|0 '' 2:5\n");
     player_step(player, 1);
@@ -251,14 +251,14 @@ static void test_set(void **state) {
     assert_int_equal(petri_set_parameter(player->session, "N", NULL), PETRI_OK);
     player_step(player, 1);
     assert_text("the default again", player_tree(player), "!unbound\n!a v=3;'b c' f=4\n!counter state=:c rate=60\n");
-    uint64_t number = petri_config_number(player->session);
+    uint64_t number = petri_config_revision(player->session);
     assert_int_equal(petri_set_parameter(player->session, "N", "x"), PETRI_INVALID);
-    assert_text("wrong", player_told(player),
+    assert_text("wrong", player_diagnostics(player),
                 "error t.fl:1:5 'x' is not a number, and 'N' takes numbers: its default "
                 "is 3 [bad-definition]\n");
     assert_int_equal(petri_set_parameter(player->session, "M", "1"), PETRI_INVALID);
     assert_int_equal(petri_set_parameter(player->session, "", "1"), PETRI_INVALID);
-    assert_true(number <= petri_config_number(player->session));
+    assert_true(number <= petri_config_revision(player->session));
     player_step(player, 1);
     assert_text("a failure changes nothing", player_tree(player),
                 "!unbound\n!a v=3;'b c' f=5\n!counter state=:c rate=60\n");
@@ -297,7 +297,7 @@ static void test_files(void **state) {
     assert_int_equal(petri_define(player->session, "PART=8"), PETRI_OK);
     assert_int_equal(petri_define(player->session, "SIZE=4"), PETRI_OK);
     assert_int_equal(petri_load(player->session, folder_file(&folder, "main.fl")), PETRI_OK);
-    const char *told = player_told(player);
+    const char *told = player_diagnostics(player);
     assert_non_null(strstr(told, "m.fl:2:5 the definition of 'SIZE' has no effect: modules see no definitions"));
     assert_null(strstr(told, "PART"));
     assert_text("files", list(player),
@@ -309,7 +309,7 @@ static void test_files(void **state) {
     player_forget(player);
     player_step(player, 2);
     assert_text("values", player_tree(player), "!part v=8\n!a v=6\n");
-    assert_null(strstr(player_told(player), "unbound")); // SIZE on the right is null, and meant so
+    assert_null(strstr(player_diagnostics(player), "unbound")); // SIZE on the right is null, and meant so
     folder_close(&folder);
 }
 
@@ -324,10 +324,10 @@ static void test_parsed_once(void **state) {
     folder_write(&folder, "part.fl", "let A=A or 1\n!part v=A\n");
     folder_write(&folder, "main.fl", "%include 'part.fl'\nlet B=B or 2\n!a v=B\n");
     assert_int_equal(petri_load(session, folder_file(&folder, "main.fl")), PETRI_OK);
-    PetriConfig *base = petri_config(session);
+    PetriConfig *base = petri_config_get(session);
     for (int i = 0; i < 4; i++) {
         char definition[20], wanted[60];
-        petri_config_use(session, base);
+        petri_config_apply(session, base);
         snprintf(definition, sizeof definition, i < 2 ? "A=%d" : "B=%d", i + 5);
         assert_int_equal(petri_define(session, definition), PETRI_OK);
         assert_int_equal(petri_reload(session, NULL), PETRI_OK);
@@ -338,9 +338,9 @@ static void test_parsed_once(void **state) {
         assert_text("values", player_tree(player), wanted);
         const Unit *unit = session->config.program;
         assert_true(i == 0 || unit->source == script);
-        assert_true(i == 0 || (unit->trees->parsed->source == part) == (i < 3));
+        assert_true(i == 0 || (unit->parse_cache->parsed->source == part) == (i < 3));
         script = unit->source;
-        part = unit->trees->parsed->source;
+        part = unit->parse_cache->parsed->source;
         if (i == 2)
             folder_write(&folder, "part.fl", "let A=A or 1\n!changed v=A\n");
     }

@@ -3,7 +3,6 @@
 #include "player.h"
 
 #include <math.h>
-
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <time.h>
@@ -14,7 +13,7 @@ static const char *const KEYS = "!physics state=:a dimensions=2 time=beat\n    !
                                 "!window\n    !key name=:space state=:space\n    !pointer state=:mouse\n";
 
 // Texts live as long as petri.h says, whatever else is asked meanwhile.
-static void ignore_name(void *host, const PetriTextName *name) {
+static void ignore_name(void *host, const PetriBinding *name) {
     (void)host;
     (void)name;
 }
@@ -29,23 +28,23 @@ static void test_lifetimes(void **state) {
     PetriSession *session = player->session;
     Folder folder;
     PetriSystem system;
-    PetriPrompted done;
-    PetriResult result;
+    PetriPromptResult done;
+    PetriEvaluation result;
     folder_open(&folder);
     folder_write(&folder, "s.fl", KEYS);
     assert_int_equal(petri_load(session, folder_file(&folder, "s.fl")), PETRI_OK);
     player_step(player, 3);
-    assert_int_equal(petri_prompt(session, "let twice=2*frame", PETRI_Z, NULL, NULL, &done), PETRI_OK);
-    const char *statement = petri_prompt_statement(session, 0), *name = petri_name(session, 0);
+    assert_int_equal(petri_prompt(session, "let twice=2*frame", PETRI_NUL_TERMINATED, NULL, NULL, &done), PETRI_OK);
+    const char *statement = petri_prompt_statement(session, 0), *name = petri_visible_name(session, 0);
     player_step(player, 1);
-    const char *source = petri_source(session, 0);
+    const char *source = petri_source_file(session, 0);
     assert_true(petri_system(session, 1, &system));
-    PetriValue id = petri_id(session, 0, 0);
-    for (size_t i = 0; petri_name(session, i); i++) {
+    PetriValue id = petri_particle_id(session, 0, 0);
+    for (size_t i = 0; petri_visible_name(session, i); i++) {
     }
     player_state(player);
     player_print(player, 15);
-    assert_int_equal(petri_evaluate(session, "twice", PETRI_Z, &result, NULL, NULL), PETRI_OK);
+    assert_int_equal(petri_evaluate(session, "twice", PETRI_NUL_TERMINATED, &result, NULL, NULL), PETRI_OK);
     assert_string_equal(strrchr(source, '/'), "/s.fl");
     assert_string_equal(statement, "let twice=2*frame");
     assert_string_equal(name, "twice");
@@ -58,7 +57,7 @@ static void test_lifetimes(void **state) {
 }
 
 static void press(Player *player, bool pressed) {
-    assert_int_equal(petri_key(player->session, "space", pressed), PETRI_OK);
+    assert_int_equal(petri_report_key(player->session, "space", pressed), PETRI_OK);
     player_step(player, 1);
 }
 
@@ -77,7 +76,7 @@ static void test_toggles_rewind(void **state) {
     assert_non_null(strstr(wanted, "$(:space;:toggled) = 1\n"));
     press(player, false);
     press(player, true);
-    petri_pointer(player->session, &(PetriPointer){.inside = true, .x = 0.5, .y = 0.5, .buttons = 1});
+    petri_report_pointer(player->session, &(PetriPointer){.inside = true, .x = 0.5, .y = 0.5, .buttons = 1});
     player_step(player, 1);
     assert_non_null(strstr(player_state(player), "$(:space;:toggled) = 0\n"));
     assert_int_equal(petri_rewind(player->session, snapshot), PETRI_OK);
@@ -94,13 +93,15 @@ static void test_performance_rewinds(void **state) {
     player_realtime(player, 500);
     player_run(player, "!a p=performance", 3);
     PetriSnapshot *snapshot = petri_snapshot(player->session);
-    PetriResult before, after;
-    assert_int_equal(petri_evaluate(player->session, "performance", PETRI_Z, &before, NULL, NULL), PETRI_OK);
+    PetriEvaluation before, after;
+    assert_int_equal(petri_evaluate(player->session, "performance", PETRI_NUL_TERMINATED, &before, NULL, NULL),
+                     PETRI_OK);
     struct timespec pause = {.tv_nsec = 20000000};
     nanosleep(&pause, NULL);
     player_step(player, 1); // late: performance falls
     assert_int_equal(petri_rewind(player->session, snapshot), PETRI_OK);
-    assert_int_equal(petri_evaluate(player->session, "performance", PETRI_Z, &after, NULL, NULL), PETRI_OK);
+    assert_int_equal(petri_evaluate(player->session, "performance", PETRI_NUL_TERMINATED, &after, NULL, NULL),
+                     PETRI_OK);
     assert_number("performance", after.number, before.number);
     petri_snapshot_free(snapshot);
 }
@@ -110,8 +111,8 @@ static void test_null(void **state) {
     Player *player = *state;
     PetriSession *none = NULL, *session = player->session;
     PetriSnapshot *snapshot = petri_snapshot(session);
-    PetriPrompted done;
-    PetriResult result;
+    PetriPromptResult done;
+    PetriEvaluation result;
     PetriSystem system;
     uint32_t particle;
     PetriForce force;
@@ -132,35 +133,35 @@ static void test_null(void **state) {
         petri_check(none, "s"),
         petri_check(session, NULL),
         petri_check_text(none, "s", "", 0),
-        petri_check_text(session, "s", NULL, PETRI_Z),
+        petri_check_text(session, "s", NULL, PETRI_NUL_TERMINATED),
         petri_step(none),
         petri_preview(none),
         petri_set_tempo(none, 1),
         petri_set_fps(none, 1),
         petri_set_resolution(none, 1),
-        petri_pointer(none, NULL),
-        petri_key(none, "a", true),
-        petri_key(session, NULL, true),
+        petri_report_pointer(none, NULL),
+        petri_report_key(none, "a", true),
+        petri_report_key(session, NULL, true),
         petri_rewind(none, snapshot),
         petri_rewind(session, NULL),
         petri_save(none, "s"),
         petri_save(session, NULL),
         petri_restore(none, "s"),
         petri_restore(session, NULL),
-        petri_print(none, 15, note, &player->shown),
+        petri_print(none, 15, note, &player->printed),
         petri_print(session, 15, NULL, NULL),
-        petri_print_log(none, note, &player->shown),
+        petri_print_log(none, note, &player->printed),
         petri_print_log(session, NULL, NULL),
-        petri_profile(none, 0, note, &player->shown),
+        petri_profile(none, 0, note, &player->printed),
         petri_profile(session, 0, NULL, NULL),
-        petri_dump(none, PETRI_DUMP_AST, note, &player->shown),
+        petri_dump(none, PETRI_DUMP_AST, note, &player->printed),
         petri_dump(session, PETRI_DUMP_AST, NULL, NULL),
-        petri_tokens(none, "1", 1, ignore_token, NULL),
-        petri_tokens(session, NULL, 0, ignore_token, NULL),
-        petri_tokens(session, "1", 1, NULL, NULL),
-        petri_names(none, "1", 1, ignore_name, NULL),
-        petri_names(session, NULL, 0, ignore_name, NULL),
-        petri_names(session, "1", 1, NULL, NULL),
+        petri_tokenise(none, "1", 1, ignore_token, NULL),
+        petri_tokenise(session, NULL, 0, ignore_token, NULL),
+        petri_tokenise(session, "1", 1, NULL, NULL),
+        petri_bindings(none, "1", 1, ignore_name, NULL),
+        petri_bindings(session, NULL, 0, ignore_name, NULL),
+        petri_bindings(session, "1", 1, NULL, NULL),
         petri_prompt(none, "1", 1, NULL, NULL, &done),
         petri_prompt(session, NULL, 0, NULL, NULL, &done),
         petri_prompt(session, "1", 1, NULL, NULL, NULL),
@@ -175,56 +176,57 @@ static void test_null(void **state) {
     assert_null(petri_open(NULL));
     petri_close(&none);
     petri_close(NULL);
-    petri_clear(NULL);
-    petri_hold(NULL);
+    petri_reset(NULL);
+    petri_resync_clock(NULL);
     petri_interrupt(NULL);
     petri_config_free(NULL);
     petri_snapshot_free(NULL);
-    petri_config_use(NULL, NULL);
-    petri_config_use(session, NULL);
+    petri_config_apply(NULL, NULL);
+    petri_config_apply(session, NULL);
     assert_null(petri_snapshot(NULL));
-    assert_null(petri_config(NULL));
-    assert_null(petri_source(NULL, 0));
-    assert_null(petri_name(NULL, 0));
+    assert_null(petri_config_get(NULL));
+    assert_null(petri_source_file(NULL, 0));
+    assert_null(petri_visible_name(NULL, 0));
     assert_null(petri_prompt_statement(NULL, 0));
-    assert_false(petri_interrupted(NULL));
-    assert_false(petri_drawable(NULL));
-    assert_false(petri_key_bound(NULL, "a"));
-    assert_false(petri_key_bound(session, NULL));
+    assert_false(petri_clear_interrupt(NULL));
+    assert_false(petri_has_picture(NULL));
+    assert_false(petri_key_is_bound(NULL, "a"));
+    assert_false(petri_key_is_bound(session, NULL));
     petri_keep_columns(NULL, true);
     assert_false(petri_system(NULL, 0, &system) || petri_system(session, 0, NULL));
-    PetriTraffic traffic;
-    assert_false(petri_traffic(NULL, 0, &traffic) || petri_traffic(session, 0, NULL));
-    assert_int_equal(petri_id(NULL, 0, 0).length, 0);
-    assert_null(petri_ids(NULL, 0).data);
-    assert_false(petri_find(NULL, 0, (PetriValue){0}, &particle) || petri_find(session, 0, (PetriValue){0}, NULL));
+    PetriRankStats traffic;
+    assert_false(petri_rank_stats(NULL, 0, &traffic) || petri_rank_stats(session, 0, NULL));
+    assert_int_equal(petri_particle_id(NULL, 0, 0).length, 0);
+    assert_null(petri_particle_ids(NULL, 0).data);
+    assert_false(petri_find_particle(NULL, 0, (PetriValue){0}, &particle) ||
+                 petri_find_particle(session, 0, (PetriValue){0}, NULL));
     PetriValue value = {0};
     uint32_t cursor = 0;
     PetriDiagnostic kept;
     assert_false(petri_diagnostic(NULL, 0, &kept) || petri_diagnostic(session, 0, NULL));
-    petri_forget_diagnostics(NULL);
-    assert_null(petri_text(NULL, value));
+    petri_clear_diagnostics(NULL);
+    assert_null(petri_format_value(NULL, value));
     assert_int_equal(petri_state_get(NULL, value).length, 0);
     assert_int_equal(petri_state_set(NULL, value, value), PETRI_INVALID);
     assert_false(petri_state_next(NULL, &cursor, &value, &value) || petri_state_next(session, NULL, &value, &value));
     assert_false(petri_state_next(session, &cursor, NULL, &value) || petri_state_next(session, &cursor, &value, NULL));
-    assert_int_equal(petri_give(NULL, "a", value), PETRI_INVALID);
-    assert_int_equal(petri_give(session, NULL, value), PETRI_INVALID);
+    assert_int_equal(petri_set_global(NULL, "a", value), PETRI_INVALID);
+    assert_int_equal(petri_set_global(session, NULL, value), PETRI_INVALID);
     assert_int_equal(petri_tree(NULL).length, 0);
     assert_true(!petri_tree_tag(NULL, 0) && !petri_tree_attribute(NULL, 0, &value));
     assert_int_equal(petri_tree_get(NULL, "a").length, 0);
     assert_true(isnan(petri_symbol(NULL, "a")) && isnan(petri_symbol(session, NULL)));
     assert_null(petri_symbol_name(NULL, 1));
-    assert_false(petri_force(NULL, 0, 0, &force) || petri_force(session, 0, 0, NULL));
+    assert_false(petri_system_force(NULL, 0, 0, &force) || petri_system_force(session, 0, 0, NULL));
     assert_false(petri_parameter(NULL, 0, &parameter) || petri_parameter(session, 0, NULL));
     assert_false(petri_builtin(0, NULL) || petri_node_kind(0, NULL) || petri_node_attribute(0, 0, NULL));
-    assert_false(petri_read_number(NULL, &x) || petri_read_number("1", NULL));
-    assert_true(petri_due(NULL) == 0 && petri_resolution(NULL) == 0);
+    assert_false(petri_parse_number(NULL, &x) || petri_parse_number("1", NULL));
+    assert_true(petri_seconds_until_due(NULL) == 0 && petri_resolution(NULL) == 0);
     assert_int_equal(petri_frame(NULL).number, -1);
-    assert_int_equal(petri_input(NULL, "1", 1), PETRI_INPUT_WHOLE);
-    assert_int_equal(petri_input(session, NULL, 1), PETRI_INPUT_WHOLE);
-    assert_int_equal(petri_drop(NULL, true), 0);
-    assert_int_equal(petri_config_number(NULL), 0);
+    assert_int_equal(petri_prompt_check(NULL, "1", 1), PETRI_COMPLETE);
+    assert_int_equal(petri_prompt_check(session, NULL, 1), PETRI_COMPLETE);
+    assert_int_equal(petri_prompt_clear(NULL, true), 0);
+    assert_int_equal(petri_config_revision(NULL), 0);
     assert_int_equal(petri_snapshot_bytes(NULL), 0);
     assert_int_equal(petri_diagnostic_count(NULL, PETRI_ERROR), 0);
     assert_int_equal(petri_frame(session).number, 1);
@@ -275,7 +277,7 @@ static void test_pipe(void **state) {
     alarm(60);
     assert_int_equal(petri_reload(player->session, folder_file(&folder, "s.fl")), PETRI_INVALID);
     alarm(0);
-    assert_non_null(strstr(player_told(player), "it is not a regular file"));
+    assert_non_null(strstr(player_diagnostics(player), "it is not a regular file"));
     player_step(player, 2);
     assert_text("the old one", player_tree(player), "!a x=1\n");
     folder_close(&folder);

@@ -11,15 +11,15 @@ static const char *const SCRIPT = "%pragma tempo 120\n"
 
 // What the prompt writes for a text.
 static const char *typed(Player *player, const char *text, PetriStatus wanted) {
-    PetriPrompted done;
-    player->shown.len = 0;
-    note(&player->shown, "", 0);
-    PetriStatus status = petri_prompt(player->session, text, PETRI_Z, note, &player->shown, &done);
+    PetriPromptResult done;
+    player->printed.len = 0;
+    note(&player->printed, "", 0);
+    PetriStatus status = petri_prompt(player->session, text, PETRI_NUL_TERMINATED, note, &player->printed, &done);
     if (status != wanted) {
-        print_error("%s: status %d\n%s", text, status, player_told(player));
+        print_error("%s: status %d\n%s", text, status, player_diagnostics(player));
         fail();
     }
-    return player->shown.text;
+    return player->printed.text;
 }
 
 static void check_typed(Player *player, const ScriptRow *rows, size_t count) {
@@ -46,10 +46,10 @@ static void test_values(void **state) {
         {"debug(7)", "> 7\n7\n"},
     };
     CHECK_TYPED(player, after);
-    assert_string_equal(player_told(player), "");
+    assert_string_equal(player_diagnostics(player), "");
 }
 
-static void test_kept(void **state) {
+static void test_statements_persist(void **state) {
     Player *player = *state;
     assert_int_equal(player_load(player, SCRIPT), PETRI_OK);
     const ScriptRow rows[] = {
@@ -67,14 +67,50 @@ static void test_kept(void **state) {
                                              "!loop i=0\n!loop i=1\n");
     assert_string_equal(typed(player, "k;a;b", PETRI_OK), "7;7;10\n");
     assert_string_equal(petri_prompt_statement(player->session, 0), "let k=COUNT+frame");
-    assert_int_equal(petri_drop(player->session, false), 2);
+    assert_int_equal(petri_prompt_clear(player->session, false), 2);
     player_step(player, 1);
     assert_string_equal(player_tree(player), "!counter state=:c rate=1\n!shape n=3\n");
     assert_string_equal(typed(player, "k", PETRI_OK), "8\n");
-    assert_int_equal(petri_drop(player->session, true), 3);
+    assert_int_equal(petri_prompt_clear(player->session, true), 3);
     assert_null(petri_prompt_statement(player->session, 0));
     assert_string_equal(typed(player, "k", PETRI_OK), "null\n");
-    assert_non_null(strstr(player_told(player), "unbound name 'k'"));
+    assert_non_null(strstr(player_diagnostics(player), "unbound name 'k'"));
+}
+
+// Names of the prompt are evaluated in the state after the frame, names and nodes of the script in the state before it,
+// however the frame came to be evaluated.
+static void test_frame_values(void **state) {
+    static const char *const values = "x;y;$(:b;0);seen;n;tempo";
+    Player *player = *state;
+    PetriOptions options = player_options(player);
+    options.rollback_frames = true;
+    player_reopen(player, &options);
+    assert_int_equal(player_load(player, "let SPEED=SPEED or 60\n"
+                                         "    seen=$(:b;0)\n"
+                                         "!physics state=:b dimensions=1\n"
+                                         "    !particle id=0 velocity=SPEED\n"
+                                         "!trace at=seen\n"),
+                     PETRI_OK);
+    typed(player, "let x=$(:b;0) y=x+1 n=seen+1\n!typed at=x\n", PETRI_OK);
+    player_step(player, 4);
+    assert_string_equal(typed(player, values, PETRI_OK), "3;4;3;2;3;120\n");
+    char *tree = strdup(player_tree(player));
+    assert_non_null(strstr(tree, "!trace at=2\n!typed at=2\n"));
+    assert_int_equal(petri_set_tempo(player->session, 60), PETRI_OK);
+    assert_string_equal(typed(player, values, PETRI_OK), "3;4;3;2;3;60\n");
+    assert_int_equal(petri_set_parameter(player->session, "SPEED", "60"), PETRI_OK);
+    assert_string_equal(typed(player, values, PETRI_OK), "3;4;3;2;3;60\n");
+    PetriConfig *config = petri_config_get(player->session);
+    assert_int_equal(petri_set_fps(player->session, 30), PETRI_OK);
+    petri_config_apply(player->session, config);
+    petri_config_free(config);
+    assert_int_equal(petri_preview(player->session), PETRI_OK);
+    assert_string_equal(player_tree(player), tree);
+    assert_string_equal(typed(player, values, PETRI_OK), "3;4;3;2;3;60\n");
+    player_step(player, 1);
+    assert_string_equal(typed(player, values, PETRI_OK), "4;5;4;3;4;60\n");
+    assert_string_equal(player_diagnostics(player), "");
+    free(tree);
 }
 
 // A system typed at the prompt simulates like one of the script.
@@ -87,7 +123,7 @@ static void test_typed_physics(void **state) {
     snprintf(whole, sizeof whole, "%s%s", SCRIPT, system);
     player_run(player, whole, 10);
     char *wanted = strdup(player_state(player));
-    petri_clear(player->session);
+    petri_reset(player->session);
     assert_int_equal(player_load(player, SCRIPT), PETRI_OK);
     typed(player, system, PETRI_OK);
     player_step(player, 10);
@@ -102,7 +138,7 @@ static void test_faults(void **state) {
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         for (int twice = 0; twice < 2; twice++) { // what is typed again is told again
             typed(player, wrong[i], PETRI_INVALID);
-            assert_non_null(strstr(player_told(player), "error prompt:1:"));
+            assert_non_null(strstr(player_diagnostics(player), "error prompt:1:"));
             player_forget(player);
         }
     }
@@ -115,60 +151,63 @@ static void test_input(void **state) {
     Player *player = *state;
     static const struct {
         const char *text;
-        PetriInput wanted;
+        PetriCompleteness wanted;
     } rows[] = {
-        {"1+2\n", PETRI_INPUT_WHOLE},
-        {"let x=1\n", PETRI_INPUT_WHOLE},
-        {"x where y=2\n", PETRI_INPUT_WHOLE},
-        {"!a\n", PETRI_INPUT_OPEN},
-        {"!a x=1\n    !b\n", PETRI_INPUT_OPEN},
-        {"@f x=1\n", PETRI_INPUT_OPEN},
-        {"for i in ..3\n", PETRI_INPUT_BLOCK},
-        {"if x\n", PETRI_INPUT_BLOCK},
-        {"if x\n    1\nelse\n", PETRI_INPUT_BLOCK},
-        {"func f(x)\n", PETRI_INPUT_BLOCK},
-        {"func f(x)\n    x\n", PETRI_INPUT_OPEN},
-        {"let x=\n", PETRI_INPUT_BLOCK},
-        {"(1;\n", PETRI_INPUT_PART},
-        {"f(1, (2\n;3)\n", PETRI_INPUT_PART},
-        {"f(1, (2\n;3))\n", PETRI_INPUT_WHOLE},
-        {"'''abc\n", PETRI_INPUT_PART},
-        {"'''abc\ndef'''\n", PETRI_INPUT_WHOLE},
-        {"1 + \\\n", PETRI_INPUT_PART},
-        {"1 + \\\n2\n", PETRI_INPUT_WHOLE},
-        {"1+\n", PETRI_INPUT_WHOLE},   // wrong, whatever follows
-        {")(\n", PETRI_INPUT_WHOLE},   //
-        {"'abc\n", PETRI_INPUT_WHOLE}, //
-        {"\xff\n", PETRI_INPUT_WHOLE}, //
-        {"\n", PETRI_INPUT_WHOLE},
-        {"-- a remark\n", PETRI_INPUT_WHOLE},
+        {"1+2\n", PETRI_COMPLETE},
+        {"let x=1\n", PETRI_COMPLETE},
+        {"x where y=2\n", PETRI_COMPLETE},
+        {"!a\n", PETRI_EXTENDABLE},
+        {"!a x=1\n    !b\n", PETRI_EXTENDABLE},
+        {"@f x=1\n", PETRI_EXTENDABLE},
+        {"for i in ..3\n", PETRI_NEEDS_BLOCK},
+        {"if x\n", PETRI_NEEDS_BLOCK},
+        {"if x\n    1\nelse\n", PETRI_NEEDS_BLOCK},
+        {"func f(x)\n", PETRI_NEEDS_BLOCK},
+        {"func f(x)\n    x\n", PETRI_EXTENDABLE},
+        {"let x=\n", PETRI_NEEDS_BLOCK},
+        {"(1;\n", PETRI_INCOMPLETE},
+        {"f(1, (2\n;3)\n", PETRI_INCOMPLETE},
+        {"f(1, (2\n;3))\n", PETRI_COMPLETE},
+        {"'''abc\n", PETRI_INCOMPLETE},
+        {"'''abc\ndef'''\n", PETRI_COMPLETE},
+        {"1 + \\\n", PETRI_INCOMPLETE},
+        {"1 + \\\n2\n", PETRI_COMPLETE},
+        {"1+\n", PETRI_COMPLETE},   // wrong, whatever follows
+        {")(\n", PETRI_COMPLETE},   //
+        {"'abc\n", PETRI_COMPLETE}, //
+        {"\xff\n", PETRI_COMPLETE}, //
+        {"\n", PETRI_COMPLETE},
+        {"-- a remark\n", PETRI_COMPLETE},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
-        if (petri_input(player->session, rows[i].text, PETRI_Z) != rows[i].wanted) {
+        if (petri_prompt_check(player->session, rows[i].text, PETRI_NUL_TERMINATED) != rows[i].wanted) {
             print_error("%s", rows[i].text);
-            assert_int_equal(petri_input(player->session, rows[i].text, PETRI_Z), rows[i].wanted);
+            assert_int_equal(petri_prompt_check(player->session, rows[i].text, PETRI_NUL_TERMINATED), rows[i].wanted);
         }
-    assert_string_equal(player_told(player), "");
+    assert_string_equal(player_diagnostics(player), "");
 }
 
 static void test_evaluate(void **state) {
     Player *player = *state;
-    PetriResult result;
+    PetriEvaluation result;
     player_run(player, SCRIPT, 2);
-    player->shown.len = 0;
-    assert_int_equal(petri_evaluate(player->session, "COUNT*2", PETRI_Z, &result, note, &player->shown), PETRI_OK);
-    assert_string_equal(player->shown.text, "6");
+    player->printed.len = 0;
+    assert_int_equal(petri_evaluate(player->session, "COUNT*2", PETRI_NUL_TERMINATED, &result, note, &player->printed),
+                     PETRI_OK);
+    assert_string_equal(player->printed.text, "6");
     assert_true(result.is_true && result.length == 1 && result.number == 6 && result.seconds >= 0);
-    assert_int_equal(petri_evaluate(player->session, "null", PETRI_Z, &result, NULL, NULL), PETRI_OK);
+    assert_int_equal(petri_evaluate(player->session, "null", PETRI_NUL_TERMINATED, &result, NULL, NULL), PETRI_OK);
     assert_true(!result.is_true && result.length == 0 && result.number != result.number);
-    assert_int_equal(petri_evaluate(player->session, "1;0", PETRI_Z, &result, NULL, NULL), PETRI_OK);
+    assert_int_equal(petri_evaluate(player->session, "1;0", PETRI_NUL_TERMINATED, &result, NULL, NULL), PETRI_OK);
     assert_true(result.is_true && result.length == 2 && result.number != result.number);
     static const char *const wrong[] = {"let x=1", "1\n2", "", "1+", "%pragma tempo 1\n"};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
-        assert_int_equal(petri_evaluate(player->session, wrong[i], PETRI_Z, &result, NULL, NULL), PETRI_INVALID);
+        assert_int_equal(petri_evaluate(player->session, wrong[i], PETRI_NUL_TERMINATED, &result, NULL, NULL),
+                         PETRI_INVALID);
     // Nothing of it is kept, whatever the number of evaluations.
     for (int i = 0; i < 3000; i++)
-        assert_int_equal(petri_evaluate(player->session, "COUNT;..1000", PETRI_Z, &result, NULL, NULL), PETRI_OK);
+        assert_int_equal(petri_evaluate(player->session, "COUNT;..1000", PETRI_NUL_TERMINATED, &result, NULL, NULL),
+                         PETRI_OK);
     assert_null(petri_prompt_statement(player->session, 0));
 }
 
@@ -179,7 +218,7 @@ static void test_names(void **state) {
     assert_int_equal(petri_define(player->session, "DEFINED=1"), PETRI_OK);
     assert_int_equal(player_load(player, SCRIPT), PETRI_OK);
     const char *name;
-    for (size_t i = 0; (name = petri_name(player->session, i)) != NULL; i++)
+    for (size_t i = 0; (name = petri_visible_name(player->session, i)) != NULL; i++)
         for (int k = 0; k < 3; k++)
             found[k] |= strcmp(name, wanted[k]) == 0;
     assert_true(found[0] && found[1] && found[2]);
@@ -191,15 +230,17 @@ static void test_no_script(void **state) {
     typed(player, "1", PETRI_INVALID);
     assert_int_equal(petri_preview(player->session), PETRI_INVALID);
     assert_int_equal(petri_reload(player->session, NULL), PETRI_INVALID);
-    assert_null(petri_name(player->session, 1000));
-    assert_null(petri_source(player->session, 0));
+    assert_null(petri_visible_name(player->session, 1000));
+    assert_null(petri_source_file(player->session, 0));
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_values), PLAYER_TEST(test_kept),      PLAYER_TEST(test_typed_physics),
-        PLAYER_TEST(test_faults), PLAYER_TEST(test_input),     PLAYER_TEST(test_evaluate),
-        PLAYER_TEST(test_names),  PLAYER_TEST(test_no_script),
+        PLAYER_TEST(test_values),       PLAYER_TEST(test_statements_persist),
+        PLAYER_TEST(test_frame_values), PLAYER_TEST(test_typed_physics),
+        PLAYER_TEST(test_faults),       PLAYER_TEST(test_input),
+        PLAYER_TEST(test_evaluate),     PLAYER_TEST(test_names),
+        PLAYER_TEST(test_no_script),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

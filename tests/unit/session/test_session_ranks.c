@@ -2,26 +2,27 @@
 // numbers go between them through queues. argv[1..]: folders of scripts to go through.
 #include "player.h"
 #include "scripts.h"
+
 #include <pthread.h>
 
-enum { FRAMES = 6, SILENT_FRAMES = 4, MOST_RANKS = 5 };
+enum { FRAMES = 6, SILENT_FRAMES = 4, MAX_RANKS = 5 };
 
 // Numbers on their way.
-typedef struct Parcel {
-    struct Parcel *next;
+typedef struct Message {
+    struct Message *next;
     size_t count;
     double numbers[];
-} Parcel;
+} Message;
 
 typedef struct Queue {
-    Parcel *first;
-    Parcel **end;
+    Message *first;
+    Message **end;
 } Queue;
 
 typedef struct World {
     pthread_mutex_t mutex;
     pthread_cond_t arrived;
-    Queue queues[MOST_RANKS][MOST_RANKS]; // from, to
+    Queue queues[MAX_RANKS][MAX_RANKS]; // from, to
     int count;
     const char *file; // or, if NULL:
     const char *text;
@@ -33,15 +34,15 @@ typedef struct World {
 typedef struct Rank {
     World *world;
     int number;
-    Notebook came;
+    Notebook output;
     uint64_t sent;
-    PetriTraffic traffic; // of the first system
+    PetriRankStats traffic; // of the first system
 } Rank;
 
 static void send(void *host, int to, const double *numbers, size_t runs, size_t length, size_t stride) {
     Rank *rank = host;
     Queue *queue = &rank->world->queues[rank->number][to];
-    Parcel *parcel = malloc(sizeof *parcel + runs * length * sizeof *numbers);
+    Message *parcel = malloc(sizeof *parcel + runs * length * sizeof *numbers);
     parcel->next = NULL;
     parcel->count = runs * length;
     for (size_t k = 0; k < runs; k++)
@@ -60,7 +61,7 @@ static void receive(void *host, int from, double *numbers, size_t runs, size_t l
     pthread_mutex_lock(&rank->world->mutex);
     while (!queue->first)
         pthread_cond_wait(&rank->world->arrived, &rank->world->mutex);
-    Parcel *parcel = queue->first;
+    Message *parcel = queue->first;
     queue->first = parcel->next;
     if (!queue->first)
         queue->end = &queue->first;
@@ -72,7 +73,7 @@ static void receive(void *host, int from, double *numbers, size_t runs, size_t l
     free(parcel);
 }
 
-static void spread(void *host, int from, double *numbers, size_t runs, size_t length, size_t stride) {
+static void broadcast(void *host, int from, double *numbers, size_t runs, size_t length, size_t stride) {
     Rank *rank = host;
     if (rank->number != from)
         receive(host, from, numbers, runs, length, stride);
@@ -81,15 +82,15 @@ static void spread(void *host, int from, double *numbers, size_t runs, size_t le
             send(host, to, numbers, runs, length, stride);
 }
 
-static void gather(void *host, double *numbers, const size_t *starts) {
+static void allgatherv(void *host, double *numbers, const size_t *starts) {
     const Rank *rank = host;
     for (int from = 0; from < rank->world->count; from++) {
         size_t length = starts[from + 1] - starts[from];
-        spread(host, from, numbers + starts[from], 1, length, length);
+        broadcast(host, from, numbers + starts[from], 1, length, length);
     }
 }
 
-static void most(void *host, double *numbers, size_t count) {
+static void allreduce_max(void *host, double *numbers, size_t count) {
     const Rank *rank = host;
     double *others = malloc(count * sizeof *others);
     for (int from = 1; rank->number == 0 && from < rank->world->count; from++) {
@@ -99,20 +100,20 @@ static void most(void *host, double *numbers, size_t count) {
     }
     if (rank->number > 0)
         send(host, 0, numbers, 1, count, count);
-    spread(host, 0, numbers, 1, count, count);
+    broadcast(host, 0, numbers, 1, count, count);
     free(others);
 }
 
 // New memory each time: nothing of the frame before is in it.
-static double *share(void *host, size_t count) {
+static double *alloc_shared(void *host, size_t count) {
     const Rank *rank = host;
     double all = 0, address = 0;
-    most(host, &all, 1); // nobody reads the memory before
+    allreduce_max(host, &all, 1); // nobody reads the memory before
     if (rank->number == 0) {
         free(rank->world->common);
         rank->world->common = malloc(count * sizeof *rank->world->common);
     }
-    spread(host, 0, &address, 1, 1, 1);
+    broadcast(host, 0, &address, 1, 1, 1);
     return rank->world->common;
 }
 
@@ -134,32 +135,32 @@ static void note_forces(PetriSession *session, Notebook *book) {
     note(book, line, (size_t)snprintf(line, sizeof line, "forces %016llx\n", (unsigned long long)sum));
 }
 
-static void *run(void *context) {
+static void *run_rank(void *context) {
     Rank *rank = context;
     const World *world = rank->world;
     Player player = {0};
-    PetriRanks ranks = {rank->number, world->count, 1,      rank, send,
-                        receive,      spread,       gather, most, in_common ? share : NULL};
+    PetriRanks ranks = {rank->number, world->count, 1,          rank,          send,
+                        receive,      broadcast,    allgatherv, allreduce_max, in_common ? alloc_shared : NULL};
     PetriOptions options = player_options(&player);
     options.threads = 1;
     options.ranks = &ranks;
     options.keep_forces = true;
     player_open_with(&player, &options);
     bool going = (world->file ? petri_load(player.session, world->file)
-                              : petri_load_text(player.session, "text", world->text, PETRI_Z)) == PETRI_OK;
-    note(&rank->came, "", 0);
+                              : petri_load_text(player.session, "text", world->text, PETRI_NUL_TERMINATED)) == PETRI_OK;
+    note(&rank->output, "", 0);
     for (int frame = 0; going && frame < world->frames; frame++) {
         going = petri_step(player.session) == PETRI_OK;
         if (!world->silent)
-            petri_print(player.session, PETRI_PRINT_HASH, note, &rank->came);
+            petri_print(player.session, PETRI_PRINT_HASH, note, &rank->output);
     }
-    note_forces(player.session, &rank->came);
-    petri_traffic(player.session, 0, &rank->traffic);
+    note_forces(player.session, &rank->output);
+    petri_rank_stats(player.session, 0, &rank->traffic);
     player_close(&player);
     return NULL;
 }
 
-static PetriTraffic regions; // of the last run, summed over its ranks
+static PetriRankStats regions; // of the last run, summed over its ranks
 
 // Runs the script on so many ranks; returns what the first came to, and in *sent how many parcels there were.
 static Notebook run_world(const char *file, const char *text, int count, int frames, uint64_t *sent) {
@@ -170,8 +171,8 @@ static Notebook run_world(const char *file, const char *text, int count, int fra
                    .text = text,
                    .frames = frames,
                    .silent = frames == SILENT_FRAMES};
-    Rank ranks[MOST_RANKS] = {{0}};
-    pthread_t threads[MOST_RANKS];
+    Rank ranks[MAX_RANKS] = {{0}};
+    pthread_t threads[MAX_RANKS];
     for (int i = 0; i < count; i++)
         for (int k = 0; k < count; k++)
             world.queues[i][k].end = &world.queues[i][k].first;
@@ -180,14 +181,15 @@ static Notebook run_world(const char *file, const char *text, int count, int fra
     pthread_attr_setstacksize(&attributes, (size_t)16 << 20);
     for (int i = 0; i < count; i++) {
         ranks[i] = (Rank){.world = &world, .number = i};
-        assert_int_equal(pthread_create(&threads[i], &attributes, run, &ranks[i]), 0);
+        assert_int_equal(pthread_create(&threads[i], &attributes, run_rank, &ranks[i]), 0);
     }
     *sent = 0;
-    regions = (PetriTraffic){.sharing = PETRI_BY_REGION};
+    regions = (PetriRankStats){.decomposition = PETRI_DOMAIN_DECOMPOSED};
     for (int i = 0; i < count; i++) {
         pthread_join(threads[i], NULL);
         *sent += ranks[i].sent;
-        regions.sharing = ranks[i].traffic.sharing == PETRI_BY_REGION ? regions.sharing : PETRI_ALONE;
+        regions.decomposition =
+            ranks[i].traffic.decomposition == PETRI_DOMAIN_DECOMPOSED ? regions.decomposition : PETRI_REPLICATED;
         regions.steps = ranks[i].traffic.steps;
         regions.reductions = ranks[i].traffic.reductions;
         regions.step_bytes += ranks[i].traffic.step_bytes;
@@ -195,27 +197,27 @@ static Notebook run_world(const char *file, const char *text, int count, int fra
         regions.frame_bytes += ranks[i].traffic.frame_bytes;
         regions.own += ranks[i].traffic.own;
         regions.halo += ranks[i].traffic.halo;
-        assert_string_equal(ranks[i].came.text, ranks[0].came.text);
+        assert_string_equal(ranks[i].output.text, ranks[0].output.text);
         if (i > 0)
-            free(ranks[i].came.text);
+            free(ranks[i].output.text);
     }
     pthread_attr_destroy(&attributes);
     free(world.common);
-    return ranks[0].came;
+    return ranks[0].output;
 }
 
 static int scripts;
-static uint64_t parcels;
+static uint64_t message_count;
 
-static bool same(const char *file, const char *text, int frames) {
+static bool matches_single_rank(const char *file, const char *text, int frames) {
     uint64_t sent;
     bool all = true;
     Notebook alone = run_world(file, text, 1, frames, &sent);
     assert_int_equal(sent, 0);
-    for (int count = 2; count < MOST_RANKS; count++) {
+    for (int count = 2; count < MAX_RANKS; count++) {
         Notebook together = run_world(file, text, count, frames, &sent);
         all = all && strcmp(alone.text, together.text) == 0;
-        parcels += sent;
+        message_count += sent;
         free(together.text);
     }
     free(alone.text);
@@ -224,9 +226,9 @@ static bool same(const char *file, const char *text, int frames) {
 
 static int differing;
 
-static void visit(const char *path) {
+static void check_script(const char *path) {
     scripts++;
-    if (!same(path, NULL, FRAMES)) {
+    if (!matches_single_rank(path, NULL, FRAMES)) {
         differing++;
         print_error("%s: ranks differ\n", path);
     }
@@ -234,15 +236,15 @@ static void visit(const char *path) {
 
 static void test_corpus(void **state) {
     (void)state;
-    scripts_each(visit);
+    scripts_each(check_script);
     assert_true(scripts > 50);
     assert_int_equal(differing, 0);
-    assert_true(parcels > 1000);
+    assert_true(message_count > 1000);
 }
 
 // Many blocks, a last one that is not full, one and several forces, particles without a source, in a triangle and in
 // rectangles with either side longer.
-static void test_many(void **state) {
+static void test_ranks_match_single_rank(void **state) {
     (void)state;
     static const char *const forces[] = {
         "    !gravity strength=5k\n",
@@ -265,9 +267,9 @@ static void test_many(void **state) {
                 "                !particle id=i position=90*normal(:p)[i*%d..(i+1)*%d] charge=-1 radius=2\n"
                 "%s",
                 dimensions, dimensions, dimensions, dimensions, dimensions, dimensions, dimensions, forces[i]);
-            uint64_t before = parcels;
-            assert_true(same(NULL, text, FRAMES));
-            assert_true(parcels > before + 100);
+            uint64_t before = message_count;
+            assert_true(matches_single_rank(NULL, text, FRAMES));
+            assert_true(message_count > before + 100);
         }
 }
 
@@ -372,13 +374,13 @@ static void test_regions(void **state) {
     for (size_t i = 0; i < sizeof reaching / sizeof *reaching; i++) {
         uint64_t sent, halo = 0;
         Notebook alone = run_world(NULL, reaching[i], 1, FRAMES, &sent);
-        static const int counts[] = {2, 3, MOST_RANKS};
+        static const int counts[] = {2, 3, MAX_RANKS};
         for (int c = 0; c < 2 * 3; c++) {
             int count = counts[c / 2];
             in_common = c % 2;
             Notebook together = run_world(NULL, reaching[i], count, FRAMES, &sent);
             assert_string_equal(alone.text, together.text);
-            assert_int_equal(regions.sharing, PETRI_BY_REGION);
+            assert_int_equal(regions.decomposition, PETRI_DOMAIN_DECOMPOSED);
             assert_int_equal(in_common, regions.frame_bytes == 0);
             assert_true(regions.reductions > regions.steps + FRAMES); // particles have moved house within a frame
             halo += regions.halo;
@@ -414,7 +416,7 @@ static void test_surface(void **state) {
         double surface = RANKS * sides[i] * 1.3 / 0.97;
         print_message("%7d discs on %d ranks: %.0f in halos, %.0f bytes and %.1f messages a step\n",
                       sides[i] * sides[i], RANKS, halo, bytes, messages);
-        assert_int_equal(regions.sharing, PETRI_BY_REGION);
+        assert_int_equal(regions.decomposition, PETRI_DOMAIN_DECOMPOSED);
         assert_int_equal(regions.own, regions.steps * (uint64_t)(sides[i] * sides[i]));
         assert_true(halo > 0.7 * surface && halo < 1.5 * surface);
         assert_true(bytes > halo * POSITION && bytes < 1.5 * halo * POSITION);
@@ -423,8 +425,8 @@ static void test_surface(void **state) {
 }
 
 int main(int argc, char **argv) {
-    scripts_take_folders(argc, argv);
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_corpus), cmocka_unit_test(test_many),
+    scripts_set_folders(argc, argv);
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_corpus), cmocka_unit_test(test_ranks_match_single_rank),
                                        cmocka_unit_test(test_regions), cmocka_unit_test(test_surface)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

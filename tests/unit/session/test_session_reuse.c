@@ -22,11 +22,11 @@ static bool run_again(Player *player, const char *file, Notebook *all) {
     PetriSession *session = player->session;
     if (petri_load(session, file) != PETRI_OK)
         return false;
-    PetriConfig *base = petri_config(session);
+    PetriConfig *base = petri_config_get(session);
     assert_non_null(base);
     for (int run = 0; run < 2; run++) {
-        petri_config_use(session, base);
-        petri_clear(session);
+        petri_config_apply(session, base);
+        petri_reset(session);
         assert_int_equal(petri_define(session, run == 0 ? "SEED=5" : "SEED=7"), PETRI_OK);
         assert_int_equal(petri_reload(session, NULL), PETRI_OK);
         for (int frame = 0; run == 0 && frame < BEFORE && petri_step(session) == PETRI_OK; frame++)
@@ -39,7 +39,7 @@ static bool run_again(Player *player, const char *file, Notebook *all) {
 
 static int scripts, differing;
 
-static void visit(const char *path) {
+static void check_script(const char *path) {
     Player again = {0}, fresh = {0};
     PetriOptions options = player_options(&again);
     player_open_with(&again, &options);
@@ -62,15 +62,15 @@ static void visit(const char *path) {
     player_close(&fresh);
 }
 
-static void test_same(void **state) {
+static void test_reused_session_matches_new(void **state) {
     (void)state;
-    scripts_each(visit);
+    scripts_each(check_script);
     assert_true(scripts > 300);
     assert_int_equal(differing, 0);
 }
 
 int main(int argc, char **argv) {
-    scripts_take_folders(argc, argv);
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_same)};
+    scripts_set_folders(argc, argv);
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_reused_session_matches_new)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -22,10 +22,10 @@ static const char *const SCRIPT = "%pragma tempo 60\n"
                                   "!shown value=$:count delta=delta\n";
 
 static char *frame_text(Player *player) {
-    player->shown.len = 0;
-    assert_int_equal(petri_print(player->session, PETRI_PRINT_TREE | PETRI_PRINT_STATE, note, &player->shown),
+    player->printed.len = 0;
+    assert_int_equal(petri_print(player->session, PETRI_PRINT_TREE | PETRI_PRINT_STATE, note, &player->printed),
                      PETRI_OK);
-    return strdup(player->shown.text);
+    return strdup(player->printed.text);
 }
 
 enum { FRAMES = 45 };
@@ -63,23 +63,24 @@ static void test_snapshots(void **state) {
 // A snapshot brings its script with it; a configuration brings a script without its state.
 static void test_configs(void **state) {
     Player *player = *state;
-    PetriPrompted done;
+    PetriPromptResult done;
     player_run(player, "!counter state=:c rate=1\n!old c=$:c", 4);
     PetriSnapshot *old = petri_snapshot(player->session);
-    uint64_t number = petri_config_number(player->session);
+    uint64_t number = petri_config_revision(player->session);
     player_step(player, 3);
     char *wanted = frame_text(player);
-    assert_int_equal(petri_config_number(player->session), number);
-    assert_int_equal(petri_prompt(player->session, "!typed f=frame", PETRI_Z, NULL, NULL, &done), PETRI_OK);
-    assert_true(petri_config_number(player->session) != number);
+    assert_int_equal(petri_config_revision(player->session), number);
+    assert_int_equal(petri_prompt(player->session, "!typed f=frame", PETRI_NUL_TERMINATED, NULL, NULL, &done),
+                     PETRI_OK);
+    assert_true(petri_config_revision(player->session) != number);
     assert_int_equal(petri_define(player->session, "X=5"), PETRI_OK);
-    PetriConfig *config = petri_config(player->session);
+    PetriConfig *config = petri_config_get(player->session);
     assert_int_equal(petri_rewind(player->session, old), PETRI_OK);
-    assert_int_equal(petri_config_number(player->session), number);
+    assert_int_equal(petri_config_revision(player->session), number);
     player_step(player, 3);
     char *again = frame_text(player);
     assert_string_equal(again, wanted);
-    petri_config_use(player->session, config);
+    petri_config_apply(player->session, config);
     player_step(player, 1);
     assert_string_equal(player_tree(player), "!counter state=:c rate=1\n!old c=0.1\n!typed f=7\n");
     petri_config_free(config);
@@ -105,37 +106,37 @@ static void check_interrupted(Player *player) {
     pthread_join(thread, NULL);
     assert_int_equal(petri_frame(player->session).number, frame.number);
     assert_true(petri_frame(player->session).time == frame.time && petri_frame(player->session).beat == frame.beat);
-    assert_false(petri_interrupted(player->session));
+    assert_false(petri_clear_interrupt(player->session));
     assert_non_null(strstr(before, player_state(player)));
     free(before);
 }
 
-static int looks_left;
+static int polls_left;
 static void *asked_host;
 
-static bool tires(void *host) {
+static bool stop_after_polls(void *host) {
     asked_host = host;
-    return looks_left > 0 && --looks_left == 0;
+    return polls_left > 0 && --polls_left == 0;
 }
 
 // A host without another thread is asked meanwhile: of a frame that it ends nothing is left.
-static void test_wants_end(void **state) {
+static void test_should_interrupt(void **state) {
     Player *player = *state;
     PetriOptions options = player_options(player);
-    options.interruptible = true;
-    options.wants_end = tires;
+    options.rollback_frames = true;
+    options.should_interrupt = stop_after_polls;
     player_reopen(player, &options);
     player_run(player,
                "!physics state=:a dimensions=1 time=time\n    !particle id=0 velocity=1\n"
                "!a x=sum(i*j for i in ..1000 for j in ..(1000 if frame==3 else 1))",
                3);
-    assert_ptr_equal(asked_host, options.host);
+    assert_ptr_equal(asked_host, options.user_data);
     char *before = frame_text(player);
-    looks_left = 100;
+    polls_left = 100;
     assert_int_equal(petri_step(player->session), PETRI_INTERRUPTED);
     assert_int_equal(petri_frame(player->session).number, 2);
     assert_non_null(strstr(before, player_state(player)));
-    assert_false(petri_interrupted(player->session));
+    assert_false(petri_clear_interrupt(player->session));
     player_step(player, 1);
     assert_int_equal(petri_frame(player->session).number, 3);
     free(before);
@@ -144,7 +145,7 @@ static void test_wants_end(void **state) {
 static void test_interrupts(void **state) {
     Player *player = *state;
     PetriOptions options = player_options(player);
-    options.interruptible = true;
+    options.rollback_frames = true;
     player_reopen(player, &options);
     player_run(player,
                "func f(n)\n    if n > 0\n        f(n-1)+f(n-1)\n    else\n        1\n"
@@ -166,14 +167,15 @@ static void test_interrupts(void **state) {
     assert_int_equal(petri_frame(player->session).number, 4);
     player_step(player, 1);
     petri_interrupt(player->session);
-    assert_true(petri_interrupted(player->session));
-    assert_false(petri_interrupted(player->session));
-    PetriResult result;
+    assert_true(petri_clear_interrupt(player->session));
+    assert_false(petri_clear_interrupt(player->session));
+    PetriEvaluation result;
     pthread_t thread;
     assert_int_equal(player_load(player, "func f(n)\n    if n > 0\n        f(n-1)+f(n-1)\n    else\n        1\n!a"),
                      PETRI_OK);
     assert_int_equal(pthread_create(&thread, NULL, interrupt_soon, player->session), 0);
-    assert_int_equal(petri_evaluate(player->session, "f(frame+26)", PETRI_Z, &result, NULL, NULL), PETRI_INTERRUPTED);
+    assert_int_equal(petri_evaluate(player->session, "f(frame+26)", PETRI_NUL_TERMINATED, &result, NULL, NULL),
+                     PETRI_INTERRUPTED);
     pthread_join(thread, NULL);
 }
 
@@ -184,8 +186,8 @@ static void test_reload(void **state) {
     folder_write(&folder, "s.fl", "%pragma tempo 60\n!counter state=:c rate=1\n!v x=1\n");
     const char *file = folder_file(&folder, "s.fl");
     assert_int_equal(petri_load(player->session, file), PETRI_OK);
-    assert_true(strstr(petri_source(player->session, 0), "s.fl") != NULL);
-    assert_null(petri_source(player->session, 1));
+    assert_true(strstr(petri_source_file(player->session, 0), "s.fl") != NULL);
+    assert_null(petri_source_file(player->session, 1));
     player_step(player, 6);
     double beat = petri_frame(player->session).beat;
     folder_write(&folder, "s.fl", "!v x=\n");
@@ -209,7 +211,7 @@ static void test_reload(void **state) {
     player_step(player, 1);
     assert_string_equal(player_tree(player), "!v x=7\n");
     assert_int_equal(petri_frame(player->session).number, 2);
-    assert_non_null(petri_source(player->session, 0));
+    assert_non_null(petri_source_file(player->session, 0));
     folder_close(&folder);
 }
 
@@ -231,7 +233,7 @@ static void test_clock(void **state) {
         assert_int_equal(petri_set_fps(player->session, wrong[i]), PETRI_INVALID);
     }
     assert_int_equal(petri_set_resolution(player->session, -1), PETRI_INVALID);
-    petri_clear(player->session);
+    petri_reset(player->session);
     player_step(player, 1);
     assert_int_equal(petri_frame(player->session).number, 0);
     assert_float_equal(petri_frame(player->session).tempo, 120, 0);
@@ -239,8 +241,8 @@ static void test_clock(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_snapshots), PLAYER_TEST(test_configs), PLAYER_TEST(test_interrupts),
-        PLAYER_TEST(test_wants_end), PLAYER_TEST(test_reload),  PLAYER_TEST(test_clock),
+        PLAYER_TEST(test_snapshots),        PLAYER_TEST(test_configs), PLAYER_TEST(test_interrupts),
+        PLAYER_TEST(test_should_interrupt), PLAYER_TEST(test_reload),  PLAYER_TEST(test_clock),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

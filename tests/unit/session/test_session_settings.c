@@ -29,7 +29,7 @@ static void test_pragmas(void **state) {
 static void test_pragma_warnings(void **state) {
     Player *player = *state;
     player_run(player, "%pragma fps 0\n%pragma tempo 'x'\n%pragma quantum !a\n%pragma other 'y'\n!a\n", 2);
-    assert_text("told", player_told(player),
+    assert_text("told", player_diagnostics(player),
                 "warning t.fl:1:1 this pragma's value must be a number above 0; ignored [bad-pragma]\n"
                 "warning t.fl:2:1 this pragma's value must be a number above 0; ignored [bad-pragma]\n"
                 "warning t.fl:3:1 this pragma's value must be a number; ignored [bad-pragma]\n");
@@ -131,28 +131,28 @@ static void test_load_starts_again(void **state) {
 }
 
 // A host that pauses takes the time in between out of the script's time.
-static void test_hold(void **state) {
+static void test_resync_clock(void **state) {
     Player *player = *state;
     player_run(player, "!a\n", 3);
-    assert_number("lockstep", petri_due(player->session), 0);
-    petri_hold(player->session); // nothing to hold
+    assert_number("lockstep", petri_seconds_until_due(player->session), 0);
+    petri_resync_clock(player->session); // nothing to hold
     player_step(player, 1);
     assert_number("lockstep", petri_frame(player->session).time, 3.0 / 60);
 
     player_realtime(player, 10);
-    assert_number("nothing loaded", petri_due(player->session), 0);
+    assert_number("nothing loaded", petri_seconds_until_due(player->session), 0);
     player_run(player, "!a\n", 2);
-    double due = petri_due(player->session), before = petri_frame(player->session).time;
+    double due = petri_seconds_until_due(player->session), before = petri_frame(player->session).time;
     assert_claim("due", due >= 0 && due <= 0.1);
     nanosleep(&(struct timespec){.tv_sec = 2}, NULL);
-    assert_number("overdue", petri_due(player->session), 0);
-    petri_hold(player->session);
+    assert_number("overdue", petri_seconds_until_due(player->session), 0);
+    petri_resync_clock(player->session);
     player_step(player, 1);
     double passed = petri_frame(player->session).time - before;
     assert_claim("held", passed > 0.0999 && passed < 1.9);
 }
 
-static void nap(double seconds) {
+static void sleep_seconds(double seconds) {
     nanosleep(&(struct timespec){.tv_sec = (time_t)seconds, .tv_nsec = (long)(fmod(seconds, 1) * 1e9)}, NULL);
 }
 
@@ -163,7 +163,7 @@ static void assert_starts(Player *player, const char *what) {
     assert_int_equal(frame.number, 0);
     assert_number(what, frame.time, 0);
     assert_number(what, frame.beat, 0);
-    nap(0.05);
+    sleep_seconds(0.05);
     player_step(player, 1);
     frame = petri_frame(player->session);
     assert_claim(what, frame.time >= 0.05 && frame.time < 20);
@@ -175,9 +175,9 @@ static void test_wall_clock_starts(void **state) {
     player_realtime(player, 60);
     player_run(player, "%pragma fps 100\n!a v=time;beat\n", 0);
     assert_starts(player, "loaded");
-    nap(0.05);
-    petri_clear(player->session);
-    nap(0.05);
+    sleep_seconds(0.05);
+    petri_reset(player->session);
+    sleep_seconds(0.05);
     assert_starts(player, "cleared");
     player_run(player, "%pragma fps 50\n!a v=time\n", 0);
     assert_starts(player, "loaded again");
@@ -251,17 +251,10 @@ static void test_host_clock(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_pragmas),
-        PLAYER_TEST(test_pragma_warnings),
-        PLAYER_TEST(test_definitions),
-        PLAYER_TEST(test_precedence),
-        PLAYER_TEST(test_engine_names),
-        PLAYER_TEST(test_options),
-        PLAYER_TEST(test_load_starts_again),
-        PLAYER_TEST(test_hold),
-        PLAYER_TEST(test_host_clock),
-        PLAYER_TEST(test_wall_clock_starts),
-        PLAYER_TEST(test_wall_clock_goes_back),
+        PLAYER_TEST(test_pragmas),           PLAYER_TEST(test_pragma_warnings),      PLAYER_TEST(test_definitions),
+        PLAYER_TEST(test_precedence),        PLAYER_TEST(test_engine_names),         PLAYER_TEST(test_options),
+        PLAYER_TEST(test_load_starts_again), PLAYER_TEST(test_resync_clock),         PLAYER_TEST(test_host_clock),
+        PLAYER_TEST(test_wall_clock_starts), PLAYER_TEST(test_wall_clock_goes_back),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,9 +1,8 @@
 // test_session_state.c: what petri_restore takes of a state file. Each has the line at its end that vouches for it, as
 // a file has that was made on purpose.
+#include "base/hash_index.h"
 #include "folder.h"
 #include "player.h"
-
-#include "base/table.h"
 
 #include <inttypes.h>
 
@@ -17,7 +16,7 @@ typedef struct StateRow {
     const char *told;
 } StateRow;
 
-static PetriStatus restore(Player *player, Folder *folder, const char *body) {
+static PetriStatus restore_text(Player *player, Folder *folder, const char *body) {
     char text[400], end[40];
     snprintf(text, sizeof text, "petri-state 1\n%s", body);
     snprintf(end, sizeof end, "end %016" PRIx64 "\n", hash_bytes(0, text, strlen(text)));
@@ -30,13 +29,14 @@ static PetriStatus restore(Player *player, Folder *folder, const char *body) {
 }
 
 // The message without the file's folder, which is another each time.
-static const char *told(Player *player) {
+static const char *report_text(Player *player) {
     static char text[400];
-    const char *quote = strchr(player->told.text, '\''), *slash = quote ? strrchr(quote, '/') : NULL;
+    const char *quote = strchr(player->diagnostics.text, '\''), *slash = quote ? strrchr(quote, '/') : NULL;
     if (slash)
-        snprintf(text, sizeof text, "%.*s%s", (int)(quote - player->told.text + 1), player->told.text, slash + 1);
+        snprintf(text, sizeof text, "%.*s%s", (int)(quote - player->diagnostics.text + 1), player->diagnostics.text,
+                 slash + 1);
     else
-        snprintf(text, sizeof text, "%s", player->told.text);
+        snprintf(text, sizeof text, "%s", player->diagnostics.text);
     return text;
 }
 
@@ -70,8 +70,8 @@ static void test_files(void **state) {
     Folder folder;
     folder_open(&folder);
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
-        assert_int_equal(restore(player, &folder, rows[i].body), rows[i].status);
-        assert_text(rows[i].body, told(player), rows[i].told);
+        assert_int_equal(restore_text(player, &folder, rows[i].body), rows[i].status);
+        assert_text(rows[i].body, report_text(player), rows[i].told);
         player_step(player, 1);
         const char *found = player_state(player);
         if (!strstr(found, rows[i].state))
@@ -87,7 +87,7 @@ static void test_frame_numbers(void **state) {
     Player *player = *state;
     Folder folder;
     folder_open(&folder);
-    assert_int_equal(restore(player, &folder, "frame 9007199254740993\n"), PETRI_OK);
+    assert_int_equal(restore_text(player, &folder, "frame 9007199254740993\n"), PETRI_OK);
     player_step(player, 2);
     assert_int_equal(petri_frame(player->session).number, INT64_C(9007199254740995));
     assert_int_equal(petri_save(player->session, folder_file(&folder, "t.state")), PETRI_OK);

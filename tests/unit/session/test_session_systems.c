@@ -43,12 +43,12 @@ static PetriSystem system_of(Player *player, size_t number) {
     return system;
 }
 
-static const double *at(PetriColumn column, uint32_t particle) {
+static const double *particle_numbers(PetriColumn column, uint32_t particle) {
     return column.data + particle * column.stride;
 }
 
 static const char *id_text(Player *player, size_t system, uint32_t particle) {
-    return petri_text(player->session, petri_id(player->session, system, particle));
+    return petri_format_value(player->session, petri_particle_id(player->session, system, particle));
 }
 
 static void test_particles(void **state) {
@@ -59,26 +59,26 @@ static void test_particles(void **state) {
         PetriSystem a = system_of(player, 0);
         assert_string_equal(id_text(player, 0, 0), "'p';1");
         assert_false(a.anchor[0]);
-        assert_number("mass", *at(a.mass, 0), 2);
-        assert_number("radius", *at(a.radius, 0), 3);
-        assert_number("charge", *at(a.charge, 0), 4);
-        assert_number("x", at(a.position, 0)[0], 1);
-        assert_number("y", at(a.position, 0)[1], 2);
+        assert_number("mass", *particle_numbers(a.mass, 0), 2);
+        assert_number("radius", *particle_numbers(a.radius, 0), 3);
+        assert_number("charge", *particle_numbers(a.charge, 0), 4);
+        assert_number("x", particle_numbers(a.position, 0)[0], 1);
+        assert_number("y", particle_numbers(a.position, 0)[1], 2);
         assert_true(a.anchor[a.anchor_stride]);
         assert_string_equal(id_text(player, 0, 1), ":top");
         assert_false(a.anchor[2 * a.anchor_stride]);
         // One step of 0.1 under a force of 6;8 on a mass of 1 (spec physics.md 4.3).
-        assert_number("v", at(a.velocity, 2)[0], 1 + 6 * 0.1);
+        assert_number("v", particle_numbers(a.velocity, 2)[0], 1 + 6 * 0.1);
         assert_true(keep == (a.force.data != NULL));
         if (keep) {
-            assert_number("fx", at(a.force, 2)[0], 6);
-            assert_number("fy", at(a.force, 2)[1], 8);
-            assert_number("on what the group does not hold", at(a.force, 0)[0], 0);
-            assert_number("on an anchor", at(a.force, 1)[1], 0);
+            assert_number("fx", particle_numbers(a.force, 2)[0], 6);
+            assert_number("fy", particle_numbers(a.force, 2)[1], 8);
+            assert_number("on what the group does not hold", particle_numbers(a.force, 0)[0], 0);
+            assert_number("on an anchor", particle_numbers(a.force, 1)[1], 0);
         }
         assert_null(system_of(player, 1).force.data); // no step was made
-        assert_int_equal(petri_id(player->session, 0, 3).length, 0);
-        assert_int_equal(petri_id(player->session, 2, 0).length, 0);
+        assert_int_equal(petri_particle_id(player->session, 0, 3).length, 0);
+        assert_int_equal(petri_particle_id(player->session, 2, 0).length, 0);
     }
 }
 
@@ -92,13 +92,13 @@ static void test_forces_of_many(void **state) {
                3);
     PetriSystem system = system_of(player, 0);
     for (uint32_t i = 0; i < 50; i++) {
-        assert_number("fx", at(system.force, i)[0], 1);
-        assert_number("fz", at(system.force, i)[2], 3.0 + i);
+        assert_number("fx", particle_numbers(system.force, i)[0], 1);
+        assert_number("fz", particle_numbers(system.force, i)[2], 3.0 + i);
     }
 }
 
 // A frame in which no time passes has no forces, though the tree is the same.
-static void test_rest(void **state) {
+static void test_forces_only_after_a_step(void **state) {
     Player *player = *state;
     open_keeping(player, true);
     player_run(player, "!physics state=:a dimensions=2 time=frame//2\n    !particle id=1\n    !constant force=6;8\n",
@@ -117,25 +117,25 @@ static void test_no_copies(void **state) {
                "    for i in ..100\n        !particle id=i velocity=1;0 position=0;i\n",
                3);
     PetriSystem before = system_of(player, 0);
-    double x = at(before.position, 70)[0];
+    double x = particle_numbers(before.position, 70)[0];
     player_step(player, 1);
     PetriSystem after = system_of(player, 0);
     assert_ptr_equal(before.position.data, after.position.data);
     assert_ptr_equal(before.mass.data, after.mass.data);
-    assert_true(at(after.position, 70)[0] > x);
+    assert_true(particle_numbers(after.position, 70)[0] > x);
 }
 
-static uint32_t find(Player *player, PetriValue id) {
+static uint32_t find_particle(Player *player, PetriValue id) {
     uint32_t found = 1000;
-    return petri_find(player->session, 0, id, &found) ? found : 999;
+    return petri_find_particle(player->session, 0, id, &found) ? found : 999;
 }
 
-static PetriValue one(const double *id) {
+static PetriValue id_value(const double *id) {
     return (PetriValue){.length = 1, .numbers = id};
 }
 
 // What a host still looks at stays where it is, and counts, until it says that it does not.
-static void test_kept_columns(void **state) {
+static void test_retained_columns(void **state) {
     Player *player = *state;
     PetriOptions options = player_options(player);
     options.keep_forces = true;
@@ -175,53 +175,54 @@ static void test_ids(void **state) {
     PetriItem items[] = {{PETRI_STRING, {.string = &p}}, {PETRI_NUMBER, {.number = 1}}};
     assert_string_equal(petri_symbol_name(player->session, top), "top");
     assert_null(petri_symbol_name(player->session, 12));
-    assert_int_equal(find(player, one(&seven)), 2);
-    assert_int_equal(find(player, one(&top)), 1);
-    assert_int_equal(find(player, (PetriValue){.length = 2, .items = items}), 0);
-    assert_int_equal(find(player, (PetriValue){.length = 1, .items = items}), 999);
-    assert_int_equal(find(player, (PetriValue){0}), 999);
-    assert_int_equal(find(player, (PetriValue){.length = 1}), 999); // no value at all
-    assert_null(petri_ids(player->session, 0).data);
+    assert_int_equal(find_particle(player, id_value(&seven)), 2);
+    assert_int_equal(find_particle(player, id_value(&top)), 1);
+    assert_int_equal(find_particle(player, (PetriValue){.length = 2, .items = items}), 0);
+    assert_int_equal(find_particle(player, (PetriValue){.length = 1, .items = items}), 999);
+    assert_int_equal(find_particle(player, (PetriValue){0}), 999);
+    assert_int_equal(find_particle(player, (PetriValue){.length = 1}), 999); // no value at all
+    assert_null(petri_particle_ids(player->session, 0).data);
     for (uint32_t i = 0; i < 3; i++)
-        assert_int_equal(find(player, petri_id(player->session, 0, i)), i);
+        assert_int_equal(find_particle(player, petri_particle_id(player->session, 0, i)), i);
     // Others, in another order and of a prefix with text, whose numbers are none in the key.
     player_run(player, "!physics state='s';1 dimensions=2 time=time\n    for i in 4;3;5\n        !particle id=i\n", 1);
     for (int frame = 0; frame < 3; frame++, player_step(player, 1)) {
-        PetriColumn ids = petri_ids(player->session, 0);
+        PetriColumn ids = petri_particle_ids(player->session, 0);
         assert_number("first id", ids.data[0], 4);
         assert_number("last id", ids.data[2 * ids.stride], 5);
-        assert_number("the second alone", petri_id(player->session, 0, 1).numbers[0], 3);
-        assert_int_equal(find(player, petri_id(player->session, 0, 1)), 1);
+        assert_number("the second alone", petri_particle_id(player->session, 0, 1).numbers[0], 3);
+        assert_int_equal(find_particle(player, petri_particle_id(player->session, 0, 1)), 1);
     }
     player_run(player, "!physics state='s';1 dimensions=2 time=time\n    !particle id=frame\n", 8);
-    assert_number("a new one in each frame", petri_ids(player->session, 0).data[0], 7);
+    assert_number("a new one in each frame", petri_particle_ids(player->session, 0).data[0], 7);
     player_step(player, 1);
-    assert_number("a new one in each frame", petri_ids(player->session, 0).data[0], 8);
+    assert_number("a new one in each frame", petri_particle_ids(player->session, 0).data[0], 8);
 }
 
 static void test_forces(void **state) {
     Player *player = *state;
     player_run(player, SCRIPT, 2);
     PetriForce force;
-    assert_true(petri_force(player->session, 0, 0, &force));
+    assert_true(petri_system_force(player->session, 0, 0, &force));
     assert_string_equal(force.kind, "constant");
     assert_null(force.position);
-    assert_true(petri_force(player->session, 0, 1, &force));
+    assert_true(petri_system_force(player->session, 0, 1, &force));
     assert_string_equal(force.kind, "distance");
     assert_int_equal(force.from, 0);
     assert_int_equal(force.to, 1);
-    assert_true(petri_force(player->session, 0, 2, &force));
+    assert_true(petri_system_force(player->session, 0, 2, &force));
     assert_string_equal(force.kind, "barrier");
     assert_number("y", force.position[1], -50);
     assert_number("unit normal", force.normal[1], 1);
-    assert_false(petri_force(player->session, 0, 3, &force));
+    assert_false(petri_system_force(player->session, 0, 3, &force));
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_systems), PLAYER_TEST(test_particles),    PLAYER_TEST(test_forces_of_many),
-        PLAYER_TEST(test_rest),    PLAYER_TEST(test_no_copies),    PLAYER_TEST(test_ids),
-        PLAYER_TEST(test_forces),  PLAYER_TEST(test_kept_columns),
+        PLAYER_TEST(test_systems),        PLAYER_TEST(test_particles),
+        PLAYER_TEST(test_forces_of_many), PLAYER_TEST(test_forces_only_after_a_step),
+        PLAYER_TEST(test_no_copies),      PLAYER_TEST(test_ids),
+        PLAYER_TEST(test_forces),         PLAYER_TEST(test_retained_columns),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

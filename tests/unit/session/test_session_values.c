@@ -12,7 +12,7 @@ static PetriValue items(const PetriItem *items, uint32_t length) {
 }
 
 static const char *text(Player *player, PetriValue value) {
-    return petri_text(player->session, value);
+    return petri_format_value(player->session, value);
 }
 
 static const PetriString name = {"käse", 5};
@@ -98,45 +98,47 @@ static void test_names(void **state) {
     Player *player = *state;
     PetriSession *session = player->session;
     double one = 1, many[] = {4, 5, 6};
-    assert_int_equal(petri_give(session, "warmth", numbers(&one, 1)), PETRI_OK);
-    assert_int_equal(petri_give(session, "other", (PetriValue){0}), PETRI_OK);
+    assert_int_equal(petri_set_global(session, "warmth", numbers(&one, 1)), PETRI_OK);
+    assert_int_equal(petri_set_global(session, "other", (PetriValue){0}), PETRI_OK);
     player_run(player, "let twice=2*warmth\n!dish heat=twice;other", 1);
     assert_string_equal(heat(player), "2");
-    uint64_t number = petri_config_number(session);
-    assert_int_equal(petri_give(session, "warmth", numbers(many, 3)), PETRI_OK);
-    assert_int_equal(petri_give(session, "other", items(mixed, 2)), PETRI_OK);
+    uint64_t number = petri_config_revision(session);
+    assert_int_equal(petri_set_global(session, "warmth", numbers(many, 3)), PETRI_OK);
+    assert_int_equal(petri_set_global(session, "other", items(mixed, 2)), PETRI_OK);
     many[0] = 1000;                         // it was copied
     assert_string_equal(heat(player), "2"); // as long as it is the same frame
     player_step(player, 1);
     assert_string_equal(heat(player), "8;10;12;'käse';2.5");
-    assert_int_equal(petri_config_number(session), number); // nothing was compiled
-    PetriResult result;
-    assert_int_equal(petri_evaluate(session, "warmth[0]+twice[0]", PETRI_Z, &result, NULL, NULL), PETRI_OK);
+    assert_int_equal(petri_config_revision(session), number); // nothing was compiled
+    PetriEvaluation result;
+    assert_int_equal(petri_evaluate(session, "warmth[0]+twice[0]", PETRI_NUL_TERMINATED, &result, NULL, NULL),
+                     PETRI_OK);
     assert_number("at the prompt", result.number, 12);
-    PetriPrompted done;
-    assert_int_equal(petri_prompt(session, "let both=warmth[1]+twice[1]", PETRI_Z, NULL, NULL, &done), PETRI_OK);
-    assert_int_equal(petri_give(session, "later", numbers(&one, 1)), PETRI_OK);
+    PetriPromptResult done;
+    assert_int_equal(petri_prompt(session, "let both=warmth[1]+twice[1]", PETRI_NUL_TERMINATED, NULL, NULL, &done),
+                     PETRI_OK);
+    assert_int_equal(petri_set_global(session, "later", numbers(&one, 1)), PETRI_OK);
     player_step(player, 1);
-    assert_int_equal(petri_evaluate(session, "both", PETRI_Z, &result, NULL, NULL), PETRI_OK);
+    assert_int_equal(petri_evaluate(session, "both", PETRI_NUL_TERMINATED, &result, NULL, NULL), PETRI_OK);
     assert_number("typed", result.number, 15);
     assert_int_equal(petri_reload(session, NULL), PETRI_OK);
     player_step(player, 1);
-    assert_int_equal(petri_evaluate(session, "both+later", PETRI_Z, &result, NULL, NULL), PETRI_OK);
+    assert_int_equal(petri_evaluate(session, "both+later", PETRI_NUL_TERMINATED, &result, NULL, NULL), PETRI_OK);
     assert_number("typed, with a new name before it", result.number, 16);
-    assert_int_equal(petri_give(session, "time", numbers(&one, 1)), PETRI_INVALID);
-    assert_int_equal(petri_give(session, "a b", numbers(&one, 1)), PETRI_INVALID);
-    assert_int_equal(petri_give(session, "x", petri_tree(session)), PETRI_INVALID);
-    assert_string_equal(player_told(player), "");
+    assert_int_equal(petri_set_global(session, "time", numbers(&one, 1)), PETRI_INVALID);
+    assert_int_equal(petri_set_global(session, "a b", numbers(&one, 1)), PETRI_INVALID);
+    assert_int_equal(petri_set_global(session, "x", petri_tree(session)), PETRI_INVALID);
+    assert_string_equal(player_diagnostics(player), "");
 }
 
 // What is checked sees the names, and that a script does not use one is no fault of its.
 static void test_names_checked(void **state) {
     Player *player = *state;
     double one = 1;
-    assert_int_equal(petri_give(player->session, "used", numbers(&one, 1)), PETRI_OK);
-    assert_int_equal(petri_give(player->session, "unused", numbers(&one, 1)), PETRI_OK);
-    assert_int_equal(petri_check_text(player->session, "x.fl", "!window size=used;1", PETRI_Z), PETRI_OK);
-    assert_string_equal(player_told(player), "");
+    assert_int_equal(petri_set_global(player->session, "used", numbers(&one, 1)), PETRI_OK);
+    assert_int_equal(petri_set_global(player->session, "unused", numbers(&one, 1)), PETRI_OK);
+    assert_int_equal(petri_check_text(player->session, "x.fl", "!window size=used;1", PETRI_NUL_TERMINATED), PETRI_OK);
+    assert_string_equal(player_diagnostics(player), "");
 }
 
 static void test_tree(void **state) {

@@ -20,9 +20,9 @@ static const char *const SCRIPT = "%pragma tempo 60\n"
 
 static uint64_t hash_of(Player *player) {
     uint64_t hash = UINT64_C(14695981039346656037);
-    player->shown.len = 0;
-    assert_int_equal(petri_print(player->session, PETRI_PRINT_STATE, note, &player->shown), PETRI_OK);
-    for (const char *c = player->shown.text; *c; c++)
+    player->printed.len = 0;
+    assert_int_equal(petri_print(player->session, PETRI_PRINT_STATE, note, &player->printed), PETRI_OK);
+    for (const char *c = player->printed.text; *c; c++)
         hash = (hash ^ (unsigned char)*c) * UINT64_C(1099511628211);
     return hash;
 }
@@ -40,7 +40,7 @@ static void step(Player *player, int frames) {
 }
 
 static void go(Player *player, int64_t frame) {
-    Bytes why = {0};
+    ByteBuffer why = {0};
     PetriStatus status = history_goto(&history, player->session, frame, &why);
     if (status != PETRI_OK)
         print_error("%lld: %s\n", (long long)frame, why.data ? why.data : "");
@@ -48,12 +48,12 @@ static void go(Player *player, int64_t frame) {
     assert_int_equal(petri_frame(player->session).number, frame);
     if (frame >= 0)
         assert_true(hash_of(player) == hashes[frame]);
-    bytes_free(&why);
+    byte_buffer_free(&why);
 }
 
 static void begin(Player *player) {
     PetriOptions options = player_options(player);
-    options.interruptible = true;
+    options.rollback_frames = true;
     player_reopen(player, &options);
     assert_int_equal(player_load(player, SCRIPT), PETRI_OK);
     assert_true(history_start(&history, player->session, NULL));
@@ -64,7 +64,7 @@ static void test_any_frame(void **state) {
     uint64_t random = 1;
     begin(player);
     step(player, FRAMES);
-    assert_true(history.keyframe_count <= HISTORY_MOST);
+    assert_true(history.keyframe_count <= HISTORY_MAX);
     assert_true(history.bytes <= HISTORY_BYTES);
     for (int i = 0; i < 40; i++) {
         random = random * UINT64_C(6364136223846793005) + 1;
@@ -77,7 +77,7 @@ static void test_any_frame(void **state) {
     for (size_t i = 1; i < history.keyframe_count; i++) {
         int64_t gap = history.keyframes[i].frame - history.keyframes[i - 1].frame;
         int64_t age = history.last - history.keyframes[i - 1].frame;
-        assert_true(gap <= HISTORY_EVERY || gap < age / 16 + 2 * HISTORY_EVERY);
+        assert_true(gap <= HISTORY_INTERVAL || gap < age / 16 + 2 * HISTORY_INTERVAL);
     }
     history_free(&history);
 }
@@ -85,10 +85,11 @@ static void test_any_frame(void **state) {
 // What is changed counts from there on; frames before it are made again as they were.
 static void test_changes(void **state) {
     Player *player = *state;
-    PetriPrompted done;
+    PetriPromptResult done;
     begin(player);
     step(player, 50);
-    assert_int_equal(petri_prompt(player->session, "!counter state=:typed", PETRI_Z, NULL, NULL, &done), PETRI_OK);
+    assert_int_equal(petri_prompt(player->session, "!counter state=:typed", PETRI_NUL_TERMINATED, NULL, NULL, &done),
+                     PETRI_OK);
     step(player, 50);
     assert_int_equal(petri_set_tempo(player->session, 90), PETRI_OK);
     step(player, 50);
@@ -115,7 +116,7 @@ static void test_changes(void **state) {
 
 static void test_refused(void **state) {
     Player *player = *state;
-    Bytes why = {0};
+    ByteBuffer why = {0};
     begin(player);
     step(player, 30);
     assert_true(history_start(&history, player->session, "for a reason"));
@@ -126,7 +127,7 @@ static void test_refused(void **state) {
     go(player, 30);
     assert_int_equal(history_reset(&history, player->session), PETRI_OK);
     assert_int_equal(petri_frame(player->session).number, 29);
-    bytes_free(&why);
+    byte_buffer_free(&why);
     history_free(&history);
 }
 
@@ -149,22 +150,22 @@ static void test_remade(void **state) {
         go(player, frame);
         lose_systems(player);
         assert_int_equal(petri_set_tempo(player->session, 90 + (double)frame), PETRI_OK);
-        uint64_t config = petri_config_number(player->session);
-        assert_int_equal(history_remake(&history, player->session), PETRI_OK);
+        uint64_t config = petri_config_revision(player->session);
+        assert_int_equal(history_recompute(&history, player->session), PETRI_OK);
         assert_true(petri_system(player->session, 0, &system));
         assert_int_equal(system.particle_count, 4);
         assert_int_equal(petri_frame(player->session).number, frame);
         assert_true(hash_of(player) == hashes[frame]);
-        assert_true(petri_config_number(player->session) == config);
+        assert_true(petri_config_revision(player->session) == config);
     }
     lose_systems(player);
     int64_t frame = petri_frame(player->session).number;
     petri_interrupt(player->session);
-    assert_int_equal(history_remake(&history, player->session), PETRI_INTERRUPTED);
+    assert_int_equal(history_recompute(&history, player->session), PETRI_INTERRUPTED);
     assert_int_equal(petri_frame(player->session).number, frame);
     assert_true(hash_of(player) == hashes[frame]);
     go(player, -1);
-    assert_int_equal(history_remake(&history, player->session), PETRI_OK); // there is nothing to make
+    assert_int_equal(history_recompute(&history, player->session), PETRI_OK); // there is nothing to make
     assert_int_equal(petri_frame(player->session).number, -1);
     history_free(&history);
 }

@@ -1,6 +1,5 @@
 // test_src_overlay_text.c: what a script or a file name says reaches the picture as plain text that fits.
 #include "check.h"
-
 #include "view/overlay_text.h"
 
 static void test_set(void **state) {

@@ -1,10 +1,9 @@
 // test_src_parameter_step.c: where the keys of `petri view` take a parameter.
 #include "check.h"
-
 #include "view/parameter_step.h"
 
 static PetriParameter parameter(double number, double fallback, double least, double most, double step) {
-    return (PetriParameter){.number = number, .fallback_number = fallback, .least = least, .most = most, .step = step};
+    return (PetriParameter){.number = number, .default_number = fallback, .min = least, .max = most, .step = step};
 }
 
 static void test_steps(void **state) {

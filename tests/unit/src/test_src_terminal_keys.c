@@ -1,6 +1,5 @@
 // test_src_terminal_keys.c: what terminals send, as events.
 #include "check.h"
-
 #include "petri.h"
 #include "view/terminal_keys.h"
 
@@ -22,7 +21,7 @@ static void send_text(TerminalInput *input, const char *text) {
 }
 
 static void check_tap(const char *row, const Event *event, const char *key, bool control) {
-    assert_claim(row, event->kind == EVENT_TAP);
+    assert_claim(row, event->kind == EVENT_KEY_TAP);
     assert_text(row, event->key, key);
     assert_claim(row, event->control == control);
 }
@@ -122,7 +121,7 @@ static void test_mouse(void **state) {
     assert_int_equal(terminal_input_next(&input).kind, EVENT_NONE); // the wheel, and nonsense
     send_text(&input, "\033[<1;2;3M\033[O");
     assert_int_equal(terminal_input_next(&input).buttons, PETRI_BUTTON_MIDDLE);
-    assert_int_equal(terminal_input_next(&input).kind, EVENT_AWAY);
+    assert_int_equal(terminal_input_next(&input).kind, EVENT_FOCUS_LOST);
     check_pointer(&input, "\033[<35;2;3M", 1.5, 2.5, 0);
 }
 

@@ -1,6 +1,5 @@
 // test_src_terminal_picture.c: pictures as text, by what the environment tells of the terminal.
 #include "check.h"
-
 #include "view/terminal_picture.h"
 
 #include <stdlib.h>
@@ -13,9 +12,9 @@ static TerminalPicture *way_for(const char *term, const char *locale, bool colou
         unsetenv(names[i]);
     setenv("TERM", term, 1);
     setenv("LC_ALL", locale, 1);
-    TerminalPicture *way = terminal_picture_new(-1, colour); // no terminal: cells are taken to be 8 by 16
-    assert_non_null(way);
-    return way;
+    TerminalPicture *renderer = terminal_picture_new(-1, colour); // no terminal: cells are taken to be 8 by 16
+    assert_non_null(renderer);
+    return renderer;
 }
 
 static void test_fit(void **state) {
@@ -31,24 +30,25 @@ static void test_fit(void **state) {
         {80, 24, 1, 1, 48, 24},     {80, 24, 1, 10000, 1, 24},    {1, 1, 500, 500, 1, 1},
     };
     (void)state;
-    TerminalPicture *way = way_for("xterm-256color", "C.UTF-8", true);
+    TerminalPicture *renderer = way_for("xterm-256color", "C.UTF-8", true);
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
-        TerminalCells cells = terminal_picture_fit(way, rows[i].columns, rows[i].rows, rows[i].width, rows[i].height);
+        TerminalCells cells =
+            terminal_picture_fit(renderer, rows[i].columns, rows[i].rows, rows[i].width, rows[i].height);
         assert_int_equal(cells.columns, rows[i].wanted_columns);
         assert_int_equal(cells.rows, rows[i].wanted_rows);
         assert_true(cells.width >= cells.columns && cells.height >= cells.rows);
     }
-    terminal_picture_free(way);
+    terminal_picture_free(renderer);
 }
 
 // A picture whose left half is white and whose right half is black.
-static char *halves(TerminalPicture *way, const TerminalCells *cells) {
+static char *halves(TerminalPicture *renderer, const TerminalCells *cells) {
     uint32_t *pixels = calloc((size_t)cells->width * (size_t)cells->height, sizeof *pixels);
     assert_non_null(pixels);
     for (int i = 0; i < cells->width * cells->height; i++)
         pixels[i] = i % cells->width < cells->width / 2 ? 0xFFFFFFFF : 0xFF000000;
     size_t length = 0;
-    char *text = terminal_picture_text(way, pixels, cells, &length);
+    char *text = terminal_picture_text(renderer, pixels, cells, &length);
     assert_non_null(text);
     assert_int_equal(strlen(text), length);
     free(pixels);
@@ -64,61 +64,61 @@ static int count(const char *text, char wanted) {
 
 static void test_cells(void **state) {
     (void)state;
-    TerminalPicture *way = way_for("xterm-256color", "C.UTF-8", true);
-    assert_false(terminal_picture_is_graphics(way));
-    TerminalCells cells = terminal_picture_fit(way, 20, 5, 320, 160);
-    char *text = halves(way, &cells);
+    TerminalPicture *renderer = way_for("xterm-256color", "C.UTF-8", true);
+    assert_false(terminal_picture_is_graphics(renderer));
+    TerminalCells cells = terminal_picture_fit(renderer, 20, 5, 320, 160);
+    char *text = halves(renderer, &cells);
     assert_int_equal(count(text, '\n'), cells.rows - 1);
     assert_non_null(strstr(text, "\033[")); // coloured
     free(text);
-    terminal_picture_free(way);
+    terminal_picture_free(renderer);
 }
 
 static void test_ascii(void **state) {
     static const char *const locales[] = {"C", "POSIX", "de_DE.ISO-8859-1", "xx"};
     (void)state;
     for (size_t i = 0; i < COUNT_OF(locales); i++) {
-        TerminalPicture *way = way_for("xterm-256color", locales[i], false);
-        TerminalCells cells = terminal_picture_fit(way, 20, 5, 320, 160);
-        char *text = halves(way, &cells);
+        TerminalPicture *renderer = way_for("xterm-256color", locales[i], false);
+        TerminalCells cells = terminal_picture_fit(renderer, 20, 5, 320, 160);
+        char *text = halves(renderer, &cells);
         for (const char *at = text; *at; at++)
             assert_claim(locales[i], (unsigned char)*at < 128);
         free(text);
-        terminal_picture_free(way);
+        terminal_picture_free(renderer);
     }
 }
 
 static void test_graphics(void **state) {
     (void)state;
-    TerminalPicture *way = way_for("xterm-kitty", "C.UTF-8", true);
-    assert_true(terminal_picture_is_graphics(way));
-    TerminalCells cells = terminal_picture_fit(way, 20, 5, 320, 160);
-    char *text = halves(way, &cells);
+    TerminalPicture *renderer = way_for("xterm-kitty", "C.UTF-8", true);
+    assert_true(terminal_picture_is_graphics(renderer));
+    TerminalCells cells = terminal_picture_fit(renderer, 20, 5, 320, 160);
+    char *text = halves(renderer, &cells);
     assert_non_null(strstr(text, "\033_G"));
     free(text);
-    terminal_picture_free(way);
-    way = way_for("mlterm", "C.UTF-8", true);
-    assert_true(terminal_picture_is_graphics(way));
-    text = halves(way, &cells);
+    terminal_picture_free(renderer);
+    renderer = way_for("mlterm", "C.UTF-8", true);
+    assert_true(terminal_picture_is_graphics(renderer));
+    text = halves(renderer, &cells);
     assert_non_null(strstr(text, "\033P"));
     free(text);
-    terminal_picture_free(way);
-    way = way_for("xterm-kitty", "C.UTF-8", false); // NO_COLOR
-    assert_false(terminal_picture_is_graphics(way));
-    terminal_picture_free(way);
-    way = way_for("screen-256color", "C.UTF-8", true);
-    assert_false(terminal_picture_is_graphics(way));
-    terminal_picture_free(way);
+    terminal_picture_free(renderer);
+    renderer = way_for("xterm-kitty", "C.UTF-8", false); // NO_COLOR
+    assert_false(terminal_picture_is_graphics(renderer));
+    terminal_picture_free(renderer);
+    renderer = way_for("screen-256color", "C.UTF-8", true);
+    assert_false(terminal_picture_is_graphics(renderer));
+    terminal_picture_free(renderer);
 }
 
 static void test_odd_environments(void **state) {
     static const char *const terms[] = {"", "dumb", "no such terminal", "linux", "vt100"};
     (void)state;
     for (size_t i = 0; i < COUNT_OF(terms); i++) {
-        TerminalPicture *way = way_for(terms[i], "C.UTF-8", true);
-        TerminalCells cells = terminal_picture_fit(way, 20, 5, 320, 160);
-        free(halves(way, &cells));
-        terminal_picture_free(way);
+        TerminalPicture *renderer = way_for(terms[i], "C.UTF-8", true);
+        TerminalCells cells = terminal_picture_fit(renderer, 20, 5, 320, 160);
+        free(halves(renderer, &cells));
+        terminal_picture_free(renderer);
     }
     terminal_picture_free(NULL);
 }

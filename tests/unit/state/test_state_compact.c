@@ -1,12 +1,12 @@
 // test_state_compact.c: dropping the slots of keys that are gone.
+#include "state/state.h"
+
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 
 #include <cmocka.h>
-
-#include "state/state.h"
 
 enum { COUNT = 300 };
 
@@ -49,7 +49,7 @@ static void test_compact(void **unused) {
     uint32_t cursor = 0;
     double last = 0;
     int seen = 0;
-    double room[STATE_KEY_ROOM];
+    double room[STATE_KEY_BUFFER];
     for (Value key, value; state_next(state, &cursor, &key, &value, room); seen++) {
         assert_true(key.as.number > last || key.as.number == -1);
         last = key.as.number;

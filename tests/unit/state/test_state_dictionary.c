@@ -1,7 +1,6 @@
 // test_state_dictionary.c: keys, slots and order of the state (language.md L11).
-#include "values.h"
-
 #include "state/state.h"
+#include "values.h"
 
 typedef struct Fixture {
     World *world;
@@ -28,11 +27,11 @@ static int teardown(void **state) {
 
 #define STATE_TEST(function) cmocka_unit_test_setup_teardown(function, setup, teardown)
 
-static void put(Fixture *fixture, const char *key, const char *value) {
+static void put_text(Fixture *fixture, const char *key, const char *value) {
     assert_true(state_set(fixture->state, read_value(fixture->world, key), read_value(fixture->world, value)));
 }
 
-static const char *get(Fixture *fixture, const char *key) {
+static const char *get_text(Fixture *fixture, const char *key) {
     return show(fixture->world, state_get(fixture->state, read_value(fixture->world, key)));
 }
 
@@ -41,7 +40,7 @@ static const char *listing(Fixture *fixture) {
     Text text = text_new(&fixture->world->arena);
     uint32_t cursor = 0, count = 0;
     Value key, value;
-    double room[STATE_KEY_ROOM];
+    double room[STATE_KEY_BUFFER];
     while (state_next(fixture->state, &cursor, &key, &value, room)) {
         if (count++)
             text_add_char(&text, ' ');
@@ -55,27 +54,27 @@ static const char *listing(Fixture *fixture) {
 
 static void test_empty(void **state) {
     Fixture *fixture = *state;
-    assert_text("nothing", get(fixture, ":a"), "null");
-    assert_text("null key", get(fixture, "null"), "null");
+    assert_text("nothing", get_text(fixture, ":a"), "null");
+    assert_text("null key", get_text(fixture, "null"), "null");
     assert_text("no entry", listing(fixture), "");
-    put(fixture, ":a", "null");
+    put_text(fixture, ":a", "null");
     assert_text("removing nothing", listing(fixture), "");
     state_free(NULL);
 }
 
 static void test_insertion_order(void **state) {
     Fixture *fixture = *state;
-    put(fixture, ":z", "1");
-    put(fixture, ":a;1", "2;3");
-    put(fixture, "'s'", "'t'");
-    put(fixture, "5", "4");
+    put_text(fixture, ":z", "1");
+    put_text(fixture, ":a;1", "2;3");
+    put_text(fixture, "'s'", "'t'");
+    put_text(fixture, "5", "4");
     assert_text("order", listing(fixture), ":z=1 :a;1=2;3 's'='t' 5=4");
-    put(fixture, ":z", "9");
-    put(fixture, ":a;1", "1;2;3");
+    put_text(fixture, ":z", "9");
+    put_text(fixture, ":a;1", "1;2;3");
     assert_text("writing again moves nothing", listing(fixture), ":z=9 :a;1=1;2;3 's'='t' 5=4");
-    put(fixture, ":a;1", "null");
+    put_text(fixture, ":a;1", "null");
     assert_text("removed", listing(fixture), ":z=9 's'='t' 5=4");
-    assert_text("removed", get(fixture, ":a;1"), "null");
+    assert_text("removed", get_text(fixture, ":a;1"), "null");
 }
 
 static void test_key_equality(void **state) {
@@ -87,14 +86,14 @@ static void test_key_equality(void **state) {
     char text[20];
     for (size_t i = 0; i < COUNT_OF(keys); i++) {
         snprintf(text, sizeof text, "%zu", i);
-        put(fixture, keys[i], text);
+        put_text(fixture, keys[i], text);
     }
     assert_int_equal(state_count(fixture->state), COUNT_OF(keys));
     for (size_t i = 0; i < COUNT_OF(keys); i++) {
         snprintf(text, sizeof text, "%zu", i);
-        assert_text(keys[i], get(fixture, keys[i]), text);
+        assert_text(keys[i], get_text(fixture, keys[i]), text);
     }
-    assert_text("no rounding", get(fixture, "1.4999999999999998"), "null");
+    assert_text("no rounding", get_text(fixture, "1.4999999999999998"), "null");
 }
 
 static void test_invalid_keys(void **state) {
@@ -106,7 +105,7 @@ static void test_invalid_keys(void **state) {
         assert_claim(keys[i], state_set(fixture->state, key, value_number(1))); // ignored
         assert_claim(keys[i], state_slot(fixture->state, key) == STATE_NO_SLOT);
         assert_claim(keys[i], state_find(fixture->state, key) == STATE_NO_SLOT);
-        assert_text(keys[i], get(fixture, keys[i]), "null");
+        assert_text(keys[i], get_text(fixture, keys[i]), "null");
     }
     assert_int_equal(state_count(fixture->state), 0);
     static const Function function = {.name = {"f", 1}};
@@ -137,10 +136,10 @@ static void test_equal_values_stay(void **state) {
         {"'a'", "uniform:1", "null"},
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
-        put(fixture, ":k", rows[i].first);
-        put(fixture, ":k", rows[i].then);
-        assert_text(rows[i].then, get(fixture, ":k"), rows[i].wanted);
-        put(fixture, ":k", "null");
+        put_text(fixture, ":k", rows[i].first);
+        put_text(fixture, ":k", rows[i].then);
+        assert_text(rows[i].then, get_text(fixture, ":k"), rows[i].wanted);
+        put_text(fixture, ":k", "null");
     }
 }
 
@@ -200,19 +199,19 @@ static void test_copies(void **state) {
     Value value = value_string(&other, STR("a longer text than fits anywhere inline"));
     assert_true(state_set(fixture->state, vector_finish(&key), value));
     arena_free(&other);
-    assert_text("value", get(fixture, "'key';'';3"), "'a longer text than fits anywhere inline'");
+    assert_text("value", get_text(fixture, "'key';'';3"), "'a longer text than fits anywhere inline'");
     assert_text("key", listing(fixture), "'key';'';3='a longer text than fits anywhere inline'");
 }
 
 static void test_clear(void **state) {
     Fixture *fixture = *state;
-    put(fixture, ":a", "1;2");
-    put(fixture, "'b'", "'c'");
+    put_text(fixture, ":a", "1;2");
+    put_text(fixture, "'b'", "'c'");
     state_clear(fixture->state);
     assert_int_equal(state_count(fixture->state), 0);
-    assert_text("gone", get(fixture, ":a"), "null");
+    assert_text("gone", get_text(fixture, ":a"), "null");
     assert_int_equal(state_find(fixture->state, read_value(fixture->world, ":a")), STATE_NO_SLOT);
-    put(fixture, "'b'", "7");
+    put_text(fixture, "'b'", "7");
     assert_text("new", listing(fixture), "'b'=7");
 }
 

@@ -1,4 +1,6 @@
 // test_state_views.c: entries that show numbers where somebody else keeps them (state.h).
+#include "state/state.h"
+
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -6,19 +8,17 @@
 
 #include <cmocka.h>
 
-#include "state/state.h"
-
 typedef struct Fixture {
     State *state;
     StateSlot slot;
-    StateLender lender;
+    StateOwner owner;
     double numbers[2];
 } Fixture;
 
-static Fixture shown(void) {
+static Fixture new_fixture(void) {
     Fixture f = {.state = state_new(NULL), .numbers = {1, 2}};
     f.slot = state_slot(f.state, value_number(7));
-    f.lender = state_add_lender(f.state);
+    f.owner = state_add_owner(f.state);
     return f;
 }
 
@@ -27,49 +27,49 @@ static double second(const Fixture *f) {
     return v.len == 2 ? v.as.numbers[1] : -1;
 }
 
-static void test_shows(void **unused) {
+static void test_reference(void **unused) {
     (void)unused;
-    Fixture f = shown();
-    assert_int_not_equal(f.lender, 0);
+    Fixture f = new_fixture();
+    assert_int_not_equal(f.owner, 0);
     assert_int_equal(state_count(f.state), 0);
-    state_slot_borrow(f.state, f.slot, f.lender, f.numbers, 2);
+    state_slot_reference(f.state, f.slot, f.owner, f.numbers, 2);
     assert_int_equal(state_count(f.state), 1);
     assert_true(second(&f) == 2);
     f.numbers[1] = 3;
     assert_true(second(&f) == 3);
     double elsewhere[2] = {8, 9};
-    state_slot_borrow(f.state, f.slot, f.lender, elsewhere, 2);
+    state_slot_reference(f.state, f.slot, f.owner, elsewhere, 2);
     assert_true(second(&f) == 9);
-    assert_true(state_slot_borrows(f.state, f.slot, f.lender));
-    assert_false(state_take_disturbed(f.state, f.lender)); // its own doing
+    assert_true(state_slot_references(f.state, f.slot, f.owner));
+    assert_false(state_clear_modified(f.state, f.owner)); // its own doing
     state_free(f.state);
 }
 
-static void test_owns_a_copy(void **unused) {
+static void test_detach(void **unused) {
     (void)unused;
-    Fixture f = shown();
-    state_slot_borrow(f.state, f.slot, f.lender, f.numbers, 2);
-    assert_true(state_slot_own_copy(f.state, f.slot, f.lender));
-    assert_false(state_slot_borrows(f.state, f.slot, f.lender));
+    Fixture f = new_fixture();
+    state_slot_reference(f.state, f.slot, f.owner, f.numbers, 2);
+    assert_true(state_slot_detach(f.state, f.slot, f.owner));
+    assert_false(state_slot_references(f.state, f.slot, f.owner));
     f.numbers[1] = 3;
     assert_true(second(&f) == 2);
-    assert_false(state_take_disturbed(f.state, f.lender));
-    assert_true(state_slot_own_copy(f.state, f.slot, f.lender)); // nothing to do
+    assert_false(state_clear_modified(f.state, f.owner));
+    assert_true(state_slot_detach(f.state, f.slot, f.owner)); // nothing to do
     state_free(f.state);
 }
 
-static void test_disturbed(void **unused) {
+static void test_modified(void **unused) {
     (void)unused;
     const double other[2] = {1, 5}, same[2] = {1, 2};
     for (int way = 0; way < 5; way++) {
-        Fixture f = shown();
-        StateLender rival = state_add_lender(f.state);
-        state_slot_borrow(f.state, f.slot, f.lender, f.numbers, 2);
+        Fixture f = new_fixture();
+        StateOwner rival = state_add_owner(f.state);
+        state_slot_reference(f.state, f.slot, f.owner, f.numbers, 2);
         double wanted = 5;
         if (way == 0)
             state_set(f.state, value_number(7), value_numbers_view(other, 2));
         else if (way == 1)
-            state_slot_borrow(f.state, f.slot, rival, other, 2);
+            state_slot_reference(f.state, f.slot, rival, other, 2);
         else if (way == 2)
             state_set(f.state, value_number(7), VALUE_NULL);
         else if (way == 3)
@@ -82,8 +82,8 @@ static void test_disturbed(void **unused) {
             wanted = 2;
         assert_true(second(&f) == wanted);
         assert_true(f.numbers[0] == 1 && f.numbers[1] == 2); // nobody writes through a view
-        assert_int_equal(state_take_disturbed(f.state, f.lender), way < 4);
-        assert_false(state_take_disturbed(f.state, f.lender)); // told once
+        assert_int_equal(state_clear_modified(f.state, f.owner), way < 4);
+        assert_false(state_clear_modified(f.state, f.owner)); // told once
         assert_int_equal(state_count(f.state), way != 2);
         state_free(f.state);
     }
@@ -91,30 +91,30 @@ static void test_disturbed(void **unused) {
 
 static void test_compact_and_clear(void **unused) {
     (void)unused;
-    Fixture f = shown();
+    Fixture f = new_fixture();
     StateSlot gone = state_slot(f.state, value_number(1)), moved[3];
     const double key[3] = {7, 8, 9};
     StateSlot last = state_slot(f.state, value_numbers_view(key, 3));
-    state_slot_borrow(f.state, f.slot, f.lender, f.numbers, 2);
-    state_slot_borrow(f.state, last, f.lender, f.numbers, 2);
+    state_slot_reference(f.state, f.slot, f.owner, f.numbers, 2);
+    state_slot_reference(f.state, last, f.owner, f.numbers, 2);
     const uint8_t used[3] = {0};
     assert_true(state_compact(f.state, used, moved));
     assert_int_equal(moved[gone], STATE_NO_SLOT);
-    assert_true(state_slot_borrows(f.state, moved[last], f.lender));
+    assert_true(state_slot_references(f.state, moved[last], f.owner));
     assert_int_equal(state_find(f.state, value_numbers_view(key, 3)), moved[last]);
     assert_true(second(&f) == 2);
     state_clear(f.state);
     assert_int_equal(state_count(f.state), 0);
-    assert_true(state_take_disturbed(f.state, f.lender));
+    assert_true(state_clear_modified(f.state, f.owner));
     assert_int_equal(state_find(f.state, value_number(7)), STATE_NO_SLOT);
     state_free(f.state);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_shows),
-        cmocka_unit_test(test_owns_a_copy),
-        cmocka_unit_test(test_disturbed),
+        cmocka_unit_test(test_reference),
+        cmocka_unit_test(test_detach),
+        cmocka_unit_test(test_modified),
         cmocka_unit_test(test_compact_and_clear),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,7 +1,6 @@
 // test_syntax_literals.c: numbers, timecodes, strings, symbols and names (language.md L2.4 to L2.8).
-#include "parsing.h"
-
 #include "ast/literal.h"
+#include "parsing.h"
 
 // Each row is a statement and its shape; a literal's shape is its printed value.
 static void check_shapes(World *world, const char *const (*rows)[2], size_t count) {

@@ -1,7 +1,6 @@
 // test_value_format.c: values and trees as text (language.md L18).
-#include "values.h"
-
 #include "value/node.h"
+#include "values.h"
 
 static void test_values(void **state) {
     World *world = *state;
@@ -36,11 +35,11 @@ static void test_symbols(void **state) {
     World *world = *state;
     Value v = value_number(symbol_number(STR("later")));
     assert_text("not known", show(world, v)[0] == '-' ? "number" : "symbol", "number");
-    symbol_know(&world->symbols, STR("later"));
+    symbol_register(&world->symbols, STR("later"));
     assert_text("known", show(world, v), ":later");
 }
 
-static const Node *sample(World *world) {
+static const Node *sample_node(World *world) {
     Arena *arena = &world->arena;
     const Node *b = node_add_tag(arena, node_new(arena, name_of(world, "b")), name_of(world, "z"));
     b = node_add_tag(arena, b, name_of(world, "b"));
@@ -55,7 +54,7 @@ static const Node *sample(World *world) {
 static void test_trees(void **state) {
     World *world = *state;
     Text text = text_new(&world->arena);
-    format_tree(&text, &world->symbols, sample(world), 0, NULL, NULL);
+    format_tree(&text, &world->symbols, sample_node(world), 0, NULL, NULL);
     assert_text("tree", text_c(&text),
                 "!a x=1;:k q=(!q)\n"
                 "    !b #b #z n=1e+22;0.1\n"
@@ -86,7 +85,7 @@ static void test_debug(void **state) {
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++)
         assert_text(rows[i].v, debug(world, read_value(world, rows[i].v)), rows[i].wanted);
-    assert_text("node", debug(world, value_node(&world->arena, sample(world))),
+    assert_text("node", debug(world, value_node(&world->arena, sample_node(world))),
                 "(!a x=1;:k q=(!q)\n"
                 " !b #b #z n=1e+22;0.1\n"
                 " !a x=1;:k q=(!q)\n"

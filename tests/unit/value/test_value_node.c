@@ -1,7 +1,6 @@
 // test_value_node.c: immutable nodes (language.md L7).
-#include "values.h"
-
 #include "value/node.h"
+#include "values.h"
 
 // One line per node, as text.
 static const char *tree(World *world, const Node *node) {
@@ -10,7 +9,7 @@ static const char *tree(World *world, const Node *node) {
     return text_c(&text);
 }
 
-static const Node *fresh(World *world, const char *kind) {
+static const Node *new_node(World *world, const char *kind) {
     return node_new(&world->arena, name_of(world, kind));
 }
 
@@ -28,15 +27,15 @@ static const Node *with_attr(World *world, const Node *node, const char *name, c
     return with_attrs(world, node, name, &value);
 }
 
-static void test_fresh(void **state) {
+static void test_new_node(void **state) {
     World *world = *state;
-    assert_text("fresh", tree(world, fresh(world, "canvas")), "!canvas\n");
-    assert_int_equal(fresh(world, "a")->height, 1);
+    assert_text("fresh", tree(world, new_node(world, "canvas")), "!canvas\n");
+    assert_int_equal(new_node(world, "a")->height, 1);
 }
 
 static void test_attribute_order(void **state) {
     World *world = *state;
-    const Node *a = with_attrs(world, fresh(world, "a"), "xyz", (const char *const[]){"1", "2", "3"});
+    const Node *a = with_attrs(world, new_node(world, "a"), "xyz", (const char *const[]){"1", "2", "3"});
     assert_text("set", tree(world, a), "!a x=1 y=2 z=3\n");
     assert_text("keeps its place", tree(world, with_attr(world, a, "x", "9")), "!a x=9 y=2 z=3\n");
     const Node *without = with_attr(world, a, "x", "null");
@@ -53,7 +52,7 @@ static void test_attribute_order(void **state) {
 
 static void test_tags(void **state) {
     World *world = *state;
-    const Node *node = fresh(world, "a");
+    const Node *node = new_node(world, "a");
     static const char *const tags[] = {"m", "z", "b", "é", "b", "Z", "m"};
     for (size_t i = 0; i < COUNT_OF(tags); i++)
         node = node_add_tag(&world->arena, node, name_of(world, tags[i]));
@@ -63,7 +62,7 @@ static void test_tags(void **state) {
 static void test_append(void **state) {
     World *world = *state;
     Arena *arena = &world->arena;
-    const Node *a = node_append(arena, fresh(world, "a"), read_value(world, "!b;1;'x';!c"));
+    const Node *a = node_append(arena, new_node(world, "a"), read_value(world, "!b;1;'x';!c"));
     assert_text("nodes only", tree(world, a), "!a\n    !b\n    !c\n");
     const Node *more = node_append(arena, a, value_node(arena, a)); // itself, as it was
     assert_text("at the end", tree(world, more), "!a\n    !b\n    !c\n    !a\n        !b\n        !c\n");
@@ -76,7 +75,7 @@ static void test_append(void **state) {
 static void test_equality(void **state) {
     World *world = *state;
     Arena *arena = &world->arena;
-    const Node *a = fresh(world, "a"), *ab = node_append(arena, a, read_value(world, "!b;!c"));
+    const Node *a = new_node(world, "a"), *ab = node_append(arena, a, read_value(world, "!b;!c"));
     const Node *xy = with_attrs(world, a, "xy", (const char *const[]){"1;2", "'s'"});
     const Node *yx = with_attrs(world, a, "yx", (const char *const[]){"'s'", "1;2"});
     const Symbol *t = name_of(world, "t"), *u = name_of(world, "u");
@@ -87,8 +86,8 @@ static void test_equality(void **state) {
         const Node *a, *b;
         bool wanted;
     } rows[] = {
-        {"kind", a, fresh(world, "a"), true},
-        {"other kind", a, fresh(world, "b"), false},
+        {"kind", a, new_node(world, "a"), true},
+        {"other kind", a, new_node(world, "b"), false},
         {"attributes in any order", xy, yx, true},
         {"other value", xy, with_attr(world, yx, "x", "1;3"), false},
         {"fewer attributes", xy, with_attr(world, xy, "x", "null"), false},
@@ -114,9 +113,9 @@ static void test_equality(void **state) {
 static void test_height_limit(void **state) {
     World *world = *state;
     Arena *arena = &world->arena;
-    const Node *node = fresh(world, "a");
+    const Node *node = new_node(world, "a");
     for (int height = 1; height < NODE_MAX_HEIGHT; height++) {
-        node = node_append(arena, fresh(world, "a"), value_node(arena, node));
+        node = node_append(arena, new_node(world, "a"), value_node(arena, node));
         assert_non_null(node);
     }
     assert_int_equal(node->height, NODE_MAX_HEIGHT);
@@ -126,7 +125,7 @@ static void test_height_limit(void **state) {
     value_seed_hash(NULL, value_node(arena, node));
     bool too_high = false;
     Vector vector = vector_new(arena);
-    vector_add(&vector, value_node(arena, fresh(world, "p")));
+    vector_add(&vector, value_node(arena, new_node(world, "p")));
     vector_add(&vector, value_number(1));
     NodeList list = node_list(arena, value_node(arena, node));
     Value both = value_append(arena, vector_finish(&vector), &list, &too_high);
@@ -139,14 +138,14 @@ static void test_height_limit(void **state) {
 static void test_attributes_count_as_height(void **state) {
     World *world = *state;
     Arena *arena = &world->arena;
-    const Node *node = fresh(world, "a");
+    const Node *node = new_node(world, "a");
     for (int i = 0; i < 100; i++)
-        node = node_set_attrs(arena, fresh(world, "a"), &(Attr){name_of(world, "x"), value_node(arena, node)}, 1);
+        node = node_set_attrs(arena, new_node(world, "a"), &(Attr){name_of(world, "x"), value_node(arena, node)}, 1);
     assert_int_equal(node->height, 101);
     while (node->height < NODE_MAX_HEIGHT)
-        node = node_append(arena, fresh(world, "a"), value_node(arena, node));
+        node = node_append(arena, new_node(world, "a"), value_node(arena, node));
     Attr higher = {name_of(world, "x"), value_node(arena, node)};
-    assert_null(node_set_attrs(arena, fresh(world, "p"), &higher, 1));
+    assert_null(node_set_attrs(arena, new_node(world, "p"), &higher, 1));
     bool too_high = false;
     Value left = value_set_attrs(arena, node_of(world, "p"), &higher, 1, &too_high);
     assert_true(too_high);
@@ -176,25 +175,25 @@ static void test_over_vectors(void **state) {
 }
 
 // What lives as long as the program keeps its address, and says so, for systems that need not read it twice.
-static void test_kept(void **state) {
+static void test_program_lifetime(void **state) {
     World *world = *state;
     Arena *arena = &world->arena;
     Value children = read_value(world, "!b;7;!c");
     Value attr = read_value(world, "!d");
-    value_keep(children);
+    value_mark_program_lifetime(children);
     const Node *b = children.as.items[0].as.node;
     assert_true(b->program_lifetime && b->program_lifetime_children);
     NodeList list = node_list(arena, children);
     list.program_lifetime = true;
-    const Node *first = node_append_list(arena, fresh(world, "a"), &list);
-    const Node *second = node_append_list(arena, fresh(world, "a"), &list);
+    const Node *first = node_append_list(arena, new_node(world, "a"), &list);
+    const Node *second = node_append_list(arena, new_node(world, "a"), &list);
     assert_ptr_equal(first->children, second->children);
     assert_true(first->program_lifetime_children && !first->program_lifetime);
     assert_int_equal(first->child_count, 2);
     const Node *more = node_append_list(arena, first, &list);
     assert_text("both lists", tree(world, more), "!a\n    !b\n    !c\n    !b\n    !c\n");
     assert_false(more->program_lifetime_children);
-    assert_false(node_append(arena, fresh(world, "a"), children)->program_lifetime_children);
+    assert_false(node_append(arena, new_node(world, "a"), children)->program_lifetime_children);
     const Node *changed = with_attr(world, b, "x", "1");
     assert_false(changed->program_lifetime);
     assert_true(changed->program_lifetime_children);
@@ -202,7 +201,7 @@ static void test_kept(void **state) {
     assert_false(node_copy(arena, first)->program_lifetime_children);
     // Keeping goes into attributes and children.
     Value outer = value_node(arena, node_set_attrs(arena, more, &(Attr){name_of(world, "x"), attr}, 1));
-    value_keep(outer);
+    value_mark_program_lifetime(outer);
     assert_true(outer.as.items[0].as.node->program_lifetime);
     assert_true(attr.as.items[0].as.node->program_lifetime);
 }
@@ -223,10 +222,10 @@ static void test_copy(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        WORLD_TEST(test_fresh),        WORLD_TEST(test_attribute_order),
+        WORLD_TEST(test_new_node),     WORLD_TEST(test_attribute_order),
         WORLD_TEST(test_tags),         WORLD_TEST(test_append),
         WORLD_TEST(test_equality),     WORLD_TEST(test_height_limit),
-        WORLD_TEST(test_over_vectors), WORLD_TEST(test_kept),
+        WORLD_TEST(test_over_vectors), WORLD_TEST(test_program_lifetime),
         WORLD_TEST(test_copy),         WORLD_TEST(test_attributes_count_as_height),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

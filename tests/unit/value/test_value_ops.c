@@ -1,8 +1,7 @@
 // test_value_ops.c: arithmetic and ranges (language.md L5.1 to L5.3).
-#include "values.h"
-
 #include "maths/maths.h"
 #include "value/ops.h"
+#include "values.h"
 
 static void test_arithmetic(void **state) {
     World *world = *state;

@@ -1,7 +1,6 @@
 // test_value_symbol.c: interned names, symbol numbers (language.md L4.3) and seed hashes (builtins.md B9.2).
-#include "values.h"
-
 #include "value/node.h"
+#include "values.h"
 
 static void test_numbers(void **state) {
     (void)state;
@@ -38,15 +37,15 @@ static void test_interning(void **state) {
 }
 
 // A number is a symbol only once the symbol has occurred as one.
-static void test_known(void **state) {
+static void test_registered(void **state) {
     World *world = *state;
     double number = symbol_number(STR("spring"));
     assert_null(symbol_of_number(&world->symbols, number));
     const Symbol *name = symbol_intern(&world->symbols, STR("spring"));
     assert_null(symbol_of_number(&world->symbols, number));
-    assert_ptr_equal(symbol_know(&world->symbols, STR("spring")), name);
+    assert_ptr_equal(symbol_register(&world->symbols, STR("spring")), name);
     assert_ptr_equal(symbol_of_number(&world->symbols, number), name);
-    assert_ptr_equal(symbol_know(&world->symbols, STR("spring")), name); // again: no collision with itself
+    assert_ptr_equal(symbol_register(&world->symbols, STR("spring")), name); // again: no collision with itself
     static const double others[] = {0, -1, NAN, INFINITY, -INFINITY, -1.7e308, 1e308};
     for (size_t i = 0; i < COUNT_OF(others); i++)
         assert_null(symbol_of_number(&world->symbols, others[i]));
@@ -122,7 +121,7 @@ static void test_stream_positions(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        WORLD_TEST(test_numbers),     WORLD_TEST(test_interning),  WORLD_TEST(test_known),
+        WORLD_TEST(test_numbers),     WORLD_TEST(test_interning),  WORLD_TEST(test_registered),
         WORLD_TEST(test_seed_hashes), WORLD_TEST(test_node_seeds), WORLD_TEST(test_stream_positions),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,7 +1,6 @@
 // test_value_vector.c: construction, truth, equality, order and indexing of vectors (language.md L4 to L6).
-#include "values.h"
-
 #include "value/node.h"
+#include "values.h"
 
 static void test_composition(void **state) {
     World *world = *state;

@@ -2,11 +2,10 @@
 #ifndef PETRI_TESTS_RUNNER_H
 #define PETRI_TESTS_RUNNER_H
 
-#include "values.h"
-
 #include "builtin/files.h"
 #include "builtin/noise.h"
 #include "syntax/parse.h"
+#include "values.h"
 #include "vm/machine.h"
 
 // Another file that a script may import.
@@ -24,24 +23,24 @@ typedef struct Runner {
     FileCache *files;
     NoiseCache *noise;
     Vm vm;
-    Vm ahead;
+    Vm static_vm;
     bool simplify;
     const ModuleText *modules;
     size_t module_count;
     const Program *compiled;
     Value result;
-    Text told; // `line:column text [code]` of each diagnostic, one a line
+    Text reported; // `line:column text [code]` of each diagnostic, one a line
     Text log;
 } Runner;
 
-static inline void runner_tell(void *host, const Diag *diag) {
+static inline void runner_report(void *host, const Diag *diag) {
     Runner *runner = host;
-    SourcePlace place = source_locate(diag->source, diag->span.start);
-    text_add_format(&runner->told, "%u:%u %.*s [%s]\n", place.line, place.column, (int)diag->text.len, diag->text.bytes,
-                    diag->code);
+    SourcePosition place = source_locate(diag->source, diag->span.start);
+    text_add_format(&runner->reported, "%u:%u %.*s [%s]\n", place.line, place.column, (int)diag->text.len,
+                    diag->text.bytes, diag->code);
 }
 
-static inline void runner_hear_nothing(void *host, const Diag *diag) {
+static inline void runner_ignore_diagnostic(void *host, const Diag *diag) {
     (void)host;
     (void)diag;
 }
@@ -54,7 +53,7 @@ static inline void runner_log(void *host, Str text) {
 // The simplifier's machine is the same with another arena: what it makes lives as long as the program.
 static inline bool runner_evaluate(void *host, const Code *code, Value *value) {
     Runner *runner = host;
-    return vm_run_static(&runner->ahead, &runner->program, code, value);
+    return vm_run_static(&runner->static_vm, &runner->program, code, value);
 }
 
 static inline const Program *runner_compile_text(Runner *runner, const char *path, const char *text, bool module) {
@@ -63,13 +62,13 @@ static inline const Program *runner_compile_text(Runner *runner, const char *pat
     DiagSink sink = diag_sink_new(&runner->program, 50);
     const Ast *ast = parse_program(&runner->scratch, &runner->world.symbols, source, &sink);
     CompileOptions options = {
-        .module = module, .simplify = runner->simplify, .host = {.host = runner, .evaluate = runner_evaluate}};
+        .module = module, .simplify = runner->simplify, .host = {.user_data = runner, .evaluate = runner_evaluate}};
     const Program *program = NULL;
     if (ast)
         program =
             program_compile(&runner->program, &runner->scratch, &runner->world.symbols, source, ast, &options, &sink);
     for (uint32_t i = 0; i < sink.count; i++)
-        runner_tell(runner, &sink.items[i]);
+        runner_report(runner, &sink.items[i]);
     diag_sink_free(&sink);
     // Whatever the program still needed of this would be garbage from here on.
     for (ArenaBlock *block = runner->scratch.first; block && !ARENA_POISONS; block = block->next)
@@ -78,12 +77,12 @@ static inline const Program *runner_compile_text(Runner *runner, const char *pat
     return program;
 }
 
-static inline const Program *runner_module(void *host, Str path, Str *why) {
+static inline const Program *runner_module(void *host, Str path, Str *reason) {
     Runner *runner = host;
     for (size_t i = 0; i < runner->module_count; i++)
         if (str_equal(path, str_from(runner->modules[i].path)))
             return runner_compile_text(runner, runner->modules[i].path, runner->modules[i].text, true);
-    *why = STR("there is no such file");
+    *reason = STR("there is no such file");
     return NULL;
 }
 
@@ -99,15 +98,15 @@ static inline int runner_setup(void **state) {
     runner->state = state_new(NULL);
     runner->files = file_cache_new();
     runner->noise = noise_cache_new();
-    vm_init(&runner->vm, &runner->frame, &world->symbols, (VmHost){runner, runner_tell, runner_log, runner_module},
+    vm_init(&runner->vm, &runner->frame, &world->symbols, (VmHost){runner, runner_report, runner_log, runner_module},
             STACK_BYTES, false);
-    vm_init(&runner->ahead, &runner->frame, &world->symbols,
-            (VmHost){runner, runner_hear_nothing, runner_log, runner_module}, STACK_BYTES, true);
+    vm_init(&runner->static_vm, &runner->frame, &world->symbols,
+            (VmHost){runner, runner_ignore_diagnostic, runner_log, runner_module}, STACK_BYTES, true);
     runner->vm.state = runner->state;
     runner->vm.builtins.files = runner->files;
-    runner->vm.builtins.noise = runner->ahead.builtins.noise = runner->noise;
+    runner->vm.builtins.noise = runner->static_vm.builtins.noise = runner->noise;
     runner->simplify = true;
-    runner->told = text_new(&world->arena);
+    runner->reported = text_new(&world->arena);
     runner->log = text_new(&world->arena);
     *state = runner;
     return 0;
@@ -116,7 +115,7 @@ static inline int runner_setup(void **state) {
 static inline int runner_teardown(void **state) {
     Runner *runner = *state;
     vm_free(&runner->vm);
-    vm_free(&runner->ahead);
+    vm_free(&runner->static_vm);
     noise_cache_free(runner->noise);
     file_cache_free(runner->files);
     state_free(runner->state);
@@ -141,7 +140,7 @@ static inline void runner_frame(Runner *runner, double number) {
 
 // False if the script does not parse.
 static inline bool runner_load(Runner *runner, const char *script) {
-    runner->told.len = 0;
+    runner->reported.len = 0;
     runner->compiled = runner_compile_text(runner, "t.fl", script, false);
     return runner->compiled != NULL;
 }

@@ -3,19 +3,19 @@
 
 #include <sys/resource.h>
 
-static void check_tree_and_told(Runner *runner, const char *script, const char *tree, const char *told) {
+static void check_tree_and_reports(Runner *runner, const char *script, const char *tree, const char *reported) {
     runner_run(runner, script, 1);
     assert_text(script, runner_tree(runner), tree);
-    if (told)
-        assert_text(script, text_c(&runner->told), told);
+    if (reported)
+        assert_text(script, text_c(&runner->reported), reported);
 }
 
 static void test_closure_depth(void **state) {
     Runner *runner = *state;
-    check_tree_and_told(runner, "func f(n)\n    1+f(n-1) if n>0 else 0\n!a v=f(499)\n", "!a v=499\n", "");
-    check_tree_and_told(runner, "func f(n)\n    1+f(n-1) if n>0 else 0\n!a v=f(500)\n", "!a\n",
-                        "2:7 recursion too deep in 'f': the limit is 500 calls of one function "
-                        "[recursion-depth]\n");
+    check_tree_and_reports(runner, "func f(n)\n    1+f(n-1) if n>0 else 0\n!a v=f(499)\n", "!a v=499\n", "");
+    check_tree_and_reports(runner, "func f(n)\n    1+f(n-1) if n>0 else 0\n!a v=f(500)\n", "!a\n",
+                           "2:7 recursion too deep in 'f': the limit is 500 calls of one function "
+                           "[recursion-depth]\n");
     // After it the limit is as before.
     runner_run(runner, "func f(n)\n    1+f(n-1) if n>0 else 0\nlet x=f(600)\n!a v=f(499)\n", 2);
     assert_text("again", runner_tree(runner), "!a v=499\n");
@@ -37,11 +37,11 @@ static void test_call_depth(void **state) {
                                "!a v=level(%d, level)()\n";
     char text[200];
     snprintf(text, sizeof text, deep, 8191);
-    check_tree_and_told(runner, text, "!a v=8191\n", "");
+    check_tree_and_reports(runner, text, "!a v=8191\n", "");
     snprintf(text, sizeof text, deep, 8192);
     runner_run(runner, text, 1);
     assert_text("8192", runner_tree(runner), "!a\n");
-    assert_non_null(strstr(text_c(&runner->told), "the limit is 8192 nested calls [recursion-depth]"));
+    assert_non_null(strstr(text_c(&runner->reported), "the limit is 8192 nested calls [recursion-depth]"));
 }
 
 // A small stack limits sooner, with the same kind of diagnostic.
@@ -52,7 +52,7 @@ static void test_stack(void **state) {
     runner_run(runner,
                "let level=func(k, level) (func() 1+level(k-1, level)() if k>0 else 0)\n!a v=level(8000, level)()\n", 1);
     assert_text("tree", runner_tree(runner), "!a\n");
-    assert_non_null(strstr(text_c(&runner->told), "the limit is the stack [recursion-depth]"));
+    assert_non_null(strstr(text_c(&runner->reported), "the limit is the stack [recursion-depth]"));
     runner_run(runner, "!a v=1\n", 1);
     assert_text("goes on", runner_tree(runner), "!a v=1\n");
 }
@@ -66,7 +66,7 @@ static void test_deep_nodes(void **state) {
                                "!c v=deep==same;uniform(deep)[0]==uniform(same)[0]\n";
     runner_run(runner, make, 1);
     assert_text("children", runner_tree(runner), "!c v=1;1\n");
-    assert_non_null(strstr(text_c(&runner->told), "the limit is 12000 levels"));
+    assert_non_null(strstr(text_c(&runner->reported), "the limit is 12000 levels"));
     const char *at = strstr(make, "(!a << v)");
     Str script = str_format(&runner->world.arena, "%.*s(!a x=v)%s", (int)(at - make), make, at + 9);
     runner_run(runner, script.bytes, 1);
@@ -75,10 +75,10 @@ static void test_deep_nodes(void **state) {
 
 static void test_too_long(void **state) {
     Runner *runner = *state;
-    check_tree_and_told(runner, "!a v=..1e12\n", "!a\n",
-                        "1:6 range too long: the limit is 134217728 elements [too-long]\n");
-    check_tree_and_told(runner, "!a v=0..1|1e-12\n", "!a\n",
-                        "1:6 range too long: the limit is 134217728 elements [too-long]\n");
+    check_tree_and_reports(runner, "!a v=..1e12\n", "!a\n",
+                           "1:6 range too long: the limit is 134217728 elements [too-long]\n");
+    check_tree_and_reports(runner, "!a v=0..1|1e-12\n", "!a\n",
+                           "1:6 range too long: the limit is 134217728 elements [too-long]\n");
 }
 
 static void make_frame(void *runner) {
@@ -86,16 +86,16 @@ static void make_frame(void *runner) {
 }
 
 // How the frame of a script ends that may take so much work.
-static ArenaEnd metered(Runner *runner, const char *script, uint64_t work, atomic_bool *interrupt) {
-    Meter meter = {.memory_limit = SIZE_MAX};
+static ArenaOutcome run_with_budget(Runner *runner, const char *script, uint64_t work, atomic_bool *interrupt) {
+    Budget meter = {.memory_limit = SIZE_MAX};
     Arena *frame = &runner->frame;
-    meter_begin(&meter, work, interrupt);
+    budget_begin(&meter, work, interrupt);
     assert_true(runner_load(runner, script));
     arena_free(frame);
-    frame->meter = &meter;
-    ArenaEnd end = arena_protect(&frame, 1, make_frame, runner);
+    frame->budget = &meter;
+    ArenaOutcome end = arena_protect(&frame, 1, make_frame, runner);
     arena_free(frame);
-    frame->meter = NULL;
+    frame->budget = NULL;
     return end;
 }
 
@@ -103,10 +103,10 @@ static ArenaEnd metered(Runner *runner, const char *script, uint64_t work, atomi
 static void test_work(void **state) {
     Runner *runner = *state;
     static const char rounds[] = "let n=frame\n!a v=len(i for i in ..900+n)\n";
-    assert_int_equal(metered(runner, rounds, 2000, NULL), ARENA_DONE);
-    assert_int_equal(metered(runner, rounds, 800, NULL), ARENA_WORK);
+    assert_int_equal(run_with_budget(runner, rounds, 2000, NULL), ARENA_OK);
+    assert_int_equal(run_with_budget(runner, rounds, 800, NULL), ARENA_WORK_LIMIT);
     assert_int_equal(runner->vm.at->span.start, strlen("let n=frame\n!a v=len("));
-    check_tree_and_told(runner, "let n=frame f=func(x) x\n!a v=f(1+n)\n", "!a v=1\n", ""); // the next has its own
+    check_tree_and_reports(runner, "let n=frame f=func(x) x\n!a v=f(1+n)\n", "!a v=1\n", ""); // the next has its own
 }
 
 static const char shared[] = "func f(n, v)\n    f(n-1, (!n << (v;v))) if n>0 else v\n";
@@ -123,8 +123,8 @@ static void test_all_is_charged(void **state) {
         "!a v=len(concat((..1e4)+frame))",
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        assert_int_equal(metered(runner, rows[i], (uint64_t)1 << 24, NULL), ARENA_DONE);
-        assert_claim(rows[i], metered(runner, rows[i], 1000, NULL) == ARENA_WORK);
+        assert_int_equal(run_with_budget(runner, rows[i], (uint64_t)1 << 24, NULL), ARENA_OK);
+        assert_claim(rows[i], run_with_budget(runner, rows[i], 1000, NULL) == ARENA_WORK_LIMIT);
     }
 }
 
@@ -136,32 +136,33 @@ static void test_shared_nodes(void **state) {
                             "%slet x=f(60+frame, !x) y=f(60+frame, !x)\n"
                             "!a v=(x==y);(uniform(x)[0]==uniform(y)[0]);((x;1)<(y;2));(x in (1;y))\n",
                             shared);
-    assert_int_equal(metered(runner, script.bytes, 1 << 20, NULL), ARENA_DONE);
+    assert_int_equal(run_with_budget(runner, script.bytes, 1 << 20, NULL), ARENA_OK);
     script = str_format(arena, "%s!a v=len(debug(f(60+frame, !x)))\n", shared);
-    assert_int_equal(metered(runner, script.bytes, 1 << 16, NULL), ARENA_WORK);
+    assert_int_equal(run_with_budget(runner, script.bytes, 1 << 16, NULL), ARENA_WORK_LIMIT);
 }
 
 // Whoever waits for a frame may end it.
 static void test_interrupt(void **state) {
     Runner *runner = *state;
-    atomic_bool wish = true;
+    atomic_bool interrupt = true;
     static const char rounds[] = "let n=frame\n!a v=len(i for i in ..2000+n)\n";
-    assert_int_equal(metered(runner, rounds, 1 << 20, &wish), ARENA_INTERRUPTED);
-    wish = false;
-    assert_int_equal(metered(runner, rounds, 1 << 20, &wish), ARENA_DONE);
+    assert_int_equal(run_with_budget(runner, rounds, 1 << 20, &interrupt), ARENA_INTERRUPTED);
+    interrupt = false;
+    assert_int_equal(run_with_budget(runner, rounds, 1 << 20, &interrupt), ARENA_OK);
 }
 
 // What cannot be evaluated ahead is left for the frames: the simplifier's machine gives up, and says nothing.
-static void test_ahead(void **state) {
+static void test_static_evaluation_reports_limit(void **state) {
     Runner *runner = *state;
-    check_tree_and_told(runner, "func f(n)\n    1+f(n-1) if n>0 else 0\n!a v=f(600)\n", "!a\n", NULL);
-    assert_int_equal(runner->ahead.reported_count > 0, true);
+    check_tree_and_reports(runner, "func f(n)\n    1+f(n-1) if n>0 else 0\n!a v=f(600)\n", "!a\n", NULL);
+    assert_int_equal(runner->static_vm.reported_count > 0, true);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        RUNNER_TEST(test_closure_depth),  RUNNER_TEST(test_stack),        RUNNER_TEST(test_too_long),
-        RUNNER_TEST(test_work),           RUNNER_TEST(test_interrupt),    RUNNER_TEST(test_ahead),
+        RUNNER_TEST(test_closure_depth),  RUNNER_TEST(test_stack),
+        RUNNER_TEST(test_too_long),       RUNNER_TEST(test_work),
+        RUNNER_TEST(test_interrupt),      RUNNER_TEST(test_static_evaluation_reports_limit),
         RUNNER_TEST(test_all_is_charged), RUNNER_TEST(test_shared_nodes),
         RUNNER_TEST(test_deep_nodes), // it used to overflow the stack
         RUNNER_TEST(test_call_depth), // makes the stack larger for what follows

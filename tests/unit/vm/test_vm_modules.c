@@ -11,7 +11,7 @@ static const ModuleText modules[] = {
 typedef struct ImportRow {
     const char *script;
     const char *tree;
-    const char *told;
+    const char *reported;
 } ImportRow;
 
 static void test_imports(void **state) {
@@ -26,7 +26,7 @@ static void test_imports(void **state) {
         {"import s;t from 'state.fl'\n!r v=$:k s=s t=t\n", "!r v=5\n",
          "2:7 unbound name 'frame' is null [unbound-name]\n"},
         {"import a;none;b;nothing from 'm.fl'\n!r v=a;b;none\n", "!r v=10;2\n",
-         "1:1 'm.fl' does not bind 'none' 'nothing' [no-such-name]\n"},
+         "1:1 'm.fl' does not bind 'none' 'nothing' [unknown-import]\n"},
         {"import a from 'gone.fl'\n!r v=a\n", "!r\n",
          "1:1 cannot import 'gone.fl': there is no such file [cannot-import]\n"},
         {"import a from null\n!r v=a\n", "!r\n", "1:1 cannot import '': no file name [cannot-import]\n"},
@@ -42,7 +42,7 @@ static void test_imports(void **state) {
         for (size_t i = 0; i < COUNT_OF(rows); i++) {
             runner_run(runner, rows[i].script, 1);
             assert_text(rows[i].script, runner_tree(runner), rows[i].tree);
-            assert_text(rows[i].script, text_c(&runner->told), rows[i].told);
+            assert_text(rows[i].script, text_c(&runner->reported), rows[i].reported);
         }
     }
 }

@@ -136,7 +136,7 @@ static void test_diagnostics(void **state) {
         if (!rows[i].wanted)
             continue;
         runner_frame(runner, 0);
-        assert_text(rows[i].script, text_c(&runner->told), rows[i].wanted);
+        assert_text(rows[i].script, text_c(&runner->reported), rows[i].wanted);
     }
 }
 

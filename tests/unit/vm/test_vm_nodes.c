@@ -8,10 +8,10 @@ static const Node *top_node(const Runner *runner, uint32_t i) {
 
 // `line:column` of a node or of an attribute of it.
 static const char *place(Runner *runner, const Node *node, const char *attr) {
-    Origin origin = node_place(node, attr ? name_of(&runner->world, attr) : NULL);
+    Origin origin = node_origin(node, attr ? name_of(&runner->world, attr) : NULL);
     if (!origin.source)
         return "unknown";
-    SourcePlace at = source_locate(origin.source, origin.span.start);
+    SourcePosition at = source_locate(origin.source, origin.span.start);
     return str_format(&runner->world.arena, "%u:%u", at.line, at.column).bytes;
 }
 
@@ -32,7 +32,7 @@ static void test_places(void **state) {
 }
 
 // What does not depend on the frame is made once, and every frame has the same.
-static void test_shared(void **state) {
+static void test_constant_children_are_shared(void **state) {
     Runner *runner = *state;
     static const char script[] = "!a v=frame\n    !b\n        !c x=1\n    !d\n!e x=frame\n    !f x=frame\n    !g\n";
     runner_run(runner, script, 1);
@@ -48,7 +48,7 @@ static void test_shared(void **state) {
 }
 
 // Whether a node is made at once or piece by piece does not show.
-static void test_pieces(void **state) {
+static void test_node_construction(void **state) {
     static const ScriptRow rows[] = {
         {"let z=frame*0\n!a #t x=1+z y='s' z=z\n", "!a #t x=1 y='s' z=0\n"},
         {"let z=frame*0 n=!a\n(n #t x=1+z y='s') z=z\n", "!a #t x=1 y='s' z=0\n"},
@@ -82,8 +82,8 @@ static void test_many_attributes(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         RUNNER_TEST(test_places),
-        RUNNER_TEST(test_shared),
-        RUNNER_TEST(test_pieces),
+        RUNNER_TEST(test_constant_children_are_shared),
+        RUNNER_TEST(test_node_construction),
         RUNNER_TEST(test_many_attributes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

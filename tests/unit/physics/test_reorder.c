@@ -1,8 +1,7 @@
-// test_settled.c: columns in the order of a neighbour list (lib/physics/settle.c) give the bits of all pairs in the
+// test_reorder.c: columns in the order of a neighbour list (lib/physics/reorder.c) give the bits of all pairs in the
 // order of the description, whatever happens to the system in between.
+#include "physics/neighbour_list.h"
 #include "support.h"
-
-#include "physics/neighbours.h"
 
 enum { SIDE = 24, COUNT = SIDE * SIDE };
 
@@ -23,7 +22,7 @@ static Twins twins_of(size_t dimensions, const PhysOptions *options) {
 }
 
 // Discs on a grid, in no order of places: numbers that follow each other are far apart.
-static void describe(PhysSystem *system, size_t dimensions, uint32_t count, uint32_t groups, bool pushed) {
+static void describe_system(PhysSystem *system, size_t dimensions, uint32_t count, uint32_t groups, bool pushed) {
     Dice dice = {77};
     phys_begin(system, (uint32_t)dimensions);
     for (uint32_t g = 1; g < groups; g++)
@@ -41,7 +40,7 @@ static void describe(PhysSystem *system, size_t dimensions, uint32_t count, uint
     }
 }
 
-static PhysForce wall(const double *at, const double *along) {
+static PhysForce make_wall(const double *at, const double *along) {
     PhysForce force = force_of(PHYS_BARRIER);
     force.vector = at;
     force.vector2 = along;
@@ -50,7 +49,7 @@ static PhysForce wall(const double *at, const double *along) {
 
 static void add_forces(PhysSystem *system, uint32_t group) {
     const double low[3] = {-1, -1, -1}, high[3] = {SIDE, SIDE, 2}, right[3] = {1, 0, 0}, left[3] = {-1, 0, 0};
-    PhysForce forces[] = {force_of(PHYS_COLLISION), force_of(PHYS_DRAG), wall(low, right), wall(high, left)};
+    PhysForce forces[] = {force_of(PHYS_COLLISION), force_of(PHYS_DRAG), make_wall(low, right), make_wall(high, left)};
     forces[0].strength = 300;
     forces[1].strength = 0.02;
     for (size_t i = 0; i < COUNT_OF(forces); i++)
@@ -65,7 +64,7 @@ static void begin_forces(Twins *twins) {
 }
 
 // The forces, and one more.
-static void add(Twins *twins, PhysForceKind kind) {
+static void add_force(Twins *twins, PhysForceKind kind) {
     PhysForce force = force_of(kind);
     begin_forces(twins);
     force.from = 3;
@@ -77,22 +76,22 @@ static void add(Twins *twins, PhysForceKind kind) {
     phys_add_force(twins->listed, 0, &force);
 }
 
-static void begin(Twins *twins, uint32_t count, uint32_t groups, bool pushed) {
-    describe(twins->plain, twins->dimensions, count, groups, pushed);
-    describe(twins->listed, twins->dimensions, count, groups, pushed);
+static void begin_systems(Twins *twins, uint32_t count, uint32_t groups, bool pushed) {
+    describe_system(twins->plain, twins->dimensions, count, groups, pushed);
+    describe_system(twins->listed, twins->dimensions, count, groups, pushed);
     add_forces(twins->plain, groups - 1);
     add_forces(twins->listed, groups - 1);
 }
 
 // Another radius and mass, at the place of now.
-static void change(Twins *twins, uint32_t particle, double radius, double mass) {
+static void change_particle(Twins *twins, uint32_t particle, double radius, double mass) {
     PhysParticle p = {.radius = radius, .mass = mass};
     PhysPreserve preserve = {.position = true, .velocity = true};
     phys_update_particle(twins->plain, particle, &p, preserve);
     phys_update_particle(twins->listed, particle, &p, preserve);
 }
 
-static void put(Twins *twins, uint32_t particle, double x) {
+static void move_particle(Twins *twins, uint32_t particle, double x) {
     PhysParticle p = {.position = VEC(x, 1, 1), .radius = 0.5, .mass = 1};
     phys_update_particle(twins->plain, particle, &p, (PhysPreserve){.velocity = true});
     phys_update_particle(twins->listed, particle, &p, (PhysPreserve){.velocity = true});
@@ -117,57 +116,57 @@ static void frames(Twins *twins, int count, bool settled, int line) {
         assert_int_equal(phys_simulate(twins->listed, &time).status, PHYS_OK);
         check_same(twins, line);
     }
-    if (twins->listed->settled == settled)
+    if (twins->listed->in_cell_order == settled)
         return;
-    print_error("line %d: settled is %d\n", line, twins->listed->settled);
+    print_error("line %d: settled is %d\n", line, twins->listed->in_cell_order);
     fail();
 }
 
 #define FRAMES(twins, count, settled) frames(twins, count, settled, __LINE__)
 
-static void go_through(size_t dimensions, const PhysOptions *options) {
+static void check_changes(size_t dimensions, const PhysOptions *options) {
     PhysOptions never = *options;
     never.neighbours = PHYS_NEIGHBOURS_NEVER;
     Twins twins = twins_of(dimensions, options);
-    begin(&twins, COUNT, 1, false);
+    begin_systems(&twins, COUNT, 1, false);
     FRAMES(&twins, 6, true);
     for (int i = 0; i < 4; i++) { // between frames, after which the next step is prepared
-        put(&twins, 17 + 100 * i, 1.3 + 4 * i);
+        move_particle(&twins, 17 + 100 * i, 1.3 + 4 * i);
         FRAMES(&twins, 1, true);
     }
-    change(&twins, 5, 0.4, 2);
-    change(&twins, 300, 0.6, 0);
+    change_particle(&twins, 5, 0.4, 2);
+    change_particle(&twins, 300, 0.6, 0);
     FRAMES(&twins, 3, true);
-    add(&twins, PHYS_DISTANCE); // a link names columns
+    add_force(&twins, PHYS_DISTANCE); // a link names columns
     FRAMES(&twins, 2, false);
     begin_forces(&twins);
     FRAMES(&twins, 7, true);
-    add(&twins, PHYS_RANDOM); // whose numbers come in the order of particles
+    add_force(&twins, PHYS_RANDOM); // whose numbers come in the order of particles
     FRAMES(&twins, 2, false);
     begin_forces(&twins);
     FRAMES(&twins, 7, true);
-    add(&twins, PHYS_GRAVITY); // without a reach
+    add_force(&twins, PHYS_GRAVITY); // without a reach
     FRAMES(&twins, 2, false);
     begin_forces(&twins);
     FRAMES(&twins, 7, true);
-    change(&twins, 100, 4, 1); // large ones meet all others in order
+    change_particle(&twins, 100, 4, 1); // large ones meet all others in order
     FRAMES(&twins, 2, false);
-    change(&twins, 100, 0.5, 1);
-    put(&twins, 17, NAN);
+    change_particle(&twins, 100, 0.5, 1);
+    move_particle(&twins, 17, NAN);
     FRAMES(&twins, 7, true);
-    put(&twins, 17, 1);
-    change(&twins, 18, 0, 1);
+    move_particle(&twins, 17, 1);
+    change_particle(&twins, 18, 0, 1);
     FRAMES(&twins, 3, true);
     phys_set_options(twins.listed, &never);
     FRAMES(&twins, 1, false);
     phys_set_options(twins.listed, options);
-    begin(&twins, COUNT, 1, true); // the same number again, with forces of their own
+    begin_systems(&twins, COUNT, 1, true); // the same number again, with forces of their own
     FRAMES(&twins, 3, true);
-    begin(&twins, COUNT, 1, false);
+    begin_systems(&twins, COUNT, 1, false);
     FRAMES(&twins, 1, true);
-    begin(&twins, COUNT - 1, 1, true);
+    begin_systems(&twins, COUNT - 1, 1, true);
     FRAMES(&twins, 1, true);
-    begin(&twins, COUNT - 1, 2, false);
+    begin_systems(&twins, COUNT - 1, 2, false);
     FRAMES(&twins, 3, true);
     phys_free(twins.plain);
     phys_free(twins.listed);
@@ -175,16 +174,17 @@ static void go_through(size_t dimensions, const PhysOptions *options) {
 
 static void test_all_levels(void **state) {
     (void)state;
-    for (int cpu = 0; cpu <= (int)cpu_here.level; cpu++)
+    for (int cpu = 0; cpu <= (int)cpu_detected.level; cpu++)
         for (size_t n = 2; n <= 3; n++)
-            go_through(n,
-                       &(PhysOptions){.threads = cpu + 1, .cpu = (CpuLevel)cpu, .neighbours = PHYS_NEIGHBOURS_ALWAYS});
+            check_changes(
+                n, &(PhysOptions){.threads = cpu + 1, .cpu = (CpuLevel)cpu, .neighbours = PHYS_NEIGHBOURS_ALWAYS});
 }
 
 static void test_kept_forces(void **state) {
     (void)state;
-    go_through(2, &(PhysOptions){
-                      .threads = 4, .keep_forces = true, .cpu = cpu_here.level, .neighbours = PHYS_NEIGHBOURS_ALWAYS});
+    check_changes(
+        2, &(PhysOptions){
+               .threads = 4, .keep_forces = true, .cpu = cpu_detected.level, .neighbours = PHYS_NEIGHBOURS_ALWAYS});
 }
 
 // So many that one thread takes several chunks of places: each may have a column of forces to itself, or the same one.
@@ -193,7 +193,7 @@ static void test_chunks(void **state) {
     enum { MANY = 40000, ROW = 200, STEPS = 4 };
     PhysSystem *systems[] = {phys_new(), phys_new()};
     for (int s = 0; s < 2; s++) {
-        phys_set_options(systems[s], &(PhysOptions){.threads = 1, .keep_forces = s, .cpu = cpu_here.level});
+        phys_set_options(systems[s], &(PhysOptions){.threads = 1, .keep_forces = s, .cpu = cpu_detected.level});
         phys_begin(systems[s], 2);
         Dice dice = {5};
         for (uint32_t i = 0; i < MANY; i++) {
@@ -208,7 +208,7 @@ static void test_chunks(void **state) {
             PhysTime time = {.last = f * 0.01, .now = (f + 1) * 0.01, .resolution = 0.01, .performance = 1};
             assert_int_equal(phys_simulate(systems[s], &time).status, PHYS_OK);
         }
-        assert_true(systems[s]->settled);
+        assert_true(systems[s]->in_cell_order);
     }
     for (uint32_t i = 0; i < MANY; i++)
         assert_memory_equal(phys_position(systems[0], i), phys_position(systems[1], i), 4 * sizeof(double));

@@ -1,4 +1,4 @@
-// test_vm_rounds.c: many rounds of a loop at once come to what they come to one by one.
+// test_vm_batch.c: many rounds of a loop at once come to what they come to one by one.
 #include "runner.h"
 
 enum { ROUNDS = 150 };
@@ -63,12 +63,12 @@ static const Body bodies[] = {
 };
 
 // The tree of the second frame of a script.
-static const char *evaluate(Runner *runner, const char *form, const char *body, uint64_t *rounds) {
+static const char *run_loop(Runner *runner, const char *form, const char *body, uint64_t *rounds) {
     char script[2000];
     snprintf(script, sizeof script, form, before, body);
-    runner->vm.rounds = 0;
+    runner->vm.batched_iterations = 0;
     runner_run(runner, script, 2);
-    *rounds = runner->vm.rounds;
+    *rounds = runner->vm.batched_iterations;
     return runner_tree(runner);
 }
 
@@ -89,8 +89,8 @@ static void test_bodies(void **state) {
         uint64_t many, few;
         const Body *body = &bodies[i / 2];
         runner->simplify = i % 2;
-        const char *found = evaluate(runner, many_form, body->text, &many);
-        assert_text(body->text, found, evaluate(runner, few_form, body->text, &few));
+        const char *found = run_loop(runner, many_form, body->text, &many);
+        assert_text(body->text, found, run_loop(runner, few_form, body->text, &few));
         assert_int_equal(few, 0);
         if (!runner->simplify && (many == 0) != body->one_by_one)
             fail_msg("%s: %d rounds at once", body->text, (int)many);
@@ -106,7 +106,7 @@ static void test_items(void **state) {
                "!all differ=((1 for i in ..140 if s[one(i)]!=r[i] or u[one(i)]!=v[i])) count=len(r);len(v)\n",
                1);
     assert_text("items", runner_tree(runner), "!all count=140;140\n");
-    assert_int_equal(runner->vm.rounds, 0);
+    assert_int_equal(runner->vm.batched_iterations, 0);
 }
 
 // What is wrong is told in the order in which rounds one by one meet it.
@@ -121,25 +121,25 @@ static void test_faults(void **state) {
                "    for i in ..300\n"
                "        !r c=(0..(1e9 if i%30==29 else 1))[0]\n",
                1);
-    assert_text("faults", text_c(&runner->told),
+    assert_text("faults", text_c(&runner->reported),
                 "5:14 octnoise: more than 1024 octaves [bad-call]\n"
                 "4:14 octnoise: more than 1024 octaves [bad-call]\n"
                 "7:15 range too long: the limit is 134217728 elements [too-long]\n");
-    assert_true(runner->vm.rounds > 0 && runner->vm.rounds < 450);
+    assert_true(runner->vm.batched_iterations > 0 && runner->vm.batched_iterations < 450);
 }
 
 // The work of rounds is charged before they are run, as that of one: a limit ends both.
 static void test_work(void **state) {
     Runner *runner = *state;
-    Meter meter = {.memory_limit = SIZE_MAX};
+    Budget meter = {.memory_limit = SIZE_MAX};
     uint64_t work[2];
     for (int i = 0; i < 2; i++) {
         uint64_t rounds;
-        runner->frame.meter = NULL;
-        meter_begin(&meter, UINT64_MAX / 2, NULL);
-        runner->frame.meter = &meter;
-        evaluate(runner, i ? few_form : many_form, "!p a=sin(i+z) b=hsv(i;z;1) c=i**3", &rounds);
-        runner->frame.meter = NULL;
+        runner->frame.budget = NULL;
+        budget_begin(&meter, UINT64_MAX / 2, NULL);
+        runner->frame.budget = &meter;
+        run_loop(runner, i ? few_form : many_form, "!p a=sin(i+z) b=hsv(i;z;1) c=i**3", &rounds);
+        runner->frame.budget = NULL;
         work[i] = meter.work;
     }
     assert_in_range(work[0], work[1] * 3 / 4, work[1] * 5 / 4);

@@ -1,8 +1,8 @@
-// test_syntax_foreign.c: files that are no scripts get one message; scripts keep all of theirs.
+// test_syntax_content_sniff.c: files that are no scripts get one message; scripts keep all of theirs.
 #include "parsing.h"
 
 // All messages of a file with this name, a line each.
-static const char *told(World *world, const char *name, const char *path, Str bytes) {
+static const char *reports_of(World *world, const char *name, const char *path, Str bytes) {
     const Source *source = source_new(&world->arena, str_from(name), str_from(path), bytes);
     DiagSink diags = diag_sink_new(&world->arena, 50);
     const Ast *ast = parse_program(&world->arena, &world->symbols, source, &diags);
@@ -19,7 +19,7 @@ static const char *told(World *world, const char *name, const char *path, Str by
 }
 
 static void check_bytes(World *world, Str bytes, const char *wanted) {
-    assert_text(wanted, told(world, "x.fl", "/x.fl", bytes), wanted);
+    assert_text(wanted, reports_of(world, "x.fl", "/x.fl", bytes), wanted);
 }
 
 static void test_encodings(void **state) {
@@ -47,19 +47,19 @@ static void test_other_texts(void **state) {
     Str table = STR("root:x:0\nbin:y:1\n\nmail:z:2\n");
     const char *sum = "1: this does not look like a Flitter script: 3 of 3 lines are wrong, the first with: "
                       "unexpected symbol :x\n";
-    assert_text("a table", told(world, "passwd", "/etc/passwd", table), sum);
-    assert_text("a stream", told(world, "<stdin>", "<stdin>", table), sum);
-    const char *all = told(world, "p.fl", "/p.fl", table);
+    assert_text("a table", reports_of(world, "passwd", "/etc/passwd", table), sum);
+    assert_text("a stream", reports_of(world, "<stdin>", "<stdin>", table), sum);
+    const char *all = reports_of(world, "p.fl", "/p.fl", table);
     assert_non_null(strstr(all, "1: unexpected symbol :x\n"));
     assert_non_null(strstr(all, "2: unexpected symbol :y\n"));
-    assert_text("a prompt", told(world, "prompt", "prompt", table), all);
+    assert_text("a prompt", reports_of(world, "prompt", "prompt", table), all);
     Str begun = STR("#!/usr/bin/env petri\n)\n)\n)\n");
-    assert_text("it says what it is", told(world, "tool", "/bin/tool", begun),
+    assert_text("it says what it is", reports_of(world, "tool", "/bin/tool", begun),
                 "2: unexpected ')'\n3: unexpected ')'\n4: unexpected ')'\n");
     Str few = STR("!a\n!b )\n!c\n!d )\n!e\n!f )\n!g\n!h\n!i )\n");
-    assert_text("half is not most", told(world, "old.fl.bak", "/old.fl.bak", STR("!a )\n!b )\n!c\n")),
+    assert_text("half is not most", reports_of(world, "old.fl.bak", "/old.fl.bak", STR("!a )\n!b )\n!c\n")),
                 "1: unexpected ')', expected end of line or '<<'\n2: unexpected ')', expected end of line or '<<'\n");
-    assert_non_null(strstr(told(world, "old", "/old", few), "9: unexpected ')'"));
+    assert_non_null(strstr(reports_of(world, "old", "/old", few), "9: unexpected ')'"));
 }
 
 int main(void) {

@@ -1,7 +1,6 @@
-// test_base_table.c: the index of a hash table, against a plain model.
+// test_base_hash_index.c: the index of a hash table, against a plain model.
+#include "base/hash_index.h"
 #include "check.h"
-
-#include "base/table.h"
 
 #include <stdlib.h>
 
@@ -9,7 +8,7 @@ enum { KEYS = 3000 };
 
 // Entries are numbers; `weak` hashes put many of them into one run of slots.
 typedef struct Owner {
-    Index index;
+    HashIndex index;
     uint32_t entries[KEYS];
     bool weak;
 } Owner;
@@ -22,42 +21,42 @@ static uint64_t hash_of(const Owner *owner, uint32_t key) {
     return owner->weak ? (uint64_t)(key % 3) << 32 : hash_mix(key + UINT64_C(1));
 }
 
-static uint32_t find(const Owner *owner, uint32_t key) {
-    return index_find(&owner->index, hash_of(owner, key), same_key, owner, &key);
+static uint32_t find_key(const Owner *owner, uint32_t key) {
+    return hash_index_find(&owner->index, hash_of(owner, key), same_key, owner, &key);
 }
 
-static void add(Owner *owner, uint32_t entry, uint32_t key) {
+static void add_key(Owner *owner, uint32_t entry, uint32_t key) {
     owner->entries[entry] = key;
-    assert_true(index_add(&owner->index, hash_of(owner, key), entry));
+    assert_true(hash_index_add(&owner->index, hash_of(owner, key), entry));
 }
 
 static void test_empty(void **state) {
     (void)state;
     Owner owner = {0};
-    assert_true(find(&owner, 1) == INDEX_NONE);
-    index_clear(&owner.index);
-    index_free(&owner.index);
+    assert_true(find_key(&owner, 1) == HASH_INDEX_NONE);
+    hash_index_clear(&owner.index);
+    hash_index_free(&owner.index);
     assert_null(owner.index.slots);
 }
 
 static void add_and_find(bool weak, uint32_t count) {
     Owner owner = {.weak = weak};
     for (uint32_t i = 0; i < count; i++) {
-        assert_true(find(&owner, i * 7) == INDEX_NONE);
-        add(&owner, i, i * 7);
+        assert_true(find_key(&owner, i * 7) == HASH_INDEX_NONE);
+        add_key(&owner, i, i * 7);
         assert_int_equal(owner.index.live, i + 1);
     }
     for (uint32_t i = 0; i < count; i++) {
-        assert_int_equal(find(&owner, i * 7), i);
-        assert_true(find(&owner, i * 7 + 1) == INDEX_NONE);
+        assert_int_equal(find_key(&owner, i * 7), i);
+        assert_true(find_key(&owner, i * 7 + 1) == HASH_INDEX_NONE);
     }
-    index_clear(&owner.index);
+    hash_index_clear(&owner.index);
     assert_int_equal(owner.index.live, 0);
     for (uint32_t i = 0; i < count; i++)
-        assert_true(find(&owner, i * 7) == INDEX_NONE);
-    add(&owner, 0, 5);
-    assert_int_equal(find(&owner, 5), 0);
-    index_free(&owner.index);
+        assert_true(find_key(&owner, i * 7) == HASH_INDEX_NONE);
+    add_key(&owner, 0, 5);
+    assert_int_equal(find_key(&owner, 5), 0);
+    hash_index_free(&owner.index);
 }
 
 static void test_add_and_find(void **state) {
@@ -67,7 +66,7 @@ static void test_add_and_find(void **state) {
 }
 
 // Random additions, removals and moves; after each change all keys are found where the model has them.
-static void churn(bool weak, uint32_t keys, int rounds) {
+static void add_and_remove_keys(bool weak, uint32_t keys, int rounds) {
     const uint32_t nowhere = UINT32_MAX;
     Owner owner = {.weak = weak};
     uint32_t place[KEYS], live = 0;
@@ -78,15 +77,15 @@ static void churn(bool weak, uint32_t keys, int rounds) {
         uint32_t key = (uint32_t)(next_bits(&seed) % keys);
         if (place[key] == nowhere) {
             place[key] = live;
-            add(&owner, live++, key);
+            add_key(&owner, live++, key);
         } else {
             // Remove, and fill the hole with the last entry, as a dense owner does.
             uint32_t hole = place[key], last = --live, moved = owner.entries[last];
-            index_remove(&owner.index, hash_of(&owner, key), hole);
+            hash_index_remove(&owner.index, hash_of(&owner, key), hole);
             place[key] = nowhere;
             if (hole != last) {
-                index_remove(&owner.index, hash_of(&owner, moved), last);
-                assert_true(index_add(&owner.index, hash_of(&owner, moved), hole));
+                hash_index_remove(&owner.index, hash_of(&owner, moved), last);
+                assert_true(hash_index_add(&owner.index, hash_of(&owner, moved), hole));
                 owner.entries[hole] = moved;
                 place[moved] = hole;
             }
@@ -94,15 +93,15 @@ static void churn(bool weak, uint32_t keys, int rounds) {
         assert_int_equal(owner.index.live, live);
         assert_true(owner.index.used >= live && owner.index.used <= owner.index.mask);
         for (uint32_t k = 0; k < keys; k += round % 50 ? 41 : 1)
-            assert_int_equal(find(&owner, k), place[k] == nowhere ? INDEX_NONE : place[k]);
+            assert_int_equal(find_key(&owner, k), place[k] == nowhere ? HASH_INDEX_NONE : place[k]);
     }
-    index_free(&owner.index);
+    hash_index_free(&owner.index);
 }
 
 static void test_add_remove(void **state) {
     (void)state;
-    churn(false, 500, 20000);
-    churn(true, 60, 5000);
+    add_and_remove_keys(false, 500, 20000);
+    add_and_remove_keys(true, 60, 5000);
 }
 
 // Removing and adding for ever does not make the table grow.
@@ -110,12 +109,12 @@ static void test_deleted_slots_are_reclaimed(void **state) {
     (void)state;
     Owner owner = {0};
     for (uint32_t i = 0; i < 100000; i++) {
-        add(&owner, 0, i);
-        index_remove(&owner.index, hash_of(&owner, i), 0);
+        add_key(&owner, 0, i);
+        hash_index_remove(&owner.index, hash_of(&owner, i), 0);
     }
     assert_int_equal(owner.index.live, 0);
     assert_true(owner.index.mask < 64);
-    index_free(&owner.index);
+    hash_index_free(&owner.index);
 }
 
 static void test_hash(void **state) {

@@ -1,9 +1,8 @@
-// test_maths_many.c: many numbers at once, with 1, 2, 4 and 8 lanes, give the bits of one at a time; so do streams of
+// test_maths_arrays.c: many numbers at once, with 1, 2, 4 and 8 lanes, give the bits of one at a time; so do streams of
 // normals.
 #include "check.h"
-
-#include "maths/many.h"
-#include "maths/many_instance.h"
+#include "maths/arrays.h"
+#include "maths/arrays_isa.h"
 #include "maths/maths.h"
 #include "maths/random.h"
 
@@ -12,19 +11,19 @@
 
 typedef struct Lanes {
     const char *name;
-    const ManyInstance *instance;
+    const ArraysIsa *instance;
 } Lanes;
 
 // What this processor can run.
-static size_t find_instances(Lanes *lanes) {
+static size_t find_isas(Lanes *lanes) {
     size_t count = 0;
-    lanes[count++] = (Lanes){"1 lane", &maths_many_plain};
-    lanes[count++] = (Lanes){"2 lanes", &maths_many_pair};
+    lanes[count++] = (Lanes){"1 lane", &maths_arrays_plain};
+    lanes[count++] = (Lanes){"2 lanes", &maths_arrays_pair};
 #if defined(__x86_64__)
-    if (cpu_here.fma)
-        lanes[count++] = (Lanes){"4 lanes", &maths_many_avx2};
-    if (cpu_here.level >= CPU_AVX512)
-        lanes[count++] = (Lanes){"8 lanes", &maths_many_avx512};
+    if (cpu_detected.fma)
+        lanes[count++] = (Lanes){"4 lanes", &maths_arrays_avx2};
+    if (cpu_detected.level >= CPU_AVX512)
+        lanes[count++] = (Lanes){"8 lanes", &maths_arrays_avx512};
 #endif
     return count;
 }
@@ -32,7 +31,7 @@ static size_t find_instances(Lanes *lanes) {
 static double x[COUNT], y[COUNT], out[COUNT + EXTRA], out2[COUNT + EXTRA];
 
 // Numbers of all sizes, with special ones among them, so that some lanes of a vector can be decided and others cannot.
-static void fill(uint64_t *seed, double low, double high, bool special) {
+static void fill_arguments(uint64_t *seed, double low, double high, bool special) {
     static const double odd[] = {0.0, -0.0, INFINITY, -INFINITY, NAN,  0x1p-1074, -0x1p-1030, 0x1.fffffffffffffp+1023,
                                  1.0, -1.0, 2.0,      0.5,       1e10, -1e300,    710,        -745.1};
     for (size_t i = 0; i < COUNT; i++) {
@@ -49,57 +48,57 @@ static void fill(uint64_t *seed, double low, double high, bool special) {
         out[i] = out2[i] = -77;
 }
 
-static void check(const char *row, const double *found, double (*one)(double), double (*two)(double, double),
-                  const double *second, size_t step) {
+static void check_array(const char *row, const double *found, double (*one)(double), double (*two)(double, double),
+                        const double *second, size_t step) {
     for (size_t i = 0; i < COUNT; i++)
         assert_number(row, found[i], one ? one(x[i]) : two(x[i], second[step * i]));
     for (size_t i = COUNT; i < COUNT + EXTRA; i++)
         assert_number(row, found[i], -77);
 }
 
-static void test_same_as_one(void **state) {
+static void test_arrays_match_scalars(void **state) {
     (void)state;
     static const double ranges[][2] = {{-3, 3}, {0, 1}, {-800, 800}, {0.99, 1.01}, {-1e5, 1e5}};
     Lanes lanes[4];
-    size_t count = find_instances(lanes);
+    size_t count = find_isas(lanes);
     uint64_t seed = 5;
     for (size_t k = 0; k < count; k++)
         for (size_t r = 0; r < 2 * COUNT_OF(ranges); r++) {
-            const ManyInstance *instance = lanes[k].instance;
+            const ArraysIsa *instance = lanes[k].instance;
             const char *name = lanes[k].name;
-            fill(&seed, ranges[r / 2][0], ranges[r / 2][1], r % 2);
+            fill_arguments(&seed, ranges[r / 2][0], ranges[r / 2][1], r % 2);
             instance->exp(x, COUNT, out);
-            check(name, out, maths_exp, NULL, NULL, 0);
+            check_array(name, out, maths_exp, NULL, NULL, 0);
             instance->log(x, COUNT, out);
-            check(name, out, maths_log, NULL, NULL, 0);
+            check_array(name, out, maths_log, NULL, NULL, 0);
             instance->sin_cos(x, COUNT, out, out2);
-            check(name, out, maths_sin, NULL, NULL, 0);
-            check(name, out2, maths_cos, NULL, NULL, 0);
+            check_array(name, out, maths_sin, NULL, NULL, 0);
+            check_array(name, out2, maths_cos, NULL, NULL, 0);
             instance->pow(x, y, 1, COUNT, out);
-            check(name, out, NULL, maths_pow, y, 1);
+            check_array(name, out, NULL, maths_pow, y, 1);
             for (int i = 0; i < 4; i++) {
                 const double power[] = {3, 2.5, -1, 0.1};
                 instance->pow(x, &power[i], 0, COUNT, out);
-                check(name, out, NULL, maths_pow, &power[i], 0);
+                check_array(name, out, NULL, maths_pow, &power[i], 0);
             }
             instance->turns_sin(x, COUNT, out);
-            check(name, out, turns_sin, NULL, NULL, 0);
+            check_array(name, out, turns_sin, NULL, NULL, 0);
         }
 }
 
 // The result may take the place of the arguments; short arrays are not read or written beyond their end.
 static void test_in_place(void **state) {
     (void)state;
-    for (int level = 0; level <= (int)cpu_here.level; level++)
+    for (int level = 0; level <= (int)cpu_detected.level; level++)
         for (size_t n = 0; n < 20; n++) {
             double values[24], wanted[24];
             for (size_t i = 0; i < 24; i++) {
                 values[i] = 0.3 + (double)i;
                 wanted[i] = i < n ? maths_pow(maths_exp(maths_log(values[i])), 1.7) : values[i];
             }
-            maths_log_many((CpuLevel)level, values, n, values);
-            maths_exp_many((CpuLevel)level, values, n, values);
-            maths_power_many((CpuLevel)level, values, 1.7, n, values);
+            maths_log_array((CpuLevel)level, values, n, values);
+            maths_exp_array((CpuLevel)level, values, n, values);
+            maths_power_array((CpuLevel)level, values, 1.7, n, values);
             for (size_t i = 0; i < 24; i++)
                 assert_number("in place", values[i], wanted[i]);
         }
@@ -108,7 +107,7 @@ static void test_in_place(void **state) {
 static void test_uniform(void **state) {
     (void)state;
     Lanes lanes[4];
-    size_t count = find_instances(lanes);
+    size_t count = find_isas(lanes);
     for (size_t k = 0; k < count; k++)
         for (uint64_t key = 1; key; key *= UINT64_C(0x9e3779b97f4a7c16)) {
             uint64_t first = key >> 7;
@@ -122,7 +121,7 @@ static void test_normals(void **state) {
     (void)state;
     uint64_t key = UINT64_C(0x03953eea0e693074);
     double found[700];
-    for (int level = 0; level <= (int)cpu_here.level; level++)
+    for (int level = 0; level <= (int)cpu_detected.level; level++)
         for (size_t first = 0; first < 5; first++)
             for (size_t n = 0; n < 700; n = n * 2 + 1) {
                 random_normals((CpuLevel)level, key, first, n, found);
@@ -148,7 +147,7 @@ static void test_turns(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_same_as_one), cmocka_unit_test(test_in_place),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_arrays_match_scalars), cmocka_unit_test(test_in_place),
                                        cmocka_unit_test(test_uniform), cmocka_unit_test(test_normals),
                                        cmocka_unit_test(test_turns)};
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,8 +1,7 @@
-// test_maths_wide.c: wide numbers against MPFR with many more bits: each function of wide.h is as near as it says, with
-// each number of limbs.
+// test_maths_fixed.c: wide numbers against MPFR with many more bits: each function of fixed.h is as near as it says,
+// with each number of limbs.
 #include "check.h"
-
-#include "maths/wide.h"
+#include "maths/fixed.h"
 
 #include <mpfr.h>
 #include <stdlib.h>
@@ -11,9 +10,9 @@
 
 static mpfr_t a, b, c, d;
 
-static void read_wide(mpfr_t to, const Wide *from) {
-    bool negative = wide_is_negative(from);
-    Wide x = negative ? wide_negate(from) : *from;
+static void parse_fixed(mpfr_t to, const Fixed *from) {
+    bool negative = fixed_is_negative(from);
+    Fixed x = negative ? fixed_negate(from) : *from;
     mpfr_set_ui(to, 0, MPFR_RNDN);
     for (int i = x.size; i >= 0; i--) {
         mpfr_mul_2si(to, to, 64, MPFR_RNDN);
@@ -25,8 +24,8 @@ static void read_wide(mpfr_t to, const Wide *from) {
 }
 
 // |found - wanted| in ulps is at most `limit`.
-static void near(const char *what, const Wide *found, mpfr_t wanted, double limit) {
-    read_wide(d, found);
+static void check_near(const char *what, const Fixed *found, mpfr_t wanted, double limit) {
+    parse_fixed(d, found);
     mpfr_sub(d, d, wanted, MPFR_RNDN);
     mpfr_mul_2si(d, d, 64 * found->size, MPFR_RNDN);
     double off = fabs(mpfr_get_d(d, MPFR_RNDN));
@@ -40,11 +39,11 @@ static double unit(uint64_t *seed) {
 }
 
 // A number of that size in [0, 1) with random bits, in `to`, too.
-static Wide random_wide(uint64_t *seed, int size, mpfr_t to) {
-    Wide r = wide_from_int(0, size);
+static Fixed random_fixed(uint64_t *seed, int size, mpfr_t to) {
+    Fixed r = fixed_from_int(0, size);
     for (int i = 0; i < size; i++)
         r.limb[i] = next_bits(seed);
-    read_wide(to, &r);
+    parse_fixed(to, &r);
     return r;
 }
 
@@ -55,48 +54,48 @@ static void test_arithmetic(void **state) {
     uint64_t seed = 1;
     for (int i = 0; i < 3000; i++) {
         int size = sizes[i % 3];
-        Wide x = random_wide(&seed, size, a), y = random_wide(&seed, size, b), r;
+        Fixed x = random_fixed(&seed, size, a), y = random_fixed(&seed, size, b), r;
         if (i & 4) {
-            x = wide_negate(&x);
+            x = fixed_negate(&x);
             mpfr_neg(a, a, MPFR_RNDN);
         }
         if (i & 8) {
-            y = wide_negate(&y);
+            y = fixed_negate(&y);
             mpfr_neg(b, b, MPFR_RNDN);
         }
         mpfr_add(c, a, b, MPFR_RNDN);
-        r = wide_add(&x, &y);
-        near("add", &r, c, 0);
+        r = fixed_add(&x, &y);
+        check_near("add", &r, c, 0);
         mpfr_sub(c, a, b, MPFR_RNDN);
-        r = wide_sub(&x, &y);
-        near("sub", &r, c, 0);
+        r = fixed_sub(&x, &y);
+        check_near("sub", &r, c, 0);
         mpfr_mul(c, a, b, MPFR_RNDN);
-        r = wide_mul(&x, &y);
-        near("mul", &r, c, 1);
+        r = fixed_mul(&x, &y);
+        check_near("mul", &r, c, 1);
         uint32_t by = (uint32_t)(next_bits(&seed) >> 32) | 1;
         mpfr_div_ui(c, a, by, MPFR_RNDN);
-        r = wide_div_small(&x, by);
-        near("div_small", &r, c, 1);
+        r = fixed_div_small(&x, by);
+        check_near("div_small", &r, c, 1);
         mpfr_mul_ui(c, a, by, MPFR_RNDN);
-        r = wide_mul_small(&x, by);
-        near("mul_small", &r, c, 0);
+        r = fixed_mul_small(&x, by);
+        check_near("mul_small", &r, c, 0);
         int shift = (int)(next_bits(&seed) % 160) - 150;
         mpfr_mul_2si(c, a, shift, MPFR_RNDN);
-        r = wide_scale(&x, shift);
-        near("scale", &r, c, 1);
+        r = fixed_scale(&x, shift);
+        check_near("scale", &r, c, 1);
         // 1/2 … 2
-        y = wide_from_int(1, size);
+        y = fixed_from_int(1, size);
         x.limb[size] = 0;
         x.limb[size - 1] |= UINT64_C(1) << 63;
         if (i & 16)
-            x = wide_scale(&x, 1);
-        read_wide(a, &x);
+            x = fixed_scale(&x, 1);
+        parse_fixed(a, &x);
         mpfr_ui_div(c, 1, a, MPFR_RNDN);
-        r = wide_inverse(&x);
-        near("inverse", &r, c, 16);
+        r = fixed_inverse(&x);
+        check_near("inverse", &r, c, 16);
         mpfr_rec_sqrt(c, a, MPFR_RNDN);
-        r = wide_inverse_root(&x);
-        near("inverse_root", &r, c, 16);
+        r = fixed_inverse_root(&x);
+        check_near("inverse_root", &r, c, 16);
     }
 }
 
@@ -107,17 +106,17 @@ static void test_rounding(void **state) {
     mpfr_t rounded;
     mpfr_init2(rounded, 53);
     for (int i = 0; i < 30000; i++) {
-        Wide x = random_wide(&seed, sizes[i % 3], a);
+        Fixed x = random_fixed(&seed, sizes[i % 3], a);
         if (i & 4) { // few bits: ties and exact ones
             memset(x.limb, 0, sizeof *x.limb * (size_t)x.size);
             x.limb[x.size - 1] = next_bits(&seed) >> (i % 12) << (i % 12 + (i >> 4) % 12);
         }
         if (i & 8)
-            x = wide_negate(&x);
+            x = fixed_negate(&x);
         static const int scales[] = {0,     -20,   -1010, -1030, -1060, -1073, -1074,
                                      -1075, -1080, 1000,  1023,  1024,  1025,  1100};
         int scale = scales[next_bits(&seed) % COUNT_OF(scales)];
-        read_wide(a, &x);
+        parse_fixed(a, &x);
         mpfr_mul_2si(a, a, scale, MPFR_RNDN);
         mpfr_exp_t low = mpfr_get_emin(), high = mpfr_get_emax();
         mpfr_set_emin(-1073);
@@ -128,7 +127,7 @@ static void test_rounding(void **state) {
         double wanted = mpfr_get_d(rounded, MPFR_RNDN);
         mpfr_set_emin(low);
         mpfr_set_emax(high);
-        assert_claim("round", wide_round(&x, scale) == wanted);
+        assert_claim("round", fixed_round(&x, scale) == wanted);
     }
     mpfr_clear(rounded);
 }
@@ -139,35 +138,35 @@ static void test_functions(void **state) {
     double limit = 0x1p16;
     for (int i = 0; i < 1500; i++) {
         int size = sizes[i % 3];
-        Wide x = random_wide(&seed, size, a), r, s;
+        Fixed x = random_fixed(&seed, size, a), r, s;
         if (i & 4) {
-            x = wide_negate(&x);
+            x = fixed_negate(&x);
             mpfr_neg(a, a, MPFR_RNDN);
         }
         mpfr_exp(c, a, MPFR_RNDN);
-        r = wide_exp(&x);
-        near("exp", &r, c, limit);
-        wide_sin_cos(&x, &r, &s);
+        r = fixed_exp(&x);
+        check_near("exp", &r, c, limit);
+        fixed_sin_cos(&x, &r, &s);
         mpfr_sin(c, a, MPFR_RNDN);
-        near("sin", &r, c, limit);
+        check_near("sin", &r, c, limit);
         mpfr_cos(c, a, MPFR_RNDN);
-        near("cos", &s, c, limit);
+        check_near("cos", &s, c, limit);
         double m = 0.703125 * (1 + unit(&seed));
         int exponent = (int)(next_bits(&seed) % 2000) - 1000;
         mpfr_set_d(c, m, MPFR_RNDN);
         mpfr_mul_2si(c, c, exponent, MPFR_RNDN);
         mpfr_log(c, c, MPFR_RNDN);
-        r = wide_log(m, exponent, size);
-        near("log", &r, c, limit);
-        r = random_wide(&seed, size, b);
+        r = fixed_log(m, exponent, size);
+        check_near("log", &r, c, limit);
+        r = random_fixed(&seed, size, b);
         r.limb[size - 1] |= UINT64_C(1) << 63;
-        read_wide(b, &r);
-        x = random_wide(&seed, size, a);
-        s = wide_mul(&x, &r);
-        read_wide(a, &s);
+        parse_fixed(b, &r);
+        x = random_fixed(&seed, size, a);
+        s = fixed_mul(&x, &r);
+        parse_fixed(a, &s);
         mpfr_atan2(c, a, b, MPFR_RNDN);
-        s = wide_atan(&s, &r);
-        near("atan", &s, c, limit);
+        s = fixed_atan(&s, &r);
+        check_near("atan", &s, c, limit);
     }
 }
 
@@ -181,7 +180,7 @@ static void test_turns(void **state) {
     for (int i = 0; i < 2000; i++) {
         int size = sizes[i % 3], quadrant;
         double x = ldexp(1 + unit(&seed), (int)(next_bits(&seed) % 1050) - 27) * (i & 4 ? -1 : 1);
-        Wide r = wide_turn(x, size, &quadrant);
+        Fixed r = fixed_reduce(x, size, &quadrant);
         mpfr_t turns, rest;
         mpfr_inits2(4000, turns, rest, (mpfr_ptr)0);
         mpfr_set_d(turns, x, MPFR_RNDN);
@@ -189,7 +188,7 @@ static void test_turns(void **state) {
         mpfr_rint(rest, turns, MPFR_RNDN);
         mpfr_sub(turns, turns, rest, MPFR_RNDN);
         mpfr_mul(turns, turns, pi, MPFR_RNDN);
-        near("turn", &r, turns, 4);
+        check_near("turn", &r, turns, 4);
         mpfr_fmod_ui(rest, rest, 4, MPFR_RNDN);
         assert_int_equal((mpfr_get_si(rest, MPFR_RNDN) + 4) % 4, quadrant);
         mpfr_clears(turns, rest, (mpfr_ptr)0);

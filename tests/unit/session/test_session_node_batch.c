@@ -1,10 +1,9 @@
-// test_session_rows.c: what a loop makes under a node may be kept as rows of numbers (lib/value/run.h): nothing shows
-// it but the memory that it takes.
+// test_session_node_batch.c: what a loop makes under a node may be kept as rows of numbers (lib/value/node_batch.h):
+// nothing shows it but the memory that it takes.
 #include "player.h"
-
 #include "session/session.h"
 
-enum { VARIANTS = 4, LOOPS = 5 };
+enum { VARIANTS = 4, LOOPS = 7 };
 
 // What is made in each round.
 static const char *const nodes[] = {
@@ -21,15 +20,17 @@ static const char *const nodes[] = {
     "!particle id=i x=uniform(i)[0] y=hypot(i;'a')",
     "!particle id=i x=i x=i+1",
 };
-static const char *const loops[LOOPS] = {"..40", "(5;..40)", "..20|0.5", "(x/3 for x in ..100)", "..3"};
+static const char *const loops[LOOPS] = {"..40", "(5;..40)",  "..20|0.5",    "(x/3 for x in ..100)",
+                                         "..3",  "(..40)*-1", "(-0;(1..40))"};
 
 // A script with loops under nodes, or with the vector of what such a loop makes, which has no rows.
-static const char *script(char *text, size_t size, bool in_place, bool dynamic, const char *node, const char *loop) {
-    const char *zero = dynamic ? "+0*frame" : "";
+static const char *make_script(char *text, size_t size, bool in_place, bool dynamic, const char *node,
+                               const char *loop) {
+    const char *factor = dynamic ? "*(1+0*frame)" : ""; // keeps the sign of zero
     char made[1000] = "many", line[1000] = "many";
     if (in_place) {
-        snprintf(made, sizeof made, "((%s) for i in %s%s)", node, loop, zero);
-        snprintf(line, sizeof line, "for i in %s%s\n                %s", loop, zero, node);
+        snprintf(made, sizeof made, "((%s) for i in %s%s)", node, loop, factor);
+        snprintf(line, sizeof line, "for i in %s%s\n                %s", loop, factor, node);
     }
     snprintf(text, size,
              "let many=((%s) for i in %s%s)\n"
@@ -38,40 +39,40 @@ static const char *script(char *text, size_t size, bool in_place, bool dynamic, 
              "!top\n    !first\n    for j in ..2\n        !group\n            %s\n            !last\n"
              "!same v=(a==b);(a<b);(a in b) w=uniform(a)[..2] x=len(a) y=str(a) z=debug(a)\n"
              "!holder n=a\n",
-             node, loop, zero, made, line);
+             node, loop, factor, made, line);
     return text;
 }
 
-static const char *run(Player *player, bool in_place, bool dynamic, int node, int loop, bool simplify) {
+static const char *run_variant(Player *player, bool in_place, bool dynamic, int node, int loop, bool simplify) {
     char text[4000];
     PetriOptions options = player_options(player);
     options.simplify = simplify;
     player_reopen(player, &options);
-    player_run(player, script(text, sizeof text, in_place, dynamic, nodes[node], loops[loop]), 2);
+    player_run(player, make_script(text, sizeof text, in_place, dynamic, nodes[node], loops[loop]), 2);
     return player_print(player, PETRI_PRINT_TREE | PETRI_PRINT_LOG);
 }
 
 // Where nodes are rows and where they are not, trees are the same.
-static void test_same(void **state) {
+static void test_batched_nodes_match_single_nodes(void **state) {
     Player *player = *state;
     for (int node = 0; node < (int)COUNT_OF(nodes); node++)
         for (int loop = 0; loop < LOOPS; loop++) {
-            char *plain = strdup(run(player, false, true, node, loop, false));
+            char *plain = strdup(run_variant(player, false, true, node, loop, false));
             assert_true(strstr(plain, "!same v=1;") != NULL);
             for (int variant = 0; variant < VARIANTS; variant++)
-                assert_text(nodes[node], run(player, true, variant & 1, node, loop, variant & 2), plain);
+                assert_text(nodes[node], run_variant(player, true, variant & 1, node, loop, variant & 2), plain);
             free(plain);
         }
 }
 
 // Adds up what petri_tree_* shows of a node.
-static void count(const PetriNode *node, int *kinds, double *sum) {
+static void count_nodes(const PetriNode *node, int *kinds, double *sum) {
     PetriValue v = petri_tree_get(node, "id");
     *kinds += strcmp(petri_tree_kind(node), "particle") == 0;
     *sum += v.length == 1 ? v.numbers[0] : 0;
     const PetriNode *child;
     for (uint32_t i = 0; (child = petri_tree_child(node, i)) != NULL; i++)
-        count(child, kinds, sum);
+        count_nodes(child, kinds, sum);
 }
 
 // A host sees nodes, each with its own numbers; systems go on from frame to frame whether it looks or not.
@@ -86,7 +87,7 @@ static void test_host(void **state) {
         int kinds = 0;
         double sum = 0;
         assert_int_equal(top.length, 1);
-        count(top.items[0].as.node, &kinds, &sum);
+        count_nodes(top.items[0].as.node, &kinds, &sum);
         assert_int_equal(kinds, 2000);
         assert_number("ids", sum, 1999 * 1000);
         player_step(player, 1);
@@ -115,7 +116,7 @@ static void test_bytes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_same),
+        PLAYER_TEST(test_batched_nodes_match_single_nodes),
         PLAYER_TEST(test_host),
         PLAYER_TEST(test_bytes),
     };

@@ -1,68 +1,68 @@
-// test_state_series.c: keys of particles whose ids count up have no entries of their own, which nothing shows but
+// test_state_key_range.c: keys of particles whose ids count up have no entries of their own, which nothing shows but
 // memory.
+#include "base/budget.h"
+#include "state/state.h"
+
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
-
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/meter.h"
-#include "state/state.h"
+#include <cmocka.h>
 
 enum { PAIRS = 200, SLOTS = 2 * PAIRS, NUMBERS = 2, OPERATIONS = 40, ROUNDS = 300 };
 static const double PREFIX = -7, SYMBOL = -8;
 
-static Value key_of(double id, bool velocity, double room[3]) {
-    memcpy(room, (double[]){PREFIX, id, SYMBOL}, 3 * sizeof *room);
-    return value_numbers_view(room, velocity ? 3 : 2);
+static Value key_of(double id, bool velocity, double buffer[3]) {
+    memcpy(buffer, (double[]){PREFIX, id, SYMBOL}, 3 * sizeof *buffer);
+    return value_numbers_view(buffer, velocity ? 3 : 2);
 }
 
 static StateSlot slot_of(const State *state, double id, bool velocity) {
-    double room[3];
-    return state_find(state, key_of(id, velocity, room));
+    double buffer[3];
+    return state_find(state, key_of(id, velocity, buffer));
 }
 
 static void add_pairs(State *state, int first, int count) {
-    double room[3];
+    double buffer[3];
     for (int i = 0; i < 2 * count; i++)
-        assert_int_not_equal(state_slot(state, key_of(first + i / 2, i % 2, room)), STATE_NO_SLOT);
+        assert_int_not_equal(state_slot(state, key_of(first + i / 2, i % 2, buffer)), STATE_NO_SLOT);
 }
 
 // However long the series is, it takes no memory until somebody asks for keys or writes an entry of his own.
 static void test_memory(void **unused) {
     enum { MANY = 100000 };
     (void)unused;
-    Meter meter = {.memory_limit = SIZE_MAX};
-    State *state = state_new(&meter);
-    double *rows = calloc(MANY, 2 * NUMBERS * sizeof *rows), room[STATE_KEY_ROOM];
+    Budget budget = {.memory_limit = SIZE_MAX};
+    State *state = state_new(&budget);
+    double *rows = calloc(MANY, 2 * NUMBERS * sizeof *rows), buffer[STATE_KEY_BUFFER];
     add_pairs(state, 0, MANY);
-    StateLender lender = state_add_lender(state);
+    StateOwner owner = state_add_owner(state);
     for (StateSlot slot = 0; slot < 2 * MANY; slot++)
-        state_slot_borrow(state, slot, lender, rows + (size_t)NUMBERS * slot, NUMBERS);
+        state_slot_reference(state, slot, owner, rows + (size_t)NUMBERS * slot, NUMBERS);
     assert_int_equal(state_count(state), 2 * MANY);
-    assert_true(state_get(state, key_of(MANY / 2, true, room)).as.numbers == rows + NUMBERS * (MANY + 1));
+    assert_true(state_get(state, key_of(MANY / 2, true, buffer)).as.numbers == rows + NUMBERS * (MANY + 1));
     uint32_t cursor = 0, seen = 0;
-    for (Value key, value; state_next(state, &cursor, &key, &value, room); seen++)
+    for (Value key, value; state_next(state, &cursor, &key, &value, buffer); seen++)
         assert_true(key.len == 2 + seen % 2 && key.as.numbers[1] == seen / 2);
     assert_int_equal(seen, 2 * MANY);
-    assert_true(meter.memory < MANY);
+    assert_true(budget.memory < MANY);
     // Without memory for entries nothing changes.
-    meter.memory_limit = meter.memory + MANY;
+    budget.memory_limit = budget.memory + MANY;
     assert_false(state_slot_set(state, 7, value_number(1)));
-    assert_true(state_take_exhausted(state));
+    assert_true(state_clear_exhausted(state));
     assert_true(state_slot_get(state, 7).as.numbers == rows + 7 * NUMBERS && state_count(state) == 2 * MANY);
-    assert_true(state_slot_key(state, 7).len == 0 && state_take_exhausted(state));
-    meter.memory_limit = SIZE_MAX;
+    assert_true(state_slot_key(state, 7).len == 0 && state_clear_exhausted(state));
+    budget.memory_limit = SIZE_MAX;
     assert_true(state_slot_set(state, 7, value_number(1)));
-    assert_true(state_take_disturbed(state, lender));
+    assert_true(state_clear_modified(state, owner));
     assert_true(state_slot_get(state, 7).as.number == 1 && state_slot_key(state, 7).as.numbers[1] == 3);
-    assert_true(slot_of(state, MANY - 1, true) == 2 * MANY - 1 && meter.memory > MANY);
+    assert_true(slot_of(state, MANY - 1, true) == 2 * MANY - 1 && budget.memory > MANY);
     state_free(state);
-    assert_int_equal(meter.memory, 0);
+    assert_int_equal(budget.memory, 0);
     free(rows);
 }
 
@@ -70,16 +70,16 @@ static void test_memory(void **unused) {
 static void test_keys(void **unused) {
     (void)unused;
     State *state = state_new(NULL);
-    double room[3];
+    double buffer[3];
     add_pairs(state, 0, PAIRS);
     static const double strangers[] = {-0.0, 0.5, -1, PAIRS, 1e300, -1e300};
     for (size_t i = 0; i < sizeof strangers / sizeof *strangers; i++)
         assert_int_equal(slot_of(state, strangers[i], false), STATE_NO_SLOT);
     assert_int_equal(state_find(state, value_numbers_view((double[]){PREFIX, 1, SYMBOL + 1}, 3)), STATE_NO_SLOT);
     assert_int_equal(state_find(state, value_numbers_view((double[]){PREFIX + 1, 1}, 2)), STATE_NO_SLOT);
-    assert_int_equal(state_slot(state, key_of(-0.0, false, room)), SLOTS);
+    assert_int_equal(state_slot(state, key_of(-0.0, false, buffer)), SLOTS);
     assert_int_equal(state_slot(state, value_number(PREFIX)), SLOTS + 1);
-    assert_int_equal(state_slot(state, key_of(PAIRS, false, room)), SLOTS + 2); // after others: no more of the series
+    assert_int_equal(state_slot(state, key_of(PAIRS, false, buffer)), SLOTS + 2); // after others: no more of the series
     assert_int_equal(slot_of(state, 0, false), 0);
     assert_int_equal(slot_of(state, PAIRS, false), SLOTS + 2);
     assert_true(state_slot_last_number(state, 5, 2) != state_slot_last_number(state, 5, 2));
@@ -89,10 +89,30 @@ static void test_keys(void **unused) {
     state_free(state);
 }
 
+// A series may begin with the key -0, which is not the key 0.
+static void test_series_from_negative_zero(void **unused) {
+    enum { FIRST = 2 };
+    (void)unused;
+    State *state = state_new(NULL);
+    double buffer[STATE_KEY_BUFFER];
+    for (int i = 0; i < FIRST; i++) // a series can begin only after other entries
+        assert_int_equal(state_slot(state, value_number(i)), i);
+    for (int i = 0; i < SLOTS; i++)
+        assert_int_equal(state_slot(state, key_of(i < 2 ? -0.0 : i / 2, i % 2, buffer)), FIRST + i);
+    assert_int_equal(slot_of(state, 0, false), STATE_NO_SLOT);
+    assert_int_equal(slot_of(state, -0.0, false), FIRST);
+    assert_int_equal(slot_of(state, -0.0, true), FIRST + 1);
+    assert_int_equal(slot_of(state, 1, false), FIRST + 2);
+    assert_true(signbit(state_slot_last_number(state, FIRST, 2)));
+    assert_true(signbit(state_slot_key_in(state, FIRST, buffer).as.numbers[1]));
+    assert_true(signbit(state_slot_key(state, FIRST + 1).as.numbers[1]));
+    state_free(state);
+}
+
 // What the dictionary should hold.
 typedef struct Model {
     State *state;
-    StateLender lender;
+    StateOwner owner;
     double rows[2][SLOTS * NUMBERS]; // that were lent last, and before
     int turn;
     StateSlot slots[SLOTS]; // by key; STATE_NO_SLOT: gone
@@ -100,11 +120,11 @@ typedef struct Model {
     bool has[SLOTS];
 } Model;
 
-static void check(const Model *model) {
+static void check_model(const Model *model) {
     uint32_t live = 0;
     for (uint32_t i = 0; i < SLOTS; i++) {
-        double room[3];
-        Value key = key_of(i / 2, i % 2, room);
+        double buffer[3];
+        Value key = key_of(i / 2, i % 2, buffer);
         StateSlot slot = model->slots[i];
         assert_int_equal(state_find(model->state, key), slot);
         if (slot == STATE_NO_SLOT)
@@ -118,7 +138,7 @@ static void check(const Model *model) {
     assert_int_equal(state_count(model->state), live);
 }
 
-static void lend(Model *model, uint32_t from, uint32_t to) {
+static void reference_numbers(Model *model, uint32_t from, uint32_t to) {
     double *rows = model->rows[model->turn = 1 - model->turn];
     for (uint32_t i = from; i < to; i++) {
         if (model->slots[i] == STATE_NO_SLOT)
@@ -126,16 +146,16 @@ static void lend(Model *model, uint32_t from, uint32_t to) {
         for (int k = 0; k < NUMBERS; k++)
             model->values[i][k] = rows[NUMBERS * i + (uint32_t)k] = rand();
         model->has[i] = true;
-        state_slot_borrow(model->state, model->slots[i], model->lender, rows + (size_t)NUMBERS * i, NUMBERS);
+        state_slot_reference(model->state, model->slots[i], model->owner, rows + (size_t)NUMBERS * i, NUMBERS);
     }
     // What was lent before goes, as at the end of a frame: who still has it gets a copy.
     for (uint32_t i = 0; i < SLOTS; i++)
         if (i < from || i >= to)
-            assert_true(state_slot_own_copy(model->state, model->slots[i], model->lender));
+            assert_true(state_slot_detach(model->state, model->slots[i], model->owner));
     memset(model->rows[1 - model->turn], 0, sizeof model->rows[0]);
 }
 
-static void compact(Model *model) {
+static void compact_state(Model *model) {
     uint8_t used[SLOTS];
     StateSlot moved[SLOTS];
     for (uint32_t i = 0; i < SLOTS; i++)
@@ -148,7 +168,7 @@ static void compact(Model *model) {
         }
 }
 
-static void set(Model *model, uint32_t i, bool value) {
+static void set_value(Model *model, uint32_t i, bool value) {
     double numbers[NUMBERS] = {rand(), 1};
     if (model->slots[i] == STATE_NO_SLOT)
         return;
@@ -159,29 +179,29 @@ static void set(Model *model, uint32_t i, bool value) {
 }
 
 // Whatever is done to a series, its keys and values are those of so many entries.
-static void test_anything(void **unused) {
+static void test_random_operations(void **unused) {
     (void)unused;
     srand(1);
     for (int round = 0; round < ROUNDS; round++) {
         Model *model = calloc(1, sizeof *model);
         model->state = state_new(NULL);
-        model->lender = state_add_lender(model->state);
+        model->owner = state_add_owner(model->state);
         add_pairs(model->state, 0, PAIRS);
         for (uint32_t i = 0; i < SLOTS; i++)
             model->slots[i] = i;
         for (int i = 0; i < OPERATIONS; i++) {
             uint32_t some = (uint32_t)rand() % SLOTS, kind = (uint32_t)rand() % 64;
             if (kind < 30)
-                lend(model, 0, SLOTS);
+                reference_numbers(model, 0, SLOTS);
             else if (kind < 34)
-                lend(model, kind % 2 ? some : 0, kind % 2 ? SLOTS : some);
+                reference_numbers(model, kind % 2 ? some : 0, kind % 2 ? SLOTS : some);
             else if (kind < 36)
-                set(model, some, kind % 2);
+                set_value(model, some, kind % 2);
             else if (kind == 36)
-                compact(model);
+                compact_state(model);
             else if (kind == 37)
                 assert_true(state_slot_key(model->state, some % state_slot_count(model->state)).len > 1);
-            check(model);
+            check_model(model);
         }
         state_free(model->state);
         free(model);
@@ -192,7 +212,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_memory),
         cmocka_unit_test(test_keys),
-        cmocka_unit_test(test_anything),
+        cmocka_unit_test(test_series_from_negative_zero),
+        cmocka_unit_test(test_random_operations),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

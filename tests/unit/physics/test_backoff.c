@@ -1,12 +1,12 @@
-// test_help.c: when threads ask each other for help, and that a busy machine makes them stop, by played time.
-#include "physics/help.h"
+// test_backoff.c: when threads ask each other for help, and that a busy machine makes them stop, by played time.
+#include "physics/backoff.h"
 #include "support.h"
 
 // A machine on which jobs take so long alone, and so long with help.
 enum { ALONE = 20000, HELPED = 12000, SECOND = 1000000000 };
 
 typedef struct Machine {
-    PhysHelp help;
+    PhysBackoff help;
     uint64_t now;
     uint64_t worked; // what all jobs would have taken alone
     uint64_t asked;  // jobs that others were asked to help with
@@ -15,10 +15,10 @@ typedef struct Machine {
 // How long the caller waits for a helper that has begun a share at a time; UINT64_MAX if nobody comes.
 typedef uint64_t Answer(uint64_t now);
 
-static void play(Machine *machine, Answer *answer, uint64_t duration) {
+static void play_jobs(Machine *machine, Answer *answer, uint64_t duration) {
     for (uint64_t end = machine->now + duration; machine->now < end; machine->worked += ALONE) {
         PhysJobTimes job = {.begin = machine->now};
-        if (phys_help_pauses(&machine->help, machine->now)) {
+        if (phys_backoff_pauses(&machine->help, machine->now)) {
             machine->now += ALONE;
             continue;
         }
@@ -27,7 +27,7 @@ static void play(Machine *machine, Answer *answer, uint64_t duration) {
         job.answered = waited != UINT64_MAX;
         job.waited = job.answered ? waited : 0;
         job.end = machine->now += job.answered ? HELPED + waited : ALONE;
-        phys_help_learn(&machine->help, &job);
+        phys_backoff_learn(&machine->help, &job);
     }
 }
 
@@ -64,9 +64,9 @@ static double ratio(const Machine *machine) {
 static void test_quiet(void **state) {
     (void)state;
     Machine machine = {0};
-    play(&machine, at_once, SECOND);
+    play_jobs(&machine, at_once, SECOND);
     assert_near(ratio(&machine), (double)HELPED / ALONE, 1e-9);
-    assert_int_equal(machine.help.pause, 0);
+    assert_int_equal(machine.help.pause_length, 0);
 }
 
 // Never slower than alone, but for a percent or two.
@@ -75,7 +75,7 @@ static void test_busy(void **state) {
     Answer *answers[] = {half_of_the_time, always_late, nobody};
     for (size_t i = 0; i < COUNT_OF(answers); i++) {
         Machine machine = {0};
-        play(&machine, answers[i], 10ull * SECOND);
+        play_jobs(&machine, answers[i], 10ull * SECOND);
         assert_true(ratio(&machine) < 1.02);
         assert_true(machine.asked * ALONE < machine.worked / 10);
     }
@@ -84,7 +84,7 @@ static void test_busy(void **state) {
 static void test_disturbed(void **state) {
     (void)state;
     Machine machine = {0};
-    play(&machine, now_and_then, 10ull * SECOND);
+    play_jobs(&machine, now_and_then, 10ull * SECOND);
     assert_true(ratio(&machine) < 0.75);
 }
 
@@ -94,52 +94,53 @@ static void test_quiet_again(void **state) {
     Answer *answers[] = {half_of_the_time, always_late, nobody};
     for (size_t i = 0; i < COUNT_OF(answers); i++) {
         Machine machine = {0};
-        play(&machine, answers[i], 10ull * SECOND);
-        play(&machine, at_once, SECOND);
+        play_jobs(&machine, answers[i], 10ull * SECOND);
+        play_jobs(&machine, at_once, SECOND);
         uint64_t asked = machine.asked, before = machine.now;
-        play(&machine, at_once, SECOND);
+        play_jobs(&machine, at_once, SECOND);
         assert_int_equal(machine.asked - asked, (machine.now - before) / HELPED);
     }
 }
 
 static void test_unanswered(void **state) {
     (void)state;
-    PhysHelp help = {0};
+    PhysBackoff help = {0};
     PhysJobTimes alone = {.begin = 100, .end = 200}, helped = {.begin = 200, .end = 300, .answered = true};
-    for (int i = 1; i < 10 * PHYS_MOST_UNANSWERED; i++)
-        phys_help_learn(&help, i % PHYS_MOST_UNANSWERED ? &alone : &helped);
-    assert_false(phys_help_pauses(&help, 301));
-    phys_help_learn(&help, &alone);
-    assert_true(phys_help_pauses(&help, 201));
+    for (int i = 1; i < 10 * PHYS_MAX_UNANSWERED; i++)
+        phys_backoff_learn(&help, i % PHYS_MAX_UNANSWERED ? &alone : &helped);
+    assert_false(phys_backoff_pauses(&help, 301));
+    phys_backoff_learn(&help, &alone);
+    assert_true(phys_backoff_pauses(&help, 201));
 }
 
 // Jobs on a machine where help makes them take `helped` instead of `alone`; returns the mean of the last rounds.
-static double play_trial(PhysTrial *trial, double alone, double helped) {
-    enum { JOBS = 8 * PHYS_TRIAL_ROUND };
+static double play_tuner(PhysTuner *tuner, double alone, double helped) {
+    enum { JOBS = 8 * PHYS_TUNER_PERIOD };
     double sum = 0;
     for (int i = 0; i < JOBS; i++) {
-        bool asks = phys_trial_asks(trial);
+        bool asks = phys_tuner_should_help(tuner);
         double took = asks ? helped : alone;
-        if (asks || !phys_trial_skips(trial))
-            phys_trial_learn(trial, asks, i % 50 ? took : took * 100); // now and then something else disturbs
+        if (asks || !phys_tuner_skip(tuner))
+            phys_tuner_learn(tuner, asks, i % 50 ? took : took * 100); // now and then something else disturbs
         sum += i < JOBS / 2 ? 0 : took;
     }
     return sum / (JOBS / 2);
 }
 
 // The faster way is found, and found again when cores have moved.
-static void test_trials(void **state) {
+static void test_tuner_picks_faster(void **state) {
     (void)state;
-    PhysTrial trial = {0};
-    assert_true(play_trial(&trial, 20, 12) < 12.3);
-    assert_true(play_trial(&trial, 20, 24) < 20.3);
-    assert_true(play_trial(&trial, 20, 12) < 12.3);
+    PhysTuner tuner = {0};
+    assert_true(play_tuner(&tuner, 20, 12) < 12.3);
+    assert_true(play_tuner(&tuner, 20, 24) < 20.3);
+    assert_true(play_tuner(&tuner, 20, 12) < 12.3);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_quiet),       cmocka_unit_test(test_busy),       cmocka_unit_test(test_disturbed),
-        cmocka_unit_test(test_quiet_again), cmocka_unit_test(test_unanswered), cmocka_unit_test(test_trials),
+        cmocka_unit_test(test_quiet),      cmocka_unit_test(test_busy),
+        cmocka_unit_test(test_disturbed),  cmocka_unit_test(test_quiet_again),
+        cmocka_unit_test(test_unanswered), cmocka_unit_test(test_tuner_picks_faster),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,5 @@
-// test_session_kept.c: what does not change from frame to frame keeps its address, and only that says so.
+// test_session_constant_nodes.c: what does not change from frame to frame keeps its address, and only that says so.
 #include "player.h"
-
 #include "session/session.h"
 
 static const Node *top_node(const Player *player) {

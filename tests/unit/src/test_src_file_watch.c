@@ -1,7 +1,6 @@
-// test_src_watch.c: changes on disk are told once, however an editor makes them, and not before they are whole.
+// test_src_file_watch.c: changes on disk are told once, however an editor makes them, and not before they are whole.
+#include "cli/file_watch.h"
 #include "folder.h"
-
-#include "cli/watch.h"
 
 #include <poll.h>
 #include <time.h>
@@ -10,21 +9,21 @@ enum { PATIENCE_MS = 20000, QUIET_MS = 300 };
 
 typedef struct Site {
     Folder folder;
-    Watch *watch;
+    FileWatch *watch;
 } Site;
 
 static int site_open(void **state) {
     Site *site = calloc(1, sizeof *site);
     assert_non_null(site);
     folder_open(&site->folder);
-    site->watch = watch_new();
+    site->watch = file_watch_new();
     *state = site;
     return 0;
 }
 
 static int site_close(void **state) {
     Site *site = *state;
-    watch_free(site->watch);
+    file_watch_free(site->watch);
     folder_close(&site->folder);
     free(site);
     return 0;
@@ -37,13 +36,13 @@ static long milliseconds(void) {
 }
 
 // Waits as a host does, by poll where that is possible, until a change is told; false after `limit`.
-static bool wait_changed(Watch *watch, long limit) {
+static bool wait_changed(FileWatch *watch, long limit) {
     long end = milliseconds() + limit;
     for (long left = limit; left > 0; left = end - milliseconds()) {
-        int descriptor = watch_descriptor(watch);
+        int descriptor = file_watch_descriptor(watch);
         struct pollfd wake = {.fd = descriptor, .events = POLLIN};
         poll(&wake, 1, (int)(descriptor < 0 ? 20 : left));
-        if (watch_changed(watch))
+        if (file_watch_changed(watch))
             return true;
     }
     return false;
@@ -58,9 +57,9 @@ static void write_plainly(Folder *folder, const char *name, const char *text) {
 
 static void test_nothing_changes(void **state) {
     Site *site = *state;
-    assert_false(watch_changed(site->watch));
+    assert_false(file_watch_changed(site->watch));
     folder_write(&site->folder, "a.fl", "1");
-    watch_file(site->watch, folder_file(&site->folder, "a.fl"));
+    file_watch_add(site->watch, folder_file(&site->folder, "a.fl"));
     assert_false(wait_changed(site->watch, QUIET_MS));
     write_plainly(&site->folder, "b.fl", "a neighbour");
     assert_false(wait_changed(site->watch, QUIET_MS));
@@ -69,7 +68,7 @@ static void test_nothing_changes(void **state) {
 static void test_written_in_place(void **state) {
     Site *site = *state;
     folder_write(&site->folder, "a.fl", "1");
-    watch_file(site->watch, folder_file(&site->folder, "a.fl"));
+    file_watch_add(site->watch, folder_file(&site->folder, "a.fl"));
     for (int i = 0; i < 3; i++) {
         folder_write(&site->folder, "a.fl", "2");
         assert_true(wait_changed(site->watch, PATIENCE_MS));
@@ -82,7 +81,7 @@ static void test_replaced_by_rename(void **state) {
     char to[600];
     folder_write(&site->folder, "a.fl", "1");
     snprintf(to, sizeof to, "%s", folder_file(&site->folder, "a.fl"));
-    watch_file(site->watch, to);
+    file_watch_add(site->watch, to);
     for (int i = 0; i < 3; i++) {
         folder_write(&site->folder, "a.fl~", "22");
         assert_int_equal(rename(folder_file(&site->folder, "a.fl~"), to), 0);
@@ -94,7 +93,7 @@ static void test_replaced_by_rename(void **state) {
 static void test_removed_and_made_again(void **state) {
     Site *site = *state;
     folder_write(&site->folder, "a.fl", "1");
-    watch_file(site->watch, folder_file(&site->folder, "a.fl"));
+    file_watch_add(site->watch, folder_file(&site->folder, "a.fl"));
     assert_int_equal(remove(folder_file(&site->folder, "a.fl")), 0);
     assert_false(wait_changed(site->watch, QUIET_MS));
     folder_write(&site->folder, "a.fl", "2");
@@ -105,7 +104,7 @@ static void test_removed_and_made_again(void **state) {
 static void test_pipe_in_its_place(void **state) {
     Site *site = *state;
     folder_write(&site->folder, "a.fl", "1");
-    watch_file(site->watch, folder_file(&site->folder, "a.fl"));
+    file_watch_add(site->watch, folder_file(&site->folder, "a.fl"));
     assert_int_equal(remove(folder_file(&site->folder, "a.fl")), 0);
     assert_int_equal(mkfifo(folder_file(&site->folder, "a.fl"), 0600), 0);
     assert_false(wait_changed(site->watch, QUIET_MS));
@@ -113,7 +112,7 @@ static void test_pipe_in_its_place(void **state) {
 
 static void test_made_later(void **state) {
     Site *site = *state;
-    watch_file(site->watch, folder_file(&site->folder, "later.fl"));
+    file_watch_add(site->watch, folder_file(&site->folder, "later.fl"));
     assert_false(wait_changed(site->watch, QUIET_MS));
     folder_write(&site->folder, "later.fl", "1");
     assert_true(wait_changed(site->watch, PATIENCE_MS));
@@ -124,7 +123,7 @@ static void test_folder_made_again(void **state) {
     char folder[600], file[700];
     snprintf(folder, sizeof folder, "%s", folder_file(&site->folder, "inner"));
     snprintf(file, sizeof file, "%s/a.fl", folder);
-    watch_file(site->watch, file);
+    file_watch_add(site->watch, file);
     for (int i = 0; i < 2; i++) {
         assert_int_equal(mkdir(folder, 0700), 0);
         folder_write(&site->folder, "inner/a.fl", "1");
@@ -137,10 +136,10 @@ static void test_folder_made_again(void **state) {
 // A writer that has not closed its file is waited for, though it pauses for longer than the usual quiet.
 static void test_half_written(void **state) {
     Site *site = *state;
-    if (watch_descriptor(site->watch) < 0)
+    if (file_watch_descriptor(site->watch) < 0)
         skip(); // a look by time cannot know that the file is still open
     folder_write(&site->folder, "a.fl", "1");
-    watch_file(site->watch, folder_file(&site->folder, "a.fl"));
+    file_watch_add(site->watch, folder_file(&site->folder, "a.fl"));
     FILE *file = fopen(folder_file(&site->folder, "a.fl"), "wb");
     assert_non_null(file);
     assert_true(fputs("!group", file) >= 0 && fflush(file) == 0);
@@ -156,7 +155,7 @@ static void test_link(void **state) {
     folder_open(&other);
     folder_write(&other, "target.fl", "1");
     assert_int_equal(symlink(folder_file(&other, "target.fl"), folder_file(&site->folder, "a.fl")), 0);
-    watch_file(site->watch, folder_file(&site->folder, "a.fl"));
+    file_watch_add(site->watch, folder_file(&site->folder, "a.fl"));
     folder_write(&other, "target.fl", "2");
     assert_true(wait_changed(site->watch, PATIENCE_MS));
     folder_close(&other);
@@ -167,8 +166,8 @@ static void test_several_files_at_once(void **state) {
     static const char *const names[] = {"a.fl", "b.fl", "c.fl"};
     for (int i = 0; i < 3; i++) {
         folder_write(&site->folder, names[i], "1");
-        watch_file(site->watch, folder_file(&site->folder, names[i]));
-        watch_file(site->watch, folder_file(&site->folder, names[i])); // twice is once
+        file_watch_add(site->watch, folder_file(&site->folder, names[i]));
+        file_watch_add(site->watch, folder_file(&site->folder, names[i])); // twice is once
     }
     for (int i = 0; i < 3; i++)
         folder_write(&site->folder, names[i], "2");
@@ -181,7 +180,7 @@ static void test_several_files_at_once(void **state) {
 
 static void test_free_nothing(void **state) {
     (void)state;
-    watch_free(NULL);
+    file_watch_free(NULL);
 }
 
 int main(void) {
