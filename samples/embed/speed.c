@@ -18,15 +18,15 @@ static const char script[] = "%pragma fps 60\n"
                              "!counter state=:age rate=1\n";
 
 // A push that is another for each particle: two numbers for one.
-static PetriValue kick(PetriCall *call, void *host, const PetriValue *arguments, uint32_t count) {
+static PetriValue kick(PetriCall *call, void *user_data, const PetriValue *arguments, uint32_t count) {
     (void)count;
-    double *push = petri_call_numbers(call, 2);
+    double *push = petri_call_alloc_numbers(call, 2);
     if (push == NULL || arguments[0].length != 1 || arguments[0].numbers == NULL) {
-        petri_call_fault(call, "one number is wanted");
+        petri_call_error(call, "one number is wanted");
         return (PetriValue){0};
     }
-    push[0] = *(double *)host * cos(arguments[0].numbers[0]);
-    push[1] = *(double *)host * sin(arguments[0].numbers[0]);
+    push[0] = *(double *)user_data * cos(arguments[0].numbers[0]);
+    push[1] = *(double *)user_data * sin(arguments[0].numbers[0]);
     return (PetriValue){.length = 2, .numbers = push};
 }
 
@@ -39,25 +39,25 @@ static double mean_speed(const PetriSystem *system) {
     return system->particle_count > 0 ? sum / system->particle_count : 0;
 }
 
-static void tell(void *host, const PetriDiagnostic *diagnostic) {
-    (void)host;
+static void tell(void *user_data, const PetriDiagnostic *diagnostic) {
+    (void)user_data;
     fputs(diagnostic->rendered, stderr);
 }
 
 int main(void) {
     double strength = 100;
     PetriOptions options = petri_default_options();
-    options.diagnostic = tell;
+    options.on_diagnostic = tell;
     PetriSession *session = petri_open(&options);
     PetriFunction function = {.size = sizeof function,
                               .name = "kick",
                               .parameters = "number",
                               .help = "A push in a direction of its own for each number.",
                               .call = kick,
-                              .host = &strength};
+                              .user_data = &strength};
     PetriStatus status = petri_add_function(session, &function);
     if (status == PETRI_OK)
-        status = petri_load_text(session, "speed.fl", script, PETRI_Z);
+        status = petri_load_text(session, "speed.fl", script, PETRI_NUL_TERMINATED);
     double key = petri_symbol(session, "age");
     for (int frame = 0; frame <= 120 && status == PETRI_OK; frame++) {
         PetriSystem gas;

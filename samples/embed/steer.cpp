@@ -30,7 +30,7 @@ class Session {
         check(petri_load_text(get(), "steer.fl", script.data(), script.size()));
     }
     void give(const char *name, double number) {
-        check(petri_give(get(), name, {1, &number, nullptr}));
+        check(petri_set_global(get(), name, {1, &number, nullptr}));
     }
     void step() {
         check(petri_step(get()));
