@@ -30,17 +30,18 @@ int arcs_of_ellipse(const double n[6], double scale, double start[2], double cur
     return count;
 }
 
-// As SVG has it (its appendix on implementing arcs): on the unit circle, the middle is found from the chord.
+// Follows the implementation notes on arcs in SVG. The arc lies on a unit circle, whose centre follows from the chord.
 int arcs_to_point(const double start[2], const double n[7], double curves[ARCS_MAX][6]) {
     double x = n[5], y = n[6], c = maths_cos(n[2] * TURN), s = maths_sin(n[2] * TURN);
     double rx = n[0], ry = n[1], dx = (x - start[0]) / 2, dy = (y - start[1]) / 2;
-    double a = (c * dx + s * dy) / rx, b = (c * dy - s * dx) / ry; // half the chord
+    double a = (c * dx + s * dy) / rx, b = (c * dy - s * dx) / ry; // half of the chord
     double half = maths_hypot(a, b);
-    if (!(half > 0) || !isfinite(half)) // no way to go, or no radius: then it is straight
+    if (!(half > 0) || !isfinite(half)) // the arc has no length or no radius: draw a line
         return 0;
     double grow = fmax(half, 1), height = sqrt(fmax(grow * grow / (half * half) - 1, 0));
     double side = (n[3] != 0) == (n[4] != 0) ? -1 : 1;
-    double mx = -b * height * side, my = a * height * side; // from the middle of the chord to that of the circle
+    double mx = -b * height * side,
+           my = a * height * side; // vector from the middle of the chord to the centre of the circle
     double from = maths_atan2(-b - my, -a - mx), to = maths_atan2(b - my, a - mx);
     double sweep = to - from + (n[4] != 0 && to < from ? TURN : n[4] == 0 && to > from ? -TURN : 0);
     int count = (int)ceil(fabs(sweep) / (TURN / 8));

@@ -1,12 +1,13 @@
-// arcs.h: parts of ellipses as Bézier curves.
+// arcs.h: conversion of elliptical arcs to Bézier curves.
 #ifndef PETRI_DRAW_ARCS_H
 #define PETRI_DRAW_ARCS_H
 
 enum { ARCS_MAX = 10 };
-// A PATH_ARC as Bézier curves, each of at most a quarter of the ellipse or, where the difference would show at this
-// scale, an eighth of it: where it starts, and two controls and an end for each. Returns their number.
+// Converts a PATH_ARC to Bézier curves and returns their number. Each curve has two control points and an end; `start`
+// is the start of the first. A curve spans at most a quarter of the ellipse, or an eighth where the error would be
+// visible at this scale (pixels per unit).
 int arcs_of_ellipse(const double n[6], double scale, double start[2], double curves[ARCS_MAX][6]);
-// The same of a PATH_ARC_TO from a point. 0: it is a straight line.
+// Converts a PATH_ARC_TO that starts at `from`. Returns the number of curves; 0: draw a straight line to its end.
 int arcs_to_point(const double from[2], const double n[7], double curves[ARCS_MAX][6]);
 
 #endif

@@ -1,4 +1,4 @@
-// automatic.c: draws particle systems by themselves; see automatic.h.
+// automatic.c: draws the automatic picture of particle systems; see automatic.h.
 #include "draw/draw.h"
 #include "maths/maths.h"
 
@@ -10,32 +10,32 @@ typedef struct Colour {
 } Colour;
 
 static const Colour GROUND = {0.06, 0.07, 0.09};
-// Radii in pixels: of a panel, of the device.
-static const double MIN_RADIUS = 2, LEAST_SEEN = 1.5;
-// The eye is 0.45 radians to the right and 0.35 above.
+// Minimum radii: in pixels of a panel, and in pixels of the target.
+static const double MIN_RADIUS = 2, MIN_DEVICE_RADIUS = 1.5;
+// The eye is 0.45 radians to the right of the front and 0.35 above it.
 static const double COS_YAW = 0.9004471023526769, SIN_YAW = 0.43496553411123023;
 static const double COS_PITCH = 0.9393727128473789, SIN_PITCH = 0.34289780745545134;
-static const double EYE = 4; // its distance, in halves of the frame
+static const double EYE = 4; // distance of the eye, in halves of the view's side
 
-// Where a system is drawn.
+// The area in which a system is drawn.
 typedef struct Panel {
     Canvas *canvas;
     const AutoSystem *system;
-    double x; // its middle
+    double x; // centre
     double y;
-    double side;  // half of it
-    double scale; // units of the picture for each of the system's
+    double side;  // half the side of the view
+    double scale; // units of the picture per unit of the system
     double width;
     double height;
-    double pixel; // the size of a pixel in the picture's units
-    double least; // the smallest radius
+    double pixel;      // size of a panel pixel in the picture's units
+    double min_radius; // minimum radius of a body, in the picture's units
 } Panel;
 
 static Colour mix_colours(Colour a, Colour b, double part) {
     return (Colour){a.r + (b.r - a.r) * part, a.g + (b.g - a.g) * part, a.b + (b.b - a.b) * part};
 }
 
-// Charge: blue, white, orange. Speed: deep blue, turquoise, pale yellow.
+// Colours of charges: blue, white, orange. Colours of speeds: deep blue, turquoise, pale yellow.
 static Colour shade_colour(const AutoSystem *system, double shade) {
     static const Colour negative = {0.25, 0.55, 1}, neutral = {0.85, 0.87, 0.9}, positive = {1, 0.5, 0.15};
     static const Colour slow = {0.2, 0.35, 0.75}, middle = {0.2, 0.75, 0.7}, fast = {1, 0.95, 0.6};
@@ -48,7 +48,7 @@ static void set_colour(cairo_t *cr, Colour c, double alpha) {
     cairo_set_source_rgba(cr, c.r, c.g, c.b, alpha);
 }
 
-// A point of a system in its panel. `depth` grows away from the eye, and `size` is the scale at that depth.
+// A point of a system, projected to its panel. `depth` grows away from the eye; `size` is the scale at that depth.
 typedef struct Projected {
     double x;
     double y;
@@ -70,7 +70,7 @@ static Projected project_point(const Panel *panel, const double position[3]) {
                        panel->scale * nearness};
 }
 
-// Far things fade into the ground.
+// Distant objects fade into the background.
 static Colour fade_with_depth(const Panel *panel, Colour colour, double depth) {
     return panel->system->dimensions < 3 ? colour : mix_colours(colour, GROUND, fmin(fmax(0.3 + 0.3 * depth, 0), 0.8));
 }
@@ -81,7 +81,7 @@ static void add_circle(Canvas *canvas, double x, double y, double radius) {
     cairo_close_path(canvas->cr);
 }
 
-// A ball: light from the upper left.
+// Sets a gradient that shades a circle like a ball lit from the upper left.
 static void set_ball(cairo_t *cr, const Projected *seen, double radius, Colour colour) {
     cairo_pattern_t *ball = cairo_pattern_create_radial(seen->x - radius * 0.35, seen->y - radius * 0.4, radius * 0.05,
                                                         seen->x - radius * 0.1, seen->y - radius * 0.1, radius * 1.15);
@@ -93,24 +93,24 @@ static void set_ball(cairo_t *cr, const Projected *seen, double radius, Colour c
     cairo_pattern_destroy(ball);
 }
 
-// What it costs to paint: as one colour, or as one of a gradient.
+// Paints for the cost model: a plain colour and a gradient.
 static const DisplayPaint PLAIN = {.composite = COMPOSITE_OVER, .source = DISPLAY_NONE},
                           SHADED = {.composite = COMPOSITE_OVER};
 
 static void draw_body(const Panel *panel, const AutoBody *body, const Projected *seen) {
     cairo_t *cr = panel->canvas->cr;
     double radius = body->radius * seen->size;
-    double shown = fmin(fmax(radius, panel->least), 4 * (panel->width + panel->height));
+    double shown = fmin(fmax(radius, panel->min_radius), 4 * (panel->width + panel->height));
     Colour colour = fade_with_depth(panel, shade_colour(panel->system, body->shade), seen->depth);
     if (body->anchor) {
         double line = 1.5 * panel->pixel;
-        add_circle(panel->canvas, seen->x, seen->y, fmax(shown - line / 2, fmax(panel->least, 3 * panel->pixel)));
+        add_circle(panel->canvas, seen->x, seen->y, fmax(shown - line / 2, fmax(panel->min_radius, 3 * panel->pixel)));
         cairo_set_line_width(cr, line);
         set_colour(cr, colour, 1);
         cairo_stroke(cr);
         return;
     }
-    bool small = shown <= panel->least, ball = panel->system->dimensions == 3 && !small;
+    bool small = shown <= panel->min_radius, ball = panel->system->dimensions == 3 && !small;
     draw_forget_path(panel->canvas);
     add_circle(panel->canvas, seen->x, seen->y, shown);
     if (!draw_charge_path(panel->canvas, ball ? &SHADED : &PLAIN, true, false)) {
@@ -124,7 +124,7 @@ static void draw_body(const Panel *panel, const AutoBody *body, const Projected 
     }
 }
 
-// The order from the farthest to the nearest; of equal ones the first first.
+// Sort key for drawing from far to near. Bodies at equal depth keep their order.
 typedef struct DepthEntry {
     Projected seen;
     uint32_t body;
@@ -171,7 +171,7 @@ static void draw_links(const Panel *panel) {
 
 static const Colour WALL = {0.75, 0.7, 0.55};
 
-// In two dimensions a line, with the side behind it shaded; in one a line across.
+// Draws a barrier of one or two dimensions: a line, with the blocked side shaded.
 static void draw_wall(const Panel *panel, const AutoBarrier *barrier) {
     cairo_t *cr = panel->canvas->cr;
     Projected at = project_point(panel, barrier->position);
@@ -181,7 +181,8 @@ static void draw_wall(const Panel *panel, const AutoBarrier *barrier) {
         return;
     nx /= length;
     ny /= length;
-    // The foot of the middle on the wall, so that the line spans the panel however far away its point is.
+    // The point of the wall that is nearest to the panel's centre. The line then spans the panel, however far away the
+    // barrier's position is.
     double along = (panel->x - at.x) * -ny + (panel->y - at.y) * nx;
     double x = at.x - ny * along, y = at.y + nx * along;
     cairo_move_to(cr, x - ny * far, y + nx * far);
@@ -197,7 +198,8 @@ static void draw_wall(const Panel *panel, const AutoBarrier *barrier) {
     cairo_fill(cr);
 }
 
-// In three dimensions a grid of lines on the part of the wall that is nearest to the middle.
+// Draws a barrier of three dimensions: a grid of lines around the point of the wall that is nearest to the view's
+// centre.
 static void draw_grid(const Panel *panel, const AutoBarrier *barrier) {
     enum { LINES = 4 };
     cairo_t *cr = panel->canvas->cr;
@@ -206,7 +208,7 @@ static void draw_grid(const Panel *panel, const AutoBarrier *barrier) {
     double away = 0, foot[3], u[3], v[3];
     for (int k = 0; k < 3; k++)
         away += (frame->middle[k] - barrier->position[k]) * n[k];
-    if (!(fabs(away) < 1.6 * frame->half)) // out of the picture
+    if (!(fabs(away) < 1.6 * frame->half)) // outside the view
         return;
     for (int k = 0; k < 3; k++)
         foot[k] = frame->middle[k] - away * n[k];
@@ -243,7 +245,7 @@ static void draw_barriers(const Panel *panel) {
 
 static const Colour MARK = {0.5, 0.55, 0.6};
 
-// Lines through the origin along the axes, as far as they are in the frame or near it.
+// Draws the axes through the origin, across the whole view.
 static void draw_origin(const Panel *panel) {
     const AutoFrame *frame = &panel->system->frame;
     uint32_t axes = panel->system->dimensions == 3 ? 3 : 2;
@@ -283,7 +285,7 @@ static void draw_panel(Panel *panel) {
     cairo_paint(cr);
     draw_origin(panel);
     draw_barriers(panel);
-    if (panel->system->dimensions == 1) { // the line that everything lies on
+    if (panel->system->dimensions == 1) { // the line that all bodies lie on
         double middle[3] = {panel->system->frame.middle[0], 0, 0};
         add_line(panel->canvas, left, project_point(panel, middle).y, left + panel->width,
                  project_point(panel, middle).y);
@@ -318,7 +320,7 @@ void draw_automatic(Canvas *canvas, const AutoPicture *picture) {
                        .width = width,
                        .height = height,
                        .pixel = fmin(width, height) / AUTO_PANEL};
-        panel.least = fmax(MIN_RADIUS * panel.pixel, LEAST_SEEN / draw_scale_of(canvas->cr));
+        panel.min_radius = fmax(MIN_RADIUS * panel.pixel, MIN_DEVICE_RADIUS / draw_scale_of(canvas->cr));
         draw_panel(&panel);
     }
 }

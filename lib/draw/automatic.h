@@ -1,11 +1,11 @@
-// automatic.h: the picture of particle systems by themselves, for scripts that do not draw.
+// automatic.h: the automatic picture of particle systems, for scripts that do not draw.
 //
-// Each system gets a panel of its own. One and two dimensions are seen from above (y upwards, as in physics), three in
-// perspective from the front, a little to the right and above.
+// Each system gets a separate panel. Systems of one and two dimensions are seen from above (y upwards, as in physics),
+// systems of three in perspective from the front, a little to the right and above.
 //
-// The frame is chosen from the first frame that has particles, and grows about its middle when particles leave it, so
-// it depends only on the particles of the frames that auto_frame was called for, and never shrinks. Lines through the
-// origin, and a bar with its length, show what moved.
+// The view is chosen from the first frame that has particles. It grows about its centre when particles leave it, and
+// never shrinks. It depends only on the particles of the frames for which auto_frame was called. Lines through the
+// origin and a scale bar with its length give orientation.
 #ifndef PETRI_DRAW_AUTOMATIC_H
 #define PETRI_DRAW_AUTOMATIC_H
 
@@ -30,25 +30,25 @@ typedef struct AutoBarrier {
     double normal[3];
 } AutoBarrier;
 
-// Sides in pixels: a panel's shorter side has AUTO_PANEL, of which AUTO_MARGIN on each side stays free.
+// Sides in pixels: the shorter side of a panel is AUTO_PANEL. A share of AUTO_MARGIN stays free on each side.
 enum { AUTO_PANEL = 540 };
 #define AUTO_MARGIN 0.04
 
-// In pixels to the right and up from the lower left corner of the panel.
+// A line of the scale bar; pixels to the right and up from the lower left corner of the panel.
 typedef struct AutoLine {
     double x1, y1, x2, y2;
 } AutoLine;
 
-// What of space is shown: a box around a middle.
+// The region of space that a panel shows: a cube around its centre.
 typedef struct AutoFrame {
     double middle[3];
-    double half; // half its width; 0: not chosen yet
+    double half; // half the side of the cube, in the system's units; 0: not chosen yet
 } AutoFrame;
 
 typedef struct AutoSystem {
     Str name;
-    uint32_t dimensions; // 1 to 3; further ones are not seen
-    bool charged;        // shades are charges
+    uint32_t dimensions; // 1 to 3; further dimensions are not shown
+    bool charged;        // true if shades are charges, false if they are speeds
     AutoBody *bodies;
     uint32_t body_count;
     AutoLink *links;
@@ -65,9 +65,9 @@ typedef struct AutoPicture {
     uint32_t count;
 } AutoPicture;
 
-// Chooses the frame of a system, or extends it. Without bodies it stays as it is. The arena is for temporaries.
+// Chooses the view of a system, or extends it. Without bodies the view does not change. The arena is for temporaries.
 void auto_frame(Arena *arena, AutoFrame *frame, const AutoSystem *system);
-// Makes the lines of the scale for the system's frame.
+// Creates the lines of the scale bar for the system's view.
 void auto_scale(Arena *arena, AutoSystem *system);
 
 #endif

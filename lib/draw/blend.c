@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-// Modes of the form s·f + d·g, where the factors are one of these.
-typedef enum Factor { NOTHING, ALL, ALPHA, REST } Factor; // of the other one's alpha
+// Modes of the form s·f + d·g. The factors depend on the alpha of the other colour.
+typedef enum Factor { NOTHING, ALL, ALPHA, REST } Factor; // 0, 1, alpha, 1 - alpha
 
 typedef struct Factors {
     bool known;
@@ -36,7 +36,7 @@ static float hard_light(float s, float d) {
     return s <= 0.5f ? 2 * s * d : 2 * s - 1 + d - (2 * s - 1) * d;
 }
 
-// Of colours that are not multiplied by alpha, channel by channel.
+// Blends one channel of colours that are not premultiplied.
 static float blend_channel(CompositeMode mode, float s, float d) {
     switch (mode) {
     case COMPOSITE_MULTIPLY:
@@ -74,7 +74,7 @@ static float saturation_of(const float c[3]) {
     return fmaxf(fmaxf(c[0], c[1]), c[2]) - fminf(fminf(c[0], c[1]), c[2]);
 }
 
-// Gives a colour another luminance, and draws it back to grey where that leads out of 0 to 1.
+// Sets the luminance of a colour, and desaturates it as far as needed to stay within 0 to 1.
 static void set_luminance(float c[3], float wanted) {
     float change = wanted - luminance(c), scale = 1;
     for (int k = 0; k < 3; k++)
@@ -86,7 +86,7 @@ static void set_luminance(float c[3], float wanted) {
         c[k] = wanted + (c[k] - wanted) * scale;
 }
 
-// Stretches a colour so that its greatest and least parts lie so far apart.
+// Stretches a colour so that its largest and smallest channels differ by `wanted`.
 static void set_saturation(float c[3], float wanted) {
     float min = fminf(fminf(c[0], c[1]), c[2]), now = saturation_of(c);
     for (int k = 0; k < 3; k++)

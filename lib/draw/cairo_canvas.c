@@ -1,4 +1,4 @@
-// cairo_canvas.c: see cairo_canvas.h: surfaces to draw on, and the canvases of a window one over the other.
+// cairo_canvas.c: creates Cairo surfaces, and draws canvases and pictures on them; see cairo_canvas.h.
 #include "draw/cairo_canvas.h"
 
 #include "draw/draw.h"
@@ -33,33 +33,33 @@ void draw_report_canvas_at(Canvas *canvas, const Origin *place, DiagLevel level,
     va_end(args);
 }
 
-// Makes width x height units fill a box of the target.
+// Sets a transform that fits width x height units into a box of the target.
 static void fit_to_box(cairo_t *cr, double width, double height, double box_width, double box_height) {
     double left, top, scale = draw_fit(width, height, box_width, box_height, &left, &top);
     cairo_translate(cr, left, top);
     cairo_scale(cr, scale, scale);
 }
 
-// What is drawn on a surface.
+// The content of a surface.
 typedef struct Page {
     const CanvasPicture *picture;
-    const DrawNode *canvas;  // or NULL
-    cairo_surface_t *pixels; // in place of a canvas; or NULL
-    FloatImage hdr_target;   // what the canvas is drawn on in place of the surface; or none
-    double width;            // in units, made to fit
+    const DrawNode *canvas;  // the canvas to draw; NULL: none
+    cairo_surface_t *pixels; // an image that is drawn instead of a canvas; NULL: none
+    FloatImage hdr_target;   // the image to draw on instead of the surface; no pixels: none
+    double width;            // size in units, which is fitted to the surface
     double height;
-    bool black; // behind it
+    bool black; // true for a black background
 } Page;
 
 static void draw_image_of(cairo_t *cr, cairo_surface_t *pixels, double width, double height) {
     cairo_scale(cr, width / cairo_image_surface_get_width(pixels), height / cairo_image_surface_get_height(pixels));
     cairo_set_source_surface(cr, pixels, 0, 0);
     cairo_pattern_set_filter(cairo_get_source(cr), CAIRO_FILTER_BILINEAR);
-    cairo_pattern_set_extend(cairo_get_source(cr), CAIRO_EXTEND_PAD); // within the clip
+    cairo_pattern_set_extend(cairo_get_source(cr), CAIRO_EXTEND_PAD); // avoids transparent edges; the clip limits it
     cairo_paint(cr);
 }
 
-// Draws the whole page. False if Cairo gave up.
+// Draws the whole page. Returns false if Cairo failed.
 static bool draw_page(Canvas *canvas, const Page *page, double width, double height) {
     cairo_t *cr = canvas->cr;
     if (canvas->painter->text_context)
@@ -104,7 +104,7 @@ static void draw_protected(void *context) {
     drawing->done = draw_page(&drawing->canvas, drawing->page, drawing->width, drawing->height);
 }
 
-// Draws on a surface of width x height.
+// Draws a page on a surface of width x height.
 static PetriStatus draw_on(PetriPainter *painter, const Page *page, cairo_surface_t *surface, bool vector, double width,
                            double height, DiagSink *faults) {
     cairo_t *cr = cairo_create(surface);
@@ -152,14 +152,14 @@ PetriStatus draw_canvas(PetriPainter *painter, const CanvasPicture *picture, con
     cairo_surface_t *surface = texture->bytes ? surface_of(texture->bytes, texture->width, texture->height,
                                                            (size_t)texture->width * sizeof(uint32_t))
                                               : cairo_image_surface_create(CAIRO_FORMAT_A8, texture->width,
-                                                                           texture->height); // for the clip
+                                                                           texture->height); // only for the clip
     PetriStatus result = draw_on(painter, &page, surface, false, texture->width, texture->height, faults);
     cairo_surface_finish(surface);
     cairo_surface_destroy(surface);
     return result;
 }
 
-// Over black, colours that are premultiplied stay; only alpha changes.
+// Composites pixels over black: premultiplied colours do not change, and alpha becomes 1.
 static void make_opaque(uint32_t *pixels, int width, int height, size_t stride) {
     for (int y = 0; y < height; y++) {
         uint32_t *row = (uint32_t *)(void *)((unsigned char *)pixels + (size_t)y * stride);
@@ -168,7 +168,7 @@ static void make_opaque(uint32_t *pixels, int width, int height, size_t stride) 
     }
 }
 
-// On a surface of its own size, to be destroyed.
+// Returns a surface with the pixels of a texture, of the same size. The caller destroys it.
 static cairo_surface_t *surface_of_texture(const Texture *texture, bool opaque) {
     cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, texture->width, texture->height);
     if (cairo_surface_status(surface) == CAIRO_STATUS_SUCCESS) {
@@ -179,7 +179,7 @@ static cairo_surface_t *surface_of_texture(const Texture *texture, bool opaque) 
     return surface;
 }
 
-// The picture for a surface whose size may be another than its own. Its `pixels` are to be destroyed.
+// Returns a page with the picture, for a surface of any size. The caller destroys its `pixels`.
 static Page page_of(const PetriPainter *painter, const CanvasPicture *picture, bool vector) {
     bool made = picture->window && !picture->direct && painter->shown;
     return (Page){.picture = picture,
@@ -227,7 +227,7 @@ static PetriStatus encode_png(PetriPainter *painter, const CanvasPicture *pictur
         result = draw_pixels(painter, picture, (uint32_t *)(void *)cairo_image_surface_get_data(surface), width, height,
                              (size_t)cairo_image_surface_get_stride(surface), faults);
     const uint32_t *pixels = (const uint32_t *)(const void *)cairo_image_surface_get_data(surface);
-    if (result == PETRI_OK && picture->opaque) { // rows of 32-bit pixels have no gaps
+    if (result == PETRI_OK && picture->opaque) { // rows of 32-bit pixels are contiguous
         result = encode_png_pixels(out, pixels, width, height, false) ? PETRI_OK : PETRI_OUT_OF_MEMORY;
     } else if (result == PETRI_OK) {
         cairo_surface_mark_dirty(surface);
@@ -241,7 +241,7 @@ static PetriStatus encode_vector(PetriPainter *painter, const Page *page, bool p
                                  DiagSink *faults) {
     cairo_surface_t *surface = pdf ? cairo_pdf_surface_create_for_stream(append_bytes, out, width, height)
                                    : cairo_svg_surface_create_for_stream(append_bytes, out, width, height);
-    if (pdf) // the same bytes each time
+    if (pdf) // so that the same picture gives the same bytes
         cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
     else
         cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PX);

@@ -1,8 +1,8 @@
-// cairo_canvas.h: drawings become pixels and files. What draws is Cairo; without it everything here says
+// cairo_canvas.h: drawing of pictures to pixels and files. Cairo draws; in builds without it, all functions return
 // PETRI_UNSUPPORTED.
 //
-// A picture is plain data that nobody changes while it is drawn. A painter holds what is worth keeping from picture to
-// picture: fonts and images. Both are used by one thread at a time; there is nothing global.
+// A picture is plain data and is not modified while it is drawn. A painter caches fonts and images from picture to
+// picture. A picture and a painter are used by one thread at a time; there is no global state.
 #ifndef PETRI_DRAW_CAIRO_CANVAS_H
 #define PETRI_DRAW_CAIRO_CANVAS_H
 
@@ -16,53 +16,53 @@
 
 enum { PICTURE_NAMES = 64 };
 
-// One of `window` and `automatic` is there.
+// Either `window` or `automatic` is set.
 typedef struct CanvasPicture {
     const DrawNode *const *tops; // all windows of the frame
     uint32_t top_count;
-    const DrawNode *window; // the one that is shown
-    const DrawNode *direct; // the canvas that is all of it; or NULL
-    bool needs_history;     // some window needs the frames before
+    const DrawNode *window; // the window to show; NULL: none
+    const DrawNode *direct; // the canvas that fills the window; NULL: the window must be composed
+    bool needs_history;     // true if a window refers to earlier frames
     double beat;
-    const char *names[PICTURE_NAMES]; // beat, time and the like, for programs
+    const char *names[PICTURE_NAMES]; // names of global values such as beat and time, for shaders
     double numbers[PICTURE_NAMES];
     uint32_t name_count;
-    uint64_t serial; // no other picture has this number
+    uint64_t serial; // unique number of the picture
     const AutoPicture *automatic;
     double width; // in the script's units
     double height;
-    double detail;    // pixels per unit of the pictures that are made
-    bool opaque;      // nothing is transparent: black where nothing is drawn
-    FileAccess reach; // of the files that it names
-    size_t memory;    // bytes that drawing it may take, those included that the painter keeps
-    uint64_t work;    // units that the frame may take (budget.h), of which drawing has a share of its own
+    double detail;    // pixels per unit in the pictures of the render graph
+    bool opaque;      // true for a black background, false for a transparent one
+    FileAccess reach; // which image files the script may read
+    size_t memory;    // limit in bytes, including what the painter caches
+    uint64_t work;    // work limit of the frame (budget.h); drawing has a separate allowance of the same size
 } CanvasPicture;
 
 typedef enum CanvasFormat { CANVAS_PNG, CANVAS_SVG, CANVAS_PDF, CANVAS_JPEG } CanvasFormat;
 
-// A `!record` node, and what goes into its file.
+// A `!record` node and the picture that is written to its file.
 typedef struct Recorded {
     const DrawNode *node;
-    const DrawNode *direct; // the canvas that is all of it; or NULL
+    const DrawNode *direct; // the canvas that fills the picture; NULL: it must be composed
     Texture *texture;       // an sRGB picture
 } Recorded;
 
-// Makes the tree of pictures if that is needed, once for each picture: then the painter has its records.
+// Renders the tree of pictures unless it was already rendered for this picture. Then the painter has its records.
 PetriStatus draw_render(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults);
-// What was made of the picture's window; NULL: nothing, or it is drawn otherwise.
+// Returns the rendered picture of the window; NULL: there is none, or it is drawn directly.
 const Texture *draw_rendered(const PetriPainter *painter, const CanvasPicture *picture);
-// How much larger width x height are drawn so that they fill a box, keeping their proportions, and where in it.
+// Returns the scale at which width x height fits into a box with its proportions kept, and its offset in the box.
 double draw_fit(double width, double height, double box_width, double box_height, double *left, double *top);
-// Draws into premultiplied ARGB32 pixels. Whatever is wrong is reported to `faults`; after PETRI_INVALID one of them
-// is an error.
+// Draws into premultiplied ARGB32 pixels. Problems are reported to `faults`; if the result is PETRI_INVALID, one of
+// them is an error.
 PetriStatus draw_pixels(PetriPainter *painter, const CanvasPicture *picture, uint32_t *pixels, int width, int height,
                         size_t stride, DiagSink *faults);
-// The bytes of a file that shows the picture, width x height pixels large.
+// Encodes a file that shows the picture at width x height pixels.
 PetriStatus draw_encode(PetriPainter *painter, const CanvasPicture *picture, CanvasFormat format, int width, int height,
                         Encoded *out, DiagSink *faults);
-// The records of the picture that was made last; none if it was another one.
+// Returns the records of the last rendered picture. *count is 0 if `picture` is another one.
 const Recorded *draw_records(const PetriPainter *painter, const CanvasPicture *picture, uint32_t *count);
-// The bytes of the file of one of them.
+// Encodes the file of one record.
 PetriStatus draw_encode_record(PetriPainter *painter, const CanvasPicture *picture, const Recorded *record,
                                CanvasFormat format, Encoded *out, DiagSink *faults);
 

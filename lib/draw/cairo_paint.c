@@ -1,4 +1,4 @@
-// cairo_paint.c: colours, gradients, lines, ways to combine colours.
+// cairo_paint.c: filling and stroking with Cairo, with all composite modes.
 #include "draw/hdr_composite.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@ cairo_operator_t draw_operator(int composite) {
     return operators[composite];
 }
 
-// These change what lies outside of the figure as well, unless they are kept to it.
+// Returns true for operators that also change pixels outside the shape. Petri restricts them to the shape.
 static bool is_unbounded(int composite) {
     return composite == COMPOSITE_IN || composite == COMPOSITE_OUT || composite == COMPOSITE_DST_IN ||
            composite == COMPOSITE_DST_ATOP;
@@ -24,10 +24,10 @@ void draw_set_edges(Canvas *canvas, bool antialias, int fill_type) {
     cairo_set_fill_rule(canvas->cr, even_odd ? CAIRO_FILL_RULE_EVEN_ODD : CAIRO_FILL_RULE_WINDING);
 }
 
-// Filling takes a time that grows with the rows that the edges cross, and faster where they cross each other: a path of
-// a million points all over the picture would take hours.
-static const double SMOOTH_WORK = 1e6; // about a second
-static const double MAX_WORK = 1e7;    // some seconds without smooth edges
+// The time to fill a path grows with the number of rows that its edges cross, and faster if edges cross each other. A
+// path of a million points all over the picture would take hours.
+static const double SMOOTH_WORK = 1e6; // limit for antialiasing; takes about a second
+static const double MAX_WORK = 1e7;    // limit without antialiasing; takes some seconds
 
 bool draw_is_drawable(Canvas *canvas) {
     if (canvas->path_work > MAX_WORK && !canvas->failed) {
@@ -52,7 +52,7 @@ static void set_stroke_style(Canvas *canvas, const DisplayPaint *paint) {
 }
 
 static void stroke_path(Canvas *canvas, const DisplayPaint *paint) {
-    enum { MAX_WIDTH = 100000 }; // pixels: more cannot be seen, and Cairo's coordinates end somewhere
+    enum { MAX_WIDTH = 100000 }; // in pixels; wider lines look the same and could exceed Cairo's range of coordinates
     cairo_t *cr = canvas->cr;
     double scale = draw_scale_of(cr);
     if (paint->stroke_width > 0) {
@@ -67,8 +67,8 @@ static void stroke_path(Canvas *canvas, const DisplayPaint *paint) {
     cairo_restore(cr);
 }
 
-// Strokes a long path in pieces, which is much faster than as a whole. Each piece begins with the end of the one
-// before, so that the corners between them are drawn.
+// Strokes a long path in segments, which is much faster than all at once. Each segment starts with the last line of the
+// previous one, so that the joins between them are drawn.
 static void stroke_in_segments(Canvas *canvas, const DisplayPaint *paint) {
     enum { SEGMENT = 16 };
     cairo_t *cr = canvas->cr;
@@ -113,13 +113,13 @@ static void stroke_part(Canvas *canvas, const DisplayCommand *command, const Dis
     set_stroke_style(canvas, paint);
     if (canvas->path_work > SMOOTH_WORK && !canvas->vector && cairo_get_dash_count(canvas->cr) == 0) {
         stroke_in_segments(canvas, paint);
-        canvas->path_of = NULL; // of which the last piece is left
+        canvas->path_of = NULL; // the current path is now only the last segment
     } else {
         stroke_path(canvas, paint);
     }
 }
 
-// The parts of a figure with an effect, each of which has a path of its own then.
+// Fills and strokes a path with an effect, which may give different paths for the two.
 static void draw_with_effect(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint) {
     cairo_path_t *path = cairo_copy_path(canvas->cr);
     bool lacking = false;
@@ -139,7 +139,7 @@ static void draw_with_effect(Canvas *canvas, const DisplayCommand *command, cons
     draw_report_degraded(canvas, &canvas->list->effects.at[paint->effect].place, "its effect", lacking);
 }
 
-// The parts of a figure, with the source and operator that are set.
+// Fills and strokes the current path with the current source and operator.
 static void fill_and_stroke(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint) {
     if (draw_has_effect(canvas, paint)) {
         draw_with_effect(canvas, command, paint);
@@ -200,7 +200,7 @@ cairo_pattern_t *draw_make_mask(Canvas *canvas, const DisplayCommand *command, c
     return cairo_pop_group(cr);
 }
 
-// d *= s of each pixel; false if these are no pixels of the same size.
+// Multiplies each pixel of d by that of s. Returns false unless both are images of the same size.
 static bool multiply_pixels(cairo_surface_t *d, cairo_surface_t *s) {
     if (cairo_surface_get_type(d) != CAIRO_SURFACE_TYPE_IMAGE ||
         cairo_surface_get_type(s) != CAIRO_SURFACE_TYPE_IMAGE ||
@@ -219,7 +219,7 @@ static bool multiply_pixels(cairo_surface_t *d, cairo_surface_t *s) {
     return true;
 }
 
-// All that is there, combined with the source, as a group.
+// Returns the whole target, composited with the source, as a group.
 static cairo_pattern_t *combine_all(Canvas *canvas, cairo_surface_t *below, int composite) {
     cairo_t *cr = canvas->cr;
     cairo_pattern_t *source = cairo_pattern_reference(cairo_get_source(cr)), *factor = NULL;
@@ -253,10 +253,10 @@ static cairo_pattern_t *combine_all(Canvas *canvas, cairo_surface_t *below, int 
     return all;
 }
 
-// The figure becomes a mask, through which its colour is then painted once.
+// Renders the shape as a mask, and paints the source through it once.
 static void draw_through_mask(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint) {
     cairo_t *cr = canvas->cr;
-    draw_set_source(canvas, paint); // from which control may leave
+    draw_set_source(canvas, paint); // before the mask, because this can abort the drawing
     cairo_save(cr);
     draw_clip_to_box(canvas, command, paint);
     cairo_pattern_t *mask = draw_make_mask(canvas, command, paint);
@@ -273,7 +273,7 @@ static void draw_through_mask(Canvas *canvas, const DisplayCommand *command, con
     cairo_restore(cr);
 }
 
-// Fill and stroke one after the other are one figure if nothing shines through.
+// Returns true if a fill followed by a stroke looks like one shape, because the paint is opaque.
 static bool is_solid(const DisplayPaint *paint) {
     return paint->composite == COMPOSITE_OVER && paint->source == DISPLAY_NONE && paint->color[3] >= 1;
 }

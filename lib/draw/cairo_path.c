@@ -1,20 +1,20 @@
-// cairo_path.c: paths of a list, and parts of ellipses, become Cairo's.
+// cairo_path.c: translates paths of a display list to Cairo.
 #include "draw/arcs.h"
 #include "draw/draw.h"
 
 #include <math.h>
 
-// Cairo reckons with 24 bits before the point; beyond that lines would jump to the other side.
+// Cairo's coordinates have 24 bits before the binary point. Larger values would wrap around to the other side.
 static const double MAX_COORDINATE = 4e6;
 
 static double clamp_coordinate(double x) {
-    return x > MAX_COORDINATE ? MAX_COORDINATE : x > -MAX_COORDINATE ? x : -MAX_COORDINATE; // nan too goes far away
+    return x > MAX_COORDINATE ? MAX_COORDINATE : x > -MAX_COORDINATE ? x : -MAX_COORDINATE; // NaN becomes the minimum
 }
 
 static void measure_point(Canvas *canvas, double x, double y) {
     PathSize *size = &canvas->size;
     double rows = fmin(fabs(y - size->last_y), canvas->rows), columns = fmin(fabs(x - size->last_x), canvas->columns);
-    // What filling costs is about the number of rows that the edges cross.
+    // The cost of filling is roughly proportional to the number of rows that the edges cross.
     canvas->path_work += 1 + rows;
     size->length += rows + columns;
     size->area += size->last_x * y - x * size->last_y;
@@ -56,7 +56,7 @@ static void curve_to(Canvas *canvas, double x1, double y1, double x2, double y2,
     cairo_curve_to(canvas->cr, x1, y1, x2, y2, x, y);
 }
 
-// One control point is as good as two that lie two thirds of the way to it.
+// A quadratic curve equals a cubic one whose control points are two thirds of the way to the single control point.
 static void quadratic_to(Canvas *canvas, double cx, double cy, double x, double y) {
     double x0 = cx, y0 = cy;
     if (cairo_has_current_point(canvas->cr))
@@ -71,7 +71,7 @@ void draw_ellipse_path(Canvas *canvas, double x, double y, double rx, double ry,
     double begin[2], curves[ARCS_MAX][6];
     int count = arcs_of_ellipse((const double[]){x, y, rx, ry, start, sweep}, draw_scale_of(canvas->cr), begin, curves);
     if (join)
-        line_to(canvas, begin[0], begin[1]); // begins the path if there is none
+        line_to(canvas, begin[0], begin[1]); // begins the path if it is empty
     else
         move_to(canvas, begin[0], begin[1]);
     for (int i = 0; i < count; i++)

@@ -1,4 +1,4 @@
-// cairo_source.c: the sources of a list become Cairo's.
+// cairo_source.c: translates paint sources of a display list to Cairo patterns.
 #include "draw/draw.h"
 
 #include <math.h>
@@ -23,7 +23,7 @@ static double clamp_unit(double x) {
     return x > 0 ? x < 1 ? x : 1 : 0;
 }
 
-// What is painted is rounded to bytes, multiplied by alpha as it is, where Cairo would round down.
+// Rounds premultiplied channels to the nearest byte, because Cairo would round down.
 static cairo_pattern_t *make_color(const double color[4], double alpha) {
     double a = (int)(255 * clamp_unit(color[3]) * alpha + 0.5) / 255.0, c[3];
     for (int k = 0; k < 3; k++)
@@ -43,7 +43,7 @@ static cairo_pattern_t *make_image(Canvas *canvas, const DisplaySource *source) 
     return pattern;
 }
 
-// Paints within the clip.
+// Paints the area of the clip with a pattern, and destroys it.
 static void paint_with(Canvas *canvas, cairo_pattern_t *pattern, cairo_operator_t how, double alpha) {
     cairo_set_operator(canvas->cr, how);
     cairo_set_source(canvas->cr, pattern);
@@ -97,7 +97,7 @@ void draw_set_source(Canvas *canvas, const DisplayPaint *paint) {
     cairo_pattern_t *pattern =
         paint->source == DISPLAY_NONE
             ? make_color(paint->color, 1)
-            : make_pattern(canvas, paint->source, fmin(fmax(paint->color[3], 0), 1)); // alpha counts for it, too
+            : make_pattern(canvas, paint->source, fmin(fmax(paint->color[3], 0), 1)); // alpha also applies to sources
     cairo_set_source(canvas->cr, pattern);
     cairo_pattern_destroy(pattern);
 }

@@ -1,10 +1,11 @@
-// cost_model.c: what drawing is charged before it is done. The figures are Cairo's on one machine of 2024: right within
-// a factor of two or three, which is enough to tell a minute from a second.
+// cost_model.c: estimates the time of drawing operations, which is charged before they run. The figures were measured
+// with Cairo on one machine of 2024. They are right within a factor of two or three, which is enough to distinguish
+// seconds from minutes.
 #include "draw/draw.h"
 
 #include <math.h>
 
-// Nanoseconds.
+// Returns the cost of a pixel in nanoseconds.
 static double cost_of_pixel(const DisplayPaint *paint) {
     double color = paint->source == DISPLAY_NONE ? 0 : 5;
     if (paint->composite == COMPOSITE_OVER)
@@ -18,8 +19,9 @@ static bool charge_pixels(Canvas *canvas, const DisplayPaint *paint, double pixe
     return canvas->vector || draw_charge(canvas, NULL, pixels * cost_of_pixel(paint) + more, draw_omitted);
 }
 
-// A figure covers its box, or much less if it is narrow and slanting: then what its points enclose, which is nothing
-// for figures that turn back on themselves. A line covers its length times its width.
+// Estimates the painted pixels. A fill covers the bounding box of the path, or much less if the path is narrow and
+// slanted. So its signed area is used, but at least a quarter of the box, because areas can cancel. A stroke covers its
+// length times its width.
 static double pixels_of(const Canvas *canvas, const DisplayPaint *paint, bool fill, bool stroke) {
     const PathSize *size = &canvas->size;
     double width = stroke ? paint->stroke_width * draw_scale_of(canvas->cr) : 0;
@@ -33,7 +35,7 @@ static double pixels_of(const Canvas *canvas, const DisplayPaint *paint, bool fi
 }
 
 bool draw_charge_path(Canvas *canvas, const DisplayPaint *paint, bool fill, bool stroke) {
-    // Rows, and at worst crossings of edges with each other.
+    // The cost of rows that edges cross, and of crossings between edges in the worst case.
     double edges = canvas->path_work * (100 + 1e-3 * canvas->path_work);
     return charge_pixels(canvas, paint, pixels_of(canvas, paint, fill, stroke), edges);
 }

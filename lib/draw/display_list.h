@@ -1,9 +1,9 @@
-// display_list.h: a drawing as a list of commands in flat arrays: what is drawn, in which order, with plain numbers.
-// Nodes and what they inherit are gone; whoever can fill, stroke and clip paths can show it (cairo_backend.c does with
+// display_list.h: a drawing as a list of commands in flat arrays of plain numbers. Nodes are translated and inherited
+// attributes resolved, so any backend that can fill, stroke and clip paths can draw a list (cairo_backend.c uses
 // Cairo).
 //
-// All references are numbers of elements; DISPLAY_NONE is none. Lists live in the arena with which they are built and
-// never change afterwards; texts are borrowed from the nodes.
+// All references are indices; DISPLAY_NONE means none. A list is allocated from the arena that it is built with, and is
+// immutable afterwards. Its strings are borrowed from the nodes.
 #ifndef PETRI_DRAW_DISPLAY_LIST_H
 #define PETRI_DRAW_DISPLAY_LIST_H
 
@@ -16,26 +16,26 @@ typedef struct DisplayMatrix {
     double xx, yx, xy, yy, x0, y0;
 } DisplayMatrix;
 
-// Pieces of paths in `numbers`: the kind, and then its numbers.
+// Path elements in `numbers`: the kind, followed by its operands.
 typedef enum PathElement {
     PATH_MOVE,       // x, y
     PATH_LINE,       // x, y
     PATH_QUADRATIC,  // control x, y, end x, y
-    PATH_CUBIC,      // two controls and an end
-    PATH_ARC,        // begins a figure: middle x, y, radii x, y, start and sweep in turns, clockwise
-    PATH_ARC_JOINED, // the same, joined by a line
+    PATH_CUBIC,      // two control points and an end
+    PATH_ARC,        // starts a new subpath: centre x, y, radii x, y, start and sweep in turns, clockwise
+    PATH_ARC_JOINED, // like PATH_ARC, but joined to the current point by a line
     PATH_ARC_TO,     // radii x, y, rotation in turns, large and clockwise (0 or 1), end x, y
     PATH_CLOSE,
 } PathElement;
 
-// Pieces that follow each other in `numbers`.
+// A range of consecutive path elements in `numbers`.
 typedef struct DisplayRun {
     uint32_t start;
     uint32_t end;
-    uint32_t next; // run; DISPLAY_NONE
+    uint32_t next; // index of the next run; DISPLAY_NONE: last
 } DisplayRun;
 
-// A path is what its runs say, up to `end` in the last of them.
+// A path: a chain of runs, of which the last ends at `end` for this path.
 typedef struct DisplayPath {
     uint32_t first; // DISPLAY_NONE: empty
     uint32_t last;
@@ -57,16 +57,16 @@ typedef struct DisplayStop {
     double color[4];
 } DisplayStop;
 
-// What gives each point its colour.
+// A paint source: gives each point its colour.
 typedef struct DisplaySource {
     DisplaySourceKind kind;
     double color[4];
-    double ends[4];       // of a linear gradient; frequencies and tile of noise
-    DisplayMatrix matrix; // of the unit circle of a radial gradient; of a pattern
-    uint32_t first_stop;  // or the first source of a blend
-    uint32_t stop_count;  // or its second source; or the octaves of noise
-    double ratio;         // nan: `mode` counts; or the seed of noise
-    int mode;             // or the type of noise
+    double ends[4];       // end points of a linear gradient; frequencies and tile size of noise
+    DisplayMatrix matrix; // maps the unit circle to a radial gradient, or the image pixels of a pattern to units
+    uint32_t first_stop;  // first stop; of a blend: index of its first source
+    uint32_t stop_count;  // number of stops; of a blend: index of its second source; of noise: octaves
+    double ratio;         // mixing ratio of a blend; NaN: use `mode`; of noise: the seed
+    int mode;             // composite mode of a blend; type of noise
     uint32_t image;
 } DisplaySource;
 
@@ -79,7 +79,7 @@ typedef enum DisplayFilterKind {
     FILTER_COLOUR_MATRIX,
     FILTER_PAINT,
     FILTER_BLEND,
-    FILTER_SOURCE // what is drawn, as it is
+    FILTER_SOURCE // the unfiltered drawing
 } DisplayFilterKind;
 
 typedef struct DisplayFilter {
@@ -90,9 +90,9 @@ typedef struct DisplayFilter {
     bool only;
     int mode;
     uint32_t paint;
-    uint32_t numbers;   // in `numbers`: 20 of a matrix, 4 coefficients of a blend; DISPLAY_NONE: its mode counts
-    uint32_t inputs[2]; // filters; DISPLAY_NONE: what is drawn, or none
-    Origin place;       // of its node
+    uint32_t numbers;   // index in `numbers` of 20 matrix elements or 4 blend coefficients; DISPLAY_NONE: use `mode`
+    uint32_t inputs[2]; // indices of filters; DISPLAY_NONE: the unfiltered drawing, or no input
+    Origin place;       // position of its node in the script
 } DisplayFilter;
 
 typedef enum DisplayEffectKind {
@@ -103,20 +103,20 @@ typedef enum DisplayEffectKind {
     EFFECT_SUM
 } DisplayEffectKind;
 
-// What changes a figure before it is filled or stroked.
+// A path effect, which changes a path before it is filled or stroked.
 typedef struct DisplayEffect {
     DisplayEffectKind kind;
-    uint32_t inner;   // an effect that comes first; DISPLAY_NONE
-    uint32_t numbers; // in `numbers`: dashes, 9 of a matrix by rows, the effects of a sum
+    uint32_t inner;   // an effect that is applied before; DISPLAY_NONE: none
+    uint32_t numbers; // index in `numbers` of the dashes, of a 3 x 3 matrix by rows, or of the effects of a sum
     uint32_t count;
-    double amounts[2]; // offset of dashes; radius; length and deviation
+    double amounts[2]; // dash offset; radius; segment length and deviation of jitter
     double seed;
     Origin place;
 } DisplayEffect;
 
-// How something is painted.
+// Paint attributes of a command.
 typedef struct DisplayPaint {
-    double color[4]; // its alpha counts for sources and images, too
+    double color[4]; // its alpha also applies to sources and images
     double stroke_width;
     uint32_t source;
     uint32_t filter;
@@ -141,39 +141,39 @@ typedef struct DisplayText {
 typedef enum DisplayFit { FIT_NONE, FIT_SIZE, FIT_INSIDE, FIT_FILL } DisplayFit;
 
 typedef struct DisplayImage {
-    Str file; // or
+    Str file; // name of the image file; empty: use `id`
     Str id;
     double point[2];
     double size[2];
     DisplayFit fit;
-    NodeKind kind; // of its node
+    NodeKind kind; // kind of its node
     Origin place;
 } DisplayImage;
 
 typedef enum DisplayCommandKind {
-    DISPLAY_DRAW, // path
+    DISPLAY_DRAW, // fills or strokes the path
     DISPLAY_TEXT,
     DISPLAY_IMAGE,
-    DISPLAY_CLIP,      // to the path
-    DISPLAY_MASK,      // to what is outside of it
-    DISPLAY_SAVE,      // the clip
-    DISPLAY_RESTORE,   // it
-    DISPLAY_LAYER,     // what follows is drawn on a transparent layer,
-    DISPLAY_LAYER_END, // which is laid over with this alpha
+    DISPLAY_CLIP,      // clips to the path
+    DISPLAY_MASK,      // clips to the outside of the path
+    DISPLAY_SAVE,      // saves the clip
+    DISPLAY_RESTORE,   // restores the clip
+    DISPLAY_LAYER,     // redirects drawing to a transparent layer
+    DISPLAY_LAYER_END, // composites the layer with `alpha`
 } DisplayCommandKind;
 
 typedef struct DisplayCommand {
     DisplayCommandKind kind;
-    bool fill; // fill and stroke are one figure
+    bool fill; // fill and stroke are painted as one shape
     bool stroke;
     uint32_t matrix;
     uint32_t paint;
-    uint32_t item; // text, image; place of a layer
+    uint32_t item; // index of a text or image; of a layer: index in `places`
     DisplayPath path;
     double alpha;
 } DisplayCommand;
 
-// An array that grows.
+// A growing array.
 #define DISPLAY_ARRAY(type)                                                                                            \
     struct {                                                                                                           \
         type *at;                                                                                                      \
@@ -182,7 +182,7 @@ typedef struct DisplayCommand {
     }
 
 typedef struct DisplayList {
-    bool linear; // colours are linear light; stops and images of files are not
+    bool linear; // colours are linear light, except gradient stops and image files
     DISPLAY_ARRAY(DisplayCommand) commands;
     DISPLAY_ARRAY(DisplayMatrix) matrices;
     DISPLAY_ARRAY(DisplayPaint) paints;
@@ -194,21 +194,21 @@ typedef struct DisplayList {
     DISPLAY_ARRAY(DisplayEffect) effects;
     DISPLAY_ARRAY(DisplayText) texts;
     DISPLAY_ARRAY(DisplayImage) images;
-    DISPLAY_ARRAY(Origin) places; // of nodes, to tell where something is wrong
+    DISPLAY_ARRAY(Origin) places; // positions of nodes in the script, for diagnostics
 } DisplayList;
 
-// Makes room for `more` elements and returns the first of them.
+// Adds `more` elements and returns a pointer to the first of them.
 #define DISPLAY_ADD(arena, array, more)                                                                                \
     ((array).at = display_list_grow((arena), (array).at, (array).count, &(array).room, (more), sizeof *(array).at),    \
      (array).count += (uint32_t)(more), (array).at + (array).count - (uint32_t)(more))
 void *display_list_grow(Arena *arena, void *items, uint32_t count, uint32_t *capacity, uint32_t more, size_t size);
 
-// m a: first a, then m.
+// Returns the product m a, which applies a first and then m.
 DisplayMatrix display_matrix_multiply(DisplayMatrix m, DisplayMatrix a);
-// Has it an inverse?
+// Returns true if the matrix is invertible.
 bool display_matrix_is_invertible(const DisplayMatrix *m);
 
-// How long the arrays of a list have become: the next one, of the frame after perhaps, begins with as much room.
+// The lengths of the last list's arrays. The next list, perhaps of the next frame, starts with these capacities.
 typedef struct DisplayListSizes {
     uint32_t commands;
     uint32_t matrices;
@@ -217,7 +217,7 @@ typedef struct DisplayListSizes {
     uint32_t runs;
 } DisplayListSizes;
 
-// What a canvas shows. In the arena.
+// Builds the display list of a canvas, in the arena.
 const DisplayList *display_list_build(Arena *arena, const DrawNode *canvas, DisplayListSizes *sizes);
 
 #endif

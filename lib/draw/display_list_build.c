@@ -1,7 +1,8 @@
-// display_list_build.c: walks over a canvas's nodes once and writes down what they draw; see display_list.h and spec
+// display_list_build.c: translates the nodes of a canvas to a display list in one pass; see display_list.h and spec
 // canvas.md 2.
 //
-// Trees may be thousands of nodes deep, and whoever draws may have a small stack: so the walk keeps its own.
+// Trees may be thousands of nodes deep and the calling thread may have a small stack, so the pass has an explicit
+// stack.
 #include "draw/display_list_build.h"
 
 #include "maths/maths.h"
@@ -11,13 +12,13 @@
 
 static const double TURN = 6.283185307179586;
 
-// A node whose children are being read.
+// A node whose children are being translated.
 typedef struct Level {
     const DrawNode *node;
-    uint32_t next;      // child
-    uint32_t matrix_at; // of the matrix in the list; DISPLAY_NONE: not there yet
+    uint32_t next;      // index of the next child
+    uint32_t matrix_at; // index of the matrix in the list; DISPLAY_NONE: not added yet
     uint32_t paint_at;
-    bool saved; // the clip, by a command
+    bool saved; // true if a command has saved the clip
     DisplayMatrix matrix;
     DisplayPath path;
     GraphicsState state;
@@ -106,7 +107,7 @@ uint32_t display_list_build_paint(DisplayListBuild *build, const GraphicsState *
     return build->list->paints.count - 1;
 }
 
-// A command in the state of a level; `own` is the look of a node that has one.
+// Adds a command in the state of a level. `own` is the graphics state of the node itself; NULL: that of the level.
 static DisplayCommand *add_command(DisplayListBuild *build, Level *level, DisplayCommandKind kind,
                                    const GraphicsState *own) {
     DisplayList *list = build->list;
@@ -138,19 +139,19 @@ static bool saves_clip(NodeKind kind) {
     return kind == KIND_CANVAS || kind == KIND_CANVAS_GROUP || kind == KIND_LAYER || kind == KIND_TRANSFORM;
 }
 
-// Before the clip changes: it is saved by the node with which it ends.
+// Saves the clip before it changes. The node that restores it later is the nearest ancestor that limits clips.
 static void save_clip(Walk *walk) {
     uint32_t at = walk->depth - 1;
     while (at > 0 && !saves_clip((NodeKind)walk->levels[at].node->kind))
         at--;
     if (walk->levels[at].saved)
         return;
-    // Nothing has been clipped at this level yet, so that saving now is as good as at its beginning.
+    // Nothing was clipped at this level yet, so saving now equals saving at its beginning.
     walk->levels[at].saved = true;
     add_command(&walk->build, &walk->levels[walk->depth - 1], DISPLAY_SAVE, NULL);
 }
 
-// A node whose children are drawn in a state of their own.
+// Begins a node whose children have a separate state.
 static void enter_node(Walk *walk, const DrawNode *node) {
     NodeKind kind = (NodeKind)node->kind;
     double size[2], origin[2];
@@ -178,10 +179,10 @@ static void enter_node(Walk *walk, const DrawNode *node) {
             level->path.fill_type = (uint8_t)draw_word(node, ATTR_FILL_TYPE);
     }
     if (!display_matrix_is_invertible(&level->matrix))
-        level->next = node->child_count; // all is squeezed to nothing, or beyond all numbers
+        level->next = node->child_count; // the content is squeezed to nothing or out of range: skip it
 }
 
-// How siblings after it are painted: what nodes inside of it have changed, perhaps.
+// Passes changes by nested paint nodes to the siblings after this node.
 static void propagate_paint(Level *outside, const GraphicsState *inside) {
     outside->state.source = inside->source;
     outside->state.filter = inside->filter;
@@ -215,7 +216,7 @@ static void add_path_command(DisplayListBuild *build, Level *level, const DrawNo
     command->stroke = stroke;
 }
 
-// A shape that is drawn at once leaves the current path alone.
+// Adds a shape. If it is drawn at once, the current path is not modified.
 static void add_shape(DisplayListBuild *build, Level *level, const DrawNode *node) {
     bool fill = draw_flag(node, ATTR_FILL), stroke = draw_flag(node, ATTR_STROKE);
     if (!fill && !stroke) {
@@ -300,7 +301,7 @@ static void add_node(Walk *walk, const DrawNode *node) {
 }
 
 static void reserve_arrays(Arena *arena, DisplayList *list, const DisplayListSizes *sizes) {
-    enum { MAX_COMMANDS = 1 << 16 }; // others may be short
+    enum { MAX_COMMANDS = 1 << 16 }; // longer lists are assumed to be rare; start small
     if (sizes->commands == 0 || sizes->commands > MAX_COMMANDS || sizes->numbers > 16 * MAX_COMMANDS)
         return;
 #define ROOM(array)                                                                                                    \

@@ -1,4 +1,4 @@
-// display_list_export.c: a picture as one array of numbers, for hosts that draw by themselves; see petri-draw.h.
+// display_list_export.c: exports a picture as an array of numbers, for hosts that draw themselves; see petri-draw.h.
 #include "draw/display_list.h"
 #include "draw/outline.h"
 #include "draw/painter.h"
@@ -7,17 +7,17 @@
 #include <math.h>
 
 static const char other_node[] = "the picture of another node";
-enum { MAX_EFFECT_ELEMENTS = 2000000 }; // pieces of a picture's paths that effects make
+enum { MAX_EFFECT_ELEMENTS = 2000000 }; // limit for path elements that effects create in a picture
 
 typedef struct DisplayListExport {
-    const CanvasPicture *picture; // or NULL, of a canvas
-    PetriPainter *painter;        // that has the pictures of other nodes; or NULL
+    const CanvasPicture *picture; // NULL: a canvas is exported
+    PetriPainter *painter;        // provides the pictures of other nodes; NULL: not available
     Arena *arena;
     DISPLAY_ARRAY(double) out;
     const DisplayList *list;
-    uint32_t matrix; // that was written last
+    uint32_t matrix; // last written matrix; DISPLAY_NONE: none
     uint32_t paint;
-    uint32_t effect_elements; // pieces that effects have made
+    uint32_t effect_elements; // path elements created by effects so far
 } DisplayListExport;
 
 static void add(DisplayListExport *numbers, const double *values, uint32_t count) {
@@ -59,7 +59,7 @@ static void add_path(DisplayListExport *numbers, const DisplayPath *path) {
     numbers->out.at[count_at] = numbers->out.count - count_at - 1;
 }
 
-// The picture of another node; false if that is not there.
+// Adds the picture of another node. Returns false if it does not exist.
 static bool add_pixels(DisplayListExport *numbers, Str id) {
     PetriPainter *painter = numbers->painter;
     Texture *texture = painter ? render_graph_find(painter->render_graph, id) : NULL;
@@ -110,7 +110,7 @@ static void add_gradient(DisplayListExport *numbers, const DisplaySource *source
     }
 }
 
-// Blends of blends are no deeper than scripts can nest them.
+// The recursion is bounded because display_list_build_source limits the depth of blends.
 static void add_source(DisplayListExport *numbers, const DisplaySource *source, double alpha) {
     const double *c = source->color;
     switch (source->kind) {
@@ -164,7 +164,7 @@ static void add_blend(DisplayListExport *numbers, const DisplayFilter *filter) {
     }
 }
 
-// Kinds are those of DisplayFilterKind.
+// Writes a filter and its inputs. The written kinds are the values of DisplayFilterKind.
 static void add_filter(DisplayListExport *numbers, uint32_t number) {
     if (number == DISPLAY_NONE) {
         ADD(PETRI_FILTER_SOURCE);
@@ -245,13 +245,13 @@ static void add_outline(DisplayListExport *numbers, const Outline *outline) {
     numbers->out.at[count_at] = numbers->out.count - count_at - 1;
 }
 
-// What a path effect makes of a figure. Where lines are drawn otherwise than what they enclose, they are one of their
-// own.
+// Adds the result of a path effect. If the paths for filling and stroking differ, they become two commands.
 static void add_path_with_effect(DisplayListExport *numbers, const DisplayCommand *command, const DisplayPaint *paint) {
     const DisplayList *list = numbers->list;
     const DisplayMatrix *m = &list->matrices.at[command->matrix];
     const DisplayEffect *effect = &list->effects.at[paint->effect];
-    uint32_t number = effect->kind == EFFECT_DASH ? effect->inner : paint->effect; // the last dashes are the host's
+    uint32_t number =
+        effect->kind == EFFECT_DASH ? effect->inner : paint->effect; // the outermost dashes are left to the host
     Outline from = {.arena = numbers->arena, .fine = 2 / fmax(sqrt(fabs(m->xx * m->yy - m->xy * m->yx)), 1e-6)};
     outline_add_path(&from, list, &command->path);
     bool separate = outline_has_dashes(list, number) && command->fill && command->stroke;
@@ -306,7 +306,7 @@ static void add_command(DisplayListExport *numbers, const DisplayCommand *comman
     case DISPLAY_SAVE:
         ADD(PETRI_DRAW_SAVE);
         break;
-    case DISPLAY_RESTORE: // brings matrix and paint back that were there
+    case DISPLAY_RESTORE: // also restores matrix and paint
         numbers->matrix = numbers->paint = DISPLAY_NONE;
         ADD(PETRI_DRAW_RESTORE);
         break;
@@ -341,7 +341,7 @@ static void add_system(DisplayListExport *numbers, const AutoSystem *system) {
         ADD(system->scale[i].x1, system->scale[i].y1, system->scale[i].x2, system->scale[i].y2);
 }
 
-// The first canvas below a node; what else there is, is told once.
+// Returns the first canvas below a node. Other nodes are reported as unsupported.
 static const DrawNode *find_canvas(DisplayListExport *numbers, const DrawNode *node, int depth) {
     enum { MAX_DEPTH = 100 };
     if (node->kind == KIND_CANVAS || depth > MAX_DEPTH)

@@ -1,12 +1,12 @@
-// display_list_filters.c: nodes among drawing nodes that change what is drawn after them: filters and path effects
-// (spec canvas.md 6, 7).
+// display_list_filters.c: translates filter and path effect nodes, which apply to the siblings after them (spec
+// canvas.md 6, 7).
 #include "draw/display_list_build.h"
 #include "maths/maths.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { MAX_DEPTH = 100 }; // nodes are at most NODE_MAX_HEIGHT deep, but the stack may be small
+enum { MAX_DEPTH = 100 }; // less than NODE_MAX_HEIGHT, because the stack may be small
 
 static uint32_t add_numbers(DisplayListBuild *build, uint32_t count, const double *numbers) {
     double *at = DISPLAY_ADD(build->arena, build->list->numbers, count);
@@ -18,7 +18,7 @@ static bool has_attr(const DrawNode *node, AttrName name) {
     return draw_attr(node, name);
 }
 
-// Brightness, contrast and saturation as a matrix.
+// Sets a colour matrix from brightness, contrast and saturation.
 static void set_adjustment(const DrawNode *node, double m[4][5]) {
     static const double luminance[3] = {0.2126, 0.7152, 0.0722};
     double contrast = draw_number(node, ATTR_CONTRAST), saturation = draw_number(node, ATTR_SATURATION);
@@ -90,7 +90,7 @@ static DisplayFilterKind filter_kind(NodeKind kind) {
     }
 }
 
-// What the node says but for its inputs; false without what is needed.
+// Reads the attributes of a filter, without its inputs. Returns false if a required attribute is missing.
 static bool read_filter(DisplayListBuild *build, const GraphicsState *state, const DrawNode *node,
                         DisplayFilter *filter) {
     const AttrValue *color;
@@ -162,7 +162,7 @@ static bool read_dash(DisplayListBuild *build, const DrawNode *node, DisplayEffe
     return sum > 0 && isfinite(sum);
 }
 
-// By rows; the points are enlarged, then turned, then moved.
+// Reads a matrix by rows. Without one, points are scaled, then rotated, then translated.
 static void read_path_matrix(DisplayListBuild *build, const DrawNode *node, DisplayEffect *effect) {
     const AttrValue *all = draw_attr(node, ATTR_MATRIX);
     double scale[2], move[2], angle = draw_number(node, ATTR_ROTATE);

@@ -1,4 +1,4 @@
-// display_list_paints.c: nodes among drawing nodes that give those after them their colours (spec canvas.md 5); and
+// display_list_paints.c: translates paint source nodes, which colour the siblings after them (spec canvas.md 5), and
 // images.
 #include "draw/display_list_build.h"
 #include "draw/texture.h"
@@ -6,7 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-// Colours of stops count as encoded, with bytes.
 void display_list_build_stop_color(const DisplayListBuild *build, const double color[4], double out[4]) {
     for (int k = 0; k < 4; k++) {
         double byte = floor(255 * fmin(fmax(color[k], 0), 1) + 0.5);
@@ -98,7 +97,7 @@ static uint32_t make_noise(DisplayListBuild *build, const DrawNode *node) {
     return add_source(build, source);
 }
 
-// Nodes are at most NODE_MAX_HEIGHT deep, but the stack may be small.
+// The depth is limited to less than NODE_MAX_HEIGHT, because the stack may be small.
 uint32_t display_list_build_source(DisplayListBuild *build, const GraphicsState *state, const DrawNode *node) {
     enum { MAX_DEPTH = 100 };
     uint32_t made = DISPLAY_NONE;

@@ -1,4 +1,4 @@
-// display_list_shapes.c: nodes that add to a path become its pieces (spec canvas.md 3).
+// display_list_shapes.c: translates nodes that add to a path (spec canvas.md 3).
 #include "draw/display_list_build.h"
 #include "maths/maths.h"
 
@@ -9,7 +9,7 @@ static const double TURN = 6.283185307179586;
 
 const DisplayPath display_list_build_no_path = {DISPLAY_NONE, DISPLAY_NONE, 0, FILL_WINDING};
 
-// Adds to the path's last run, or begins another if other paths were added to since.
+// Adds to the last run of the path, or begins another run if other paths were extended in between.
 static void add_element(DisplayListBuild *build, DisplayPath *path, PathElement kind, uint32_t count,
                         const double *numbers) {
     DisplayList *list = build->list;
@@ -34,7 +34,7 @@ static void move_to(DisplayListBuild *build, DisplayPath *path, double x, double
     add_element(build, path, PATH_MOVE, 2, (const double[]){x, y});
 }
 
-// Without a figure the first line begins at 0;0.
+// Lines of an empty path start at 0;0.
 static void begin_path(DisplayListBuild *build, DisplayPath *path) {
     if (path->first == DISPLAY_NONE)
         move_to(build, path, 0, 0);
@@ -103,7 +103,7 @@ static void add_rect(DisplayListBuild *build, DisplayPath *path, const DrawNode 
         return;
     draw_pair(node, ATTR_RADIUS, r);
     double width = fabs(size[0]), height = fabs(size[1]);
-    // Radii that do not fit shrink together: a large one makes half circles at the shorter sides.
+    // Radii that do not fit are scaled down together, so a large radius gives half circles at the shorter sides.
     double part = fmin(1, fmin(width / (2 * r[0]), height / (2 * r[1])));
     double rx = r[0] * part, ry = r[1] * part;
     if (!(rx > 0 && ry > 0)) {
@@ -128,14 +128,14 @@ static void add_ellipse(DisplayListBuild *build, DisplayPath *path, const DrawNo
     close_path(build, path);
 }
 
-// How far the way turns at p, from a to b; at most a quarter.
+// Returns the angle in turns between the directions a to p and p to b; at most a quarter.
 static double turn_at(const double *a, const double *p, const double *b) {
     double x1 = p[0] - a[0], y1 = p[1] - a[1], x2 = b[0] - p[0], y2 = b[1] - p[1];
     double lengths = maths_hypot(x1, y1) * maths_hypot(x2, y2);
     return lengths > 0 ? maths_acos(fmin(fmax((x1 * x2 + y1 * y2) / lengths, 0), 1)) / TURN : 0;
 }
 
-// A corner at p between the middles of the pieces before and after it.
+// Adds the corner at p, from the middle of the line before it to the middle of the line after it.
 static void add_corner(DisplayListBuild *build, DisplayPath *path, const double *before, const double *p,
                        const double *after, double curve) {
     double a[2] = {(before[0] + p[0]) / 2, (before[1] + p[1]) / 2};

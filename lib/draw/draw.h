@@ -1,4 +1,4 @@
-// draw.h: what the files that draw with Cairo share.
+// draw.h: internal declarations of the files that draw with Cairo.
 #ifndef PETRI_DRAW_DRAW_H
 #define PETRI_DRAW_DRAW_H
 
@@ -8,153 +8,158 @@
 
 typedef struct FloatImageMemory FloatImageMemory; // float_image.c
 
-// Red, green, blue and alpha of each pixel, multiplied by alpha, 0 to 1; rows from the top.
+// An image of floats: red, green, blue and alpha, premultiplied, 0 to 1; rows from the top.
 typedef struct FloatImage {
     int width;
     int height;
-    float *pixels; // NULL: none
-    int x;         // where it lies on the target, if it is drawn on
+    float *pixels; // NULL: empty image
+    int x;         // position of its left edge on the target, for images that are drawn on
     int y;
 } FloatImage;
 
-// Fonts, and what the layout is set to.
+// Pango's fonts, and the font that the layout is set to.
 struct TextContext {
     PangoFontMap *fonts;
     PangoContext *context;
     PangoLayout *layout;
-    const char *family; // NULL at first in each picture
+    const char *family; // NULL at the start of each picture
     DisplayText font;
 };
 
-// How much of the target a path covers, from its points and control points there, all as one figure.
+// The extent of a path on the target, from its points and control points, all as one shape.
 typedef struct PathSize {
     double left, right, top, bottom;
     double last_x, last_y;
-    double length; // across and down
-    double area;   // twice; what runs the other way round counts against it
+    double length; // sum of the horizontal and vertical distances
+    double area;   // twice the signed area; parts in opposite directions cancel
 } PathSize;
 
-// A picture being drawn.
+// A drawing in progress.
 typedef struct Canvas {
     PetriPainter *painter;
     const CanvasPicture *picture;
     cairo_t *cr;
     DiagSink *faults;
-    bool vector;         // the target is no array of pixels
-    uint32_t layers;     // that are open
-    double layer_pixels; // in them
-    double columns;      // of the target
+    bool vector;         // true if the target is a vector surface, false if it is an image
+    uint32_t layers;     // number of open layers
+    double layer_pixels; // pixels of the open layers
+    double columns;      // width of the target in pixels; `rows` is its height
     double rows;
-    double path_work;               // rows that the edges of the current path cross
-    PathSize size;                  // of that path
-    const DisplayList *list;        // or NULL
-    const DisplayCommand *path_of;  // the command whose path is the current one; or NULL
-    cairo_matrix_t base;            // of the list's units
-    bool failed;                    // an error was reported
-    size_t charged;                 // bytes that are charged
-    FloatImageMemory *float_images; // all there are
-    FloatImage hdr_target;          // what is drawn on in place of the target's pixels; or none
-    // While something is drawn apart: what was drawn on before, and the surface.
+    double path_work;               // number of rows that the edges of the current path cross
+    PathSize size;                  // extent of the current path
+    const DisplayList *list;        // the list being drawn; NULL: none
+    const DisplayCommand *path_of;  // the command whose path is current; NULL: none
+    cairo_matrix_t base;            // transform of the list's units
+    bool failed;                    // true after an error was reported
+    size_t charged;                 // bytes charged to the painter's budget
+    FloatImageMemory *float_images; // all allocated float images
+    FloatImage hdr_target;          // the image drawn on instead of the target's pixels; no pixels: none
+    // Saved while drawing is redirected offscreen: the previous targets and the offscreen surface.
     cairo_t *outer;
     FloatImage outer_hdr_target;
     cairo_surface_t *offscreen;
 } Canvas;
 
-// Reports what drawing has found, each text once.
+// Reports a diagnostic of drawing. The same text is reported only once.
 __attribute__((format(printf, 4, 5))) void draw_report_canvas(Canvas *canvas, DiagLevel level, const char *code,
                                                               const char *format, ...);
 
-// The same about what stands at a place.
+// Like draw_report_canvas, with a position in the script.
 __attribute__((format(printf, 5, 6))) void draw_report_canvas_at(Canvas *canvas, const Origin *place, DiagLevel level,
                                                                  const char *code, const char *format, ...);
 
 // offscreen.c
-// Charges bytes to the picture; false if it may not have so many.
+// Charges bytes to the picture. Returns false if that would exceed the memory limit.
 bool draw_reserve(Canvas *canvas, size_t bytes);
 void draw_release(Canvas *canvas, size_t bytes);
-// Draws on a surface of its own from here on, whose top left corner is at x, y of the target; NULL without memory.
+// Redirects drawing to a new surface whose top left corner is at x, y of the target. Returns NULL if out of memory.
 cairo_surface_t *draw_push_offscreen(Canvas *canvas, int width, int height, double x, double y);
 void draw_pop_offscreen(Canvas *canvas);
-// Charges work, in nanoseconds, to the picture; false, after a report, if it is too much: then what comes of it is
-// told.
-extern const char draw_omitted[]; // all that comes now
+// Charges work, in nanoseconds, to the picture. If that exceeds the limit, reports `outcome`, which says what happens
+// instead, and returns false.
+extern const char draw_omitted[]; // outcome: everything from here is omitted
 bool draw_charge(Canvas *canvas, const Origin *place, double work, const char *outcome);
-// If memory was lacking: tells that something is drawn without this, or leaves if it is the machine's.
+// If `lacking`, reports that something is drawn without `what` because of the memory limit. If the machine is out of
+// memory, aborts the drawing instead.
 void draw_report_degraded(Canvas *canvas, const Origin *place, const char *what, bool lacking);
-// Gives back whatever is still held.
+// Frees everything that the canvas still holds.
 void draw_close(Canvas *canvas);
 
 // cairo_backend.c
-// Draws a list. The matrix in force is that of its units.
+// Draws a list. The current transform must be that of the list's units.
 void cairo_draw_list(Canvas *canvas, const DisplayList *list);
-// Draws without the paint's filter.
+// Draws a command without the paint's filter.
 void draw_unfiltered(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint);
-// Cairo would fail for good with another matrix.
+// Returns true if the matrix is invertible. Others must not reach Cairo, because they put it into an error state for
+// good.
 bool draw_is_invertible(const cairo_matrix_t *m);
-// How many pixels a unit is, about.
+// Returns the approximate number of pixels per unit.
 double draw_scale_of(cairo_t *cr);
 
 // cairo_path.c
-// Moves a point that is too far away for Cairo's coordinates to where it can be reckoned with.
+// Moves a point that is too far away for Cairo's coordinates to a distance that it can handle.
 void draw_clamp_point(Canvas *canvas, double *x, double *y);
 void draw_ellipse_path(Canvas *canvas, double x, double y, double rx, double ry, double start, double sweep, bool join);
-// Makes the command's path the current one, in the matrix that is in force.
+// Makes the command's path the current one, in the current transform.
 void draw_set_path(Canvas *canvas, const DisplayCommand *command);
 void draw_add_element(Canvas *canvas, PathElement kind, const double *numbers);
 void draw_forget_path(Canvas *canvas);
 
 // cairo_paint.c
 cairo_operator_t draw_operator(int composite);
-// How the edges of what is filled or clipped are; Cairo keeps what was set last, for whatever it was.
+// Sets antialiasing and fill rule for filling and clipping. Cairo keeps them, so set them before each use.
 void draw_set_edges(Canvas *canvas, bool antialias, int fill_type);
-// Fills or strokes the current path, or both as one figure.
+// Fills or strokes the current path, or paints both as one shape.
 void draw_current_path(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint);
-// A figure as a mask, to be destroyed.
+// Returns the command's shape as a mask. The caller destroys it.
 cairo_pattern_t *draw_make_mask(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint);
-// The box on the target that the current path is drawn in: left, top, right, bottom; false if that is not known.
+// Returns the bounding box of the painted path on the target: left, top, right, bottom. Returns false if it is
+// unbounded or unknown.
 bool draw_find_box(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint, double box[4]);
-// What is drawn next touches no more than that.
+// Clips to the bounding box of the painted path.
 void draw_clip_to_box(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint);
-// Can the path be drawn in reasonable time? If not, the picture fails.
+// Returns true if the path can be drawn in reasonable time. If not, the picture fails with an error.
 bool draw_is_drawable(Canvas *canvas);
 
 // cost_model.c
-// Charges what the current path takes to be drawn; false, after a report, if it is too much.
+// Charges the cost of drawing the current path. Returns false, after a report, if that exceeds the limit.
 bool draw_charge_path(Canvas *canvas, const DisplayPaint *paint, bool fill, bool stroke);
-// The same for so many boxes of the script's units, wherever they are.
+// Like draw_charge_path, for `count` boxes of width x height units, wherever they are.
 bool draw_charge_box(Canvas *canvas, const DisplayPaint *paint, double width, double height, double count);
 
 // cairo_source.c
 void draw_set_source(Canvas *canvas, const DisplayPaint *paint);
 
 // path_effects.c
-// Has the paint an effect that changes the path, other than dashes of its lines?
+// Returns true if the paint has an effect that changes the path, other than dashes of its strokes.
 bool draw_has_effect(const Canvas *canvas, const DisplayPaint *paint);
-// Makes what becomes of a path the current one, for its lines or for what is inside. False without memory.
+// Applies the effect to a path, for stroking if `lines`, else for filling, and makes the result the current path.
+// Returns false if out of memory.
 bool draw_apply_effect(Canvas *canvas, const DisplayPaint *paint, const cairo_path_t *path, bool lines);
 
 // noise.c
-// A pattern of noise within the clip.
+// Returns a pattern of noise that covers the clip.
 cairo_pattern_t *draw_noise(Canvas *canvas, const DisplaySource *source, double alpha);
 
 // filters.c
-// Draws through the paint's filter.
+// Draws a command through the paint's filter.
 void draw_filtered(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint);
 
 // text.c
-// Fonts, from the first call on; NULL if memory is lacking.
+// Returns the painter's fonts, which are opened by the first call. Returns NULL if out of memory.
 TextContext *draw_text_context(PetriPainter *painter);
 void draw_text_close(PetriPainter *painter);
 void draw_text(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint);
 
 // images.c
 void draw_image(Canvas *canvas, const DisplayImage *image, const DisplayPaint *paint);
-// The pixels of an image and how many there are, to be given back; NULL, after a report, if there is none.
+// Returns the pixels of an image. The caller destroys them. Returns NULL, after a report, if there is none.
 cairo_surface_t *draw_find_image(Canvas *canvas, const DisplayImage *image);
-// The same without a copy: the picture of a node, in memory, or what a file has; false if there is neither.
+// Like draw_find_image, without a copy: returns the rendered picture of a node or the cached pixels of a file. Returns
+// false if there is neither.
 bool draw_find_pixels(Canvas *canvas, const DisplayImage *image, const Texture **texture, cairo_surface_t **file);
 void draw_images_close(PetriPainter *painter);
-// The pixels of a JPEG file; NULL with a reason, or without one if memory is used up.
+// Decodes a JPEG file. Returns NULL with a reason in *problem; without a reason if out of memory.
 cairo_surface_t *draw_read_jpeg(Str bytes, const char **problem);
 
 // automatic.c

@@ -1,4 +1,4 @@
-// encode.h: files of pixels.
+// encode.h: encoders for PNG and JPEG files.
 #ifndef PETRI_DRAW_ENCODE_H
 #define PETRI_DRAW_ENCODE_H
 
@@ -6,18 +6,18 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// The bytes of a file, on the heap: Cairo and libpng are in the middle of their work when memory is used up, and must
-// not be left by a jump. `bytes` is to be freed by whoever has it, even after a failure.
+// The bytes of a file, on the heap. They are not in an arena because Cairo and libpng must not be left by a longjmp
+// when memory runs out. The owner frees `bytes`, even after a failure.
 typedef struct Encoded {
     unsigned char *bytes;
     size_t length, capacity;
 } Encoded;
 
-// False if memory is used up; then nothing has changed.
+// Returns false if out of memory; then nothing has changed.
 bool encode_add(Encoded *out, const void *bytes, size_t length);
 
-// Adds the bytes of a PNG or JPEG file. Colours are written as they are, so multiplied by alpha; without `alpha` that
-// is the picture over black. False if memory is used up or the library refuses.
+// Appends a PNG or JPEG file. Colours are written premultiplied, so without `alpha` the file shows the picture over
+// black. Returns false if out of memory or if the library fails.
 bool encode_png_pixels(Encoded *out, const uint32_t *pixels, int width, int height, bool alpha);
 bool encode_jpeg_pixels(Encoded *out, const uint32_t *pixels, int width, int height, int quality);
 

@@ -1,5 +1,5 @@
-// hdr_paint.h: what is painted on canvases whose light does not end at 1, as numbers: colours, gradients, mixtures of
-// them, and images (spec canvas.md 5, 8.2).
+// hdr_paint.h: paint sources of HDR canvases, in floats: colours, gradients, blends of them, and images (spec canvas.md
+// 5, 8.2).
 #ifndef PETRI_DRAW_HDR_PAINT_H
 #define PETRI_DRAW_HDR_PAINT_H
 
@@ -7,17 +7,18 @@
 
 typedef struct HdrPaint {
     const DisplayList *list;
-    uint32_t source;         // in the list; or
-    const Texture *texture;  // a picture in memory, of a node; or
-    cairo_surface_t *file;   // of 32 bits, encoded
-    bool repeats;            // the pixels do
-    cairo_matrix_t to_units; // from the target
+    uint32_t source;         // index in the list, unless `texture` or `file` is set
+    const Texture *texture;  // the rendered picture of a node
+    cairo_surface_t *file;   // an image file; 32-bit sRGB pixels
+    bool repeats;            // true if the pixels repeat
+    cairo_matrix_t to_units; // maps target pixels to the units of the source
     float alpha;
 } HdrPaint;
 
-// A source of the list in the matrix that is in force. False if it is of a kind that Cairo makes, or there is no image.
+// Prepares a source of the list in the current transform. Returns false if Cairo must render this kind, or if there is
+// no image.
 bool hdr_paint_from_source(Canvas *canvas, uint32_t source, double alpha, HdrPaint *shade);
-// The colour at a point of the target, multiplied by alpha.
+// Returns the premultiplied colour at a point of the target.
 void hdr_paint_at(const HdrPaint *shade, double x, double y, float color[4]);
 
 #endif

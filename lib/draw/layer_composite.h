@@ -1,4 +1,4 @@
-// layer_composite.h: pictures laid over each other, without a program of the GPU (spec pictures.md 3.5, 3.6).
+// layer_composite.h: compositing of pictures on the CPU, without shaders (spec pictures.md 3.5, 3.6).
 #ifndef PETRI_DRAW_LAYER_COMPOSITE_H
 #define PETRI_DRAW_LAYER_COMPOSITE_H
 
@@ -7,17 +7,18 @@
 typedef struct LayerComposite {
     Texture *const *inputs;
     uint32_t count;
-    int width; // of the result
+    int width; // size of the result in pixels
     int height;
-    int how; // MIX_OVER …
+    int how; // composite operation, MIX_OVER and so on
     float alpha;
     Sampler sampler;
-    int bits;  // 8, 16, 32
-    bool srgb; // of 8 bits, encoded
+    int bits;  // bits per channel: 8, 16 or 32
+    bool srgb; // true if 8-bit channels are sRGB-encoded
     Budget *meter;
 } LayerComposite;
 
-// A new picture, or another reference to the only input if that is what would come out. NULL if memory is used up.
+// Returns a new picture, or another reference to the only input if the result would equal it. Returns NULL if out of
+// memory.
 Texture *layer_composite(const LayerComposite *mix);
 
 #endif

@@ -1,4 +1,4 @@
-// outline.h: paths as lists of lines and curves, and what path effects make of them (spec canvas.md 7).
+// outline.h: paths as lists of lines and curves, and path effects on them (spec canvas.md 7).
 #ifndef PETRI_DRAW_OUTLINE_H
 #define PETRI_DRAW_OUTLINE_H
 
@@ -9,7 +9,7 @@ typedef struct OutlinePoint {
     double y;
 } OutlinePoint;
 
-// PATH_MOVE, PATH_LINE, PATH_CUBIC and PATH_CLOSE; the last of the points is where it ends.
+// An element: PATH_MOVE, PATH_LINE, PATH_CUBIC or PATH_CLOSE. The last point in use is its end.
 typedef struct OutlineElement {
     PathElement kind;
     OutlinePoint points[3];
@@ -17,17 +17,18 @@ typedef struct OutlineElement {
 
 typedef struct Outline {
     Arena *arena;
-    double fine; // flat enough
+    double fine; // maximum error when curves are flattened
     DISPLAY_ARRAY(OutlineElement) elements;
 } Outline;
 
-// Whether the paint has an effect that changes the path, other than dashes of its lines.
+// Returns true if the paint has an effect that changes the path, other than dashes of its strokes.
 bool outline_has_effect(const DisplayList *list, const DisplayPaint *paint);
-// Whether this effect or one in it dashes lines, and so makes another path of them than of what they enclose.
+// Returns true if this effect, or one inside it, dashes lines. Then the paths for filling and for stroking differ.
 bool outline_has_dashes(const DisplayList *list, uint32_t effect);
-// What this effect and those in it make of an outline, filled or as lines, in its arena. DISPLAY_NONE: as it is.
+// Applies an effect and those inside it to an outline, for stroking if `lines`, else for filling. The result is in the
+// outline's arena. With DISPLAY_NONE the outline is returned unchanged.
 Outline outline_apply(const DisplayList *list, uint32_t effect, Outline from, bool lines);
-// Adds what the list says of a path, its arcs as curves.
+// Adds a path of the list, with its arcs as curves.
 void outline_add_path(Outline *out, const DisplayList *list, const DisplayPath *path);
 
 #endif

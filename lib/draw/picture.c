@@ -203,7 +203,7 @@ bool petri_picture_ready(PetriSession *session, const PetriPictureOptions *optio
 
 static void follow_protected(PetriSession *session, void *arena) {
     DrawAccess access = session_draw_access(session);
-    auto_follow(&access, arena, session_draw_memory(session, SYSTEMS_MOST * sizeof(AutoFrame)));
+    auto_follow(&access, arena, session_draw_memory(session, SYSTEMS_MAX * sizeof(AutoFrame)));
 }
 
 void petri_picture_follow(PetriSession *session, const PetriPictureOptions *options) {
@@ -274,7 +274,7 @@ static bool make_picture(Request *request) {
 
 static void make_protected(PetriSession *session, void *context) {
     Request *request = context;
-    request->frames = session_draw_memory(session, SYSTEMS_MOST * sizeof *request->frames);
+    request->frames = session_draw_memory(session, SYSTEMS_MAX * sizeof *request->frames);
     CanvasPicture *picture = &request->picture->picture;
     picture->name_count =
         session_frame_numbers(session, &request->picture->arena, picture->names, picture->numbers, PICTURE_NAMES);

@@ -1,21 +1,21 @@
-// picture.h: a picture: a copy of what a frame shows (picture.c), ready to be drawn (painter.c).
+// picture.h: a picture: a copy of the visible nodes of a frame (picture.c), ready to be drawn (painter.c).
 #ifndef PETRI_DRAW_PICTURE_H
 #define PETRI_DRAW_PICTURE_H
 
 #include "draw/cairo_canvas.h"
 
 struct PetriPicture {
-    Arena arena; // all that follows
+    Arena arena; // holds all other data
     CanvasPicture picture;
     AutoPicture automatic;
     int width; // in pixels
     int height;
     int64_t frame;
     const char *title;
-    DiagSink faults; // found since, by whoever draws
+    DiagSink faults; // diagnostics of drawing so far
 };
 
-// Can a picture have so many pixels?
+// Returns true if a picture may have this size in pixels.
 static inline bool picture_is_good_size(double width, double height) {
     return width >= 1 && height >= 1 && width <= PETRI_MAX_PICTURE_SIDE && height <= PETRI_MAX_PICTURE_SIDE;
 }

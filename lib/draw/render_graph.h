@@ -1,42 +1,42 @@
-// render_graph.h: makes the tree of pictures of a frame (spec pictures.md 2 to 5): canvases, images, programs over
+// render_graph.h: renders the tree of pictures of a frame (spec pictures.md 2 to 5): canvases, images, and effects on
 // them.
 //
-// Each node makes one picture, children first. What has an id is known to those that ask for it later, in this frame or
-// in the next. A painter keeps the last frame's pictures for that: frames whose trees look back (petri_needs_history)
-// must all be made by one painter, in their order.
+// Each node produces one picture, children first. Pictures with an id can be referenced later in the same frame or in
+// the next one. A painter keeps the pictures of the last frame for that. So frames of a script with such references
+// (petri_needs_history) must all be rendered by one painter, in order.
 #ifndef PETRI_DRAW_RENDER_GRAPH_H
 #define PETRI_DRAW_RENDER_GRAPH_H
 
 #include "draw/cairo_canvas.h"
 
-typedef struct RenderGraph RenderGraph; // what is kept from frame to frame
+typedef struct RenderGraph RenderGraph; // state that is kept from frame to frame
 
-// NULL if memory is used up.
+// Returns NULL if out of memory.
 RenderGraph *render_graph_new(void);
-void render_graph_free(PetriPainter *painter); // those of a painter
+void render_graph_free(PetriPainter *painter); // frees the graph of a painter
 
-// What the next frame would continue.
+// Drops the state that the next frame would continue.
 void render_graph_clear(PetriPainter *painter);
 
-// Makes all pictures of a frame. *shown is the one of the picture's window, or NULL if it has none; it is kept until
-// the next call, as are the records. What cannot be made is reported and left out. PETRI_OK,
+// Renders all pictures of a frame. *shown is the picture of the window, or NULL if it has none. It and the records are
+// valid until the next call. Pictures that cannot be rendered are reported and left out. Returns PETRI_OK,
 // PETRI_OUT_OF_MEMORY, or PETRI_INVALID after an error.
 PetriStatus render_graph_run(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults, Texture **shown);
 const Recorded *render_graph_records(const RenderGraph *pictures, uint32_t *count);
-// The picture with this id, as it is known now; NULL: none. Borrowed.
+// Returns the current picture with this id, borrowed; NULL: none.
 Texture *render_graph_find(const RenderGraph *pictures, Str id);
 
-// The size of a node's picture in one that is width x height large.
+// Returns the size of a node's picture whose parent is width x height pixels. The size is updated in place.
 void render_graph_node_size(const DrawNode *node, int *width, int *height);
-// The canvas whose pixels are the picture of a node of that size as they are, in whatever size they are drawn; NULL if
-// programs are needed, or pictures are mixed.
+// Returns the canvas whose pixels are the node's picture without changes, so that it can be drawn at any resolution.
+// Returns NULL if the picture needs effects or compositing.
 const DrawNode *render_graph_direct_canvas(const DrawNode *node, int width, int height);
-// Returns true if the picture looks alike, but for sharpness, when it is made with fewer pixels: no node of the tree
-// has a shader written by the script, or patterns that are measured in pixels.
+// Returns true if the picture can be rendered with fewer pixels and differs only in sharpness: no node of the tree has
+// a custom shader or a pattern measured in pixels.
 bool render_graph_scalable(const DrawNode *node);
-// The pixels of `side` units; at least 1.
+// Returns the number of pixels of `side` units; at least 1.
 int render_graph_pixels(int side, double detail);
-// Can its result be made by mixing what is inside?
+// Returns true if the node's picture is only its children composited, without a shader.
 bool render_graph_is_plain(const DrawNode *node);
 
 #endif

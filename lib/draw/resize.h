@@ -1,4 +1,4 @@
-// resize.h: images of another size (spec pictures.md 5.1).
+// resize.h: resizing of images (spec pictures.md 5.1).
 #ifndef PETRI_DRAW_RESIZE_H
 #define PETRI_DRAW_RESIZE_H
 
@@ -6,8 +6,8 @@
 
 #include <stddef.h>
 
-// A copy of premultiplied ARGB32 pixels (without `alpha`: opaque) in another size, by a triangle filter on colours that
-// are not multiplied; then turned over (FLIP_NOT …). NULL if memory is used up.
+// Resizes and flips premultiplied ARGB32 pixels (without `alpha`: opaque). Uses a triangle filter on colours that are
+// not premultiplied; `flip` is FLIP_NOT and so on. Returns NULL if out of memory.
 Texture *resize_pixels(Budget *meter, const uint32_t *pixels, int width, int height, size_t stride, bool alpha,
                        int new_width, int new_height, int flip);
 

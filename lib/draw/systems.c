@@ -86,7 +86,7 @@ static void copy_system(const DrawAccess *shown, Arena *arena, const SceneView *
 uint32_t auto_count(const DrawAccess *shown) {
     SceneView view;
     uint32_t count = 0;
-    while (count < SYSTEMS_MOST && scene_view(shown->scene, shown->state, count, &view))
+    while (count < SYSTEMS_MAX && scene_view(shown->scene, shown->state, count, &view))
         count++;
     return count;
 }
@@ -103,7 +103,7 @@ AutoPicture auto_copy(const DrawAccess *shown, Arena *arena, AutoFrame *frames, 
 
 void auto_follow(const DrawAccess *shown, Arena *arena, AutoFrame *frames) {
     SceneView view;
-    for (uint32_t i = 0; i < SYSTEMS_MOST && scene_view(shown->scene, shown->state, i, &view); i++) {
+    for (uint32_t i = 0; i < SYSTEMS_MAX && scene_view(shown->scene, shown->state, i, &view); i++) {
         ArenaMark mark = arena_mark(arena);
         AutoSystem system = {.dimensions = view.dimensions > 3 ? 3 : view.dimensions};
         uint32_t *numbers = arena_alloc_array(arena, view.particle_count, sizeof *numbers);

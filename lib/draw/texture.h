@@ -1,65 +1,66 @@
-// texture.h: the pictures of which the tree of a frame is made (spec pictures.md 1): pixels of four channels, red,
-// green and blue multiplied by alpha.
+// texture.h: the pictures in the tree of a frame (spec pictures.md 1): red, green, blue and alpha, premultiplied.
 #ifndef PETRI_DRAW_TEXTURE_H
 #define PETRI_DRAW_TEXTURE_H
 
 #include "gl/gl.h"
 
-// In one or several of three forms, `image` being that on the GPU. It never changes; several nodes and frames may hold
-// it.
+// A picture in one or more of three forms: `bytes`, `linear` and, on the GPU, `image`. Its content is immutable;
+// several nodes and frames may hold references.
 typedef struct Texture {
     uint32_t references;
     int width;
     int height;
-    uint32_t *bytes; // an sRGB picture: ARGB32, rows from the top, as Cairo has it
+    uint32_t *bytes; // sRGB picture: ARGB32, rows from the top, as Cairo has it
     float *linear;   // linear light: r, g, b, a, rows from the top
     GlImage image;
-    Gl *gl;        // of the image; NULL: there is none
-    Budget *meter; // that what it takes in memory is charged to
+    Gl *gl;        // context of `image`; NULL: not on the GPU
+    Budget *meter; // charged for its memory
     size_t charged;
 } Texture;
 
-// A cleared one, with one reference; NULL if memory is used up. The meter outlives it.
+// Returns a cleared picture with one reference; NULL if out of memory. The budget must outlive it.
 Texture *texture_new(Budget *meter, int width, int height, bool linear);
-// One that is only on the GPU, and takes the image over; NULL if memory is used up.
+// Returns a picture that is only on the GPU and takes ownership of the image. Returns NULL if out of memory.
 Texture *texture_from_image(Budget *meter, Gl *gl, GlImage image);
-// Sees to it that it is on the GPU, which is current; false if there is no room.
+// Ensures that the picture is on the GPU, whose context is current. Returns false if out of memory.
 bool texture_upload(Gl *gl, Texture *texture);
-// Sees to it that it is in memory; false if that is used up. For an sRGB picture `bytes`, else `linear`.
+// Ensures that the picture is in memory: an sRGB picture in `bytes`, others in `linear`. Returns false if out of
+// memory.
 bool texture_download(Gl *gl, Texture *texture);
 Texture *texture_retain(Texture *texture);
-// Gives a reference back; NULL is fine. The GPU of one that has an image is current then.
+// Drops a reference; NULL is ignored. If the picture has an image, its context must be current.
 void texture_free(Texture *texture);
 
-// The byte round(255 enc(c)) of a linear c (pictures.md 1.4).
+// Returns the byte round(255 enc(c)) of a linear value c (pictures.md 1.4).
 unsigned texture_encode(float c);
-// For each byte the linear c from which on texture_encode gives a larger one; 256 of them.
+// Returns 256 thresholds: for each byte, the least linear value that texture_encode maps to a larger byte.
 const float *texture_thresholds(void);
-// lin(byte/255).
+// Returns lin(byte/255).
 float texture_decode(unsigned byte);
 
-// A byte that was multiplied by its alpha, without it.
+// Returns a premultiplied byte divided by its alpha.
 unsigned texture_unpremultiply(unsigned byte, unsigned alpha);
 
-// A row as ARGB32 pixels. Of a picture that is shown opaquely, over black; otherwise a linear one is encoded without
-// alpha, which then multiplies it again.
+// Writes a row as ARGB32 pixels. Opaque pictures are composited over black. Otherwise linear pictures are encoded
+// without their alpha and then multiplied by it again.
 void texture_row(const Texture *texture, int y, bool opaque, uint32_t *row);
 
-// The same as linear light, in bytes; and such a pixel of an sRGB one.
+// Like texture_row, but the result is linear light in bytes. texture_linear_pixel converts one such pixel of an sRGB
+// picture.
 void texture_linear_row(const Texture *texture, int y, uint32_t *row);
 uint32_t texture_linear_pixel(uint32_t pixel);
-// Such pixels as numbers; and as a picture, NULL if memory is used up.
+// Convert pixels of linear bytes to floats, and to a new picture; it is NULL if out of memory.
 void texture_copy_linear(const Texture *bytes, float *linear);
 Texture *texture_from_linear_bytes(Budget *meter, const Texture *bytes);
 
-// How a picture is read beyond its edges, and between its pixels (pictures.md 1.5).
+// How a picture is sampled between its pixels and beyond its edges (pictures.md 1.5).
 typedef struct Sampler {
     float border[4];
     bool repeat[2];
-    bool clamped; // neither border nor repeat
+    bool clamped; // repeats the edge pixels; `border` and `repeat` are not used
     bool nearest;
 } Sampler;
-// The colour at u, v (from the top), 0 to 1 over the picture.
+// Returns the colour at u, v, which run from 0 to 1 across the picture and from its top.
 void texture_sample(const Texture *texture, const Sampler *sampler, double u, double v, float color[4]);
 
 #endif
