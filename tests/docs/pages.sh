@@ -1,18 +1,19 @@
 #!/bin/sh
-# pages.sh PETRI ROOT [--update]: does what README.md and the pages of samples/ tell their readers to do.
+# pages.sh PETRI ROOT [--update]: runs the commands that README.md, src/manual/ and the other pages below show, and checks
+# their links.
 #
-# Each page is read from top to bottom in a folder of its own. That has the samples in it, or, for README.md, what its
-# commands take from the project's root.
+# Each page is read from top to bottom in a separate folder. For a page of samples/ it contains the samples; for other
+# pages it contains samples, lib and build, as the project's root does.
 #   ```flitter NAME.fl          a script of that name is written; `petri check --werror` must have nothing to say, nor a
 #                               run of three frames
-#   ```flitter NAME.fl warns    likewise, but it is there to be complained about
+#   ```flitter NAME.fl warns    a script with warnings is written, and not checked
 #   ```c NAME.c                 a file of that name is written
 #   ```console                  lines `$ COMMAND` are run; the lines after one are what it writes (a line `...` stands
 #                               for any number of lines)
 #   ![…](PATH/NAME.png)         if a command before made NAME.png, it must have the size of the stored picture and about
 #                               as much in it; --update stores what was made
 #   [text](PATH#HEADING)        there is such a file with such a heading
-# A failure is a line with the place in the page. Too few examples are a failure, too.
+# A failure is a line with the place in the page. Too few examples are also a failure.
 #
 # Films took nine tenths of the time, so they are made of two pictures, and nothing but their size is compared. PAGES=whole
 # makes them as the page has them; CI does.
@@ -20,12 +21,14 @@ set -u
 LC_ALL=C.UTF-8
 export LC_ALL
 
-pages='README.md samples/README.md samples/TUTORIAL.md samples/RECIPES.md samples/QUESTIONS.md'
-least=90
+pages='README.md CONTRIBUTING.md src/README.md samples/README.md samples/TUTORIAL.md samples/RECIPES.md
+    samples/TROUBLESHOOTING.md tests/README.md tests/bench/README.md tests/bench/PEERS.md src/web/README.md'
+least=250
 
 [ $# -ge 2 ] || { echo "usage: pages.sh PETRI ROOT [--update]" >&2 && exit 2; }
 petri=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
 root=$(cd "$2" && pwd)
+pages="$pages $(cd "$root" && echo src/manual/*.md)"
 update=${3:-}
 whole=${update:+yes}
 [ "${PAGES:-}" != whole ] || whole=yes
@@ -104,7 +107,7 @@ split() { # PAGE FOLDER
             while (match(rest, /\]\([^)]+/)) {
                 link = substr(rest, RSTART, RLENGTH)
                 rest = substr(rest, RSTART + RLENGTH)
-                if (link !~ /^..https:/)
+                if (link !~ /^..https?:/)
                     step("link", substr(link, 3))
             }
         }
@@ -221,11 +224,11 @@ for page in $pages; do
     folder=$work/$page
     mkdir -p "$folder/steps.d" "$folder/at"
     case $page in
-    README.md)
+    samples/*) cp -R "$root"/samples/*.fl "$root/samples/lib" "$folder/at" ;;
+    *)
         ln -s "$root/samples" "$root/lib" "$folder/at"
         ln -s "$build" "$folder/at/build"
         ;;
-    *) cp -R "$root"/samples/*.fl "$root/samples/lib" "$folder/at" ;;
     esac
     split "$root/$page" "$folder/steps.d"
     [ -e "$folder/steps.d/steps" ] || continue

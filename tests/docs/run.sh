@@ -1,5 +1,5 @@
 #!/bin/sh
-# run.sh PETRI ROOT: runs the examples of the documents that are listed here, below ROOT.
+# run.sh PETRI ROOT: runs the examples of the documents below ROOT that are listed here, and of src/manual/.
 #
 # Fenced blocks that are read:
 #   ```flitter-eval       lines `EXPRESSION => RESULT`; RESULT is the printed value, or `error` if it must be rejected
@@ -24,6 +24,7 @@ if [ $# -ne 2 ]; then
 fi
 petri=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
 root=$2
+documents="$documents $(cd "$root" && echo src/manual/*.md)"
 if [ ! -x "$petri" ]; then
     echo "run.sh: no program $1" >&2
     exit 2
