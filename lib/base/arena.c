@@ -17,7 +17,7 @@
 #define UNPOISON(address, size) ((void)(address), (void)(size))
 #endif
 
-// The stress build starts from blocks that hold next to nothing, so that every path crosses a block boundary.
+// The stress build uses tiny blocks, so that every path crosses a block boundary.
 #ifdef PETRI_STRESS
 enum { MIN_BLOCK_SIZE = 64, MAX_BLOCK_SIZE = 1024 };
 #else
@@ -80,7 +80,7 @@ void arena_rewind(Arena *arena, ArenaMark mark) {
     if (arena->used > arena->high_water)
         arena->high_water = arena->used;
     ArenaBlock *block = mark.block ? mark.block->next : arena->first;
-    ArenaBlock *end = arena->current ? arena->current->next : NULL; // later blocks are empty already
+    ArenaBlock *end = arena->current ? arena->current->next : NULL; // later blocks are already empty
     for (; block != end && arena->current != mark.block; block = block->next)
         block_truncate(block, 0);
     if (mark.block)
@@ -104,16 +104,16 @@ _Noreturn void arena_escape(const Arena *arena, ArenaOutcome end) {
     abort();
 }
 
-void arena_check(Arena *arena, BudgetOutcome answer) {
+void arena_check(Arena *arena, BudgetOutcome outcome) {
     if (arena->escape)
-        arena_escape(arena, answer == BUDGET_EXCEEDED ? ARENA_WORK_LIMIT : ARENA_INTERRUPTED);
+        arena_escape(arena, outcome == BUDGET_EXCEEDED ? ARENA_WORK_LIMIT : ARENA_INTERRUPTED);
 }
 
 _Noreturn void arena_exhausted(const Arena *arena) {
     arena_escape(arena, ARENA_OUT_OF_MEMORY);
 }
 
-// A function of its own, so that no variable of the caller is one that longjmp may lose.
+// A separate function, so that no local variable of arena_protect can be clobbered by longjmp.
 static ArenaOutcome call_with(jmp_buf *escape, void (*call)(void *context), void *context) {
     switch (setjmp(*escape)) {
     case 0:
@@ -139,7 +139,7 @@ ArenaOutcome arena_protect(Arena *const arenas[], size_t count, void (*call)(voi
             arenas[i]->escape = &escape;
         }
     ArenaOutcome end = call_with(&escape, call, context);
-    for (size_t i = count; i-- > 0;) // backwards: one may be there twice
+    for (size_t i = count; i-- > 0;) // in reverse, because an arena may be listed twice
         if (arenas[i])
             arenas[i]->escape = outer[i];
     return end;
@@ -161,7 +161,7 @@ void *arena_try_alloc(Arena *arena, size_t size) {
     return arena_protect(&arena, 1, call_arena_alloc, &this) == ARENA_OK ? this.bytes : NULL;
 }
 
-// Makes `current` a block with room for `size` bytes: the next kept one that is large enough, or a new one after it.
+// Sets `current` to a block with room for `size` bytes: the next existing block that is large enough, or a new one.
 static void arena_next_block(Arena *arena, size_t size) {
     ArenaBlock *last = arena->current;
     for (ArenaBlock *block = last ? last->next : arena->first; block; block = block->next) {

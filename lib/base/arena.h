@@ -1,9 +1,9 @@
 // arena.h: bump allocation with one lifetime.
 //
-// A frame, a program and a session are regions: what they allocate is dropped as a whole. Nobody frees a single
-// value. An allocation never returns NULL: when the budget or the machine's memory is used up, control leaves through
-// the arena's escape, a jump to the arena_protect at the boundary of a frame, a load or another public call, where it
-// becomes a status. An arena without an escape aborts: that is a bug of ours.
+// Each frame, program and session has an arena, and everything allocated from it is freed at once. Single values are
+// never freed. An allocation never returns NULL. If the budget or the machine's memory is exhausted, control jumps
+// (longjmp) to the enclosing arena_protect, which returns the reason. Public calls such as a frame or a load turn it
+// into a status. An arena without an enclosing arena_protect aborts the process, because that is a bug in petri.
 #ifndef PETRI_BASE_ARENA_H
 #define PETRI_BASE_ARENA_H
 
@@ -14,7 +14,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// Under the address sanitizer what is not handed out is poisoned.
+// The address sanitizer poisons all bytes that are not allocated.
 #if defined(__SANITIZE_ADDRESS__)
 #define ARENA_POISONS 1
 #elif defined(__has_feature)
@@ -31,22 +31,22 @@ enum { ARENA_ALIGNMENT = 16 };
 typedef struct ArenaBlock ArenaBlock;
 struct ArenaBlock {
     ArenaBlock *next;
-    size_t capacity; // of bytes; a multiple of the alignment, as is `fill`
-    size_t fill;
-    size_t padding; // keeps `bytes` aligned
+    size_t capacity; // bytes; a multiple of the alignment
+    size_t fill;     // bytes allocated; a multiple of the alignment
+    size_t padding;  // keeps `bytes` aligned
     unsigned char bytes[];
 };
 
 _Static_assert(offsetof(ArenaBlock, bytes) % ARENA_ALIGNMENT == 0, "block payload must be aligned");
 
 typedef struct Arena {
-    ArenaBlock *first;   // chain of blocks, oldest first; kept over a reset
+    ArenaBlock *first;   // chain of blocks, oldest first; a reset keeps them
     ArenaBlock *current; // the block that is being filled
-    size_t used;         // bytes handed out since the last reset, block remainders included
-    size_t high_water;   // most that `used` has ever been, up to the last rewind or reset
-    size_t limit;        // bytes allowed between two resets
-    jmp_buf *escape;     // where to go when memory is used up, or NULL to abort
-    Budget *budget;      // that blocks and work are charged to, or NULL
+    size_t used;         // bytes allocated since the last reset, with padding
+    size_t high_water;   // largest value of `used` at a rewind or reset
+    size_t limit;        // largest value that `used` may have, bytes
+    jmp_buf *escape;     // of the innermost arena_protect; NULL: failures abort the process
+    Budget *budget;      // charged for blocks and work; NULL: none
     const char *name;    // for messages
 } Arena;
 
@@ -59,43 +59,43 @@ typedef struct ArenaMark {
 // How a protected call ended.
 typedef enum ArenaOutcome {
     ARENA_OK,
-    ARENA_OUT_OF_MEMORY, // the machine's memory is used up
-    ARENA_MEMORY_LIMIT,  // or what the arena may hand out, or all that the meter allows
-    ARENA_WORK_LIMIT,    // work is
-    ARENA_INTERRUPTED,   // the host has asked for an end
+    ARENA_OUT_OF_MEMORY, // the machine is out of memory
+    ARENA_MEMORY_LIMIT,  // the arena's limit or the budget's memory limit was exceeded
+    ARENA_WORK_LIMIT,    // the budget's work limit was exceeded
+    ARENA_INTERRUPTED,   // the host requested an interrupt
 } ArenaOutcome;
 
 enum { ARENA_MAX_PROTECTED = 8 };
-// Calls `call`; if one of the arenas (NULL: none) runs out meanwhile, what it was doing is given up and this returns.
-// Within another protected call the inner one has precedence. What the call knows of heap blocks must be reachable from
-// `context`, so that the caller can free them.
+// Calls `call`. If an allocation or charge of one of the arenas fails, the call is aborted and the reason is returned.
+// NULL arenas are ignored. Calls may be nested; the innermost one catches the failure. Heap blocks that the call
+// allocates must be reachable from `context`, so that the caller can free them.
 ArenaOutcome arena_protect(Arena *const arenas[], size_t count, void (*call)(void *context), void *context);
-// Allocates like arena_alloc, but returns NULL when memory or budget is used up.
+// Like arena_alloc, but returns NULL on failure.
 void *arena_try_alloc(Arena *arena, size_t size);
 
-// Prepares an empty arena that may hand out `budget` bytes between resets. `name` must outlive it.
+// Initialises an empty arena that may allocate `limit` bytes between resets. `name` must outlive it.
 void arena_init(Arena *arena, const char *name, size_t limit);
 
-// Returns all blocks to the system.
+// Frees all blocks.
 void arena_free(Arena *arena);
 
-// The same, once the host does not look at the blocks any more: while its meter keeps them, they stay as they are, and
-// charged.
+// Like arena_free, but while budget->retains is true the blocks move to budget->retained. They stay unchanged and
+// charged, because the host may still read them.
 void arena_retire(Arena *arena);
-// Returns what was kept so.
+// Frees the blocks that arena_retire has retained.
 void arena_free_retained(Budget *budget);
 
-// What the arena holds is charged to nobody from here on.
+// Releases the arena's memory from its budget and sets the budget to NULL.
 void arena_detach_budget(Arena *arena);
 
-// Drops everything allocated since the last reset but keeps the blocks. Unoptimised and sanitizer builds poison the
-// bytes.
+// Drops all allocations but keeps the blocks for reuse. Unoptimised builds overwrite the bytes, and the address
+// sanitizer poisons them.
 void arena_reset(Arena *arena);
 
-// The same as arena_alloc, for when the block at hand has no room.
+// Implements arena_alloc if the current block has no space.
 void *arena_alloc_slow(Arena *arena, size_t size);
 
-// `size` bytes, aligned to 16, not cleared. Size 0 gives a valid pointer that must not be read.
+// Returns `size` bytes, aligned to 16, uninitialised. Size 0 returns a valid pointer that must not be read.
 static inline void *arena_alloc(Arena *arena, size_t size) {
     ArenaBlock *block = arena->current;
     if (!block || size > block->capacity - block->fill || arena->used + size > arena->limit || ARENA_POISONS)
@@ -107,41 +107,42 @@ static inline void *arena_alloc(Arena *arena, size_t size) {
     return bytes;
 }
 
-// What arena_charge does when it is time to look, or memory is.
-void arena_check(Arena *arena, BudgetOutcome answer);
-// Charges work (budget.h); if that is used up, or the host has asked for an end, control leaves through the escape.
+// Escapes from the arena because a charge returned `outcome`, which is not BUDGET_OK. Without arena_protect it returns.
+void arena_check(Arena *arena, BudgetOutcome outcome);
+// Charges work (budget.h). Escapes if the work limit is exceeded or the host requested an interrupt.
 static inline void arena_charge(Arena *arena, uint64_t units) {
-    BudgetOutcome answer = budget_charge(arena->budget, units);
-    if (answer != BUDGET_OK)
-        arena_check(arena, answer);
+    BudgetOutcome outcome = budget_charge(arena->budget, units);
+    if (outcome != BUDGET_OK)
+        arena_check(arena, outcome);
 }
 
-// Charges for a portion at the end of each, in a loop over many elements that is at number i.
+// For loops over many elements: call with each index i. Charges BUDGET_CHUNK elements at the end of each chunk.
 static inline void arena_charge_chunk(Arena *arena, size_t i, unsigned units_each) {
     if (i % BUDGET_CHUNK == BUDGET_CHUNK - 1)
         arena_charge(arena, (uint64_t)BUDGET_CHUNK * units_each);
 }
 
-// The same for `count` elements of `size` bytes each, with the work of filling them; an overflowing product counts as
-// used-up memory.
+// Allocates `count` elements of `size` bytes each and charges the work of filling them. If the product overflows, it
+// escapes with ARENA_MEMORY_LIMIT.
 void *arena_alloc_array(Arena *arena, size_t count, size_t size);
 
-// A copy of `size` bytes.
+// Returns a copy of `size` bytes.
 void *arena_copy(Arena *arena, const void *bytes, size_t size);
 
-// Extends the most recent allocation in place if it is `bytes` and there is room, else returns a larger copy.
+// Extends `bytes` in place if it is the most recent allocation and the block has space. Else returns a larger copy.
 void *arena_grow(Arena *arena, void *bytes, size_t old_size, size_t new_size);
 
-// An array of `count` elements of `size` bytes with room for one more: `items`, or a copy that is twice as large.
+// Makes room for one more element in an array of `count` elements of `size` bytes. Returns `items`, or an array of
+// twice the capacity that replaces it.
 void *arena_grow_array(Arena *arena, void *items, uint32_t count, uint32_t *capacity, size_t size);
 
-// What arena_alloc does when the machine has nothing left; for other allocations that belong to the arena's region.
+// Escapes with ARENA_OUT_OF_MEMORY. For heap allocations that fail while the arena is in use.
 _Noreturn void arena_exhausted(const Arena *arena);
-// The same in the way in which an inner protected call has ended.
+// Escapes with the given outcome, such as that of an inner arena_protect. Aborts the process if there is no escape.
 _Noreturn void arena_escape(const Arena *arena, ArenaOutcome end);
 
 ArenaMark arena_mark(const Arena *arena);
-// Drops what was allocated since the mark. Pointers into it dangle from here on.
+// Drops all allocations made since the mark. Pointers to them become invalid.
 void arena_rewind(Arena *arena, ArenaMark mark);
 
 #endif

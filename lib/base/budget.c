@@ -10,7 +10,7 @@ void budget_begin(Budget *budget, uint64_t work_limit, atomic_bool *interrupt) {
 
 BudgetOutcome budget_check(Budget *budget) {
     enum { CHECK_INTERVAL = 1024 };
-    budget->next_check = 0; // once it is to end, each charge comes here
+    budget->next_check = 0; // after an interrupt or an exceeded limit, every charge calls this function
     if (budget->interrupt && budget->should_interrupt && budget->should_interrupt(budget->user_data))
         atomic_store(budget->interrupt, true);
     if (budget->interrupt && atomic_load_explicit(budget->interrupt, memory_order_relaxed))

@@ -1,9 +1,9 @@
-// budget.h: how much work and memory a script may have: one budget for all that a session does for it.
+// budget.h: the work and memory budget of a session.
 //
-// Work is counted in units of about ten nanoseconds: a round of a loop, a call, a node, sixteen numbers that are added.
-// It is charged before it is done, by what an operation will look at, through the arena that the operation works in
-// (arena.h); where that is much, in portions, for each charge is also where an end that the host asks for is heard.
-// Memory is what blocks hold, whoever asked for them and whatever is still in use in them.
+// Work is counted in units of about 10 ns: a loop iteration, a call, a node or the addition of sixteen numbers. It is
+// charged before it is done, through the arena that an operation allocates from (arena.h). Large operations charge in
+// chunks, because an interrupt is noticed only when work is charged. Memory counts as long as its block is held,
+// whether it is in use or not.
 #ifndef PETRI_BASE_BUDGET_H
 #define PETRI_BASE_BUDGET_H
 
@@ -13,32 +13,32 @@
 #include <stdint.h>
 
 typedef struct Budget {
-    uint64_t work;       // done since budget_begin
-    uint64_t next_check; // when to look next whether to go on
-    uint64_t work_limit;
-    size_t memory; // bytes held
-    size_t memory_limit;
-    bool memory_refused;                       // since budget_begin
-    atomic_bool *interrupt;                    // true: the host wants an end; NULL: nobody can ask for one
-    bool (*should_interrupt)(void *user_data); // asked for such a wish, by the thread that charges; NULL: nobody
-    void *user_data;
-    bool retains;   // the host still looks at what is to be freed (arena_retire)
-    void *retained; // … which is here: ArenaBlock
+    uint64_t work;                             // units charged since budget_begin; limit + 1: limit exceeded
+    uint64_t next_check;                       // value of `work` above which budget_check is called
+    uint64_t work_limit;                       // units
+    size_t memory;                             // bytes held
+    size_t memory_limit;                       // bytes
+    bool memory_refused;                       // budget_reserve has failed since budget_begin
+    atomic_bool *interrupt;                    // set by the host to interrupt; NULL: cannot be interrupted
+    bool (*should_interrupt)(void *user_data); // polled by the charging thread to set `interrupt`; NULL: not polled
+    void *user_data;                           // passed to should_interrupt
+    bool retains;   // arena_retire keeps blocks in `retained`, because the host may still read them
+    void *retained; // chain of ArenaBlock
 } Budget;
 
-// What an array of so many bytes costs that is filled or looked at in a simple loop.
+// Bytes or numbers of an array that cost one unit of work when a simple loop reads or fills them.
 enum { BUDGET_BYTES = 128, BUDGET_NUMBERS = BUDGET_BYTES / sizeof(double) };
-// A portion of an array: little enough to be done at once, enough for the charge not to be felt.
+// Elements of a chunk: few enough for a prompt interrupt, enough to make the cost of charging negligible.
 enum { BUDGET_CHUNK = 1 << 14 };
 
 typedef enum BudgetOutcome { BUDGET_OK, BUDGET_EXCEEDED, BUDGET_INTERRUPTED } BudgetOutcome;
 
-// Begins a piece of work with a budget of its own.
+// Starts a new call with no work charged. Memory already held stays charged. `interrupt` may be NULL.
 void budget_begin(Budget *budget, uint64_t work_limit, atomic_bool *interrupt);
-// What comes of a charge that went past `pause`.
+// Decides whether work may continue, and sets next_check. Called if `work` exceeds next_check.
 BudgetOutcome budget_check(Budget *budget);
 
-// Charges `units`, and tells whether to go on; NULL is free of charge.
+// Charges `units` and returns whether work may continue. With a NULL budget nothing is charged.
 static inline BudgetOutcome budget_charge(Budget *budget, uint64_t units) {
     if (!budget)
         return BUDGET_OK;
@@ -46,8 +46,9 @@ static inline BudgetOutcome budget_charge(Budget *budget, uint64_t units) {
     return budget->work <= budget->next_check ? BUDGET_OK : budget_check(budget);
 }
 
-// Takes bytes from the budget, if they are left; gives them back.
+// Charges memory. Returns false, with nothing charged, if the limit would be exceeded.
 bool budget_reserve(Budget *budget, size_t bytes);
+// Releases memory that budget_reserve has charged.
 void budget_release(Budget *budget, size_t bytes);
 
 #endif

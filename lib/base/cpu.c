@@ -10,7 +10,7 @@ static const char *const names[CPU_LEVELS] = {"scalar", "avx2", "avx512"};
 
 Cpu cpu_detected;
 
-// Before main, so that it is constant for all that follows.
+// Runs before main, so that cpu_detected is constant afterwards.
 __attribute__((constructor)) static void detect_cpu(void) {
 #if defined(__x86_64__)
     __builtin_cpu_init();

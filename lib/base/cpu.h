@@ -1,4 +1,4 @@
-// cpu.h: which vector instructions this processor has, and how many processors there are.
+// cpu.h: detection of vector instructions and of the number of processors.
 #ifndef PETRI_BASE_CPU_H
 #define PETRI_BASE_CPU_H
 
@@ -7,20 +7,20 @@
 // Each level includes the ones before it. Results are the same on all of them.
 typedef enum CpuLevel { CPU_SCALAR, CPU_AVX2, CPU_AVX512, CPU_LEVELS } CpuLevel;
 
-// What the processor and the operating system support, lowered to the environment variable PETRI_CPU as it is when the
-// process begins. Nobody writes it after that.
+// The instructions that the processor and the operating system support, limited by the environment variable PETRI_CPU.
+// Set once before main.
 typedef struct Cpu {
-    CpuLevel level; // the highest
-    bool fma;       // fused multiply-add may be used to find results: the level is above scalar, the processor has it
+    CpuLevel level; // highest supported level
+    bool fma;       // true if fused multiply-add may be used: the processor has it and the level is above scalar
 } Cpu;
 extern Cpu cpu_detected;
 
-// `wish` ("scalar", "avx2" or "avx512", as in PETRI_CPU), lowered to cpu_detected.level. NULL or an empty text stand
-// for no wish. False if there is no such level; *level is then cpu_detected.level.
+// Sets *level to the lower of `requested` ("scalar", "avx2" or "avx512", as in PETRI_CPU) and cpu_detected.level. NULL
+// or an empty text requests cpu_detected.level. An unknown level also gives cpu_detected.level, but returns false.
 bool cpu_choose(const char *requested, CpuLevel *level);
 const char *cpu_name(CpuLevel level);
 
-// Processors that this process may run on; at least 1.
+// Returns the number of processors that this process may run on, at least 1.
 int cpu_count(void);
 
 #endif

@@ -38,7 +38,7 @@ bool diag_report(DiagSink *sink, const Diag *diag) {
 static const char *const level_names[] = {"error", "warning", "note"};
 static const char *const level_colours[] = {"\033[1;31m", "\033[1;35m", "\033[1;36m"};
 
-// The part of a long line around the column, so that a line of ten megabytes prints as one of a hundred characters.
+// Returns the part of a line around the column, at most MAX_WIDTH characters, and makes *column relative to it.
 static Str excerpt(Str line, uint32_t *column) {
     enum { MAX_WIDTH = 160, CONTEXT_WIDTH = 60 };
     if (utf8_length(line) <= MAX_WIDTH)
@@ -56,7 +56,7 @@ static Str excerpt(Str line, uint32_t *column) {
 
 static void format_caret_line(Text *out, Str line, uint32_t column, size_t width, const char *plain) {
     size_t at = 0;
-    // Tabs stay tabs, so that the caret stands under its column however wide the terminal shows them.
+    // Tabs are copied, so that the caret is below its column for any tab width.
     for (uint32_t i = 1; i < column; i++)
         text_add_char(out, at < line.len && utf8_next(line, &at) == '\t' ? '\t' : ' ');
     text_add_char(out, '^');
@@ -67,7 +67,7 @@ static void format_caret_line(Text *out, Str line, uint32_t column, size_t width
     text_add_char(out, '\n');
 }
 
-// Control characters and ill-formed bytes, in a script's strings, too, must not reach a terminal.
+// Replaces control characters and ill-formed UTF-8 with '?', because they must not reach a terminal.
 static void add_printable(Text *out, Str text) {
     for (size_t at = 0; at < text.len;) {
         int32_t c = utf8_next(text, &at);
@@ -79,7 +79,7 @@ static void add_printable(Text *out, Str text) {
 }
 
 Str diag_text(const Diag *diag) {
-    return str_truncate(diag->text, 400); // a script may have names of megabytes
+    return str_truncate(diag->text, 400); // names in a script may be megabytes long
 }
 
 static void add_text(Text *out, const Diag *diag) {

@@ -1,7 +1,7 @@
-// diag.h: diagnostics, from where they arise to how they read.
+// diag.h: collection and formatting of diagnostics.
 //
-// Whoever finds a fault reports it to a sink with a place; nobody below src/ prints. A diagnostic is a plain struct in
-// the sink's arena. Reports of the same text at the same place are kept once, since a frame repeats 60 times a second.
+// Code in lib/ reports errors and warnings to a sink; only src/ prints them. The sink stores them in its arena. A
+// report with the same text at the same location is stored once, because a frame repeats up to 60 times a second.
 #ifndef PETRI_BASE_DIAG_H
 #define PETRI_BASE_DIAG_H
 
@@ -12,36 +12,37 @@ typedef enum DiagLevel { DIAG_ERROR, DIAG_WARNING, DIAG_NOTE } DiagLevel;
 
 typedef struct Diag {
     DiagLevel level;
-    const Source *source; // NULL: no place, the message stands alone
+    const Source *source; // NULL: no location
     Span span;
     Str text;
-    Str hint;         // a second sentence that helps, or empty
-    const char *code; // short name of the kind of fault, such as "unbound-name"
+    Str hint;         // advice on how to fix it; empty: none
+    const char *code; // short name of the kind of diagnostic, such as "unbound-name"; NULL: none
 } Diag;
 
 // A growing list of distinct diagnostics.
 typedef struct DiagSink {
-    Arena *arena; // texts and entries live here
+    Arena *arena; // holds texts and entries
     Diag *items;
     uint32_t count;
     uint32_t capacity;
     uint32_t error_count;
-    HashIndex index;
-    uint32_t limit; // entries kept at the most; later ones are only counted
-    uint32_t dropped;
+    HashIndex index;  // finds duplicates
+    uint32_t limit;   // maximum of `count`; further diagnostics are only counted
+    uint32_t dropped; // number of diagnostics beyond `limit`
 } DiagSink;
 
 DiagSink diag_sink_new(Arena *arena, uint32_t limit);
-// Releases the index; the entries go with the arena.
+// Frees the index. The entries are freed with the arena.
 void diag_sink_free(DiagSink *sink);
-// Keeps a copy of `diag` unless the same text at the same place is there; true if it is new. The source must live at
-// least as long as the sink.
+// Stores a copy of `diag` and returns true. Returns false if the same text at the same location is already stored, or
+// if the sink is full. The source must outlive the sink.
 bool diag_report(DiagSink *sink, const Diag *diag);
-// The text, or as much of it as is worth showing.
+// Returns the text, truncated to 400 bytes.
 Str diag_text(const Diag *diag);
-// `FILE:LINE:COLUMN: level: text`, the source line, carets, and the hint (spec cli.md 3.5), each line ended.
+// Appends `FILE:LINE:COLUMN: level: text`, the source line, a caret line and the hint (spec cli.md 3.5). Every line
+// ends with a newline.
 void diag_format(Text *out, const Diag *diag, bool colour);
-// `text (FILE:LINE)`: the one-line form that a frame's `?` section holds.
+// Returns `text (FILE:LINE)`, the form in the `?` section of a frame.
 Str diag_one_line(Arena *arena, const Diag *diag);
 
 #endif

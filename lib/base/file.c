@@ -22,7 +22,7 @@ bool file_exists(const char *path) {
     return stat(path, &info) == 0;
 }
 
-// The same bytes are the same version.
+// The host's bytes do not change as long as it returns the same pointer, so the pointer identifies the version.
 static Str version_of_bytes(Arena *arena, Str bytes) {
     return str_format(arena, "%p %zu", (const void *)bytes.bytes, bytes.len);
 }
@@ -55,10 +55,10 @@ typedef struct Reading {
     size_t expected;
     size_t limit;
     Str bytes;
-    const char *problem; // NULL: all was read
+    const char *problem; // NULL: success
 } Reading;
 
-// Reads to the end of the file, or to just beyond the limit.
+// Reads to the end of the file, or until the limit is exceeded.
 static void read_all(void *context) {
     Reading *reading = context;
     size_t capacity = reading->expected + 1, len = 0;
@@ -102,7 +102,7 @@ bool file_read(Arena *arena, const FileAccess *file_access, const char *path, bo
     if (file_access && (file_access->read_file || file_access_read_unsaved(file_access, path, &host_bytes)))
         return copy_host_file(arena, host_bytes, limit, bytes, version, problem);
     int file =
-        file_access_open(file_access, path, O_RDONLY | (regular ? O_NONBLOCK : 0)); // opening a pipe must not wait
+        file_access_open(file_access, path, O_RDONLY | (regular ? O_NONBLOCK : 0)); // opening a pipe must not block
     struct stat info;
     if (file < 0 || fstat(file, &info) != 0) {
         *problem = file_access && errno == EXDEV ? file_access_reason(arena, file_access, FILE_ACCESS_READ, path)
@@ -125,7 +125,7 @@ bool file_read(Arena *arena, const FileAccess *file_access, const char *path, bo
         outcome = arena_protect(&arena, 1, read_all, &reading);
     close(file);
     if (outcome != ARENA_OK)
-        arena_escape(arena, outcome); // now that the file is closed
+        arena_escape(arena, outcome); // only after the file is closed
     if (version && !reading.problem)
         *version = version_of(arena, &info);
     *bytes = reading.bytes;
@@ -187,7 +187,7 @@ bool file_resolve(const char *path, char resolved[PATH_MAX]) {
     for (int i = 0; i < MAX_LINKS; i++) {
         if (realpath(at, resolved))
             return true;
-        // The last part may be missing, or a link to something that is.
+        // The last component may not exist, or may be a link to a file that does not exist.
         char *slash = strrchr(at, '/'), *name = slash ? slash + 1 : at;
         if (errno != ENOENT || name[0] == '\0' || strcmp(name, ".") == 0 || strcmp(name, "..") == 0)
             return false;

@@ -1,4 +1,4 @@
-// file.h: whole files in and out.
+// file.h: functions that read and write whole files.
 #ifndef PETRI_BASE_FILE_H
 #define PETRI_BASE_FILE_H
 
@@ -6,28 +6,29 @@
 
 #include <sys/types.h>
 
-// Reads a file of at most `limit` bytes into the arena, followed by a NUL byte; a pipe too unless it must be `regular`.
-// False with a reason (borrowed) if that cannot be done. *version, if not NULL, gets a text that changes when the file
-// does. Only within `reach`, unless that is NULL.
+// Reads a file of at most `limit` bytes into the arena, followed by a NUL byte. Pipes are accepted unless `regular` is
+// set. On failure returns false and sets *problem to the reason, a constant or in the arena. If version is not NULL,
+// *version is set to a text that changes when the file changes. file_access restricts what can be read; NULL: no limit.
 bool file_read(Arena *arena, const FileAccess *file_access, const char *path, bool regular, size_t limit, Str *bytes,
                Str *version, const char **problem);
 bool file_exists(const char *path);
-// The version that file_read would give; false if there is no such file.
+// Gets the version that file_read would return. Returns false if the file does not exist or cannot be accessed.
 bool file_version(Arena *arena, const FileAccess *file_access, const char *path, Str *version);
-// Replaces a file as a whole, with the flags of replace.h. NULL, or why that failed.
+// Replaces a file atomically; flags as in replace.h. Returns NULL, or the reason for the failure.
 const char *file_replace(const char *path, Str bytes, unsigned flags);
-// The same for a file that is begun, which is ended in any case.
+// Writes `bytes` to a replacement that was begun and commits it; aborts it on failure. Returns NULL or the reason.
 const char *file_finish(Replacement *replacement, Str bytes);
-// openat, in spite of signals, of a file that no other program is given. Folder AT_FDCWD: the current one.
+// Calls openat with O_CLOEXEC and O_NOCTTY, and repeats it if a signal interrupts it. AT_FDCWD: the working directory.
 int file_open_at(int folder, const char *name, int flags, mode_t mode);
-// Writes all bytes to an open file; false with errno set.
+// Writes all bytes to an open file. On failure returns false with errno set.
 bool file_write(int file, const char *bytes, size_t len);
-// Cuts off what comes after the first `len` bytes. False with errno if that fails.
+// Truncates a file to `len` bytes. On failure returns false with errno set.
 bool file_truncate(int file, size_t len);
-// Where the path leads, without links and dots, even if there is nothing yet; false with errno set if its folder is not
-// there.
+// Resolves symbolic links and dots in a path. The file itself need not exist, but its folder must. On failure returns
+// false with errno set.
 bool file_resolve(const char *path, char resolved[PATH_MAX]);
-// The path without links and dots, or as it is if it does not exist; NUL-terminated. Of a host's files it is the name.
+// Returns the path with symbolic links and dots resolved, NUL-terminated. A path that does not exist is copied
+// unchanged. If the host provides the files (FileAccess.read_file), the path is only normalised.
 Str file_canonical(Arena *arena, const FileAccess *file_access, const char *path);
 
 #endif

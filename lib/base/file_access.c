@@ -60,7 +60,7 @@ static bool is_below(Str folder, const char *path) {
                                (path[folder.len] == '/' || path[folder.len] == '\0'));
 }
 
-// The folder that a canonical path lies below; NULL: none.
+// Returns the allowed folder that contains a canonical path, or NULL.
 static const Str *find_folder(const FileAccess *file_access, FileAccessKind kind, const char *path) {
     if (file_access->no_files)
         return NULL;
@@ -81,7 +81,7 @@ bool file_access_normalise(const char *path, char normal[PATH_MAX]) {
     }
     if (absolute)
         normal[len++] = '/';
-    size_t root = len; // what cannot be gone up from
+    size_t root = len; // length of the prefix that ".." cannot remove
     for (size_t size; *path; path += size) {
         size = strcspn(path, "/");
         bool up = size == 2 && path[0] == '.' && path[1] == '.';
@@ -133,8 +133,8 @@ bool file_access_resolve(const FileAccess *file_access, FileAccessKind kind, con
     return file_access_allows(file_access, kind, resolved);
 }
 
-// Part by part, for systems that cannot do it at once.
-static int open_by_parts(int folder, char *rest, int flags) {
+// Opens one path component after the other, for systems without openat2. Modifies `rest` and closes `folder`.
+static int open_by_components(int folder, char *rest, int flags) {
     for (char *slash; (slash = strchr(rest, '/')); rest = slash + 1) {
         *slash = '\0';
         int next = file_open_at(folder, rest, O_PATH | O_DIRECTORY | O_NOFOLLOW, 0);
@@ -152,7 +152,7 @@ static int open_by_parts(int folder, char *rest, int flags) {
     return file;
 }
 
-// Opens a canonical path below a folder without following any link. It is taken apart meanwhile.
+// Opens a canonical path below a folder without following links. Modifies `path`.
 static int open_below(const Str *folder, char *path, int flags) {
     int start = file_open_at(AT_FDCWD, folder->bytes, O_PATH | O_DIRECTORY, 0);
     char *rest = path + folder->len;
@@ -166,14 +166,14 @@ static int open_below(const Str *folder, char *path, int flags) {
     do
         file = syscall(SYS_openat2, start, rest[0] ? rest : ".", &how, sizeof how);
     while (file < 0 && (errno == EINTR || errno == EAGAIN));
-    if (file >= 0 || (errno != ENOSYS && errno != EPERM)) { // those two: an old kernel, a sandbox around us
+    if (file >= 0 || (errno != ENOSYS && errno != EPERM)) { // ENOSYS, EPERM: openat2 is missing or blocked by a sandbox
         int error = errno;
         close(start);
         errno = error;
         return (int)file;
     }
 #endif
-    return open_by_parts(start, rest, flags);
+    return open_by_components(start, rest, flags);
 }
 
 int file_access_open(const FileAccess *file_access, const char *path, int flags) {
@@ -207,7 +207,7 @@ bool file_access_make_folders(const FileAccess *file_access, const char *path) {
     char resolved[PATH_MAX], prefix[PATH_MAX];
     struct stat info;
     if (strlen(path) >= sizeof prefix)
-        return true; // writing says what is wrong
+        return true; // writing will report the error
     for (const char *slash = strchr(path + 1, '/'); path[0] && slash; slash = strchr(slash + 1, '/')) {
         memcpy(prefix, path, (size_t)(slash - path));
         prefix[slash - path] = '\0';
@@ -222,13 +222,13 @@ const char *file_access_reason(Arena *arena, const FileAccess *file_access, File
     static const char *const words[] = {[FILE_ACCESS_READ] = "read", [FILE_ACCESS_WRITE] = "write"};
     char resolved[PATH_MAX];
     if (file_access->no_files)
-        return "scripts may use no files here (--no-files)";
+        return "file access is disabled (--no-files)";
     if (!file_resolve(path, resolved))
-        return "it is out of the script's reach";
+        return "access denied";
     struct stat info;
     bool is_folder = stat(resolved, &info) == 0 && S_ISDIR(info.st_mode);
     Str folder = is_folder ? str_from(resolved) : path_directory(str_from(resolved));
     folder.len -= folder.len > 1 && !is_folder;
-    return str_to_c(arena, str_format(arena, "a script may not %s there; '--allow-%s %.*s' would allow it", words[kind],
+    return str_to_c(arena, str_format(arena, "scripts may not %s there; allow it with '--allow-%s %.*s'", words[kind],
                                       words[kind], (int)folder.len, folder.bytes));
 }

@@ -1,7 +1,8 @@
-// file_access.h: which files a script may use: those below some folders.
+// file_access.h: rules for the files that a script may read and write.
 //
-// A path is resolved first, links and dots and all; what it leads to must lie below one of the folders, and is then
-// opened from there without following any link, so that nothing changes its meaning in between.
+// A script may use only files below certain folders. A path is first made canonical: symbolic links and dots are
+// resolved. The canonical path must be below one of the folders. The file is then opened relative to that folder
+// without following links, so that a link created in the meantime cannot redirect it.
 #ifndef PETRI_BASE_FILE_ACCESS_H
 #define PETRI_BASE_FILE_ACCESS_H
 
@@ -11,43 +12,45 @@
 typedef enum FileAccessKind { FILE_ACCESS_READ, FILE_ACCESS_WRITE, FILE_ACCESS_KIND_COUNT } FileAccessKind;
 
 typedef struct FileAccess {
-    const Str *folders[FILE_ACCESS_KIND_COUNT]; // canonical; NUL-terminated
+    const Str *folders[FILE_ACCESS_KIND_COUNT]; // by kind: canonical paths, NUL-terminated
     uint32_t counts[FILE_ACCESS_KIND_COUNT];
-    Str script_folder; // the script's, for both; empty: none
-    Str directory;     // what relative names start from, as the user gave it
-    bool no_files;     // no file at all
-    // Where what is read comes from, whatever the folders; NULL: the disk. The bytes stay as they are as long as the
-    // same ones are given again.
+    Str script_folder; // canonical folder of the script, readable and writable; empty: none
+    Str directory;     // folder that relative names in scripts refer to, as the user gave it
+    bool no_files;     // true: all files on disk are denied
+    // Returns a file's bytes from the host instead of the disk, or NULL; the folders are then ignored for reading.
+    // NULL: read from disk. Bytes must not change as long as the callback returns the same pointer.
     const char *(*read_file)(void *user_data, const char *name, size_t *length);
-    void *read_user_data;
-    // What stands for a file on the disk, by its canonical path; NULL gives none.
+    void *read_user_data; // passed to read_file and read_unsaved
+    // Returns unsaved text that replaces an existing file, by its canonical path, or NULL. NULL: no unsaved texts.
     const char *(*read_unsaved)(void *user_data, const char *name, size_t *length);
 } FileAccess;
 
-// Adds folders, by name, to those of a kind; NULL or a list that ends in NULL.
+// Allows the folders `names`, a list that ends with NULL, for a kind of access. A NULL list adds none. Folders that
+// cannot be resolved are ignored.
 void file_access_add(Arena *arena, FileAccess *file_access, FileAccessKind kind, const char *const *names);
-// The canonical path of the folder that a file's name begins with; empty if it is not there.
+// Returns the canonical path of a directory; an empty name is the working directory. Empty if it does not exist.
 Str file_access_folder(Arena *arena, Str directory);
+// Returns a copy with all texts in the arena.
 FileAccess file_access_copy(Arena *arena, const FileAccess *file_access);
 
-// Whether a canonical path lies within. NULL: everything does.
+// Returns true if access to a canonical path is allowed. If file_access is NULL, all paths are allowed.
 bool file_access_allows(const FileAccess *file_access, FileAccessKind kind, const char *path);
-// The canonical path; false with errno set, EXDEV if it lies outside.
+// Gets the canonical path. On failure returns false with errno set; EXDEV means that access is not allowed.
 bool file_access_resolve(const FileAccess *file_access, FileAccessKind kind, const char *path, char resolved[PATH_MAX]);
-// The bytes that `read` gives for a path, which it gets without dots and double slashes; false with errno set if there
-// are none, or the path is too long.
+// Gets the bytes that the read_file callback returns for the normalised path. On failure returns false with errno set.
 bool file_access_read(const FileAccess *file_access, const char *path, Str *bytes);
-// The text that stands for the file, if there is one.
+// Gets the unsaved text of a file. Returns false if there is none or the file may not be read.
 bool file_access_read_unsaved(const FileAccess *file_access, const char *path, Str *bytes);
-// A path without dots and double slashes, whatever there is on the disk; false with errno set if it is too long.
+// Removes dots and double slashes from a path without reading the disk. Returns false with errno set if it is too long.
 bool file_access_normalise(const char *path, char normal[PATH_MAX]);
-// Opens a file for reading, or as `flags` say; -1 with errno set likewise.
+// Opens a file that may be read, with the flags of open. Returns -1 with errno set on failure (EXDEV: not allowed).
 int file_access_open(const FileAccess *file_access, const char *path, int flags);
-// replace_begin for a regular file, or a new one, within; false with errno set likewise.
+// Like replace_begin, but only for regular or new files that may be written. On failure returns false with errno set
+// (EXDEV: not allowed).
 bool file_access_replace(const FileAccess *file_access, const char *path, Replacement *replacement);
-// Makes the folders that a file is to be in, as far as they are missing. False if it lies outside.
+// Creates the missing folders of a file's path. Returns false if the file may not be written.
 bool file_access_make_folders(const FileAccess *file_access, const char *path);
-// Why a path is out of reach, and what would change that.
+// Returns why access to a path is denied, and which option would allow it. The text is constant or in the arena.
 const char *file_access_reason(Arena *arena, const FileAccess *file_access, FileAccessKind kind, const char *path);
 
 #endif

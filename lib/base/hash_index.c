@@ -34,7 +34,7 @@ void hash_index_clear(HashIndex *index) {
     index->used = index->live = 0;
 }
 
-// Only the upper half of a hash is stored; the probe starts from it alone, so that growing needs nothing else.
+// The start depends only on the stored upper half of the hash, so that a larger table can be built from the slots.
 static uint32_t probe_start(uint32_t upper, uint32_t mask) {
     return (uint32_t)hash_mix(upper) & mask;
 }

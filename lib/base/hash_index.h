@@ -1,7 +1,7 @@
-// hash_index.h: the index of an insertion-ordered hash table, and growing arrays on the heap.
+// hash_index.h: the index of an insertion-ordered hash table.
 //
-// The owner keeps its entries in an array of its own, in order of insertion; the index maps hashes to positions in that
-// array. So entries stay dense and ordered, and one index serves tables of symbols, state keys and diagnostics.
+// The owner stores its entries in an array, in order of insertion. The index maps hashes to positions in that array, so
+// entries stay dense and ordered. It is used for symbols, state keys and diagnostics.
 #ifndef PETRI_BASE_HASH_INDEX_H
 #define PETRI_BASE_HASH_INDEX_H
 
@@ -11,33 +11,34 @@
 
 typedef struct HashIndexSlot {
     uint32_t hash;  // upper half of the 64-bit hash
-    uint32_t entry; // position + 1; 0 is empty, INDEX_DELETED a removed one
+    uint32_t entry; // position + 1; 0: empty slot; INDEX_DELETED: removed entry
 } HashIndexSlot;
 
 typedef struct HashIndex {
     HashIndexSlot *slots; // heap; NULL while empty
-    uint32_t mask;
-    uint32_t used; // slots in use, deleted ones included
-    uint32_t live;
+    uint32_t mask;        // number of slots - 1
+    uint32_t used;        // number of slots in use, including removed entries
+    uint32_t live;        // number of entries
 } HashIndex;
 
 #define HASH_INDEX_NONE UINT32_C(0xfffffff0) // no entry has this position
 
-// Does entry number `entry` have the key that is looked for?
+// Returns true if the entry at a position has this key.
 typedef bool HashIndexMatch(const void *owner, uint32_t entry, const void *key);
 
 void hash_index_free(HashIndex *index);
 void hash_index_clear(HashIndex *index);
-// Position of the entry with this key, or HASH_INDEX_NONE.
+// Returns the position of the entry with this key, or HASH_INDEX_NONE.
 uint32_t hash_index_find(const HashIndex *index, uint64_t hash, HashIndexMatch *match, const void *owner,
                          const void *key);
-// Adds a position; the key must not be there. False if memory is used up (then nothing has changed).
+// Adds a position, whose key must not be in the index yet. Returns false, with nothing changed, if out of memory.
 bool hash_index_add(HashIndex *index, uint64_t hash, uint32_t entry);
 // Removes the entry at a position.
 void hash_index_remove(HashIndex *index, uint64_t hash, uint32_t entry);
 
-// A well-mixed 64-bit hash of bytes (FNV-1a finished by the SplitMix64 mixer).
+// Returns a well-mixed 64-bit hash of bytes: FNV-1a followed by the SplitMix64 mixer.
 uint64_t hash_bytes(uint64_t seed, const void *bytes, size_t len);
+// Returns x mixed by SplitMix64.
 uint64_t hash_mix(uint64_t x);
 
 #endif

@@ -5,10 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The one thing that changes and is no session's: blocks are asked for where none is at hand (a number is read, a
-// program of the GPU is shared by painters).
-static HeapAllocator current_allocator; // `take` is NULL: the C library
-static atomic_size_t block_count;       // blocks
+// The only mutable global state outside sessions. Some callers have no session, such as painters that share a shader.
+static HeapAllocator current_allocator; // `allocate` is NULL: use the C library
+static atomic_size_t block_count;       // allocated blocks
 
 static void *count_block(void *block) {
     if (block)
@@ -32,7 +31,7 @@ void *heap_alloc(size_t size) {
 
 void *heap_calloc(size_t count, size_t size) {
     if (!current_allocator.allocate)
-        return count_block(calloc(count ? count : 1, size ? size : 1)); // the kernel's pages are cleared already
+        return count_block(calloc(count ? count : 1, size ? size : 1)); // does not clear fresh pages again
     if (size && count > SIZE_MAX / size)
         return NULL;
     void *block = heap_alloc(count * size);

@@ -1,7 +1,8 @@
-// heap.h: where petri's memory comes from: the C library, or functions of the host's (petri_set_allocator). All rooms
-// ask here and nowhere else, which tests/lint/check_allocators.sh sees to.
+// heap.h: the heap allocator.
 //
-// A block is aligned for any type of C, 16 bytes. NULL if there is none. Any thread may call these functions.
+// Memory comes from the C library or from the functions set by petri_set_allocator. All libraries allocate through this
+// file; tests/lint/check_allocators.sh checks it. Blocks are aligned to 16 bytes. Allocations return NULL if out of
+// memory. Any thread may call these functions, except heap_set_allocator.
 #ifndef PETRI_BASE_HEAP_H
 #define PETRI_BASE_HEAP_H
 
@@ -16,20 +17,20 @@ typedef struct HeapAllocator {
     void *user_data;
 } HeapAllocator;
 
-// From now on blocks come from `source`, which is copied; NULL: from the C library. False, and nothing changes, while a
-// block is held that would go back to where it does not come from. No other thread may be in one of these functions.
+// Sets the functions for all later allocations; the struct is copied. NULL selects the C library. Returns false, with
+// nothing changed, while any block is allocated. No other thread may call a function of this file at the same time.
 bool heap_set_allocator(const HeapAllocator *allocator);
 
 void *heap_alloc(size_t size);
-// Cleared room for an array.
+// Allocates a zeroed array.
 void *heap_calloc(size_t count, size_t size);
-// The block with another size, which is not 0; the old one stays if there is none. NULL gives a new one.
+// Resizes a block, which may move. `size` must not be 0. On failure the block is unchanged. NULL allocates a new block.
 void *heap_resize(void *block, size_t size);
-// Gives a block back. NULL is fine.
+// Frees a block. NULL is ignored.
 void heap_free(void *block);
-// A copy of a text, with a NUL byte behind it.
+// Returns a copy of a text, followed by a NUL byte.
 char *heap_strndup(const char *bytes, size_t length);
-// Makes room for element number `count` of an array; false if there is none (then nothing has changed).
+// Grows an array so that it can hold more than `count` elements. Returns false, with nothing changed, if out of memory.
 bool heap_reserve(void **array, uint32_t *capacity, uint32_t count, size_t size);
 
 #endif

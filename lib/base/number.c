@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The host may have set a locale whose decimal point is not "."; printf and strtod obey it.
+// Returns the decimal point that printf and strtod use, which depends on the host's locale.
 static char decimal_point(void) {
     const struct lconv *conventions = localeconv();
     return conventions->decimal_point && conventions->decimal_point[0] ? conventions->decimal_point[0] : '.';
@@ -44,7 +44,7 @@ static size_t format_special(double x, char *text) {
     return strlen(word);
 }
 
-// Decimal digits and the exponent of the first.
+// Decimal digits d and an exponent e, for the value d.ddd * 10^e.
 typedef struct Decimal {
     char digits[20];
     int count;
@@ -59,14 +59,14 @@ static void drop_zeros(Decimal *decimal) {
 __extension__ typedef unsigned __int128 Product;
 
 enum { MAX_DIGITS = 17 };
-#define MIN_FRACTION 1e-5                // its scale is 21, and 5^21 has 49 bits
-#define MIN_17_DIGITS 10000000000000000u // of 17 digits
+#define MIN_FRACTION 1e-5                // its scale is 21; 5^21 has 49 bits
+#define MIN_17_DIGITS 10000000000000000u // smallest integer with 17 digits
 
-// x = significand * 2^exponent, in units of 10^-scale: product * 2^-shift, without any rounding. Below 2^53 and from
-// LEAST_FRACTION on the product is below 2^53 * 5^21 < 2^102.
+// The exact value of x = significand * 2^exponent in units of 10^-scale, as product * 2^-shift. For x from MIN_FRACTION
+// to 2^53 the product is below 2^53 * 5^21 < 2^102.
 typedef struct Scaled {
     Product product;
-    Product power; // 5^scale: the distance to the neighbours of x, likewise
+    Product power; // 5^scale: distance of x to the next double, in units of 2^-shift
     int shift;
 } Scaled;
 
@@ -79,14 +79,14 @@ static bool scale_by(Scaled *scaled, uint64_t significand, int exponent, int sca
     return scale > 0 && scaled->shift > 0;
 }
 
-// Whether `whole` units read back as x: no further from it than the middle between two neighbours.
+// Returns true if `whole` units read back as x: they are nearer to x than half the distance to the next double.
 static bool reads_back(const Scaled *scaled, uint64_t whole) {
     Product there = (Product)whole << scaled->shift;
     Product distance = there > scaled->product ? there - scaled->product : scaled->product - there;
     return 2 * distance < scaled->power; // never equal: a power of five is odd
 }
 
-// x in units, rounded to a multiple of `unit`, a power of ten; ties go to the even multiple.
+// Returns x in units, rounded to a multiple of `unit`, a power of ten. Ties are rounded to the even multiple.
 static uint64_t round_units(const Scaled *scaled, uint64_t unit) {
     Product rest = scaled->product & (((Product)1 << scaled->shift) - 1);
     uint64_t units = (uint64_t)(scaled->product >> scaled->shift), whole = units / unit;
@@ -95,15 +95,16 @@ static uint64_t round_units(const Scaled *scaled, uint64_t unit) {
     return (whole + (rest > half || (rest == half && whole % 2 == 1))) * unit;
 }
 
-// The shortest decimal that reads back as x, for most of the fractions that there are, in integers; false for others.
+// Finds the shortest decimal that reads back as x by integer arithmetic. Returns false for the few x that it cannot
+// handle.
 static bool shortest_of_fraction(double x, Decimal *decimal) {
     int exponent;
     uint64_t significand = (uint64_t)ldexp(frexp(x, &exponent), 53);
     exponent -= 53;
-    // A power of two has a nearer neighbour below than above.
+    // Excludes powers of two, because the next double below is nearer than the one above.
     if (!(x >= MIN_FRACTION && x < 9007199254740992.0) || significand == UINT64_C(1) << 52)
         return false;
-    // 78913 / 2^18 is the decimal logarithm of 2: the estimate is right or one too low.
+    // 78913 / 2^18 approximates log10(2). The estimate is exact or one too low.
     int first = (int)floor((exponent + 52) * (78913.0 / 262144));
     Scaled scaled;
     if (!scale_by(&scaled, significand, exponent, MAX_DIGITS - 1 - first))
@@ -129,18 +130,18 @@ static bool shortest_of_fraction(double x, Decimal *decimal) {
     return true;
 }
 
-// The same for any x (finite, not 0), by trial.
+// Finds the shortest decimal for any finite x other than 0, by increasing the precision until it reads back.
 static void shortest_by_trial(double x, Decimal *decimal) {
     char text[NUMBER_TEXT];
     char point = decimal_point();
-    // A normal double always survives 17 digits, most survive 15, and what survives 15 loses only zeros.
+    // 17 digits are enough for every normal double, 15 for most. A shorter result is a 15-digit one without end zeros.
     int precision = fabs(x) >= 2.2250738585072014e-308 ? 15 : 1;
     for (;; precision++) {
         snprintf(text, sizeof text, "%.*e", precision - 1, x);
         if (precision >= 17 || strtod(text, NULL) == x)
             break;
-        // At a power of two the interval below is half as wide as that above, so the nearest decimal may miss it
-        // while its upper neighbour of equal length does not.
+        // At a power of two the interval that reads back as x is half as wide below x as above. So the nearest decimal
+        // may be outside, while the next higher one of the same length is inside.
         int binary_exponent;
         if (fabs(frexp(x, &binary_exponent)) == 0.5) {
             char *last = strchr(text, 'e') - 1;
@@ -161,7 +162,7 @@ static void shortest_by_trial(double x, Decimal *decimal) {
     drop_zeros(decimal);
 }
 
-// Positional text of an integer below 2^53: the common case by far, without any trial.
+// Writes an integer below 2^53, by far the most common case, without trial.
 static size_t format_integer(long long whole, bool negative, char *text) {
     char digits[20], *first = digits + sizeof digits, *at = text;
     do

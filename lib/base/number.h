@@ -1,4 +1,4 @@
-// number.h: reading and printing doubles, whatever the host's locale.
+// number.h: locale-independent conversion between doubles and text.
 #ifndef PETRI_BASE_NUMBER_H
 #define PETRI_BASE_NUMBER_H
 
@@ -8,17 +8,17 @@
 #include <stdbool.h>
 #include <string.h>
 
-enum { NUMBER_TEXT = 40 }; // room for any formatted number
+enum { NUMBER_TEXT = 40 }; // size of a buffer for any formatted number
 
-// The shortest decimal that reads back as the same double (spec language.md L18.1); returns its length.
+// Writes the shortest decimal that reads back as the same double (spec language.md L18.1). Returns its length.
 size_t number_format(double x, char text[NUMBER_TEXT]);
-// Nine significant digits as C's "%.9g", but every nan is "nan" (L6.2); returns its length.
+// Writes nine significant digits as C's "%.9g", but every NaN as "nan" (L6.2). Returns the length.
 size_t number_format_short(double x, char text[NUMBER_TEXT]);
-// Reads decimal digits with optional sign, point and exponent, correctly rounded; underscores are skipped. The caller
-// has checked the form.
+// Parses decimal digits with optional sign, point and exponent, correctly rounded. Underscores are skipped. The text
+// must be well-formed.
 double number_parse(Str digits);
 
-// floor(x), to the bit (so -0 stays). Without SSE4.1, which we cannot count on, the C library's is a call.
+// Returns floor(x), including -0. Faster than the C library's floor, which is a function call without SSE4.1.
 static inline double number_floor(double x) {
     if (!(x > -4503599627370496.0 && x < 4503599627370496.0))
         return floor(x);
@@ -37,7 +37,8 @@ static inline uint64_t number_bits(double x) {
     return bits;
 }
 
-// Is none of n numbers inf or nan? x - x is 0 for finite x only; unlike isfinite it vectorizes with every compiler.
+// Returns true if all n numbers are finite. x - x is 0 only for finite x; unlike isfinite, every compiler vectorises
+// it.
 static inline bool numbers_finite(const double *numbers, size_t n, size_t stride) {
     bool finite = true;
     for (size_t k = 0; k < n; k++)

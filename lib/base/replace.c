@@ -18,12 +18,12 @@
 #ifndef O_PATH
 #define O_PATH O_RDONLY
 #endif
-// Names of new files, until they have their own: a prefix, 16 hexadecimal digits, a suffix.
+// Temporary names consist of a prefix, 16 hexadecimal digits and a suffix.
 #define PREFIX ".petri-"
 #define SUFFIX ".tmp"
 enum { PREFIX_LENGTH = sizeof PREFIX - 1, DIGITS = 16, MAX_TRIES = 100, MAX_SCANNED_ENTRIES = 4096 };
 
-// By hand, for a signal handler may need it.
+// Does not use snprintf, because it may be called from a signal handler.
 static bool make_name(char name[NAME_MAX + 1]) {
     uint64_t number = 0;
     if (getentropy(&number, sizeof number) != 0)
@@ -41,7 +41,7 @@ static bool is_temporary_name(const char *name) {
            strcmp(name + PREFIX_LENGTH + DIGITS, SUFFIX) == 0;
 }
 
-// Removes what a process left that was killed at the wrong moment: nobody has it locked.
+// Removes temporary files of killed processes. They are recognised because no process holds their lock.
 static void remove_stale_files(int folder) {
     int again = file_open_at(folder, ".", O_RDONLY | O_DIRECTORY, 0);
     DIR *entries = again < 0 ? NULL : fdopendir(again);
@@ -61,12 +61,13 @@ static void remove_stale_files(int folder) {
         close(again);
 }
 
-// Only who holds the lock is at work on a file. Where there are no locks, nobody sweeps either.
+// Locks a temporary file, so that other processes do not remove it. Returns true if the file system has no locks,
+// because remove_stale_files then removes nothing.
 static bool lock_file(int file) {
     return flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
 }
 
-// Gives the file, which has no name, one in its folder.
+// Gives the unnamed file a name in its folder. With a NULL name only checks that this is possible.
 static bool link_file(const Replacement *r, const char *name) {
     char path[64] = "/proc/self/fd/", digits[16];
     char *end = path + strlen(path);
@@ -85,7 +86,7 @@ static bool link_file(const Replacement *r, const char *name) {
     return result == 0;
 }
 
-// Opens a file that has no name. False if there is no such thing here, or it could not get one later.
+// Opens an unnamed file. Returns false if that is not supported, or if the file could not be named later.
 static bool open_unnamed(Replacement *r) {
 #ifdef O_TMPFILE
     r->file = file_open_at(r->folder, ".", O_TMPFILE | O_WRONLY, 0666);
@@ -105,7 +106,7 @@ static bool open_named(Replacement *r) {
         r->file = file_open_at(r->folder, r->temporary_name, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, 0666);
         if (r->file < 0 && errno != EEXIST)
             break;
-        // Who sweeps may have been faster than the lock.
+        // Another process may have removed the file before it was locked.
         if (r->file >= 0 && lock_file(r->file) && fstat(r->file, &info) == 0 && info.st_nlink > 0)
             return true;
         if (r->file >= 0)
@@ -140,7 +141,7 @@ bool replace_begin_in(Replacement *r, int folder, const char *name, unsigned fla
     return !named || open_named(r) || abort_with_error(r, errno);
 }
 
-// Of our own streams, by whatever name, or -1.
+// Returns the descriptor of stdout or stderr if it is the file `info`, else -1.
 static int find_stream(const struct stat *info) {
     struct stat stream;
     for (int fd = STDOUT_FILENO; fd <= STDERR_FILENO; fd++)
@@ -179,7 +180,7 @@ bool replace_begin(Replacement *r, const char *path, unsigned flags) {
     return replace_begin_in(r, folder, name, flags);
 }
 
-// Some file systems cannot do it, which is no failure.
+// EINVAL and EBADF mean that the file system does not support fsync.
 bool replace_sync(int file) {
     int result;
     do
@@ -188,7 +189,7 @@ bool replace_sync(int file) {
     return result == 0 || errno == EINVAL || errno == EBADF;
 }
 
-// A link is only made where nothing is; a new name is put over what is there.
+// Names the new file like the target: by linkat if the target does not exist, else by a temporary name and renameat.
 static bool link_or_rename(Replacement *r, bool exists) {
     bool named = r->temporary_name[0] != '\0';
     if (!named && (r->only_new || !exists)) {
@@ -206,7 +207,7 @@ static bool link_or_rename(Replacement *r, bool exists) {
         r->temporary_name[0] = '\0';
         return false;
     }
-    if (r->only_new) // the temporary name goes with replace_abort
+    if (r->only_new) // replace_abort removes the temporary name
         return linkat(r->folder, r->temporary_name, r->folder, r->name, 0) == 0;
     int result;
     do
@@ -245,7 +246,7 @@ bool replace_end(Replacement *r) {
         r->file = -1;
         return close(file) == 0 || errno == EINTR;
     }
-    if (!replace_sync(r->folder)) // the name, too, must reach the disk
+    if (!replace_sync(r->folder)) // the new name must also reach the disk
         return abort_with_error(r, errno);
     replace_abort(r);
     return true;

@@ -1,10 +1,10 @@
-// replace.h: the one way to write a file: as a whole, or not at all.
+// replace.h: atomic replacement of files.
 //
-// The bytes go to a file without a name in the target's folder (where the system has no such thing: to one with a name
-// that nobody can guess) and when they are on the disk that takes the target's name. Readers see the old bytes or the
-// new ones, whatever happens, and after a crash or kill -9 one of the two is there. Permissions and owner stay, a
-// symbolic link stays one and its target is replaced. What is no regular file (a device, a pipe, /dev/stdout) is never
-// replaced: the bytes are written to it.
+// The bytes are written to an unnamed file in the target's folder (O_TMPFILE), or to a file with a random name if the
+// system does not support that. Once they are on disk, the new file is renamed to the target. Readers see either the
+// complete old file or the complete new one, even after a crash or kill -9. Owner and permissions are kept. A symbolic
+// link is kept and its target is replaced. A target that is not a regular file (a device, a pipe, /dev/stdout) is
+// written to directly.
 #ifndef PETRI_BASE_REPLACE_H
 #define PETRI_BASE_REPLACE_H
 
@@ -12,34 +12,37 @@
 #include <stdbool.h>
 
 typedef enum ReplaceFlags {
-    REPLACE_CREATE_ONLY = 1, // only if nothing is there, a link neither
-    REPLACE_NAMED = 2,       // the new file has a name from the start
+    REPLACE_CREATE_ONLY = 1, // fail if the target exists, even as a symbolic link
+    REPLACE_NAMED = 2,       // use a temporary name even if unnamed files are supported
 } ReplaceFlags;
 
 typedef struct Replacement {
-    int file;    // takes the bytes; -1: nothing is begun
-    int folder;  // the target's
-    bool direct; // `file` is the target itself, which is no regular file
-    bool only_new;
-    char name[NAME_MAX + 1];           // the target's in its folder
-    char temporary_name[NAME_MAX + 1]; // the new file's meanwhile; "": none
+    int file;                          // descriptor to write to; -1: not begun
+    int folder;                        // descriptor of the target's folder
+    bool direct;                       // `file` is the target itself, which is not a regular file
+    bool only_new;                     // REPLACE_CREATE_ONLY
+    char name[NAME_MAX + 1];           // name of the target in its folder
+    char temporary_name[NAME_MAX + 1]; // name of the new file before it is renamed; "": none
 } Replacement;
 
-// Each is false with errno set if it failed; what is begun is to be ended by replace_commit, replace_end or
-// replace_abort.
+// Unless stated otherwise, the functions return false with errno set on failure. All that end a replacement, and
+// replace_sync, may be called from a signal handler.
+
+// Begins a replacement. The caller ends it with replace_commit, replace_end or replace_abort.
 bool replace_begin(Replacement *replacement, const char *path, unsigned flags);
-// The same in an open folder, which it takes and closes in any case; `name` has no slash. Refuses what is there and no
-// regular file, symbolic links too.
+// Like replace_begin, but for a name without slashes in an open folder. Takes ownership of the descriptor `folder`,
+// even on failure. Fails if the target exists and is not a regular file, for example a symbolic link.
 bool replace_begin_in(Replacement *replacement, int folder, const char *name, unsigned flags);
-// Puts the new file in its place, once all is on the disk; the old file is untouched if that fails.
+// Writes the new file to disk and renames it to the target. On failure the old file is unchanged and the replacement
+// is aborted.
 bool replace_commit(Replacement *replacement);
-// The same in three steps: all is brought to the disk; it is put in its place; so is its name, and what was begun ends.
+// The three steps of replace_commit: flush the new file to disk; rename it; flush the folder and end the replacement.
 bool replace_flush(Replacement *replacement);
 bool replace_rename(Replacement *replacement);
 bool replace_end(Replacement *replacement);
+// Removes the new file and closes the descriptors.
 void replace_abort(Replacement *replacement);
-// Brings a file or folder to the disk. True where the file system cannot do that.
+// Flushes a file or folder to disk. Returns true if the file system does not support it.
 bool replace_sync(int file);
-// What ends a replacement, and this, may be called from a signal handler.
 
 #endif

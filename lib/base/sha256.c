@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-// The first 32 bits behind the point of the cube roots of the first 64 primes
+// Round constants: the first 32 bits of the fractional parts of the cube roots of the first 64 primes.
 static const uint32_t constants[64] = {
     0x428a2f98, 0x71374491, 0xb5c0fbcf, 0xe9b5dba5, 0x3956c25b, 0x59f111f1, 0x923f82a4, 0xab1c5ed5,
     0xd807aa98, 0x12835b01, 0x243185be, 0x550c7dc3, 0x72be5d74, 0x80deb1fe, 0x9bdc06a7, 0xc19bf174,
@@ -15,7 +15,7 @@ static const uint32_t constants[64] = {
     0x748f82ee, 0x78a5636f, 0x84c87814, 0x8cc70208, 0x90befffa, 0xa4506ceb, 0xbef9a3f7, 0xc67178f2,
 };
 
-// … and of the square roots of the first 8
+// Returns the initial state: the first 32 bits of the fractional parts of the square roots of the first 8 primes.
 Sha256 sha256_new(void) {
     return (Sha256){
         .state = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a, 0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19}};
@@ -25,7 +25,7 @@ static uint32_t rotated(uint32_t x, int right) {
     return x >> right | x << (32 - right);
 }
 
-// The message schedule: 16 words of the block, and 48 more that are made of them.
+// Computes the message schedule: the block's 16 words and 48 words derived from them.
 static void schedule(const unsigned char *block, uint32_t words[64]) {
     for (int i = 0; i < 16; i++, block += 4)
         words[i] = (uint32_t)block[0] << 24 | (uint32_t)block[1] << 16 | (uint32_t)block[2] << 8 | block[3];
@@ -37,7 +37,7 @@ static void schedule(const unsigned char *block, uint32_t words[64]) {
 }
 
 static void compress(uint32_t state[8], const unsigned char *block) {
-    uint32_t words[64], s[8]; // s: a … h of the standard
+    uint32_t words[64], s[8]; // s: variables a to h of the standard
     schedule(block, words);
     memcpy(s, state, sizeof s);
     for (int i = 0; i < 64; i++) {
@@ -72,7 +72,7 @@ void sha256_end(Sha256 *hash, char digits[SHA256_DIGITS]) {
     char size[8];
     for (int i = 0; i < 8; i++)
         size[i] = (char)(bits >> (56 - 8 * i));
-    sha256_add(hash, padding, 1 + (119 - hash->length % 64) % 64); // up to 8 bytes before the end of a block
+    sha256_add(hash, padding, 1 + (119 - hash->length % 64) % 64); // ends 8 bytes before the end of a block
     sha256_add(hash, size, sizeof size);
     for (int i = 0; i < SHA256_DIGITS; i++)
         digits[i] = "0123456789abcdef"[hash->state[i / 8] >> (28 - 4 * (i % 8)) & 15];

@@ -1,4 +1,4 @@
-// sha256.h: the SHA-256 of a text (FIPS 180-4) that comes in pieces.
+// sha256.h: incremental SHA-256 (FIPS 180-4).
 #ifndef PETRI_BASE_SHA256_H
 #define PETRI_BASE_SHA256_H
 
@@ -9,13 +9,13 @@
 
 typedef struct Sha256 {
     uint32_t state[8];
-    uint64_t length; // of what was added, in bytes
+    uint64_t length; // bytes added
     unsigned char block[64];
 } Sha256;
 
 Sha256 sha256_new(void);
 void sha256_add(Sha256 *hash, const char *text, size_t length);
-// Writes the hexadecimal digits, without a zero byte behind them. Nothing can be added afterwards.
+// Writes the hash as hexadecimal digits without a NUL byte. The hash must not be used afterwards.
 void sha256_end(Sha256 *hash, char digits[SHA256_DIGITS]);
 
 #endif

@@ -15,7 +15,7 @@ size_t source_unify_lines(char *bytes, size_t len) {
     return kept;
 }
 
-// A byte-order mark is left out, CR LF and lone CR become LF; a missing last LF and a NUL sentinel are added.
+// Returns a copy without byte-order mark, with LF line ends, a final LF and a NUL byte after it.
 static Str normalise_lines(Arena *arena, Str text) {
     if (str_starts_with(text, STR("\xef\xbb\xbf")))
         text = (Str){text.bytes + 3, text.len - 3};

@@ -1,17 +1,17 @@
-// source.h: a named text with a table of its line starts.
+// source.h: source texts and the positions in them.
 //
-// Tokens and nodes carry byte offsets only; a position is resolved to line and column when somebody reads it.
+// Tokens and syntax nodes store only byte offsets. Line and column are computed when a diagnostic needs them.
 #ifndef PETRI_BASE_SOURCE_H
 #define PETRI_BASE_SOURCE_H
 
 #include "base/str.h"
 
 typedef struct Source {
-    Str name;                    // how to call it in messages: the path as the user gave it
-    Str path;                    // what identifies it: the absolute path, or the name of a text that is no file
-    Str directory;               // what relative file names in it are resolved against; "" is the working directory
-    Str text;                    // LF line ends, the last line ended; followed by one NUL byte
-    const uint32_t *line_starts; // offsets, ascending
+    Str name;                    // name in messages: the path as the user gave it
+    Str path;                    // unique path: absolute, or the name of a text that is not a file
+    Str directory;               // folder that relative file names refer to; "": the working directory
+    Str text;                    // every line ends with LF; followed by a NUL byte
+    const uint32_t *line_starts; // byte offset of each line
     uint32_t line_count;
 } Source;
 
@@ -21,7 +21,7 @@ typedef struct Span {
     uint32_t end;
 } Span;
 
-// Where something in a script came from.
+// The location in a script from which something originates.
 typedef struct Origin {
     const Source *source;
     Span span;
@@ -33,17 +33,18 @@ typedef struct SourcePosition {
     Str text;        // the line without its LF
 } SourcePosition;
 
-// Copies everything into the arena, leaves a byte-order mark out, turns CR LF and CR into LF and ends the last line.
-// Text must be below 4 GiB.
+// Copies everything into the arena. Removes a byte-order mark, converts CR LF and CR to LF and ends the last line with
+// LF. The text must be smaller than 4 GiB.
 const Source *source_new(Arena *arena, Str name, Str path, Str text);
-// CR LF and CR become LF, in place; returns the length then.
+// Converts CR LF and CR to LF in place. Returns the new length.
 size_t source_unify_lines(char *bytes, size_t len);
+// Returns the position of a byte offset. Offsets at or after the end give the last line's end.
 SourcePosition source_locate(const Source *source, uint32_t offset);
-// The number of the line alone, which takes no longer where lines are long.
+// Returns only the line number. Unlike source_locate, its cost does not depend on the length of the line.
 uint32_t source_line(const Source *source, uint32_t offset);
-// The part of a path up to and including the last slash.
+// Returns the part of a path up to and including the last slash.
 Str path_directory(Str path);
-// `path` itself if absolute or `directory` is empty, else directory + path.
+// Returns `path` unchanged if it is absolute or `directory` is empty, else both joined by a slash.
 Str path_join(Arena *arena, Str directory, Str path);
 
 #endif

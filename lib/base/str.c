@@ -146,7 +146,7 @@ void text_add_code_point(Text *text, uint32_t code_point) {
 }
 
 void text_add_va(Text *text, const char *format, va_list args) {
-    assert(format); // GCC's sanitizer asks, too, and would then go on with NULL, of which GCC warns
+    assert(format); // avoids a GCC warning in sanitizer builds, where a NULL format seems possible
     va_list again;
     va_copy(again, args);
     int len = vsnprintf(NULL, 0, format, args);
@@ -175,8 +175,8 @@ int str_hex_digit(char c) {
                                   : -1;
 }
 
-// A part of a colour from 0 to 255 as a number from 0 to 1, to three places.
-static void add_part(Text *text, unsigned part) {
+// Appends a colour component from 0 to 255 as a number from 0 to 1 with up to three decimals.
+static void add_component(Text *text, unsigned part) {
     char digits[8];
     int len = snprintf(digits, sizeof digits, "%u.%03u", part / 255, (part % 255 * 1000 + 127) / 255);
     while (digits[len - 1] == '0')
@@ -199,7 +199,7 @@ bool text_add_hex_colour(Text *text, Str hex) {
     for (size_t i = 0; i < count; i += each) {
         if (i > 0)
             text_add_c(text, ";");
-        add_part(text, each == 2 ? digits[i] * 16 + digits[i + 1] : digits[i] * 17);
+        add_component(text, each == 2 ? digits[i] * 16 + digits[i + 1] : digits[i] * 17);
     }
     return true;
 }

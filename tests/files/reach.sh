@@ -31,8 +31,8 @@ for file in ../away/secret.txt link.txt folder/secret.txt /etc/passwd sub/../../
     printf '!n a=read("%s")\n' "$file" >home/read.fl
     petri run home/read.fl --frames 1 --print tree
     check "a script does not read $file" grep -qx '!n' out
-    check "… which names the place" grep -q 'read.fl:1:6: warning: .*a script may not read there' err
-    folder=$(sed -n "s/.*'--allow-read \([^']*\)' would allow it.*/\1/p" err | sed 's:/proc/.*:/proc:')
+    check "… which names the place" grep -q 'read.fl:1:6: warning: .*scripts may not read there' err
+    folder=$(sed -n "s/.*allow it with '--allow-read \([^']*\)'.*/\1/p" err | sed 's:/proc/.*:/proc:')
     petri run home/read.fl --frames 1 --print tree --allow-read "$folder"
     check "… unless it may: --allow-read $folder" grep -q '^!n a=' out
     petri run home/read.fl --frames 1 --print tree --allow-read all
@@ -46,22 +46,22 @@ cd far || exit 1
 printf '!n a=glob("../*.txt") b=glob("folder/*") c=csv("../cwd/here.txt",0)\n' >../home/glob.fl
 petri run ../home/glob.fl --frames 2 --print tree
 check "neither glob nor csv look further" grep -qx '!n' out
-check "… each told once" [ "$(grep -c 'a script may not read there' err)" -eq 3 ]
+check "… each told once" [ "$(grep -c 'scripts may not read there' err)" -eq 3 ]
 printf 'import y from "../cwd/here.fl"\n%%include "../cwd/here.fl"\n!n a=y\n' >../home/import.fl
 echo 'let y=4' >../here.fl
 petri run ../home/import.fl --frames 1 --print tree
 check "neither import nor include" grep -qx '!n' out
-check "… told" [ "$(grep -c 'a script may not read there' err)" -eq 2 ]
+check "… told" [ "$(grep -c 'scripts may not read there' err)" -eq 2 ]
 petri run ../home/import.fl --frames 1 --print tree --allow-read ..
 check "… unless they may" grep -qx '!n a=4' out
 printf '!n a=read("mine.txt") b=glob("*")\n%%include "glob.fl"\n' >../home/none.fl
 petri run ../home/none.fl --frames 1 --print tree --no-files
 check "--no-files: none at all" grep -qx '!n' out
-check "… told" [ "$(grep -c 'scripts may use no files here (--no-files)' err)" -eq 3 ]
+check "… told" [ "$(grep -c 'file access is disabled (--no-files)' err)" -eq 3 ]
 petri run ../home/none.fl --allow-read /no/such/folder
 check "--allow-read wants a folder" status_is 2
 petri check ../home/glob.fl
-check "petri check tells as well" [ "$(grep -c 'a script may not read there' err)" -eq 3 ]
+check "petri check tells as well" [ "$(grep -c 'scripts may not read there' err)" -eq 3 ]
 if command -v strace >/dev/null && strace -qq -o trace true 2>/dev/null; then
     # file_without_openat2 FILE: read on a system that has no such call.
     file_without_openat2() {
@@ -96,7 +96,7 @@ if [ "$status" -eq 0 ]; then # this build has Cairo
         record "$file"
         check "a script does not write $file" status_is 1
         check "… told once with its place, and what would allow it" \
-            [ "$(grep -c "record.fl:2:1[0-9]: error: !record: cannot write .*'--allow-write $work[/a-z]*' would allow it" err)" -eq 1 ]
+            [ "$(grep -c "record.fl:2:1[0-9]: error: !record: cannot write .*allow it with '--allow-write $work[/a-z]*'" err)" -eq 1 ]
         ls -l away >after
         check "… and nothing is written" eval 'cmp -s before after && [ ! -e new.png ]'
     done

@@ -74,7 +74,7 @@ static void test_reach(void **state) {
     player_step(&desk->player, 1);
     assert_text("outside", player_tree(&desk->player), "!x\n");
     check_reported(desk, "cannot import");
-    check_reported(desk, "a script may not read there; '--allow-read ");
+    check_reported(desk, "scripts may not read there; allow it with '--allow-read ");
     petri_config_apply(desk->player.session, before);
     player_step(&desk->player, 1);
     assert_text("inside again", player_tree(&desk->player), "!x v=1 t='text'\n");
@@ -89,7 +89,7 @@ static void test_reach(void **state) {
     options.no_files = true;
     player_reopen(&desk->player, &options);
     check_run(desk, script, "!x\n");
-    check_reported(desk, "scripts may use no files here (--no-files)");
+    check_reported(desk, "file access is disabled (--no-files)");
 }
 
 // A module sees built-ins only; its functions see the caller's state.
