@@ -1,8 +1,8 @@
-// backoff.h: whether other threads are asked for help, by what came of asking before.
+// backoff.h: decides from earlier jobs whether to use helper threads.
 //
-// On a busy machine a thread that has begun a share may lose its processor for milliseconds, and the caller must wait
-// for it; or nobody comes at all. When the caller has waited longer than help has spared it, nobody is asked for a
-// pause, which is so much longer than the loss that this hardly counts. Only speed depends on this, never a result.
+// On a busy machine a helper that has begun a chunk may lose its processor for milliseconds while the caller waits, or
+// no helper arrives at all. When the caller has waited longer than helpers have saved, it works alone for a pause. The
+// pause is much longer than the loss, so the loss hardly matters. This affects only speed, never results.
 #ifndef PETRI_PHYSICS_BACKOFF_H
 #define PETRI_PHYSICS_BACKOFF_H
 
@@ -10,49 +10,51 @@
 #include <stdint.h>
 
 enum {
-    PHYS_MAX_UNANSWERED = 16, // jobs in a row, before a pause
-    PHYS_LOSS_DIVISOR = 20,   // of the time, this part at most is lost
-    PHYS_MAX_DOUBLINGS = 4,   // of a pause, if the machine is still as busy after it
+    PHYS_MAX_UNANSWERED = 16, // consecutive jobs without a helper before a pause
+    PHYS_LOSS_DIVISOR = 20,   // at most 1/20 of the time is lost
+    PHYS_MAX_DOUBLINGS = 4,   // doublings of a pause while the machine stays busy
 };
 
 // All times in nanoseconds.
 typedef struct PhysBackoff {
-    int64_t saved;             // by help, less what was waited for it
-    uint64_t pause_length;     // how long the last one was; 0: there was none
-    uint64_t pause_end;        // when it has ended, or will
-    int doublings;             // of it
-    int unanswered;            // jobs in a row that nobody helped with
-    uint64_t unanswered_since; // since when
+    int64_t saved;             // by helpers, minus the time spent waiting for them
+    uint64_t pause_length;     // length of the last pause; 0: none so far
+    uint64_t pause_end;        // end of the last pause, which may be in the future
+    int doublings;             // of the last pause
+    int unanswered;            // consecutive jobs without a helper
+    uint64_t unanswered_since; // begin of the first of them
 } PhysBackoff;
 
 typedef struct PhysJobTimes {
     uint64_t begin, end;
-    uint64_t waited; // of that, the caller
-    bool answered;   // somebody else has done some of it
+    uint64_t waited; // time that the caller waited
+    bool answered;   // a helper has done part of the job
 } PhysJobTimes;
 
-// Whether help pays at all in jobs so short that it may not: both ways are timed, now and then, and the faster is
-// taken. A pair of cores that are far apart needs longer jobs than one with a common cache, and cores move.
+// Measures whether helpers speed up short jobs. Both ways are timed now and then, and the faster one is used. Cores
+// without a common cache need longer jobs, and threads move between cores.
 typedef struct PhysTuner {
-    uint32_t jobs;        // in this round
-    bool alone_is_faster; // by the last round
-    double alone, helped; // nanoseconds for a unit of work, smoothed; 0: unknown
+    uint32_t jobs;        // in the current period
+    bool alone_is_faster; // result of the last period
+    double alone, helped; // nanoseconds per unit of work, smoothed; 0: unknown
 } PhysTuner;
 
 enum {
-    PHYS_TUNER_PERIOD = 1024, // jobs, of which the first so many are done in the way that is not the faster one
-    PHYS_TUNER_PROBES = 24,
-    PHYS_TUNER_WARMUP = 8, // jobs that do not count, as caches are those of the other way
+    PHYS_TUNER_PERIOD = 1024, // jobs in a period
+    PHYS_TUNER_PROBES = 24,   // first jobs of a period, done in the slower way, then as many in the faster way
+    PHYS_TUNER_WARMUP = 8,    // first probes of each way, which are not measured because caches are cold
 };
 
-// Whether the next job is to be done with help.
+// Returns true if the next job should use helpers.
 bool phys_tuner_should_help(const PhysTuner *tuner);
-// Counts one that is done alone because that is faster; false if it is to be timed.
+// Counts a job that is done alone because that is faster. Returns false if the job should be timed.
 bool phys_tuner_skip(PhysTuner *tuner);
-// What it took, `helped` or alone.
+// Records the time of a job per unit of work.
 void phys_tuner_learn(PhysTuner *tuner, bool helped, double nanoseconds);
 
+// Returns true during a pause.
 bool phys_backoff_pauses(const PhysBackoff *backoff, uint64_t now);
+// Records a job that was offered to helpers.
 void phys_backoff_learn(PhysBackoff *backoff, const PhysJobTimes *job);
 
 #endif

@@ -1,18 +1,20 @@
-// force_list.h: all forces, one row each. A new force is a row here, a formula (pair_formulas.h or single_formulas.h)
-// and a test; enums, tables and dispatch are made from the rows, and no switch over forces has a `default:`.
+// force_list.h: all forces, one row each. A new force needs a row here, a formula (pair_formulas.h or
+// single_formulas.h) and a test. Enums, tables and dispatch are generated from the rows, and no switch over forces has
+// a `default:`.
 //
 //   PAIR(KIND, name, sign, source, reach)   between every two particles that see each other (4.1)
 //       sign     of K in the formula: +1 where a positive strength pulls two particles together, -1 where it pushes
 //       source   what both particles must have: RADIUS, MASS, CHARGE or NOTHING
 //       reach    CONTACT: only where their distance is below the sum of their radii (source is RADIUS then);
-//                FAR: without end, unless `max_distance` says otherwise
+//                FAR: at any distance up to `max_distance`, if it is set
 //   LINK(KIND, name)                        between two given particles (4.1)
-//   SINGLE(KIND, name, vectors, need)       on each particle (4.2), and BARRIER likewise (4.4)
+//   SINGLE(KIND, name, vectors, need)       on each particle (4.2)
+//   BARRIER(KIND, name, vectors, need)      on each particle (4.4)
 //       vectors  how many of PhysForce.vector and .vector2 it reads
 //       need     SECTION: radius^(n-1); VOLUME: radius^n; STREAM: random numbers; or NOTHING
 //
-// The order of the rows means nothing: forces act in the order in which the script has them. What a node says of a
-// force is in schema/schema_list.h, under the same KIND.
+// The order of the rows does not matter: forces act in the order of the script. The node and attributes of a force are
+// in schema/schema_list.h, under the same KIND.
 #ifndef PETRI_PHYSICS_FORCE_LIST_H
 #define PETRI_PHYSICS_FORCE_LIST_H
 
@@ -31,7 +33,7 @@
     AS_BARRIER(BARRIER, barrier, 2, NOTHING)
 // clang-format on
 
-// For the parameters of PHYS_FORCES that a use has nothing to say about.
+// Argument of PHYS_FORCES for the kinds that a use ignores.
 #define PHYS_NO_ROW(...)
 
 #endif

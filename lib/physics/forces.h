@@ -1,4 +1,4 @@
-// forces.h: the rows of force_list.h as the code asks for them. All answers are constants where the kind is one.
+// forces.h: the rows of force_list.h as structs. If the kind is a constant, so are all fields of its row.
 #ifndef PETRI_PHYSICS_FORCES_H
 #define PETRI_PHYSICS_FORCES_H
 
@@ -7,7 +7,7 @@
 // The stages of a step in which forces act.
 typedef enum Stage { STAGE_LINK, STAGE_PAIR, STAGE_SINGLE, STAGE_BARRIER, STAGE_COUNT } Stage;
 
-// What a force needs of its particles, or of the step.
+// What a force needs from its particles or from the step.
 typedef enum ForceNeed {
     NEED_NOTHING,
     NEED_RADIUS,
@@ -22,10 +22,10 @@ typedef enum PairReach { REACH_CONTACT, REACH_FAR } PairReach;
 
 typedef struct ForceRow {
     Stage stage;
-    ForceNeed need;  // of both ends of a pair
-    PairReach reach; // of a pair force
-    int sign;        // of a pair force: PairTerm.strength is sign · strength
-    int vectors;     // that it reads
+    ForceNeed need;  // for a pair force: of both particles
+    PairReach reach; // pair forces only
+    int sign;        // pair forces only: PairTerm.strength is sign · strength
+    int vectors;     // number of vectors of PhysForce that it reads
 } ForceRow;
 
 static inline ForceRow phys_force_row(PhysForceKind kind) {

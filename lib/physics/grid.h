@@ -1,20 +1,20 @@
-// grid.h: what sorting into cells and searching them share.
+// grid.h: the grid of cells that particles are sorted into for neighbour lists.
 #ifndef PETRI_PHYSICS_GRID_H
 #define PETRI_PHYSICS_GRID_H
 
 #include "physics/neighbour_list.h"
 
 enum {
-    PHYS_MAX_LANES = 8,         // of any kernel
-    PHYS_MAX_NEIGHBOURS = 1024, // entries of the longest list
+    PHYS_MAX_LANES = 8,         // maximum of all kernels
+    PHYS_MAX_NEIGHBOURS = 1024, // maximum length of a list
 };
 
 typedef struct Grid {
     size_t dimensions;
     double low[PHYS_VECTOR_DIMENSIONS];
-    double scale[PHYS_VECTOR_DIMENSIONS]; // cells per length
+    double scale[PHYS_VECTOR_DIMENSIONS]; // cells per unit of length
     uint32_t cells[PHYS_VECTOR_DIMENSIONS];
-    uint32_t *start; // places of cell c: start[c] up to start[c + 1]
+    uint32_t *start; // particles of cell c: sorted indices start[c] to start[c + 1] - 1
 } Grid;
 
 static inline uint32_t phys_axis_cell(const Grid *grid, size_t k, double x) {
@@ -31,34 +31,34 @@ static inline uint32_t phys_cell_of(const Grid *grid, const double *position, si
     return cell;
 }
 
-// Instead of a cell.
-#define PHYS_CELL_IDLE UINT32_MAX
-#define PHYS_CELL_LARGE (UINT32_MAX - 1)
+// Special values of NeighbourList.cell.
+#define PHYS_CELL_IDLE UINT32_MAX        // particle without a list: not finite, or too small for contact
+#define PHYS_CELL_LARGE (UINT32_MAX - 1) // particle much larger than the others
 
-// Lists of all regular places, made by kernels in parts.
+// Search for the lists of all regular particles, which kernels do chunk by chunk.
 typedef struct ListSearch {
     const NeighbourList *list;
     const Grid *grid;
-    const bool *remote;  // by column: needs no list; NULL: none
-    uint32_t own;        // places with a key below are of the pass's own group
-    uint32_t dummy;      // listed by lanes that are free
-    uint64_t scan_limit; // candidates of a part
+    const bool *remote;  // by column: true for particles that need no list; NULL: all need one
+    uint32_t own;        // particles with a smaller key belong to the pass's own group
+    uint32_t dummy;      // sorted index that pads the lists
+    uint64_t scan_limit; // maximum number of candidates per chunk
 } ListSearch;
 
 typedef struct ListChunk {
-    uint32_t block, block_end;
-    uint64_t begin, used, end; // of its entries
-    uint64_t scanned;          // candidates that it looked at
-    bool crowded, full;        // ended early: too many neighbours for lists; no more room
+    uint32_t block, block_end; // blocks of LANES sorted indices
+    uint64_t begin, used, end; // range in ListView.entries, and the first unused entry
+    uint64_t scanned;          // number of candidates tested
+    bool crowded, full;        // stopped early: too many neighbours; entries full
 } ListChunk;
 
-// grid.c: only where the cells are, `most` of them, and what list->base, list->skin and the largest radius in a cell
-// are. list->cell tells of each particle whether it has a cell. False if the particles do not lie in a way that a grid
-// can sort.
+// grid.c: chooses a grid of at most `max` cells, and sets list->contact_distance, list->skin and the largest radius of
+// a regular particle. Sets list->cell to PHYS_CELL_IDLE, PHYS_CELL_LARGE or another value. Returns false if the
+// particles are distributed so that a grid cannot sort them.
 bool phys_grid_layout(const PairPass *pass, NeighbourList *list, double max, Grid *grid, double *max_radius);
 
-// grid_search.c: makes the lists of all regular places. Free lanes list the place `dummy`. False if they would cost
-// more than they are worth, or there is no memory.
+// grid_search.c: builds the lists of all regular particles, padded with the sorted index `dummy`. Returns false if out
+// of memory, or if the lists would not pay off.
 bool phys_grid_search(PhysSystem *system, const Kernels *kernels, const Grid *grid, uint32_t dummy,
                       NeighbourList *list);
 

@@ -1,15 +1,16 @@
-// internal.h: what the files of lib/physics share; nobody else includes it.
+// internal.h: internal declarations of lib/physics. No other library includes it.
 //
-// A system exists in two forms. The description is what the scene gave, in order of the calls: records, and for each
-// particle a row of 2 n doubles (position, velocity), which is also where results are read. To simulate, it is
-// arranged: particles go into columns, component k of particle i at [k * stride + i], in pre-order of their groups,
-// each group's own first; forces are sorted by group and by the stage in which they act. Then
+// A system exists in two forms. The description keeps records in the order of the calls, and for each particle a row of
+// 2 n doubles (position, velocity), from which results are read. For simulation it is arranged: particles are copied
+// into columns, where component k of particle i is at [k * stride + i]. Columns are in pre-order of the groups, and the
+// particles of a group itself come before those of its sub-groups. Forces are sorted by group and by the stage in which
+// they act. Therefore:
 //
-//   - the particles of a group are one contiguous range, and so are those of a group with all its sub-groups;
-//   - what a particle sees in a pass over pairs is its own range and one range for each enclosing group;
+//   - the particles of a group are one contiguous range, with or without its sub-groups;
+//   - the partners of a particle in a pass over pairs are its own range and one range per enclosing group;
 //   - all forces that one stage applies for one group are contiguous.
 //
-// Columns, not rows, because kernels give each lane a particle of its own.
+// Columns instead of rows, because each lane of a kernel processes a different particle.
 #ifndef PETRI_PHYSICS_INTERNAL_H
 #define PETRI_PHYSICS_INTERNAL_H
 
@@ -18,29 +19,29 @@
 
 #include <math.h>
 
-// An array that grows and is kept from frame to frame. Its memory is an arena of one block, because only base/ touches
-// the heap.
+// A growing array whose memory is reused from frame to frame. The memory is an arena of one block, because only
+// lib/base uses the heap.
 typedef struct Buffer {
     Arena arena;
     void *bytes;
     uint64_t capacity; // in bytes
-    bool shown;        // the host may look at it
+    bool shown;        // the host may still read it, so its memory is retired instead of freed
 } Buffer;
 
 #define NO_GROUP UINT32_MAX
 #define NO_COLUMN UINT32_MAX
 
 enum {
-    PHYS_MAX_LISTS = 8,          // passes that have neighbour lists
-    PHYS_MAX_RANGES = 8,         // groups whose particles take part in such a pass
-    PHYS_MIN_FOR_THREADS = 1500, // particles, where the work for each is small (threads.h)
+    PHYS_MAX_LISTS = 8,          // maximum number of neighbour lists, one per pass
+    PHYS_MAX_RANGES = 8,         // maximum number of groups in a pass with a list
+    PHYS_MIN_FOR_THREADS = 1500, // particles; fewer run on one thread, because the work for each is small
 };
 
 typedef struct Group {
     uint32_t parent; // the top is its own parent
     uint32_t first;  // own particles are columns first … first + count - 1
     uint32_t count;
-    uint32_t movers;               // that are no anchors, if the columns have `draws`
+    uint32_t movers;               // particles that are not anchors; valid if Columns.random_offset is set
     uint32_t populated;            // this group or its nearest ancestor that has particles, or NO_GROUP
     uint32_t nearest[STAGE_COUNT]; // this group or its nearest ancestor that has forces of a stage, or NO_GROUP
 } Group;
@@ -56,18 +57,18 @@ typedef struct ParticleRecord {
 } ParticleRecord;
 
 typedef struct ForceRecord {
-    PhysForce given;  // its vectors are those of the caller and must not be used
-    uint64_t vector;  // where the copy begins in the vector buffer, plus 1; 0 stands for all zeros
-    uint64_t vector2; // likewise
+    PhysForce given;  // its vectors are the caller's pointers and must not be used
+    uint64_t vector;  // index of the copy in the vector buffer, plus 1; 0: all zeros
+    uint64_t vector2; // like `vector`
     uint32_t group;
-    uint32_t arranged; // its number among the arranged forces
+    uint32_t arranged; // index among the arranged forces
 } ForceRecord;
 
 // A force as the kernels see it: vectors point to the copies, `from` and `to` are columns.
 typedef struct Force {
     PhysForce given;
     double strength; // at this step, eased in
-    uint64_t item;   // random: items of the stream taken so far in this frame
+    uint64_t item;   // random: items of the stream used so far in this frame
 } Force;
 
 typedef struct Columns {
@@ -76,34 +77,34 @@ typedef struct Columns {
     size_t stride; // >= count
     double *position;
     double *velocity;
-    double *own_force; // the particle's own force; valid, as `ease` is, if there are any
+    double *own_force; // the particle's own force; like `ease`, valid only if system->has_own_forces
     double *force;     // sum of all forces of the step
-    bool forces_clear; // they are 0, for the step before left them so
+    bool forces_clear; // `force` is all zeros, as left by the step before
     double *ease;
     double *radius;
     double *mass;
-    bool uniform_mass; // the sweep may take the first of both for all
-    bool no_anchors;   // likewise: none is an anchor
+    bool uniform_mass; // radius[0] and mass[0] hold for all particles
+    bool no_anchors;   // no particle is an anchor
     double *charge;
-    double *section; // radius^(n-1), valid if some force needs it
-    double *volume;  // radius^n, likewise
-    const uint32_t
-        *random_offset; // those before it in its group that take random numbers; NULL: as counted in the columns
-    double *scratch;    // 3 n doubles for the kernel that is running
+    double *section; // radius^(n-1); valid if a force needs it
+    double *volume;  // radius^n; valid if a force needs it
+    // By column: particles before it in its group that use random numbers. NULL: counted from the columns.
+    const uint32_t *random_offset;
+    double *scratch; // 3 n doubles for the running kernel
     bool *anchor;
 } Columns;
 
 struct PhysSystem {
     Arena home;     // holds this struct
     uint64_t bytes; // capacity of all buffers together
-    bool failed;    // memory was used up since phys_begin
+    bool failed;    // out of memory since phys_begin
     bool arranged;  // particles and forces are arranged as described
     bool forces_arranged;
-    bool radius_powers_valid; // radius powers are those of the columns' radii and of the forces
-    bool any_not_finite;      // `not_finite` has a mark
-    bool any_from_attribute;  // some particle's position or velocity is
+    bool radius_powers_valid; // section and volume are up to date
+    bool any_not_finite;      // some element of `not_finite` is set
+    bool any_from_attribute;  // some element of `from_attribute` is set
     PhysOptions options;
-    PhysThreads *threads; // those of the options, or its own; NULL: none
+    PhysThreads *threads; // pool of the options, or its own; NULL: none
     bool owns_threads;
     // description
     uint32_t dimensions;
@@ -111,85 +112,86 @@ struct PhysSystem {
     uint32_t particle_count;
     uint32_t force_count;
     bool has_forces;       // simulated since phys_begin or phys_skip_frame: the force columns hold the last step's sums
-    bool has_own_forces;   // some particle has a force of its own
-    bool has_eased_forces; // … or one that is eased in; then `has_own_forces` is set too
+    bool has_own_forces;   // some particle has its own force
+    bool has_eased_forces; // some particle's own force is eased in; implies has_own_forces
     uint64_t vector_doubles; // doubles in use in `vectors`
     Buffer groups;           // Group
-    uint32_t record_stride;  // 0: all particles have the first record; else 1
+    uint32_t record_stride;  // 0: all particles share the first record; else 1
     Buffer particles;        // ParticleRecord by handle times record_stride
     Buffer rows;             // 2 n doubles by handle
-    Buffer own_forces;       // n doubles by handle, the particles' own forces, if they have any
-    Buffer last_rows;        // those of the description before
-    Buffer force_rows;       // n doubles by handle, with PhysOptions.keep_forces: the forces of the last step
-    Buffer from_attribute;   // uint8_t by handle, valid if `any_from_attribute`: what is (PhysParticle)
-    Buffer not_finite;    // uint8_t by handle: results of the last frame that were not, see PhysTime.keep_last_finite
-    Buffer force_records; // ForceRecord in order of the calls
+    Buffer own_forces;       // n doubles by handle: the particles' own forces; valid if has_own_forces
+    Buffer last_rows;        // rows of the description before this one
+    Buffer force_rows;       // n doubles by handle: the forces of the last step; with PhysOptions.keep_forces
+    Buffer from_attribute;   // uint8_t by handle: PHYS_POSITION and PHYS_VELOCITY that came from attributes; valid if
+                             // any_from_attribute
+    Buffer not_finite;    // uint8_t by handle: PHYS_POSITION and PHYS_VELOCITY that were not finite in the last frame
+    Buffer force_records; // ForceRecord in the order of the calls
     Buffer vectors;       // double
     // arranged for simulation
-    Buffer indices;        // uint32_t: `order`, `place`, `starts`
+    Buffer indices;        // uint32_t: `order`, `column_of`, `starts`
     Buffer forces;         // Force, by group, then stage, then declaration
-    Buffer terms;          // PairTerm: those of the pass that is running
-    Buffer chain;          // Force *: those that act on the group whose turn it is
-    Buffer column_data;    // what `columns` points to
+    Buffer terms;          // PairTerm of the running pass
+    Buffer chain;          // Force *: the forces that act on the current group
+    Buffer column_data;    // memory of `columns`
     uint32_t *order;       // column -> handle
     uint32_t *column_of;   // handle -> column
-    uint32_t handle_count; // how many; that of a handle which the system lacks is NO_COLUMN
-    uint32_t *starts;      // forces of group g at stage s: starts[g * STAGE_COUNT + s] up to the next element
+    uint32_t handle_count; // length of `column_of`; missing handles have NO_COLUMN
+    uint32_t *starts;      // by g * STAGE_COUNT + s: first force of group g at stage s; the next element is the end
     Columns columns;
-    // kept from step to step and from frame to frame
-    uint64_t frame; // number of this frame
+    // retained between steps and frames
+    uint64_t frame; // number of the current frame
     struct Neighbours *lists;
-    // in the order of a list (reorder.c)
-    bool can_reorder;   // one group has all particles, and nothing but its one pass over pairs asks for their order
-    bool in_cell_order; // columns are in the order of the places of the list of that pass
-    // on several processes (domain.h)
-    uint64_t columns_version; // counts how often the columns have been filled
-    uint64_t radius_version;  // another number whenever a radius has changed
-    uint64_t motion_version;  // another number whenever a position may have changed
-    bool edited;              // particles were given new numbers since the last frame
-    bool columns_stale;       // positions and velocities are in the rows only, not in the columns
+    // reordering (reorder.c)
+    bool can_reorder;   // all particles are in one group, and only its single pass over pairs depends on their order
+    bool in_cell_order; // columns are in the sorted order of that pass's neighbour list
+    // domain decomposition (domain.h)
+    uint64_t columns_version; // increases when the columns are filled
+    uint64_t radius_version;  // increases when a radius may have changed
+    uint64_t motion_version;  // increases when a position may have changed
+    bool edited;              // attributes in the columns have changed since the last frame
+    bool columns_stale;       // positions and velocities in the columns are out of date; those in the rows are current
     Buffer domain;            // Domain
     PhysRankStats rank_stats;
-    bool *remote;  // of the part of a system that is one process's: by column, of the halo; else NULL
-    double skin;   // likewise, that of all lists
-    bool unlisted; // likewise: a pass went without a list
+    bool *remote;  // of a local system: by column, true for halo particles; else NULL
+    double skin;   // of a local system: skin of all lists
+    bool unlisted; // of a local system: a pass has run without a list
 };
 
-// A run of forces.
+// A range of forces.
 typedef struct ForceRange {
     Force *begin;
     Force *end;
 } ForceRange;
 
-// system.c: the kernels of the chosen level.
+// system.c: returns the kernels of the instruction set in the options.
 const struct Kernels *phys_kernels(const PhysSystem *system);
 
-// The doubles of a row.
+// Returns the row of a particle.
 static inline double *phys_row(const PhysSystem *system, uint32_t particle) {
     return (double *)system->rows.bytes + (size_t)2 * system->dimensions * particle;
 }
 
-// Charges work to the system's meter; false if the step is to be given up, by the main thread only.
+// Charges work to the system's budget. Returns false if the step must be aborted. For the main thread only.
 static inline bool phys_charge(const PhysSystem *system, uint64_t units) {
     return budget_charge(system->options.meter, units) == BUDGET_OK;
 }
 
-// Whether all that was charged so far could be, and nobody wants an end.
+// Returns true if the budget is not exceeded and the frame is not interrupted.
 static inline bool phys_may_continue(const PhysSystem *system) {
     return !system->options.meter || budget_check(system->options.meter) == BUDGET_OK;
 }
 
-// What the threads look at meanwhile: the wish for an end.
+// Returns the flag that threads poll to stop early, or NULL.
 static inline const atomic_bool *phys_stop(const PhysSystem *system) {
     return system->options.meter ? system->options.meter->interrupt : NULL;
 }
 
-// buffer.c: makes room for `count` elements of `size` bytes and keeps the first `kept` bytes. False, with
-// `system->failed` set, if memory is used up.
+// buffer.c: reserves memory for `count` elements of `size` bytes and keeps the first `retained` bytes. Returns false
+// and sets system->failed if out of memory.
 bool phys_buffer_reserve(PhysSystem *system, Buffer *buffer, uint64_t retained, uint64_t count, uint64_t size);
 void phys_buffer_free(Buffer *buffer);
 
-// groups.c: sorts particles, or forces, by group. False if memory is used up. Particles come first.
+// groups.c: sort particles or forces by group. Particles must be arranged first. Return false if out of memory.
 bool phys_arrange(PhysSystem *system);
 bool phys_arrange_forces(PhysSystem *system);
 
@@ -197,53 +199,55 @@ static inline const ParticleRecord *phys_record(const PhysSystem *system, uint32
     return (const ParticleRecord *)system->particles.bytes + (size_t)particle * system->record_stride;
 }
 
-// particles.c: rows into columns and back. phys_fill_columns and phys_clear_not_finite are false if memory is used up.
-enum { PHYS_POSITION = 1, PHYS_VELOCITY = 2 }; // marks of `not_finite` and `from_attribute`
+// particles.c: copies rows to columns and back. phys_fill_columns and phys_clear_not_finite return false if out of
+// memory.
+enum { PHYS_POSITION = 1, PHYS_VELOCITY = 2 }; // bits of `not_finite` and `from_attribute`
 bool phys_clear_not_finite(PhysSystem *system);
 bool phys_fill_columns(PhysSystem *system);
-// Positions and velocities alone.
+// Fills only the positions and velocities of the columns.
 void phys_fill_motion(PhysSystem *system);
 void phys_update_radius_powers(PhysSystem *system);
 void phys_write_rows(PhysSystem *system, bool keep_last_finite);
-// Those of some particles from other columns, without anchors perhaps. What PhysTime.keep_last_finite puts back goes to
-// `home`, a system whose handles are the columns of this one, unless it is this one itself or NULL.
+// Writes the rows of some particles from other columns, which may lack `anchor`. Values that PhysTime.keep_last_finite
+// restores are also written to the columns of `home`: this system, or a system whose handles are the columns of this
+// one. NULL: to none.
 void phys_write_column_rows(PhysSystem *system, const Columns *columns, const uint32_t *order, bool keep_last_finite,
                             const PhysSystem *home);
 
-// particles.c: points the columns into their memory, which has room for `spare` more.
+// particles.c: points the columns into their memory, with room for `spare` more particles.
 bool phys_reserve_columns(PhysSystem *system, uint64_t spare);
-// groups.c: short cuts past enclosing groups that have nothing to say, which make deep nesting cheap.
+// groups.c: sets Group.populated and Group.nearest, which skip empty enclosing groups, so that deep nesting is cheap.
 void phys_link_groups(PhysSystem *system);
 
-// step.c: one step of `delta` at `clock`; false if it was given up half-way.
+// step.c: makes one step of `delta` at `clock`. Returns false if the step was aborted half-way.
 bool phys_step(PhysSystem *system, double clock, double delta, double speed_of_light);
 
-// reorder.c: columns in the order of a list, which spares its kernels to look for each particle. `may_settle` says
-// whether the system is one that can; phys_restore_order puts the columns back into the order of the description, and
-// drops the list; phys_forget_order does so for columns that are made anew.
+// reorder.c: columns in the sorted order of a list, so that kernels need no index. phys_can_reorder returns whether the
+// system allows this. phys_restore_order restores the order of the description and drops the list. phys_forget_order
+// only drops it, for columns that are about to be rebuilt.
 bool phys_can_reorder(const PhysSystem *system);
 void phys_reorder(PhysSystem *system, struct Neighbours *list);
 void phys_restore_order(PhysSystem *system);
 void phys_forget_order(PhysSystem *system);
 
-// Kernels. They apply forces to the particles of one group (for links: to any two).
+// Kernels that apply forces to the particles of one group (for links: to any two particles).
 void phys_apply_links(const Columns *columns, ForceRange forces);
-// `move`, unless NULL: this is the last that happens before the particles of the group move, and on several threads
-// they may be moved at once. Then it is marked as done.
+// The motion that follows the pair forces. If not NULL, the pass may move particles as soon as their forces are
+// complete, and then sets `done`.
 typedef struct Move {
     double delta;
     double speed_of_light;
     bool done;
 } Move;
 void phys_apply_pairs(PhysSystem *system, const Group *group, Move *move);
-// barrier.c: after a move of `delta`, lets particle i bounce off one barrier (4.4).
+// barrier.c: reflects particle i at one barrier after a move of `delta` (4.4).
 void phys_reflect(const Columns *columns, size_t i, const Force *barrier, double delta, double speed_of_light);
 
 static inline double *phys_acceleration(const Columns *columns) {
     return columns->scratch;
 }
 
-// Where radius and mass of particle i are found.
+// Returns the index of particle i's radius and mass.
 static inline size_t phys_numbers_at(const Columns *columns, size_t i) {
     return columns->uniform_mass ? 0 : i;
 }
@@ -252,19 +256,19 @@ static inline double phys_at(PhysVector vector, size_t k) {
     return vector ? vector[k] : 0.0;
 }
 
-// `factor` of a strength (or of a particle's own force) while it is eased in.
+// Returns the factor of a strength, or of a particle's own force, while it is eased in.
 static inline double phys_ramp(double ease, double clock) {
     return ease > 0 && clock < ease ? clock / ease : 1.0;
 }
 
-// Forces that `group` declares for a stage.
+// Returns the forces that `group` declares for a stage.
 static inline ForceRange phys_forces(const PhysSystem *system, uint32_t group, Stage stage) {
     const uint32_t *start = system->starts + (size_t)group * STAGE_COUNT + stage;
     Force *forces = system->forces.bytes;
     return start[0] == start[1] ? (ForceRange){0} : (ForceRange){forces + start[0], forces + start[1]};
 }
 
-// The next group above `group` that has forces of a stage, or NO_GROUP.
+// Returns the next group above `group` that has forces of a stage, or NO_GROUP.
 static inline uint32_t phys_next_above(const Group *groups, uint32_t group, Stage stage) {
     return group ? groups[groups[group].parent].nearest[stage] : NO_GROUP;
 }

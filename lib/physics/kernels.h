@@ -1,13 +1,12 @@
-// kernels.h: what the vector kernels are given, and the table through which they are called.
+// kernels.h: parameters of the vector kernels and the table of kernels for each instruction set.
 //
-// The kernels are written once (kernel_*.c over lanes.h) and compiled once per instruction set, into one table each;
-// the formulas are those of pair_formulas.h and single_formulas.h. For more dimensions, for more forces and for a few
-// particles the same formulas run with one lane (pair_rows.c, and kernel_integrate.c once more). All of them give the
-// same bits. That rests on three rules:
+// The kernels are written once (kernel_*.c over lanes.h) and compiled once per instruction set. They use the formulas
+// of pair_formulas.h and single_formulas.h. More dimensions, more forces and very few particles use the same formulas
+// with one lane (pair_rows.c and kernel_integrate.c). All variants give the same bits, because:
 //
-//   - a lane is a target, or a pair whose term goes to two targets one after the other in the right order;
-//   - a term that does not apply leaves its sum alone. Adding +0.0 would not (-0.0 + +0.0 is +0.0), so lanes are
-//     blended, or get the neutral zero of the operation: x + -0.0 and x - +0.0 are x for all x;
+//   - a lane is a target, or a pair whose term is added to two targets one after the other in the right order;
+//   - a term that does not apply does not change its sum. Adding +0.0 could (-0.0 + +0.0 is +0.0), so lanes are blended
+//     or use the neutral zero of the operation: x + -0.0 and x - +0.0 are x for all x;
 //   - nothing is contracted, reassociated or approximated.
 #ifndef PETRI_PHYSICS_KERNELS_H
 #define PETRI_PHYSICS_KERNELS_H
@@ -19,22 +18,22 @@
 #include <stdint.h>
 
 enum {
-    PHYS_VECTOR_DIMENSIONS = 3, // most dimensions that kernels exist for
-    PHYS_MAX_TERMS = 8,         // most pair forces of a pass that they take
-    PHYS_QUAD = 4,
+    PHYS_VECTOR_DIMENSIONS = 3, // maximum number of dimensions of the kernels
+    PHYS_MAX_TERMS = 8,         // maximum number of pair forces in a pass of the kernels
+    PHYS_QUAD = 4,              // values of ListView.width
     PHYS_PAIR = 2,
 };
 
-// One force of a pass, with the sign turned so that a positive coefficient attracts.
+// One force of a pass. Its sign is chosen so that a positive coefficient attracts.
 typedef struct PairTerm {
     PhysForceKind kind;
     double strength;
     double power;
-    double bound; // the force applies only where l < bound; infinite: no bound
+    double bound; // the force applies only if the distance is less; infinite: no bound
     double overlap;
 } PairTerm;
 
-// The forces of one pass over pairs and the columns they work on.
+// The forces of one pass over pairs and the columns that they use.
 typedef struct PairPass {
     size_t dimensions;
     size_t stride;
@@ -45,7 +44,7 @@ typedef struct PairPass {
     const double *charge;
     size_t term_count;
     const PairTerm *terms;
-    const atomic_bool *stop; // true: rows are left out, for nobody wants the result any more; NULL: never
+    const atomic_bool *stop; // set when the frame is aborted, so that the remaining rows are skipped; NULL: never
 } PairPass;
 
 static inline bool phys_pass_stopped(const PairPass *pass) {
@@ -61,24 +60,24 @@ typedef struct PairKernel {
     PairTiles *tiles;
 } PairKernel;
 
-// Neighbour lists as the kernels see them (neighbour_list.c builds them). A place is the number of a particle in the
-// order of the grid: first the regular ones, by cell, then a few that are much larger than the others.
+// Neighbour lists for the kernels. Particles are in sorted order (neighbour_list.h).
 typedef struct ListView {
-    uint32_t regular;
-    uint32_t listed;                       // regular and large ones
-    bool direct;                           // columns are in the order of places
-    uint32_t *column;                      // else by place; readable for LANES beyond the last
-    double *built[PHYS_VECTOR_DIMENSIONS]; // positions for which the lists were made
-    double *radius;                        // and radii
-    bool same_radii;                       // which are those of now
-    double one_radius; // of all places that are listed, if they have the same and no sources; else 0
-    double *packed;    // position and radius now, `width` doubles for each place; the place after the last is a dummy
-    uint32_t width;    // PHYS_QUAD, or PHYS_PAIR where two dimensions without the radius do
-    double *sources;   // mass and charge, two doubles for each place, if a force needs them
-    double max_move_squared; // the lists hold while no particle is farther than this, squared, from where it was built
-    uint32_t *entries; // partners of LANES regular places side by side, then dummies: [k][lane], places times `width`
-    uint64_t *at;      // by block of LANES places: where its entries begin
-    uint32_t *max_length; // and the longest of its lists
+    uint32_t regular;                      // number of regular particles
+    uint32_t listed;                       // number of regular and large particles
+    bool direct;                           // columns are in sorted order, so `column` is not needed
+    uint32_t *column;                      // by sorted index; readable for LANES elements beyond the last
+    double *built[PHYS_VECTOR_DIMENSIONS]; // by component and sorted index: positions for which the lists were built
+    double *radius;                        // by sorted index: radii for which the lists were built
+    bool same_radii;                       // `radius` holds the current radii
+    double one_radius;       // radius of all listed particles if it is the same and `sources` is NULL; else 0
+    double *packed;          // current position and radius, `width` doubles per sorted index, then a dummy
+    uint32_t width;          // PHYS_QUAD, or PHYS_PAIR in two dimensions if `one_radius` is set
+    double *sources;         // mass and charge, two doubles per sorted index; NULL: no force needs them
+    double max_move_squared; // square of the distance from `built` up to which lists are valid
+    // Lists of LANES particles side by side, [k][lane], padded with dummies: sorted index of a partner times `width`.
+    uint32_t *entries;
+    uint64_t *at;         // by block of LANES sorted indices: first of its entries
+    uint32_t *max_length; // by block: length of its longest list
 } ListView;
 
 struct Columns;    // internal.h
@@ -89,24 +88,25 @@ typedef void IntegrateKernel(struct IntegratePass *pass, size_t first, size_t en
 
 typedef struct Kernels {
     size_t lanes;
-    // Fastest kernels for the forces of a pass.
+    // Returns the fastest kernels for the forces of a pass.
     const PairKernel *(*pair)(const PairPass *pass);
-    // Brings the quads of places first … end - 1 up to date. False if one of them has moved too far or changed size.
+    // Updates `packed` and `sources` for sorted indices first to end - 1. Returns false if a particle has moved too far
+    // or has grown.
     bool (*list_refresh)(const PairPass *pass, const ListView *view, size_t first, size_t end);
-    // Makes the lists of one part.
+    // Builds the lists of one chunk.
     void (*list_search)(const struct ListSearch *search, struct ListChunk *chunk);
-    // Forces on the regular places of some blocks.
+    // Adds the forces on the regular particles of blocks first to end - 1.
     void (*list_forces)(const PairPass *pass, const ListView *view, size_t first, size_t end);
-    // Forces on at most LANES particles from all of one range. `targets` holds LANES columns.
+    // Adds the forces from columns first to end - 1 on `count` particles, at most LANES. `targets` holds LANES columns.
     void (*range_forces)(const PairPass *pass, const uint32_t *targets, size_t count, size_t first, size_t end);
-    // Single-particle forces, barriers and motion of some particles.
+    // Applies single-particle forces, barriers and motion to some particles.
     IntegrateKernel *integrate;
-    // Copies positions and velocities of particles to the rows of their handles, LANES at a time, as long as all are
-    // finite and no 0 meets another 0 in the row: returns the first that it did not take.
+    // Copies positions and velocities to the rows of their handles, LANES particles at a time. Stops at values that are
+    // not finite, or that would replace a zero of the other sign. Returns the first particle that was not copied.
     size_t (*write_rows)(const struct Columns *columns, const uint32_t *order, double *rows, size_t first, size_t end);
 } Kernels;
 
-// kernel_list.c, kernel_search.c, kernel_integrate.c and kernel_pair.c, once for each instruction set.
+// kernel_list.c, kernel_search.c, kernel_integrate.c and kernel_pair.c, compiled once per instruction set.
 #define ISA_KERNELS(isa)                                                                                               \
     bool list_refresh_##isa(const PairPass *pass, const ListView *view, size_t first, size_t end);                     \
     void list_search_##isa(const struct ListSearch *search, struct ListChunk *part);                                   \
@@ -122,7 +122,7 @@ extern const Kernels phys_kernels_two;
 extern const Kernels phys_kernels_avx2;
 extern const Kernels phys_kernels_avx512;
 
-// kernel_integrate.c with one lane: any number of dimensions.
+// kernel_integrate.c with one lane: for any number of dimensions.
 void integrate_all_one(struct IntegratePass *pass, size_t first, size_t end);
 
 #endif

@@ -1,9 +1,9 @@
-// lanes.h: the vocabulary in which formulas and kernels are written: that of maths/lanes.h, and truths per lane.
+// lanes.h: SIMD operations for formulas and kernels: those of maths/lanes.h, and masks.
 //
-// Real holds LANES doubles, Mask one truth per lane. All operations on Real are single IEEE operations, so a formula
-// gives the same bits in every width: 8 lanes are AVX-512, 4 are AVX2, 2 are what every processor with vectors has
-// (SSE2, NEON, SIMD128), in the vector extension that gcc and clang share. One lane is plain C; it serves what has no
-// vector form: any number of dimensions, groups of a few particles, links, bounces.
+// Real holds LANES doubles, and Mask holds one boolean per lane. All operations on Real are single IEEE operations, so
+// a formula gives the same bits for every width. 8 lanes use AVX-512 and 4 use AVX2. 2 lanes use the vector extension
+// of gcc and clang with SSE2, NEON or SIMD128, which every processor with vectors has. One lane is plain C, for cases
+// without vectors: any number of dimensions, groups of a few particles, links and reflections.
 #ifndef PETRI_PHYSICS_LANES_H
 #define PETRI_PHYSICS_LANES_H
 
@@ -35,7 +35,7 @@ typedef __mmask8 Mask;
 #else
 #define PER_ISA(name) name##_two
 #endif
-typedef int64_t Mask __attribute__((vector_size(8 * LANES))); // all bits of a lane, or none
+typedef int64_t Mask __attribute__((vector_size(8 * LANES))); // a lane has all bits set or none
 #endif
 
 KERNEL Mask mask_first(size_t count) {
@@ -83,7 +83,7 @@ KERNEL bool mask_any(Mask a) {
     return mask_bits(a) != 0;
 }
 
-// mask and a < b, and so on
+// Returns the lanes of `mask` in which a < b, and so on.
 #if LANES == 8
 #define COMPARE(mask, a, operator, b, predicate) _mm512_mask_cmp_pd_mask(mask, a, b, predicate)
 #elif LANES == 1
@@ -230,7 +230,7 @@ KERNEL void real_transpose(Real *r) {
 #endif
 }
 
-// Index is as many column or place numbers as there are lanes.
+// Loads from[index[lane]] for LANES indices.
 KERNEL Real real_gather(const double *from, const uint32_t *index) {
 #if LANES == 8
     return _mm512_i32gather_pd(_mm256_loadu_si256((const __m256i *)index), from, 8);
@@ -252,7 +252,7 @@ KERNEL void real_scatter_where(Mask mask, double *to, const uint32_t *index, Rea
 #endif
 }
 
-// The columns of rows of two, one row per lane.
+// Loads two doubles per row: columns[m] receives element m of each lane's row.
 KERNEL void real_load_pairs(const double *const *rows, Real *columns) {
 #if LANES == 2
     for (int m = 0; m < 2; m++)
@@ -279,7 +279,7 @@ KERNEL void real_load_pairs(const double *const *rows, Real *columns) {
 #endif
 }
 
-// LANES pairs, side by side, from their parts.
+// Stores LANES pairs side by side; parts[m] holds element m of each.
 KERNEL void real_store_pairs(double *pairs, const Real *parts) {
 #if LANES == 2
     for (int lane = 0; lane < LANES; lane++)
@@ -297,7 +297,7 @@ KERNEL void real_store_pairs(double *pairs, const Real *parts) {
 #endif
 }
 
-// Element lane of parts[m] to element m of row `lane`: real_load_rows the other way round.
+// Stores lane `lane` of parts[m] in element m of row `lane`. The inverse of real_load_rows.
 KERNEL void real_store_rows(double *const *rows, const Real *parts) {
 #if LANES == 2
     for (int lane = 0; lane < LANES; lane++)
@@ -324,7 +324,7 @@ KERNEL void real_store_rows(double *const *rows, const Real *parts) {
 #endif
 }
 
-// LANES quads from their parts.
+// Stores LANES groups of 4 doubles side by side; parts[m] holds element m of each.
 KERNEL void real_store_quads(double *quads, const Real *parts) {
     double *rows[LANES];
     for (int lane = 0; lane < LANES; lane++)
@@ -332,7 +332,7 @@ KERNEL void real_store_quads(double *quads, const Real *parts) {
     real_store_rows(rows, parts);
 }
 
-// Writes base + lane for the lanes of a mask side by side and returns how many. `to` has room for LANES.
+// Writes base + lane for the lanes of a mask side by side, and returns how many. `to` has room for LANES elements.
 KERNEL size_t mask_indices(Mask mask, uint32_t base, uint32_t *to) {
     Lanes bits = mask_bits(mask);
 #if LANES == 8
@@ -347,8 +347,8 @@ KERNEL size_t mask_indices(Mask mask, uint32_t base, uint32_t *to) {
 #endif
 }
 
-// Writes those of `from` that are in the mask and are not `but` side by side and returns how many. Both have room for
-// LANES.
+// Writes the elements of `from` that are in the mask and differ from `except` side by side, and returns how many. Both
+// arrays have room for LANES elements.
 KERNEL size_t mask_compress(Mask mask, const uint32_t *from, uint32_t except, uint32_t *to) {
 #if LANES == 8
     __m256i numbers = _mm256_loadu_si256((const __m256i *)from);

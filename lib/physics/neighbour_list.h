@@ -1,8 +1,11 @@
-// neighbour_list.h: kept neighbour lists for passes whose forces all have a bounded reach.
+// neighbour_list.h: Verlet neighbour lists for passes whose forces all have a bounded range.
 //
-// A list holds, for every particle of a pass, all others that could come into reach before something has moved by half
-// of a margin, the skin; so it serves many steps and outlives the frame. Each list is in the order of the pass. What
-// is not listed contributes nothing, so the sums are those of all pairs, bit for bit.
+// The list of a particle holds all others that could interact with it before any particle has moved by half the skin.
+// So it serves many steps and is retained between frames. Each list is in the order of the pass, and unlisted particles
+// contribute nothing, so the sums equal those over all pairs bit for bit.
+//
+// Particles are sorted by grid cell. The index of a particle in that order is its sorted index: regular particles come
+// first, then a few that are much larger than the others, then idle ones.
 #ifndef PETRI_PHYSICS_NEIGHBOUR_LIST_H
 #define PETRI_PHYSICS_NEIGHBOUR_LIST_H
 
@@ -11,12 +14,12 @@
 
 #include <string.h>
 
-// In units of Neighbours.base.
+// In units of NeighbourList.contact_distance.
 #define MIN_SKIN 0.05
 #define MAX_SKIN 0.6
 
 enum {
-    PHYS_MAX_LARGE = 64, // particles much larger than the others that a list takes
+    PHYS_MAX_LARGE = 64, // maximum number of particles that may be much larger than the others
 };
 
 typedef struct ColumnRange {
@@ -24,88 +27,90 @@ typedef struct ColumnRange {
     uint32_t count;
 } ColumnRange;
 
-// The particles of a pass: those of the group, then those of its parent, …
+// The particles of a pass: those of the group, of its parent, and so on outwards.
 typedef struct PassRanges {
     uint32_t count;
     ColumnRange at[PHYS_MAX_RANGES];
 } PassRanges;
 
 typedef struct Neighbours {
-    // what it was made for
-    uint32_t group;
-    uint32_t level;
-    uint64_t frame; // in which it was last used
+    // the pass that the list is for
+    uint32_t group; // whose particles the forces act on
+    uint32_t level; // group that declares the forces
+    uint64_t frame; // frame of the last use; 0: never used
     PassRanges ranges;
     size_t dimensions;
     size_t lanes;
-    double bound;      // largest max_distance of forces that need no contact, else 0
+    double bound;      // largest max_distance of the forces that need no contact; 0: none
     bool contact_only; // all forces need contact
-    // what it is
+    // contents
     bool built;
     ListView view;
-    double *next_packed;          // quads that the next step begins with, made by this one; NULL: no room
-    uint64_t next_motion_version; // PhysSystem.motion for which they hold, else 0
-    bool next_valid;              // and nothing has left its skin then
-    uint32_t *key;                // by place: position in the order of the pass
-    uint32_t *cell;               // by column of the ranges, counted through
+    double *next_packed;          // `view.packed` of the next step, written by the current one; NULL: no room
+    uint64_t next_motion_version; // PhysSystem.motion_version that `next_packed` matches; 0: none
+    bool next_valid;              // no particle had moved beyond the skin in `next_packed`
+    uint32_t *key;                // by sorted index: position in the order of the pass
+    uint32_t *cell;               // by position in the ranges: grid cell, later sorted index
     const uint32_t *order;        // by column: position in the order of the pass; NULL: columns are in that order
-    uint32_t total;          // places; those after view.listed are idle: not finite, or without the size for a contact
-    double contact_distance; // length that the skin is measured by: the usual distance of contact
+    uint32_t total; // number of particles; those after view.listed are idle: not finite, or too small for contact
+    double contact_distance; // typical distance of interacting particles, the unit of the skin
     double skin;
-    uint64_t radius_version; // PhysSystem.radii for which it was made
-    bool skin_is_fixed;      // by the domain that the particles are of
-    uint64_t scanned;        // candidates that the last construction looked at
-    uint64_t padded;         // entries of all lists, dummies included
-    // when to use it
+    uint64_t radius_version; // PhysSystem.radius_version for which it was built
+    bool skin_is_fixed;      // set by the domain decomposition
+    uint64_t scanned;        // candidates tested in the last build
+    uint64_t padded;         // entries of all lists, including dummies
+    // tuning
     uint32_t age;      // steps since it was built
-    uint32_t lifetime; // steps that the one before served
-    double cost;       // of one of these steps; 0: unknown
-    bool shrinking;    // the skin is being made shorter, else longer
-    uint32_t cooldown; // steps left in which all pairs are computed instead
-    uint32_t backoff;
+    uint32_t lifetime; // steps that the previous build served
+    double cost;       // of a step with the previous build; 0: unknown
+    bool shrinking;    // the skin was last reduced, else increased
+    uint32_t cooldown; // remaining steps that compute all pairs instead
+    uint32_t backoff;  // length of the last `cooldown`; 0: none
     Buffer arrays;
     Buffer cells;
     Buffer entries;
 } NeighbourList;
 
-// force_pair.c: a pass over the columns, without forces.
+// force_pair.c: returns a pass over the columns, without forces.
 PairPass phys_columns_pass(const Columns *columns);
 
-// neighbour_list.c: computes a pass with neighbour lists, or returns false if all pairs are the better way. `move` as
-// in phys_apply_pairs.
+// neighbour_list.c: computes a pass with neighbour lists, or returns false if computing all pairs is faster. `move` is
+// as in phys_apply_pairs.
 bool phys_neighbour_list_pass(PhysSystem *system, const Kernels *kernels, const PairPass *pass, uint32_t group,
                               uint32_t level, Move *move);
 void phys_neighbour_list_free(NeighbourList *list);
-// domain.c: another skin for what has served `life` steps.
+// Adapts the skin to a list or halo that served `lifetime` steps.
 void phys_adapt_skin(NeighbourList *list, uint32_t lifetime);
 
-// Those of a system that is part of a larger one (domain.h), which says when lists are made.
-// Brings lists up to date that have served `age` steps; false if new ones are needed.
+// The two functions below are for local systems (domain.h), whose lists are rebuilt when the halo is.
+//
+// Refreshes the lists, which have served `age` steps. Returns false if they must be rebuilt.
 bool phys_lists_valid(PhysSystem *system, uint32_t age);
-// Drops all lists; new ones get this skin.
+// Drops all lists. The next ones use this skin.
 void phys_lists_drop(PhysSystem *system, double skin);
 
-// grid.c: makes a list for the positions of now; list->skin is what is wanted. False if there is no memory for it or
-// the particles do not lie in a way that a grid can sort.
+// grid.c: builds a list for the current positions with list->skin. Returns false if out of memory, or if the particles
+// are distributed so that a grid cannot sort them.
 bool phys_grid_build(PhysSystem *system, const Kernels *kernels, const PairPass *pass, NeighbourList *list);
 
-// neighbour_list.c: with more entries than this a list costs more than all pairs.
+// neighbour_list.c: returns the number of entries above which a list costs more than all pairs.
 uint64_t phys_max_useful_entries(const NeighbourList *list);
 
-// The first column from one on that is foreign, or their number.
+// Returns the first remote column at or after `from`, or the number of columns.
 static inline uint32_t phys_next_remote(const PhysSystem *local, uint32_t from) {
     const bool *mark =
         from < local->particle_count ? memchr(local->remote + from, true, local->particle_count - from) : NULL;
     return mark ? (uint32_t)(mark - local->remote) : local->particle_count;
 }
 
-// The square of how far a particle may move until lists with the skin no longer hold: a little less than half of it, so
-// that rounding cannot let a pair slip through.
+// Returns the square of the distance that a particle may move before lists with this skin are invalid. The distance is
+// slightly less than half the skin, so that rounding cannot miss a pair.
 static inline double phys_skin_square(double skin) {
     return 0.25 * skin * skin * (1 - 1e-6);
 }
 
-// Keys below this are of the pass's own group. (Keys of a group alone are handles, which may have gaps.)
+// Returns the limit below which keys belong to the pass's own group. Without enclosing groups, keys are handles, which
+// may have gaps.
 static inline uint32_t phys_own_keys(const NeighbourList *list) {
     return list->ranges.count > 1 ? list->ranges.at[0].count : UINT32_MAX;
 }

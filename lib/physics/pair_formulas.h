@@ -1,10 +1,10 @@
-// pair_formulas.h: the formulas of forces between two particles (4.1), for LANES pairs at once.
+// pair_formulas.h: formulas of the forces between two particles (4.1), for LANES pairs at once.
 //
 //   d_k = to_k − from_k;  l = sqrt(d_0² + d_1² + …);  inv = 1 / l;  u_k = d_k · inv;  f_k = u_k · K
 //
-// The target (`from`) gets + f, the partner − f, whichever of the two comes first in the pass: every K is symmetric in
-// the two, so with the ends exchanged d, u and f change their signs exactly and K stays the same. S is the strength,
-// with the sign of the force's row: a positive K pulls.
+// The target (`from`) receives + f and the partner − f, whichever of the two comes first in the pass. Every K is
+// symmetric, so if the two are exchanged, d, u and f change their signs exactly and K stays the same. S is the
+// strength, with the sign of the force's row; a positive K attracts.
 #ifndef PETRI_PHYSICS_PAIR_FORMULAS_H
 #define PETRI_PHYSICS_PAIR_FORMULAS_H
 
@@ -12,7 +12,7 @@
 #include "physics/kernels.h"
 #include "physics/pow_lanes.h"
 
-// One end of LANES pairs.
+// One particle of each of LANES pairs.
 typedef struct PairEnd {
     Real position[PHYS_VECTOR_DIMENSIONS];
     Real radius;
@@ -20,23 +20,23 @@ typedef struct PairEnd {
     Real charge;
 } PairEnd;
 
-// What is known of LANES pairs.
+// Geometry of LANES pairs.
 typedef struct PairGeometry {
     Real unit[PHYS_VECTOR_DIMENSIONS];
     Real length;
     Real reach; // sum of the radii
-    Mask valid; // l is neither 0 nor not finite
+    Mask valid; // lanes in which l is positive and finite
 } PairGeometry;
 
-// What a formula may use.
+// Inputs of a formula.
 typedef struct Pairs {
     const PairTerm *term;
     const PairGeometry *geometry;
     const PairEnd *target;
     const PairEnd *partner;
     Mask contact; // lanes with l < r₁+r₂ where neither radius is 0
-    bool plain;   // no exponent of the pass needs a function (pow_lanes.h)
-    bool linear;  // all are 1
+    bool plain;   // no exponent in the pass needs a function (pow_lanes.h)
+    bool linear;  // all exponents are 1
 } Pairs;
 
 // S · (a · b) / (D · D),  D = max(r₁+r₂, l)
@@ -72,7 +72,7 @@ KERNEL Real pair_adhesion(const Pairs *pairs) {
     return real_set(pairs->term->strength) * depth * (geometry->length - rest);
 }
 
-// K of a link. False: no force.
+// Computes K of a link. Returns false if there is no force.
 //   l < min:       K = − ((min − l)^power · S)
 //   else l > max:  K = (l − max)^power · S
 KERNEL bool link_distance(const PhysForce *link, double strength, Real length, Real *k) {
@@ -84,25 +84,27 @@ KERNEL bool link_distance(const PhysForce *link, double strength, Real length, R
     return true;
 }
 
-// What `need` names of one end; 1 if it needs nothing.
+// Returns the quantity of one particle that `need` names, or 1 if the force needs nothing.
 KERNEL Real pair_source(ForceNeed need, const PairEnd *end) {
     if (need == NEED_MASS)
         return end->mass;
     return need == NEED_CHARGE ? end->charge : need == NEED_RADIUS ? end->radius : real_set(1);
 }
 
-// Lanes in which neither of two quantities is 0.
+// Returns the lanes of `mask` in which neither of two quantities is 0.
 KERNEL Mask both_nonzero(Mask mask, Real a, Real b) {
     return real_differs_where(real_differs_where(mask, a, real_zero()), b, real_zero());
 }
 
+// Returns the lanes in which a force applies, not considering `bound`.
 KERNEL Mask pair_where(PairReach reach, ForceNeed need, const Pairs *pairs) {
     if (reach == REACH_CONTACT)
         return pairs->contact;
     return both_nonzero(pairs->geometry->valid, pair_source(need, pairs->target), pair_source(need, pairs->partner));
 }
 
-// K of one force, and where it applies. `contact_only`: no force of the pass reaches farther.
+// Computes K of one force and returns the lanes in which it applies. `contact_only`: all forces of the pass need
+// contact.
 KERNEL Mask pair_apply(const Pairs *pairs, bool contact_only, Real *k) {
     Mask applies = mask_first(0);
     *k = real_zero();

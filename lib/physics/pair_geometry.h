@@ -1,17 +1,17 @@
-// pair_geometry.h: LANES pairs on their way to the formulas: a vector of targets and one partner, or a vector of
-// partners.
+// pair_geometry.h: distances and directions of LANES pairs: targets in the lanes, and one common partner or one for
+// each.
 #ifndef PETRI_PHYSICS_PAIR_GEOMETRY_H
 #define PETRI_PHYSICS_PAIR_GEOMETRY_H
 
 #include "physics/pair_formulas.h"
 
-// What kernels are specialised on: a force without bound that comes first, and what follows it.
-enum { LEAD_NONE = PHYS_FORCE_KINDS }; // else the lead is the PhysForceKind
+// Kernels are specialised on the first force of a pass if it has no bound (the lead), and on the forces after it.
+enum { LEAD_NONE = PHYS_FORCE_KINDS }; // other values are a PhysForceKind
 typedef enum PairRest {
     REST_NONE,
-    REST_SPRING,  // one collision with a power of 1; no radius is 0
-    REST_PLAIN,   // forces of contact only, no exponent needs a function (pow_lanes.h)
-    REST_CONTACT, // forces of contact only
+    REST_SPRING,  // one collision force with power 1; no radius is 0
+    REST_PLAIN,   // contact forces only, and no exponent needs a function (pow_lanes.h)
+    REST_CONTACT, // contact forces only
     REST_ANY,
 } PairRest;
 
@@ -19,14 +19,14 @@ typedef struct PairShape {
     size_t dimensions;
     int lead;
     PairRest rest;
-    bool one_size; // all have the same radius
+    bool one_size; // all particles have the same radius
 } PairShape;
 
 KERNEL bool rest_needs_contact(PairShape shape) {
     return shape.rest == REST_SPRING || shape.rest == REST_PLAIN || shape.rest == REST_CONTACT;
 }
 
-// What the leading force needs of both ends.
+// Returns what the leading force needs from both particles.
 KERNEL ForceNeed lead_need(PairShape shape) {
 #define PAIR(KIND, name, SIGN, SOURCE, REACH)                                                                          \
     if (shape.lead == PHYS_##KIND)                                                                                     \
@@ -44,7 +44,7 @@ KERNEL bool needs_charge(PairShape shape) {
     return lead_need(shape) == NEED_CHARGE || shape.rest == REST_ANY;
 }
 
-// K of the leading force.
+// Returns K of the leading force.
 KERNEL Real lead_coefficient(PairShape shape, const Pairs *pairs) {
 #define PAIR(KIND, name, ...)                                                                                          \
     if (shape.lead == PHYS_##KIND)                                                                                     \
@@ -54,7 +54,7 @@ KERNEL Real lead_coefficient(PairShape shape, const Pairs *pairs) {
     return real_zero();
 }
 
-// LANES targets from column i on.
+// Loads LANES targets, starting at column i.
 KERNEL PairEnd pair_targets(const PairPass *pass, PairShape shape, size_t i) {
     PairEnd end;
     for (size_t k = 0; k < shape.dimensions; k++)
@@ -65,7 +65,7 @@ KERNEL PairEnd pair_targets(const PairPass *pass, PairShape shape, size_t i) {
     return end;
 }
 
-// The partner j in every lane.
+// Loads partner j into every lane.
 KERNEL PairEnd pair_partner(const PairPass *pass, PairShape shape, size_t j) {
     PairEnd end;
     for (size_t k = 0; k < shape.dimensions; k++)
@@ -76,21 +76,21 @@ KERNEL PairEnd pair_partner(const PairPass *pass, PairShape shape, size_t j) {
     return end;
 }
 
-// Forces that need contact: pairs that surely have none are dropped before the square root. The filter is a hair too
-// wide, so that rounding cannot drop a pair with l < r₁+r₂, however small the numbers are.
+// For contact forces: excludes pairs that are certainly not in contact, before the square root. The limit is slightly
+// too large, so that rounding cannot exclude a pair with l < r₁+r₂, however small the numbers are.
 KERNEL Mask pair_near(Mask live, Real square, Real reach) {
     Real wide = reach * reach * real_set(1 + 0x1p-48);
     return real_less_where(live, square, wide + real_set(DBL_MIN));
 }
 
-// False if none of the pairs `live` can have a force.
+// Computes the geometry of the pairs in `live`. Returns false if none of them can have a force.
 KERNEL bool pair_geometry(PairShape shape, const PairEnd *target, const PairEnd *partner, Mask live,
                           PairGeometry *pair) {
     Real square = real_zero();
     for (size_t k = 0; k < shape.dimensions; k++) {
         pair->unit[k] = partner->position[k] - target->position[k];
         Real part = pair->unit[k] * pair->unit[k];
-        square = k ? square + part : part; // 0 + part is part: a square is never -0
+        square = k ? square + part : part; // 0 + part equals part, because a square is never -0
     }
     pair->reach = target->radius + partner->radius;
     bool contact_only = shape.lead == LEAD_NONE && rest_needs_contact(shape);
@@ -101,7 +101,7 @@ KERNEL bool pair_geometry(PairShape shape, const PairEnd *target, const PairEnd 
     }
     pair->length = real_sqrt(square);
     pair->valid = real_less_where(live, real_zero(), square);
-    if (!contact_only) // what is near is finite
+    if (!contact_only) // pairs that passed pair_near are finite
         pair->valid = real_at_most_where(pair->valid, square, real_set(DBL_MAX));
     Real inverse = real_set(1) / pair->length;
     for (size_t k = 0; k < shape.dimensions; k++)
@@ -109,7 +109,7 @@ KERNEL bool pair_geometry(PairShape shape, const PairEnd *target, const PairEnd 
     return true;
 }
 
-// Lanes with contact. Radii of 0 are left to both_nonzero: few pairs get so far.
+// Returns the lanes in contact. Radii of 0 are excluded later by both_nonzero, which few pairs reach.
 KERNEL Mask pair_in_contact(const PairGeometry *pair) {
     return real_less_where(pair->valid, pair->length, pair->reach);
 }

@@ -1,17 +1,17 @@
-// pair_sum.h: terms of pairs on their way into sums.
+// pair_sum.h: adds the terms of pairs to the sums of forces.
 #ifndef PETRI_PHYSICS_PAIR_SUM_H
 #define PETRI_PHYSICS_PAIR_SUM_H
 
 #include "physics/pair_geometry.h"
 
-// Terms of one tile on their way to its columns, by component and column.
+// Terms of one tile for its columns, by component and column.
 typedef struct Tile {
     Real lead[PHYS_VECTOR_DIMENSIONS][LANES];
     Real rest[PHYS_MAX_TERMS][PHYS_VECTOR_DIMENSIONS][LANES];
-    unsigned hits; // forces that have written to `rest`
+    unsigned hits; // bit set of the forces that have written to `rest`
 } Tile;
 
-// Adds a force where it applies; what the column gets is +0.0 elsewhere.
+// Adds a force to `sum` where it applies. `column`, unless NULL, receives the same terms, with +0.0 elsewhere.
 KERNEL void add_term(PairShape shape, const PairGeometry *pair, Mask applies, Real coefficient, Real *sum,
                      Real (*column)[LANES], size_t k) {
     for (size_t m = 0; m < shape.dimensions; m++) {
@@ -28,13 +28,13 @@ static void clear_terms(Real (*column)[LANES]) {
             column[m][k] = real_zero();
 }
 
-// The one force of REST_SPRING.
+// Adds the single force of REST_SPRING.
 KERNEL void add_spring(const PairPass *pass, PairShape shape, const PairGeometry *pair, Real *sum) {
     Pairs pairs = {.term = pass->terms, .geometry = pair, .linear = true};
     add_term(shape, pair, pair_in_contact(pair), pair_collision(&pairs), sum, NULL, 0);
 }
 
-// The forces after the leading one.
+// Adds the forces after the leading one.
 KERNEL void add_rest(const PairPass *pass, PairShape shape, const PairGeometry *pair, const PairEnd *target,
                      const PairEnd *partner, Real *sum, Tile *tile, size_t k) {
     Mask contact = pair_in_contact(pair);

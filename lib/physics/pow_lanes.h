@@ -1,11 +1,11 @@
-// pow_lanes.h: displacement^power as section 4.1 defines it, for LANES at once.
+// pow_lanes.h: displacement^power as section 4.1 defines it, for LANES numbers at once.
 #ifndef PETRI_PHYSICS_POW_LANES_H
 #define PETRI_PHYSICS_POW_LANES_H
 
 #include "maths/arrays.h"
 #include "physics/lanes.h"
 
-// Other lanes than those of the mask might hold what takes long, such as numbers below 0.
+// Replaces unused lanes by 1, because they may hold numbers for which pow is slow, such as negative ones.
 static __attribute__((noinline, unused)) Real pow_by_lane(Mask mask, Real base, double power) {
     double lanes[LANES];
     real_store(lanes, real_select(mask, base, real_set(1)));
@@ -13,13 +13,14 @@ static __attribute__((noinline, unused)) Real pow_by_lane(Mask mask, Real base, 
     return real_load(lanes);
 }
 
-// Exponents that need no function.
+// Returns true if the exponent needs no call of a function.
 static inline bool pow_is_plain(double power) {
     return power == 1 || power == 2 || power <= 0;
 }
 
-// An exponent below 0 counts as 0. What the other lanes hold is of no use. `plain`: it is known that the exponent is.
-// A loop should know, as a call in it, even one that is never made, takes the registers away from the rest.
+// Returns base^power in the lanes of the mask; other lanes are undefined. A negative exponent counts as 0. `plain`:
+// pow_is_plain holds, which should be a constant in loops: even a call that never happens makes the compiler spill
+// registers.
 KERNEL Real real_pow(bool plain, Mask mask, Real base, double power) {
     if (power == 1)
         return base;

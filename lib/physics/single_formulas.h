@@ -1,5 +1,5 @@
-// single_formulas.h: what happens to a particle alone: forces on single particles (4.2), soft bounds of barriers (4.4)
-// and motion (4.3), for LANES particles at once. v velocity, p position, r radius, m mass, q charge, S strength.
+// single_formulas.h: formulas for single particles, LANES at once: forces (4.2), motion (4.3) and soft bounds of
+// barriers (4.4). v velocity, p position, r radius, m mass, q charge, S strength.
 #ifndef PETRI_PHYSICS_SINGLE_FORMULAS_H
 #define PETRI_PHYSICS_SINGLE_FORMULAS_H
 
@@ -8,13 +8,13 @@
 #include "physics/kernels.h"
 #include "physics/pow_lanes.h"
 
-// LANES particles on their way through a step. Component k of a vector is at [k · step]: with several lanes the vectors
-// are copies in registers (step 1), with one lane they are where the particle lies (step is the columns' stride).
+// LANES particles in a step. Component k of a vector is at [k · step]. With several lanes, the vectors are copies in
+// registers (step 1). With one lane, they point into the columns (step is the columns' stride).
 typedef struct Block {
     size_t first;  // column of the first lane
-    size_t active; // lanes that are not anchors
+    size_t active; // number of lanes that are not anchors
     size_t step;
-    Mask live; // the lanes that are not anchors
+    Mask live; // lanes that are not anchors
     Real *position;
     Real *velocity;
     Real *force;
@@ -22,7 +22,7 @@ typedef struct Block {
 } Block;
 
 #if LANES == 1
-// Particle i where it lies.
+// Returns a block that points to particle i in the columns.
 KERNEL Block block_at(const Columns *columns, size_t i) {
     return (Block){.first = i,
                    .active = 1,
@@ -35,7 +35,7 @@ KERNEL Block block_at(const Columns *columns, size_t i) {
 }
 #endif
 
-// What a formula may use.
+// Inputs of a formula.
 typedef struct Singles {
     const IntegratePass *pass;
     const Columns *columns;
@@ -96,7 +96,8 @@ KERNEL void single_drag(const Singles *s) {
     Real c = real_set(s->force->strength) * real_sqrt(square);
     c *= real_load(s->columns->section + s->block->first);
     Real limit = s->block->mass / real_set(s->pass->delta);
-    // This way round a NaN (0 · ∞) stays one: the force does not act, instead of stopping the particle.
+    // This order of the comparison preserves a NaN (0 · ∞), so that the force does not act. The other would stop the
+    // particle.
     c = real_select(real_less(limit, c), limit, c);
     Mask applies = where_not_zero(s->block->live, real_load(s->columns->radius + s->block->first));
     for (size_t k = 0; k < s->n; k++) {
@@ -117,7 +118,7 @@ KERNEL void single_buoyancy(const Singles *s) {
         add_force_component(s->block, k, applies, vector_component(given->vector, k) * weight);
 }
 
-// Items of the stream that particles before this one have taken in this frame.
+// Returns the number of items of the stream that particles before this one have used in this frame.
 KERNEL uint64_t items_before(const Singles *s, size_t lane) {
     const uint32_t *draws = s->columns->random_offset;
     return s->force->item + (draws ? s->n * draws[s->block->first + lane] : s->pass->draw_count);
@@ -125,7 +126,7 @@ KERNEL uint64_t items_before(const Singles *s, size_t lane) {
 
 #if LANES == 1
 
-// S · normal(seed)[index], index counting up by one for each component of each particle, over all steps of a frame.
+// S · normal(seed)[index], where index increases by one for each component of each particle, over all steps of a frame.
 KERNEL void single_random(const Singles *s) {
     uint64_t item = items_before(s, 0);
     for (size_t k = 0; k < s->n; k++)
@@ -135,7 +136,7 @@ KERNEL void single_random(const Singles *s) {
 
 #else
 
-// How many of the live lanes from one on take items that follow each other.
+// Returns how many live lanes, starting at `lane`, use consecutive items.
 KERNEL size_t consecutive_draws(const Singles *s, size_t lane, unsigned bits, size_t active) {
     const uint32_t *draws = s->columns->random_offset;
     if (!draws)
@@ -147,7 +148,7 @@ KERNEL size_t consecutive_draws(const Singles *s, size_t lane, unsigned bits, si
     return count;
 }
 
-// The same, drawn for many lanes together; anchors take no items.
+// Computes S · normal(seed)[index] for many lanes at once. Anchors use no items.
 KERNEL void single_random(const Singles *s) {
     double normals[PHYS_VECTOR_DIMENSIONS * LANES], lanes[PHYS_VECTOR_DIMENSIONS][LANES] = {{0}};
     unsigned bits = mask_bits(s->block->live);
@@ -157,7 +158,7 @@ KERNEL void single_random(const Singles *s) {
         size_t count = consecutive_draws(s, lane, bits, s->block->active - drawn);
         random_normals(LANES_LEVEL, s->force->given.key, items_before(s, lane), s->n * count, normals + s->n * drawn);
         drawn += count;
-        lane += count - 1; // without `draws` it was the last
+        lane += count - 1; // without `draws` this was the last iteration
     }
     const double *next = normals;
     for (size_t lane = 0; lane < LANES; lane++)
@@ -204,7 +205,7 @@ KERNEL void single_barrier(const Singles *s) {
     }
 }
 
-// One force of the stages of single particles and barriers.
+// Applies one force of STAGE_SINGLE or STAGE_BARRIER.
 KERNEL void single_apply(const Singles *s) {
     switch (s->force->given.kind) {
 #define SINGLE(KIND, name, ...)                                                                                        \
@@ -217,7 +218,7 @@ KERNEL void single_apply(const Singles *s) {
 #undef SINGLE
 #undef OTHER
     case PHYS_FORCE_KINDS:
-        __builtin_unreachable(); // the stages have no others
+        __builtin_unreachable(); // these stages have no other kinds
     }
 }
 
