@@ -1,7 +1,8 @@
-// reader.c: see reader.h.
+// reader.c: implementation of reader.h.
 //
-// There may be very many particles. Most nodes name the same attributes in the same order as the table, with values of
-// the right form: those are stored in one go. At a surprise the attribute is read once more, carefully, with reports.
+// A system may have millions of particles, so the common case has a fast path: attributes in the order of the table
+// with values of the expected form are stored directly. Other attributes are read again by fill_checked, which reports
+// mistakes.
 #include "schema/reader.h"
 
 #include "value/format.h"
@@ -14,7 +15,7 @@ static bool is_in_window(PlaceKind place) {
     return place >= PLACE_TOP;
 }
 
-// Where in by_name the kinds of a name stand, or would.
+// Returns the slot of by_name that holds the kinds with this name, or the empty slot for it.
 static size_t find_name(const Schema *schema, const Symbol *name) {
     enum { SLOTS = sizeof schema->by_name };
     _Static_assert(KIND_COUNT < 255 && 2 * KIND_COUNT < SLOTS, "kinds are few");
@@ -69,7 +70,7 @@ NodeKind schema_kind_in(const Schema *schema, const Node *node, PlaceKind childr
     return KIND_COUNT;
 }
 
-// "name=value" of an attribute by which a node is known: a system by its state, anything else by its id.
+// Adds " name=value" of an attribute that identifies the node: the state of a system, the id of other nodes.
 static void add_identifier(Text *out, const Reader *reader, AttrRow row) {
     Value v = node_get(reader->node, reader->schema->slots[row].name);
     if (v.len == 0 || v.len > 16)
@@ -102,7 +103,7 @@ void reader_report_attr(const Reader *reader, const char *code, AttrName name, S
 }
 
 static StrNearest nearest_to(Str name) {
-    return (StrNearest){name, 2 + (int)(name.len < 12 ? name.len : 12) / 4, {0}}; // long names may be further off
+    return (StrNearest){name, 2 + (int)(name.len < 12 ? name.len : 12) / 4, {0}}; // the limit grows with the length
 }
 
 static void report_unknown(const Reader *reader, const Symbol *name) {
@@ -141,7 +142,7 @@ static void add_expected(Text *out, const Reader *reader, const TypeRow *type) {
                    vector || (type->shape <= SHAPE_TIME && type->shape != SHAPE_NUMBERS) ? "one number" : type->text);
 }
 
-// "attribute should be …, not …".
+// Reports "attribute should be …, not …".
 static void report_shape(const Reader *reader, const SchemaRow *row, Value found) {
     const TypeRow *type = &schema_types[row->type];
     Text out = text_new(reader->arena);
@@ -157,7 +158,7 @@ static void report_shape(const Reader *reader, const SchemaRow *row, Value found
     report_symbol(reader, "bad-attribute", reader->schema->slots[row - schema_rows].name, text_str(&out));
 }
 
-// "attribute=value …": what is taken, though hardly meant.
+// Reports "attribute=value …" for a value that is valid but unlikely to be intended.
 static void report_lint(const Reader *reader, const char *code, const SchemaRow *row, Value v, const char *text) {
     Text out = text_new(reader->arena);
     text_add_format(&out, "%s=", schema_names[row->name]);
@@ -178,7 +179,7 @@ static double clamp_to_limits(const Reader *reader, const SchemaRow *row, Value 
     return x < type->low ? type->low : x > type->high ? type->high : x;
 }
 
-// v / sqrt(Σ v_k²); NULL if that is no direction.
+// Returns v / sqrt(Σ v_k²); NULL if the length is 0 or not finite.
 static PhysVector unit_vector(const Reader *reader, PhysVector v) {
     double sum = 0;
     for (uint32_t k = 0; k < reader->dimensions; k++)
@@ -192,7 +193,7 @@ static PhysVector unit_vector(const Reader *reader, PhysVector v) {
     return unit;
 }
 
-// The elements of a vector attribute; NULL if it is malformed.
+// Returns the elements of a vector attribute; NULL if it is malformed.
 static PhysVector read_vector(const Reader *reader, const Value *v) {
     uint32_t n = reader->dimensions;
     if (v->kind != VALUE_NUMBERS || (v->len != n && v->len != 1))
@@ -205,7 +206,7 @@ static PhysVector read_vector(const Reader *reader, const Value *v) {
     return repeated;
 }
 
-// Stores a value that need not be looked at twice; false if it must be.
+// Stores a value of the expected form. Returns false if the value needs a closer check.
 static inline bool store_fast(const SchemaSlot *slot, uint32_t n, const Value *v, char *record) {
     void *field = record + slot->field;
     switch (slot->plain) {
@@ -227,7 +228,7 @@ static inline bool store_fast(const SchemaSlot *slot, uint32_t n, const Value *v
     }
 }
 
-// The same for any value; false if it is malformed.
+// Like store_fast, but for any value. Returns false if the value is malformed.
 static bool store_checked(const Reader *reader, const SchemaRow *row, const Value *v, char *record) {
     void *field = record + row->field;
     AttrShape shape = schema_types[row->type].shape;
@@ -248,7 +249,7 @@ static bool store_checked(const Reader *reader, const SchemaRow *row, const Valu
     return true;
 }
 
-// One attribute that is not plain; `row` is the end of the kind's rows if it has no such attribute.
+// Stores one attribute that the fast path did not accept. `row` is the end of the kind's rows if it is unknown.
 static __attribute__((noinline)) void fill_checked(const Reader *reader, const Attr *attr, int row, char *record) {
     const SchemaRow *found = &schema_rows[row];
     if (row == reader->schema->first_row[reader->kind + 1]) {
@@ -267,7 +268,7 @@ static __attribute__((noinline)) void fill_checked(const Reader *reader, const A
         report_shape(reader, found, attr->value);
 }
 
-// Gives vectors that nobody gave their defaults: 0;…;0;x.
+// Sets vectors that the node does not have to their defaults: 0;…;0;x.
 static void fill_vector_defaults(const Reader *reader, char *record) {
     int first = reader->schema->first_row[reader->kind], end = reader->schema->first_row[reader->kind + 1];
     for (int i = first; i < end; i++) {
@@ -282,7 +283,8 @@ static void fill_vector_defaults(const Reader *reader, char *record) {
     }
 }
 
-// The slot of an attribute among those of a kind, or their end; `guess` is the one after that of the attribute before.
+// Returns the slot of an attribute, or `end` if there is none. `guess`, the slot after the previous attribute's, is
+// tried first.
 static inline const SchemaSlot *find_slot(const SchemaSlot *first, const SchemaSlot *end, const SchemaSlot *guess,
                                           const Symbol *name) {
     for (const SchemaSlot *slot = guess; slot < end; slot++)
@@ -309,7 +311,7 @@ void reader_fill(const Reader *reader, void *record) {
         fill_vector_defaults(reader, record);
 }
 
-// A number that a symbol stands for is no number in a drawing; symbols are beyond all coordinates.
+// Returns true for a finite number that is not a symbol; the numbers of symbols lie beyond -8e307.
 static bool is_finite_number(double x) {
     return isfinite(x) && x > -8e307;
 }
@@ -336,7 +338,7 @@ static bool read_finite_numbers(Value v, const TypeRow *type, uint32_t max, Attr
 
 static bool read_numbers(const Reader *reader, Value v, bool even, AttrValue *attr) {
     const double *numbers = value_numbers(&v);
-    if (even && v.len % 2) // without its partner a number is no point
+    if (even && v.len % 2) // the last number lacks its y
         v.len--;
     if (!value_is_numeric(v))
         return false;
@@ -348,7 +350,7 @@ static bool read_numbers(const Reader *reader, Value v, bool even, AttrValue *at
     return true;
 }
 
-// A word, as symbol or as text.
+// Reads a word, which may be a symbol or a string.
 static bool read_word(const Reader *reader, Value v, AttrType type, int *word) {
     bool text = v.len == 1 && v.kind == VALUE_MIXED && v.as.items[0].type == ITEM_STRING;
     if (!text && !is_number(v))
@@ -370,7 +372,7 @@ static bool read_weight(const Reader *reader, Value v, const SchemaRow *row, Att
     return true;
 }
 
-// Colours of bytes: whole numbers, of which one is far beyond white.
+// Reports colours whose components seem to range up to 255: integers, one of which is 2 or more.
 static void lint_colour(const Reader *reader, const SchemaRow *row, Value v) {
     const double *numbers = value_numbers(&v);
     double max = 0;
@@ -381,10 +383,10 @@ static void lint_colour(const Reader *reader, const SchemaRow *row, Value v) {
     }
     if (max >= 2)
         report_lint(reader, "colour-range", row, v,
-                    " is beyond white, which is 1;1;1: parts that go up to 255 are written (r;g;b)/255");
+                    " is brighter than white (1;1;1); divide components up to 255: (r;g;b)/255");
 }
 
-// False if the value cannot be used.
+// Returns false if the value is malformed.
 static bool read_drawing_attr(const Reader *reader, const SchemaRow *row, Value v, AttrValue *attr) {
     const TypeRow *type = &schema_types[row->type];
     switch (type->shape) {
@@ -420,11 +422,12 @@ static bool read_drawing_attr(const Reader *reader, const SchemaRow *row, Value 
     case SHAPE_WORD:
         return read_word(reader, v, row->type, &attr->as.word);
     default:
-        return true; // it means nothing to a drawing
+        return true; // not used in drawings
     }
 }
 
-// Are these as many numbers as are wanted, be they what they may? Otherwise the attribute counts as missing.
+// Returns true if the value has a valid count of numbers, even if these are out of range. Otherwise the attribute
+// counts as missing.
 static bool has_shape(const SchemaRow *row, Value v) {
     AttrShape shape = schema_types[row->type].shape;
     return value_is_numeric(v) && v.len > 0 && (shape == SHAPE_POINTS || v.len <= (shape == SHAPE_PAIR ? 2u : 1u));
@@ -445,7 +448,7 @@ bool reader_list(const Reader *reader, AttrValue *attrs, uint32_t *count) {
             *attr = (AttrValue){.name = ATTR_NONE};
             if (reader->kind != KIND_SHADER)
                 report_unknown(reader, node->attrs[i].name);
-            else if (read_numbers(reader, v, false, attr)) { // its program may ask for any name
+            else if (read_numbers(reader, v, false, attr)) { // a shader may have uniforms of any name
                 attr->custom_name = str_to_c(reader->arena, node->attrs[i].name->name);
                 ++*count;
             }
@@ -456,7 +459,7 @@ bool reader_list(const Reader *reader, AttrValue *attrs, uint32_t *count) {
         if (!read_drawing_attr(reader, found, v, attr)) {
             report_shape(reader, found, v);
             good &= !schema_types[found->type].required || !has_shape(found, v);
-            if (found->type == TYPE_MIX) { // such a node shows nothing, which is not what the default means
+            if (found->type == TYPE_MIX) { // a node with an unknown mode is not drawn
                 attr->as.word = MIX_UNKNOWN;
                 ++*count;
             }
@@ -492,7 +495,7 @@ void schema_store(const AttrValue *attr, void *record) {
     case SHAPE_WORD:
         *(int *)field = attr->as.word;
         break;
-    default: // none of a drawing's record
+    default: // not a shape of a drawing's record
         break;
     }
 }

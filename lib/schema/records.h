@@ -1,4 +1,4 @@
-// records.h: what the attributes of a node are read into: plain structs, whose fields the rows of schema_list.h name.
+// records.h: the structs that a node's attributes are read into. The rows of schema_list.h name their fields.
 #ifndef PETRI_SCHEMA_RECORDS_H
 #define PETRI_SCHEMA_RECORDS_H
 
@@ -21,11 +21,11 @@ typedef struct BodyAttrs {
     PhysParticle numbers;
 } BodyAttrs;
 
-// A force applier or barrier. Bounds that are not given are nan.
+// A force applier or barrier. Bounds that are not set are NaN.
 typedef struct ForceAttrs {
     PhysForce force;
-    double fixed; // both bounds
-    Value from;   // ids
+    double fixed; // value of the attribute fixed, which sets both bounds
+    Value from;   // ids of particles
     Value to;
 } ForceAttrs;
 
@@ -35,7 +35,7 @@ typedef struct CounterAttrs {
     Value initial;
     Value rate;
     Value time;
-    Value minimum; // null: none
+    Value minimum; // null: no limit
     Value maximum;
     Value reset;
 } CounterAttrs;
@@ -46,26 +46,26 @@ typedef struct InputAttrs {
     Value name;
 } InputAttrs;
 
-// How things look in a canvas: inherited down the tree.
+// The graphics state of a canvas, inherited down the tree.
 typedef struct GraphicsState {
     double color[4];
     double stroke_width;
     double font_size;
     double weight;
     const char *family;
-    int width; // of letters
+    int width; // font width, a value of FONT_WIDTH (word_list.h)
     int slant;
     int join;
     int cap;
     int composite;
     bool antialias;
-    // What nodes among those that draw have set: numbers in the list that is built.
-    uint32_t source; // in place of the colour
+    // Settings made by earlier drawing nodes, as indices into the display list.
+    uint32_t source; // paint that replaces the colour
     uint32_t filter;
-    uint32_t effect; // on paths
+    uint32_t effect; // path effect
 } GraphicsState;
 
-// Of three dimensions (canvas3d_list.h): a material, a render group and a camera, whatever a node has of these.
+// The graphics state of a 3-D scene (canvas3d_list.h): the attributes of materials, render groups and cameras.
 typedef struct GraphicsState3D {
     double color[3];
     double emissive[3];
@@ -75,7 +75,7 @@ typedef struct GraphicsState3D {
     double ao;
     double transparency;
     double translucency;
-    const char *ids[6]; // of pictures: color, metal, roughness, ao, emissive, transparency; NULL or empty: none
+    const char *ids[6]; // ids of pictures: color, metal, roughness, ao, emissive, transparency; NULL or empty: none
     double max_lights;
     bool depth_sort;
     bool depth_test;
@@ -85,9 +85,9 @@ typedef struct GraphicsState3D {
     double fov;
     int fov_ref;
     double near;
-    double far; // nan: the width of the picture
+    double far; // NaN: the width of the picture
     bool orthographic;
-    double width; // likewise
+    double width; // NaN: the width of the picture
     double samples;
     double colorbits;
     double fog_min;

@@ -1,21 +1,21 @@
-// schema_list.h: all kinds of nodes that do something, with their attributes: what is read, reported, listed and
-// tested. Defaults and limits stand here and nowhere else.
+// schema_list.h: all kinds of nodes with a meaning, and their attributes. The table drives reading, error messages, help
+// and tests; defaults and limits are defined only here.
 //
-// TYPE(ID, SHAPE, low, high, vital, "what is wanted, in words"): how attributes are read (AttrShape of table.h).
-//     Numbers of systems beyond the limits are moved to them, those of drawings are malformed then. If something
-//     vital is beyond all numbers a drawing node is not drawn: where a thing is counts more than how it looks.
-// NAME(ID, "attribute"): all names of attributes, each once.
-// NODE(ID, "kind", PLACE, CHILDREN, "help"), and after it its attributes. PLACE tells where a node may stand and
-//     CHILDREN which may stand in it (PlaceKind). FORCE(ID, "kind", "help", "formula"): a node of force_list.h, with
-//     the same ID; the formula is that of lib/physics/README.md, in lines (tests/docs/formulas.sh compares them).
-// ATTR(KIND, NAME, TYPE, field, default, "unit", "help"). The field is where the value goes (records.h); NOWHERE: it is
-//     ignored or, in drawings, looked up by its name. The default is IS(x); DESCRIBED(x, "in words"); INHERITED(x, "in
-//     words"), to begin with; or NONE: for a number nan, else null. Of a vector it is the last element; the others are
-//     0.
-// ALIAS(KIND, NAME, OF, "of", TYPE, field, "unit"): another name of an attribute of the same kind, which wins over it.
+// TYPE(ID, SHAPE, low, high, required, "expected value in words"): how an attribute is read (AttrShape of table.h).
+//     Numbers outside the limits are moved to them in systems, and are malformed in drawings. A drawing node with
+//     numbers outside the limits of a required attribute is omitted.
+// NAME(ID, "attribute"): the names of attributes, each once.
+// NODE(ID, "kind", PLACE, CHILDREN, "help"), followed by its attributes. PLACE is where the node may be, CHILDREN which
+//     nodes may be in it (PlaceKind). FORCE(ID, "kind", "help", "formula"): a node of force_list.h with the same ID. The
+//     formula has the lines of the one in lib/physics/README.md; tests/docs/formulas.sh compares them.
+// ATTR(KIND, NAME, TYPE, field, default, "unit", "help"). The value is stored in the field (records.h). NOWHERE: it is
+//     ignored or, in drawings, looked up by name. The default is IS(x), DESCRIBED(x, "in words"), INHERITED(x, "in
+//     words") with the initial value x, or NONE: NaN for a number, else null. For a vector x is the last element, and
+//     the others are 0.
+// ALIAS(KIND, NAME, OF, "of", TYPE, field, "unit"): another name of attribute OF of the same kind, which takes precedence.
 // clang-format off
 #ifndef TYPE
-#define TYPE(id, shape, low, high, vital, text)
+#define TYPE(id, shape, low, high, required, text)
 #endif
 #ifndef NAME
 #define NAME(id, text)
@@ -33,12 +33,12 @@
 #define ALIAS(kind, name, of, of_text, type, field, unit) ATTR(kind, name, type, field, NONE, unit, "")
 #endif
 
-// Of systems. Infinities are numbers, nan is none.
+// Types of systems. Infinities are valid numbers, NaN is not.
 TYPE(ANY, VALUE, 0, 0, false, "any")
 TYPE(ID, VALUE, 0, 0, false, "id of a particle")
 TYPE(NUMBERS, NUMBERS, 0, 0, false, "any numbers")
 TYPE(NUMBER, NUMBER, -INFINITY, INFINITY, false, "number")
-TYPE(ABOVE_ZERO, NUMBER, -INFINITY, INFINITY, false, "number above 0")  // others have a meaning of their own
+TYPE(ABOVE_ZERO, NUMBER, -INFINITY, INFINITY, false, "number above 0")  // other numbers have a special meaning
 TYPE(FROM_ZERO, NUMBER, 0, INFINITY, false, "number, 0 or more")
 TYPE(PART, NUMBER, 0, 1, false, "number from 0 to 1")
 TYPE(INTEGER, INTEGER, -INFINITY, INFINITY, false, "whole number")
@@ -46,7 +46,7 @@ TYPE(DIMENSIONS, INTEGER, -INFINITY, INFINITY, false, "whole number, 1 or more")
 TYPE(TIME, TIME, -INFINITY, INFINITY, false, "number")
 TYPE(VECTOR, VECTOR, 0, 0, false, "vector")
 TYPE(NORMAL, NORMAL, 0, 0, false, "vector")
-// Of drawings. Numbers are finite.
+// Types of drawings. Numbers are finite.
 TYPE(FINITE, FINITE, -INFINITY, INFINITY, true, "number")
 TYPE(WIDTH, FINITE, 0, INFINITY, false, "number, 0 or more")
 TYPE(POINT, PAIR, -INFINITY, INFINITY, true, "x;y")
@@ -63,14 +63,14 @@ TYPE(FILL_TYPE, WORD, 0, 0, false, ":winding, :even_odd, :inverse_winding or :in
 TYPE(SLANT, WORD, 0, 0, false, ":upright, :oblique or :italic")
 TYPE(FONT_WIDTH, WORD, 0, 0, false, "a word such as :condensed")
 TYPE(COMPOSITE, WORD, 0, 0, false, "a word such as :over, :add, :multiply or :dst_out")
-// Of pictures.
+// Types of pictures.
 TYPE(AMOUNT, FINITE, -INFINITY, INFINITY, false, "number")
 TYPE(FINITE_INTEGER, FINITE, -1e9, 1e9, false, "whole number")
 TYPE(AMOUNTS, PAIR, -INFINITY, INFINITY, false, "one number or two")
 TYPE(TRIPLE, TRIPLE, -INFINITY, INFINITY, false, "one number or three")
 TYPE(QUAD, QUAD, -INFINITY, INFINITY, false, "one number or four")
 TYPE(LIST, LIST, -INFINITY, INFINITY, false, "numbers")
-// The limits of these are how many numbers there must be.
+// For lists, the limits are the number of elements.
 TYPE(FIVE, LIST, 5, 5, false, "five numbers")
 TYPE(NINE, LIST, 9, 9, false, "nine numbers")
 TYPE(TWENTY, LIST, 20, 20, false, "twenty numbers")
@@ -81,7 +81,7 @@ TYPE(TONEMAP, WORD, 0, 0, false, ":reinhard, :aces, :agx or :agx_punchy")
 TYPE(FADE, WORD, 0, 0, false, ":linear, :quad or :cubic")
 TYPE(FLIP, WORD, 0, 0, false, ":horizontal, :vertical or :both")
 TYPE(NOISE_SHAPE, WORD, 0, 0, false, ":plane, :cylinder or :sphere")
-// Of three dimensions.
+// Types of 3-D scenes.
 TYPE(FACE, WORD, 0, 0, false, ":back or :front")
 TYPE(MIX3D, WORD, 0, 0, false, ":over, :source, :dest, :dest_over, :add, :subtract, :lighten or :darken")
 TYPE(FOV_REF, WORD, 0, 0, false, ":horizontal, :vertical, :diagonal, :wide or :narrow")
@@ -304,13 +304,13 @@ NAME(MODE, "mode")
 #define STRENGTH_ROW(kind) \
     ATTR(kind, STRENGTH, NUMBER, TO_FORCE(force.strength), IS(1), "", "factor of the force")
 #define EASE_ROW(kind) \
-    ATTR(kind, EASE, NUMBER, TO_FORCE(force.ease), IS(0), "", "time in which the strength grows to its full size, from the system's start")
+    ATTR(kind, EASE, NUMBER, TO_FORCE(force.ease), IS(0), "", "time from the system's start in which the strength grows from 0 to its full value")
 #define POWER_ROW(kind) \
     ATTR(kind, POWER, FROM_ZERO, TO_FORCE(force.power), IS(1), "", "of the displacement: 1 is a linear spring")
 #define REACH_ROW(kind) \
-    ATTR(kind, MAX_DISTANCE, ABOVE_ZERO, TO_FORCE(force.max_distance), DESCRIBED(0, ""), "", "between particles at least this far apart there is no force")
+    ATTR(kind, MAX_DISTANCE, ABOVE_ZERO, TO_FORCE(force.max_distance), DESCRIBED(0, ""), "", "distance from which on the force is 0")
 #define BOUND_ROWS(kind) \
-    ATTR(kind, FIXED, NUMBER, TO_FORCE(fixed), NONE, "", "minimum and maximum at once, and wins over both") \
+    ATTR(kind, FIXED, NUMBER, TO_FORCE(fixed), NONE, "", "sets both minimum and maximum, and takes precedence over them") \
     ATTR(kind, MINIMUM, NUMBER, TO_FORCE(force.minimum), NONE, "", "distance below which the spring pushes") \
     ALIAS(kind, MIN, MINIMUM, "minimum", NUMBER, TO_FORCE(force.minimum), "") \
     ATTR(kind, MAXIMUM, NUMBER, TO_FORCE(force.maximum), NONE, "", "distance above which the spring pulls") \
@@ -321,30 +321,30 @@ ATTR(PHYSICS, STATE, ANY, TO_SYSTEM(state), NONE, "", "the key under which parti
 ATTR(PHYSICS, DIMENSIONS, DIMENSIONS, TO_SYSTEM(dimensions), DESCRIBED(0, ""), "", "how many components vectors have")
 ATTR(PHYSICS, TIME, TIME, TO_SYSTEM(time), DESCRIBED(0, "the frame's, in seconds"), "", "the clock to follow, such as beat")
 ATTR(PHYSICS, RESOLUTION, ABOVE_ZERO, TO_SYSTEM(resolution), DESCRIBED(0, "1/fps"), "units of time", "longest simulation step")
-ATTR(PHYSICS, RUN, INTEGER, TO_SYSTEM(run), IS(0), "", "another number starts the system anew")
+ATTR(PHYSICS, RUN, INTEGER, TO_SYSTEM(run), IS(0), "", "a new number restarts the system")
 ATTR(PHYSICS, SPEED_OF_LIGHT, NUMBER, TO_SYSTEM(speed_of_light), DESCRIBED(0, ""), "", "highest speed; 0 or less is no limit")
 
-NODE(PARTICLE, "particle", PHYSICS, NOTHING, "a particle; its attributes count when it appears, later the state moves it")
+NODE(PARTICLE, "particle", PHYSICS, NOTHING, "a particle; position and velocity are read when it appears, and come from the state afterwards")
 ATTR(PARTICLE, ID, ANY, TO_BODY(id), NONE, "", "unique in its system; without it the particle is ignored")
 ATTR(PARTICLE, POSITION, VECTOR, TO_BODY(numbers.position), IS(0), "", "where it starts")
 ATTR(PARTICLE, VELOCITY, VECTOR, TO_BODY(numbers.velocity), IS(0), "length per unit of time", "at the start")
 ATTR(PARTICLE, FORCE, VECTOR, TO_BODY(numbers.force), IS(0), "", "a force on this particle alone")
-ATTR(PARTICLE, EASE, NUMBER, TO_BODY(numbers.ease), IS(0), "", "time in which its force grows to its full size, from the system's start")
-ATTR(PARTICLE, RADIUS, FROM_ZERO, TO_BODY(numbers.radius), IS(0), "", "with 0 it neither collides nor sticks, and no medium holds it")
-ATTR(PARTICLE, MASS, FROM_ZERO, TO_BODY(numbers.mass), IS(1), "", "with 0 it is never accelerated")
+ATTR(PARTICLE, EASE, NUMBER, TO_BODY(numbers.ease), IS(0), "", "time from the system's start in which its force grows from 0 to its full value")
+ATTR(PARTICLE, RADIUS, FROM_ZERO, TO_BODY(numbers.radius), IS(0), "", "0: no collisions, adhesion, drag or buoyancy")
+ATTR(PARTICLE, MASS, FROM_ZERO, TO_BODY(numbers.mass), IS(1), "", "0: it is never accelerated")
 ATTR(PARTICLE, CHARGE, NUMBER, TO_BODY(numbers.charge), IS(0), "", "for !electrostatic and !field")
 
-NODE(ANCHOR, "anchor", PHYSICS, NOTHING, "a particle that stays where its attributes put it")
+NODE(ANCHOR, "anchor", PHYSICS, NOTHING, "a particle fixed at its attribute position")
 ATTR(ANCHOR, ID, ANY, TO_BODY(id), NONE, "", "unique in its system; without it the particle is ignored")
-ATTR(ANCHOR, POSITION, VECTOR, TO_BODY(numbers.position), IS(0), "", "where it is, in each frame")
+ATTR(ANCHOR, POSITION, VECTOR, TO_BODY(numbers.position), IS(0), "", "its position in every frame")
 ATTR(ANCHOR, VELOCITY, VECTOR, NOWHERE, IS(0), "", "ignored: anchors are at rest")
 ATTR(ANCHOR, FORCE, VECTOR, NOWHERE, IS(0), "", "ignored: nothing moves an anchor")
 ATTR(ANCHOR, EASE, NUMBER, NOWHERE, IS(0), "", "ignored: nothing moves an anchor")
-ATTR(ANCHOR, RADIUS, FROM_ZERO, TO_BODY(numbers.radius), IS(0), "", "with 0 it neither collides nor sticks, and no medium holds it")
-ATTR(ANCHOR, MASS, FROM_ZERO, TO_BODY(numbers.mass), IS(1), "", "with 0 it is never accelerated")
+ATTR(ANCHOR, RADIUS, FROM_ZERO, TO_BODY(numbers.radius), IS(0), "", "0: no collisions, adhesion, drag or buoyancy")
+ATTR(ANCHOR, MASS, FROM_ZERO, TO_BODY(numbers.mass), IS(1), "", "0: it is never accelerated")
 ATTR(ANCHOR, CHARGE, NUMBER, TO_BODY(numbers.charge), IS(0), "", "for !electrostatic and !field")
 
-NODE(GROUP, "group", PHYSICS, PHYSICS, "particles that those in groups beside it do not see, and forces on them alone")
+NODE(GROUP, "group", PHYSICS, PHYSICS, "particles and forces that do not interact with those of other groups")
 
 FORCE(CONSTANT, "constant", "the same force, or acceleration, on all particles",
     "F = (force + acceleration · m) · strength")
@@ -392,14 +392,14 @@ STRENGTH_ROW(ELECTROSTATIC)
 EASE_ROW(ELECTROSTATIC)
 REACH_ROW(ELECTROSTATIC)
 
-FORCE(ADHESION, "adhesion", "particles that touch hold on to each other",
+FORCE(ADHESION, "adhesion", "particles that touch stick together",
     "o = r₁ + r₂ − l\na = |r₁ − r₂|·overlap + (r₁ + r₂)·(1 − overlap)\nF = −strength · o · (l − a) if l < r₁ + r₂\nF = 0")
-ATTR(ADHESION, OVERLAP, PART, TO_FORCE(force.overlap), IS(0.25), "", "how deep they sink in before they repel: 0 not at all, 1 until one is within the other")
+ATTR(ADHESION, OVERLAP, PART, TO_FORCE(force.overlap), IS(0.25), "", "overlap at which they start to repel: 0 when they touch, 1 when one is inside the other")
 STRENGTH_ROW(ADHESION)
 EASE_ROW(ADHESION)
 REACH_ROW(ADHESION)
 
-FORCE(DRAG, "drag", "friction of a medium that may flow",
+FORCE(DRAG, "drag", "friction in a medium that can flow",
     "c = min(strength · |v − flow| · r^(n − 1), m/δ)\nF = −(v − flow) · c")
 ATTR(DRAG, FLOW, VECTOR, TO_FORCE(force.vector), IS(0), "", "velocity of the medium")
 STRENGTH_ROW(DRAG)
@@ -407,7 +407,7 @@ EASE_ROW(DRAG)
 
 FORCE(BUOYANCY, "buoyancy", "weight in a medium",
     "F = strength · gravity · (m − density·r^n)")
-ATTR(BUOYANCY, GRAVITY, VECTOR, TO_FORCE(force.vector), DESCRIBED(-1, "0;...;0;-1"), "", "acceleration that a weight has in the void")
+ATTR(BUOYANCY, GRAVITY, VECTOR, TO_FORCE(force.vector), DESCRIBED(-1, "0;...;0;-1"), "", "acceleration of a free fall in vacuum")
 ATTR(BUOYANCY, DENSITY, NUMBER, TO_FORCE(force.density), IS(1), "", "mass of the medium that a particle of radius 1 displaces")
 STRENGTH_ROW(BUOYANCY)
 EASE_ROW(BUOYANCY)
@@ -415,137 +415,137 @@ EASE_ROW(BUOYANCY)
 FORCE(BARRIER, "barrier", "a wall",
     "F = strength · (min − s)^power if 0 ≤ s and s < min\nF = −strength · (s − max)^power if s > max\nF = 0")
 ATTR(BARRIER, POSITION, VECTOR, TO_FORCE(force.vector), IS(0), "", "a point of the wall")
-ATTR(BARRIER, NORMAL, NORMAL, TO_FORCE(force.vector2), IS(0), "", "away from the wall, of any length but 0; without it there is no wall")
-ATTR(BARRIER, RESTITUTION, PART, TO_FORCE(force.restitution), IS(1), "", "part of the speed that a bounce keeps")
+ATTR(BARRIER, NORMAL, NORMAL, TO_FORCE(force.vector2), IS(0), "", "direction away from the wall, of any length except 0; required")
+ATTR(BARRIER, RESTITUTION, PART, TO_FORCE(force.restitution), IS(1), "", "fraction of the speed that is left after a bounce")
 BOUND_ROWS(BARRIER)
 POWER_ROW(BARRIER)
 STRENGTH_ROW(BARRIER)
 EASE_ROW(BARRIER)
 
-NODE(COUNTER, "counter", SCENE, NOTHING, "a clock with a speed of its own, written to the state")
+NODE(COUNTER, "counter", SCENE, NOTHING, "a clock with its own rate, written to the state")
 ATTR(COUNTER, STATE, ANY, TO_COUNTER(state), NONE, "", "the key under which the value is written")
 ATTR(COUNTER, INITIAL, NUMBERS, TO_COUNTER(initial), IS(0), "", "value at the start, and while reset")
 ATTR(COUNTER, RATE, NUMBERS, TO_COUNTER(rate), IS(0), "", "growth per unit of time")
 ATTR(COUNTER, TIME, NUMBERS, TO_COUNTER(time), DESCRIBED(0, "the frame's, in seconds"), "", "the clock to follow, such as beat")
-ATTR(COUNTER, MINIMUM, NUMBERS, TO_COUNTER(minimum), NONE, "", "least value")
+ATTR(COUNTER, MINIMUM, NUMBERS, TO_COUNTER(minimum), NONE, "", "smallest value")
 ALIAS(COUNTER, MIN, MINIMUM, "minimum", NUMBERS, TO_COUNTER(minimum), "")
-ATTR(COUNTER, MAXIMUM, NUMBERS, TO_COUNTER(maximum), NONE, "", "greatest value")
+ATTR(COUNTER, MAXIMUM, NUMBERS, TO_COUNTER(maximum), NONE, "", "largest value")
 ALIAS(COUNTER, MAX, MAXIMUM, "maximum", NUMBERS, TO_COUNTER(maximum), "")
-ATTR(COUNTER, RESET, NUMBERS, TO_COUNTER(reset), NONE, "", "where true, the value is the initial one")
+ATTR(COUNTER, RESET, NUMBERS, TO_COUNTER(reset), NONE, "", "if true, the value is reset to the initial one")
 
 #define TRANSFORM_ROWS(kind) \
-    ATTR(kind, TRANSLATE, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "move the origin; of the three, what is written first is applied first") \
+    ATTR(kind, TRANSLATE, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "move the origin; translate, scale and rotate are applied in the order written") \
     ATTR(kind, SCALE, SCALE, NOWHERE, DESCRIBED(1, "1;1"), "", "enlarge") \
     ATTR(kind, ROTATE, FINITE, NOWHERE, IS(0), "turns", "clockwise")
 #define PAINT_ROWS(kind) \
-    ATTR(kind, COLOR, COLOR, TO_GRAPHICS(color), INHERITED(0, "0"), "", "takes the place of a source that would be inherited") \
-    ATTR(kind, STROKE_WIDTH, WIDTH, TO_GRAPHICS(stroke_width), INHERITED(0, "0"), "", "0 is one pixel, whatever the scale") \
+    ATTR(kind, COLOR, COLOR, TO_GRAPHICS(color), INHERITED(0, "0"), "", "replaces an inherited source, such as a gradient") \
+    ATTR(kind, STROKE_WIDTH, WIDTH, TO_GRAPHICS(stroke_width), INHERITED(0, "0"), "", "0: one pixel at any scale") \
     ATTR(kind, STROKE_JOIN, JOIN, TO_GRAPHICS(join), INHERITED(JOIN_MITER, ":miter"), "", "corners of lines") \
     ATTR(kind, STROKE_CAP, CAP, TO_GRAPHICS(cap), INHERITED(CAP_BUTT, ":butt"), "", "ends of lines") \
-    ATTR(kind, COMPOSITE, COMPOSITE, TO_GRAPHICS(composite), INHERITED(COMPOSITE_OVER, ":over"), "", "how colours combine with what is there") \
-    ATTR(kind, ANTIALIAS, FLAG, TO_GRAPHICS(antialias), INHERITED(true, "true"), "", "smooth edges, but for text, which always has them") \
+    ATTR(kind, COMPOSITE, COMPOSITE, TO_GRAPHICS(composite), INHERITED(COMPOSITE_OVER, ":over"), "", "how colours are combined with those already drawn") \
+    ATTR(kind, ANTIALIAS, FLAG, TO_GRAPHICS(antialias), INHERITED(true, "true"), "", "smooth edges; text always has them") \
     ATTR(kind, DITHER, FLAG, NOWHERE, IS(false), "", "ignored")
 #define FONT_ROWS(kind) \
-    ATTR(kind, FONT_FAMILY, TEXT, TO_GRAPHICS(family), INHERITED_TEXT("Helvetica"), "", "one or more names, with commas; the first that there is") \
+    ATTR(kind, FONT_FAMILY, TEXT, TO_GRAPHICS(family), INHERITED_TEXT("Helvetica"), "", "one or more names, separated by commas; the first available one is used") \
     ATTR(kind, FONT_SIZE, WIDTH, TO_GRAPHICS(font_size), INHERITED(20, "20"), "", "") \
     ATTR(kind, FONT_WEIGHT, WEIGHT, TO_GRAPHICS(weight), INHERITED(400, ":normal"), "", "") \
     ATTR(kind, FONT_WIDTH, FONT_WIDTH, TO_GRAPHICS(width), INHERITED(4, ":normal"), "", "") \
     ATTR(kind, FONT_SLANT, SLANT, TO_GRAPHICS(slant), INHERITED(SLANT_UPRIGHT, ":upright"), "", "")
 #define SHAPE_ROWS(kind) \
-    ATTR(kind, FILL, FLAG, NOWHERE, IS(false), "", "fill the shape by itself; the current path is left alone") \
-    ATTR(kind, STROKE, FLAG, NOWHERE, IS(false), "", "draw its outline by itself; the current path is left alone")
+    ATTR(kind, FILL, FLAG, NOWHERE, IS(false), "", "fill the shape; the current path does not change") \
+    ATTR(kind, STROKE, FLAG, NOWHERE, IS(false), "", "draw its outline; the current path does not change")
 
 #include "schema/pictures_list.h"
 
-NODE(CANVAS, "canvas", PICTURE, DRAWING, "a sheet to draw on: origin at the top left, y down, angles in turns")
+NODE(CANVAS, "canvas", PICTURE, DRAWING, "a drawing surface: origin at the top left, y down, angles in turns")
 SOURCE_ROWS(CANVAS)
-ATTR(CANVAS, LINEAR, FLAG, NOWHERE, IS(false), "", "colours are linear light, and combine as such")
-ATTR(CANVAS, COLORBITS, FINITE_INTEGER, NOWHERE, IS(8), "", "of a linear one; with 16 or 32 light does not end at 1")
+ATTR(CANVAS, LINEAR, FLAG, NOWHERE, IS(false), "", "colours are linear, and are combined in linear light")
+ATTR(CANVAS, COLORBITS, FINITE_INTEGER, NOWHERE, IS(8), "", "for linear=true: 8, or 16 or 32 for values above 1 (HDR)")
 TRANSFORM_ROWS(CANVAS)
 PAINT_ROWS(CANVAS)
 FONT_ROWS(CANVAS)
 
-NODE(CANVAS_GROUP, "group", DRAWING, DRAWING, "what is set here, or clipped inside, holds for what is inside")
-ATTR(CANVAS_GROUP, FILL_TYPE, FILL_TYPE, NOWHERE, DESCRIBED(FILL_WINDING, ":winding"), "", "of the path that begins here")
+NODE(CANVAS_GROUP, "group", DRAWING, DRAWING, "attributes and clipping that apply to the nodes inside")
+ATTR(CANVAS_GROUP, FILL_TYPE, FILL_TYPE, NOWHERE, DESCRIBED(FILL_WINDING, ":winding"), "", "fill rule of the path that begins here")
 TRANSFORM_ROWS(CANVAS_GROUP)
 PAINT_ROWS(CANVAS_GROUP)
 FONT_ROWS(CANVAS_GROUP)
 
-NODE(TRANSFORM, "transform", DRAWING, DRAWING, "move, enlarge and turn what is inside")
+NODE(TRANSFORM, "transform", DRAWING, DRAWING, "move, scale and rotate the nodes inside")
 TRANSFORM_ROWS(TRANSFORM)
 
-NODE(PAINT, "paint", DRAWING, DRAWING, "colour and manner of drawing for what is inside")
+NODE(PAINT, "paint", DRAWING, DRAWING, "colour and line style for the nodes inside")
 PAINT_ROWS(PAINT)
 
-NODE(FONT, "font", DRAWING, DRAWING, "font for what is inside")
+NODE(FONT, "font", DRAWING, DRAWING, "font for the nodes inside")
 FONT_ROWS(FONT)
 ALIAS(FONT, FAMILY, FONT_FAMILY, "font_family", TEXT, TO_GRAPHICS(family), "")
 ALIAS(FONT, SIZE, FONT_SIZE, "font_size", WIDTH, TO_GRAPHICS(font_size), "")
 ALIAS(FONT, WEIGHT, FONT_WEIGHT, "font_weight", WEIGHT, TO_GRAPHICS(weight), "")
 ALIAS(FONT, SLANT, FONT_SLANT, "font_slant", SLANT, TO_GRAPHICS(slant), "")
 
-NODE(LAYER, "layer", DRAWING, DRAWING, "draw what is inside by itself, then all of it at once")
-ATTR(LAYER, SIZE, SIZE, NOWHERE, NONE, "", "what lies outside of it is cut off, to the end of the group around it; without it nothing is drawn")
-ATTR(LAYER, ORIGIN, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "top left corner of the size, before the layer's own transform")
+NODE(LAYER, "layer", DRAWING, DRAWING, "draw the nodes inside separately, then the result as one image")
+ATTR(LAYER, SIZE, SIZE, NOWHERE, NONE, "", "size of the layer, which also clips the rest of the enclosing group; required")
+ATTR(LAYER, ORIGIN, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "top left corner of the layer, before its own transform")
 ATTR(LAYER, ALPHA, FINITE, NOWHERE, IS(1), "", "0 is invisible")
 TRANSFORM_ROWS(LAYER)
 PAINT_ROWS(LAYER)
 FONT_ROWS(LAYER)
 
-NODE(PATH, "path", DRAWING, DRAWING, "begin a new path; what is inside adds to it, then fills or strokes it")
-ATTR(PATH, FILL_TYPE, FILL_TYPE, NOWHERE, DESCRIBED(FILL_WINDING, ":winding"), "", "what is inside where the path crosses itself; an inverse one is all outside")
+NODE(PATH, "path", DRAWING, DRAWING, "begin a new path; the nodes inside add to it and fill or stroke it")
+ATTR(PATH, FILL_TYPE, FILL_TYPE, NOWHERE, DESCRIBED(FILL_WINDING, ":winding"), "", "which regions are inside where the path crosses itself; inverse rules swap inside and outside")
 
-NODE(MOVE_TO, "move_to", DRAWING, NOTHING, "begin another piece of the path")
+NODE(MOVE_TO, "move_to", DRAWING, NOTHING, "begin another subpath")
 ATTR(MOVE_TO, POINT, POINT, NOWHERE, NONE, "", "")
 
-NODE(LINE_TO, "line_to", DRAWING, NOTHING, "a straight line from where the path ends, at first from 0;0")
+NODE(LINE_TO, "line_to", DRAWING, NOTHING, "a straight line from the end of the path, or from 0;0")
 ATTR(LINE_TO, POINT, POINT, NOWHERE, NONE, "", "")
 
-NODE(CURVE_TO, "curve_to", DRAWING, NOTHING, "a Bézier curve from where the path ends, at first from 0;0")
+NODE(CURVE_TO, "curve_to", DRAWING, NOTHING, "a Bézier curve from the end of the path, or from 0;0")
 ATTR(CURVE_TO, POINT, POINT, NOWHERE, NONE, "", "")
-ATTR(CURVE_TO, C1, POINT, NOWHERE, NONE, "", "the control point; with c2, that of the beginning; without it nothing is added")
-ATTR(CURVE_TO, C2, POINT, NOWHERE, NONE, "", "control point of the end")
+ATTR(CURVE_TO, C1, POINT, NOWHERE, NONE, "", "control point; with c2, that of the start; required")
+ATTR(CURVE_TO, C2, POINT, NOWHERE, NONE, "", "control point of the end of a cubic curve")
 
-NODE(ARC, "arc", DRAWING, NOTHING, "part of an ellipse, joined to the path by a line")
+NODE(ARC, "arc", DRAWING, NOTHING, "an arc of an ellipse, joined to the path by a line")
 ATTR(ARC, POINT, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "centre")
-ATTR(ARC, RADIUS, SIZE, NOWHERE, NONE, "", "one, or that along x and that along y")
+ATTR(ARC, RADIUS, SIZE, NOWHERE, NONE, "", "one radius, or the radii along x and y")
 ATTR(ARC, START, FINITE, NOWHERE, IS(0), "turns", "clockwise from the x axis")
-ATTR(ARC, SWEEP, FINITE, NOWHERE, DESCRIBED(NAN, "end - start"), "turns", "whole turns do not count; this or end is needed")
-ATTR(ARC, END, FINITE, NOWHERE, NONE, "turns", "sweep goes before it")
-ATTR(ARC, MOVE_TO, FLAG, NOWHERE, IS(false), "", "begin another piece of the path in place of the line")
+ATTR(ARC, SWEEP, FINITE, NOWHERE, DESCRIBED(NAN, "end - start"), "turns", "full turns are removed; this or end is required")
+ATTR(ARC, END, FINITE, NOWHERE, NONE, "turns", "sweep takes precedence")
+ATTR(ARC, MOVE_TO, FLAG, NOWHERE, IS(false), "", "begin another subpath instead of drawing the line")
 
-NODE(ARC_TO, "arc_to", DRAWING, NOTHING, "part of an ellipse from where the path ends, at first from 0;0")
-ATTR(ARC_TO, POINT, POINT, NOWHERE, NONE, "", "where it goes")
-ATTR(ARC_TO, RADIUS, SIZE, NOWHERE, NONE, "", "one, or that along x and that along y; enlarged if it does not reach")
+NODE(ARC_TO, "arc_to", DRAWING, NOTHING, "an arc of an ellipse from the end of the path, or from 0;0")
+ATTR(ARC_TO, POINT, POINT, NOWHERE, NONE, "", "end of the arc")
+ATTR(ARC_TO, RADIUS, SIZE, NOWHERE, NONE, "", "one radius, or the radii along x and y; enlarged if too small")
 ATTR(ARC_TO, ROTATION, FINITE, NOWHERE, IS(0), "degrees", "of the ellipse, clockwise")
-ATTR(ARC_TO, LARGE, FLAG, NOWHERE, IS(false), "", "more than half of it")
+ATTR(ARC_TO, LARGE, FLAG, NOWHERE, IS(false), "", "take the longer arc")
 ATTR(ARC_TO, CCW, FLAG, NOWHERE, IS(false), "", "counter-clockwise")
 
 NODE(RECT, "rect", DRAWING, NOTHING, "a rectangle")
-ATTR(RECT, POINT, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "a corner, top left unless the size is negative")
+ATTR(RECT, POINT, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "a corner: the top left one unless the size is negative")
 ATTR(RECT, SIZE, SCALE, NOWHERE, NONE, "", "")
-ATTR(RECT, RADIUS, SIZE, NOWHERE, IS(0), "", "of its corners, shrunk to what fits")
+ATTR(RECT, RADIUS, SIZE, NOWHERE, IS(0), "", "radius of the corners, at most what fits")
 SHAPE_ROWS(RECT)
 PAINT_ROWS(RECT)
 
 NODE(ELLIPSE, "ellipse", DRAWING, NOTHING, "an ellipse or a circle")
 ATTR(ELLIPSE, POINT, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "centre")
-ATTR(ELLIPSE, RADIUS, SIZE, NOWHERE, NONE, "", "one, or that along x and that along y")
+ATTR(ELLIPSE, RADIUS, SIZE, NOWHERE, NONE, "", "one radius, or the radii along x and y")
 SHAPE_ROWS(ELLIPSE)
 PAINT_ROWS(ELLIPSE)
 
 NODE(LINE, "line", DRAWING, NOTHING, "a line through points")
 ATTR(LINE, POINTS, POINTS, NOWHERE, NONE, "", "")
-ATTR(LINE, CURVE, FINITE, NOWHERE, IS(0), "turns", "corners that turn by no more than this are curves; 0: none, 0.25 and more: all")
+ATTR(LINE, CURVE, FINITE, NOWHERE, IS(0), "turns", "corners that turn by at most this angle become curves; 0: none; 0.25 or more: all")
 ATTR(LINE, CLOSE, FLAG, NOWHERE, IS(false), "", "join the last point to the first")
 SHAPE_ROWS(LINE)
 PAINT_ROWS(LINE)
 
-NODE(CLOSE, "close", DRAWING, NOTHING, "a straight line to where this piece of the path began")
+NODE(CLOSE, "close", DRAWING, NOTHING, "a straight line to the start of this subpath")
 
-NODE(CLIP, "clip", DRAWING, NOTHING, "draw only inside the path, until the group, transform or layer ends")
+NODE(CLIP, "clip", DRAWING, NOTHING, "draw only inside the path until the group, transform or layer ends")
 
-NODE(MASK, "mask", DRAWING, NOTHING, "draw only outside of the path, until the group, transform or layer ends")
+NODE(MASK, "mask", DRAWING, NOTHING, "draw only outside the path until the group, transform or layer ends")
 
 NODE(FILL, "fill", DRAWING, NOTHING, "fill the path")
 PAINT_ROWS(FILL)
@@ -555,114 +555,114 @@ PAINT_ROWS(STROKE)
 
 NODE(TEXT, "text", DRAWING, NOTHING, "one line of text")
 ATTR(TEXT, TEXT, TEXT, NOWHERE, NONE, "", "")
-ATTR(TEXT, POINT, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "its middle; with center=false where its base line begins")
+ATTR(TEXT, POINT, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "its middle; with center=false, the start of its baseline")
 ATTR(TEXT, CENTER, FLAG, NOWHERE, IS(true), "", "")
 ATTR(TEXT, FILL, FLAG, NOWHERE, DESCRIBED(true, "true unless stroke"), "", "draw the letters")
 ATTR(TEXT, STROKE, FLAG, NOWHERE, IS(false), "", "draw their outlines")
 PAINT_ROWS(TEXT)
 FONT_ROWS(TEXT)
 
-NODE(IMAGE, "image", DRAWING, NOTHING, "a picture from a PNG or JPEG file, or of another node")
+NODE(IMAGE, "image", DRAWING, NOTHING, "an image from a PNG or JPEG file or from another node")
 ATTR(IMAGE, FILENAME, TEXT, NOWHERE, NONE, "", "")
-ATTR(IMAGE, IMAGE_ID, TEXT, NOWHERE, NONE, "", "the id of a node whose picture it is")
+ATTR(IMAGE, IMAGE_ID, TEXT, NOWHERE, NONE, "", "id of the node that makes the picture")
 ALIAS(IMAGE, TEXTURE_ID, IMAGE_ID, "image_id", TEXT, NOWHERE, "")
 ATTR(IMAGE, POINT, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "top left corner")
-ATTR(IMAGE, SIZE, SCALE, NOWHERE, DESCRIBED(0, "that of the picture"), "", "of a box that it is stretched to")
-ATTR(IMAGE, FIT, SIZE, NOWHERE, NONE, "", "of a box that it is put into, as large as it goes")
-ATTR(IMAGE, FILL, SIZE, NOWHERE, NONE, "", "of a box that it fills; what does not fit is cut off")
+ATTR(IMAGE, SIZE, SCALE, NOWHERE, DESCRIBED(0, "that of the picture"), "", "size to which it is stretched")
+ATTR(IMAGE, FIT, SIZE, NOWHERE, NONE, "", "size of a box into which it is fitted")
+ATTR(IMAGE, FILL, SIZE, NOWHERE, NONE, "", "size of a box that it fills; the rest is cut off")
 
-NODE(GRADIENT, "gradient", SOURCE, STOP, "colours that flow into each other, for what is drawn after it")
-ATTR(GRADIENT, START, POINT, NOWHERE, NONE, "", "of a linear one")
-ATTR(GRADIENT, END, POINT, NOWHERE, NONE, "", "of a linear one")
-ATTR(GRADIENT, RADIUS, SIZE, NOWHERE, NONE, "", "of a radial one: one, or that along x and that along y")
-ATTR(GRADIENT, POINT, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "centre of a radial one")
-ATTR(GRADIENT, ROTATE, FINITE, NOWHERE, IS(0), "turns", "of a radial one")
+NODE(GRADIENT, "gradient", SOURCE, STOP, "a colour gradient for nodes drawn after it")
+ATTR(GRADIENT, START, POINT, NOWHERE, NONE, "", "of a linear gradient")
+ATTR(GRADIENT, END, POINT, NOWHERE, NONE, "", "of a linear gradient")
+ATTR(GRADIENT, RADIUS, SIZE, NOWHERE, NONE, "", "of a radial gradient: one radius, or the radii along x and y")
+ATTR(GRADIENT, POINT, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "centre of a radial gradient")
+ATTR(GRADIENT, ROTATE, FINITE, NOWHERE, IS(0), "turns", "of a radial gradient")
 
 NODE(STOP, "stop", STOP, NOTHING, "a colour of a gradient")
 ATTR(STOP, OFFSET, FINITE, NOWHERE, DESCRIBED(NAN, "evenly spread"), "", "from 0 to 1")
-ATTR(STOP, COLOR, COLOR, NOWHERE, DESCRIBED(0, "that in force"), "", "")
+ATTR(STOP, COLOR, COLOR, NOWHERE, DESCRIBED(0, "the current colour"), "", "")
 
-NODE(COLOR, "color", SOURCE, NOTHING, "one colour, for what is drawn after it")
-ATTR(COLOR, COLOR, COLOR, NOWHERE, DESCRIBED(0, "that in force"), "", "")
+NODE(COLOR, "color", SOURCE, NOTHING, "one colour for nodes drawn after it")
+ATTR(COLOR, COLOR, COLOR, NOWHERE, DESCRIBED(0, "the current colour"), "", "")
 
-NODE(PATTERN, "pattern", SOURCE, NOTHING, "an image repeated in both directions, for what is drawn after it")
+NODE(PATTERN, "pattern", SOURCE, NOTHING, "an image repeated in both directions, for nodes drawn after it")
 ATTR(PATTERN, FILENAME, TEXT, NOWHERE, NONE, "", "")
-ATTR(PATTERN, IMAGE_ID, TEXT, NOWHERE, NONE, "", "the id of a node whose picture it is")
+ATTR(PATTERN, IMAGE_ID, TEXT, NOWHERE, NONE, "", "id of the node that makes the picture")
 ALIAS(PATTERN, TEXTURE_ID, IMAGE_ID, "image_id", TEXT, NOWHERE, "")
-ATTR(PATTERN, TRANSLATE, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "of the three, what is written first is applied first")
+ATTR(PATTERN, TRANSLATE, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "translate, scale and rotate are applied in the order written")
 ATTR(PATTERN, SCALE, SCALE, NOWHERE, DESCRIBED(1, "1;1"), "", "")
 ATTR(PATTERN, ROTATE, FINITE, NOWHERE, IS(0), "turns", "clockwise")
 
-NODE(BLEND, "blend", SOURCE, SOURCE, "the two sources inside, combined, for what is drawn after it")
-ATTR(BLEND, RATIO, FINITE, NOWHERE, NONE, "", "part of the second one")
-ATTR(BLEND, MODE, COMPOSITE, NOWHERE, DESCRIBED(COMPOSITE_OVER, ":over"), "", "without a ratio: how the second one combines with the first")
+NODE(BLEND, "blend", SOURCE, SOURCE, "combines the two sources inside, for nodes drawn after it")
+ATTR(BLEND, RATIO, FINITE, NOWHERE, NONE, "", "fraction of the second source")
+ATTR(BLEND, MODE, COMPOSITE, NOWHERE, DESCRIBED(COMPOSITE_OVER, ":over"), "", "without a ratio: how the second source is combined with the first")
 
-NODE(CANVAS_NOISE, "noise", SOURCE, NOTHING, "noise, in all four channels, for what is drawn after it")
-ATTR(CANVAS_NOISE, FREQUENCY, SCALE, NOWHERE, NONE, "", "waves a unit, along x and along y; without it it is no source")
-ATTR(CANVAS_NOISE, OCTAVES, FINITE_INTEGER, NOWHERE, IS(8), "", "each twice as fine as the one before")
-ATTR(CANVAS_NOISE, SEED, FINITE, NOWHERE, IS(0), "", "another one, other noise")
-ATTR(CANVAS_NOISE, SIZE, SIZE, NOWHERE, DESCRIBED(0, "endless"), "", "of a tile, in whole units, which repeats without a seam")
-ATTR(CANVAS_NOISE, TYPE, NOISE_TYPE, NOWHERE, DESCRIBED(TURBULENCE_FRACTAL, ":fractal"), "", "turbulence: waves that are folded at 0")
+NODE(CANVAS_NOISE, "noise", SOURCE, NOTHING, "noise in all four channels, for nodes drawn after it")
+ATTR(CANVAS_NOISE, FREQUENCY, SCALE, NOWHERE, NONE, "", "waves per unit along x and y; required")
+ATTR(CANVAS_NOISE, OCTAVES, FINITE_INTEGER, NOWHERE, IS(8), "", "number of layers of noise, each twice as fine as the one before")
+ATTR(CANVAS_NOISE, SEED, FINITE, NOWHERE, IS(0), "", "selects the noise")
+ATTR(CANVAS_NOISE, SIZE, SIZE, NOWHERE, DESCRIBED(0, "endless"), "", "size of a seamlessly repeating tile, in whole units")
+ATTR(CANVAS_NOISE, TYPE, NOISE_TYPE, NOWHERE, DESCRIBED(TURBULENCE_FRACTAL, ":fractal"), "", ":turbulence takes the absolute value of each wave")
 
-NODE(CANVAS_BLUR, "blur", FILTER, FILTER, "blur what is drawn after it")
-ATTR(CANVAS_BLUR, RADIUS, SIZE, NOWHERE, NONE, "", "standard deviation, one or that along x and that along y")
+NODE(CANVAS_BLUR, "blur", FILTER, FILTER, "blur nodes drawn after it")
+ATTR(CANVAS_BLUR, RADIUS, SIZE, NOWHERE, NONE, "", "standard deviation: one, or those along x and y")
 
-NODE(SHADOW, "shadow", FILTER, FILTER, "a shadow behind what is drawn after it")
-ATTR(SHADOW, RADIUS, SIZE, NOWHERE, NONE, "", "standard deviation, one or that along x and that along y")
-ATTR(SHADOW, OFFSET, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "where it is from what casts it")
+NODE(SHADOW, "shadow", FILTER, FILTER, "a shadow behind nodes drawn after it")
+ATTR(SHADOW, RADIUS, SIZE, NOWHERE, NONE, "", "standard deviation: one, or those along x and y")
+ATTR(SHADOW, OFFSET, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "from the object to its shadow")
 ATTR(SHADOW, COLOR, COLOR, NOWHERE, IS(0), "", "")
-ATTR(SHADOW, SHADOW_ONLY, FLAG, NOWHERE, IS(false), "", "do not draw what casts it")
+ATTR(SHADOW, SHADOW_ONLY, FLAG, NOWHERE, IS(false), "", "draw the shadow without the object")
 
-NODE(CANVAS_OFFSET, "offset", FILTER, FILTER, "move what is drawn after it")
+NODE(CANVAS_OFFSET, "offset", FILTER, FILTER, "move nodes drawn after it")
 ATTR(CANVAS_OFFSET, OFFSET, POINT, NOWHERE, NONE, "", "how far")
 
-NODE(DILATE, "dilate", FILTER, FILTER, "let what is drawn after it grow")
-ATTR(DILATE, RADIUS, SIZE, NOWHERE, NONE, "", "the largest value in a box of so much in each direction, channel by channel")
+NODE(DILATE, "dilate", FILTER, FILTER, "enlarge nodes drawn after it at their edges")
+ATTR(DILATE, RADIUS, SIZE, NOWHERE, NONE, "", "each channel becomes the largest value within this distance along x and y")
 
-NODE(ERODE, "erode", FILTER, FILTER, "let what is drawn after it shrink")
-ATTR(ERODE, RADIUS, SIZE, NOWHERE, NONE, "", "the smallest value in a box of so much in each direction, channel by channel")
+NODE(ERODE, "erode", FILTER, FILTER, "shrink nodes drawn after it at their edges")
+ATTR(ERODE, RADIUS, SIZE, NOWHERE, NONE, "", "each channel becomes the smallest value within this distance along x and y")
 
-NODE(FILTER_MATRIX, "color_matrix", FILTER, FILTER, "change the colours of what is drawn after it")
-ATTR(FILTER_MATRIX, MATRIX, TWENTY, NOWHERE, NONE, "", "four rows of five: what red, green, blue and alpha become of r;g;b;a;1; wins over all others")
-ATTR(FILTER_MATRIX, RED, FIVE, NOWHERE, DESCRIBED(0, "1;0;0;0;0"), "", "a row of it; rows win over scale and offset, and these over the rest")
+NODE(FILTER_MATRIX, "color_matrix", FILTER, FILTER, "change the colours of nodes drawn after it")
+ATTR(FILTER_MATRIX, MATRIX, TWENTY, NOWHERE, NONE, "", "four rows of five factors of r;g;b;a;1, for red, green, blue and alpha; takes precedence over all others")
+ATTR(FILTER_MATRIX, RED, FIVE, NOWHERE, DESCRIBED(0, "1;0;0;0;0"), "", "a row of the matrix; rows take precedence over scale and offset, and these over the rest")
 ATTR(FILTER_MATRIX, GREEN, FIVE, NOWHERE, DESCRIBED(0, "0;1;0;0;0"), "", "")
 ATTR(FILTER_MATRIX, BLUE, FIVE, NOWHERE, DESCRIBED(0, "0;0;1;0;0"), "", "")
 ATTR(FILTER_MATRIX, ALPHA, FIVE, NOWHERE, DESCRIBED(0, "0;0;0;1;0"), "", "")
 ATTR(FILTER_MATRIX, SCALE, TRIPLE, NOWHERE, IS(1), "", "factors of red, green and blue")
-ATTR(FILTER_MATRIX, OFFSET, TRIPLE, NOWHERE, IS(0), "", "what is added to them then")
+ATTR(FILTER_MATRIX, OFFSET, TRIPLE, NOWHERE, IS(0), "", "added after scaling")
 ATTR(FILTER_MATRIX, BRIGHTNESS, FINITE, NOWHERE, IS(0), "", "is added")
 ATTR(FILTER_MATRIX, CONTRAST, FINITE, NOWHERE, IS(1), "", "around grey")
 ATTR(FILTER_MATRIX, SATURATION, FINITE, NOWHERE, IS(1), "", "0 is grey")
 
-NODE(DRAWN, "source", FILTER, NOTHING, "what is drawn, as it is: an input of another filter")
+NODE(DRAWN, "source", FILTER, NOTHING, "the unfiltered drawing, as an input of another filter")
 
-NODE(FILTER_PAINT, "paint", FILTER, NOTHING, "a colour, or the source in force, everywhere: an input of another filter")
+NODE(FILTER_PAINT, "paint", FILTER, NOTHING, "a colour or the current source everywhere, as an input of another filter")
 PAINT_ROWS(FILTER_PAINT)
 
-NODE(FILTER_BLEND, "blend", FILTER, FILTER, "the two filters inside, combined, for what is drawn after it")
-ATTR(FILTER_BLEND, COEFFICIENTS, QUAD, NOWHERE, NONE, "", "of both multiplied, of the second, of the first, and what is added")
-ATTR(FILTER_BLEND, RATIO, FINITE, NOWHERE, NONE, "", "part of the first one")
-ATTR(FILTER_BLEND, MODE, COMPOSITE, NOWHERE, DESCRIBED(COMPOSITE_OVER, ":over"), "", "without either: how the second one combines with the first")
+NODE(FILTER_BLEND, "blend", FILTER, FILTER, "combines the two filters inside, for nodes drawn after it")
+ATTR(FILTER_BLEND, COEFFICIENTS, QUAD, NOWHERE, NONE, "", "k1;k2;k3;k4: k1*first*second + k2*second + k3*first + k4")
+ATTR(FILTER_BLEND, RATIO, FINITE, NOWHERE, NONE, "", "fraction of the first filter")
+ATTR(FILTER_BLEND, MODE, COMPOSITE, NOWHERE, DESCRIBED(COMPOSITE_OVER, ":over"), "", "without either: how the second filter is combined with the first")
 
-NODE(DASH, "dash", EFFECT, EFFECT, "interrupt lines that are drawn after it")
-ATTR(DASH, INTERVALS, LIST, NOWHERE, NONE, "", "on;off;on;off…, an even number")
-ATTR(DASH, OFFSET, FINITE, NOWHERE, IS(0), "", "where in the intervals each line begins")
+NODE(DASH, "dash", EFFECT, EFFECT, "dash lines drawn after it")
+ATTR(DASH, INTERVALS, LIST, NOWHERE, NONE, "", "lengths on;off;on;off…, an even number")
+ATTR(DASH, OFFSET, FINITE, NOWHERE, IS(0), "", "position in the intervals at which each line begins")
 
-NODE(ROUND_CORNERS, "round_corners", EFFECT, EFFECT, "round the corners of what is drawn after it")
-ATTR(ROUND_CORNERS, RADIUS, WIDTH, NOWHERE, NONE, "", "how far before a corner its curve begins")
+NODE(ROUND_CORNERS, "round_corners", EFFECT, EFFECT, "round the corners of nodes drawn after it")
+ATTR(ROUND_CORNERS, RADIUS, WIDTH, NOWHERE, NONE, "", "distance from a corner at which its curve begins")
 
-NODE(JITTER, "jitter", EFFECT, EFFECT, "roughen what is drawn after it")
-ATTR(JITTER, LENGTH, WIDTH, NOWHERE, NONE, "", "of the pieces that lines are cut into")
-ATTR(JITTER, DEVIATION, FINITE, NOWHERE, NONE, "", "how far their ends are moved sideways, at most")
-ATTR(JITTER, SEED, FINITE, NOWHERE, IS(0), "", "another one, other ends")
+NODE(JITTER, "jitter", EFFECT, EFFECT, "roughen nodes drawn after it")
+ATTR(JITTER, LENGTH, WIDTH, NOWHERE, NONE, "", "length of the segments into which lines are cut")
+ATTR(JITTER, DEVIATION, FINITE, NOWHERE, NONE, "", "largest sideways displacement of their ends")
+ATTR(JITTER, SEED, FINITE, NOWHERE, IS(0), "", "selects the displacements")
 
-NODE(PATH_MATRIX, "path_matrix", EFFECT, EFFECT, "transform the figures that are drawn after it, but not their lines' width")
-ATTR(PATH_MATRIX, MATRIX, NINE, NOWHERE, NONE, "", "three rows of three; wins over all others")
+NODE(PATH_MATRIX, "path_matrix", EFFECT, EFFECT, "transform paths drawn after it, but not their line width")
+ATTR(PATH_MATRIX, MATRIX, NINE, NOWHERE, NONE, "", "three rows of three; takes precedence over all others")
 ATTR(PATH_MATRIX, SCALE, SCALE, NOWHERE, DESCRIBED(1, "1;1"), "", "first")
-ATTR(PATH_MATRIX, ROTATE, FINITE, NOWHERE, IS(0), "turns", "then, clockwise")
-ATTR(PATH_MATRIX, TRANSLATE, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "in the end")
+ATTR(PATH_MATRIX, ROTATE, FINITE, NOWHERE, IS(0), "turns", "second, clockwise")
+ATTR(PATH_MATRIX, TRANSLATE, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "last")
 
-NODE(SUM, "sum", EFFECT, EFFECT, "the figures of all effects inside, for what is drawn after it")
+NODE(SUM, "sum", EFFECT, EFFECT, "the paths of all effects inside, for nodes drawn after it")
 #include "schema/canvas3d_list.h"
 // clang-format on
 

@@ -1,4 +1,4 @@
-// table.c: see table.h.
+// table.c: implementation of table.h.
 #include "schema/table.h"
 
 #include "maths/random.h"
@@ -18,7 +18,7 @@ const char *const schema_names[ATTR_COUNT] = {
 };
 
 const TypeRow schema_types[TYPE_COUNT] = {
-#define TYPE(id, shape, low, high, vital, text) {SHAPE_##shape, vital, low, high, text},
+#define TYPE(id, shape, low, high, required, text) {SHAPE_##shape, required, low, high, text},
 #include "schema/schema_list.h"
 };
 
@@ -106,6 +106,6 @@ NodeKind schema_kind_of_force(PhysForceKind force) {
 }
 
 bool schema_is_unsupported(Str name) {
-    static const char undrawn[] = "video";
-    return str_word_number(name, undrawn) >= 0;
+    static const char unsupported[] = "video";
+    return str_word_number(name, unsupported) >= 0;
 }

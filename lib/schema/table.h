@@ -1,4 +1,4 @@
-// table.h: the rows of schema_list.h: kinds of nodes, their attributes, the words that those take.
+// table.h: the rows of schema_list.h as tables: kinds of nodes, attributes, types and words.
 #ifndef PETRI_SCHEMA_TABLE_H
 #define PETRI_SCHEMA_TABLE_H
 
@@ -12,7 +12,7 @@
 typedef enum NodeKind {
 #define NODE(id, text, place, children, help) KIND_##id,
 #include "schema/schema_list.h"
-    KIND_COUNT // none of these
+    KIND_COUNT // number of kinds; also: not a known kind
 } NodeKind;
 
 typedef enum AttrName {
@@ -23,51 +23,51 @@ typedef enum AttrName {
 } AttrName;
 
 typedef enum AttrType {
-#define TYPE(id, shape, low, high, vital, text) TYPE_##id,
+#define TYPE(id, shape, low, high, required, text) TYPE_##id,
 #include "schema/schema_list.h"
     TYPE_COUNT
 } AttrType;
 
-// The attributes, one row each. Those of a kind follow each other.
+// The attributes, one row each. The rows of a kind are contiguous.
 typedef enum AttrRow {
 #define ATTR(kind, name, type, field, fallback, unit, help) ROW_##kind##_##name,
 #include "schema/schema_list.h"
     ROW_COUNT
 } AttrRow;
 
-// Where a node may stand.
+// Where a node may be in the tree, and which nodes may be its children.
 typedef enum PlaceKind {
     PLACE_NOTHING,
-    PLACE_SCENE, // at the top; does something
+    PLACE_SCENE, // at the top level: systems and counters
     PLACE_PHYSICS,
-    PLACE_TOP,      // at the top or where pictures may stand; shows something. From here on: in windows
-    PLACE_WINDOW,   // as CHILDREN: pictures and hands
-    PLACE_PICTURES, // as CHILDREN: pictures, those of the top included
+    PLACE_TOP,      // at the top level or among pictures; these and all following places can be in windows
+    PLACE_WINDOW,   // as CHILDREN: pictures and input nodes
+    PLACE_PICTURES, // as CHILDREN: pictures, including those of PLACE_TOP
     PLACE_PICTURE,
-    PLACE_INPUT,   // pointer and keys
-    PLACE_DRAWING, // sources, too, may stand where one draws
+    PLACE_INPUT,   // pointer and key nodes
+    PLACE_DRAWING, // as CHILDREN: also sources, filters and effects
     PLACE_SOURCE,
-    PLACE_FILTER, // likewise
-    PLACE_EFFECT, // likewise
+    PLACE_FILTER,
+    PLACE_EFFECT,
     PLACE_STOP,
     PLACE_SCENE3D,
 } PlaceKind;
 
-// What a value becomes.
+// How the value of an attribute is checked and stored.
 typedef enum AttrShape {
     SHAPE_VALUE,   // Value
-    SHAPE_NUMBERS, // Value of one number or more
+    SHAPE_NUMBERS, // Value with at least one number
     SHAPE_NUMBER,  // double, moved to the limits of its type
     SHAPE_INTEGER, // double, rounded down
-    SHAPE_TIME,    // double; nan is taken
-    SHAPE_VECTOR,  // PhysVector of as many elements as the system has dimensions; one number stands for all
-    SHAPE_NORMAL,  // likewise, of length 1; NULL if it has no direction
+    SHAPE_TIME,    // double; NaN is allowed
+    SHAPE_VECTOR,  // PhysVector with one element per dimension of the system; a single number is repeated
+    SHAPE_NORMAL,  // PhysVector of length 1; NULL if its direction is undefined
     SHAPE_FINITE,  // double, finite
-    SHAPE_PAIR,    // double[2]; one number stands for both
-    SHAPE_TRIPLE,  // double[3]; likewise
-    SHAPE_QUAD,    // double[4]; likewise
-    SHAPE_LIST,    // any doubles, or as many as its limits say
-    SHAPE_SEED,    // double: the seed hash of any value, / 2^48
+    SHAPE_PAIR,    // double[2]; a single number is repeated
+    SHAPE_TRIPLE,  // double[3]; a single number is repeated
+    SHAPE_QUAD,    // double[4]; a single number is repeated
+    SHAPE_LIST,    // doubles; the type's limits are the minimum and maximum count
+    SHAPE_SEED,    // double: seed hash of the value, divided by 2^48
     SHAPE_POINTS,  // an even number of doubles
     SHAPE_COLOR,   // double[4]
     SHAPE_FLAG,    // bool
@@ -77,7 +77,7 @@ typedef enum AttrShape {
     SHAPE_OTHER,
 } AttrShape;
 
-// The meanings of words.
+// Values of the words in word_list.h.
 enum { JOIN_MITER, JOIN_ROUND, JOIN_BEVEL };
 enum { CAP_BUTT, CAP_ROUND, CAP_SQUARE };
 enum { FILL_WINDING, FILL_EVEN_ODD, FILL_INVERSE_WINDING, FILL_INVERSE_EVEN_ODD };
@@ -87,7 +87,7 @@ enum { FADE_LINEAR, FADE_QUAD, FADE_CUBIC };
 enum { FLIP_NOT, FLIP_HORIZONTAL, FLIP_VERTICAL, FLIP_BOTH };
 enum { TURBULENCE_FRACTAL, TURBULENCE_FOLDED, TURBULENCE_IMPROVED };
 enum { NOISE_PLANE, NOISE_CYLINDER, NOISE_SPHERE };
-// How pictures combine, in linear light. UNKNOWN: another word was given.
+// How pictures are combined, in linear light. MIX_UNKNOWN: the word is not known.
 enum { MIX_OVER, MIX_DEST_OVER, MIX_LIGHTEN, MIX_DARKEN, MIX_ADD, MIX_DIFFERENCE, MIX_MULTIPLY, MIX_UNKNOWN };
 enum { FACE_BACK, FACE_FRONT };
 enum { MIX3D_OVER, MIX3D_SOURCE, MIX3D_DEST, MIX3D_DEST_OVER, MIX3D_ADD, MIX3D_SUBTRACT, MIX3D_LIGHTEN, MIX3D_DARKEN };
@@ -115,7 +115,7 @@ typedef struct KindRow {
 
 typedef struct TypeRow {
     AttrShape shape;
-    bool required; // a drawing node is left out if these are no finite numbers within limits
+    bool required; // a drawing node is omitted if this attribute has numbers that are not finite or outside the limits
     double low;
     double high;
     const char *text;
@@ -123,8 +123,8 @@ typedef struct TypeRow {
 
 typedef struct AttrDefault {
     double value;
-    const char *text; // in words; "" for none
-    bool inherited;   // `value` is where inheritance begins
+    const char *text; // description; "" if there is none
+    bool inherited;   // true: inherited; `value` is the initial value
     const char *string;
 } AttrDefault;
 
@@ -134,11 +134,11 @@ typedef struct SchemaRow {
     uint8_t kind;   // NodeKind
     uint8_t type;   // AttrType
     uint16_t name;  // AttrName
-    uint16_t alias; // AttrName of the attribute that this one is another name of
+    uint16_t alias; // AttrName of the attribute of which this is another name; ATTR_NONE: not an alias
     uint16_t field; // offset in the record of its kind, or FIELD_NOWHERE
     AttrDefault default_value;
-    const char *unit; // "" for none, or where the help tells
-    const char *help; // "" where the name says all
+    const char *unit; // "": none, or named in `help`
+    const char *help; // "": the name is self-explanatory
 } SchemaRow;
 
 typedef struct WordRow {
@@ -153,17 +153,17 @@ extern const TypeRow schema_types[TYPE_COUNT];
 extern const SchemaRow schema_rows[ROW_COUNT];
 extern const WordRow schema_words[WORD_COUNT];
 
-// The row of an attribute; NULL if the kind has none of this name.
+// Returns the row of an attribute, or NULL if the kind has no such attribute.
 const SchemaRow *schema_row(NodeKind kind, AttrName name);
-// The force that a kind stands for; PHYS_FORCE_KINDS: none.
+// Returns the force of a kind, or PHYS_FORCE_KINDS if the kind is not a force.
 PhysForceKind schema_force(NodeKind kind);
-// Of a force, in lines; "" of other nodes.
+// Returns the formula of a force, with line breaks; "" for other nodes.
 const char *schema_formula(NodeKind kind);
-// The kind that stands for a force.
+// Returns the kind of a force's node.
 NodeKind schema_kind_of_force(PhysForceKind force);
-// May a node of this kind stand where these may?
+// Returns true if a node of this kind may be a child of a node that accepts `children`.
 bool schema_can_contain(NodeKind kind, PlaceKind children);
-// Is it one of the nodes that Flitter shows and petri does not?
+// Returns true for nodes that Flitter draws but petri does not.
 bool schema_is_unsupported(Str name);
 
 #endif

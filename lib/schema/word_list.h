@@ -1,5 +1,5 @@
-// word_list.h: the words that attributes of drawing nodes take: WORD(TYPE, "word", value). Of the words for one thing
-// the first is the usual one; composite_list.h has that of COMPOSITE.
+// word_list.h: words for attributes of drawing nodes: WORD(TYPE, "word", value). If several words have the same
+// meaning, the first is preferred; the preferred words of COMPOSITE are in composite_list.h.
 // clang-format off
 #ifndef WORD
 #define WORD(type, text, value)
