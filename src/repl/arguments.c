@@ -1,4 +1,4 @@
-// arguments.c: reading what follows a command's name, and commands that were typed without their dot.
+// arguments.c: parsing the operands of commands, and commands typed without their dot.
 #include "cli/progress.h"
 #include "repl/repl.h"
 
@@ -37,7 +37,7 @@ static bool read_count(const char *text, int64_t *count) {
     return end != text && *end == '\0' && errno == 0 && !is_blank(text[0]) && text[0] != '+';
 }
 
-// What the text stands for, which need not be finite. False after a message.
+// Parses a number or evaluates an expression; *number need not be finite. Returns false after a message.
 static bool evaluate_number(Repl *repl, const char *text, double *number) {
     PetriEvaluation result;
     if (petri_parse_number(text, number) && isfinite(*number))
@@ -52,18 +52,18 @@ static bool evaluate_number(Repl *repl, const char *text, double *number) {
 }
 
 bool argument_number(Repl *repl, const char *text, double *number) {
-    return evaluate_number(repl, text, number) && (isfinite(*number) || repl_fail(repl, "'%.40s' is no number", text));
+    return evaluate_number(repl, text, number) && (isfinite(*number) || repl_fail(repl, "not a number: '%.40s'", text));
 }
 
 bool argument_count(Repl *repl, const char *text, int64_t min, int64_t *count) {
-    static const double most = 9007199254740992; // beyond it not all whole numbers are there
+    static const double max = 9007199254740992; // 2^53: above it, doubles cannot represent every integer
     double value = 0;
     if (text[0] == '\0' || (read_count(text, count) && *count >= min))
         return true;
     if (!evaluate_number(repl, text, &value))
         return false;
-    if (!(value == floor(value) && value >= (double)min && value <= most))
-        return repl_fail(repl, "'%.40s' is no whole number from %" PRId64, text, min);
+    if (!(value == floor(value) && value >= (double)min && value <= max))
+        return repl_fail(repl, "not an integer >= %" PRId64 ": '%.40s'", min, text);
     *count = (int64_t)value;
     return true;
 }
@@ -117,14 +117,14 @@ size_t argument_lines(const Repl *repl, char *text, size_t around) {
     while (before > text && is_blank(before[-1]))
         before--;
     int64_t count = 0;
-    bool all = strcmp(last, "all") == 0, open = before > text && before[-1] == ';'; // what goes on with a key
+    bool all = strcmp(last, "all") == 0, open = before > text && before[-1] == ';'; // the number belongs to a key
     if (open || (!all && !(read_count(last, &count) && count > 0)))
         return screen_lines(repl, around);
     *before = '\0';
     return all ? SIZE_MAX : (size_t)count;
 }
 
-// What people type to leave and to get help. A question mark is no word of the language.
+// Common words for leaving and for help. A question mark cannot occur in the language.
 static const struct {
     const char *word;
     const char *command;
@@ -145,7 +145,7 @@ const char *bare_alias(const char *name, size_t length) {
     return NULL;
 }
 
-// Does the script, the prompt or petri itself give the word a meaning?
+// Returns true if the script, the prompt or petri binds the word.
 static bool is_bound(Repl *repl, const char *word, size_t length) {
     PetriBuiltin builtin;
     const char *name;
@@ -162,7 +162,7 @@ static size_t word_length(const char *text) {
     return text[0] == '?' ? 1 : strcspn(text, " \t\n(");
 }
 
-// Names are known once something was evaluated.
+// Evaluates a trivial expression, because names are known only after an evaluation.
 static void compile_names(Repl *repl) {
     PetriEvaluation result;
     repl_busy(repl);
@@ -170,11 +170,11 @@ static void compile_names(Repl *repl) {
     repl_idle(repl);
 }
 
-// `help`, `quit` and the like.
+// Executes `help`, `quit` and their synonyms. Returns false if the text is something else or the word is bound.
 static bool execute_alias(Repl *repl, const char *word, size_t length, const char *rest, ByteBuffer *remark) {
     bool alone = rest[0] == '\0' || strcmp(rest, "()") == 0;
     const char *command = bare_alias(word, length);
-    bool topic = length > 1 || word[0] == '?'; // something may follow `help` and `?`
+    bool topic = length > 1 || word[0] == '?'; // only `help` and `?` take an operand
     if (!command || !(alone || (topic && strcmp(command, ".help") == 0)))
         return false;
     if (is_bound(repl, word, length)) {

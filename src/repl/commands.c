@@ -1,4 +1,4 @@
-// commands.c: the commands of the prompt: finding them, telling of them, and those about commands themselves.
+// commands.c: finding and executing commands; .help, .time and .quit.
 #include "cli/help.h"
 #include "cli/progress.h"
 #include "cli/text_table.h"
@@ -41,10 +41,10 @@ static void list_commands(ByteBuffer *text) {
     }
     table_text(&table, text);
     byte_buffer_add_text(
-        text, "Numbers may be expressions: .resolution 1/240. Anything else is of the language. The value of "
-              "an expression is printed; let, func, import and nodes stay. Lines indented below the first "
-              "belong to it, and Up goes back to them; an empty line ends them. Ctrl-C stops what is being "
-              "done. Try .help builtins, .help nodes, .help !particle, .help polar, .help tempo.\n");
+        text, "Numbers may be expressions: .resolution 1/240. All other input is code: the value of an "
+              "expression is printed; let, func, import and nodes are kept. Indented lines belong to the first "
+              "line; Up returns to them, and an empty line ends the block. Ctrl-C interrupts. "
+              "Try .help builtins, .help nodes, .help !particle, .help polar, .help tempo.\n");
 }
 
 static void list_builtins(ByteBuffer *text) {
@@ -80,8 +80,8 @@ static bool suggest_topic(Repl *repl, const char *topic) {
             nearest.found = str_from(command->name);
     topics_offer(&nearest);
     return !nearest.found.bytes
-               ? repl_fail(repl, "there is no help on '%.40s'; .help lists the commands", topic)
-               : repl_fail(repl, "there is no help on '%.40s', did you mean '%s'?", topic, nearest.found.bytes);
+               ? repl_fail(repl, "no help for '%.40s'; run .help for a list", topic)
+               : repl_fail(repl, "no help for '%.40s'; did you mean '%s'?", topic, nearest.found.bytes);
 }
 
 static bool add_help(Repl *repl, ByteBuffer *text, const char *topic) {
@@ -121,7 +121,7 @@ static void note_seconds(Repl *repl, double seconds, const char *more) {
     repl_note(repl, "%.3g %s%s", seconds / units[i].unit, units[i].name, more);
 }
 
-// The best of many, since other programs can only make it slower.
+// Prints the shortest of many evaluations, since other programs can only make one slower.
 static bool time_expression(Repl *repl, const char *expression) {
     double best = INFINITY, start = clock_seconds();
     int64_t count = 0;
@@ -156,11 +156,9 @@ static bool run_quit(Repl *repl, const char *rest) {
 }
 
 const ReplCommand OTHER_COMMANDS[] = {
-    {".time", "EXPR", "an expression, or a command", "tell how long an expression takes, or a command such as .step",
-     run_time, COMPLETE_LANGUAGE},
-    {".help", "[TOPIC]", NULL, "tell of a command, a function, a node, a word; builtins, nodes list them", run_help,
-     COMPLETE_TOPICS},
-    {".quit", "", NULL, "leave", run_quit, COMPLETE_LANGUAGE},
+    {".time", "EXPR", "an expression, or a command", "time an expression or a command", run_time, COMPLETE_LANGUAGE},
+    {".help", "[TOPIC]", NULL, "show help for a topic; `builtins` and `nodes` list all", run_help, COMPLETE_TOPICS},
+    {".quit", "", NULL, "quit", run_quit, COMPLETE_LANGUAGE},
     {0},
 };
 
@@ -170,9 +168,9 @@ static void report_unknown(Repl *repl, const char *name) {
     for (size_t i = 0; (command = repl_command_at(i)); i++)
         nearest_offer(&nearest, command->name);
     if (nearest.found.bytes)
-        repl_fail(repl, "there is no command '%.40s', did you mean '%s'?", name, nearest.found.bytes);
+        repl_fail(repl, "no such command: '%.40s'; did you mean '%s'?", name, nearest.found.bytes);
     else
-        repl_fail(repl, "there is no command '%.40s'; .help lists the commands", name);
+        repl_fail(repl, "no such command: '%.40s'; run .help for a list", name);
 }
 
 void repl_command(Repl *repl, const char *line) {
@@ -184,7 +182,7 @@ void repl_command(Repl *repl, const char *line) {
     if (!command)
         report_unknown(repl, name);
     else if (command->operands[0] == '\0' && rest[0] != '\0')
-        repl_fail(repl, "%s takes nothing, not '%.40s'", name, rest);
+        repl_fail(repl, "%s takes no arguments: '%.40s'", name, rest);
     else if (command->needed && rest[0] == '\0')
         repl_fail(repl, "%s needs %s", command->name, command->needed);
     else if (!command->run(repl, rest))

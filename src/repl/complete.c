@@ -1,4 +1,4 @@
-// complete.c: what a word at the prompt may go on with.
+// complete.c: completion of words at the prompt.
 #include "repl/repl.h"
 
 #include <ctype.h>
@@ -8,7 +8,7 @@
 
 enum { MAX_SHOWN = 100, LINE_WIDTH = 78 };
 
-// A word being completed: candidates are offered, those that fit are kept.
+// A word being completed. Candidates that begin with the typed text are added to `found`.
 typedef struct Search {
     Repl *repl;
     const char *typed;
@@ -65,7 +65,7 @@ static void offer_attributes(Search *search, const char *kind, size_t length) {
     }
 }
 
-// The state's keys are what its lines have before ` = `.
+// Reads the state's keys from its printed lines, which have the form `KEY = VALUE`.
 static void offer_keys(Search *search) {
     SCOPED_BYTE_BUFFER state = {0};
     Str line;
@@ -96,7 +96,7 @@ static void offer_files(Search *search) {
     globfree(&found);
 }
 
-// The kind of the node whose attributes may be named at `at`; NULL if a value or something else is expected there.
+// Returns the kind of the node whose attributes are expected at `at`; NULL if something else is expected there.
 static const char *node_before(const char *line, size_t at, size_t *length) {
     if (at == 0 || !isspace((unsigned char)line[at - 1]))
         return NULL;
@@ -113,7 +113,7 @@ static const char *node_before(const char *line, size_t at, size_t *length) {
     return *length > 0 ? line + end : NULL;
 }
 
-// Where a look-up begins that is not ended, or SIZE_MAX.
+// Returns the start of the unfinished state look-up, such as `$(:cells;1`, or SIZE_MAX.
 static size_t lookup_before(const char *line, size_t length) {
     for (size_t at = length; at > 0; at--) {
         char c = line[at - 1];
@@ -168,7 +168,7 @@ static void offer_topics(Search *search) {
     add_candidate(search, "nodes");
 }
 
-// What follows a command.
+// Completes the operand of a command; `name` is the length of the command's name.
 static void search_operand(Search *search, const char *line, size_t name, size_t length) {
     static void (*const offers[])(Search *) = {
         [COMPLETE_FILES] = offer_files, [COMPLETE_SYSTEMS] = offer_systems,       [COMPLETE_KEYS] = offer_keys,
@@ -187,7 +187,7 @@ static int compare_words(const void *a, const void *b) {
     return strcmp(*(const char *const *)a, *(const char *const *)b);
 }
 
-// Sorts the words and drops what is there twice.
+// Sorts the words and removes duplicates.
 static void sort_unique(TextList *words) {
     size_t kept = 1;
     qsort(words->items, words->count, sizeof *words->items, compare_words);
@@ -199,14 +199,14 @@ static void sort_unique(TextList *words) {
     words->count = kept;
 }
 
-// What the sorted words have in common: what the first and the last have.
+// Finds the common beginning of the sorted words, which is that of the first and the last.
 static void find_common(Completion *completion, size_t typed) {
     const char *first = completion->words.items[0], *last = completion->words.items[completion->words.count - 1];
     size_t length = 0;
     while (first[length] != '\0' && first[length] == last[length])
         length++;
     while (length > typed && ((unsigned char)first[length] & 0xc0) == 0x80)
-        length--; // no half character
+        length--; // do not split a UTF-8 character
     byte_buffer_add(&completion->common, first + typed, length - typed);
 }
 

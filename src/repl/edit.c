@@ -1,4 +1,4 @@
-// edit.c: lines edited on a terminal, with history and completion, by libedit.
+// edit.c: the line editor, on libedit, with history and completion.
 #include "repl/line.h"
 
 #ifdef HAVE_LIBEDIT
@@ -21,16 +21,16 @@ struct Editor {
     EditLine *line;
     History *history;
     char prompt[64];
-    unsigned back; // how far we are in the history
+    unsigned back; // number of history entries before the newest; 0: the line being typed
 };
 
-// The terminal as it was: a signal handler can reach nothing but globals.
+// Terminal settings before editing. Global, because the signal handler needs them.
 static struct termios settings;
 
-// While a line is edited the terminal does not echo: it must not stay like that when a signal ends petri.
+// Restores the terminal, which does not echo during editing, when a signal ends petri.
 static void on_termination(int signal_number) {
     tcsetattr(STDIN_FILENO, TCSANOW, &settings);
-    raise(signal_number); // now without a handler
+    raise(signal_number); // SA_RESETHAND: the default action this time
 }
 
 static void catch_termination(void) {
@@ -50,7 +50,7 @@ static const char *prompt_of(EditLine *line) {
     return editor_of(line)->prompt;
 }
 
-// To below the lines that follow the cursor's, for what is written next; a line too far down where some are broken.
+// Moves the cursor below the rest of the block, so that output can follow. May leave one empty line if lines wrap.
 static void leave_block(Editor *editor) {
     const LineInfo *info = el_line(editor->line);
     int width = 80, height = 0, column = 0;
@@ -61,7 +61,7 @@ static void leave_block(Editor *editor) {
     }
 }
 
-// One character. Waits where changed files are noticed and where Ctrl-C ends it.
+// Reads one character for libedit. While waiting, reports changed files and returns -1 on Ctrl-C.
 static int read_character(EditLine *line, wchar_t *character) {
     Editor *editor = editor_of(line);
     mbstate_t state = {0};
@@ -83,14 +83,14 @@ static int read_character(EditLine *line, wchar_t *character) {
         if (got <= 0)
             return (int)got;
         size_t used = mbrtowc(character, &byte, 1, &state);
-        if (used == (size_t)-1) // no character of this locale: left out
+        if (used == (size_t)-1) // not a character of this locale: skipped
             state = (mbstate_t){0};
         else if (used != (size_t)-2)
             return 1;
     }
 }
 
-// Where the line begins that the cursor is in.
+// Returns the start of the line that the cursor is in.
 static const char *line_start(const LineInfo *info) {
     const char *start = info->cursor;
     while (start > info->buffer && start[-1] != '\n')
@@ -98,7 +98,7 @@ static const char *line_start(const LineInfo *info) {
     return start;
 }
 
-// Keys that call libedit's own functions, which ours can only reach as if these had been typed.
+// Keys bound to libedit's built-in functions. A function of ours calls one by pushing its key.
 #define KEY_ACCEPT "\036"        // Ctrl-^
 #define KEY_LINE_UP "\030\020"   // Ctrl-X Ctrl-P
 #define KEY_LINE_DOWN "\030\016" // Ctrl-X Ctrl-N
@@ -110,7 +110,7 @@ static unsigned char push_keys(EditLine *line, const char *keys) {
     return CC_NORM;
 }
 
-// Enter: goes on at the end of the block, in a new line if more is wanted.
+// Enter: accepts the block if it is complete; else appends a line.
 static unsigned char handle_enter(EditLine *line, wint_t character) {
     (void)character;
     Editor *editor = editor_of(line);
@@ -120,13 +120,13 @@ static unsigned char handle_enter(EditLine *line, wint_t character) {
     byte_buffer_add(&text, info->buffer, (size_t)(info->lastchar - info->buffer));
     byte_buffer_add_text(&text, "\n");
     bool more = line_needs_more(editor->repl, text.data, text.length, &consumed);
-    el_cursor(line, (int)text.length); // it stops at the end
+    el_cursor(line, (int)text.length); // libedit stops at the end
     if (!more)
         return push_keys(line, KEY_ACCEPT);
     return el_insertstr(line, "\n") == 0 ? CC_REFRESH : CC_ERROR;
 }
 
-// A new line at the cursor.
+// Alt-Enter: inserts a line feed at the cursor.
 static unsigned char open_line(EditLine *line, wint_t character) {
     (void)character;
     return el_insertstr(line, "\n") == 0 ? CC_REFRESH : CC_ERROR;
@@ -141,7 +141,7 @@ static unsigned char go_up(EditLine *line, wint_t character) {
     return push_keys(line, inside ? KEY_LINE_UP : KEY_HISTORY_UP);
 }
 
-// Below the last line there is nothing, unless we are in the history: libedit would empty the line.
+// Does nothing in the last line unless a history entry is shown, because libedit would clear the line.
 static unsigned char go_down(EditLine *line, wint_t character) {
     (void)character;
     Editor *editor = editor_of(line);
@@ -154,7 +154,7 @@ static unsigned char go_down(EditLine *line, wint_t character) {
     return push_keys(line, KEY_HISTORY_DOWN);
 }
 
-// Characters, not bytes, from one place to another.
+// Returns the number of characters, not bytes, between two positions.
 static int count_characters(const char *from, const char *to) {
     return (int)utf8_length((Str){from, (size_t)(to - from)});
 }
@@ -166,7 +166,7 @@ static unsigned char go_home(EditLine *line, wint_t character) {
     return CC_CURSOR;
 }
 
-// To the end of the line; returns how many characters that were.
+// Moves the cursor to the end of the line. Returns by how many characters.
 static int to_line_end(EditLine *line) {
     const LineInfo *info = el_line(line);
     const char *end = info->cursor;
@@ -183,7 +183,7 @@ static unsigned char go_end(EditLine *line, wint_t character) {
     return CC_CURSOR;
 }
 
-// Deletes the rest of the line, or the line's end if the cursor is there.
+// Deletes the rest of the line, or the line feed if the cursor is at the end of the line.
 static unsigned char kill_rest(EditLine *line, wint_t character) {
     (void)character;
     int count = to_line_end(line);
@@ -202,7 +202,7 @@ static unsigned char complete_word(EditLine *line, wint_t character) {
     const LineInfo *info = el_line(line);
     const char *start = line_start(info);
     if (start > info->buffer && strspn(start, " \t") >= (size_t)(info->cursor - start))
-        return el_insertstr(line, "    ") == 0 ? CC_REFRESH : CC_ERROR; // there is no word yet: indentation
+        return el_insertstr(line, "    ") == 0 ? CC_REFRESH : CC_ERROR; // no word yet: indent
     Completion completion;
     complete_line(editor->repl, start, (size_t)(info->cursor - start), &completion);
     bool inserted = completion.common.length > 0 && el_insertstr(line, completion.common.data) == 0;
@@ -235,10 +235,10 @@ static void load_history(Editor *editor) {
     }
 }
 
-// libedit copies narrow names and never frees the copies.
+// Uses wide names, because libedit copies narrow ones and never frees the copies.
 static void add_functions(EditLine *line) {
     el_wset(line, EL_ADDFN, L"petri-complete", L"complete the word", complete_word);
-    el_wset(line, EL_ADDFN, L"petri-enter", L"take the lines, or begin another", handle_enter);
+    el_wset(line, EL_ADDFN, L"petri-enter", L"run the lines, or begin another", handle_enter);
     el_wset(line, EL_ADDFN, L"petri-open-line", L"begin a line here", open_line);
     el_wset(line, EL_ADDFN, L"petri-home", L"go to the line's beginning", go_home);
     el_wset(line, EL_ADDFN, L"petri-end", L"go to the line's end", go_end);
@@ -261,7 +261,7 @@ static const struct {
     {"^M", "petri-enter"}, {"^J", "petri-enter"},
     {"^[^M", "petri-open-line"}, {"^[^J", "petri-open-line"}, // Alt-Enter
     {"^A", "petri-home"}, {"^E", "petri-end"}, {"^K", "petri-kill-rest"},
-    // Arrows, Home and End, as terminals send them in one mode or another.
+    // Arrows, Home and End, in the encodings of the terminals' normal and application modes.
     {"^[[A", "petri-up"}, {"^[OA", "petri-up"}, {"^[[B", "petri-down"}, {"^[OB", "petri-down"},
     {"^[[H", "petri-home"}, {"^[OH", "petri-home"}, {"^[[1~", "petri-home"},
     {"^[[F", "petri-end"}, {"^[OF", "petri-end"}, {"^[[4~", "petri-end"},
@@ -307,7 +307,7 @@ void editor_free(Editor *editor) {
     free(editor);
 }
 
-// A block is kept as one, without the empty line that ends it.
+// Adds a block as one entry, without the empty line that ends it.
 static void add_to_history(Editor *editor, const ByteBuffer *lines) {
     HistEvent event;
     enum { MAX_BLOCK_LENGTH = 10000 };
@@ -321,7 +321,7 @@ static void add_to_history(Editor *editor, const ByteBuffer *lines) {
     replace_character(block, '\n', SAVED_LINE_END);
     SCOPED_BYTE_BUFFER whole = {0};
     byte_buffer_format(&whole, "%s\n", block);
-    saved_add(&whole); // at once: a terminal that is closed ends petri without a word
+    saved_add(&whole); // at once, because closing the terminal kills petri
 }
 
 LineStatus editor_read(Editor *editor, const char *prompt, ByteBuffer *lines) {

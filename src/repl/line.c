@@ -1,4 +1,4 @@
-// line.c: lines for the prompt, and which of them belong together.
+// line.c: reading lines at the prompt, and grouping them into statements; see line.h.
 #include "repl/line.h"
 
 #include "base/file.h"
@@ -14,17 +14,17 @@ enum { BLOCK = 1 << 16, MAX_ECHOED = 4000 };
 
 struct LineReader {
     Repl *repl;
-    Editor *editor;  // NULL: none is wanted, or there is none
-    ByteBuffer text; // read and not taken yet, from `at` on
+    Editor *editor;  // NULL: lines are not edited
+    ByteBuffer text; // input; the part from `at` on has not been returned yet
     size_t at;
-    size_t searched; // for a line end
-    bool ended;
+    size_t searched; // bytes after `at` that contain no line feed
+    bool ended;      // true if the input has ended
 };
 
 LineReader *line_reader_new(Repl *repl) {
     LineReader *reader = memory_calloc(sizeof *reader);
     reader->repl = repl;
-    byte_buffer_add(&reader->text, "", 0); // there is always a text, of no length
+    byte_buffer_add(&reader->text, "", 0); // makes `data` non-NULL
     reader->editor = repl->terminal ? editor_new(repl) : NULL;
     return reader;
 }
@@ -38,7 +38,7 @@ void line_reader_free(LineReader *reader) {
 LineWait line_wait(Repl *repl) {
     for (;;) {
         if (repl_interrupted())
-            return WAIT_INTERRUPTED; // before this call, which would not wake
+            return WAIT_INTERRUPTED; // Ctrl-C before poll would not wake it
         struct pollfd files[2] = {{STDIN_FILENO, POLLIN, 0}, {file_watch_descriptor(repl->files), POLLIN, 0}};
         int ready = poll(files, 2, files[1].fd < 0 ? 200 : -1);
         if ((ready < 0 && errno == EINTR) || repl_interrupted())
@@ -50,7 +50,7 @@ LineWait line_wait(Repl *repl) {
     }
 }
 
-// Takes the first line of what was read; false if there is no whole one.
+// Moves the first line of the buffered input to `line`. Returns false if it is incomplete.
 static bool read_buffered_line(LineReader *reader, ByteBuffer *line) {
     const char *start = reader->text.data + reader->at;
     size_t length = reader->text.length - reader->at;
@@ -77,7 +77,7 @@ static void echo_line(Repl *repl, const ByteBuffer *line) {
     }
 }
 
-// Waits for input and reads some of it.
+// Waits for input and reads a block of it, or reports changes.
 static LineStatus read_block(LineReader *reader, const char *prompt) {
     Output *output = &reader->repl->output;
     if (reader->ended) {
@@ -101,7 +101,7 @@ static LineStatus read_block(LineReader *reader, const char *prompt) {
     return LINE_READ;
 }
 
-// An editor gives several lines at a time, which have been seen on the screen already.
+// The editor returns several lines at a time. They are not echoed, because they are already on the screen.
 LineStatus line_read(LineReader *reader, const char *prompt, ByteBuffer *line) {
     Output *output = &reader->repl->output;
     output_flush(output);
@@ -128,12 +128,12 @@ bool line_is_blank(const char *line) {
     return line[strspn(line, " \t\n")] == '\0';
 }
 
-// Does a line go on with the lines above it?
+// Returns true if a line continues the lines above it.
 static bool continues_block(const char *line) {
     return line[0] == ' ' || line[0] == '\t' || strncmp(line, "else", 4) == 0 || strncmp(line, "elif", 4) == 0;
 }
 
-// Where the last line begins.
+// Returns the start of the last line.
 static size_t last_line(const char *text, size_t length) {
     size_t at = length > 0 ? length - 1 : 0;
     while (at > 0 && text[at - 1] != '\n')
@@ -154,10 +154,10 @@ bool line_needs_more(Repl *repl, const char *text, size_t length, size_t *consum
     return petri_prompt_check(repl->session, text, length) != PETRI_COMPLETE;
 }
 
-// The path of the file; false if there is no home for it.
+// Appends the path of the history file. Returns false if the environment names no folder for it.
 static bool file_path(ByteBuffer *path) {
     const char *folder = getenv("XDG_STATE_HOME"), *home = getenv("HOME");
-    if (folder && folder[0] == '/') // relative ones do not count, says XDG
+    if (folder && folder[0] == '/') // the XDG specification says to ignore relative paths
         byte_buffer_add_text(path, folder);
     else if (home && home[0] != '\0')
         byte_buffer_format(path, "%s/.local/state", home);
@@ -175,7 +175,7 @@ void saved_read(ByteBuffer *lines) {
         byte_buffer_add_text(lines, "\n");
 }
 
-// Makes the folders that a file lies in; only its owner may look into new ones.
+// Makes the parent folders of a file, accessible to the owner only.
 static void make_folders(char *path) {
     for (char *slash = strchr(path + 1, '/'); slash; slash = strchr(slash + 1, '/')) {
         *slash = '\0';
@@ -184,14 +184,14 @@ static void make_folders(char *path) {
     }
 }
 
-// Where the last `most` lines begin.
-static size_t start_of_last(const ByteBuffer *lines, size_t most) {
+// Returns the start of the last `max` lines.
+static size_t start_of_last(const ByteBuffer *lines, size_t max) {
     size_t at = lines->length;
-    while (at > 0 && most > 0) {
+    while (at > 0 && max > 0) {
         at--;
         while (at > 0 && lines->data[at - 1] != '\n')
             at--;
-        most--;
+        max--;
     }
     return at;
 }

@@ -1,4 +1,4 @@
-// plot.c: a number over the last frames, drawn as a line, and the frame's picture in the terminal.
+// plot.c: .plot, a curve of a number over the last frames, and .show, the frame's picture in the terminal.
 #include "cli/progress.h"
 #include "repl/repl.h"
 #include "view/still.h"
@@ -11,18 +11,18 @@
 #include <string.h>
 #include <unistd.h>
 
-// Cells of the picture. A braille cell is 2 dots wide and 4 high; without Unicode a cell is one dot.
+// Size of the plot in character cells. A braille cell is 2 dots wide and 4 high; without UTF-8 a cell is one dot.
 enum { MAX_WIDTH = 60, HEIGHT = 8, DEFAULT_FRAMES = 60, MAX_FRAMES = 1000000 };
 
 typedef struct Canvas {
-    int across; // dots of a cell
-    int down;
-    int columns; // of dots
+    int across; // dots per cell, horizontally
+    int down;   // dots per cell, vertically
+    int columns;
     int rows;
-    unsigned char *dots;
+    unsigned char *dots; // rows * columns, each 0 or 1
 } Canvas;
 
-// The dots of a column from one height to another, so that steep parts stay a line.
+// Sets the dots of a column between two heights, so that steep parts of the curve have no gaps.
 static void draw_column(Canvas *canvas, int x, int from, int to) {
     for (int y = from < to ? from : to; y <= (from < to ? to : from); y++)
         canvas->dots[y * canvas->columns + x] = 1;
@@ -45,7 +45,7 @@ static Range range_of(const double *values, int64_t count) {
 }
 
 static int row_of(const Canvas *canvas, const Range *range, double value) {
-    // Halved, so that the distance of the largest numbers is one.
+    // Halved, so that the difference of the largest doubles does not overflow.
     double part = range->max > range->min ? (value / 2 - range->min / 2) / (range->max / 2 - range->min / 2) : 0.5;
     return canvas->rows - 1 - (int)(part * (canvas->rows - 1) + 0.5);
 }
@@ -53,7 +53,7 @@ static int row_of(const Canvas *canvas, const Range *range, double value) {
 static void draw_curve(Canvas *canvas, const Range *range, const double *values, int64_t count) {
     int last = -1;
     for (int x = 0; x < canvas->columns; x++) {
-        // Where frames are fewer than dots, each has several; where they are more, some are passed over.
+        // A frame covers several dots if there are fewer frames than dots; else some frames are skipped.
         double value = values[(int64_t)((double)x * (double)count / canvas->columns)];
         int row = isfinite(value) ? row_of(canvas, range, value) : -1;
         if (row >= 0) {
@@ -64,7 +64,7 @@ static void draw_curve(Canvas *canvas, const Range *range, const double *values,
     }
 }
 
-// The bits of a braille character, U+2800 and what follows, for the dots of a cell.
+// Returns the dots of a cell as an offset from U+2800, the first braille character.
 static unsigned cell_pattern(const Canvas *canvas, int row, int column) {
     static const unsigned char bits[4][2] = {{0x01, 0x08}, {0x02, 0x10}, {0x04, 0x20}, {0x40, 0x80}};
     unsigned pattern = 0;
@@ -85,7 +85,7 @@ static void write_canvas(Output *output, const Canvas *canvas, const Range *rang
         if (row == 0 || row == rows - 1)
             snprintf(label, sizeof label, "%.6g", row == 0 ? range->max : range->min);
         output_format(output, "%12s %s", label, braille ? "\u2502" : "|");
-        int blanks = 0; // those at the end say nothing
+        int blanks = 0; // pending; those at the end of a line are not written
         for (int column = 0; column < columns; column++) {
             unsigned pattern = cell_pattern(canvas, row, column);
             char character[UTF8_MAX] = "*";
@@ -104,7 +104,7 @@ static void write_canvas(Output *output, const Canvas *canvas, const Range *rang
 static void print_plot(Repl *repl, const double *values, int64_t first, int64_t count) {
     Range range = range_of(values, count);
     if (range.min > range.max) {
-        repl_fail(repl, "there is no number to plot");
+        repl_fail(repl, "nothing to plot: no value is a finite number");
         return;
     }
     Canvas canvas = {.across = repl->utf8 ? 2 : 1, .down = repl->utf8 ? 4 : 1};
@@ -121,7 +121,7 @@ static void print_plot(Repl *repl, const double *values, int64_t first, int64_t 
     free(canvas.dots);
 }
 
-// Goes through the frames again, which ends where it began.
+// Recomputes the frames, up to the current one, and evaluates the expression in each.
 static PetriStatus evaluate_frames(Repl *repl, const char *expression, int64_t first, int64_t count, double *values,
                                    ByteBuffer *why) {
     PetriStatus status = PETRI_OK;
@@ -137,10 +137,10 @@ static PetriStatus evaluate_frames(Repl *repl, const char *expression, int64_t f
 
 static bool plot_frames(Repl *repl, const char *expression, int64_t count) {
     int64_t now = petri_frame(repl->session).number, first = now - count + 1;
-    int64_t least = repl->history.first + 1;
-    first = first < least ? least : first;
+    int64_t min = repl->history.first + 1;
+    first = first < min ? min : first;
     if (now < first)
-        return repl_fail(repl, "there are no frames to plot; .step makes some");
+        return repl_fail(repl, "no frames to plot; run .step first");
     SCOPED_BYTE_BUFFER why = {0};
     double *values = memory_calloc((size_t)(now - first + 1) * sizeof *values);
     repl_busy(repl);
@@ -154,7 +154,7 @@ static bool plot_frames(Repl *repl, const char *expression, int64_t count) {
                   stopped                         ? "interrupted"
                   : why.length > 0                ? why.data
                   : status == PETRI_OUT_OF_MEMORY ? "out of memory"
-                                                  : "there is nothing to plot");
+                                                  : "nothing to plot");
     }
     free(values);
     return status == PETRI_OK && !repl->failed;
@@ -165,8 +165,8 @@ static bool run_plot(Repl *repl, const char *rest) {
     int64_t count = DEFAULT_FRAMES;
     argument_last_count(expression, &count);
     if (count > MAX_FRAMES)
-        return repl_fail(repl, "at most %d frames are plotted", MAX_FRAMES);
-    PetriEvaluation result; // of the present frame: whether it is an expression at all
+        return repl_fail(repl, "too many frames: the maximum is %d", MAX_FRAMES);
+    PetriEvaluation result; // unused: this only checks the expression
     return repl_status(repl, petri_evaluate(repl->session, expression, PETRI_NUL_TERMINATED, &result, NULL, NULL)) &&
            plot_frames(repl, expression, count);
 }
@@ -176,7 +176,7 @@ enum { LINES_BELOW = 2 }; // rows for the prompt
 static bool run_show(Repl *repl, const char *rest) {
     (void)rest;
     if (!terminal_picture_possible())
-        return repl_fail(repl, "this petri was built without libchafa: it cannot show pictures in the terminal");
+        return repl_fail(repl, "cannot show pictures in the terminal: petri was built without libchafa");
     repl_complete_frame(repl);
     repl_busy(repl);
     PetriStatus status = petri_preview(repl->session);
@@ -187,7 +187,8 @@ static bool run_show(Repl *repl, const char *rest) {
 }
 
 const ReplCommand PLOT_COMMANDS[] = {
-    {".plot", "EXPR [N]", "an expression", "plot a number over the last N frames (60)", run_plot, COMPLETE_LANGUAGE},
+    {".plot", "EXPR [N]", "an expression", "plot a number over the last N frames (default: 60)", run_plot,
+     COMPLETE_LANGUAGE},
     {".show", "", NULL, "show the frame's picture in the terminal", run_show, COMPLETE_LANGUAGE},
     {0},
 };

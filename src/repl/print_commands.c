@@ -1,4 +1,4 @@
-// print_commands.c: what a frame holds, as text: state, nodes, particles, and expressions that are watched.
+// print_commands.c: commands that print the frame as text: state, nodes, particles and watched expressions.
 #include "cli/motion.h"
 #include "cli/text_table.h"
 #include "repl/repl.h"
@@ -10,16 +10,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { RESERVED_LINES = 3 }; // lines of the screen that a long output leaves: the command, the closing line, the prompt
+enum { RESERVED_LINES = 3 }; // screen lines beside a long output: the command, the closing note, the prompt
 
-// Looks through the lines of a section of the frame's text.
+// Selects lines from a section of the frame's text.
 typedef struct Filter {
     Repl *repl;
     const char *wanted;
-    size_t depth; // of the node whose subtree is being written, SIZE_MAX outside
-    size_t found;
-    size_t lines; // that were to be written, of which the first `most` are
-    size_t max_lines;
+    size_t depth;     // depth of the node whose subtree is being written; SIZE_MAX: none
+    size_t found;     // number of matching entries or nodes
+    size_t lines;     // number of selected lines
+    size_t max_lines; // only the first max_lines selected lines are written
     void (*handle_line)(struct Filter *filter, const char *line, size_t length);
 } Filter;
 
@@ -27,7 +27,7 @@ static bool collect_unless_stopped(void *bytes, const char *text, size_t length)
     return byte_buffer_collect(bytes, text, length) && !repl_interrupted();
 }
 
-// Writes a section through a filter; returns how much it has found.
+// Writes a section through a filter. Returns filter->found.
 static size_t print_filtered(Repl *repl, unsigned section, Filter *filter) {
     SCOPED_BYTE_BUFFER text = {0};
     Str line;
@@ -47,7 +47,7 @@ static void write_line(Filter *filter, const char *line, size_t length) {
         output_write(&filter->repl->output, line, length);
 }
 
-// What was left out, and how it is seen: `asked` is what was typed, without a number of lines.
+// Notes how many lines were omitted and how to see them. `asked` is the operand without its number of lines.
 static void note_remaining(const Filter *filter, const char *command, const char *asked) {
     if (filter->lines > filter->max_lines) {
         repl_note(filter->repl, "%zu more lines; %s%s%s all shows all", filter->lines - filter->max_lines, command,
@@ -55,7 +55,7 @@ static void note_remaining(const Filter *filter, const char *command, const char
     }
 }
 
-// `$:cells = …` and `$(:cells;0) = …` are both under `:cells`, and under `$:cells`, `(:cells)` and `cells` as well.
+// Selects the entries of the wanted key or below it: for `:cells` or `cells`, `$:cells = …` and `$(:cells;0) = …`.
 static void filter_entry(Filter *filter, const char *line, size_t length) {
     const char *key = line + 1 + (line[1] == '(');
     key += key[0] == ':' && filter->wanted[0] != ':';
@@ -70,15 +70,15 @@ static void filter_entry(Filter *filter, const char *line, size_t length) {
 
 static bool run_state(Repl *repl, const char *rest) {
     SCOPED_TEXT asked = memory_strdup(rest);
-    // A number alone is a key.
+    // A number alone is a key, not a number of lines.
     bool counted = strpbrk(asked, " \t") || strcmp(asked, "all") == 0;
-    size_t most = argument_lines(repl, counted ? asked : (char[]){""}, RESERVED_LINES);
+    size_t max_lines = argument_lines(repl, counted ? asked : (char[]){""}, RESERVED_LINES);
     const char *prefix = asked + (asked[0] == '$');
     bool enclosed = prefix[0] == '(';
     size_t length = strlen(prefix) - enclosed;
     length -= enclosed && length > 0 && prefix[length] == ')';
     SCOPED_TEXT wanted = memory_strndup(prefix + enclosed, length);
-    Filter filter = {.wanted = wanted, .repl = repl, .handle_line = filter_entry, .max_lines = most};
+    Filter filter = {.wanted = wanted, .repl = repl, .handle_line = filter_entry, .max_lines = max_lines};
     if (print_filtered(repl, PETRI_PRINT_STATE, &filter) == 0)
         repl_note(repl, wanted[0] == '\0' ? "the state is empty" : "nothing in the state is under %s", wanted);
     note_remaining(&filter, ".state", asked);
@@ -101,12 +101,12 @@ static void filter_node(Filter *filter, const char *line, size_t length) {
 
 static bool run_tree(Repl *repl, const char *rest) {
     SCOPED_TEXT asked = memory_strdup(rest);
-    size_t most = argument_lines(repl, asked, RESERVED_LINES);
+    size_t max_lines = argument_lines(repl, asked, RESERVED_LINES);
     const char *kind = asked + (asked[0] == '!');
     repl_busy(repl);
     PetriStatus status = petri_preview(repl->session);
     repl_idle(repl);
-    Filter filter = {.repl = repl, .wanted = kind, .handle_line = filter_node, .max_lines = most};
+    Filter filter = {.repl = repl, .wanted = kind, .handle_line = filter_node, .max_lines = max_lines};
     if (status == PETRI_OK && print_filtered(repl, PETRI_PRINT_TREE, &filter) == 0)
         repl_note(repl, kind[0] == '\0' ? "the frame has no nodes" : "the frame has no node !%s", kind);
     note_remaining(&filter, ".tree", asked);
@@ -117,13 +117,13 @@ static bool matches_name(const char *name, const char *wanted) {
     return wanted[0] == '\0' || strcmp(name, wanted) == 0 || (name[0] == ':' && strcmp(name + 1, wanted) == 0);
 }
 
-// What a table is asked for.
+// Operands of a command that prints systems.
 typedef struct SystemRequest {
-    const char *system; // "": all of them
-    size_t max_lines;   // rows of each
+    const char *system; // name; "": all systems
+    size_t max_lines;   // rows per system
 } SystemRequest;
 
-// Calls `show` for each system that is meant.
+// Calls `show` for each requested system.
 static bool print_systems(Repl *repl, const SystemRequest *request,
                           void (*show)(Repl *, size_t, const PetriSystem *, const SystemRequest *)) {
     PetriSystem system;
@@ -137,11 +137,10 @@ static bool print_systems(Repl *repl, const SystemRequest *request,
         }
     }
     if (count == 0) {
-        repl_note(repl, petri_frame(repl->session).number < 0
-                            ? "there are no particles before the first frame; .step makes it"
-                            : "no particle system was updated in this frame");
+        repl_note(repl, petri_frame(repl->session).number < 0 ? "no particles before the first frame; run .step"
+                                                              : "no particle system was updated in this frame");
     } else if (shown == 0) {
-        return repl_fail(repl, "there is no system '%.40s'", wanted);
+        return repl_fail(repl, "no such system: '%.40s'", wanted);
     }
     return true;
 }
@@ -201,9 +200,8 @@ static void print_particles(Repl *repl, size_t number, const PetriSystem *system
 }
 
 static bool run_particles(Repl *repl, const char *rest) {
-    enum {
-        RESERVED_TABLE_LINES = 5
-    }; // lines of the screen beside the rows: command, title, heads, closing line, prompt
+    // Screen lines beside the rows: command, title, column heads, closing note, prompt.
+    enum { RESERVED_TABLE_LINES = 5 };
     SCOPED_TEXT system = memory_strdup(rest);
     SystemRequest request = {.system = system, .max_lines = argument_lines(repl, system, RESERVED_TABLE_LINES)};
     bool good = print_systems(repl, &request, print_particles);
@@ -247,7 +245,7 @@ static bool run_watch(Repl *repl, const char *rest) {
                      petri_evaluate(repl->session, rest, PETRI_NUL_TERMINATED, &result, byte_buffer_collect, &value)))
         return false;
     output_format(&repl->output, "%s = %s\n", rest, value.data);
-    if (!texts_contain(&repl->watched, rest)) // once is enough
+    if (!texts_contain(&repl->watched, rest))
         texts_add(&repl->watched, rest);
     return true;
 }
@@ -260,19 +258,20 @@ static bool run_unwatch(Repl *repl, const char *rest) {
         else
             repl->watched.items[kept++] = repl->watched.items[i];
     repl->watched.count = kept;
-    return rest[0] == '\0' || kept < count || repl_fail(repl, "'%s' is not watched", rest);
+    return rest[0] == '\0' || kept < count || repl_fail(repl, "not watched: '%s'", rest);
 }
 
 const ReplCommand PRINT_COMMANDS[] = {
-    {".state", "[KEY] [N|all]", NULL, "print the state, or the part of it under a key such as :cells; N lines of it",
+    {".state", "[KEY] [N|all]", NULL, "print the state, or its entries under KEY, such as :cells; at most N lines",
      run_state, COMPLETE_KEYS},
-    {".tree", "[KIND] [N|all]", NULL, "print the frame's nodes, or those of a kind", run_tree, COMPLETE_KINDS},
+    {".tree", "[KIND] [N|all]", NULL, "print the frame's nodes, or those of a kind; at most N lines", run_tree,
+     COMPLETE_KINDS},
     {".particles", "[SYSTEM] [N|all]", NULL, "print particles as a table: id, position, velocity, speed, force",
      run_particles, COMPLETE_SYSTEMS},
     {".energy", "[SYSTEM]", NULL, "print kinetic energy, momentum and the fastest particle of each system", run_energy,
      COMPLETE_SYSTEMS},
-    {".watch", "[EXPR]", NULL, "print the expression after each step; alone, list what is watched", run_watch,
+    {".watch", "[EXPR]", NULL, "print EXPR after each step; without EXPR, list the watched expressions", run_watch,
      COMPLETE_LANGUAGE},
-    {".unwatch", "[EXPR]", NULL, "watch it no more; alone, nothing any more", run_unwatch, COMPLETE_LANGUAGE},
+    {".unwatch", "[EXPR]", NULL, "stop watching EXPR, or everything", run_unwatch, COMPLETE_LANGUAGE},
     {0},
 };

@@ -1,8 +1,8 @@
-// record.c: `.record`: what was stepped as a golden that `petri test` replays (spec cli.md 3.4).
+// record.c: `.record`, which writes the frames as a golden for `petri test` (spec cli.md 3.4).
 //
-// NAME.golden needs a script NAME.fl beside it: the loaded one, if it is just that, else a copy, in the same folder so
-// that the file names in it mean the same, with what was typed at its end. What a golden cannot repeat is refused:
-// frames that do not follow each other from frame 0 under the same script and settings.
+// NAME.golden needs a script NAME.fl beside it. If NAME.fl is not the loaded script, it is written: a copy of that
+// script with the statements typed at the prompt appended. It must be in the same folder, because file names in scripts
+// are relative. Frames are recorded only if a run from frame 0 with one script and fixed settings reproduces them.
 #include "base/file.h"
 #include "cli/script.h"
 #include "repl/repl.h"
@@ -13,7 +13,7 @@
 #include <string.h>
 #include <unistd.h>
 
-// Do two paths lead to the same?
+// Returns true if both paths lead to the same file or folder.
 static bool same_path(const char *a, const char *b) {
     char resolved[2][PATH_MAX];
     return realpath(a, resolved[0]) && realpath(b, resolved[1]) && strcmp(resolved[0], resolved[1]) == 0;
@@ -28,39 +28,36 @@ static bool same_folder(const char *a, const char *b) {
 static bool can_record(Repl *repl, const char *script) {
     const FrameHistory *history = &repl->history;
     if (petri_frame(repl->session).number < 0)
-        return repl_fail(repl, "there are no frames to record; .step makes some");
+        return repl_fail(repl, "no frames to record; run .step first");
     if (history->first != -1) {
-        return repl_fail(repl, "a golden begins with frame 0, and the history with frame %" PRId64 "%s%s",
+        return repl_fail(repl, "a golden must start at frame 0, but the history starts at frame %" PRId64 "%s%s",
                          history->first, !history->why ? "" : ": ", !history->why ? "" : history->why);
     }
     for (size_t i = 1; i < history->epoch_count; i++) {
         if (history->epochs[i].start < petri_frame(repl->session).number) {
             return repl_fail(repl,
-                             "a recording cannot include changes made by hand (at frame %" PRId64
-                             "); type .reset and step again",
+                             "cannot record changes made at the prompt (frame %" PRId64 "); run .reset and step again",
                              history->epochs[i].start);
         }
     }
     if (history->epochs[0].config != petri_config_revision(repl->session))
-        return repl_fail(repl, "things were changed after these frames were made; .reset and step again");
+        return repl_fail(repl, "cannot record: settings changed after these frames; run .reset and step again");
     if (repl->rates_changed)
-        return repl_fail(repl, "a golden cannot repeat .tempo and .fps; .load the script again");
+        return repl_fail(repl, "cannot record .tempo and .fps; load the script again with .load");
     if (petri_resolution(repl->session) > 0)
-        return repl_fail(repl, "a golden cannot repeat .resolution; type .resolution off, .reset and step again");
-    if (repl->loaded && !same_folder(repl->script, script)) {
-        return repl_fail(repl, "a recording must lie in the folder of '%s', for names of files are relative to it",
-                         repl->script);
-    }
+        return repl_fail(repl, "cannot record .resolution; run .resolution off and .reset, and step again");
+    if (repl->loaded && !same_folder(repl->script, script))
+        return repl_fail(repl, "the golden must be in the folder of '%s': file names in it are relative", repl->script);
     return true;
 }
 
-// The script that the golden needs: the loaded one with what was typed.
+// Writes the script that the golden needs, the loaded one with the typed statements, unless `path` is already that.
 static bool write_script(Repl *repl, const char *path) {
     const char *kept = petri_prompt_statement(repl->session, 0);
     if (!kept && repl->loaded && same_path(repl->script, path))
         return true;
     if (access(path, F_OK) == 0)
-        return repl_fail(repl, "'%s' is there already, and is another script", path);
+        return repl_fail(repl, "'%s' already exists and is another script", path);
     SCOPED_BYTE_BUFFER text = {0};
     byte_buffer_add(&text, repl->script_text.length == 0 ? "" : repl->script_text.data,
                     repl->loaded ? repl->script_text.length : 0);
@@ -75,7 +72,7 @@ static bool write_script(Repl *repl, const char *path) {
     return done;
 }
 
-// Words with blanks cannot stand in a golden's first line.
+// Adds the golden's first line, the options. Fails if a definition contains blanks, which separate the options.
 static bool add_options(Repl *repl, ByteBuffer *text, int64_t frames, int64_t every) {
     byte_buffer_format(text, "# run --frames %" PRId64, frames);
     if (every > 1)
@@ -84,17 +81,15 @@ static bool add_options(Repl *repl, ByteBuffer *text, int64_t frames, int64_t ev
     if (repl->options->fps_given)
         byte_buffer_format(text, " --fps %.17g", repl->options->fps);
     for (size_t i = 0; i < repl->definitions.count; i++) {
-        if (strpbrk(repl->definitions.items[i], " \t\n")) {
-            return repl_fail(repl, "a golden cannot hold the definition '%s': it has blanks",
-                             repl->definitions.items[i]);
-        }
+        if (strpbrk(repl->definitions.items[i], " \t\n"))
+            return repl_fail(repl, "cannot record the definition '%s': it contains blanks", repl->definitions.items[i]);
         byte_buffer_format(text, " -D %s", repl->definitions.items[i]);
     }
     byte_buffer_format(text, "\n");
     return true;
 }
 
-// Makes the frames again and gathers their text.
+// Computes the frames again and collects their text.
 static PetriStatus collect_output(Repl *repl, ByteBuffer *text, int64_t last, int64_t every, ByteBuffer *why) {
     PetriStatus status = PETRI_OK;
     for (int64_t i = 0; i <= last && status == PETRI_OK; i++) {
@@ -123,7 +118,7 @@ static bool write_golden(Repl *repl, const char *golden, const char *script, int
     if (problem)
         good = repl_fail(repl, "cannot write '%s': %s", golden, problem);
     if (good)
-        repl_note(repl, "frames 0 to %" PRId64 " are in %s", last, golden);
+        repl_note(repl, "frames 0 to %" PRId64 " written to %s", last, golden);
     return good;
 }
 
@@ -147,7 +142,7 @@ static bool run_record(Repl *repl, const char *rest) {
 }
 
 const ReplCommand RECORD_COMMANDS[] = {
-    {".record", "FILE [K]", "a file", "write each K-th frame from the first on as a golden for petri test", run_record,
+    {".record", "FILE [K]", "a file", "write every K-th frame (default: 1) as a golden for petri test", run_record,
      COMPLETE_FILES},
     {0},
 };

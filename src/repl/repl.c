@@ -1,4 +1,4 @@
-// repl.c: `petri repl`: a script at a prompt, frame by frame.
+// repl.c: `petri repl`, which runs a script frame by frame at a prompt.
 #include "repl/repl.h"
 
 #include "cli/options.h"
@@ -18,9 +18,9 @@
 #include <string.h>
 #include <unistd.h>
 
-// A signal handler can reach nothing but globals.
+// Globals, because the signal handler needs them.
 static volatile sig_atomic_t interrupted;
-static PetriSession *volatile working; // the session that is to be interrupted
+static PetriSession *volatile working; // session that Ctrl-C interrupts; NULL: none
 
 static void on_interrupt(int signal_number) {
     (void)signal_number;
@@ -38,7 +38,7 @@ void repl_busy(Repl *repl) {
 
 bool repl_idle(Repl *repl) {
     working = NULL;
-    petri_clear_interrupt(repl->session); // what came too late must not stop the next thing
+    petri_clear_interrupt(repl->session); // a late interrupt must not stop the next input
     if (interrupted && repl->terminal)
         output_write(&repl->output, "\n", 1); // after the ^C that the terminal shows
     return interrupted != 0;
@@ -88,7 +88,7 @@ bool repl_write(void *host, const char *text, size_t length) {
 static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     Repl *repl = host;
     if (diagnostic->code && strcmp(diagnostic->code, "unread-definition") == 0)
-        return; // what is typed may read it
+        return; // an expression typed later may read it
     repl->invalid_definition = repl->invalid_definition || is_invalid_definition(diagnostic);
     if (diagnostic->code && strcmp(diagnostic->code, "memory-limit") == 0)
         repl->failed = repl->any_failed = true;
@@ -106,11 +106,11 @@ static void execute_statement(Repl *repl, const char *text, size_t length) {
         repl_warn_shadowed(repl, name);
     }
     if (done.nodes > 0)
-        repl_note(repl, "in the scene from the next step on; .drop takes it out");
+        repl_note(repl, "in the scene from the next step on; .drop removes it");
     repl_status(repl, status);
 }
 
-// What begins with a dot and is no number, or what people type without one.
+// Executes a command if the text begins with a dot and is not a number such as .5; else tries bare commands, then code.
 static void execute_text(Repl *repl, const char *text, size_t length) {
     SCOPED_BYTE_BUFFER remark = {0};
     size_t start = strspn(text, " \t");
@@ -136,7 +136,7 @@ static void make_prompt(const Repl *repl, char *prompt, size_t size) {
         snprintf(prompt, size, "@%" PRId64 "> ", frame);
 }
 
-// Reads the lines that belong to the first. A line that does not is left in `next`.
+// Reads further lines of the statement in `text`. A line that starts the next statement goes to `next`.
 static LineStatus read_rest(Repl *repl, LineReader *reader, ByteBuffer *text, ByteBuffer *next) {
     size_t consumed = 0;
     while (line_needs_more(repl, text->data, text->length, &consumed)) {
@@ -153,11 +153,11 @@ static LineStatus read_rest(Repl *repl, LineReader *reader, ByteBuffer *text, By
     return LINE_READ;
 }
 
-// One input: its first line is in `text`.
+// Reads the rest of an input, whose first line is in `text`, and executes it.
 static LineStatus execute_input(Repl *repl, LineReader *reader, ByteBuffer *text, ByteBuffer *next) {
     byte_buffer_add_text(text, "\n");
     LineStatus status = read_rest(repl, reader, text, next);
-    if (status != LINE_INTERRUPTED) // what the end of the input cuts off is tried as it is
+    if (status != LINE_INTERRUPTED) // at the end of the input, an incomplete statement is executed as it is
         repl_execute(repl, text->data, text->length);
     return status;
 }
@@ -195,7 +195,7 @@ static bool read_state(Repl *repl, const char *file) {
     return repl_status(repl, petri_restore(repl->session, file));
 }
 
-// A script that is wrong is no reason to leave: it can be mended, and is watched.
+// Loads the script and the state. Continues if the script has errors: it is watched and reloaded when it changes.
 static void start_session(Repl *repl, const char *state) {
     petri_load_text(repl->session, "prompt", "", 0);
     if (repl->script)
@@ -214,7 +214,7 @@ static void catch_interrupt(void) {
 }
 
 static int run_session(Repl *repl, const char *state) {
-    // Of the locale only the characters: numbers stay as the language has them.
+    // Uses only the locale's encoding, so that numbers keep the format of the language.
     setlocale(LC_CTYPE, "");
     repl->utf8 = strcmp(nl_langinfo(CODESET), "UTF-8") == 0;
     repl->terminal = isatty(STDIN_FILENO) && isatty(STDOUT_FILENO);
@@ -224,7 +224,7 @@ static int run_session(Repl *repl, const char *state) {
     if (repl->invalid_definition)
         return STATUS_USAGE;
     if (repl->terminal)
-        repl_note(repl, "petri %s; .help lists the commands, Ctrl-D leaves", petri_version());
+        repl_note(repl, "petri %s; .help lists the commands, Ctrl-D quits", petri_version());
     run_prompt(repl);
     return repl->any_failed && !repl->terminal ? STATUS_FAILED : STATUS_DONE;
 }
@@ -251,16 +251,15 @@ static int repl_run(const CommandContext *host, Options *options) {
 const Command REPL_COMMAND = {
     .name = "repl",
     .operands = "[SCRIPT.fl]",
-    .summary = "step a script by hand: evaluate, go back and forth, change it",
+    .summary = "step through a script interactively",
     .details =
-        "Reads lines: expressions, whose value is printed; let, func, import and nodes, which stay; and commands, "
-        "such\n"
-        "as .step, which makes a frame, and .help, which lists the others. The script is loaded anew when it was\n"
-        "changed, and the state stays. Ctrl-C stops what is being done, Ctrl-D or .quit leaves. The exit status is 0;\n"
-        "if the lines come from a file or a pipe, it is 1 when one of them was in error.",
+        "Reads code and commands. Prints the values of expressions; keeps let, func, import and nodes. Commands\n"
+        "begin with a dot: .step makes a frame, .help lists the others. When the script changes, it is reloaded and\n"
+        "the state is kept. Ctrl-C interrupts; Ctrl-D or .quit quits. Exits with 0, or with 1 if input from a file\n"
+        "or a pipe had an error.",
     .examples = "  petri repl dish.fl                              then: .step 60, .particles 5, .help\n"
-                "  petri repl                                      without a script, to try things out\n",
-    .no_stdin = "the prompt reads what is typed from standard input: the script must be a file",
+                "  petri repl                                      start without a script\n",
+    .no_stdin = "cannot read the script from standard input: the prompt uses it",
     .options = FOR_REPL,
     .run = repl_run,
 };

@@ -1,4 +1,4 @@
-// repl.h: what the files of `petri repl` share: the session at the prompt and how it speaks.
+// repl.h: internal declarations of `petri repl`: its state, output, commands and completion.
 #ifndef PETRI_SRC_REPL_H
 #define PETRI_SRC_REPL_H
 
@@ -14,49 +14,51 @@ typedef struct Repl {
     PetriSession *session;
     FrameHistory history;
     Output output;
-    FileWatch *files;        // that the script is made from
-    char *script;            // NULL: none was named
-    bool loaded;             // the script named is the one that is running
-    ByteBuffer script_text;  // as it was loaded
-    bool changed;            // the script's files have changed since: it is reloaded before the next step
+    FileWatch *files;        // the files that the script consists of
+    char *script;            // path; NULL: no script was named
+    bool loaded;             // true if `script` is the running script
+    ByteBuffer script_text;  // text of the script when it was loaded
+    bool changed;            // true if the script's files have changed: it is reloaded before the next step
     TextList watched;        // expressions that are printed after each step
-    bool terminal;           // a person types and reads
-    bool utf8;               // other characters than ASCII can be shown
-    bool failed;             // the input at hand was in error
-    bool any_failed;         // some input was
-    bool invalid_definition; // the script cannot take a value that was set
-    bool quit;
-    bool incomplete;      // a step was interrupted: of the frame at hand only the state is there
-    bool rates_changed;   // .tempo or .fps was used since the script was loaded
-    TextList definitions; // of -D and .set, as given
+    bool terminal;           // true if standard input and output are terminals
+    bool utf8;               // true if the locale's encoding is UTF-8; else only ASCII is printed
+    bool failed;             // true if the current input has failed
+    bool any_failed;         // true if any input has failed
+    bool invalid_definition; // true if the script rejected the value of a definition
+    bool quit;               // true if the prompt must end
+    bool incomplete;         // true if a step was interrupted: the current frame has its state, but no systems or nodes
+    bool rates_changed;      // true if .tempo or .fps was used since the script was loaded
+    TextList definitions;    // arguments of -D and .set
 } Repl;
 
-// Writes a remark, `-- text`, in a line of its own.
+// Writes a note, `-- text`, on a separate line of standard output.
 __attribute__((format(printf, 2, 3))) void repl_note(Repl *repl, const char *format, ...);
-// The same as a message of the command, on standard error; the input at hand has failed. Returns false.
+// Writes a message to standard error and marks the current input as failed. Returns false.
 __attribute__((format(printf, 2, 3))) bool repl_fail(Repl *repl, const char *format, ...);
-// What a status means, unless diagnostics have told it; true for PETRI_OK.
+// Returns true for PETRI_OK. Else marks the current input as failed and writes a message if no diagnostic has done so.
 bool repl_status(Repl *repl, PetriStatus status);
-// Takes one line or suite, which is not blank: a command or something of the language.
+// Executes one input that is not blank: a command, or a statement or expression of the language.
 void repl_execute(Repl *repl, const char *text, size_t length);
-// A PetriWriteCallback to the output.
+// Writes to the output; a PetriWriteCallback.
 bool repl_write(void *repl, const char *text, size_t length);
 
-// While `busy`, Ctrl-C interrupts the session. Tells whether it was typed since, when that ends.
+// Between repl_busy and repl_idle, Ctrl-C interrupts the session. repl_idle returns true if Ctrl-C was typed meanwhile.
 void repl_busy(Repl *repl);
 bool repl_idle(Repl *repl);
-// Whether Ctrl-C was typed since the last repl_busy or prompt.
+// Returns true if Ctrl-C was typed since the last repl_busy or prompt.
 bool repl_interrupted(void);
 
-// Loading (script.c). True if the script is running now.
+// Loads a script (script.c). Returns true if it is running now.
 bool repl_load(Repl *repl, const char *file);
-// Looks whether files have changed and says so: true if it did. `at_prompt`: something stands in the line already.
+// Returns true, after a note, if the script's files have changed. `at_prompt`: the current line holds a prompt, so that
+// the note must start a new line.
 bool repl_report_changes(Repl *repl, bool at_prompt);
-// Reloads if files have changed: before a step. The old script stays where the new one is wrong.
+// Reloads the script if its files have changed; called before a step. If the new script has errors, the old one stays.
 void repl_refresh(Repl *repl);
+// Watches the script and all files that it uses.
 void repl_watch_files(Repl *repl);
 
-// Commands (commands.c). Those of a file are in a table at its end: a new one is a row there and its function.
+// Commands (commands.c). Each file has a table of its commands at its end: to add one, add a row and its function.
 typedef enum Completes {
     COMPLETE_LANGUAGE,
     COMPLETE_FILES,
@@ -68,59 +70,59 @@ typedef enum Completes {
 } Completes;
 typedef struct ReplCommand {
     const char *name;     // with its dot
-    const char *operands; // "": it takes none
-    const char *needed;   // what is missing where there is none; NULL: nothing
+    const char *operands; // as shown in help; "": none
+    const char *needed;   // name of the required operand in messages; NULL: no operand is required
     const char *help;
-    bool (*run)(Repl *repl, const char *rest); // false if it failed, after a message
-    Completes complete;                        // how its operand goes on
+    bool (*run)(Repl *repl, const char *rest); // returns false, after a message, if the command failed
+    Completes complete;                        // how the operand is completed
 } ReplCommand;
-// Each ends with a row without a name.
+// Each table ends with a row without a name.
 extern const ReplCommand STEP_COMMANDS[], PRINT_COMMANDS[], PLOT_COMMANDS[], SET_COMMANDS[], SCRIPT_COMMANDS[],
     RECORD_COMMANDS[], OTHER_COMMANDS[];
-// All of them in the order of help; NULL beyond the last.
+// Returns the commands in the order of .help; NULL after the last.
 const ReplCommand *repl_command_at(size_t index);
-// By its name with or without the dot; NULL if there is none.
+// Returns the command with this name, with or without the dot, or NULL.
 const ReplCommand *repl_find_command(const char *name, size_t length);
 void repl_command(Repl *repl, const char *line);
 
 // Commands without a dot (arguments.c).
-// `help`, `?`, `quit`, `exit`, `q`: true if the text was one of those and is done; also if it begins with the name of
-// another command, after a message. Where the word is a name of the script, the prompt or petri, the text is left to
-// the language, and a remark is for when that has failed or, with the words above, has shown its value.
+// Executes `help`, `?`, `h`, `quit`, `exit` and `q`. Returns true if the text was one of these, or, after a message, if
+// it begins with the name of another command. If the script, the prompt or petri binds the word, the text belongs to
+// the language: returns false with *remark set. The caller prints the remark if the text then fails, or if the word is
+// one of these six.
 bool bare_execute(Repl *repl, const char *text, ByteBuffer *remark);
-// The command that such a word stands for, or NULL.
+// Returns the command that such a word means, or NULL.
 const char *bare_alias(const char *name, size_t length);
 
-// What follows a command's name (arguments.c).
-// A copy without blanks at its ends; to be freed.
+// Parsing of operands (arguments.c). Functions that return bool return false after a message.
+// Returns a copy without blanks at its ends. The caller frees it with free.
 char *argument_trimmed(const char *text);
-// A finite number: one as the command line takes it, a time code, or an expression of the present frame. False after a
-// message.
+// Parses a finite number: a number, a time code, or an expression, which is evaluated in the current frame.
 bool argument_number(Repl *repl, const char *text, double *number);
-// A whole number from `least` on, or an expression for one; an empty text leaves *count. False after a message.
+// Parses an integer >= min, or an expression for one. Does not change *count if the text is empty.
 bool argument_count(Repl *repl, const char *text, int64_t min, int64_t *count);
-// Takes `--limit N` off the text's beginning or end. False after a message.
+// Removes `--limit N` from the beginning or the end of the text and sets *limit.
 bool argument_limit(Repl *repl, char *text, int64_t *limit);
-// Takes a whole number off the text's end, if there is one after a blank and something before it.
+// Removes a positive integer from the end of the text and sets *count, if a blank and other text precede it.
 void argument_last_count(char *text, int64_t *count);
-// Takes a whole number, or `all`, off the end of what a table is asked for: how many lines to show. What is not said is
-// a screenful, less `around` lines, on a terminal and everything elsewhere.
+// Removes an integer or `all` from the end of the text. Returns that number of lines; by default a screenful less
+// `around` lines on a terminal, and all lines elsewhere.
 size_t argument_lines(const Repl *repl, char *text, size_t around);
 
-// Says that the script has a name of its own which was bound at the prompt just now (set_commands.c).
+// Notes that the script has its own binding of a name that was just bound at the prompt (set_commands.c).
 void repl_warn_shadowed(Repl *repl, const char *name);
-// Writes the present frame's `@` line, what it logged and what is watched (step_commands.c).
+// Writes the current frame's `@` line, its log and the watched expressions (step_commands.c).
 void repl_show_frame(Repl *repl);
-// Makes the present frame again if Ctrl-C has taken away what it computed beside the state: the systems, the tree.
+// Computes the current frame again if Ctrl-C interrupted it, which loses its systems and nodes, but not the state.
 void repl_complete_frame(Repl *repl);
 
-// What a word may go on with (complete.c).
+// Completion of a word (complete.c).
 typedef struct Completion {
-    TextList words;    // that begin with what was typed, sorted, each once
-    ByteBuffer common; // what all of them have beyond what was typed
+    TextList words;    // words that begin with the typed text, sorted, without duplicates
+    ByteBuffer common; // text that all words share after the typed text
 } Completion;
 
-// For the first `length` bytes of a line. To be freed.
+// Completes the last word in the first `length` bytes of a line. The caller frees *completion with complete_free.
 void complete_line(Repl *repl, const char *line, size_t length, Completion *completion);
 void complete_free(Completion *completion);
 // Writes the words in columns.

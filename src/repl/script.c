@@ -1,4 +1,4 @@
-// script.c: the script at the prompt: loading, noticing that somebody has changed it, and its state in files.
+// script.c: loading and reloading the script, describing its changes, and saving and restoring the state.
 #include "cli/script.h"
 
 #include "repl/repl.h"
@@ -31,7 +31,7 @@ static Lines split_lines(const ByteBuffer *text) {
     return lines;
 }
 
-// The name that a line binds, if it looks like one that does.
+// Returns the name that a line seems to bind, or an empty text.
 static Str bound_name(Str line) {
     static const char *const words[] = {"let ", "func "};
     size_t at = 0;
@@ -63,7 +63,7 @@ static void add_name(Names *names, const Str *line) {
         names->items[names->count++] = name;
 }
 
-// lengths[i][j]: of the longest common subsequence of the lines from i and from j on.
+// Returns a table: lengths[i][j] is the length of the longest common subsequence of a[i...] and b[j...].
 static uint32_t *common_lengths(const Str *a, size_t rows, const Str *b, size_t columns) {
     uint32_t *lengths = memory_calloc((rows + 1) * (columns + 1) * sizeof *lengths);
     for (size_t i = rows; i-- > 0;) {
@@ -112,8 +112,8 @@ static void add_count(ByteBuffer *what, size_t count, const char *verb) {
     }
 }
 
-// Adds how many lines were added and removed and which names are bound in them, such as `2 lines added, 1 removed
-// (COUNT, start)`; nothing if the texts are equal.
+// Appends a summary of the changed lines and the names that they bind, such as `2 lines added, 1 removed (COUNT,
+// start)`. Appends nothing if the texts are equal.
 static void describe_changes(const ByteBuffer *before, const ByteBuffer *after, ByteBuffer *what) {
     Lines a = split_lines(before), b = split_lines(after);
     size_t start = 0, rows = a.count, columns = b.count;
@@ -174,8 +174,8 @@ bool repl_load(Repl *repl, const char *file) {
 static bool run_reload(Repl *repl, const char *rest) {
     (void)rest;
     if (!repl->script)
-        return repl_fail(repl, "no script is loaded; .load FILE loads one");
-    // What was never running has no state that could stay.
+        return repl_fail(repl, "no script loaded; run .load FILE");
+    // A script that never ran has no state to keep.
     PetriStatus status =
         repl->loaded ? petri_reload(repl->session, repl->script) : petri_load(repl->session, repl->script);
     bool first = !repl->loaded;
@@ -183,7 +183,7 @@ static bool run_reload(Repl *repl, const char *rest) {
         return false;
     if (first && !history_start(&repl->history, repl->session, NULL))
         return repl_status(repl, PETRI_OUT_OF_MEMORY);
-    repl_note(repl, "%s is loaded anew", repl->script);
+    repl_note(repl, "%s reloaded", repl->script);
     return true;
 }
 
@@ -192,7 +192,7 @@ void repl_refresh(Repl *repl) {
     if (repl->changed) {
         repl->changed = false;
         if (!run_reload(repl, ""))
-            repl_note(repl, repl->loaded ? "the script as it was goes on" : "no script is running");
+            repl_note(repl, repl->loaded ? "the previous script continues" : "no script is running");
     }
 }
 
@@ -206,9 +206,9 @@ bool repl_report_changes(Repl *repl, bool at_prompt) {
         describe_changes(&repl->script_text, &now, &what);
         if (at_prompt)
             output_write(&repl->output, "\n", 1);
-        // If nothing is different here, it is a file that the script includes or imports.
-        repl_note(repl, "%s%s was changed%s%s; it is loaded anew before the next step",
-                  what.length == 0 ? "what goes into " : "", repl->script, what.length == 0 ? "" : ": ",
+        // If the script's text is the same, a file that it includes or imports has changed.
+        repl_note(repl, "%s%s changed%s%s; it is reloaded before the next step",
+                  what.length == 0 ? "a file used by " : "", repl->script, what.length == 0 ? "" : ": ",
                   what.length == 0 ? "" : what.data);
         output_flush(&repl->output);
     }
@@ -217,15 +217,15 @@ bool repl_report_changes(Repl *repl, bool at_prompt) {
 
 static bool run_drop(Repl *repl, const char *rest) {
     if (rest[0] != '\0' && strcmp(rest, "all") != 0)
-        return repl_fail(repl, ".drop takes out nodes, .drop all also names; not '%s'", rest);
+        return repl_fail(repl, "invalid argument: '%s'; .drop removes nodes, .drop all also names", rest);
     uint32_t count = petri_prompt_clear(repl->session, rest[0] != '\0');
-    repl_note(repl, "%" PRIu32 " statement%s dropped", count, count == 1 ? "" : "s");
+    repl_note(repl, "%" PRIu32 " statement%s removed", count, count == 1 ? "" : "s");
     return true;
 }
 
 static bool run_load(Repl *repl, const char *rest) {
     if (script_is_stdin(rest))
-        return repl_fail(repl, "the prompt reads what is typed from standard input: the script must be a file");
+        return repl_fail(repl, "cannot read the script from standard input: the prompt uses it");
     if (!repl_load(repl, rest))
         return false;
     petri_reset(repl->session);
@@ -235,7 +235,7 @@ static bool run_load(Repl *repl, const char *rest) {
 static bool run_save(Repl *repl, const char *rest) {
     if (!repl_status(repl, petri_save(repl->session, rest)))
         return false;
-    repl_note(repl, "the state after frame %" PRId64 " is in %s", petri_frame(repl->session).number, rest);
+    repl_note(repl, "state after frame %" PRId64 " written to %s", petri_frame(repl->session).number, rest);
     return true;
 }
 
@@ -244,16 +244,16 @@ static bool run_restore(Repl *repl, const char *rest) {
         return repl_fail(repl, "cannot read '%s': %s", rest, strerror(errno));
     if (!repl_status(repl, petri_restore(repl->session, rest)))
         return false;
-    repl_note(repl, "the next frame is the one after %" PRId64, petri_frame(repl->session).number);
+    repl_note(repl, "restored the state after frame %" PRId64, petri_frame(repl->session).number);
     return history_start(&repl->history, repl->session, "a state was restored there") ||
            repl_status(repl, PETRI_OUT_OF_MEMORY);
 }
 
 const ReplCommand SCRIPT_COMMANDS[] = {
-    {".drop", "[all]", NULL, "take out what was typed: nodes; with all, names as well", run_drop, COMPLETE_LANGUAGE},
-    {".load", "FILE", "a file", "load another script and begin with an empty state", run_load, COMPLETE_FILES},
-    {".reload", "", NULL, "load the script anew; state and frame number stay", run_reload, COMPLETE_LANGUAGE},
+    {".drop", "[all]", NULL, "remove nodes added at the prompt; `all`: names too", run_drop, COMPLETE_LANGUAGE},
+    {".load", "FILE", "a file", "load another script and start with an empty state", run_load, COMPLETE_FILES},
+    {".reload", "", NULL, "reload the script; keep state and frame number", run_reload, COMPLETE_LANGUAGE},
     {".save", "FILE", "a file", "write the state to a file", run_save, COMPLETE_FILES},
-    {".restore", "FILE", "a file", "take the state from a file; the history begins there", run_restore, COMPLETE_FILES},
+    {".restore", "FILE", "a file", "load the state from a file and restart the history", run_restore, COMPLETE_FILES},
     {0},
 };

@@ -1,18 +1,17 @@
-// set_commands.c: what the script leaves to whoever runs it: parameters and rates.
+// set_commands.c: commands that show and set parameters, tempo, frame rate and resolution.
 #include "cli/parameters.h"
 #include "repl/repl.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-// Is a text, a name or NAME=VALUE, of the name?
+// Returns true if a text is the name or NAME=VALUE.
 static bool defines_name(const char *text, const char *name) {
     size_t length = strlen(name);
     return strncmp(text, name, length) == 0 && (text[length] == '\0' || text[length] == '=');
 }
 
-// Does something else than a definition give the name its value? What the script and the prompt bind, and the names of
-// the engine, come before it.
+// Returns true if the script, the prompt or the engine binds the name; these take precedence over definitions.
 static bool is_bound(const Repl *repl, const char *name) {
     size_t seen = 0, defined = 0;
     const char *known;
@@ -23,23 +22,23 @@ static bool is_bound(const Repl *repl, const char *name) {
     return seen > defined;
 }
 
-// `-- CELLS = 200  (1..500)  how many`
+// Writes a parameter, such as `-- CELLS = 200  (1..500)  how many`.
 static void note_parameter(Repl *repl, const PetriParameter *parameter) {
     SCOPED_BYTE_BUFFER text = {0};
     parameter_describe(&text, parameter);
     repl_note(repl, "%s%s%s", text.data, parameter->comment[0] == '\0' ? "" : "  ", parameter->comment);
 }
 
-// What has become of a name that was set.
+// Reports the effect of setting a name. `warned`: a diagnostic has already done so.
 static void report_set(Repl *repl, const char *name, bool warned) {
     PetriParameter parameter;
     if (parameter_find(repl->session, name, &parameter))
         note_parameter(repl, &parameter);
     else if (!warned && is_bound(repl, name))
-        repl_note(repl, "%s keeps the value that the script or the prompt gives it", name);
+        repl_note(repl, ".set has no effect on %s: the script or the prompt sets it", name);
 }
 
-// Defines the name and compiles the script for it. Where that fails everything is as before.
+// Defines the name and reloads the script. On failure the old definitions are restored.
 static bool set_parameter(Repl *repl, const char *name, const char *definition) {
     PetriConfig *before = petri_config_get(repl->session);
     if (!before)
@@ -62,8 +61,8 @@ static bool set_parameter(Repl *repl, const char *name, const char *definition) 
 static bool note_named_parameter(Repl *repl, const char *name) {
     PetriParameter parameter;
     if (!parameter_find(repl->session, name, &parameter)) {
-        return repl_fail(repl, ".set expects NAME VALUE, such as .set COUNT 50; '%.40s' is no parameter of the script",
-                         name);
+        return repl_fail(
+            repl, ".set expects NAME VALUE, such as .set COUNT 50; '%.40s' is not a parameter of the script", name);
     }
     note_parameter(repl, &parameter);
     return true;
@@ -72,7 +71,7 @@ static bool note_named_parameter(Repl *repl, const char *name) {
 static bool run_parameters(Repl *repl, const char *rest) {
     (void)rest;
     if (parameters_list(repl->session, &repl->output) == 0)
-        repl_note(repl, "the script has no parameters; `let SIZE=SIZE or 20 -- 1..100 how large` makes one");
+        repl_note(repl, "the script has no parameters; to add one, write `let SIZE=SIZE or 20 -- 1..100 how large`");
     return true;
 }
 
@@ -93,10 +92,10 @@ static bool run_set(Repl *repl, const char *rest) {
 void repl_warn_shadowed(Repl *repl, const char *name) {
     PetriParameter parameter;
     if (parameter_find(repl->session, name, &parameter)) {
-        repl_note(repl, "the script keeps its own %s, which is %s; .set %s VALUE changes that", parameter.name,
+        repl_note(repl, "the script still uses its own %s, which is %s; run .set %s VALUE to change it", parameter.name,
                   parameter.value, parameter.name);
     } else {
-        repl_note(repl, "the script keeps its own %s; only what is typed here sees the new one", name);
+        repl_note(repl, "the script still uses its own %s; only code typed here uses the new one", name);
     }
 }
 
@@ -105,10 +104,10 @@ static void show_number(Repl *repl, const char *name, double value) {
 }
 
 static bool read_rate(Repl *repl, const char *rest, double *value) {
-    return argument_number(repl, rest, value) && (*value > 0 || repl_fail(repl, "'%s' is no number above 0", rest));
+    return argument_number(repl, rest, value) && (*value > 0 || repl_fail(repl, "not a positive number: '%s'", rest));
 }
 
-// Shows a rate of the clock, after a change if one is asked for.
+// Shows a rate of the clock. If `rest` is not empty, changes the rate first.
 static bool show_rate(Repl *repl, const char *rest, const char *name, PetriStatus change(PetriSession *, double)) {
     double rate = 0;
     if (rest[0] != '\0') {
@@ -140,18 +139,18 @@ static bool run_resolution(Repl *repl, const char *rest) {
     if (step > 0)
         show_number(repl, "resolution", step);
     else
-        repl_note(repl, "each system's own resolution counts");
+        repl_note(repl, "each system uses its own resolution");
     return true;
 }
 
 const ReplCommand SET_COMMANDS[] = {
     {".parameters", "", NULL, "list the script's parameters: value, default, range, comment", run_parameters,
      COMPLETE_LANGUAGE},
-    {".set", "[NAME [VALUE]]", NULL, "give a parameter of the script a value, as -D does; or show it", run_set,
+    {".set", "[NAME [VALUE]]", NULL, "set a parameter of the script, as -D does, or show it", run_set,
      COMPLETE_PARAMETERS},
-    {".tempo", "[T]", NULL, "show or change the beats a minute", run_tempo, COMPLETE_LANGUAGE},
-    {".fps", "[F]", NULL, "show or change the frames a second", run_fps, COMPLETE_LANGUAGE},
-    {".resolution", "[R | off]", NULL, "show or change the longest simulation step of all systems", run_resolution,
+    {".tempo", "[T]", NULL, "show or set the beats per minute", run_tempo, COMPLETE_LANGUAGE},
+    {".fps", "[F]", NULL, "show or set the frames per second", run_fps, COMPLETE_LANGUAGE},
+    {".resolution", "[R | off]", NULL, "show or set the longest simulation step of all systems", run_resolution,
      COMPLETE_LANGUAGE},
     {0},
 };

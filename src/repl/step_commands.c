@@ -1,4 +1,4 @@
-// step_commands.c: commands that make frames, forward and back, and what is said of them.
+// step_commands.c: commands that go forward and back by frames, and their output.
 #include "cli/progress.h"
 #include "repl/repl.h"
 
@@ -7,14 +7,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Frames until `count` are made, an expression is true or Ctrl-C; what they say is written.
+// A request for frames. It ends after `count` frames, when `until` is true, or on Ctrl-C.
 typedef struct StepRequest {
     int64_t count;
-    const char *until; // NULL: no condition
-    bool limited;      // reaching the count is worth a word
+    const char *until; // expression; NULL: none
+    bool limited;      // true if `count` is a limit, whose reaching is noted
 } StepRequest;
 
-// Adds `EXPR = value` for each expression that is watched.
+// Appends `EXPR = value` for each watched expression.
 static void add_watched(Repl *repl, ByteBuffer *text) {
     for (size_t i = 0; i < repl->watched.count; i++) {
         PetriEvaluation result;
@@ -28,7 +28,7 @@ static void add_watched(Repl *repl, ByteBuffer *text) {
     }
 }
 
-// The frame's text; true if there is more to it than its first line.
+// Appends the frame's text. Returns true if it has more than its `@` line.
 static bool format_frame(Repl *repl, ByteBuffer *text) {
     petri_print(repl->session, PETRI_PRINT_LOG, byte_buffer_collect, text);
     add_watched(repl, text);
@@ -41,12 +41,12 @@ void repl_show_frame(Repl *repl) {
         repl_note(repl, "before the first frame");
         return;
     }
-    petri_preview(repl->session); // what the frame logged is lost where the configuration has changed since
+    petri_preview(repl->session); // computes the log again if a change of settings has discarded it
     format_frame(repl, &text);
     output_write(&repl->output, text.data, text.length);
 }
 
-// Writes a frame if it has something to say or is the last; whether it did.
+// Writes the frame if it has a log or watched expressions, or is the last. Returns true if it was written.
 static bool show_step(Repl *repl, Progress *progress, bool last) {
     SCOPED_BYTE_BUFFER text = {0};
     bool shown = format_frame(repl, &text) || last;
@@ -88,7 +88,7 @@ static bool step_frames(Repl *repl, const StepRequest *request) {
     Outcome outcome = RUNNING;
     int64_t made = 0;
     repl_refresh(repl);
-    repl->failed = false; // a script that is wrong does not stop the old one
+    repl->failed = false; // if the reload failed, the old script continues
     progress_start(&progress, repl->terminal && progress_possible(), request->count);
     repl_busy(repl);
     bool shown = true;
@@ -106,7 +106,7 @@ static bool step_frames(Repl *repl, const StepRequest *request) {
     if (!shown)
         show_step(repl, &progress, true);
     report_outcome(repl, request, made, outcome);
-    repl_watch_files(repl); // modules that were imported
+    repl_watch_files(repl); // the frames may have imported modules
     return !repl->failed;
 }
 
@@ -120,7 +120,7 @@ void repl_complete_frame(Repl *repl) {
     repl_status(repl, status);
 }
 
-// Within the timeline at one go, beyond it by steps that show how far it is.
+// Goes to a frame: at once within the history, else step by step with a progress line.
 static PetriStatus seek_frame(Repl *repl, int64_t frame, ByteBuffer *why) {
     int64_t last = repl->history.last, made = 0;
     Progress progress;
@@ -145,7 +145,7 @@ static bool go_to(Repl *repl, int64_t frame) {
     if (stopped)
         repl_fail(repl, "interrupted");
     else if (status == PETRI_INVALID)
-        repl_fail(repl, "%s", why.length == 0 ? "this cannot be done" : why.data);
+        repl_fail(repl, "%s", why.length == 0 ? "cannot go to that frame" : why.data);
     else
         repl_status(repl, status);
     if (status == PETRI_OK || stopped)
@@ -165,7 +165,7 @@ static bool run_run(Repl *repl, const char *rest) {
     if (!argument_number(repl, rest, &seconds))
         return false;
     if (seconds < 0)
-        return repl_fail(repl, "'%s' is no time: seconds, or a time code such as 1:30", rest);
+        return repl_fail(repl, "not a time: '%s'; use seconds or a time code such as 1:30", rest);
     double frames = ceil(seconds * petri_frame(repl->session).fps - 1e-9);
     bool limited = frames > (double)repl->options->limit;
     return step_frames(repl,
@@ -179,7 +179,7 @@ static bool run_until(Repl *repl, const char *rest) {
         return false;
     if (expression[0] == '\0')
         return repl_fail(repl, ".until needs an expression");
-    PetriEvaluation result; // of the present frame: whether it is an expression at all
+    PetriEvaluation result; // unused: this only checks the expression
     return repl_status(repl, petri_evaluate(repl->session, expression, PETRI_NUL_TERMINATED, &result, NULL, NULL)) &&
            step_frames(repl, &(StepRequest){.count = limit, .until = expression});
 }
@@ -190,13 +190,13 @@ static bool run_back(Repl *repl, const char *rest) {
         return false;
     if (count <= ago)
         return go_to(repl, petri_frame(repl->session).number - count);
-    SCOPED_BYTE_BUFFER start = {0}; // what the first frame of the history is
+    SCOPED_BYTE_BUFFER start = {0}; // why the history starts at its first frame
     const char *why = repl->history.why;
     byte_buffer_format(&start, !why ? "this is the start" : "the history begins here (%s)", why);
     if (ago > 0)
-        repl_note(repl, "there are only %" PRId64 " frames to go back: %s", ago, start.data);
+        repl_note(repl, "only %" PRId64 " frames in the history: %s", ago, start.data);
     else
-        repl_fail(repl, "there is nothing to go back to: %s", start.data);
+        repl_fail(repl, "cannot go back: %s", start.data);
     return ago > 0 && go_to(repl, repl->history.first);
 }
 
@@ -218,14 +218,13 @@ static bool run_reset(Repl *repl, const char *rest) {
 }
 
 const ReplCommand STEP_COMMANDS[] = {
-    {".step", "[N]", NULL, "make N frames (1)", run_step, COMPLETE_LANGUAGE},
-    {".run", "[T]", NULL, "make frames for T seconds of the script's time, or until Ctrl-C", run_run,
+    {".step", "[N]", NULL, "make N frames (default: 1)", run_step, COMPLETE_LANGUAGE},
+    {".run", "[T]", NULL, "make frames for T seconds of script time, or until Ctrl-C", run_run, COMPLETE_LANGUAGE},
+    {".until", "EXPR [--limit N]", "an expression", "make frames until EXPR is true, at most N", run_until,
      COMPLETE_LANGUAGE},
-    {".until", "EXPR [--limit N]", "an expression", "make frames until the expression is true, N at the most",
-     run_until, COMPLETE_LANGUAGE},
-    {".back", "[N]", NULL, "go back N frames (1), or to the start if there are fewer", run_back, COMPLETE_LANGUAGE},
+    {".back", "[N]", NULL, "go back N frames (default: 1), at most to the start", run_back, COMPLETE_LANGUAGE},
     {".goto", "FRAME", "the number of a frame", "go to a frame, back or forward; -1 is before the first", run_go,
      COMPLETE_LANGUAGE},
-    {".reset", "", NULL, "go back to where the session began", run_reset, COMPLETE_LANGUAGE},
+    {".reset", "", NULL, "go back to the start of the session", run_reset, COMPLETE_LANGUAGE},
     {0},
 };

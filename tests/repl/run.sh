@@ -1,10 +1,10 @@
 #!/bin/sh
-# run.sh PETRI [--update] [FILE...]: replays the sessions beside it and compares what is said with what is recorded.
+# run.sh PETRI [--update] [FILE...]: replays recorded sessions of `petri repl` and compares the output.
 #
-# NAME.session is a transcript. Its first line holds the options, `# repl [VARIABLE=VALUE...] [options] [SCRIPT]`; lines
-# that begin with a prompt (`petri> `, `@12> `, `... `) hold what is typed, all others what petri answers; the last line
-# is the exit status. A prompt without anything after it, as the last of the prompts, is the end of the input. Times such
-# as `147 us` are not compared. Goldens that a session records must be reproduced by `petri test`.
+# NAME.session is a transcript. Its first line holds the options, `# repl [VARIABLE=VALUE...] [options] [SCRIPT]`.
+# Lines that begin with a prompt (`petri> `, `@12> `, `... `) are input, all others output; the last line is the exit
+# status. If the last prompt is empty, it is the end of the input. Times such as `147 us` are not compared.
+# `petri test` must reproduce the goldens that a session records.
 set -u
 here=$(cd "$(dirname "$0")" && pwd)
 petri=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
@@ -22,7 +22,7 @@ unset NO_COLOR
 passed=0
 failed=0
 
-# What was typed: the lines after prompts, but for the end of the input.
+# typed SESSION: prints the input, the text after the prompts.
 typed() {
     awk '
         match($0, /^(petri|@[0-9]+)> /) || match($0, /^\.\.\. /) { line[++count] = substr($0, RLENGTH + 1) }
@@ -74,10 +74,10 @@ for session in "$@"; do
     if ls "$folder"/*.golden >/dev/null 2>&1; then
         if "$petri" test "$folder" >"$work/test" 2>&1; then
             passed=$((passed + 1))
-            echo "ok $name: its goldens"
+            echo "ok $name: petri test reproduces its goldens"
         else
             failed=$((failed + 1))
-            echo "FAIL $name: its goldens"
+            echo "FAIL $name: petri test reproduces its goldens"
             cat "$work/test"
         fi
     fi

@@ -1,13 +1,13 @@
 #!/bin/sh
-# terminal.sh PETRI: `petri repl` on a real terminal, which tmux gives: completion, Ctrl-C, history, lines that belong
-# together, a script that is changed meanwhile. Exit status 77 (skipped) where there is no tmux.
-# shellcheck disable=SC2016 # dollars are for the prompt
+# terminal.sh PETRI: `petri repl` on a terminal, provided by tmux: completion, Ctrl-C, history, blocks, and scripts that
+# change during the session. Exits with 77 (skipped) if tmux is not installed.
+# shellcheck disable=SC2016 # dollars are input for the prompt
 set -u
 # shellcheck source=tests/support/check.sh
 . "$(dirname "$0")/../support/check.sh"
 petri=$(program "$1") || exit 2
 if ! command -v tmux >/dev/null 2>&1; then
-    echo "skipped: there is no tmux (Debian package tmux)"
+    echo "skipped: tmux is not installed (Debian package tmux)"
     exit 77
 fi
 work=$(mktemp -d) || exit 1
@@ -20,32 +20,32 @@ cd "$work" || exit 1
 XDG_STATE_HOME=$work/state
 export XDG_STATE_HOME
 unset NO_COLOR TMUX
-patience=600 # tenths of a second, for the machine may have much else to do
+patience=600 # tenths of a second; long, because the machine may be busy
 
 t() { tmux -L "$server" -f /dev/null "$@" 2>/dev/null; }
 screen() { t capture-pane -p; }
 
-# start OPTIONS...: a fresh terminal with petri in it, which tells its exit status when it is done. Ctrl-C reaches the
-# shell as well: dash would go with it, and is the shell of an ordinary user.
+# start OPTIONS...: opens a new terminal that runs petri and then prints its exit status. Ctrl-C also reaches the shell,
+# and would end dash, so the shell ignores it.
 start() {
     t kill-server
-    servers=$((servers + 1)) # a new one: the old one may take its time to go
+    servers=$((servers + 1)) # a new name: the old server may still be ending
     server=petri-repl-$$-$servers
     t new-session -d -x 120 -y 50 "trap : INT; LC_ALL=${locale:-C.UTF-8} $(quoted "$petri") repl $* 2>&1; echo left with \$?; exec sleep 1000"
-    expect "the prompt comes ($*)" '> *$'
+    expect "the prompt appears (repl $*)" '> *$'
 }
 
 type_keys() { t send-keys "$@"; }
 
-# expect NAME PATTERN: the screen must come to hold a line like this.
+# expect NAME PATTERN: waits until a line on the screen matches.
 expect() {
     tries=0
     until screen | grep -q -e "$2"; do
         tries=$((tries + 1))
         if [ $tries -ge $patience ]; then
-            patience=200 # what comes after is mostly in vain, too
+            patience=200 # later checks are likely to fail as well
             failed=$((failed + 1))
-            echo "FAIL $1: no line like '$2' in"
+            echo "FAIL $1: no line matches '$2' in"
             screen | sed -e 's/^/  | /' -e '/^  | $/d'
             return
         fi
@@ -55,27 +55,27 @@ expect() {
     echo "ok $1"
 }
 
-# refuse NAME PATTERN: no line like this must be there.
+# refuse NAME PATTERN: no line on the screen may match.
 refuse() {
     if screen | grep -q -e "$2"; then
         failed=$((failed + 1))
-        echo "FAIL $1: a line like '$2'"
+        echo "FAIL $1: a line matches '$2'"
     else
         passed=$((passed + 1))
         echo "ok $1"
     fi
 }
 
-# leave NAME: Ctrl-D at an empty prompt; before there is one, it would be lost.
+# leave NAME: types Ctrl-D once there is an empty prompt, since it would be lost before.
 leave() {
-    expect "$1: the prompt" '^[^ ]*> *$'
+    expect "$1: the prompt appears" '^[^ ]*> *$'
     type_keys C-d
     expect "$1" '^left with 0$'
 }
 
 start --color never cells.fl
 if screen | grep -q 'built without libedit'; then
-    echo "skipped: completion and history, for this petri was built without libedit"
+    echo "skipped: completion and history: petri was built without libedit"
     edits=no
 else
     edits=yes
@@ -84,12 +84,12 @@ fi
 if [ $edits = yes ]; then
     type_keys '.ste' Tab ' 2' Enter
     expect "a command is completed" '^petri> \.step 2$'
-    expect "and done" '^@1 time=0.01'
+    expect "the completed command is executed" '^@1 time=0.01'
     type_keys '.re' Tab
-    expect "what may follow is listed" '\.record .*\.reset .*\.restore'
+    expect "Tab lists several completions" '\.record .*\.reset .*\.restore'
     type_keys C-u 'pola' Tab '(0)' Enter
-    expect "a built-in is completed" '^@1> polar(0)$'
-    expect "and called" '^1;0$'
+    expect "the name of a built-in is completed" '^@1> polar(0)$'
+    expect "the completed built-in is called" '^1;0$'
     type_keys 'COU' Tab '+1' Enter
     expect "a name of the script is completed" '^@1> COUNT+1$'
     type_keys '!parti' Tab ' rad' Tab '1 cha' Tab
@@ -103,174 +103,174 @@ if [ $edits = yes ]; then
 fi
 
 type_keys '.run' Enter
-expect "frames are made" "^> 'four'"
+expect ".run makes frames" "^> 'four'"
 type_keys C-c
 expect "Ctrl-C stops .run" '^petri: interrupted after [0-9]* frames*'
 type_keys C-l '.goto 100000000' Enter
-expect ".goto shows how far it is" '/[0-9]* frames, .* left'
+expect ".goto shows its progress" '/[0-9]* frames, .* left'
 type_keys C-c
 expect "Ctrl-C stops .goto" '^petri: interrupted$'
 type_keys C-l 'frame > 0' Enter
-expect "which goes on from there" '^1$'
+expect "the prompt continues after .goto was stopped" '^1$'
 type_keys 'nonsense((' C-c
 type_keys '6*7' Enter
 expect "Ctrl-C at the prompt clears the line" '^42$'
-refuse "and does nothing with it" 'error: .*nonsense'
+refuse "a cleared line is not evaluated" 'error: .*nonsense'
 type_keys 'func f(n)' Enter '    if n' Enter '        f(n-1)+f(n-1)' Enter '    else' Enter '        1' Enter Enter
 type_keys 'f(5)' Enter
-expect "lines that belong together" '^32$'
+expect "a block of several lines is one statement" '^32$'
 type_keys 'f(40)' Enter
-expect "an endless evaluation" '> f(40)$'
+expect "a long evaluation starts" '> f(40)$'
 sleep 1
 type_keys C-c
 expect "Ctrl-C stops an evaluation" '^petri: interrupted$'
 type_keys 'func g(x)' Enter '    x' C-c
 type_keys '7*11' Enter
-expect "Ctrl-C gives up lines begun" '^77$'
+expect "Ctrl-C discards an unfinished block" '^77$'
 type_keys 'let unusual=100+23' Enter
 type_keys 'unusual' Enter
-expect "a name is kept" '^123$'
+expect "a name defined at the prompt is kept" '^123$'
 if [ $edits = yes ] && ! grep -q '^unusual$' "$XDG_STATE_HOME/petri/history"; then
     failed=$((failed + 1))
-    echo "FAIL lines are in the history at once, for a terminal may be closed"
+    echo "FAIL lines are in the history file at once, because a terminal may be closed"
 fi
-leave "Ctrl-D leaves"
+leave "Ctrl-D quits"
 
-# A frame of this one takes some time in its physics, the more the finer its steps.
+# A script whose frames take long in physics, the longer the finer the steps.
 printf '!physics state=:many dimensions=2 time=time\n    for i in ..400\n        !particle id=i position=i;0\n    !gravity\n' \
     >heavy.fl
 start --color never heavy.fl
 type_keys '.step 3' Enter
-expect "three frames" '^@2 time='
+expect ".step 3 makes three frames" '^@2 time='
 type_keys C-l '.particles' Enter
-expect "a long table ends after a screen" '^-- 3[0-9][0-9] more; \.particles all shows all'
-expect "with its first line still there" '^:many: 400 particles'
+expect "a long table is cut to the screen" '^-- 3[0-9][0-9] more; \.particles all shows all'
+expect "the first line of a long table is still visible" '^:many: 400 particles'
 type_keys C-l '.state' Enter
-expect "so does the state" '^-- 7[0-9][0-9] more lines; \.state all shows all'
+expect "a long state is cut to the screen" '^-- 7[0-9][0-9] more lines; \.state all shows all'
 type_keys C-l '.particles 7' Enter
-expect "or after as many lines as one likes" '^-- 393 more; '
-expect "the last of which is" '^6 '
-refuse "and nothing more" '^7 '
+expect ".particles 7 notes how many rows were omitted" '^-- 393 more; '
+expect ".particles 7 prints the seventh row" '^6 '
+refuse ".particles 7 prints no eighth row" '^7 '
 type_keys C-l '.resolution 1/1000000' Enter
-expect "finer steps" '^resolution = 1e-06'
+expect ".resolution sets finer steps" '^resolution = 1e-06'
 type_keys '.run' Enter
-expect "a frame that takes long" '\.run$'
+expect "a long frame starts" '\.run$'
 sleep 1
 type_keys C-c
-expect "Ctrl-C stops it" '^petri: interrupted after [0-9]* frames*'
+expect "Ctrl-C stops a long frame" '^petri: interrupted after [0-9]* frames*'
 type_keys '.energy' Enter
-expect ".energy shows the system" '^:many: 400 particles'
+expect ".energy shows the system after an interrupted frame" '^:many: 400 particles'
 type_keys C-l '.particles 1' Enter
-expect ".particles, too" '^-- 399 more'
+expect ".particles shows the system after an interrupted frame" '^-- 399 more'
 type_keys '.quit' Enter
-expect "and on it goes" '^left with 0$'
+expect ".quit quits after an interrupted frame" '^left with 0$'
 
 if [ $edits = yes ]; then
     start --color never cells.fl
     type_keys 'func g(n)' Enter '    if n' Enter '        polr' Tab '(n)' Enter '    els' Enter '        1'
-    expect "lines of a block" '^        1$'
+    expect "a block is typed on several lines" '^        1$'
     type_keys Up End 'e' Up End Left Left Left BSpace BSpace 'lar' Down Down Enter
-    expect "Up goes to an earlier line, which can be changed" '^        polar(n)$'
-    expect "as well as another" '^    else$'
+    expect "Up moves to an earlier line of the block, which can be changed" '^        polar(n)$'
+    expect "a second line of the block can be changed" '^    else$'
     type_keys Enter 'g(0)+41' Enter
-    expect "Enter goes on at the end" '^42$'
+    expect "Enter continues at the end of the block" '^42$'
     type_keys C-l Up Up
-    expect "the history has the whole block" '^petri> func g(n)$'
-    expect "to its last line" '^        1$'
+    expect "the history returns the whole block" '^petri> func g(n)$'
+    expect "the recalled block includes its last line" '^        1$'
     type_keys Up Up Up Up Home C-k 'func h(n)' Enter Enter 'h(0)+76' Enter
-    expect "which can be changed and taken again" '^77$'
+    expect "a recalled block can be changed and executed" '^77$'
     type_keys C-l 'for i in ..3' Enter Tab 'if i' Enter Tab Tab 'i*11' Enter Enter
-    expect "Tab indents where there is no word yet" '^        i\*11$'
-    expect "and the block is taken" '^11;22$'
+    expect "Tab indents at the start of a line" '^        i\*11$'
+    expect "a block indented by Tab is executed" '^11;22$'
     type_keys C-l 'let five=5' Down '+1' Enter 'five' Enter
-    expect "Down below the last line leaves the line alone" '^6$'
-    expect "the prompt after it" '^petri> *$'
+    expect "Down in the last line does not change the line" '^6$'
+    expect "the prompt appears after Down" '^petri> *$'
     type_keys C-l 'func k(n)' Enter '    n' M-Enter '    n' Up Up C-c '8*8' Enter
-    expect "Ctrl-C in the middle of a block gives it up" '^64$'
-    leave "and leaves"
+    expect "Ctrl-C in the middle of a block discards it" '^64$'
+    leave "Ctrl-D quits after blocks were edited"
     start --color never cells.fl
     type_keys C-r 'func h'
-    expect "a block of an earlier session" 'func h(n)'
+    expect "Ctrl-R finds a block of an earlier session" 'func h(n)'
     type_keys Enter Enter 'h(0)' Enter
-    expect "can be found and taken" '^1$'
-    leave "and leaves again"
+    expect "a block found by Ctrl-R is executed" '^1$'
+    leave "Ctrl-D quits after a search"
 fi
 
 if [ $edits = yes ]; then
     start --color never cells.fl
     type_keys 'let unusual=100+23' Enter
     type_keys 'unusual' Enter
-    expect "its value" '^123$'
-    leave "what the next session will find"
+    expect "the value of a new name is printed" '^123$'
+    leave "Ctrl-D quits before the next session"
     start --color never cells.fl
     type_keys Up Up Enter
-    expect "history is there in the next session" '^petri> let unusual=100+23$'
+    expect "the next session has the history" '^petri> let unusual=100+23$'
     type_keys C-r 'sual=1'
-    expect "what is searched" 'unusual=100+23'
+    expect "Ctrl-R shows the line that it found" 'unusual=100+23'
     type_keys Enter
     type_keys '55*2' Enter
-    expect "the line that was found is taken" '^110$'
-    leave "and can be searched"
+    expect "the prompt continues after a search" '^110$'
+    leave "Ctrl-D quits the next session"
     if [ "$(grep -c 'let unusual=100+23' "$XDG_STATE_HOME/petri/history")" -lt 3 ]; then
         failed=$((failed + 1))
-        echo "FAIL searching in the history: $(cat "$XDG_STATE_HOME/petri/history")"
+        echo "FAIL lines found by searching are added to the history: $(cat "$XDG_STATE_HOME/petri/history")"
     fi
 fi
 
 start --color never cells.fl
 type_keys '1+'
-expect "a line begun" '^petri> 1+$'
+expect "a line is begun" '^petri> 1+$'
 shell=$(t display-message -p '#{pane_pid}')
 kill -TERM "$(cut -d ' ' -f 1 "/proc/$shell/task/$shell/children")"
-expect "a signal ends petri" 'left with 143$'
+expect "SIGTERM ends petri" 'left with 143$'
 if ! stty -a <"$(t display-message -p '#{pane_tty}')" | grep -q '[^-]icanon'; then
     failed=$((failed + 1))
-    echo "FAIL the terminal is as it was when a signal has ended petri"
+    echo "FAIL the terminal's settings are restored when a signal ends petri"
 fi
 
 printf '!counter state=:n rate=60\n!shape size=1\n' >edited.fl
 start --color never edited.fl
 type_keys '.step 5' Enter
-expect "a script that will be edited" '^@4 '
+expect "frames of a script that will be edited are made" '^@4 '
 printf '!counter state=:n rate=60\nlet SIZE=2\n!shape size=SIZE\n' >edited.fl
-expect "the change is noticed" '^-- edited.fl was changed: 2 lines added, 1 removed (SIZE)'
+expect "a change of the script is noted" '^-- edited.fl changed: 2 lines added, 1 removed (SIZE)'
 type_keys '.step' Enter
-expect "and the script loaded anew" '^-- edited.fl is loaded anew'
+expect ".step reloads the changed script" '^-- edited.fl reloaded'
 type_keys '.tree shape' Enter
-expect "and counts" '^!shape size=2$'
+expect "the changed script is running" '^!shape size=2$'
 type_keys '$:n' Enter
-expect "while the state stays" '^5$'
+expect "reloading keeps the state" '^5$'
 printf '!shape size=\n' >edited.fl
-expect "a mistake is noticed" '^-- edited.fl was changed: 1 line added, 3 removed'
+expect "a change with an error is noted" '^-- edited.fl changed: 1 line added, 3 removed'
 type_keys '.step 2' Enter
-expect "and told" 'edited.fl:1:13: error: '
-expect "the script as it was goes on" '^-- the script as it was goes on'
+expect "the error is reported on reload" 'edited.fl:1:13: error: '
+expect "the previous script continues" '^-- the previous script continues'
 type_keys '.tree shape' Enter '7777-1' Enter
-expect "the prompt comes back" '^7776$'
+expect "the prompt returns after the error" '^7776$'
 if [ "$(screen | grep -c '^!shape size=2$')" -ne 2 ]; then
     failed=$((failed + 1))
-    echo "FAIL the old script does not go on"
+    echo "FAIL the previous script continues after the error"
     screen
 fi
 type_keys '.quit' Enter
-expect ".quit leaves" '^left with 0$'
+expect ".quit quits" '^left with 0$'
 
 start --color never cells.fl
 t resize-window -x 50 -y 50
 type_keys '.help .step' Enter '.help random' Enter
 expect "help is wrapped at the terminal's width" '^    a pair: r radius, m mass, q charge, v$'
 type_keys '.quit' Enter
-expect ".quit leaves the narrow terminal" '^left with 0$'
+expect ".quit quits in a narrow terminal" '^left with 0$'
 
 locale=C
 start --color always cells.fl
 type_keys '.step 9' Enter '.plot $:ticks' Enter
-expect "a plot in ASCII" '^ *1.33333 | *\*\*$'
+expect ".plot uses ASCII in the C locale" '^ *1.33333 | *\*\*$'
 type_keys '.show' Enter '4444+1' Enter
-expect "a picture, or why not" '^4445$'
+expect "the prompt returns after .show" '^4445$'
 if screen | LC_ALL=C grep -q '[^ -~]'; then
     failed=$((failed + 1))
-    echo "FAIL there are other characters than ASCII where the locale has none"
+    echo "FAIL only ASCII is printed in the C locale"
 fi
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]
