@@ -30,14 +30,14 @@ petri help sin | grep -q Sine
 [ -s /usr/share/bash-completion/completions/petri ]
 echo "petri runs, draws and helps"
 # shellcheck disable=SC2046 # file names without blanks
-install $(debs libpetri0) $(debs libpetri-draw0) $(debs libpetri-dev) gcc libc6-dev pkg-config
+install $(debs libpetri0.3) $(debs libpetri-draw0.3) $(debs libpetri-dev) gcc libc6-dev pkg-config
 sed -n '/^```c where.c$/,/^```$/p' /root/petri/README.md | sed '1d;$d' >where.c
 # shellcheck disable=SC2046 # options are words
 cc where.c -o where $(pkg-config --cflags --libs petri)
 mkdir -p samples
 cp /usr/share/petri/samples/petri.fl samples
 ./where | grep -q '^0 is at '
-ldd where | grep -q libpetri.so.0
+ldd where | grep -q libpetri.so.0.3
 echo "a program with libpetri builds and runs"
 install "$(debs python3-petri)"
 python3 - <<'END'
@@ -48,6 +48,6 @@ assert session.systems["cells"].position.shape == (21, 2)
 assert session.picture(20, 20).pixels.shape == (20, 20, 4)
 END
 echo "python3-petri works"
-apt-get -qqy purge petri libpetri0 libpetri-draw0 >install.log 2>&1
+apt-get -qqy purge petri libpetri0.3 libpetri-draw0.3 >install.log 2>&1
 [ ! -e /usr/bin/petri ] && [ ! -e /usr/share/petri ]
 echo "and all of it goes again"

@@ -13,7 +13,7 @@ export LD_LIBRARY_PATH
 version=$("$prefix/bin/petri" --version | sed 's/petri //')
 check "and runs" [ "$(./app)" = "$version" ]
 LC_ALL=C readelf -d app >out
-check "with the shared one" has out "Shared library: [libpetri.so.0]"
+check "with the shared one" has out "Shared library: [libpetri.so.0.3]"
 # shellcheck disable=SC2046 # options are words
 cc app.c -o app_static $(pkg-config --cflags petri) -L"$LD_LIBRARY_PATH" -l:libpetri.a -lm -lpthread >out 2>&1
 check "a program with the static libpetri links" [ $? -eq 0 ]
@@ -65,7 +65,7 @@ if command -v cmake >/dev/null; then
     cat >CMakeLists.txt <<'EOF'
 cmake_minimum_required(VERSION 3.16)
 project(app C)
-find_package(petri 0.2 REQUIRED)
+find_package(petri 0.3 REQUIRED)
 add_executable(app app.c)
 target_link_libraries(app petri::petri)
 add_executable(draws draws.c)
@@ -76,9 +76,9 @@ EOF
     check "and the program runs" [ "$(env -u LD_LIBRARY_PATH cmake/app)" = "$version" ]
     ./cmake/draws
     check "and draws like the other" [ $? -eq $status ]
-    sed -i 's/petri 0.2/petri 0.1/' CMakeLists.txt
+    sed -i 's/petri 0.3/petri 0.2/' CMakeLists.txt
     cmake -S . -B cmake >out 2>&1
-    check "but not where another version is wanted" has out 'requested version "0.1"'
+    check "but not where another version is wanted" has out 'requested version "0.2"'
 else
     echo "skipped: CMake, which is not there"
 fi
