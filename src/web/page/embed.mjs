@@ -1,4 +1,4 @@
-// embed.mjs: <petri-dish>, a script in any page: see src/web/README.md for what it takes and gives. Its engine starts when
+// embed.mjs: <petri-dish>, a script in any page: src/manual/playground.md lists its attributes and events. Its engine starts when
 // the element comes into view, and is that of the folder where this file is.
 import { loadEngine } from '../engine/petri.mjs';
 import { CONTROLS, Controls } from './controls.mjs';
