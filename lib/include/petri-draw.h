@@ -1,10 +1,9 @@
-// petri-draw.h: the public interface of libpetri-draw, which draws what the frames of a libpetri session show. It takes
-// Cairo, Pango and libjpeg; libpetri does without it. The rules of petri.h hold here, too.
+// petri-draw.h: the C interface of libpetri-draw, which draws the frames of a libpetri session. It requires Cairo,
+// Pango and libjpeg; libpetri does not. The rules of petri.h apply.
 //
-// petri_picture copies what the last frame shows: the tree of a `!window` or `!offscreen`, or the data of the
-// automatic picture. The copy is independent of the session, so it can be drawn by another thread while the session
-// steps on. A painter keeps fonts and images between pictures. A picture and a painter are each used by one thread at a
-// time; a painter outlives nothing and may be closed before or after its pictures.
+// petri_picture copies what the last frame shows into a picture, which is independent of the session: another thread
+// can draw it while the session is stepped. A painter draws pictures to pixels and files, and caches fonts and images
+// between them. Pictures and painters are each used by one thread at a time, and may be freed in any order.
 #ifndef PETRI_DRAW_H
 #define PETRI_DRAW_H
 
@@ -14,224 +13,283 @@
 extern "C" {
 #endif
 
+// A copy of what a frame shows. Created by petri_picture, freed by petri_picture_free.
 typedef struct PetriPicture PetriPicture;
+
+// Draws pictures. Created by petri_painter_open, freed by petri_painter_close.
 typedef struct PetriPainter PetriPainter;
 
-// The automatic picture shows the particle systems themselves.
+// When the automatic picture is used, which shows the particle systems themselves.
 typedef enum PetriAutomatic {
-    PETRI_AUTO_IF_NEEDED, // where the script has physics but no window with a canvas
+    PETRI_AUTO_IF_NEEDED, // if the frame has particle systems, but no window with a canvas
     PETRI_AUTO_ALWAYS,
     PETRI_AUTO_NEVER,
 } PetriAutomatic;
 
+// Options of a picture. Start with petri_default_picture_options.
 typedef struct PetriPictureOptions {
-    size_t size; // of the struct that the host was compiled with: petri_default_picture_options sets it
-    int width;   // in pixels; 0, 0: what the script says. Otherwise the drawing is scaled to fit, and centred
+    size_t size; // sizeof(PetriPictureOptions) of the header that the host was compiled with
+    int width;   // in pixels; the drawing is scaled to fit and centred. 0 and 0 (the default): the script's size
     int height;
-    double scale; // pixels for each unit of the script's size. Default 1
-    int window;   // which of the frame's windows, from 0; -1 (the default): the first that has something to draw
-    PetriAutomatic automatic;
-    double detail; // pixels for each unit with which effects and scenes are drawn, above 0 to 1 (the default). Less is
-                   // faster and coarser, for previews; pictures that look back and scripts' own shaders ignore it
+    double scale; // pixels per unit of the script's size, if width and height are 0. Default 1
+    int window;   // number of the window or `!offscreen`; -1 (the default): the first with something to draw
+    PetriAutomatic automatic; // default PETRI_AUTO_IF_NEEDED
+    // Resolution of effects and 3-D scenes, relative to the picture: greater than 0, at most 1 (the default). Smaller
+    // values are faster, for previews. Ignored by pictures that need history (petri_needs_history) and by custom
+    // shaders.
+    double detail;
 } PetriPictureOptions;
 
-// Writes the defaults of the first `size` bytes of options.
+// Writes the default options to the first `size` bytes of `options`. Use petri_default_picture_options instead.
 PETRI_API void petri_picture_options_init(PetriPictureOptions *options, size_t size);
+
+// Returns the default options.
 static inline PetriPictureOptions petri_default_picture_options(void) {
     PetriPictureOptions options;
     petri_picture_options_init(&options, sizeof options);
     return options;
 }
 
-enum { PETRI_MAX_PICTURE_SIDE = 16384 }; // the largest width and height of a picture
+// Maximum width and height of a picture in pixels.
+enum { PETRI_MAX_PICTURE_SIDE = 16384 };
 
-// Whether the picture of the last frame shows particles where they are. A system stores nothing in frame 0, and what it
-// stores is seen by the frame after; so a script that draws what its systems have stored finds nothing in frames 0 and
-// 1, and hosts show pictures from frame 2 on. True in frame 0 of a script without systems, of automatic pictures and of
-// a state that was restored, and in each frame from 2 on, whatever systems do then.
+// Returns true if a picture of the last frame shows all particles at their positions. In frame 0, systems have not
+// stored anything yet, and a script reads what a frame stored in the next frame. A script that draws stored positions
+// therefore draws nothing useful before frame 2. Hosts should show pictures only from the first frame for which this
+// returns true, at the latest frame 2.
 PETRI_API bool petri_picture_ready(PetriSession *session, const PetriPictureOptions *options);
-// Whether the pictures of the last frame depend on those of the frames before, or are written by a `!record` once for
-// each name: pictures of all frames must then be made by one painter, in their order, even of those that nobody looks
-// at (petri_picture_render).
+
+// Returns true if pictures of the last frame depend on those of earlier frames, or are saved by a `!record` node. The
+// host must then render the pictures of all frames with one painter, in order, even those that it does not show
+// (petri_picture_render).
 PETRI_API bool petri_needs_history(PetriSession *session);
 
-// Extends what the automatic picture shows of space, if it is the picture of the last frame, so that it has that
-// frame's particles. petri_picture does it by itself; if it is not called for all frames, call this for the others,
-// after each step from frame 0: then a picture of frame N does not depend on which frames were drawn before. petri_load
-// and petri_reset forget it.
+// Extends the visible region of the automatic picture, if it is used, by the particles of the last frame. petri_picture
+// does this itself. If a host does not create a picture of every frame, it should call this for the others, after each
+// step from frame 0. A picture then does not depend on which frames were drawn before. petri_load and petri_reset reset
+// the region.
 PETRI_API void petri_picture_follow(PetriSession *session, const PetriPictureOptions *options);
 
-// The picture of the last frame in *picture, for the caller to free. PETRI_INVALID (with a diagnostic) if nothing is
-// loaded or there is nothing to draw, if the size makes no sense or the options were not initialised;
-// PETRI_OUT_OF_MEMORY. *picture is then NULL.
+// Creates a picture of the last frame. The caller frees it with petri_picture_free. On failure *picture is NULL.
+// Returns PETRI_INVALID, with a diagnostic, if there is nothing to draw or the size is not valid. Returns PETRI_INVALID
+// without one if the options were not initialised.
 PETRI_API PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *options, PetriPicture **picture);
-// Frees a picture and sets the handle to NULL. NULL is fine.
+
+// Frees a picture and sets the handle to NULL. NULL handles are ignored.
 PETRI_API void petri_picture_free(PetriPicture **picture);
-// Its size in pixels.
+
+// Gets the size of a picture in pixels.
 PETRI_API void petri_picture_size(const PetriPicture *picture, int *width, int *height);
-// The title of its window, or "". Valid as long as the picture.
+
+// Returns the title of the picture's window, or "". Valid as long as the picture.
 PETRI_API const char *petri_picture_title(const PetriPicture *picture);
-// The number of the frame that it shows.
+
+// Returns the number of the frame that the picture shows.
 PETRI_API int64_t petri_picture_frame(const PetriPicture *picture);
-// What petri_needs_history said of its frame.
+
+// Returns the result of petri_needs_history for the picture's frame; false for automatic pictures.
 PETRI_API bool petri_picture_needs_history(const PetriPicture *picture);
 
-// A painter, which lives until petri_painter_close, or NULL if memory is used up.
+// Creates a painter. The caller frees it with petri_painter_close. Returns NULL if out of memory.
 PETRI_API PetriPainter *petri_painter_open(void);
+
+// Frees a painter and sets the handle to NULL. NULL handles are ignored.
 PETRI_API void petri_painter_close(PetriPainter **painter);
 
-// Makes the pictures of all nodes of the frame, canvases and effects, unless this painter has just done so. Drawing and
-// saving do it by themselves. PETRI_OK, PETRI_UNSUPPORTED without Cairo, PETRI_OUT_OF_MEMORY, PETRI_INVALID with a
-// diagnostic.
+// Renders all canvases and effects of a picture's frame, unless the painter rendered this picture last. Drawing and
+// saving do this themselves; call it for frames that are only needed as history. Returns PETRI_UNSUPPORTED without
+// Cairo, and PETRI_INVALID, with a diagnostic, if the picture cannot be rendered.
 PETRI_API PetriStatus petri_picture_render(PetriPicture *picture, PetriPainter *painter);
 
-// What a `!record` node writes.
+// A picture that a `!record` node saves.
 typedef struct PetriRecord {
-    const char *file; // with the script's folder before it
-    bool denied; // the script may not write there, which was told (PetriOptions.write_folders); else its folders are
-                 // made
-    int width;
+    const char *file; // name, with the script's folder
+    bool denied;      // the script may not write there (PetriOptions.write_folders); already reported
+    int width;        // in pixels
     int height;
-    const uint32_t *pixels; // rows without gaps, as petri_picture_draw has them; alpha counts only with `keep_alpha`
-    bool keep_alpha;
-    const char *codec;  // of a film; "" if not told
-    const char *pixfmt; // likewise
-    double max_seconds; // seconds of film; nan: none
+    const uint32_t *pixels; // rows without gaps, in the format of petri_picture_draw
+    bool keep_alpha;        // false: treat the picture as opaque
+    const char *codec;      // of a video; "": not specified
+    const char *pixfmt;     // of a video; "": not specified
+    double max_seconds;     // maximum duration of a video; NaN: none
 } PetriRecord;
 
-// The number `index` of the records of the picture that the painter has made last (petri_picture_render). False beyond
-// the last. Valid until the painter makes another picture.
+// Gets a record by number, of the picture that the painter rendered last (petri_picture_render). Creates missing
+// folders of its file. Returns false past the last. Valid until the painter renders another picture or the picture is
+// freed.
 PETRI_API bool petri_picture_record(PetriPicture *picture, PetriPainter *painter, size_t index, PetriRecord *record);
-// Writes its file, a picture: .png, .jpg, .svg or .pdf. PETRI_OK and failures as petri_picture_save has them;
-// PETRI_INVALID, too, beyond the last and for one that is refused.
+
+// Writes the file of a record that is a picture: .png, .jpg, .svg or .pdf. Returns a status as petri_picture_save; also
+// PETRI_INVALID past the last, and for a record that is denied.
 PETRI_API PetriStatus petri_record_save(PetriPicture *picture, PetriPainter *painter, size_t index);
 
-// Draws into width x height pixels, rows `stride` bytes apart (a multiple of 4): 32 bits each, alpha in the highest
-// byte, then red, green, blue, multiplied by alpha. The picture is scaled to fit and centred. A window's pixels are
-// opaque, those of `!offscreen` may be not. PETRI_UNSUPPORTED without Cairo, PETRI_INVALID if it could not be drawn,
-// PETRI_OUT_OF_MEMORY; the pixels are then cleared.
+// Draws a picture to memory, scaled to fit into width x height pixels, and centred. Each pixel has 32 bits: alpha in
+// the highest byte, then red, green and blue, premultiplied by alpha. Rows start `stride` bytes apart, a multiple of 4.
+// Pixels of a window are opaque; those of an `!offscreen` may be transparent. Returns PETRI_UNSUPPORTED without Cairo,
+// and PETRI_INVALID, with a diagnostic, if the picture cannot be drawn. On failure the pixels are cleared.
 PETRI_API PetriStatus petri_picture_draw(PetriPicture *picture, PetriPainter *painter, uint32_t *pixels, int width,
                                          int height, size_t stride);
-// A panel with lines of text, for a host that has something to say over a picture. Colours are red, green, blue and
-// alpha from 0 to 1.
+
+// A panel of text that a host draws over a picture. Lengths and positions are multiplied by `scale` of the drawing
+// function. Colours are red, green, blue and alpha from 0 to 1.
 typedef struct PetriLabel {
-    const char *text; // UTF-8; lines end in newlines
-    double x;         // of the panel's corner at the top left
-    double y;
+    const char *text; // UTF-8; newlines separate lines
+    double x;         // left edge of the panel
+    double y;         // top edge of the panel
     double width;
     double height;
-    double size; // of letters; the font is one of fixed width
-    double line_height;
-    double padding; // between the panel's edges and the text
-    double background[4];
-    double foreground[4]; // of the text
-    double accent[4];     // of a stripe at the left
+    double size;          // font size; the font is monospaced
+    double line_height;   // distance between lines
+    double padding;       // distance from the edges of the panel to the text
+    double background[4]; // colour of the panel
+    double foreground[4]; // colour of the text
+    double accent[4];     // colour of a stripe at the left edge
 } PetriLabel;
-// Draws labels over opaque pixels; `scale` is the number of pixels for each of their units. PETRI_UNSUPPORTED without
-// Cairo, PETRI_OUT_OF_MEMORY.
+
+// Draws labels over opaque pixels, in the format of petri_picture_draw. `scale` is the number of pixels per unit of the
+// labels. Returns PETRI_UNSUPPORTED without Cairo.
 PETRI_API PetriStatus petri_painter_draw_labels(PetriPainter *painter, const PetriLabel *labels, size_t count,
                                                 double scale, uint32_t *pixels, int width, int height, size_t stride);
-// A host whose window has OpenGL ES 3 shows pictures there without reading them back from the graphics card. The
-// painter draws with the context of EGL that is current in this thread, which has to be current whenever the painter is
-// used and is for nothing else. PETRI_UNSUPPORTED if there is none, or no OpenGL in this build; PETRI_INVALID if the
-// painter has made pictures already; PETRI_OUT_OF_MEMORY. The painter is then as it was.
+
+// Lets a painter draw with the host's OpenGL ES 3 context, so that petri_painter_present can show pictures without
+// reading them back from the GPU. Uses the EGL context that is current in the calling thread. It must be current
+// whenever the painter is used, and must not be used for anything else. Returns PETRI_UNSUPPORTED if there is no such
+// context or no OpenGL in this build, and PETRI_INVALID if the painter has already rendered a picture. The painter is
+// then unchanged.
 PETRI_API PetriStatus petri_painter_use_gl(PetriPainter *painter);
-// Draws a picture (NULL: black) and labels, with their scale, on that context's window, width x height pixels large:
-// what petri_picture_draw and petri_painter_draw_labels draw. The host then swaps the buffers. PETRI_INVALID, too,
-// without petri_painter_use_gl; what petri_picture_draw says of the picture, which is black then.
+
+// Draws a picture (NULL: black) and labels to the window of the painter's context, which has width x height pixels. The
+// host then swaps the buffers. Returns PETRI_INVALID without petri_painter_use_gl. Otherwise returns the status of
+// petri_picture_draw; on failure the window is black except for the labels.
 PETRI_API PetriStatus petri_painter_present(PetriPainter *painter, PetriPicture *picture, const PetriLabel *labels,
                                             size_t count, double scale, int width, int height);
-// How many pictures the painter has read back from the graphics card.
+
+// Returns how many pictures the painter has read back from the GPU.
 PETRI_API uint64_t petri_painter_readback_count(const PetriPainter *painter);
-// What petri_picture_display_list writes: width and height, and then, one after the other, a kind and what belongs to
-// it. Colours are red, green, blue, alpha from 0 to 1, not multiplied; angles are in turns. Texts are a length and so
-// many code points; paths a length and so many numbers: pieces (PETRI_PIECE_…) and what belongs to them.
+
+// A display list (petri_picture_display_list) describes a picture as an array of numbers, for hosts that draw it
+// themselves. It starts with the width and height of the picture, which also define its units. Commands follow: a kind
+// of the list below, then its operands in the given order.
+//
+// A colour is red, green, blue and alpha from 0 to 1, not premultiplied. Angles are in turns. A text is its length and
+// that many code points. A path is its length and that many numbers: path elements (`PETRI_PATH_*`) with their
+// operands. A matrix is n0 to n5: x' = n0 x + n2 y + n4, y' = n1 x + n3 y + n5. Pixels are a width, a height and a
+// number for each pixel, as in petri_picture_draw. Stops are their number, then an offset and a colour for each.
+//
+// A paint is a command that sets the paint for the following commands: PETRI_DRAW_COLOR, PETRI_DRAW_LINEAR,
+// PETRI_DRAW_RADIAL, PETRI_DRAW_PATTERN, PETRI_DRAW_BLEND or PETRI_DRAW_NOISE. The composite modes, from 0, are
+// modulate, clear, src, dst, over, dst_over, in, dst_in, out, dst_out, atop, dst_atop, xor, add, multiply, screen,
+// overlay, darken, lighten, color_dodge, color_burn, hard_light, soft_light, difference, exclusion, hue, saturation,
+// color and luminosity.
 enum {
-    PETRI_DRAW_MATRIX,       // x' = n0 x + n2 y + n4, y' = n1 x + n3 y + n5, in the picture's units; until the next one
-    PETRI_DRAW_COLOR,        // paints come from here on in this colour,
-    PETRI_DRAW_LINEAR,       // … from x, y to x, y: alpha, count, and for each stop an offset and a colour
-    PETRI_DRAW_RADIAL,       // … as a matrix makes of the unit circle: the matrix, alpha, count, stops
-    PETRI_DRAW_STROKE_STYLE, // width (0: a pixel), join, cap, composite (numbers of petri's words), smooth edges,
-                             // number of dashes, their offset, dashes
-    PETRI_DRAW_PATH,         // fill, stroke, rule (0 winding, 1 even-odd, 2, 3 the same inside out), path
-    PETRI_DRAW_TEXT,         // fill, stroke, x, y, size, weight, width, slant, centred, family, text
-    PETRI_DRAW_IMAGE,        // x, y, width, height, fit (0 own size, 1 stretched, 2 inside, 3 filling), file
-    PETRI_DRAW_CLIP,         // what is outside is kept instead, even-odd, path
-    PETRI_DRAW_SAVE,         // the clip
-    PETRI_DRAW_RESTORE,      // it; matrix and paint are written anew
-    PETRI_DRAW_LAYER,        // what follows is drawn on a layer, which is laid over with
-    PETRI_DRAW_LAYER_END,    // this alpha
-    PETRI_DRAW_UNSUPPORTED,  // text: what is left out here, for it takes pixels of its own
-    PETRI_DRAW_PARTICLES, // the automatic picture: count, and for each system dimensions, charged, middle x, y, z and
-                          // half the width of what is shown; count of particles, for each x, y, z, radius, shade,
-                          // anchor; count of links, for each two particles; count of barriers, for each point, normal;
-                          // count of the scale's lines, for each x, y, x, y: right and up from the lower left corner
-                          // of the system's panel, whose shorter side is 540
-    PETRI_DRAW_PIXELS,    // a picture of another node, for a PetriCanvasBackend: x, y, width, height, fit, and the
-                          // picture: its width and height, and each pixel, as petri_picture_draw has them
-    PETRI_DRAW_PATTERN,   // paints come from here on from a picture that is repeated, on which a matrix acts: the
-                          // matrix, alpha, the picture likewise, or 0, 0 and a file
-    PETRI_DRAW_FILTER,    // what is drawn from here on up to the next PETRI_DRAW_STROKE_STYLE goes through a filter: a
-                          // kind (PETRI_FILTER_…) and what belongs to it. Filters in it are written likewise
-    PETRI_DRAW_BLEND, // paints come from here on from two: a ratio of the second, or -1 and a composite of the second
-                      // on the first; alpha, two paints
-    PETRI_DRAW_NOISE, // … from noise: frequencies, sides of its tiles, seed, octaves, type (0 fractal, 1 turbulence,
-                      // 2 improved), alpha
+    PETRI_DRAW_MATRIX, // sets the current matrix, from coordinates of the following commands to the picture: matrix
+    PETRI_DRAW_COLOR,  // paint: colour
+    PETRI_DRAW_LINEAR, // paint, a linear gradient: start x, y, end x, y, alpha, stops
+    PETRI_DRAW_RADIAL, // paint, a radial gradient: matrix that maps the unit circle to its edge, alpha, stops
+    // Width (0: one pixel), join (0: miter, 1: round, 2: bevel), cap (0: butt, 1: round, 2: square), composite mode,
+    // antialiasing (0 or 1), number of dashes, dash offset, dashes. Ends the current filter.
+    PETRI_DRAW_STROKE_STYLE,
+    // Fill (0 or 1), stroke (0 or 1), fill rule (0: nonzero, 1: even-odd, 2 and 3: the same, outside filled), path.
+    PETRI_DRAW_PATH,
+    // Fill (0 or 1), stroke (0 or 1), x, y, size, weight (1 to 1000), width (0: ultra-condensed to 8: ultra-expanded),
+    // slant (0: upright, 1: oblique, 2: italic), centred (0 or 1), text with the font family, text.
+    PETRI_DRAW_TEXT,
+    // x, y, width, height, fit (0: original size, 1: stretched, 2: inside, 3: filling), text with the file name.
+    PETRI_DRAW_IMAGE,
+    PETRI_DRAW_CLIP,        // keep the outside (0 or 1), even-odd rule (0 or 1), path
+    PETRI_DRAW_SAVE,        // saves the clip
+    PETRI_DRAW_RESTORE,     // restores the clip; matrix and paint are set again after it
+    PETRI_DRAW_LAYER,       // redirects drawing to a transparent layer, until PETRI_DRAW_LAYER_END
+    PETRI_DRAW_LAYER_END,   // composites the layer: alpha
+    PETRI_DRAW_UNSUPPORTED, // name of an omitted element that cannot be described here: text
+    // The automatic picture: number of systems. For each: dimensions, has charges (0 or 1), centre x, y, z and half the
+    // width of the visible box. Number of particles; for each x, y, z, radius, shade (charge from -1 to 1, or speed
+    // from 0 to 1), anchor (0 or 1). Number of links; for each the indices of two particles. Number of barriers; for
+    // each a point x, y, z and the normal x, y, z. Number of scale lines; for each x, y, x, y, to the right and up from
+    // the lower left corner of the system's panel, whose shorter side is 540.
+    PETRI_DRAW_PARTICLES,
+    // The picture of another node, only for a PetriCanvasBackend: x, y, width, height, fit (as PETRI_DRAW_IMAGE),
+    // pixels.
+    PETRI_DRAW_PIXELS,
+    // Paint, a repeated picture: matrix that maps the unit square to a tile, alpha, pixels, or 0, 0 and a text with a
+    // file name.
+    PETRI_DRAW_PATTERN,
+    // Sets the filter for the drawings up to the next PETRI_DRAW_STROKE_STYLE: filter (`PETRI_FILTER_*`).
+    PETRI_DRAW_FILTER,
+    // Paint, a mix of two: ratio of the second, or -1 to composite the second over the first; composite mode, alpha,
+    // two paints.
+    PETRI_DRAW_BLEND,
+    // Paint, noise: frequency x, y, tile width, height, seed, octaves, type (0: fractal, 1: turbulence, 2: improved),
+    // alpha.
+    PETRI_DRAW_NOISE,
 };
-enum { // move x, y; line x, y; curves with one and two control points; arcs that begin a figure or go on with it: x, y,
-       // radii, start, sweep clockwise; an arc to a point: radii, rotation, large, clockwise, x, y; close
-    PETRI_PATH_MOVE,
-    PETRI_PATH_LINE,
-    PETRI_PATH_QUADRATIC,
-    PETRI_PATH_CUBIC,
-    PETRI_PATH_ARC,
-    PETRI_PATH_ARC_ON,
-    PETRI_PATH_ARC_TO,
-    PETRI_PATH_CLOSE,
-};
-// What comes after the kinds of filters (lengths in the units of the matrix in force, both ways): blur, dilate, erode
-// two radii, a filter; shadow two radii, offset, colour, without what casts it, a filter; offset two lengths, a filter;
-// matrix four rows of five numbers, a filter; paint a paint, up to its PETRI_DRAW_STROKE_STYLE; blend a composite or -1
-// and four factors (of the product, of the second, of the first, and what is added), two filters; drawn nothing.
+
+// Path elements of a display list and their operands.
 enum {
-    PETRI_FILTER_BLUR,
-    PETRI_FILTER_SHADOW,
-    PETRI_FILTER_OFFSET,
-    PETRI_FILTER_DILATE,
-    PETRI_FILTER_ERODE,
-    PETRI_FILTER_COLOUR_MATRIX,
-    PETRI_FILTER_PAINT,
+    PETRI_PATH_MOVE,      // x, y
+    PETRI_PATH_LINE,      // x, y
+    PETRI_PATH_QUADRATIC, // control point x, y, end x, y
+    PETRI_PATH_CUBIC,     // control points x, y, x, y, end x, y
+    PETRI_PATH_ARC,       // starts a new subpath: centre x, y, radii x, y, start, sweep (positive: clockwise)
+    PETRI_PATH_ARC_ON,    // like PETRI_PATH_ARC, but joined to the current point by a line
+    PETRI_PATH_ARC_TO,    // radii x, y, rotation, large (0 or 1), clockwise (0 or 1), end x, y
+    PETRI_PATH_CLOSE,     // none
+};
+
+// Filters of a display list: a kind, then its operands. Operands that are filters are the input. Lengths are in the
+// units of the current matrix.
+enum {
+    PETRI_FILTER_BLUR,          // radius x, y, filter
+    PETRI_FILTER_SHADOW,        // radius x, y, offset x, y, colour, shadow only (0 or 1), filter
+    PETRI_FILTER_OFFSET,        // x, y, filter
+    PETRI_FILTER_DILATE,        // radius x, y, filter
+    PETRI_FILTER_ERODE,         // radius x, y, filter
+    PETRI_FILTER_COLOUR_MATRIX, // four rows of five numbers, filter
+    PETRI_FILTER_PAINT,         // fills everything: a paint, up to its PETRI_DRAW_STROKE_STYLE
+    // Combines two filters: a composite mode, or -1 and four coefficients: of the product, of the second, of the first,
+    // and a constant; then two filters.
     PETRI_FILTER_BLEND,
-    PETRI_FILTER_SOURCE
+    PETRI_FILTER_SOURCE, // the unfiltered drawing
 };
-// The picture as numbers, for hosts that draw by themselves; it takes no Cairo. Of a window it is the first canvas.
-// Valid as long as the picture. PETRI_OUT_OF_MEMORY.
+
+// Gets a picture as a display list. Works without Cairo. For a window, it contains the first canvas. Valid as long as
+// the picture. On failure, PETRI_OUT_OF_MEMORY, *numbers is NULL.
 PETRI_API PetriStatus petri_picture_display_list(PetriPicture *picture, const double **numbers, size_t *count);
-// Whether these are all of it: neither programs nor pictures of other nodes are needed.
+
+// Returns true if the display list describes the picture completely: it needs no effects, no pictures of other nodes
+// and no history.
 PETRI_API bool petri_picture_is_display_list(const PetriPicture *picture);
-// What a host does that draws by itself where petri is built without Cairo; petri makes all other pictures of them.
+
+// Functions of a host that draws canvases itself, for builds without Cairo. petri computes effects from the results.
 typedef struct PetriCanvasBackend {
-    // Draws what petri_picture_display_list writes, scaled to fit and centred, into cleared pixels, rows without gaps,
-    // as petri_picture_draw has them. False if it cannot.
+    // Draws a display list, scaled to fit and centred, into cleared pixels: rows without gaps, in the format of
+    // petri_picture_draw. Returns false on failure.
     bool (*draw)(void *user_data, const double *numbers, size_t count, int width, int height, uint32_t *pixels);
-    // The pixels of an image, likewise, which stay until the next call; NULL: there is none.
+    // Returns the pixels of an image file in the same format, valid until the next call, or NULL if there is no such
+    // image. NULL: no images.
     const uint32_t *(*image)(void *user_data, const char *file, int *width, int *height);
-    void *user_data;
+    void *user_data; // passed to the functions
 } PetriCanvasBackend;
-// Lets a painter that has made nothing yet draw canvases by these functions. PETRI_UNSUPPORTED in a build with Cairo,
-// which draws them.
+
+// Sets the functions that a painter draws canvases with. Copies the struct. Returns PETRI_UNSUPPORTED in a build with
+// Cairo, and PETRI_INVALID if the painter has already rendered a picture.
 PETRI_API PetriStatus petri_painter_use_backend(PetriPainter *painter, const PetriCanvasBackend *backend);
-// Whether petri_picture_save knows the name's suffix: .png, .svg or .pdf.
+
+// Returns true if petri_picture_save supports the suffix of a file name: .png, .svg or .pdf.
 PETRI_API bool petri_picture_can_save(const char *file);
-// Writes a file as a whole: the old bytes or the new ones are there, never a part. The same picture gives the
-// same PNG with the same libraries. PETRI_INVALID if the suffix is unknown or the file cannot be written.
+
+// Writes a picture to a file in the format of its suffix. The file is replaced atomically. The same picture gives the
+// same PNG file with the same libraries. Returns PETRI_UNSUPPORTED without Cairo, and PETRI_INVALID, with a diagnostic,
+// if the suffix is not supported or the file cannot be written.
 PETRI_API PetriStatus petri_picture_save(PetriPicture *picture, PetriPainter *painter, const char *file);
-// Gives the bytes of such a file, of the kind that the suffix tells, to a function. PETRI_INVALID, too, if that says
-// stop.
+
+// Like petri_picture_save, but passes the bytes of the file to a function. `suffix` selects the format, such as ".png".
+// Returns PETRI_INVALID also if `write` returned false.
 PETRI_API PetriStatus petri_picture_encode(PetriPicture *picture, PetriPainter *painter, const char *suffix,
                                            PetriWriteCallback *write, void *user_data);
-// Gives what drawing and saving found wrong to the session's diagnostic callback, each thing once per load. To be
-// called by the thread that uses the session, when no other uses the picture.
+
+// Reports the diagnostics of drawing and saving a picture to the session's on_diagnostic, each once per load. Called by
+// the thread that uses the session, while no other thread uses the picture.
 PETRI_API void petri_picture_report(PetriSession *session, PetriPicture *picture);
 
 #ifdef __cplusplus

@@ -1,22 +1,26 @@
-// petri.h: the public interface of libpetri, an engine for Flitter scripts with `!physics` particle systems.
+// petri.h: the C interface of libpetri, an engine for Flitter scripts with particle systems.
 //
-// A PetriSession owns everything: the loaded script, the state dictionary, the particle systems. Load a script, then
-// step it; each step evaluates the script for one frame and lets its systems write the state dictionary.
+// A session holds one loaded script and all that belongs to it: the state dictionary (values that persist from frame to
+// frame), the particle systems that the script describes with `!physics` nodes, and a clock. Load a script, then step
+// it. Each step computes one frame: it evaluates the script, which results in a tree of nodes, and then advances the
+// particle systems, which store positions and velocities in the state dictionary. To draw frames, use petri-draw.h.
 //
-// Rules that hold everywhere:
-// - A session is used by one thread at a time, and so is what comes from it: values, nodes, configurations, snapshots.
-//   Different sessions are independent. Functions that take no handle may be called by any thread at any time.
-// - A parameter struct need only live until the call returns. Text is UTF-8; a length of PETRI_NUL_TERMINATED means
-// NUL-terminated.
-// - A function that can fail returns a PetriStatus; any of them may be PETRI_OUT_OF_MEMORY, for NULL arguments
-// PETRI_INVALID,
-//   and those that load, step, print or evaluate may be PETRI_LIMIT_EXCEEDED or PETRI_INTERRUPTED as well. Nothing is
-//   half done: a script that cannot be loaded leaves the one that is running, and a frame that hits a limit or is
-//   interrupted leaves the state as it was.
-// - What is wrong with a script is told through the diagnostic callback, each thing once per place and load. Nothing in
-//   the library prints, exits or changes the process's locale, signals or working directory.
-// - Where NULL is not said to mean something, it is answered with PETRI_INVALID, false, NULL or 0, and nothing is done.
-// - After fork, the child may close the sessions that it has from its parent, and do nothing else with them.
+// Rules for all functions, unless a comment says otherwise:
+// - A session is used by one thread at a time, and so is all that is obtained from it: values, nodes, configurations,
+//   snapshots. Different sessions are independent.
+//   Functions that take no handle may be called by any thread at any time.
+// - A parameter struct is read only during the call. Text is UTF-8; the length PETRI_NUL_TERMINATED means that it ends
+//   at a NUL byte. Numbers and indices count from 0.
+// - Functions that can fail return a PetriStatus. All of them may return PETRI_OUT_OF_MEMORY, or PETRI_INVALID for
+//   invalid arguments. Those that load, step, print or evaluate may also return PETRI_LIMIT_EXCEEDED or
+//   PETRI_INTERRUPTED.
+// - A call that fails changes nothing. A script that cannot be loaded leaves the loaded one running, and an aborted
+//   frame leaves the state as it was (petri_step lists the exceptions).
+// - Errors and warnings about scripts are reported through PetriOptions.on_diagnostic, each once per position and load.
+//   The library never prints or exits, and never changes the locale, signal handlers or working directory of the
+//   process.
+// - A function that is called with NULL does nothing and returns PETRI_INVALID, false, NULL or 0.
+// - After fork, the child may close the sessions of its parent, and must not use them otherwise.
 #ifndef PETRI_H
 #define PETRI_H
 
@@ -28,36 +32,39 @@
 extern "C" {
 #endif
 
-// Of this header; petri_version_number tells that of the library, which may be a later one.
+// Version of this header. petri_version_number returns that of the library, which may be newer.
 #define PETRI_VERSION_MAJOR 0
 #define PETRI_VERSION_MINOR 2
 #define PETRI_VERSION_PATCH 0
 #define PETRI_VERSION_NUMBER (PETRI_VERSION_MAJOR * 10000 + PETRI_VERSION_MINOR * 100 + PETRI_VERSION_PATCH)
 
-#ifdef __GNUC__ // what a shared library shows; all else stays within it
+#ifdef __GNUC__ // exported by a shared library; all other symbols are hidden
 #define PETRI_API __attribute__((visibility("default")))
 #else
 #define PETRI_API
 #endif
 
+// As the length of a text: it ends at a NUL byte.
 #define PETRI_NUL_TERMINATED SIZE_MAX
 
+// A session. Created by petri_open, freed by petri_close.
 typedef struct PetriSession PetriSession;
 
 typedef enum PetriStatus {
     PETRI_OK,
-    PETRI_INVALID,        // the script cannot be loaded, a definition cannot be read; diagnostics tell why
-    PETRI_LIMIT_EXCEEDED, // a limit was reached: the frame was given up and changed nothing
-    PETRI_OUT_OF_MEMORY,  // memory is used up: nothing has changed (but see petri_step)
-    PETRI_UNSUPPORTED,    // this build lacks the library that it takes; a diagnostic tells which
-    PETRI_INTERRUPTED,    // petri_interrupt was called: what was under way is given up and has changed nothing
+    PETRI_INVALID,        // invalid argument, script or file; diagnostics give the reason
+    PETRI_LIMIT_EXCEEDED, // the work or memory limit of the script was exceeded; the call was aborted
+    PETRI_OUT_OF_MEMORY,
+    PETRI_UNSUPPORTED, // this build lacks a required library; a diagnostic names it
+    PETRI_INTERRUPTED, // petri_interrupt was called; the call was aborted
 } PetriStatus;
 
-// A status in words, for messages; "unknown status" for other numbers. Lives as long as the library.
+// Returns a status as a short text for messages, or "unknown status". Lives as long as the library.
 PETRI_API const char *petri_status_text(PetriStatus status);
 
 // Memory functions for the whole process, for hosts with their own heap or accounting. To limit one script, use
 // PetriOptions.memory_limit.
+//
 // Any thread may call the functions, several at once. They must return normally (no longjmp, no exception) and must not
 // call the library. They are needed until the last session, picture and painter is closed. Memory that the C library,
 // Cairo, Pango, libpng, libjpeg and OpenGL allocate internally does not come from here.
@@ -70,286 +77,354 @@ typedef struct PetriAllocator {
     void (*release)(void *user_data, void *block); // frees a block; never NULL
     void *user_data;                               // passed to the functions
 } PetriAllocator;
-// To be called before anything else; the struct is copied. NULL: the C library, as it is from the start. PETRI_INVALID,
-// and nothing is changed, if a function is missing, if `size` is another, or while the library holds memory: from the
-// first petri_open or petri_painter_open until all sessions, pictures and painters are closed again. No other thread
-// may use the library meanwhile.
+
+// Sets the memory functions of the process. Copies the struct. NULL restores the default, the functions of the C
+// library. Call it before any other function, while no other thread uses the library. Returns PETRI_INVALID if a
+// function is missing, if `size` is wrong, or while the library holds memory. It holds memory from the first petri_open
+// or petri_painter_open until all sessions, pictures and painters are closed.
 PETRI_API PetriStatus petri_set_allocator(const PetriAllocator *allocator);
 
+// Severity of a diagnostic.
 typedef enum PetriLevel { PETRI_ERROR, PETRI_WARNING, PETRI_NOTE } PetriLevel;
 
-// One diagnostic. A callback must copy the texts that it keeps.
+// An error, warning or note about a script. The texts are valid during the callback; copy them to keep them.
 typedef struct PetriDiagnostic {
     PetriLevel level;
-    const char *file; // NULL without a place
-    uint32_t line;    // from 1
+    const char *file; // NULL if it has no position
+    uint32_t line;    // from 1; 0 without a position
     uint32_t column;  // in characters, from 1
     const char *text;
     const char *code;     // short name of the kind, such as "unbound-name"; may be NULL
     const char *rendered; // `FILE:LINE:COLUMN: level: text [code]`, source line and carets; ends in a newline
-    const char *hint;     // a second sentence that helps, such as "did you mean 'cos'?"; "" for none
-    uint32_t end_line;    // of the first character behind what is meant
+    const char *hint;     // advice, such as "did you mean 'cos'?"; "": none
+    uint32_t end_line;    // line of the first character after the marked text
     uint32_t end_column;
 } PetriDiagnostic;
 
-// When the particle engine keeps lists of neighbours instead of looking at all pairs. Results never depend on it.
-typedef enum PetriNeighbours { PETRI_NEIGHBOURS_AUTO, PETRI_NEIGHBOURS_NEVER, PETRI_NEIGHBOURS_ALWAYS } PetriNeighbours;
+// When physics uses neighbour lists instead of testing all pairs of particles. Results never depend on it.
+typedef enum PetriNeighbours {
+    PETRI_NEIGHBOURS_AUTO, // where they are faster
+    PETRI_NEIGHBOURS_NEVER,
+    PETRI_NEIGHBOURS_ALWAYS,
+} PetriNeighbours;
 
-// Processes that run the same script together, each with a session of its own that is given the same calls: they come
-// to the same bits as one would alone, and share the work of large systems. Numbers go between them by these functions,
-// in order: `runs` runs of `length` doubles, `stride` doubles from one to the next.
+// Communication between processes (ranks) that run one script together, for example over MPI. Each rank has its own
+// session and makes the same calls. All ranks compute the same results, bit for bit, as a single process, and divide
+// the work of large systems.
+//
+// The functions transfer `count` blocks of `block_length` doubles; consecutive blocks start `stride` doubles apart, as
+// in MPI_Type_vector. Messages between two ranks arrive in the order sent. After petri_interrupt was called on all
+// ranks, the functions need not wait any longer; numbers that were not received are 0 then.
 typedef struct PetriRanks {
-    int rank; // of this process, from 0
-    int rank_count;
-    uint64_t min_pairs; // pairs of particles that are worth sharing; 0 (the default): as many as are found to be
-    void *user_data;
-    // Takes the numbers along and returns without waiting for the other.
-    void (*send)(void *user_data, int to, const double *numbers, size_t count, size_t length, size_t stride);
-    void (*receive)(void *user_data, int from, double *numbers, size_t count, size_t length, size_t stride);
-    // The numbers of one rank become those of all.
-    void (*broadcast)(void *user_data, int from, double *numbers, size_t count, size_t length, size_t stride);
-    // Those of each rank r, which are at starts[r] up to starts[r + 1], become those of all.
+    int rank;       // number of this process, from 0
+    int rank_count; // number of processes
+    // Smallest number of particle pairs for which the work is divided; 0 (the default): chosen by the library.
+    uint64_t min_pairs;
+    void *user_data; // passed to the functions
+    // Sends numbers to rank `to`. Copies them and returns without waiting for the receiver.
+    void (*send)(void *user_data, int to, const double *numbers, size_t count, size_t block_length, size_t stride);
+    // Waits for numbers from rank `from`.
+    void (*receive)(void *user_data, int from, double *numbers, size_t count, size_t block_length, size_t stride);
+    // Copies the numbers of rank `from` to all ranks.
+    void (*broadcast)(void *user_data, int from, double *numbers, size_t count, size_t block_length, size_t stride);
+    // Copies the elements starts[r] to starts[r + 1] - 1 of each rank r to all ranks.
     void (*allgatherv)(void *user_data, double *numbers, const size_t *starts);
-    // Each number becomes the largest that a rank has. None is NaN.
+    // Replaces each number by its maximum over all ranks. No number is NaN.
     void (*allreduce_max)(void *user_data, double *numbers, size_t count);
-    // Memory for so many doubles that all ranks see, such as that of one machine, until the next call, which all make
-    // together; all get NULL if there is none, and may have no such function. What was written before one of the
-    // functions above that all take part in is seen after it.
+    // Returns memory for `count` doubles that all ranks share, for ranks on one machine. Valid until its next call. All
+    // ranks call it together, and all get NULL if there is no shared memory. NULL on all ranks: not supported. Data
+    // that a rank writes before one of the three functions above is visible to all ranks after it.
     double *(*alloc_shared)(void *user_data, size_t count);
-    // After petri_interrupt, on all ranks, they need not wait for each other any more: numbers that do not come are 0.
 } PetriRanks;
 
+// Options of a session. Start with petri_default_options.
 typedef struct PetriOptions {
-    size_t size; // of the struct that the host was compiled with: petri_default_options sets it
-    double fps;  // target frame rate; a script's `%pragma fps` wins. Default 60
-    // Follow the wall clock: petri_step waits until the frame is due, and `time` is what has passed since frame 0.
-    // Default false: lockstep, where `time` is frame/fps.
+    size_t size; // sizeof(PetriOptions) of the header that the host was compiled with
+    double fps;  // frames per second, unless the script has `%pragma fps`. Default 60
+    // Follow the wall clock: petri_step waits until the frame is due, and the script's `time` is the time since frame
+    // 0. Default false (lockstep): petri_step does not wait, and `time` is the frame number divided by fps.
     bool realtime;
-    double run_time; // the script's `run_time` in seconds; NaN (the default): unlimited
-    bool simplify;   // evaluate static parts once, when loading; results never depend on it. Default true
-    bool colour;     // colour `rendered` with ANSI escapes
-    bool profile;    // measure the time of each source line, for petri_profile. Default false, which costs nothing
-    // The C stack that evaluation may use; deeper recursion is a diagnostic. Default 4 MiB: a thread of 8 MiB is
-    // enough.
+    double run_time; // seconds, as the script's `run_time`; NaN (the default): unlimited
+    bool simplify;   // evaluate constant parts once, when loading; results never depend on it. Default true
+    bool colour;     // colour PetriDiagnostic.rendered with ANSI escapes. Default false
+    bool profile;    // measure the time of each source line, for petri_profile. Default false
+    // Bytes of C stack that evaluation may use; deeper recursion is an error in the script. Default 4 MiB, for which a
+    // thread with a stack of 8 MiB is sufficient.
     size_t stack_limit;
-    // What a script may use; a frame, a load, a picture that needs more is given up with a diagnostic that tells what
-    // in the script asked for it. Memory is all that the session holds for the script; what is petri's own (some 64 MiB
-    // at the most) comes on top. Work is counted in units of some ten nanoseconds, by what is to be done and not by
-    // time, so that the same frame is given up everywhere: a round of a loop, a call, a node, sixteen numbers added.
-    size_t memory_limit;        // default 2 GiB
-    uint64_t work_limit;        // of one call, such as petri_step. Default 2^30, some ten seconds
-    int threads;                // worker threads, 0: as many as processors. Results never depend on it
-    PetriNeighbours neighbours; // default: where they pay
-    // Keep a copy of the state while a frame is made, so that a frame whose systems are being updated can be given up,
-    // by petri_interrupt or because work or memory is used up, as if it had never been begun. Default false: then each
-    // system has made that frame or stays as it was, which is for hosts that end there.
+    // Limits for each call, such as petri_step. A frame, load or picture that exceeds one is aborted with a diagnostic
+    // that names its source. Work is counted, not timed, so a script stops at the same point on every machine: one unit
+    // (about 10 ns) per loop iteration, call, node or sixteen numbers.
+    size_t memory_limit; // bytes held for the script, besides at most about 64 MiB of petri's own; default 2 GiB
+    uint64_t work_limit; // units per call; default 2^30, about 10 s
+    int threads;         // number of worker threads; 0 (the default): one per processor. Results never depend on it
+    PetriNeighbours neighbours; // default PETRI_NEIGHBOURS_AUTO
+    // Keeps a copy of the state while a frame is computed, so that an aborted frame is rolled back completely. If false
+    // (the default), each system has either finished that frame or not started it, which is enough if the host exits.
     bool rollback_frames;
-    // The files that a script may use: it reads below its own folder, the current one and `read_folders`, it writes
-    // (`!record`) below its own and `write_folders`. Lists of names that end in NULL, or NULL; "/" allows all.
+    // Folders that the script may use, as arrays of names that end in NULL, or NULL. A script may read files in and
+    // below its own folder, the current directory and `read_folders`. It may write files (`!record`) in and below its
+    // own folder and `write_folders`. "/" allows everything. petri_open copies the names.
     const char *const *read_folders;
     const char *const *write_folders;
-    bool no_files;    // … it uses none at all, and imports none
-    bool keep_forces; // for PetriSystem.force
-    void (*on_diagnostic)(void *user_data, const PetriDiagnostic *diagnostic); // NULL: silent
-    void *user_data;
-    // Vector instructions that physics may use: "scalar", "avx2" or "avx512", or what there is below that. NULL (the
-    // default) and other words: the best that there are; for the whole process the environment variable PETRI_CPU, read
-    // once when the library is loaded, is the upper limit. Results never depend on it.
+    bool no_files;    // the script may not read, write or import any file. Default false
+    bool keep_forces; // provide PetriSystem.force. Default false
+    // Called for each diagnostic by the thread that uses the session. NULL (the default): not reported.
+    void (*on_diagnostic)(void *user_data, const PetriDiagnostic *diagnostic);
+    void *user_data; // passed to on_diagnostic and should_interrupt
+    // Best vector instructions that physics may use: "scalar", "avx2" or "avx512". NULL (the default), or another text:
+    // the best available. The environment variable PETRI_CPU, read when the library is loaded, limits the whole
+    // process. Results never depend on it.
     const char *cpu;
-    // NULL (the default): this process alone. All ranks must have the same options, `cpu` included; if one is
-    // interrupted, all must be, and none may go on.
+    // Other processes that run the script together with this one; NULL (the default): none. petri_open copies the
+    // struct. All ranks need the same options, including `cpu`. If one rank is interrupted, all must be, and none may
+    // continue.
     const PetriRanks *ranks;
-    // Where the files come from that are loaded and that scripts use: modules, includes, images, `read` and `csv`. NULL
-    // (the default): the disk. Gives the bytes of a file and how many they are, or NULL if there is none; `name` is the
-    // name of the script or, for what a script names, that of its folder before it, without dots. A script may then
-    // read whatever this gives and nothing else. For a folder, a name that ends in a slash (`./` for the current one),
-    // it gives the names in it, a line each; `glob` finds nothing where it gives NULL. The same address and length
-    // stand for the same bytes, which must stay until the session is closed. It may be called in each frame, and by the
-    // thread that draws a picture; nothing of the session may be called by it.
+    // Provides the files that are loaded and that scripts use: modules, includes, images, `read` and `csv`. NULL (the
+    // default): they are read from disk. Returns the bytes and sets *length, or returns NULL if there is no such file.
+    // If set, scripts may read every file that it provides, and no other.
+    //
+    // `name` is the name that was passed to petri_load. For files that a script names, it is that name after the
+    // script's folder, without `.` and `..`. For a name that ends in a slash (`./` is the current directory), return
+    // the names in this folder, one per line, or NULL; `glob` then finds nothing.
+    //
+    // The bytes must stay unchanged until the session is closed: the same address and length mean the same bytes. It is
+    // called in any frame, and by threads that draw pictures. It must not call the session.
     const char *(*read_file)(void *read_user_data, const char *name, size_t *length);
-    void *read_user_data;
-    // The text that stands for a file on the disk which a script imports or includes, such as one that an editor has
-    // not saved yet, or NULL: then the file counts. `name` is its canonical path; the rest is as for `read`.
+    void *read_user_data; // passed to read_file and read_unsaved
+    // Provides the contents of a file that replace those on disk when a script imports or includes it, such as the
+    // unsaved text of an editor. `name` is the canonical path. Returns NULL to use the file on disk. Otherwise like
+    // read_file. NULL (the default): none.
     const char *(*read_unsaved)(void *read_user_data, const char *name, size_t *length);
-    // For hosts whose other threads cannot call petri_interrupt, having none or sharing no memory: asked with `host`
-    // every ten microseconds or so of a call, by its thread; true is such a wish. Nothing of the session may be called
-    // by it. NULL (the default): nobody is asked.
+    // Polled about every 10 µs by the calling thread; return true to interrupt the call. For hosts whose other threads
+    // cannot call petri_interrupt. Must not call the session. NULL (the default): never polled.
     bool (*should_interrupt)(void *user_data);
 } PetriOptions;
 
-// Writes the defaults of the first `size` bytes of options.
+// Writes the default options to the first `size` bytes of `options`. Use petri_default_options instead.
 PETRI_API void petri_options_init(PetriOptions *options, size_t size);
+
+// Returns the default options.
 static inline PetriOptions petri_default_options(void) {
     PetriOptions options;
     petri_options_init(&options, sizeof options);
     return options;
 }
 
-// A session without a script, which lives until petri_close, or NULL if memory is used up or the options were not
-// initialised or make no sense.
+// Creates a session without a script. Free it with petri_close. Returns NULL if out of memory, if the options were not
+// initialised or are those of a newer petri.h, or if `fps` is not positive and finite.
 PETRI_API PetriSession *petri_open(const PetriOptions *options);
-// Frees the session and sets the handle to NULL. A handle that is NULL already is fine.
+
+// Frees a session and sets the handle to NULL. NULL handles are ignored. Free its configurations and snapshots before.
 PETRI_API void petri_close(PetriSession **session);
 
-// Defines a name for the scripts loaded from now on (`-D`): "name=value", where value is `;`-separated numbers with
-// suffixes, time codes, `:symbols` or strings. PETRI_INVALID without an equals sign, or if that which is before it is
-// no name. Loading a script tells of definitions that it does not take.
+// Defines a name for the scripts that are loaded from now on, like the option `-D`. `definition` is "name=value", where
+// the value is one or more elements separated by `;`: numbers, time codes, `:symbols` or strings. Returns PETRI_INVALID
+// without an equals sign, or if the name is not valid. Loading a script warns about definitions that it does not use.
 PETRI_API PetriStatus petri_define(PetriSession *session, const char *definition);
 
-// Loads a script from a file; frames count from 0 again, the state dictionary is kept. `file` is also what messages
-// call it and what relative file names in it start from. PETRI_INVALID if it cannot be read or is no script.
+// Loads a script from a file and continues with frame 0. The state dictionary is kept; petri_reset clears it. `file` is
+// used in messages, and relative file names in the script start from its folder. Returns PETRI_INVALID if the file
+// cannot be read or is not a valid script, or within a callback.
 PETRI_API PetriStatus petri_load(PetriSession *session, const char *file);
-// The same from text; `name` stands for the file, one such as `<stdin>` for a stream. PETRI_INVALID likewise.
+
+// Like petri_load, but loads the script from memory. `name` is used in messages, and its folder for relative file
+// names; use a name such as `<stdin>` for a stream. Returns PETRI_INVALID if the text is not a valid script. Copies the
+// text.
 PETRI_API PetriStatus petri_load_text(PetriSession *session, const char *name, const char *text, size_t length);
-// The same, while frame numbers, time and beat go on: for a script that was changed, and whose file is no pipe. Of
-// tempo and fps, those count anew whose pragma was changed. NULL stands for the text that was loaded last, for when
-// definitions have changed: what was told of it is not told again. PETRI_INVALID likewise, and if there is none.
+
+// Loads a changed script while frame numbers, time and beat continue. Pipes cannot be reloaded. Tempo and fps change
+// only if their pragma changed. NULL compiles the text that was loaded last again, for changed definitions; diagnostics
+// of its last load are not repeated. Returns PETRI_INVALID like petri_load, or for NULL if no script is loaded.
 PETRI_API PetriStatus petri_reload(PetriSession *session, const char *file);
-// The files that the loaded script was made from, by number from 0: itself, what it includes, and modules that some
-// script has imported. NULL beyond the last. Valid until the next load or step.
+
+// Returns the path of a file that the loaded script consists of, or NULL past the last. 0 is the script itself; then
+// come the files it includes, and the modules that it imported so far with the files they include. Scripts that were
+// loaded from memory are not listed. Valid until the next load or step.
 PETRI_API const char *petri_source_file(PetriSession *session, size_t number);
-// Compiles a file and makes its first frame for the diagnostics only, with the names that are defined: what would be
-// told when it is loaded, run and drawn, and what is hardly meant. No system goes on, nothing is drawn or written, and
-// the loaded script runs on as if nothing had happened. PETRI_INVALID if it cannot be read or is no script.
+
+// Checks a script without running it: compiles it with the current definitions, evaluates its first frame and reports
+// all diagnostics, including those of drawing and hints about likely mistakes. Simulates, draws and writes nothing, and
+// does not affect the loaded script. Returns PETRI_INVALID if the file cannot be read or is not a valid script.
 PETRI_API PetriStatus petri_check(PetriSession *session, const char *file);
-// The same for a text; `name` stands for the file. PETRI_INVALID likewise.
+
+// Like petri_check, but checks a script in memory. `name` is used in messages. Returns PETRI_INVALID if it is not a
+// valid script.
 PETRI_API PetriStatus petri_check_text(PetriSession *session, const char *name, const char *text, size_t length);
 
-// Evaluates the next frame (0 first) and updates its systems. PETRI_INVALID if no script is loaded. PETRI_OUT_OF_MEMORY
-// while systems are updated changes nothing with PetriOptions.interruptible; without, the frame counts, and each system
-// has made it or stays as it was.
+// Computes the next frame, starting with frame 0: evaluates the script, then advances its particle systems. In real
+// time, waits until the frame is due. Returns PETRI_INVALID if no script is loaded, or within a callback.
+//
+// If the frame is aborted, the session is as before the call with PetriOptions.rollback_frames. Without it, there are
+// two exceptions. If evaluation exceeds a limit, the frame is counted, but the systems are not advanced. If the frame
+// is aborted while systems are advanced, it is counted, and each system has either finished the frame or not started
+// it.
 PETRI_API PetriStatus petri_step(PetriSession *session);
-// The same at a time in seconds and a beat of the host's own, from which petri_step would go on; it never waits.
-// Systems rest in a frame whose time is not later than that of the one before. PETRI_INVALID, too, if they are not
-// finite.
+
+// Like petri_step, but with a given time (seconds) and beat, from which petri_step continues later. Never waits. If the
+// time is not later than that of the last frame, the systems are not advanced. Returns PETRI_INVALID also if a number
+// is not finite.
 PETRI_API PetriStatus petri_step_at(PetriSession *session, double time, double beat);
 
-// In real time: seconds until the next frame is due, for a host that has other things to do than to wait in petri_step;
-// 0 if it is due, and in lockstep.
+// Returns the seconds until the next frame is due in real time, so that a host can do other work instead of waiting in
+// petri_step. Returns 0 if it is due already, before the first frame, and in lockstep.
 PETRI_API double petri_seconds_until_due(const PetriSession *session);
-// In real time: the time that has passed since the last frame does not count, so that the next one follows it as if
-// nothing had happened in between. For hosts that pause, or take long over something.
+
+// Drops the time by which the next frame is late, so that it follows the last frame as if no time had passed. Call it
+// in real time after a pause or a slow operation of the host. It has no effect in lockstep.
 PETRI_API void petri_resync_clock(PetriSession *session);
 
-// A parameter of the loaded script: `let NAME=NAME or DEFAULT -- 1..500 what it is` at its top level, which takes the
-// value that a definition of NAME gives it, if that is true, else its default. A range at the start of the comment
-// (`1..500`, `0..1|0.05` with a step, `0..` with one end) is for people and hosts: what is outside is a warning.
+// A parameter of the loaded script, declared at its top level by `let NAME=NAME or DEFAULT -- RANGE DESCRIPTION`. It
+// has the value that petri_define or petri_set_parameter gave it, if that is true, else its default. RANGE is optional:
+// `1..500`, `0..1|0.05` with a step, or `0..` with one end. It is meant for users; a value outside causes a warning.
 typedef struct PetriParameter {
     const char *name;
-    const char *default_value; // the default as the script has it
-    const char *value;         // the present value in printed form; `fallback` if only a frame can tell
-    const char *comment;       // behind it in its line, without the range; "" for none
-    double number;             // the present value; NaN unless it is known to be one number
-    double default_number;     // the default; likewise
-    double min;                // the comment's range; infinite where it has no end
-    double max;
-    double step;      // 0: the comment has none
-    bool defined;     // a definition gives the present value
-    bool settable;    // false: of a module, which sees no definitions
-    const char *file; // where it stands
-    uint32_t line;    // from 1
-    uint32_t column;  // in characters, from 1
+    const char *default_value; // source text of the default
+    const char *value;         // current value in printed form; default_value if it varies from frame to frame
+    const char *comment;       // comment after it on its line, without the range; "": none
+    double number;             // current value; NaN if it is not known to be a single number
+    double default_number;     // default; NaN if it is not known to be a single number
+    double min;                // lower end of the range; -INFINITY: none
+    double max;                // upper end of the range; INFINITY: none
+    double step;               // step of the range; 0: none
+    bool defined;              // true if the current value comes from a definition
+    bool settable;             // false: the parameter of an imported module, which cannot be set
+    const char *file;          // position of the declaration
+    uint32_t line;             // from 1
+    uint32_t column;           // in characters, from 1
 } PetriParameter;
-// By number from 0, the script's own and those of what it includes first, then those of the modules that it imports at
-// its top level; false beyond the last. Texts are valid until the next call that may change or show anything.
+
+// Gets a parameter of the script by number: first its own and those of included files, then those of the modules that
+// it imports at its top level. Returns false past the last, or if out of memory. The texts are valid until the next
+// call on the session.
 PETRI_API bool petri_parameter(PetriSession *session, size_t number, PetriParameter *parameter);
-// Gives a parameter of the script another value, as petri_define reads it, or its default if `value` is NULL. The next
-// frame has it, while state, frame numbers, time and beat go on. PETRI_INVALID, and nothing is changed, if the script
-// has no such parameter, if the default is a number and the value is none, or if included files cannot be read any
-// more.
+
+// Sets a parameter of the script to a value, written as in petri_define, or back to its default if `value` is NULL. It
+// takes effect in the next frame; state, frame numbers, time and beat continue. Returns PETRI_INVALID if the script has
+// no such parameter, if the default is a number and the value is not, or if an included file can no longer be read.
 PETRI_API PetriStatus petri_set_parameter(PetriSession *session, const char *name, const char *value);
 
-// The frame that petri_step made last.
+// The frame that was computed last.
 typedef struct PetriFrame {
-    int64_t number; // -1 before the first
-    double time;    // 0 in frame 0; after petri_restore frame/fps, in real time as well
+    int64_t number; // -1: no frame yet
+    double time;    // seconds; 0 in frame 0, and frame number / fps after petri_restore, in real time as well
     double beat;
     double fps;
-    double tempo;
+    double tempo;              // beats per minute
     uint64_t physics_steps;    // simulation steps of all systems in this frame
-    double evaluation_seconds; // time spent on the script
-    double physics_seconds;    // time spent on the systems
+    double evaluation_seconds; // time spent on evaluating the script
+    double physics_seconds;    // time spent on the particle systems
 } PetriFrame;
-// A copy.
+
+// Returns a copy of the last frame's data.
 PETRI_API PetriFrame petri_frame(const PetriSession *session);
 
-// What the user's hands do, for the `!pointer` and `!key` nodes inside a script's `!window`. Report it whenever it
-// happens; the next frame sees it in the state dictionary, from the second frame with the node on. What was pressed and
-// let go between two frames counts as pressed for one. A session that is told nothing writes nothing.
+// User input, for scripts with `!pointer` and `!key` nodes in a `!window`. Report input when it happens. The next frame
+// finds it in the state dictionary, from the second frame that contains the node. A key or button that is pressed and
+// released between two frames counts as pressed for one frame. If the host never reports input, nothing is written.
 enum {
     PETRI_BUTTON_LEFT = 1,
     PETRI_BUTTON_MIDDLE = 2,
     PETRI_BUTTON_RIGHT = 4, // further buttons: 8, 16, 32, 64, 128
 };
 typedef struct PetriPointer {
-    bool inside;      // the pointer is over the window
-    double x;         // if it is: 0 at the left edge to 1 at the right; what is beyond counts as the edge
+    bool inside;      // true if the pointer is over the window; x and y are ignored otherwise
+    double x;         // 0 at the left edge to 1 at the right edge; values outside are clamped
     double y;         // 0 at the top to 1 at the bottom
-    unsigned buttons; // those that are down, as bits
+    unsigned buttons; // bits of the pressed buttons
 } PetriPointer;
-// NULL: the user has turned away; the pointer is outside, all buttons and keys are let go. PETRI_INVALID for a position
-// that is not finite.
+
+// Reports the pointer's position and buttons. NULL means that the window lost the focus: the pointer is outside, and
+// all buttons and keys are released. Returns PETRI_INVALID if the position is not finite.
 PETRI_API PetriStatus petri_report_pointer(PetriSession *session, const PetriPointer *pointer);
-// A key goes down or up: a letter, a digit, or a word such as "space", "left", "page_up", "f1", "left_shift" (README).
-// PETRI_INVALID for other names.
+
+// Reports that a key was pressed or released. `name` is a letter, a digit, or a word such as "space", "left",
+// "page_up", "f1" or "left_shift" (README). Returns PETRI_INVALID for unknown names.
 PETRI_API PetriStatus petri_report_key(PetriSession *session, const char *name, bool pressed);
-// Whether a `!key` in the last frame asked for the key, so that it should not mean anything else to the host.
+
+// Returns true if a `!key` node of the last frame uses the key. The host should then give the key no other meaning.
 PETRI_API bool petri_key_is_bound(PetriSession *session, const char *name);
-// Asks for an end of what is under way (or of the next): a step, a load, a picture, a text that is printed or evaluated
-// returns PETRI_INTERRUPTED, within some milliseconds. The one function that may be called from a signal handler or
-// from another thread.
+
+// Interrupts the session's current call, or its next one if there is none. A step, load, picture, print or evaluation
+// then returns PETRI_INTERRUPTED within a few milliseconds. May be called by any thread and by signal handlers, unlike
+// all other functions.
 PETRI_API void petri_interrupt(PetriSession *session);
-// Whether such a wish has not been met yet; forgets it.
+
+// Returns true if an interrupt is pending, and clears it.
 PETRI_API bool petri_clear_interrupt(PetriSession *session);
 
-// Changes the clock from here on: frame number, time and beat do not jump. PETRI_INVALID unless above 0 and finite.
+// Sets the tempo in beats per minute from now on, without a jump of frame number, time or beat. Returns PETRI_INVALID
+// unless it is positive and finite.
 PETRI_API PetriStatus petri_set_tempo(PetriSession *session, double tempo);
+
+// Sets the frames per second from now on, without a jump of frame number, time or beat. Returns PETRI_INVALID unless it
+// is positive and finite.
 PETRI_API PetriStatus petri_set_fps(PetriSession *session, double fps);
-// The longest step of all systems, whatever they say themselves; 0: as they say. PETRI_INVALID below 0 or not finite.
+
+// Sets the maximum simulation step of all systems, in seconds of the script, which replaces the systems' own
+// `resolution`. 0 (the default) uses their own. Returns PETRI_INVALID if it is negative or not finite.
 PETRI_API PetriStatus petri_set_resolution(PetriSession *session, double resolution);
+
+// Returns the value set by petri_set_resolution.
 PETRI_API double petri_resolution(const PetriSession *session);
-// Forgets the state dictionary and goes to before frame 0.
+
+// Clears the state dictionary and continues with frame 0 of the loaded script.
 PETRI_API void petri_reset(PetriSession *session);
 
-// A session's configuration: script, definitions, statements of the prompt, clock rates, resolution. It is shared, not
-// copied, and must be freed before the session is closed.
+// A configuration of a session: script, definitions, statements of the prompt, fps, tempo and resolution. It is shared
+// and not copied, so that a history of configurations takes little memory.
 typedef struct PetriConfig PetriConfig;
-// The present one, or NULL if memory is used up. Free with petri_config_free, which takes NULL, too.
+
+// Returns the current configuration, or NULL if out of memory. Free it with petri_config_free before the session is
+// closed.
 PETRI_API PetriConfig *petri_config_get(PetriSession *session);
+
+// Frees a configuration. NULL is ignored.
 PETRI_API void petri_config_free(PetriConfig *config);
-// Goes back to a configuration of this session; state, frame, time and beat stay.
+
+// Returns to a configuration of the same session. State, frame number, time and beat continue.
 PETRI_API void petri_config_apply(PetriSession *session, PetriConfig *config);
-// A number that is another whenever the configuration is; modules that changed on disk count as well.
+
+// Returns a number that changes whenever the configuration changes, also when an imported module changed on disk.
 PETRI_API uint64_t petri_config_revision(const PetriSession *session);
 
-// A copy of all that decides how a session goes on: state, systems, input, clock and configuration. Free it before the
-// session.
+// A copy of everything that determines how a session continues: state, systems, input, clock and configuration.
 typedef struct PetriSnapshot PetriSnapshot;
-// NULL if memory is used up. Free with petri_snapshot_free, which takes NULL, too.
+
+// Returns a snapshot of the session, or NULL if out of memory. Free it with petri_snapshot_free before the session is
+// closed.
 PETRI_API PetriSnapshot *petri_snapshot(PetriSession *session);
+
+// Frees a snapshot. NULL is ignored.
 PETRI_API void petri_snapshot_free(PetriSnapshot *snapshot);
-PETRI_API size_t petri_snapshot_bytes(const PetriSnapshot *snapshot); // of its own; a configuration is shared
-// Goes back to just after the frame of a snapshot of this session: the next frames are the same to the last bit, as
-// long as the files that the script reads are. The frame's tree is not there until then. PETRI_OUT_OF_MEMORY changes
-// nothing.
+
+// Returns the size of a snapshot in bytes, without its configuration, which is shared.
+PETRI_API size_t petri_snapshot_bytes(const PetriSnapshot *snapshot);
+
+// Returns to a snapshot of the same session, directly after its frame. The next frames are then identical to the last
+// bit, if the files that the script reads are unchanged. petri_tree is null until the next step. Returns
+// PETRI_OUT_OF_MEMORY, with nothing changed, on failure.
 PETRI_API PetriStatus petri_rewind(PetriSession *session, const PetriSnapshot *snapshot);
 
-// Writes the state dictionary, the frame number and what the systems need to go on (not what the user's hands do) to a
-// file, replaced as a whole and synchronised to the disk. PETRI_INVALID (with a diagnostic) if it cannot be written.
+// Writes the state dictionary, the frame number and what the systems need to resume to a file. User input is not saved.
+// Replaces the file atomically and flushes it to disk. Returns PETRI_INVALID, with a diagnostic, if it cannot be
+// written.
 PETRI_API PetriStatus petri_save(PetriSession *session, const char *file);
-// Takes a saved state back, after petri_load: the next frame is the one after that which was saved, and goes on from it
-// to the last bit. A file that does not exist is PETRI_OK and changes nothing. One that cannot be read, is cut short or
-// damaged is PETRI_INVALID (with a diagnostic) and changes nothing either.
+
+// Restores a state that petri_save wrote, after petri_load. The next frame is the one after the saved frame, and is
+// identical to the last bit. If the file does not exist, returns PETRI_OK and changes nothing. Returns PETRI_INVALID,
+// with a diagnostic, if the file cannot be read, is truncated or corrupt.
 PETRI_API PetriStatus petri_restore(PetriSession *session, const char *file);
 
-// A value of the language: a vector of numbers, or of elements of several kinds. It is a view of what lies in the
-// session, and lives as long as the function says that gives it; functions that take one copy what they keep. A host
-// makes one from its own numbers or elements. Symbols are numbers (petri_symbol).
+// A value of the language: a vector of numbers, strings, nodes or functions. null is the vector of length 0. Symbols
+// are numbers (petri_symbol).
+//
+// A value refers to memory of the session, and each function documents how long its result is valid. A host may build
+// values from its own memory; functions that take a value copy what they keep.
 typedef enum PetriType { PETRI_NUMBER, PETRI_STRING, PETRI_NODE, PETRI_FUNCTION } PetriType;
 typedef struct PetriNode PetriNode;
 typedef struct PetriString {
-    const char *bytes; // UTF-8; U+0000 may be among it, and no NUL byte follows
-    size_t length;
+    const char *bytes; // UTF-8; may contain NUL bytes and does not end in one
+    size_t length;     // in bytes
 } PetriString;
 typedef struct PetriItem {
     PetriType type;
@@ -361,333 +436,403 @@ typedef struct PetriItem {
     } as;
 } PetriItem;
 typedef struct PetriValue {
-    uint32_t length;        // elements; 0: null
-    const double *numbers;  // if all are numbers, else NULL
-    const PetriItem *items; // if some are not, else NULL
+    uint32_t length;        // number of elements; 0: null
+    const double *numbers;  // elements, if all are numbers, else NULL
+    const PetriItem *items; // elements, if some are not numbers, else NULL
 } PetriValue;
-// The printed form of a value, which the language reads back if there are only numbers and strings in it. NULL if
-// memory is used up or it is no value. Valid until the next petri_format_value, step or load, or text that is printed.
+
+// Returns the printed form of a value, which scripts can read back if it contains only numbers and strings. Returns
+// NULL if out of memory or if the value is invalid. Valid until the next petri_format_value, step, load or printing
+// call.
 PETRI_API const char *petri_format_value(PetriSession *session, PetriValue value);
-// The number that is the symbol `:name`; NaN if the name is none, or memory is used up. It never changes.
+
+// Returns the number that represents the symbol `:name`, which is the same in all sessions. Returns NaN if the name is
+// not valid, or if out of memory.
 PETRI_API double petri_symbol(PetriSession *session, const char *name);
-// The name of the symbol that a number is, or NULL. Valid as long as the session.
+
+// Returns the name of the symbol that a number represents, or NULL if it represents none. Valid as long as the session.
 PETRI_API const char *petri_symbol_name(const PetriSession *session, double number);
 
-// The state dictionary, which scripts read with `$`. A value is valid until something may change the state: a step,
-// petri_state_set, a load, petri_reset, petri_rewind or petri_restore.
-//
-// The value under a key; null if there is none, the key is none, or memory is used up.
+// Returns the value of a key in the state dictionary, which scripts read with `$`. Returns null if there is no such
+// key, if it is invalid, or if out of memory. Valid until the state may change: until the next step, load,
+// petri_state_set, petri_reset, petri_rewind or petri_restore.
 PETRI_API PetriValue petri_state_get(PetriSession *session, PetriValue key);
-// Stores a value under a key, or removes it if the value is null; the next frame has it. Keys and values are numbers
-// and strings; PETRI_INVALID for others, a value that is not finite or a key with NaN, and within a callback.
+
+// Stores a value in the state dictionary, or removes the key if the value is null. The next frame reads it. Keys and
+// values consist of numbers and strings. Returns PETRI_INVALID for other elements, for values that are not finite, for
+// keys with NaN, and within a callback.
 PETRI_API PetriStatus petri_state_set(PetriSession *session, PetriValue key, PetriValue value);
-// The entries, one after the other, in the order in which their keys came to be there: `*cursor` starts at 0; false at
-// the end.
+
+// Iterates over the state dictionary in the order in which the keys were added. Set *cursor to 0 before the first call.
+// Returns false after the last entry. Keys and values are valid as those of petri_state_get.
 PETRI_API bool petri_state_next(PetriSession *session, uint32_t *cursor, PetriValue *key, PetriValue *value);
 
-// A name of the host's, which scripts read as any other name and whose value may be another in each frame: the scripts
-// that are loaded from now on see it, and need not be loaded again for another value. Like definitions it is not seen
-// by modules. The name stays with the session; null is a value. PETRI_INVALID if it is no name or one of the engine's
-// (such as `time`), for nodes and functions, and within a callback.
+// Sets a global name that scripts read like any other name. Only scripts that are loaded after the first call for a
+// name see it; later calls need no reload and may change the value in each frame, also to null. Modules do not see it.
+// The name cannot be removed. Returns PETRI_INVALID if the name is not valid or belongs to the engine (such as `time`),
+// for nodes and functions, and within a callback.
 PETRI_API PetriStatus petri_set_global(PetriSession *session, const char *name, PetriValue value);
 
-// The tree that the last frame has come to: its nodes, and perhaps other elements. All that is reached from it is valid
-// until the next step, load or text typed at the prompt, petri_rewind, petri_restore or petri_reset.
+// Returns the tree of the last frame: its top-level nodes, and possibly other elements. Returns null if there is no
+// frame, or if out of memory. The tree and everything in it are valid until the next step, load, petri_prompt,
+// petri_rewind, petri_restore or petri_reset.
 PETRI_API PetriValue petri_tree(const PetriSession *session);
-// Of a node: the word behind its `!`, its tags, attributes and children by number from 0; NULL beyond the last. Valid
-// as long as the node.
+
+// Returns the kind of a node: the word after its `!`. Valid as long as the node.
 PETRI_API const char *petri_tree_kind(const PetriNode *node);
+
+// Returns a tag of a node by number, or NULL past the last. Valid as long as the node.
 PETRI_API const char *petri_tree_tag(const PetriNode *node, uint32_t number);
-PETRI_API const char *petri_tree_attribute(const PetriNode *node, uint32_t number, PetriValue *value); // its name
+
+// Returns the name of an attribute by number and stores its value, or returns NULL past the last. Valid as long as the
+// node.
+PETRI_API const char *petri_tree_attribute(const PetriNode *node, uint32_t number, PetriValue *value);
+
+// Returns a child of a node by number, or NULL past the last. Valid as long as the node.
 PETRI_API const PetriNode *petri_tree_child(const PetriNode *node, uint32_t number);
-// The attribute of this name, or null. Valid as long as the node.
+
+// Returns the value of the attribute with this name, or null. Valid as long as the node.
 PETRI_API PetriValue petri_tree_get(const PetriNode *node, const char *name);
 
-// A built-in function of the host's own. While it runs, nothing of its session may be called but petri_symbol_name and
-// what takes a PetriCall, and it must return: no longjmp, no exception.
+// A call of a host function, valid until the function returns.
 typedef struct PetriCall PetriCall;
-// The arguments are those by position, then null for each parameter that has none; a `...` may bring more. All is valid
-// during the call. The result is copied, unless it is made of petri_call_alloc_numbers; null for what is no value.
+
+// A function of the host that scripts call like a built-in function. `arguments` holds the positional arguments, then
+// null for each parameter without one; with `...` there may be more. They are valid during the call. The result is
+// copied, unless its numbers come from petri_call_alloc_numbers; an invalid result becomes null. The function may only
+// call petri_symbol_name and the functions that take a PetriCall. It must return normally: no longjmp, no exception.
 typedef PetriValue PetriFunctionCall(PetriCall *call, void *user_data, const PetriValue *arguments, uint32_t count);
+
+// Description of a host function.
 typedef struct PetriFunction {
     size_t size; // sizeof(PetriFunction)
     const char *name;
-    const char
-        *parameters;  // such as "x, y=0, ...": those with a default may be left out; eight at the most before `...`
-    const char *help; // a line; may be NULL
-    bool pure; // the same arguments always give the same result, so that a call may be made once, when a script is
-               // loaded
-    PetriFunctionCall *call;
-    void *user_data; // for `call`
+    // Parameters, such as "x, y=0, ...". Those with a default may be omitted in calls. At most eight before `...`.
+    const char *parameters;
+    const char *help;        // one line; may be NULL
+    bool pure;               // equal arguments always give the same result; calls may be folded at load time
+    PetriFunctionCall *call; // the function
+    void *user_data;         // passed to `call`
 } PetriFunction;
-// Adds a function for the scripts and modules loaded from now on. It stays with the session, and texts are copied.
-// PETRI_INVALID for a name that is none, is the engine's, a built-in's or another function's, for parameters that make
-// no sense, and within a callback.
+
+// Adds a host function for the scripts and modules that are loaded from now on. It cannot be removed. Copies the struct
+// and its texts. Returns PETRI_INVALID if the name is not valid or already in use by the engine, a built-in or another
+// host function, if the parameters are not valid, and within a callback.
 PETRI_API PetriStatus petri_add_function(PetriSession *session, const PetriFunction *function);
-// Room for the numbers of a result; NULL if memory is used up. Valid until the call returns its result.
+
+// Allocates the numbers of a host function's result, which then need not be copied. Returns NULL if out of memory.
+// Valid until the function returns. Freed by the session.
 PETRI_API double *petri_call_alloc_numbers(PetriCall *call, uint32_t count);
-// Tells the script's author what is wrong with the arguments, as `NAME: text` at the place of the call, once; the
-// result is null then. The text is copied and may be cut after 200 bytes.
+
+// Reports an error in the arguments of a host function as the diagnostic `NAME: text` at the call, once. The result of
+// the call is then null. Copies the text, truncated to 199 bytes.
 PETRI_API void petri_call_error(PetriCall *call, const char *text);
 
-// Numbers of the particles of a system where they lie: those of particle i begin at `data[i * stride]`.
+// A property of all particles of a system. The numbers of particle i start at `data[i * stride]`.
 typedef struct PetriColumn {
-    const double *data; // NULL if there are none
-    size_t stride;      // 0: all particles have the same
+    const double *data; // NULL: not available
+    size_t stride;      // in doubles; 0: all particles have the same value
 } PetriColumn;
 
-// A particle system of the last frame. Anchors are particles, too. Its columns point into the session, and nothing is
-// copied: they are valid until the next step, load, rewind, restore or clear.
+// A particle system of the last frame. Anchors are included. The columns refer to memory of the session without a copy,
+// and are valid until the next step, load, petri_rewind, petri_restore or petri_reset.
 typedef struct PetriSystem {
-    const char *name;    // its state prefix in printed form, such as ":cells"; valid as the columns are
-    uint32_t dimensions; // doubles of a position, velocity or force
+    const char *name;    // state prefix in printed form, such as ":cells"; valid as long as the columns
+    uint32_t dimensions; // numbers in each position, velocity and force
     uint32_t particle_count;
-    uint32_t force_count; // force appliers and barriers
+    uint32_t force_count; // number of force appliers and barriers
     uint64_t steps;       // simulation steps in the frame
-    PetriColumn position; // may be non-finite
+    PetriColumn position; // may contain numbers that are not finite
     PetriColumn velocity;
-    PetriColumn force; // the sum of all forces in the frame's last step, 0 on an anchor. `data` is NULL if no step was
-                       // made, or without PetriOptions.keep_forces
+    // Sum of all forces on each particle in the last step of the frame; 0 for anchors. `data` is NULL if no step was
+    // made, or without PetriOptions.keep_forces.
+    PetriColumn force;
     PetriColumn radius;
     PetriColumn mass;
     PetriColumn charge;
-    const bool *anchor; // that of particle i is `anchor[i * anchor_stride]`
+    const bool *anchor; // true for anchors; that of particle i is `anchor[i * anchor_stride]`
     size_t anchor_stride;
 } PetriSystem;
-// By number from 0 in order of declaration; false beyond the last, and if memory is used up.
+
+// Gets a particle system by number, in the order of the script. Returns false past the last, or if out of memory.
 PETRI_API bool petri_system(PetriSession *session, size_t number, PetriSystem *system);
-// For hosts whose users hold columns for longer: from now on those that are no longer valid stay readable, with what
-// they held last or hold by chance, until this is called with false, or the session is closed. Their memory counts.
+
+// Keeps the memory of columns that are no longer valid readable, with unspecified contents. For hosts that cannot
+// control when columns are last read, such as garbage-collected languages. The memory counts towards the memory limit.
+// It is freed when this is called with false, or by petri_close.
 PETRI_API void petri_keep_columns(PetriSession *session, bool keep);
-// The id of a particle; null if there is none. Valid until the next petri_particle_id or petri_system_force, and as the
-// columns are.
+
+// Returns the id of a particle by its number in the system, or null if there is no such particle. Valid until the next
+// petri_particle_id or petri_system_force, and as long as the columns.
 PETRI_API PetriValue petri_particle_id(PetriSession *session, size_t system, uint32_t particle);
-// The ids of all particles, if each is one number (as a symbol is); else `data` is NULL, and if memory is used up. Made
-// when they are asked for first and whenever the system has got others, and charged as the script's memory is. Valid as
-// the columns are.
+
+// Returns the ids of all particles, if each id is a single number or symbol. Otherwise, or if out of memory, `data` is
+// NULL. The column is built at the first request and when the particles change; its memory counts towards the memory
+// limit. Valid as long as the other columns.
 PETRI_API PetriColumn petri_particle_ids(PetriSession *session, size_t system);
-// How ranks (PetriOptions.ranks) share a system, and what this one has sent for it so far. A message to all is one.
+
+// How the ranks (PetriOptions.ranks) divide the work of a system.
 typedef enum PetriDecomposition {
-    PETRI_REPLICATED,        // each does all of it: it is small, or so are the forces
-    PETRI_FORCE_DECOMPOSED,  // forces without reach: blocks of pairs are dealt out
-    PETRI_DOMAIN_DECOMPOSED, // each has the particles of a region
+    PETRI_REPLICATED,        // not divided, because the system or its forces are small: each rank computes everything
+    PETRI_FORCE_DECOMPOSED,  // forces of unlimited range: each rank computes some blocks of pairs
+    PETRI_DOMAIN_DECOMPOSED, // each rank owns the particles of a region
 } PetriDecomposition;
+
+// What a rank has communicated for a system so far. A message to all ranks counts once.
 typedef struct PetriRankStats {
     PetriDecomposition decomposition; // in the last frame
-    uint64_t frames;                  // that simulated
+    uint64_t frames;                  // frames with simulation steps
     uint64_t steps;
-    uint64_t step_bytes; // sent within steps
+    uint64_t step_bytes; // sent during steps
     uint64_t step_messages;
-    uint64_t reductions;  // decisions that all ranks took together: twice the logarithm of their number in messages
-    uint64_t frame_bytes; // sent at the end of frames, for all to have all particles
-    uint64_t own;         // particles of its region, summed over the steps
-    uint64_t halo;        // those of other regions that it was told of, likewise
+    uint64_t reductions;  // allreduce operations, each of about 2 log2(rank_count) messages
+    uint64_t frame_bytes; // sent at the end of frames, when all ranks receive all particles
+    uint64_t own;         // owned particles, summed over the steps
+    uint64_t halo;        // particles received from other regions, summed over the steps
 } PetriRankStats;
-// False if there is no such system.
-PETRI_API bool petri_rank_stats(PetriSession *session, size_t system, PetriRankStats *traffic);
-// The number of the particle that has an id; false if there is none, or memory is used up.
+
+// Gets the communication statistics of a system. Returns false if there is no such system.
+PETRI_API bool petri_rank_stats(PetriSession *session, size_t system, PetriRankStats *stats);
+
+// Finds the number of the particle with an id. Returns false if there is none, or if out of memory.
 PETRI_API bool petri_find_particle(PetriSession *session, size_t system, PetriValue id, uint32_t *particle);
 
-// A force applier or barrier: what can be seen of it.
+// A force applier or barrier of a system.
 typedef struct PetriForce {
-    const char *kind;       // its node, without the `!`, such as "distance"; lives as long as the library
-    double strength;        // before easing in
-    uint32_t from;          // distance: the particles that it joins
+    const char *kind;       // kind of its node without the `!`, such as "distance"; lives as long as the library
+    double strength;        // without the effect of `ease`
+    uint32_t from;          // `!distance` only: numbers of the two particles that it connects
     uint32_t to;            //
-    const double *position; // barrier: a point on it, and its unit normal; else NULL
-    const double *normal;
+    const double *position; // `!barrier` only: a point on it; else NULL
+    const double *normal;   // `!barrier` only: its unit normal; else NULL
 } PetriForce;
 
-// By number from 0 in order of declaration; false beyond the last, and if memory is used up. Vectors are valid until
-// the next petri_system_force or petri_particle_id, and as the columns of the system are.
+// Gets a force applier or barrier by number, in the order of the script. Returns false past the last, or if out of
+// memory. The vectors are valid until the next petri_system_force or petri_particle_id, and as long as the columns of
+// the system.
 PETRI_API bool petri_system_force(PetriSession *session, size_t system, uint32_t number, PetriForce *force);
 
-// Whether the last frame has anything to draw: a window with a canvas, or physics. A library of its own draws it
-// (petri-draw.h).
+// Returns true if the last frame has something to draw: a window with a canvas, or a particle system. petri-draw.h
+// draws it.
 PETRI_API bool petri_has_picture(PetriSession *session);
 
-// The kinds of nodes that do something, with their attributes, for help and completion. Indices count from 0; false
-// beyond the last. Texts live as long as the library.
+// A kind of node that has a meaning to petri, for help and completion. The texts live as long as the library.
 typedef struct PetriNodeKind {
     const char *name; // without the `!`
-    const char *area; // "physics", "canvas" or "canvas3d"; `group` is a kind of each
+    const char *area; // "physics", "canvas" or "canvas3d"; `group` occurs in each
     const char *help;
-    // Of a force: lines `F = …`, with `if` for cases of which the first counts, and what they take before them; else
-    // "". n dimensions, δ the length of a step; of a particle, or of the first and second of a pair: r radius, m mass,
-    // q charge, v velocity, l the distance of the two, s that from a wall. Above 0 a pair is pushed apart. A force has
-    // the unit mass·length/time², each of them as the script chooses.
+    // Formula of a force, else "". One or more lines `F = …`; of lines with `if`, the first whose condition holds
+    // applies. Lines before them define names. A positive F pushes the particles of a pair apart. The unit of F is
+    // mass·length/time², in the units of the script. n: dimensions; δ: length of the step; l: distance of the pair; s:
+    // distance from the barrier. Of the particle, or of the first and second of a pair: r: radius; m: mass; q: charge;
+    // v: velocity.
     const char *formula;
 } PetriNodeKind;
 
+// An attribute of a kind of node. The texts live as long as the library.
 typedef struct PetriNodeAttribute {
     const char *name;
-    const char *type;          // as words, such as "number" or ":butt, :round or :square"
-    const char *default_value; // the default, as words; "" for none
-    const char *help;          // "" where the name says all
-    const char *unit;          // as words, such as "turns"; "" for none
+    const char *type;          // in words, such as "number" or ":butt, :round or :square"
+    const char *default_value; // in words; "": none
+    const char *help;          // "": the name is sufficient
+    const char *unit;          // in words, such as "turns"; "": none
 } PetriNodeAttribute;
-// By number from 0; false beyond the last.
+
+// Gets a kind of node by number. Returns false past the last.
 PETRI_API bool petri_node_kind(size_t kind, PetriNodeKind *out);
+
+// Gets an attribute of a kind of node by number. Returns false past the last.
 PETRI_API bool petri_node_attribute(size_t kind, size_t attribute, PetriNodeAttribute *out);
 
-// What a frame's text holds (spec cli.md 3.3), in this order.
+// Sections that petri_print writes, in this order (spec cli.md 3.3).
 enum {
     PETRI_PRINT_TREE = 1,
     PETRI_PRINT_STATE = 2,
-    PETRI_PRINT_LOG = 4,
-    PETRI_PRINT_ERROR = 8,
-    PETRI_PRINT_HASH = 16, // the SHA-256 of what PETRI_PRINT_STATE writes, whether that is asked for or not
+    PETRI_PRINT_LOG = 4,   // output of debug()
+    PETRI_PRINT_ERROR = 8, // run-time errors
+    PETRI_PRINT_HASH = 16, // SHA-256 of the text of PETRI_PRINT_STATE, which need not be printed
 };
 
-// Takes a piece of text; false stops the writing.
+// Receives a part of a text, which need not end at a line break. Returns false to stop.
 typedef bool PetriWriteCallback(void *user_data, const char *text, size_t length);
 
-// Writes `@FRAME time=T beat=B` and the sections asked for. PETRI_INVALID if the writer said stop.
+// Writes the last frame as text: a line `@FRAME time=T beat=B`, then the given sections. Returns PETRI_INVALID if
+// `write` returned false, and PETRI_LIMIT_EXCEEDED if the tree is longer than 512 MiB.
 PETRI_API PetriStatus petri_print(PetriSession *session, unsigned sections, PetriWriteCallback *write, void *user_data);
-// Only the log lines of the frame, each `> text`. PETRI_INVALID likewise.
+
+// Writes only the debug() output of the last frame, each line as `> text`. Returns PETRI_INVALID if `write` returned
+// false.
 PETRI_API PetriStatus petri_print_log(PetriSession *session, PetriWriteCallback *write, void *user_data);
 
-// Writes where the time has gone since the script was loaded, one line for each source line that was evaluated, one for
-// the systems and one for `output_seconds`, which the host has spent on output; the longest first. PETRI_INVALID
-// without the option `profile`, or if the writer said stop.
+// Writes the time spent since the script was loaded, longest first: a line for each source line that was evaluated, for
+// the particle systems, and for `output_seconds`, the time that the host has spent on output. Returns PETRI_INVALID
+// without PetriOptions.profile, or if `write` returned false.
 PETRI_API PetriStatus petri_profile(PetriSession *session, double output_seconds, PetriWriteCallback *write,
                                     void *user_data);
 
-// A prompt: text typed by a person. It and the names that it binds are evaluated in the state after the last frame.
-// Names of the script's top level have their values of the frame, before its systems were updated. If the configuration
-// changes, the script is evaluated for the frame again, in the state before it if the session is `interruptible` and
-// has made the frame itself, else in the state after it. Before the first frame it is evaluated for frame 0.
-
+// The prompt evaluates text that a user types, using the state after the last frame. Names of the script's top level
+// have the values of the last frame, before its systems were advanced. If the configuration changed since, the script
+// is evaluated again for that frame. It then uses the state before the frame, if petri_step computed the frame in this
+// session and PetriOptions.rollback_frames is set, else the state after it. Before the first frame, the script is
+// evaluated for frame 0.
+//
+// Result of petri_prompt_check: whether a text needs more lines.
 typedef enum PetriCompleteness {
-    PETRI_COMPLETE,    // the text is complete, or wrong whatever follows
-    PETRI_EXTENDABLE,  // it is complete, and indented lines would go on with it
-    PETRI_NEEDS_BLOCK, // indented lines must follow
-    PETRI_INCOMPLETE,  // it cannot end here
+    PETRI_COMPLETE,    // complete, or invalid whatever follows
+    PETRI_EXTENDABLE,  // complete, but may continue with indented lines
+    PETRI_NEEDS_BLOCK, // must continue with indented lines
+    PETRI_INCOMPLETE,  // must continue, for example in an open bracket
 } PetriCompleteness;
-// Whether more lines are needed. A text for which memory does not suffice counts as whole, with a diagnostic.
+
+// Returns whether a text for petri_prompt is complete. If out of memory, reports a diagnostic and returns
+// PETRI_COMPLETE.
 PETRI_API PetriCompleteness petri_prompt_check(PetriSession *session, const char *text, size_t length);
 
-// What became of the statements of a text.
+// The numbers of statements of each kind that petri_prompt executed.
 typedef struct PetriPromptResult {
-    uint32_t values;   // evaluated once and written
-    uint32_t bindings; // `let`, `func`, `import`: kept and evaluated in each frame, after the script
-    uint32_t nodes; // statements that begin with a node, or an `if` or `for` around one: kept likewise, and their nodes
-                    // are added to those of the script; they are written, too, as they are now
-    const char *shadowed; // a name bound that the script's top level binds, too: the script goes on with its own; or
-                          // NULL. Valid as long as the session
+    uint32_t values;   // expressions: evaluated once and written
+    uint32_t bindings; // `let`, `func` and `import`: retained and evaluated in each frame, after the script
+    // Nodes, also in `if` or `for`: written, retained, evaluated in each frame and added to the nodes of the script.
+    uint32_t nodes;
+    // A bound name that the script's top level also binds; the script keeps using its own. NULL: none. Valid as long as
+    // the session.
+    const char *shadowed;
 } PetriPromptResult;
-// Takes a text, statement by statement. Values are written in printed form, nodes as trees, debug() as `> text`.
-// PETRI_INVALID if it does not parse; a statement that was given up is not kept.
+
+// Executes the statements of a text. Writes values in printed form, nodes as trees and debug() output as `> text`;
+// `write` may be NULL. Returns PETRI_INVALID if the text is not valid. A statement that fails is not retained, and ends
+// the execution.
 PETRI_API PetriStatus petri_prompt(PetriSession *session, const char *text, size_t length, PetriWriteCallback *write,
                                    void *user_data, PetriPromptResult *result);
-// Drops what the prompt has kept: nodes, or bindings as well. Returns how many statements that were; none if
-// memory is used up.
+
+// Removes the retained nodes of the prompt, and with `bindings` also the bindings. Returns the number of removed
+// statements; 0 if out of memory.
 PETRI_API uint32_t petri_prompt_clear(PetriSession *session, bool bindings);
-// A statement that is evaluated in each frame, by number from 0; NULL beyond the last. Valid until the next call that
-// changes the configuration.
+
+// Returns the text of a retained statement by number, or NULL past the last. Valid until the configuration changes.
 PETRI_API const char *petri_prompt_statement(const PetriSession *session, size_t number);
 
+// Result of petri_evaluate.
 typedef struct PetriEvaluation {
     bool is_true;
     uint32_t length; // of the vector
-    double number;   // NaN unless it is one number
-    double seconds;  // that the evaluation took, without compilation
+    double number;   // NaN unless it is a single number
+    double seconds;  // duration of the evaluation, without compilation
 } PetriEvaluation;
-// Evaluates one expression; its value is written in one line, without end, unless `write` is NULL. PETRI_INVALID if it
-// is none.
+
+// Evaluates one expression like petri_prompt, without retaining it. Writes its value on one line, without a newline;
+// `write` may be NULL. Returns PETRI_INVALID if the text is not a single valid expression.
 PETRI_API PetriStatus petri_evaluate(PetriSession *session, const char *text, size_t length, PetriEvaluation *result,
                                      PetriWriteCallback *write, void *user_data);
-// Evaluates the script for the present frame, or frame 0, as for the prompt, if petri_step has not done so: for
-// petri_print. PETRI_INVALID if no script is loaded.
+
+// Evaluates the script for the last frame, or for frame 0 before the first, if that has not been done with the current
+// configuration. petri_tree and petri_print then show the result. Returns PETRI_INVALID if no script is loaded.
 PETRI_API PetriStatus petri_preview(PetriSession *session);
 
-// A name that the prompt can see, besides built-ins, by number from 0; NULL beyond the last. Names may come twice.
-// Valid as long as the session.
+// Returns a name that the prompt can use, besides built-in functions, by number, or NULL past the last. Names may occur
+// twice. Valid as long as the session.
 PETRI_API const char *petri_visible_name(const PetriSession *session, size_t number);
 
-// The tokens of a text, for editors: comments among them, and where lines end and blocks begin and end.
+// Kinds of tokens that petri_tokenise finds.
 typedef enum PetriTokenKind {
     PETRI_TOKEN_NAME,
-    PETRI_TOKEN_KEYWORD, // a word where it is one; %pragma and %include, too
-    PETRI_TOKEN_NUMBER,  // time codes, too
+    PETRI_TOKEN_KEYWORD, // where the word is a keyword; also %pragma and %include
+    PETRI_TOKEN_NUMBER,  // also time codes
     PETRI_TOKEN_STRING,
     PETRI_TOKEN_SYMBOL,
     PETRI_TOKEN_NODE,
     PETRI_TOKEN_TAG,
-    PETRI_TOKEN_OPERATOR, // brackets and punctuation, too
-    PETRI_TOKEN_COMMENT,  // without the line's end; what `#!` begins, too
-    PETRI_TOKEN_INVALID,  // no token starts with this
-    PETRI_TOKEN_NEWLINE,  // a statement may end here, or the head of a block; of no length, as the next two are
-    PETRI_TOKEN_INDENT,
-    PETRI_TOKEN_DEDENT,
+    PETRI_TOKEN_OPERATOR, // also brackets and punctuation
+    PETRI_TOKEN_COMMENT,  // without the end of the line; also a `#!` line
+    PETRI_TOKEN_INVALID,  // a character that starts no token
+    PETRI_TOKEN_NEWLINE,  // end of a statement or of a block's head; empty, like the following two
+    PETRI_TOKEN_INDENT,   // start of a block
+    PETRI_TOKEN_DEDENT,   // end of a block
 } PetriTokenKind;
 typedef struct PetriToken {
     PetriTokenKind kind;
-    size_t start; // in bytes from the text's beginning
-    size_t end;
+    size_t start; // bytes from the start of the text
+    size_t end;   // first byte after the token
 } PetriToken;
+
+// Receives a token. Must not call the session.
 typedef void PetriTokenCallback(void *user_data, const PetriToken *token);
-// Gives the tokens of a text in order; its lines end in LF, and it begins with no byte-order mark. Where it does not
-// parse, it goes on behind that, PETRI_OK all the same; of text that is not UTF-8 it gives none. `take` calls nothing
-// of the session.
+
+// Passes the tokens of a text to a callback, in order, for editors. Lines must end in LF, and there must be no byte
+// order mark. Continues after syntax errors; text that is not UTF-8 has no tokens. Returns PETRI_OK in both cases.
 PETRI_API PetriStatus petri_tokenise(PetriSession *session, const char *text, size_t length,
                                      PetriTokenCallback *callback, void *user_data);
 
-// What the names of a text stand for, for editors; built-ins, the engine's names and attributes are not the text's.
+// Kinds of names that petri_bindings finds.
 typedef enum PetriNameKind {
-    PETRI_NAME_USE,
-    PETRI_NAME_LET, // of a `where`, too
+    PETRI_NAME_USE, // a use of a name; all others bind one
+    PETRI_NAME_LET, // also `where`
     PETRI_NAME_FUNC,
     PETRI_NAME_PARAMETER,
     PETRI_NAME_LOOP,
     PETRI_NAME_IMPORT,
 } PetriNameKind;
+
+// A use or binding of a name. Positions are bytes from the start of the text; each end is the first byte after.
 typedef struct PetriBinding {
     PetriNameKind kind;
-    size_t start; // of the name, in bytes from the text's beginning
+    size_t start; // of the name
     size_t end;
-    size_t
-        binding_start;  // of a use: where the name starts that binds it; PETRI_NUL_TERMINATED: nothing of the text does
-    size_t scope_start; // of others: where it is visible
+    size_t binding_start; // uses: start of the name in its binding; SIZE_MAX: not bound in this text
+    size_t scope_start;   // bindings: where the name is visible
     size_t scope_end;
-    size_t value_start; // … and what it is bound to: a value, a function, a file
+    size_t value_start; // bindings: the value, function or file name that is bound
     size_t value_end;
-    bool is_sole;   // … the value is bound to this name alone
-    uint32_t depth; // … in so many blocks and functions
+    bool is_sole;   // bindings: the value is bound to this name only
+    uint32_t depth; // bindings: number of enclosing blocks and functions
 } PetriBinding;
+
+// Receives a use or binding. Must not call the session.
 typedef void PetriBindingCallback(void *user_data, const PetriBinding *name);
-// Gives the names that are bound or used, as petri_tokenise gives tokens, PETRI_OK even where the text does not parse.
+
+// Passes the names that a text uses or binds to a callback, for editors, with the same rules as petri_tokenise.
+// Built-in functions, names of the engine and attributes are not included. Returns PETRI_OK even if the text has syntax
+// errors.
 PETRI_API PetriStatus petri_bindings(PetriSession *session, const char *text, size_t length,
                                      PetriBindingCallback *callback, void *user_data);
 
 typedef enum PetriDump { PETRI_DUMP_AST, PETRI_DUMP_CODE } PetriDump;
-// Writes the loaded script's syntax tree or compiled code. PETRI_INVALID without one, or if the writer said stop.
+
+// Writes the syntax tree or the compiled code of the loaded script. Returns PETRI_INVALID if no script is loaded, or if
+// `write` returned false.
 PETRI_API PetriStatus petri_dump(PetriSession *session, PetriDump what, PetriWriteCallback *write, void *user_data);
 
-// How many diagnostics were given since the session was opened, by level.
+// Returns the number of diagnostics of a level that were reported since the session was opened.
 PETRI_API uint64_t petri_diagnostic_count(const PetriSession *session, PetriLevel level);
-// The last diagnostics, a hundred at the most, by number from 0, the oldest first; false beyond the last. Texts are
-// valid until the next diagnostic, petri_clear_diagnostics or petri_close.
+
+// Gets one of the last 100 diagnostics by number, oldest first, for hosts without on_diagnostic. Returns false past the
+// last. The texts are valid until the next diagnostic, petri_clear_diagnostics or petri_close.
 PETRI_API bool petri_diagnostic(const PetriSession *session, size_t number, PetriDiagnostic *diagnostic);
-// Keeps none of those given so far, so that petri_diagnostic shows what the next calls have to say.
+
+// Forgets the diagnostics so far, so that petri_diagnostic returns only those of the following calls.
 PETRI_API void petri_clear_diagnostics(PetriSession *session);
 
-// One built-in function, for help. `index` counts from 0; false beyond the last. Texts live as long as the library.
+// A function, for help. The texts live as long as the library, or those of a host function as long as the session.
 typedef struct PetriBuiltin {
     const char *name;
     const char *parameters;
     const char *help;
 } PetriBuiltin;
+
+// Gets a built-in function by number. Returns false past the last.
 PETRI_API bool petri_builtin(size_t index, PetriBuiltin *builtin);
-// The same for those that the host has added. Valid as long as the session.
+
+// Gets a function that the host added (petri_add_function) by number. Returns false past the last.
 PETRI_API bool petri_host_function(const PetriSession *session, size_t number, PetriBuiltin *function);
 
-// A number as `--runtime` takes it: seconds with suffix or a time code. False if it is none.
+// Parses a number as scripts and options write it, with an optional suffix, or a time code, into seconds. Returns false
+// if the text is not a number.
 PETRI_API bool petri_parse_number(const char *text, double *x);
 
-// The library's version as text, such as "0.2.0", and as a number like PETRI_VERSION_NUMBER. Lives as long
-// as the library.
+// Returns the version of the library as text, such as "0.2.0". Lives as long as the library.
 PETRI_API const char *petri_version(void);
+
+// Returns the version of the library as a number, like PETRI_VERSION_NUMBER.
 PETRI_API int petri_version_number(void);
 
 #ifdef __cplusplus
