@@ -38,10 +38,10 @@ static void begin_layer(Canvas *canvas, Layers *layers, const Origin *place) {
         layers->drawn[at] = false;
     if (many) {
         draw_report_canvas_at(canvas, place, DIAG_WARNING, "too-many-layers",
-                              "!layer: layers are too many or too large; the innermost are drawn without");
+                              "!layer: too many or too large layers; the innermost are drawn directly");
         return;
     }
-    if (!draw_charge(canvas, place, pixels, "what is in here is drawn without a layer"))
+    if (!draw_charge(canvas, place, pixels, "drawn without the layer"))
         return;
     if (wide)
         layers->below[at] = hdr_begin_layer(canvas);

@@ -35,7 +35,7 @@ typedef struct CanvasPicture {
     bool opaque;      // true for a black background, false for a transparent one
     FileAccess reach; // which image files the script may read
     size_t memory;    // limit in bytes, including what the painter caches
-    uint64_t work;    // work limit of the frame (budget.h); drawing has a separate allowance of the same size
+    uint64_t work;    // work limit of the frame (budget.h); drawing has an additional allowance
 } CanvasPicture;
 
 typedef enum CanvasFormat { CANVAS_PNG, CANVAS_SVG, CANVAS_PDF, CANVAS_JPEG } CanvasFormat;

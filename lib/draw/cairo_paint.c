@@ -32,7 +32,7 @@ static const double MAX_WORK = 1e7;    // limit without antialiasing; takes some
 bool draw_is_drawable(Canvas *canvas) {
     if (canvas->path_work > MAX_WORK && !canvas->failed) {
         draw_report_canvas(canvas, DIAG_ERROR, "path-limit",
-                           "a path is too complex to be drawn: it has too many points that are too far apart");
+                           "path is too complex to draw: too many points too far apart");
         canvas->failed = true;
     }
     return !canvas->failed;

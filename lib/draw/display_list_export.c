@@ -364,7 +364,7 @@ static const DrawNode *find_canvas(DisplayListExport *numbers, const DrawNode *n
 static void add_canvas(DisplayListExport *numbers, const DrawNode *canvas) {
     DisplayListSizes sizes = {0};
     if (draw_flag(canvas, ATTR_LINEAR) && draw_number(canvas, ATTR_COLORBITS) > 8)
-        add_unsupported(numbers, "light beyond 1 (colorbits)");
+        add_unsupported(numbers, "HDR canvas (colorbits)");
     numbers->list = display_list_build(numbers->arena, canvas, &sizes);
     for (uint32_t i = 0; i < numbers->list->commands.count; i++)
         add_command(numbers, &numbers->list->commands.at[i]);

@@ -1,17 +1,18 @@
-// filters.c: what is drawn through a filter (spec canvas.md 6): drawn on a transparent sheet, which is then changed.
+// filters.c: drawing through filters (spec canvas.md 6). The drawing is rendered to a transparent float image, which is
+// then filtered and composited.
 #include "draw/float_image.h"
 #include "draw/hdr_composite.h"
 
 #include <math.h>
 
-enum { MAX_PIXELS = 1 << 26 };         // pixels
-static const double MAX_OFFSET = 2000; // that something is moved, pixels
+enum { MAX_PIXELS = 1 << 26 };         // pixels of a filtered image
+static const double MAX_OFFSET = 2000; // pixels by which an offset can extend the image
 
-// Where filters are applied.
+// The inputs of a filter.
 typedef struct FilterContext {
     Canvas *canvas;
-    cairo_matrix_t matrix; // of what is drawn
-    double x;              // of the sheets on the target
+    cairo_matrix_t matrix; // transform of the drawing
+    double x;              // position of the images on the target
     double y;
     const FloatImage *drawn;
 } FilterContext;
@@ -22,14 +23,13 @@ static double scale_in(const cairo_matrix_t *m, int axis) {
 
 static void report_blur_limit(Canvas *canvas, const DisplayFilter *filter, const double radius[2]) {
     if (fmax(radius[0], radius[1]) > FLOAT_IMAGE_MAX_SIGMA)
-        draw_report_canvas_at(canvas, &filter->place, DIAG_WARNING, "blur-limit",
-                              "!%s: a radius of more than %d pixels counts as one of so many",
+        draw_report_canvas_at(canvas, &filter->place, DIAG_WARNING, "blur-limit", "!%s: radius limited to %d pixels",
                               filter->kind == FILTER_BLUR ? "blur" : "shadow", FLOAT_IMAGE_MAX_SIGMA);
 }
 
 static FloatImage apply_filter(const FilterContext *context, uint32_t number);
 
-// A new sheet with the paint everywhere.
+// Returns a new image that is filled with the paint.
 static FloatImage paint_all(const FilterContext *context, const DisplayPaint *paint) {
     Canvas *canvas = context->canvas;
     if (canvas->hdr_target.pixels && paint->source == DISPLAY_NONE) {
@@ -63,7 +63,7 @@ static FloatImage cast_shadow(const FilterContext *context, const DisplayFilter 
     return shadow;
 }
 
-// A new sheet.
+// Returns the result of a filter as a new image.
 static FloatImage apply_filter(const FilterContext *context, uint32_t number) {
     Canvas *canvas = context->canvas;
     if (number == DISPLAY_NONE)
@@ -109,11 +109,11 @@ static FloatImage apply_filter(const FilterContext *context, uint32_t number) {
     return image;
 }
 
-// What a filter asks for.
+// The requirements of a filter.
 typedef struct Needs {
-    double margin;   // how far beyond what is seen things may lie that are seen through it, and its traces
-    double work;     // for each pixel
-    bool everywhere; // it changes what is transparent
+    double margin;   // pixels by which the image must extend beyond the visible area
+    double work;     // nanoseconds per pixel
+    bool everywhere; // true if the filter changes transparent pixels
 } Needs;
 
 static void add_needs(const DisplayList *list, uint32_t number, const cairo_matrix_t *m, Needs *needs) {
@@ -141,7 +141,8 @@ typedef struct Box {
     double height;
 } Box;
 
-// What of the target the sheet covers: where the figure is, if that is known, and where one can see.
+// Finds the area of the target that the image must cover, from the shape's bounding box, if known, and the clip.
+// Returns false if nothing is visible.
 static bool find_box(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint, const Needs *needs,
                      Box *box) {
     cairo_t *cr = canvas->cr;
@@ -160,7 +161,7 @@ static bool find_box(Canvas *canvas, const DisplayCommand *command, const Displa
     for (int k = 0; k < 2; k++) {
         double low = known ? fmax(seen[k], figure[k]) : seen[k];
         double high = known ? fmin(seen[2 + k], figure[2 + k]) : seen[2 + k];
-        // What lies outside may come in, and what is inside may go as far.
+        // Parts outside can become visible, and parts inside can move outside, by at most the margin.
         if (known && (figure[k] - margin >= seen[2 + k] || figure[2 + k] + margin <= seen[k]))
             return false;
         low = known ? fmax(seen[k] - margin, figure[k] - margin) : low - margin;
@@ -171,13 +172,13 @@ static bool find_box(Canvas *canvas, const DisplayCommand *command, const Displa
     return box->width >= 1 && box->height >= 1;
 }
 
-// May the picture go through the filter? If not, it is told.
+// Charges the cost of the filter. Returns false, after a report, if it exceeds a limit.
 static bool can_filter(Canvas *canvas, const DisplayFilter *filter, const Box *box, const Needs *needs) {
     double pixels = box->width * box->height, work = pixels <= MAX_PIXELS ? pixels * needs->work : INFINITY;
-    return draw_charge(canvas, &filter->place, work, "what comes here is drawn without a filter");
+    return draw_charge(canvas, &filter->place, work, "drawn without the filter");
 }
 
-// The command drawn by itself, as a sheet.
+// Draws the command by itself and returns the image.
 static FloatImage draw_offscreen(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint,
                                  const Box *box) {
     cairo_matrix_t matrix;
@@ -203,7 +204,7 @@ static FloatImage draw_offscreen(Canvas *canvas, const DisplayCommand *command, 
     return image;
 }
 
-// Lays what came out over the target.
+// Composites the result onto the target.
 static void composite_result(Canvas *canvas, const FloatImage *image, const Box *box, int composite) {
     cairo_t *cr = canvas->cr;
     if (canvas->hdr_target.pixels) {

@@ -11,7 +11,7 @@
 
 struct FloatImageMemory {
     FloatImageMemory *next;
-    FloatImageMemory **link; // to this one
+    FloatImageMemory **link; // the pointer to this block in the list
     size_t bytes;
     float pixels[];
 };
@@ -88,7 +88,7 @@ void float_image_write(const FloatImage *image, cairo_surface_t *surface) {
     cairo_surface_mark_dirty(surface);
 }
 
-// How a row or column of pixels becomes another.
+// A filter of a row or column of pixels.
 enum { MAX_REACH = 24 };
 static const double MAX_EXACT_SIGMA = 8; // standard deviation, pixels
 
@@ -96,11 +96,11 @@ typedef struct LineFilter {
     void (*apply)(const struct LineFilter *filter, float *line, float *other, int count);
     int reach;
     bool erode;
-    int cell; // pixels that are taken together
+    int cell; // pixels that are averaged to a cell
     float weights[MAX_REACH + 1];
 } LineFilter;
 
-// Changes all rows or all columns.
+// Applies a filter to all rows or all columns.
 static void change_lines(Canvas *canvas, FloatImage *image, int axis, const LineFilter *filter) {
     int count = axis ? image->height : image->width, lines = axis ? image->width : image->height;
     size_t step = axis ? 4 * (size_t)image->width : 4, between = axis ? 4 : 4 * (size_t)image->width;
@@ -123,7 +123,7 @@ static void change_lines(Canvas *canvas, FloatImage *image, int axis, const Line
     float_image_free(canvas, &scratch);
 }
 
-// What neighbours up to a reach give, with their weights; there is nothing beyond the ends.
+// Returns the weighted sum of the neighbours within reach. Pixels beyond the ends are transparent.
 static void convolve_at(const LineFilter *filter, const float *from, int count, int at, float *to) {
     float sum[4] = {0, 0, 0, 0};
     int first = at - filter->reach < 0 ? 0 : at - filter->reach,
@@ -140,10 +140,11 @@ static void convolve_line(const LineFilter *filter, float *line, float *other, i
         convolve_at(filter, other, count, i, line + 4 * (size_t)i);
 }
 
-// The same for a wide reach: cells of several pixels are weighed, and pixels lie between the middles of cells.
+// Like convolve_line for a long reach: averages cells of several pixels, weighs the cells, and interpolates between
+// their centres.
 static void convolve_cells(const LineFilter *filter, float *line, float *other, int count) {
     int cell = filter->cell, cells = (count + cell - 1) / cell;
-    float *weighed = other + 4 * (size_t)cells + 4; // of cells from -1 on
+    float *weighed = other + 4 * (size_t)cells + 4; // indexed by cell, from -1
     memset(other, 0, (size_t)cells * 4 * sizeof(float));
     for (int i = 0; i < count; i++)
         for (int k = 0; k < 4; k++)
@@ -159,7 +160,7 @@ static void convolve_cells(const LineFilter *filter, float *line, float *other, 
     }
 }
 
-// The greatest or least within reach: of more and more pixels, then of two such runs.
+// Finds the maximum or minimum within reach: first of runs of doubling length, then of two overlapping runs.
 static void find_extremes(const LineFilter *filter, float *line, float *other, int count) {
     int reach = filter->reach, all = count + 2 * reach, run = 1, wanted = 2 * reach + 1;
     memset(other, 0, (size_t)all * 4 * sizeof(float));
@@ -177,7 +178,8 @@ static void find_extremes(const LineFilter *filter, float *line, float *other, i
         }
 }
 
-// Averages of cells and lines between them are blurs, too: of (cell² − 1)/12 and twice that, as variances add up.
+// Averaging cells and interpolating between them also blur. Their variances are (cell² - 1)/12 and twice that, and
+// variances add up, so the weights are for the rest.
 static void set_weights(LineFilter *filter, double sigma) {
     double sum = 0, cell = sigma > MAX_EXACT_SIGMA ? floor(sigma / 4) : 1;
     filter->cell = (int)cell;

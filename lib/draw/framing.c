@@ -1,13 +1,13 @@
-// framing.c: the part of space that the automatic picture shows, and its scale; see automatic.h.
+// framing.c: the view and the scale bar of the automatic picture; see automatic.h.
 #include "draw/automatic.h"
 #include "maths/maths.h"
 
 #include <math.h>
 
-static const double AHEAD = 2; // seconds
+static const double AHEAD = 2; // seconds of motion for which the first view leaves space
 static const double GROWTH = 1.6;
 
-// The number that sorting would put at `place`; the numbers are reordered.
+// Returns the number that would be at index `place` if the numbers were sorted. Reorders the numbers.
 static double select_number(double *numbers, uint32_t count, uint32_t place) {
     uint32_t low = 0, high = count - 1;
     while (low < high) {
@@ -36,7 +36,8 @@ static double distance(const double a[3], const double b[3]) {
     return maths_hypot(maths_hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
 }
 
-// How far from the middle most bodies are; a few that fly away must not make all others too small to see.
+// Returns a distance from the middle beyond which bodies are ignored. A few that fly away must not make the others too
+// small to see.
 static double outlier_distance(const AutoSystem *system, const double middle[3], double *numbers) {
     for (uint32_t i = 0; i < system->body_count; i++)
         numbers[i] = distance(system->bodies[i].position, middle);
@@ -73,7 +74,7 @@ static double half_size(const Bounds *bounds, int axes) {
     return half;
 }
 
-// How far the bounds extend from a point along the axis where that is most.
+// Returns the largest distance of the bounds from a point along an axis.
 static double extent(const Bounds *bounds, const double middle[3], int axes) {
     double extent = 0;
     for (int k = 0; k < axes; k++)
@@ -81,12 +82,12 @@ static double extent(const Bounds *bounds, const double middle[3], int axes) {
     return extent;
 }
 
-// The box around all bodies within reach: their discs, their positions, and where they fly.
+// Bounds of all bodies that are not ignored: of their discs, their positions, and their paths in the next seconds.
 typedef struct Extents {
     Bounds discs;
     Bounds positions;
     Bounds ways;
-    double largest; // radius
+    double largest; // largest radius
 } Extents;
 
 static Extents find_extents(const AutoSystem *system, const double middle[3], double reach) {
@@ -109,13 +110,13 @@ static Extents find_extents(const AutoSystem *system, const double middle[3], do
     return extents;
 }
 
-// The next of 1, 1.25, 1.6, 2, 2.5 …
+// Returns the next of 1, 1.25, 1.6, 2, 2.5 and so on.
 static double round_up(double x) {
     double step = ceil(maths_log10(x) * 10 - 1e-9);
     return maths_pow(10, step / 10);
 }
 
-// Adds the walls that the bodies may soon meet: those nearer to their middle than twice their extent.
+// Adds the walls that bodies may soon reach: those nearer to the middle of the bounds than twice their extent.
 static void include_walls(Bounds *shown, const AutoSystem *system, int axes) {
     const double near = 2 * half_size(shown, axes);
     double middle[3], foot[3];
@@ -133,8 +134,8 @@ static void include_walls(Bounds *shown, const AutoSystem *system, int axes) {
     }
 }
 
-// The first frame. Bodies that begin in one place are given room to fly apart; the origin is in the middle if it almost
-// is anyway.
+// Chooses the first view. Bodies that start close together get space to move apart. If the centre is almost at the
+// origin, it is moved there.
 static void choose(AutoFrame *frame, const AutoSystem *system, const Extents *extents, int axes) {
     enum { RADII = 8, SLOW = 50 };
     Bounds shown = extents->discs;
@@ -151,7 +152,7 @@ static void choose(AutoFrame *frame, const AutoSystem *system, const Extents *ex
         double middle = shown.low[k] + (shown.high[k] - shown.low[k]) / 2;
         frame->middle[k] = fabs(middle) < half / 10 ? 0 : middle;
     }
-    // Where the corners of the box may point towards us.
+    // In three dimensions corners of the box may point towards the eye, so the view is larger.
     double wanted = fmax((axes == 3 ? 1.25 : 1.1) * extent(&shown, frame->middle, axes), least);
     frame->half = round_up(wanted > 1e-9 ? wanted : 1);
 }
@@ -183,7 +184,7 @@ void auto_frame(Arena *arena, AutoFrame *frame, const AutoSystem *system) {
         frame->half *= GROWTH;
 }
 
-// Strokes of characters on a grid 2 wide and 8 high: points as two digits, x and y; | begins another line.
+// Strokes of characters on a grid 2 wide and 8 high. A point is two digits, x and y; | starts another line.
 static const char *strokes_of(char c) {
     static const char *const digits[] = {"0020280800",      "061810",       "082824040020", "08282000|0424",
                                          "080424|2820",     "280804242000", "280800202404", "082820",
@@ -202,7 +203,7 @@ static const char *strokes_of(char c) {
     }
 }
 
-enum { LEFT = 16, BOTTOM = 16, TICK = 5, LONGEST = 120, SCALE_ROOM = 100 };
+enum { LEFT = 16, BOTTOM = 16, TICK = 5, MAX_LENGTH = 120, SCALE_ROOM = 100 };
 static const double GLYPH_WIDTH = 4, GLYPH_HEIGHT = 1.75, ADVANCE = 13;
 
 static void add_line(AutoSystem *system, double x1, double y1, double x2, double y2) {
@@ -223,15 +224,15 @@ static void add_character(AutoSystem *system, char c, double x, double y) {
     }
 }
 
-// A bar of 1, 2 or 5 times a power of ten, with its length above it.
+// Creates a bar whose length is 1, 2 or 5 times a power of ten, with the length above it.
 void auto_scale(Arena *arena, AutoSystem *system) {
     const double unit = AUTO_PANEL / 2 * (1 - 2 * AUTO_MARGIN) / system->frame.half; // pixels
-    double power = maths_pow(10, floor(maths_log10(LONGEST / unit))), length = power;
+    double power = maths_pow(10, floor(maths_log10(MAX_LENGTH / unit))), length = power;
     if (!isfinite(length) || !(length > 0))
         return;
-    if (5 * power * unit <= LONGEST)
+    if (5 * power * unit <= MAX_LENGTH)
         length = 5 * power;
-    else if (2 * power * unit <= LONGEST)
+    else if (2 * power * unit <= MAX_LENGTH)
         length = 2 * power;
     system->scale = arena_alloc_array(arena, SCALE_ROOM, sizeof *system->scale);
     double right = LEFT + length * unit;

@@ -5,19 +5,19 @@
 
 #include <math.h>
 
-// What is laid over the target: how much of each pixel is covered, and by what.
+// A source to composite onto the target, and its coverage.
 typedef struct Stamp {
-    cairo_pattern_t *cover;  // a group, to be destroyed
-    cairo_pattern_t *colors; // likewise; or
-    const FloatImage *sheet; // at x, y; or
+    cairo_pattern_t *cover;  // coverage, a group; composite_stamp destroys it
+    cairo_pattern_t *colors; // colours, a group; composite_stamp destroys it; NULL: use `image`, `shade` or `color`
+    const FloatImage *image; // colours, at x, y of the target; NULL: use `shade` or `color`
     int x;
     int y;
-    const HdrPaint *shade; // or
+    const HdrPaint *shade; // NULL: use `color`
     float color[4];
     CompositeMode mode;
 } Stamp;
 
-// The pixels of a group, and where they lie on the target.
+// The pixels of a group and their position on the target.
 typedef struct Pixels {
     const unsigned char *at;
     int width;
@@ -47,15 +47,15 @@ static const unsigned char *row_of(const Pixels *pixels, int y) {
     return pixels->at + (ptrdiff_t)(y - pixels->y) * pixels->stride;
 }
 
-// The colour at x, y of the target.
+// Returns the source's colour at pixel x, y of the target.
 static inline void find_color(const Stamp *stamp, const Pixels *colors, int x, int y, float color[4]) {
     const float *from = stamp->color;
     if (stamp->shade) {
         hdr_paint_at(stamp->shade, x + 0.5, y + 0.5, color);
         return;
     }
-    if (stamp->sheet) {
-        const FloatImage *image = stamp->sheet;
+    if (stamp->image) {
+        const FloatImage *image = stamp->image;
         static const float nothing[4];
         int column = x - stamp->x, row = y - stamp->y;
         bool inside = column >= 0 && row >= 0 && column < image->width && row < image->height;
@@ -63,14 +63,14 @@ static inline void find_color(const Stamp *stamp, const Pixels *colors, int x, i
     }
     for (unsigned k = 0; k < 4; k++)
         color[k] = from[k];
-    if (!colors->at || stamp->sheet)
+    if (!colors->at || stamp->image)
         return;
     uint32_t pixel = ((const uint32_t *)(const void *)row_of(colors, y))[x - colors->x];
     for (unsigned k = 0; k < 4; k++)
         color[k] = (float)(pixel >> (k < 3 ? 16 - 8 * k : 24) & 255) / 255;
 }
 
-// d = k B(s, d) + (1 − k) d
+// Composites: d = k B(s, d) + (1 - k) d, where k is the coverage.
 static void composite_stamp(Canvas *canvas, Stamp *stamp) {
     FloatImage *wide = &canvas->hdr_target;
     Pixels cover = pixels_of(stamp->cover), colors = pixels_of(stamp->colors);
@@ -105,14 +105,14 @@ static void composite_stamp(Canvas *canvas, Stamp *stamp) {
         cairo_pattern_destroy(stamp->colors);
 }
 
-// The source that is set, or the whole clip without one, as a group.
+// Returns the current source within the clip as a group. With CAIRO_CONTENT_ALPHA it is the coverage of the clip.
 static cairo_pattern_t *make_group(cairo_t *cr, cairo_content_t content, double alpha) {
     cairo_pattern_t *source = cairo_pattern_reference(cairo_get_source(cr));
     cairo_push_group_with_content(cr, content);
     if (content == CAIRO_CONTENT_ALPHA)
         cairo_set_source_rgba(cr, 0, 0, 0, 1);
     else
-        cairo_reset_clip(cr); // which the cover has already
+        cairo_reset_clip(cr); // the coverage already contains the clip
     cairo_set_operator(cr, CAIRO_OPERATOR_OVER);
     if (content != CAIRO_CONTENT_ALPHA)
         cairo_set_source(cr, source);
@@ -129,7 +129,7 @@ void hdr_draw_path(Canvas *canvas, const DisplayCommand *command, const DisplayP
     if (paint->source != DISPLAY_NONE && hdr_paint_from_source(canvas, paint->source, alpha, &shade))
         stamp.shade = &shade;
     else
-        draw_set_source(canvas, paint); // from which control may leave
+        draw_set_source(canvas, paint); // before the groups, because this can abort the drawing
     cairo_save(cr);
     draw_clip_to_box(canvas, command, paint);
     if (paint->source != DISPLAY_NONE && !stamp.shade)
@@ -149,7 +149,7 @@ void hdr_draw_image(Canvas *canvas, const DisplayPaint *paint, const HdrPaint *i
 }
 
 void hdr_composite(Canvas *canvas, const FloatImage *image, double x, double y, int composite) {
-    Stamp stamp = {.sheet = image, .x = (int)x, .y = (int)y, .mode = (CompositeMode)composite};
+    Stamp stamp = {.image = image, .x = (int)x, .y = (int)y, .mode = (CompositeMode)composite};
     stamp.cover = make_group(canvas->cr, CAIRO_CONTENT_ALPHA, 1);
     composite_stamp(canvas, &stamp);
 }

@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-// Blends of blends are no deeper than scripts can nest them.
+// Returns true if this file can compute the source. The depth of blends is limited by display_list_build_source.
 static bool is_supported(const DisplayList *list, uint32_t number) {
     const DisplaySource *source = &list->sources.at[number];
     const double *ends = source->ends;
@@ -42,7 +42,7 @@ bool hdr_paint_from_source(Canvas *canvas, uint32_t source, double alpha, HdrPai
     return cairo_matrix_invert(&shade->to_units) == CAIRO_STATUS_SUCCESS;
 }
 
-// Colours go over into each other without their alpha.
+// Interpolates between gradient stops. Colours are not premultiplied during interpolation.
 static void find_stop(const DisplayList *list, const DisplaySource *source, double at, float color[4]) {
     const DisplayStop *stops = &list->stops.at[source->first_stop];
     uint32_t next = 0, last = source->stop_count - 1;
@@ -83,7 +83,7 @@ static void find_source(const DisplayList *list, uint32_t number, double x, doub
 
 static int pixel_index(const HdrPaint *shade, double at, int size) {
     const double EDGE_BIAS =
-        1.0 / 65536; // what is on the edge between two belongs to the second, however it was rounded
+        1.0 / 65536; // a point on the edge of two pixels belongs to the second, despite rounding errors
     at += EDGE_BIAS;
     at -= shade->repeats ? floor(at / size) * size : 0;
     return at >= 1 ? at < size ? (int)at : size - 1 : 0;
@@ -97,7 +97,7 @@ static void find_bytes(uint32_t pixel, bool straight, float color[4]) {
     }
 }
 
-// The nearest pixel. The colours of a file are decoded without their alpha, those of pictures with it.
+// Reads the nearest pixel. Colours of files are divided by alpha before they are decoded, those of pictures are not.
 static void find_pixel(const HdrPaint *shade, double x, double y, float color[4]) {
     const Texture *texture = shade->texture;
     if (texture) {

@@ -1,4 +1,4 @@
-// images.c: pictures from files, kept by the painter until the file changes.
+// images.c: decoding, caching and drawing of image files. A painter caches an image until its file changes.
 #include "base/file.h"
 #include "base/heap.h"
 #include "base/source.h"
@@ -13,10 +13,10 @@ enum { MAX_BYTES = 64 << 20, MAX_SIDE = DRAW_MAX_SIDE, MAX_PIXELS = DRAW_MAX_PIX
 struct CachedImage {
     CachedImage *next;
     char *path;
-    char *version;            // changes when the file does
+    char *version;            // version of the file when it was read
     cairo_surface_t *surface; // NULL: cannot be read
-    char *problem;            // then why
-    Budget *meter;            // that its pixels are charged to
+    char *problem;            // why it cannot be read
+    Budget *meter;            // charged for the pixels
     size_t charged;
 };
 
@@ -38,7 +38,7 @@ void draw_images_close(PetriPainter *painter) {
     painter->images = NULL;
 }
 
-// Forgets an image, and the oldest if there are many.
+// Removes an image from the cache, and the oldest images if there are too many.
 static void evict_image(PetriPainter *painter, const char *path) {
     int count = 0;
     for (CachedImage **at = &painter->images; *at;) {
@@ -67,7 +67,7 @@ static uint32_t big_endian(const char *bytes) {
 }
 
 static cairo_surface_t *read_png(Str bytes, const char **problem) {
-    // The size stands in the first piece of the file; to look before memory is taken for it.
+    // Check the size in the first chunk of the file before allocating memory.
     uint32_t width = bytes.len > 24 ? big_endian(bytes.bytes + 16) : 0;
     uint32_t height = bytes.len > 24 ? big_endian(bytes.bytes + 20) : 0;
     if (width > MAX_SIDE || height > MAX_SIDE || (uint64_t)width * height > MAX_PIXELS) {
@@ -78,18 +78,18 @@ static cairo_surface_t *read_png(Str bytes, const char **problem) {
     cairo_status_t status = cairo_surface_status(surface);
     if (status == CAIRO_STATUS_SUCCESS)
         return surface;
-    *problem = status == CAIRO_STATUS_NO_MEMORY ? NULL : "it is no PNG file, or damaged";
+    *problem = status == CAIRO_STATUS_NO_MEMORY ? NULL : "not a PNG file, or damaged";
     cairo_surface_destroy(surface);
     return NULL;
 }
 
-// NULL without a problem if memory is used up.
+// Returns NULL without a problem if out of memory.
 static cairo_surface_t *decode_image(Str bytes, const char **problem) {
     if (str_starts_with(bytes, STR("\x89PNG\r\n\x1a\n")))
         return read_png(bytes, problem);
     if (str_starts_with(bytes, STR("\xff\xd8\xff")))
         return draw_read_jpeg(bytes, problem);
-    *problem = "it is neither PNG nor JPEG";
+    *problem = "neither PNG nor JPEG";
     return NULL;
 }
 
@@ -109,7 +109,7 @@ static CachedImage *load_image(PetriPainter *painter, const FileAccess *reach, c
     Str bytes;
     const char *problem = NULL;
     bool read = file_read(&painter->arena, reach, path, true, MAX_BYTES, &bytes, NULL, &problem);
-    CachedImage *picture = heap_calloc(1, sizeof *picture); // from here on nothing else escapes
+    CachedImage *picture = heap_calloc(1, sizeof *picture); // from now on nothing else can longjmp
     if (!picture)
         arena_exhausted(&painter->arena);
     picture->path = heap_strndup(path, strlen(path));
@@ -120,7 +120,7 @@ static CachedImage *load_image(PetriPainter *painter, const FileAccess *reach, c
     if (picture->surface && !charge_image(picture)) {
         cairo_surface_destroy(picture->surface);
         picture->surface = NULL;
-        problem = "it takes more memory than a script may have (--memory)";
+        problem = "exceeds the memory limit (--memory)";
     }
     picture->problem = problem ? heap_strndup(problem, strlen(problem)) : NULL;
     if (!picture->path || !picture->version || (!picture->surface && !picture->problem)) {
@@ -144,18 +144,18 @@ static const CachedImage *find_image(PetriPainter *painter, const FileAccess *re
     return picture;
 }
 
-// Where an image goes.
+// The placement of an image.
 typedef struct Box {
     double x;
     double y;
     double scale_x;
     double scale_y;
-    bool cut; // to width x height from x, y
+    bool cut; // clip to width x height at x, y
     double width;
     double height;
 } Box;
 
-// False if it would be nothing.
+// Returns false if nothing would be visible.
 static bool find_box(const DisplayImage *image, double width, double height, Box *box) {
     const double *size = image->size;
     *box = (Box){.x = image->point[0], .y = image->point[1], .scale_x = 1, .scale_y = 1};
@@ -175,7 +175,7 @@ static bool find_box(const DisplayImage *image, double width, double height, Box
     return box->scale_x != 0 && box->scale_y != 0 && isfinite(box->scale_x) && isfinite(box->scale_y);
 }
 
-// Paints a surface, or on a wide canvas what the shade has.
+// Paints the surface, or on an HDR canvas the shade.
 static void paint_image(Canvas *canvas, cairo_surface_t *surface, HdrPaint *shade, double width, double height,
                         const Box *box, const double point[2], const DisplayPaint *paint) {
     cairo_t *cr = canvas->cr;
@@ -201,7 +201,7 @@ static void paint_image(Canvas *canvas, cairo_surface_t *surface, HdrPaint *shad
         if (surface) {
             cairo_set_source_surface(cr, surface, 0, 0);
             cairo_pattern_set_filter(cairo_get_source(cr), CAIRO_FILTER_NEAREST);
-            cairo_pattern_set_extend(cairo_get_source(cr), CAIRO_EXTEND_PAD); // up to the edges
+            cairo_pattern_set_extend(cairo_get_source(cr), CAIRO_EXTEND_PAD); // avoids transparent edges
             cairo_set_operator(cr, draw_operator(paint->composite));
             cairo_paint_with_alpha(cr, alpha);
         } else {
@@ -215,7 +215,7 @@ static void paint_image(Canvas *canvas, cairo_surface_t *surface, HdrPaint *shad
     draw_forget_path(canvas);
 }
 
-// The pixels of a file, or NULL after a report.
+// Returns the cached pixels of a file, borrowed. Returns NULL after a report if it cannot be read.
 static cairo_surface_t *find_file(PetriPainter *painter, const CanvasPicture *picture, Str name, NodeKind kind,
                                   const Origin *place, DiagSink *faults) {
     Arena *arena = &painter->arena;
@@ -231,7 +231,7 @@ static bool can_copy(Canvas *canvas, int width, int height) {
     return draw_charge(canvas, NULL, 3.0 * width * height, draw_omitted);
 }
 
-// The picture of a node in memory; NULL if there is none.
+// Returns the rendered picture of a node, in memory. Returns NULL if there is none.
 static Texture *find_texture(Canvas *canvas, Str id) {
     PetriPainter *painter = canvas->painter;
     Texture *texture = render_graph_find(painter->render_graph, id);
@@ -253,7 +253,7 @@ static cairo_surface_t *find_picture(Canvas *canvas, Str id) {
     return surface;
 }
 
-// Files count as sRGB: another copy for a linear canvas.
+// Returns a copy in linear light for linear canvases. Files are assumed to be sRGB.
 static cairo_surface_t *linear_copy(Canvas *canvas, cairo_surface_t *file) {
     int width = cairo_image_surface_get_width(file), height = cairo_image_surface_get_height(file);
     if (!can_copy(canvas, width, height))

@@ -19,7 +19,7 @@ static _Noreturn void abort_decode(j_common_ptr info) {
     longjmp(((JpegError *)(void *)info->err)->escape, 1);
 }
 
-// Half a file is no picture; other oddities do no harm.
+// Truncated files are rejected; other warnings are ignored.
 static void on_warning(j_common_ptr info, int level) {
     if (level < 0 && info->err->msg_code == JWRN_JPEG_EOF)
         abort_decode(info);
@@ -47,7 +47,7 @@ cairo_surface_t *draw_read_jpeg(Str bytes, const char **problem) {
     cairo_surface_t *volatile surface = NULL;
     unsigned char *volatile line = NULL;
     volatile bool done = false;
-    *problem = "it is damaged, or of a kind that is not read";
+    *problem = "damaged, or an unsupported kind of JPEG";
     jpeg.err = jpeg_std_error(&trouble.manager);
     trouble.manager.error_exit = abort_decode;
     trouble.manager.emit_message = on_warning;

@@ -1,4 +1,4 @@
-// labels.c: panels of text over a picture.
+// labels.c: text panels over a picture.
 #include "draw/draw.h"
 
 #include <string.h>

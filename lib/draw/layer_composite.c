@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-// What comes later is the source s, what is there the destination d.
+// Composites a source s onto the destination d.
 static void combine_colors(int how, const float s[4], float d[4]) {
     const float sa = s[3], da = d[3];
     for (int k = 0; k < 4; k++)
@@ -35,7 +35,7 @@ static void combine_colors(int how, const float s[4], float d[4]) {
 }
 
 static float clamp_unit(float x) {
-    return x > 0 ? fminf(x, 1) : 0; // nan, too
+    return x > 0 ? fminf(x, 1) : 0; // NaN becomes 0
 }
 
 static void store_color(const LayerComposite *mix, Texture *out, size_t at, const float color[4]) {
@@ -53,7 +53,7 @@ Texture *layer_composite(const LayerComposite *mix) {
     const Texture *only = mix->count == 1 ? mix->inputs[0] : NULL;
     bool same = only && only->width == mix->width && only->height == mix->height && mix->alpha == 1;
     if (same && (only->bytes ? mix->srgb || mix->bits > 8 : !mix->srgb && mix->bits > 8))
-        return texture_retain(mix->inputs[0]); // lin and enc cancel
+        return texture_retain(mix->inputs[0]); // decoding and encoding cancel out
     Texture *out = texture_new(mix->meter, mix->width, mix->height, !mix->srgb);
     if (!out || mix->count == 0)
         return out;

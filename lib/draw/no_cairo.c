@@ -1,4 +1,4 @@
-// no_cairo.c: cairo_canvas.h in a build without Cairo: the host draws the canvases, if anyone does.
+// no_cairo.c: implements cairo_canvas.h in builds without Cairo. The host's backend draws canvases, if it has one.
 #include "draw/painter.h"
 
 #include <string.h>
@@ -17,7 +17,7 @@ PetriStatus petri_painter_use_backend(PetriPainter *painter, const PetriCanvasBa
 static void report_missing(void *faults) {
     diag_report(faults, &(Diag){.level = DIAG_ERROR,
                                 .code = "cannot-draw",
-                                .text = STR("this build of petri cannot draw: it was made without Cairo, Pango and "
+                                .text = STR("this build of petri cannot draw: built without Cairo, Pango and "
                                             "libjpeg (Debian: libcairo2-dev libpango1.0-dev libjpeg-dev)")});
 }
 
@@ -44,11 +44,11 @@ PetriStatus petri_painter_draw_labels(PetriPainter *painter, const PetriLabel *l
     return PETRI_UNSUPPORTED;
 }
 
-// A drawing by the host.
+// A drawing by the host's backend.
 typedef struct BackendDrawing {
     PetriPainter *painter;
     const CanvasPicture *picture;
-    const DrawNode *canvas; // NULL: what the picture is without programs
+    const DrawNode *canvas; // NULL: draw the whole picture, which needs no shaders
     int width;
     int height;
     uint32_t *pixels;
@@ -84,7 +84,7 @@ static PetriStatus draw_with_backend(BackendDrawing *hosted) {
 
 PetriStatus draw_canvas(PetriPainter *painter, const CanvasPicture *picture, const DrawNode *node, int width,
                         int height, Texture *texture, DiagSink *faults) {
-    (void)width; // no host asks for less detail
+    (void)width; // backends always draw at full detail
     (void)height;
     Texture *bytes = texture->bytes ? texture : texture_new(&painter->meter, texture->width, texture->height, false);
     if (!bytes)
@@ -103,7 +103,7 @@ PetriStatus draw_canvas(PetriPainter *painter, const CanvasPicture *picture, con
     return status;
 }
 
-// A picture in another size, in the middle.
+// Scales a picture to fit into the centre of the pixels.
 static void scale_texture(const Texture *texture, const CanvasPicture *picture, uint32_t *pixels, int width, int height,
                           size_t stride) {
     const Sampler sampler = {.clamped = true};

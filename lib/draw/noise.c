@@ -1,4 +1,4 @@
-// noise.c: the noise of SVG's feTurbulence, and Perlin's improved one, as a source of colours (spec canvas.md 5.5).
+// noise.c: noise as a paint source (spec canvas.md 5.5): that of SVG's feTurbulence, and Perlin's improved noise.
 #include "draw/draw.h"
 
 #include <math.h>
@@ -8,12 +8,12 @@ enum { LATTICE = 256, CHANNELS = 4 };
 typedef struct Noise {
     const DisplaySource *source;
     double frequency[2];
-    int tile[2]; // cells that repeat, in the first octave; 0: none do
+    int tile[2]; // cells after which the first octave repeats; 0: does not repeat
     uint8_t order[LATTICE];
     double slopes[CHANNELS][LATTICE][2];
 } Noise;
 
-// The numbers of SVG: 1 to 2³¹ − 2.
+// SVG's random number generator; results are 1 to 2³¹ - 2.
 static int32_t next_number(int32_t seed) {
     enum { MODULUS = 2147483647, FACTOR = 16807, QUOTIENT = 127773, REST = 2836 };
     int32_t result = FACTOR * (seed % QUOTIENT) - REST * (seed / QUOTIENT);
@@ -51,7 +51,7 @@ static void make_lattice(Noise *noise) {
     }
 }
 
-// So that a whole number of waves fits into a tile: the nearest such frequency.
+// Changes the frequencies to the nearest ones for which a tile holds a whole number of cells.
 static void fit_tiles(Noise *noise) {
     for (int k = 0; k < 2; k++) {
         double side = noise->source->ends[2 + k], frequency = fabs(noise->source->ends[k]);
@@ -64,7 +64,7 @@ static void fit_tiles(Noise *noise) {
     }
 }
 
-// Where a number lies in the lattice.
+// The position of a coordinate in the lattice.
 typedef struct LatticePoint {
     int cell;
     int next;
@@ -100,7 +100,8 @@ static double gradient_noise(const Noise *noise, int channel, const LatticePoint
     return interpolate(y->ease, above, below);
 }
 
-// Perlin's of 2002, in the plane z = channel: twelve directions along the edges' middles of a cube, a smoother ease.
+// Improved noise (Perlin, 2002) in the plane z = channel: twelve gradients towards the middles of a cube's edges, and a
+// smoother interpolation.
 static double slope_along(const Noise *noise, int x, int y, int z, double dx, double dy) {
     const uint8_t *order = noise->order;
     int edge = order[(order[(order[x] + y) & (LATTICE - 1)] + z) & (LATTICE - 1)] & 15;
@@ -121,13 +122,13 @@ static double improved_noise(const Noise *noise, int channel, const LatticePoint
     return interpolate(improved_ease(y->part), above, below);
 }
 
-// Four channels, 0 to 1.
+// Computes the noise of four channels, 0 to 1.
 static void noise_at(const Noise *noise, double x, double y, double out[CHANNELS]) {
     int type = noise->source->mode;
     double sums[CHANNELS] = {0, 0, 0, 0}, ratio = 1;
     for (uint32_t octave = 0; octave < noise->source->stop_count && isfinite(ratio); octave++, ratio *= 2) {
         double at_x = x * noise->frequency[0] * ratio, at_y = y * noise->frequency[1] * ratio;
-        if (!(fabs(at_x) < 1e15) || !(fabs(at_y) < 1e15)) // there are no parts left
+        if (!(fabs(at_x) < 1e15) || !(fabs(at_y) < 1e15)) // doubles have no fraction bits left
             break;
         LatticePoint place_x = lattice_point_of(at_x, noise->tile[0] * ratio),
                      place_y = lattice_point_of(at_y, noise->tile[1] * ratio);
@@ -177,7 +178,7 @@ cairo_pattern_t *draw_noise(Canvas *canvas, const DisplaySource *source, double 
     cairo_restore(cr);
     double left = floor(x1), top = floor(y1), width = fmax(ceil(x2) - left, 1), height = fmax(ceil(y2) - top, 1);
     double work = width * height * (10 + 100.0 * source->stop_count);
-    if (!draw_charge(canvas, NULL, work, "noise that comes now is left out"))
+    if (!draw_charge(canvas, NULL, work, "noise is left out"))
         return cairo_pattern_create_rgba(0, 0, 0, 0);
     cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, (int)width, (int)height);
     Noise noise = {.source = source};

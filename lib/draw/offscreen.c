@@ -1,5 +1,5 @@
-// offscreen.c: what drawing takes for a while: memory beside the picture's own, and surfaces to draw on. Whoever gives
-// a drawing up midway leaves them to draw_close.
+// offscreen.c: temporary resources of a drawing: memory beside the picture's own, and surfaces to draw on. If a drawing
+// is aborted, draw_close frees them.
 #include "draw/float_image.h"
 
 bool draw_reserve(Canvas *canvas, size_t bytes) {
@@ -14,17 +14,17 @@ void draw_release(Canvas *canvas, size_t bytes) {
     canvas->charged -= bytes;
 }
 
-const char draw_omitted[] = "what comes now is left out";
+const char draw_omitted[] = "the rest is left out";
 
 bool draw_charge(Canvas *canvas, const Origin *place, double work, const char *outcome) {
-    static const double UNIT = 10; // nanoseconds (budget.h)
+    static const double UNIT = 10; // nanoseconds per unit (budget.h)
     Budget *meter = &canvas->painter->meter;
     if (work / UNIT <= (double)(meter->work_limit - meter->work)) {
         meter->work += (uint64_t)(work / UNIT);
         return true;
     }
-    draw_report_canvas_at(canvas, place, DIAG_WARNING, "drawing-limit",
-                          "drawing takes longer than a script may (--work): %s", outcome);
+    draw_report_canvas_at(canvas, place, DIAG_WARNING, "drawing-limit", "drawing exceeded the work limit (--work): %s",
+                          outcome);
     return false;
 }
 
@@ -74,8 +74,7 @@ void draw_report_degraded(Canvas *canvas, const Origin *place, const char *what,
         arena_exhausted(&canvas->painter->arena);
     meter->memory_refused = false;
     draw_report_canvas_at(canvas, place, DIAG_WARNING, "memory-limit",
-                          "drawing takes more memory than a script may have (--memory); this is drawn without %s",
-                          what);
+                          "drawing exceeded the memory limit (--memory); drawn without %s", what);
 }
 
 void draw_close(Canvas *canvas) {

@@ -1,4 +1,4 @@
-// outline.c: see outline.h. One effect after the other makes an outline anew.
+// outline.c: path effects; see outline.h. Each effect creates a new outline from the previous one.
 #include "draw/outline.h"
 
 #include "draw/arcs.h"
@@ -10,10 +10,10 @@
 
 enum { MAX_ELEMENTS = 100000 };
 
-// A figure cut into straight lines.
+// A subpath flattened to straight lines.
 typedef struct Flat {
     DISPLAY_ARRAY(OutlinePoint) points;
-    bool closed; // its last point is its first
+    bool closed; // true if the last point equals the first
     double length;
 } Flat;
 
@@ -50,7 +50,7 @@ static void add_curve(Outline *out, Flat *flat, OutlinePoint from, const Outline
     }
 }
 
-// The next figure from *at on, which is moved behind it.
+// Flattens the subpath that starts at *at, and moves *at to the element after it.
 static Flat flatten_subpath(Outline *from, uint32_t *at) {
     Flat flat = {.closed = false};
     uint32_t i = *at;
@@ -71,14 +71,15 @@ static Flat flatten_subpath(Outline *from, uint32_t *at) {
     return flat;
 }
 
-// A way along a figure.
+// A position on a flattened subpath.
 typedef struct Walk {
     const Flat *flat;
-    uint32_t piece; // that one is on: from its point to the next
-    double before;  // length of all pieces before it
+    uint32_t piece; // index of the current line, from this point to the next
+    double before;  // total length of the lines before it
 } Walk;
 
-// The point so far along, which is not before where the walk has been; and, if wanted, the direction there.
+// Returns the point at a distance from the start, and the direction there if `direction` is not NULL. Distances must
+// not decrease from call to call.
 static OutlinePoint point_along(Walk *walk, double along, OutlinePoint *direction) {
     const OutlinePoint *points = walk->flat->points.at;
     uint32_t last = walk->flat->points.count - 2;
@@ -112,7 +113,7 @@ static void jitter_outline(const DisplayEffect *effect, Outline *from, Outline *
             continue;
         }
         Walk walk = {.flat = &flat};
-        // A closed one has no ends: it begins half a piece further on.
+        // A closed subpath has no ends, so it starts half a segment later.
         uint32_t points = (uint32_t)count + (flat.closed ? 0 : 1);
         for (uint32_t i = 0; i < points; i++) {
             OutlinePoint direction,
@@ -126,7 +127,7 @@ static void jitter_outline(const DisplayEffect *effect, Outline *from, Outline *
     }
 }
 
-// Which interval an offset lies in, and what is left of it.
+// Finds the interval of the dash offset and the rest of its length.
 static uint32_t find_interval(const DisplayEffect *effect, const double *intervals, double *left) {
     double sum = 0;
     for (uint32_t i = 0; i < effect->count; i++)
@@ -171,7 +172,7 @@ static void dash_outline(const DisplayEffect *effect, const double *intervals, O
     }
 }
 
-// Rounds the corner at p between two straight pieces; the curve begins where the line to it ends.
+// Rounds the corner at p between two straight lines. The curve starts at the end of a new line towards p.
 static void round_corner(Outline *out, OutlinePoint before, OutlinePoint p, OutlinePoint after, double radius) {
     double in = distance(before, p), away = distance(p, after);
     OutlinePoint a = between(p, before, in > 0 ? fmin(radius / in, 0.5) : 0);
@@ -181,14 +182,15 @@ static void round_corner(Outline *out, OutlinePoint before, OutlinePoint p, Outl
         (OutlineElement){PATH_CUBIC, {between(a, p, 2.0 / 3), between(b, p, 2.0 / 3), b}};
 }
 
-// Pieces `first` to `end` are a figure: a beginning, lines and curves, perhaps its close.
+// Rounds the corners of a subpath: elements `first` to `end` - 1 are a start, lines and curves, and optionally a close.
 static void round_subpath(const OutlineElement *elements, uint32_t first, uint32_t end, double radius, Outline *out) {
     bool closed = end - first > 2 && elements[end - 1].kind == PATH_CLOSE;
-    uint32_t last = closed ? end - 1 : end; // behind the last piece that goes somewhere
+    uint32_t last = closed ? end - 1 : end; // index after the last line or curve
     OutlinePoint start = elements[first].points[0], back = end_of(&elements[last - 1]);
-    bool gap = closed && distance(start, back) > 0; // the close is a line of its own
+    bool gap = closed && distance(start, back) > 0; // closing draws a line
     bool corner = closed && (gap || elements[last - 1].kind == PATH_LINE) && elements[first + 1].kind == PATH_LINE;
-    OutlinePoint before_start = gap ? back : end_of(&elements[last - 2]); // before the start, the way round
+    OutlinePoint before_start =
+        gap ? back : end_of(&elements[last - 2]); // the point before the start, going backwards around the subpath
     double length = distance(start, elements[first + 1].points[0]);
     add_element(out, PATH_MOVE,
                 corner ? between(start, elements[first + 1].points[0], length > 0 ? fmin(radius / length, 0.5) : 0)
@@ -297,7 +299,7 @@ static void add_curves(Outline *out, double curves[][6], int count) {
             PATH_CUBIC, {{curves[i][0], curves[i][1]}, {curves[i][2], curves[i][3]}, {curves[i][4], curves[i][5]}}};
 }
 
-// `here` is where the path ends, `first` where its figure began.
+// Adds an element of a display list. `here` is the current point, `first` the start of the subpath.
 static void add_path_element(Outline *out, PathElement kind, const double *n, OutlinePoint *here, OutlinePoint *first) {
     double start[2], curves[ARCS_MAX][6];
     OutlinePoint point = {n[0], n[1]};

@@ -1,4 +1,4 @@
-// painter.c: pictures into pixels and files.
+// painter.c: the public functions that draw pictures to pixels and files.
 #include "base/file.h"
 #include "base/heap.h"
 #include "draw/picture.h"
@@ -44,16 +44,16 @@ static void report_file(PetriPicture *picture, const char *file, const char *pro
     diag_report(&picture->faults, &(Diag){.level = DIAG_ERROR, .text = text, .code = "cannot-write"});
 }
 
-// A picture being written to a file.
+// A picture that is being written to a file.
 typedef struct Saving {
     PetriPicture *picture;
     PetriPainter *painter;
     CanvasFormat format;
     const char *file;
-    PetriWriteCallback *write; // takes the bytes; NULL: the file does
-    void *user_data;           // … of the function
-    const Recorded *record;    // NULL: the picture itself
-    const FileAccess *reach;   // NULL: any file
+    PetriWriteCallback *write; // receives the bytes; NULL: write the file
+    void *user_data;           // passed to `write`
+    const Recorded *record;    // the record to write; NULL: the picture itself
+    const FileAccess *reach;   // where the file may be written; NULL: anywhere
     Encoded bytes;
     PetriStatus status;
 } Saving;
@@ -76,7 +76,7 @@ static void save_protected(void *context) {
     }
     Replacement file;
     bool begun = file_access_replace(saving->reach, saving->file, &file);
-    bool refused = !begun && saving->reach && errno == EXDEV; // which was told when the picture was taken
+    bool refused = !begun && saving->reach && errno == EXDEV; // this was reported when the picture was created
     const char *problem =
         begun ? file_finish(&file, (Str){(const char *)saving->bytes.bytes, saving->bytes.length}) : strerror(errno);
     if (refused) {
@@ -90,8 +90,8 @@ static void save_protected(void *context) {
 static void report_name(void *context) {
     const Saving *saving = context;
     report_file(saving->picture, saving->file,
-                saving->record ? "a recorded picture's name ends in .png, .jpg, .svg or .pdf"
-                               : "a picture's name ends in .png, .svg or .pdf");
+                saving->record ? "the name of a record must end in .png, .jpg, .svg or .pdf"
+                               : "the name of a picture must end in .png, .svg or .pdf");
 }
 
 static PetriStatus save_picture(Saving *saving) {
@@ -128,7 +128,7 @@ PetriStatus petri_picture_render(PetriPicture *picture, PetriPainter *painter) {
     return draw_render(painter, &picture->picture, &picture->faults);
 }
 
-// What is read of a record, within a protected call.
+// Arguments of fill_record, which runs in a protected call.
 typedef struct RecordQuery {
     PetriPicture *picture;
     const Recorded *recorded;

@@ -1,4 +1,4 @@
-// path_effects.c: what changes paths before Cairo draws them (spec canvas.md 7, outline.h).
+// path_effects.c: applies path effects to paths before Cairo draws them (spec canvas.md 7, outline.h).
 #include "draw/draw.h"
 #include "draw/outline.h"
 
@@ -34,7 +34,7 @@ static void apply_protected(void *context) {
     read_cairo_path(&from, task->path);
     Outline outline = outline_apply(list, task->effect, from, task->lines);
     if (task->effect != DISPLAY_NONE && !draw_charge(canvas, NULL, 800.0 * outline.elements.count, draw_omitted))
-        return; // that is also what drawing it would take
+        return; // drawing the result would cost as much again
     for (uint32_t i = 0; i < outline.elements.count; i++) {
         const OutlineElement *element = &outline.elements.at[i];
         double numbers[6];
@@ -49,11 +49,11 @@ static void apply_protected(void *context) {
 bool draw_apply_effect(Canvas *canvas, const DisplayPaint *paint, const cairo_path_t *path, bool lines) {
     const DisplayEffect *effect = &canvas->list->effects.at[paint->effect];
     Arena *arena = &canvas->painter->arena;
-    // Dashes of lines that come last are Cairo's.
+    // Cairo itself draws dashes that are the outermost effect of a stroke.
     Task task = {canvas, effect->kind == EFFECT_DASH ? effect->inner : paint->effect, path, lines};
     ArenaMark mark = arena_mark(arena);
     draw_forget_path(canvas);
-    if (!draw_charge(canvas, &effect->place, 0, "what comes here is drawn without its effect"))
+    if (!draw_charge(canvas, &effect->place, 0, "drawn without the path effect"))
         task.effect = DISPLAY_NONE;
     bool done = arena_protect(&arena, 1, apply_protected, &task) == ARENA_OK;
     arena_rewind(arena, mark);

@@ -1,4 +1,5 @@
-// picture.c: what the last frame shows, chosen and copied so that it can be drawn later and elsewhere (painter.c).
+// picture.c: chooses and copies the visible part of the last frame, so that it can be drawn later and in another thread
+// (painter.c).
 #include "draw/picture.h"
 
 #include "base/heap.h"
@@ -19,8 +20,8 @@ void petri_picture_options_init(PetriPictureOptions *options, size_t size) {
     memcpy(options, &defaults, size < sizeof defaults ? size : sizeof defaults);
 }
 
-// The options of a host, who may have been compiled with an earlier petri-draw.h, whose struct was shorter. False if
-// they were not initialised, or are those of a later one.
+// Copies the options of a host. A host that was compiled with an earlier petri-draw.h passes a shorter struct. Returns
+// false if the struct was not initialised or is of a later version.
 static bool copy_options(PetriPictureOptions *options, const PetriPictureOptions *given) {
     size_t min_size = offsetof(PetriPictureOptions, automatic) + sizeof options->automatic;
     if (!given || given->size < min_size || given->size > sizeof *options)
@@ -30,18 +31,18 @@ static bool copy_options(PetriPictureOptions *options, const PetriPictureOptions
     return options->detail > 0 && options->detail <= 1;
 }
 
-// What petri_picture is working on.
+// The state of a call of petri_picture.
 typedef struct Request {
     DrawAccess shown;
-    AutoFrame *frames; // what the automatic picture showed last of each system
+    AutoFrame *frames; // view of each system in the last automatic picture
     const PetriPictureOptions *options;
     PetriPicture *picture;
-    const char *problem; // why there is no picture; may be NULL
+    const char *problem; // why there is no picture; NULL: already reported
     PetriStatus status;
 } Request;
 
-// The window of that number; of none in particular, the first with something to draw, one that is on the screen before
-// one that is not, or else the first.
+// Returns the window with this number. If the number is negative, returns the first one with content, preferring
+// windows on the screen; if none has content, the first window.
 static const Node *find_window(const DrawAccess *access, int number) {
     const Node *first = NULL, *offscreen = NULL, *window;
     for (uint32_t at = 0; (window = canvas_next_window(access->schema, access->tree, &at));) {
@@ -66,7 +67,7 @@ static bool has_word(Str text, Str word) {
     return false;
 }
 
-// Whether a program names the frame before.
+// Returns true if a shader refers to the previous frame.
 static bool names_last(const Schema *schema, const Node *node) {
     Value v = attr_value(schema, node, ROW_SHADER_FRAGMENT);
     for (uint32_t i = 0; v.kind == VALUE_MIXED && i < v.len; i++)
@@ -75,7 +76,7 @@ static bool names_last(const Schema *schema, const Node *node) {
     return false;
 }
 
-// Whether something in a canvas shows the picture of another node.
+// Returns true if a node in a canvas shows the picture of another node.
 static bool shows_others(const Schema *schema, const Node *node, int depth, uint32_t *left) {
     enum { MAX_DEPTH = 1000 };
     if (*left == 0 || ((node->kind == schema->kinds[KIND_IMAGE] || node->kind == schema->kinds[KIND_PATTERN]) &&
@@ -114,7 +115,7 @@ static bool any_needs_history(const DrawAccess *access) {
     return false;
 }
 
-// Copies all windows: each may show pictures of the others.
+// Copies all windows, because each may show pictures of the others.
 static void copy_windows(Request *request, const Node *access) {
     static _Atomic uint64_t serial;
     PetriPicture *picture = request->picture;
@@ -139,7 +140,8 @@ static void copy_windows(Request *request, const Node *access) {
     canvases->serial = ++serial;
 }
 
-// The size in the script's units: what the window says, else the usual one. False if that makes no sense.
+// Chooses the size in the script's units: that of the window, else a default. Returns false if the window's size is
+// invalid.
 static bool choose_size(CanvasPicture *picture, const Node *node, const Symbol *name) {
     const DrawNode *window = picture->window;
     picture->width = picture->height = window ? DEFAULT_SIZE : AUTO_SIDE;
@@ -181,7 +183,7 @@ static bool choose_pixels(Request *request) {
     return true;
 }
 
-// A system whose time stands still never stores anything: it is not waited for.
+// Do not wait longer for systems that store nothing, because their time stands still.
 enum { MAX_START_FRAMES = 2 };
 
 bool petri_picture_ready(PetriSession *session, const PetriPictureOptions *options) {
@@ -218,7 +220,7 @@ void petri_picture_follow(PetriSession *session, const PetriPictureOptions *opti
     Arena arena;
     arena_init(&arena, "picture", access.memory_limit);
     arena.budget = access.meter;
-    session_protect(session, &arena, follow_protected, &arena); // without memory the frame stays as it is
+    session_protect(session, &arena, follow_protected, &arena); // if out of memory, the view does not change
     arena_free(&arena);
 }
 
@@ -229,7 +231,7 @@ bool petri_needs_history(PetriSession *session) {
     return any_needs_history(&access);
 }
 
-// Fills the picture; false if there is none, with the problem if it is not told already.
+// Fills the picture. Returns false if there is none; `problem` says why unless it was already reported.
 static bool make_picture(Request *request) {
     const DrawAccess *access = &request->shown;
     PetriPicture *picture = request->picture;
@@ -243,19 +245,19 @@ static bool make_picture(Request *request) {
     picture->picture.detail = 1;
     picture->picture.reach = file_access_copy(&picture->arena, access->reach);
     if (options->automatic == PETRI_AUTO_ALWAYS && systems == 0) {
-        request->problem = "there is nothing to draw by itself: the frame has no !physics";
+        request->problem = "no automatic picture: the frame has no !physics";
         return false;
     }
     if (!window && (!automatic || options->window >= 0)) {
-        request->problem = options->window > 0 ? "there is nothing to draw: the frame has no window of this number"
-                                               : "there is nothing to draw: the frame has neither a !window with a "
+        request->problem = options->window > 0 ? "nothing to draw: the frame has no window of this number"
+                                               : "nothing to draw: the frame has neither a !window with a "
                                                  "!canvas nor !physics";
         return false;
     }
     if (window)
         copy_windows(request, window);
     if (!choose_size(&picture->picture, window, access->schema->slots[ROW_WINDOW_SIZE].name)) {
-        request->problem = "the size of the window makes no sense";
+        request->problem = "invalid size of the window";
         return false;
     }
     if (automatic) {
@@ -301,11 +303,11 @@ PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *opti
         status = session_report_abort(session, session_protect(session, &picture->arena, make_protected, &request),
                                       "the picture");
     else
-        request.problem = "there is nothing to draw: no frame has been made yet";
+        request.problem = "nothing to draw: no frame yet";
     size_t left = access.meter->memory_limit - access.meter->memory;
     picture->picture.work = access.meter->work_limit;
     picture->picture.memory = left < access.memory_limit ? left : access.memory_limit;
-    arena_detach_budget(&picture->arena); // the picture may be freed in another thread
+    arena_detach_budget(&picture->arena); // because another thread may free the picture
     if (status == PETRI_OK)
         status = request.status;
     if (status == PETRI_OK) {

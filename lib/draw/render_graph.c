@@ -13,8 +13,8 @@
 
 enum { MAX_DEPTH = 100, DEFAULT_SIZE = 512 };
 
-// What is kept of a node until the next frame. A node continues the first one of the same parent that is like it and
-// that no other has continued.
+// State of a node that is kept until the next frame. A node continues the first matching node of the same parent in the
+// previous frame that no other node has continued.
 typedef struct GraphNode GraphNode;
 struct GraphNode {
     uint8_t kind;
@@ -22,20 +22,20 @@ struct GraphNode {
     Str tags;
     Str id;
     Str file;
-    Texture *picture;    // or NULL
-    GraphNode *children; // as many as the node has
+    Texture *picture;    // NULL: none
+    GraphNode *children; // one per child of the node
     uint32_t count;
 };
 
-// A picture that is known by its id.
+// A picture that can be referenced by its id.
 typedef struct NamedPicture {
     Str id;
     Texture *picture;
 } NamedPicture;
 
 typedef struct Frame {
-    Arena arena;   // of all that follows
-    GraphNode top; // its children are the windows
+    Arena arena;   // holds all other data of the frame
+    GraphNode top; // the windows are its children
     NamedPicture *known;
     uint32_t known_count;
     uint32_t known_capacity;
@@ -45,8 +45,8 @@ typedef struct Frame {
 
 struct RenderGraph {
     Frame frames[2];
-    double beat; // of the frame that was made last
-    int now;     // the number of the frame that is or was made last
+    double beat; // beat of the last frame
+    int now;     // index of the current or last frame
 };
 
 typedef struct Walk {
@@ -55,10 +55,10 @@ typedef struct Walk {
     DiagSink *faults;
     Frame *frame;
     const Frame *before;
-    int bits;    // of the window
-    int depth;   // of the node
-    bool gpu;    // is current
-    double beat; // of the frame before
+    int bits;    // bits per channel of the window
+    int depth;   // nesting depth of the node
+    bool gpu;    // true if the GPU context is current
+    double beat; // beat of the previous frame
     Texture *shown;
 } Walk;
 
@@ -133,7 +133,7 @@ static Str text_of(Arena *arena, const DrawNode *node, AttrName name) {
     return attr ? str_copy(arena, attr->as.text) : (Str){0};
 }
 
-// What the node continues, or NULL.
+// Returns the node of the previous frame that this one continues; NULL: none.
 static const GraphNode *find_past(const GraphNode *past, const GraphNode *made) {
     for (uint32_t i = 0; past && i < past->count; i++) {
         GraphNode *other = &past->children[i];
@@ -162,7 +162,8 @@ static int bits_of(const DrawNode *node, int bits) {
     return x == 8 || x == 16 || x == 32 ? (int)x : bits;
 }
 
-// Memory for pixels is used up: that of the machine, or, after a report, what the script may have. NULL.
+// Handles a failed allocation of pixels. If the script's limit was the cause, reports it and returns NULL. If the
+// machine is out of memory, aborts the frame.
 static Texture *report_no_memory(Walk *walk, const DrawNode *node, int width, int height) {
     char name[40];
     snprintf(name, sizeof name, "!%s", schema_kinds[node->kind].name);
@@ -207,7 +208,7 @@ static Texture *composite_on_cpu(Walk *walk, const DrawNode *node, Texture *cons
     return texture ? texture : report_no_memory(walk, node, width, height);
 }
 
-// The GPU, current; NULL, after a report, if there is none.
+// Returns the GPU with its context current; NULL, after a report, if there is none.
 static Gl *open_gpu(Walk *walk) {
     PetriPainter *painter = walk->painter;
     const char *problem = painter->gl_problem;
@@ -222,8 +223,7 @@ static Gl *open_gpu(Walk *walk) {
         return painter->gl;
     }
     painter->gl_problem = problem;
-    draw_report(walk->faults, NULL, DIAG_WARNING, "needs-gpu", "effects and three dimensions are left out: %s",
-                problem);
+    draw_report(walk->faults, NULL, DIAG_WARNING, "needs-gpu", "effects and 3-D scenes are left out: %s", problem);
     return NULL;
 }
 
@@ -234,7 +234,7 @@ static bool needs_gpu(const DrawNode *node, Texture *const *inputs, uint32_t cou
     return !render_graph_is_plain(node);
 }
 
-// Runs a program on the GPU. Without one, what is inside is seen as it is.
+// Runs an effect on the GPU. Without a GPU, the children are composited without the effect.
 static Texture *run_effect(Walk *walk, const DrawNode *node, const GraphNode *past, Texture *const *inputs,
                            uint32_t count, int width, int height) {
     Gl *gl = open_gpu(walk);
@@ -288,19 +288,19 @@ static GlImage find_texture(void *user_data, Str id) {
     if (found && !texture_upload(walk->painter->gl, found)) {
         if (!walk->painter->meter.memory_refused)
             arena_exhausted(&walk->frame->arena);
-        found = NULL; // the scene is left out, too
+        found = NULL; // the scene is left out as well
     }
     return found ? found->image : (GlImage){0};
 }
 
-// Makes room for a node's children.
+// Allocates the state of a node's children.
 static void alloc_children(Walk *walk, GraphNode *made, uint32_t count) {
     made->children = arena_alloc_array(&walk->frame->arena, count, sizeof *made->children);
     memset(made->children, 0, count * sizeof *made->children);
     made->count = count;
 }
 
-// What a camera of a scene sees; NULL, after a report, if that cannot be.
+// Renders the view of a camera. Returns NULL, after a report, if that is not possible.
 static Texture *make_view(Walk *walk, const Scene *scene, const SceneCamera *camera) {
     Gl *gl = walk->painter->gl;
     if (!is_good_size(walk, (NodeKind)camera->node->kind, camera->node->origin, camera->width, camera->height))
@@ -316,7 +316,7 @@ static Texture *make_view(Walk *walk, const Scene *scene, const SceneCamera *cam
     return texture;
 }
 
-// The picture of a scene, and those of its other cameras, which are kept as if they were nodes inside it.
+// Renders a scene, and the views of its secondary cameras, which are stored like children of the node.
 static Texture *make_scene(Walk *walk, const DrawNode *node, GraphNode *made, int width, int height) {
     if (!open_gpu(walk))
         return NULL;
@@ -355,7 +355,7 @@ static void add_record(Walk *walk, const DrawNode *node, Texture *texture) {
 static Texture *make_node(Walk *walk, const DrawNode *node, GraphNode *made, const GraphNode *past, int width,
                           int height);
 
-// The pictures inside that the node sees; `inputs` has room for all.
+// Renders the children, and returns the number of visible pictures. `inputs` has one entry per child.
 static uint32_t make_inputs(Walk *walk, const DrawNode *node, GraphNode *made, const GraphNode *past, int width,
                             int height, Texture **inputs) {
     uint32_t count = 0;
@@ -375,7 +375,7 @@ static Texture *make_effect_node(Walk *walk, const DrawNode *node, GraphNode *ma
     Texture **inputs = arena_alloc_array(&walk->frame->arena, node->child_count, sizeof *inputs);
     uint32_t count = make_inputs(walk, node, made, past, width, height, inputs);
     if (node->kind == KIND_OFFSCREEN && node != walk->picture->window && made->id.len == 0)
-        return NULL; // nobody would see it
+        return NULL; // no node can refer to it
     Texture *texture = needs_gpu(node, inputs, count) ? run_effect(walk, node, past, inputs, count, width, height)
                                                       : composite_on_cpu(walk, node, inputs, count, width, height);
     const AttrValue *file = node->kind == KIND_RECORD ? draw_attr(node, ATTR_FILENAME) : NULL;
@@ -390,7 +390,8 @@ static Texture *find_reference(Walk *walk, Str id) {
     return found ? texture_retain(found) : NULL;
 }
 
-// Makes a node's picture in one that is width x height large; NULL if there is none. Borrowed from `made`.
+// Renders the picture of a node, whose parent is width x height pixels. Returns NULL if there is none. Borrowed from
+// `made`.
 static Texture *make_node(Walk *walk, const DrawNode *node, GraphNode *made, const GraphNode *parent, int width,
                           int height) {
     Arena *arena = &walk->frame->arena;
@@ -447,7 +448,7 @@ static void make_windows(void *context) {
     }
 }
 
-// Images of the GPU can only be given back while it is current.
+// The GPU context must be current while its images are freed.
 static void clear_old_frame(Walk *walk) {
     const char *problem;
     if (walk->painter->gl)

@@ -1,4 +1,4 @@
-// render_graph_query.c: what can be said of a tree of pictures before it is made; see render_graph.h.
+// render_graph_query.c: properties of a tree of pictures that are known before it is rendered; see render_graph.h.
 #include "draw/render_graph.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-// renderer.c: what painters do whoever draws the canvases; see painter.h.
+// renderer.c: the part of a painter that does not depend on what draws canvases; see painter.h.
 #include "base/heap.h"
 #include "draw/painter.h"
 #include "draw/resize.h"
@@ -61,8 +61,8 @@ bool draw_report_refused(PetriPainter *painter, const Origin *place, const char 
         return false;
     painter->meter.memory_refused = false;
     draw_report(faults, place, DIAG_WARNING, "memory-limit",
-                "%s: a picture of %d x %d pixels takes more memory than a script may have (--memory); it is left out",
-                node, width, height);
+                "%s: a picture of %d x %d pixels exceeds the memory limit (--memory); it is left out", node, width,
+                height);
     return true;
 }
 
@@ -75,12 +75,12 @@ double draw_fit(double width, double height, double box_width, double box_height
 
 void draw_limit(PetriPainter *painter, const CanvasPicture *picture) {
     painter->meter.memory_limit = picture->memory;
-    budget_begin(&painter->meter, picture->work / 4 * 3, NULL); // drawing is not charged to the frame
+    budget_begin(&painter->meter, picture->work / 4 * 3, NULL); // not charged to the frame
 }
 
 static void report_limit(void *faults) {
     draw_report(faults, NULL, DIAG_ERROR, "memory-limit",
-                "drawing takes more memory than a script may have (--memory): the picture is not drawn");
+                "drawing exceeded the memory limit (--memory): the picture is not drawn");
 }
 
 PetriStatus draw_report_limit(DiagSink *faults) {
@@ -92,7 +92,7 @@ void draw_clear(uint32_t *pixels, int width, int height, size_t stride) {
         memset((unsigned char *)pixels + (size_t)y * stride, 0, (size_t)width * sizeof *pixels);
 }
 
-// Makes the tree of pictures, once for each picture.
+// Renders the tree of pictures unless it was already rendered for this picture.
 static PetriStatus make_pictures(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults) {
     if (painter->made == picture->serial)
         return PETRI_OK;
@@ -105,7 +105,7 @@ static PetriStatus make_pictures(PetriPainter *painter, const CanvasPicture *pic
 PetriStatus draw_render(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults) {
     if (picture->window && (picture->needs_history || !picture->direct))
         return make_pictures(painter, picture, faults);
-    if (painter->made > 0) { // nothing of this frame can be continued in the next
+    if (painter->made > 0) { // the next frame cannot continue anything from this one
         render_graph_clear(painter);
         painter->made = 0;
         painter->shown = NULL;
@@ -123,7 +123,7 @@ typedef struct Fetching {
     DiagSink *faults;
 } Fetching;
 
-// Reads what was made of the window back. If the script may not have the memory it has no picture.
+// Downloads the window's picture from the GPU. If the memory limit does not allow that, the window has no picture.
 static void download_shown(void *context) {
     Fetching *fetching = context;
     PetriPainter *painter = fetching->painter;

@@ -7,7 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-// The share of each old place in a new one: a triangle, as wide as a new place if that is more than an old one.
+// Computes the weights of the old pixels in a new one: a triangle, which is at least one old pixel and one new pixel
+// wide.
 static void compute_weights(int old, int new, int at, int *first, int *count, float *weights) {
     double scale = (double)old / new, reach = fmax(scale, 1), middle = (at + 0.5) * scale, sum = 0;
     int low = (int)fmax(floor(middle - reach), 0), high = (int)fmin(ceil(middle + reach), old);
@@ -36,13 +37,13 @@ static void resize_lines(const float *in, float *out, int lines, int old, int ne
                     sum[k] += weights[i] * in[4 * from + k];
             }
             size_t to = down ? (size_t)at * (size_t)lines + (size_t)line : (size_t)line * (size_t) new + (size_t)at;
-            for (size_t k = 0; k < 4; k++) // bytes between the two directions, too
+            for (size_t k = 0; k < 4; k++) // rounded to bytes between the two directions as well
                 out[4 * to + k] = rintf(sum[k]);
         }
     }
 }
 
-// a, r, g, b as bytes that are not multiplied.
+// Writes a, r, g, b as bytes that are not premultiplied.
 static void unpack_pixels(const uint32_t *pixels, int width, int height, size_t stride, bool alpha, float *out) {
     for (int y = 0; y < height; y++) {
         const uint32_t *row = (const uint32_t *)(const void *)((const char *)pixels + (size_t)y * stride);
@@ -66,7 +67,7 @@ Texture *resize_pixels(Budget *meter, const uint32_t *pixels, int width, int hei
                        int new_width, int new_height, int flip) {
     size_t max_pixels =
         (size_t)(width > new_width ? width : new_width) * (size_t)(height > new_height ? height : new_height);
-    size_t bytes = 2 * max_pixels * 4 * sizeof(float); // for a while
+    size_t bytes = 2 * max_pixels * 4 * sizeof(float); // temporary
     if (!budget_reserve(meter, bytes))
         return NULL;
     float *one = heap_alloc(bytes / 2), *other = heap_alloc(bytes / 2);

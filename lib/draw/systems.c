@@ -7,13 +7,13 @@
 
 #include <math.h>
 
-// At most three of a vector's numbers; the missing ones are 0.
+// Copies up to three components of a vector; missing ones become 0.
 static void take_three(double out[3], const double *v, uint32_t n) {
     for (uint32_t k = 0; k < 3; k++)
         out[k] = v && k < n ? v[k] : 0;
 }
 
-// Takes the particles that are somewhere; `numbers` tells where each has gone.
+// Copies the particles with finite positions. `numbers` maps particles to bodies; UINT32_MAX: not copied.
 static void copy_bodies(Arena *arena, const SceneView *view, AutoSystem *system, uint32_t *numbers) {
     PhysColumns columns = phys_columns(view->engine);
     double most = 0;
@@ -38,7 +38,7 @@ static void copy_bodies(Arena *arena, const SceneView *view, AutoSystem *system,
         system->bodies[i].shade /= most;
 }
 
-// Without charges the shade is the speed: half way up where the frame would be crossed in two seconds.
+// Shades bodies by speed if there are no charges. The middle colour is the speed that crosses the view in two seconds.
 static void shade_by_speed(AutoSystem *system) {
     for (uint32_t i = 0; i < system->body_count; i++) {
         const double *v = system->bodies[i].velocity;

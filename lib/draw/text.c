@@ -1,6 +1,6 @@
-// text.c: text, laid out by Pango.
+// text.c: text layout with Pango.
 //
-// Letters are not fitted to the grid of pixels: they look the same whatever the transform and the desktop's settings.
+// Glyphs are not hinted, so they look the same under every transform and desktop setting.
 #include "base/heap.h"
 #include "draw/draw.h"
 
@@ -11,8 +11,8 @@
 enum { MAX_TEXT_LENGTH = 10000 };         // bytes
 static const double MAX_FONT_SIZE = 4000; // pixels
 
-// Pango reads what fonts there are in a thread of its own, which nobody waits for but who asks for a font: it is begun
-// for a text alone. A process that ended meanwhile took what the thread was reading from it.
+// Creates the fonts when a text first needs them. Pango reads the list of fonts in a background thread, which only
+// requests for a font wait for. A process that exits in the meantime would free data that the thread still reads.
 TextContext *draw_text_context(PetriPainter *painter) {
     TextContext *text_context = painter->text_context;
     if (text_context)
@@ -48,7 +48,7 @@ void draw_text_close(PetriPainter *painter) {
     heap_free(text_context);
 }
 
-// Names that stand for whatever the machine has.
+// Returns true for generic names, which every machine maps to some font.
 static bool is_generic(const char *name) {
     static const char *const names[] = {"sans",      "sans-serif", "serif",   "mono",
                                         "monospace", "cursive",    "fantasy", "system-ui"};
@@ -69,7 +69,7 @@ static bool is_installed(PetriPainter *painter, const char *name) {
     return found;
 }
 
-// The nearest to fonts that scripts name and machines often lack: their letters are as wide.
+// Returns a replacement of the same metrics for common fonts that many machines lack.
 static const char *find_substitute(const char *name) {
     static const char *const pairs[][2] = {{"Helvetica", "Liberation Sans"},
                                            {"Arial", "Liberation Sans"},
@@ -81,8 +81,8 @@ static const char *find_substitute(const char *name) {
     return NULL;
 }
 
-// What there is of a list of names; the list itself, after a report, if there is none. It was given by the script
-// unless it is the usual one.
+// Returns the first installed family of a list of names, or its replacement. If there is none, returns the list, and
+// reports that unless it is the default list.
 static const char *find_family(Canvas *canvas, const char *list) {
     char name[128];
     for (const char *at = list;;) {
@@ -104,8 +104,8 @@ static const char *find_family(Canvas *canvas, const char *list) {
         at += length;
     }
     if (strcmp(list, schema_row(KIND_CANVAS, ATTR_FONT_FAMILY)->default_value.string) != 0)
-        draw_report_canvas(canvas, DIAG_WARNING, "unknown-font",
-                           "!font: there is no font '%.100s' on this machine; another takes its place", list);
+        draw_report_canvas(canvas, DIAG_WARNING, "unknown-font", "!font: font '%.100s' is not installed; using another",
+                           list);
     return list;
 }
 
@@ -118,7 +118,7 @@ static bool same_font(const DisplayText *a, const DisplayText *b) {
            a->slant == b->slant;
 }
 
-// Letter after letter, of this font alone.
+// Disables ligatures, kerning and fallback fonts.
 static void disable_ligatures(PangoLayout *layout) {
     PangoAttrList *attributes = pango_attr_list_new();
     pango_attr_list_insert(attributes, pango_attr_font_features_new("kern=0, liga=0, clig=0, calt=0"));
@@ -132,7 +132,8 @@ static void set_font(Canvas *canvas, const DisplayText *text) {
     TextContext *text_context = canvas->painter->text_context;
     if (text_context->family && same_font(&text_context->font, text))
         return;
-    const char *family = find_family(canvas, text->family); // from which control may leave
+    const char *family =
+        find_family(canvas, text->family); // before Pango objects are allocated, because this can abort the drawing
     PangoFontDescription *font = pango_font_description_new();
     pango_font_description_set_family(font, family);
     pango_font_description_set_absolute_size(font, text->size * PANGO_SCALE);
@@ -146,16 +147,16 @@ static void set_font(Canvas *canvas, const DisplayText *text) {
     text_context->font = *text;
 }
 
-// The size on the target decides what the font library can do.
+// The size on the target must be one that the font library can handle.
 static bool has_drawable_size(Canvas *canvas, double size) {
     double pixels = size * draw_scale_of(canvas->cr);
     if (pixels > MAX_FONT_SIZE || size > MAX_FONT_SIZE)
-        draw_report_canvas(canvas, DIAG_WARNING, "bad-font-size", "!text: letters of more than %g pixels are not drawn",
+        draw_report_canvas(canvas, DIAG_WARNING, "bad-font-size", "!text: text larger than %g pixels is not drawn",
                            MAX_FONT_SIZE);
     return pixels > 0.1 && size > 0.001 && pixels <= MAX_FONT_SIZE && size <= MAX_FONT_SIZE;
 }
 
-// Where the base line of the layout begins.
+// Moves the point to the top left corner of the layout.
 static void position_layout(PangoLayout *layout, bool center, double point[2]) {
     PangoRectangle ink;
     double baseline = pango_layout_get_baseline(layout) / (double)PANGO_SCALE;
@@ -173,11 +174,12 @@ void draw_text(Canvas *canvas, const DisplayCommand *command, const DisplayPaint
     if (text->weight <= 0 || !has_drawable_size(canvas, text->size))
         return;
     if (text->text.len > MAX_TEXT_LENGTH) {
-        draw_report_canvas(canvas, DIAG_WARNING, "text-too-long", "!text: texts of more than %d bytes are not drawn",
+        draw_report_canvas(canvas, DIAG_WARNING, "text-too-long", "!text: text longer than %d bytes is not drawn",
                            MAX_TEXT_LENGTH);
         return;
     }
-    if (!draw_charge_box(canvas, paint, text->size, text->size / 3, (double)text->text.len)) // a third is ink
+    if (!draw_charge_box(canvas, paint, text->size, text->size / 3,
+                         (double)text->text.len)) // about a third of the box is ink
         return;
     TextContext *text_context = draw_text_context(canvas->painter);
     if (!text_context)

@@ -83,11 +83,11 @@ void texture_free(Texture *texture) {
     heap_free(texture);
 }
 
-// The sRGB curve at its 256 bytes, and half way between them.
+// The sRGB curve at the 256 byte values, and halfway between them.
 static float decoded[256], thresholds[256];
-// How many of these are not above each float whose lower half is 0: a look at the upper half of a float's bits leaves
-// one or two to compare with.
-enum { ONE = 0x3f80 }; // of 1.0
+// Indexed by the upper 16 bits of a float: the number of thresholds that are at most the float with these bits and 0
+// below. After this lookup, one or two comparisons remain.
+enum { ONE = 0x3f80 }; // upper half of 1.0
 static uint8_t below[ONE + 1];
 
 static float float_of(uint32_t bits) {
@@ -136,7 +136,7 @@ unsigned texture_encode(float c) {
         return 255;
     memcpy(&bits, &c, sizeof bits);
     unsigned count = below[bits >> 16];
-    while (c >= thresholds[count]) // the last is above 1
+    while (c >= thresholds[count]) // ends because the last threshold is above 1
         count++;
     return count;
 }
@@ -169,7 +169,7 @@ static void read_texel(const Texture *texture, int x, int y, float color[4]) {
     color[3] = (float)(pixel >> 24) / 255.0f;
 }
 
-// Moves a coordinate into the picture; false where the border is.
+// Maps a coordinate into the picture. Returns false where the border applies.
 static bool wrap_coordinate(int *at, int size, bool repeat, bool clamped) {
     if (repeat)
         *at = (*at % size + size) % size;

@@ -1,4 +1,4 @@
-// window.c: pictures on a host's window, by its own OpenGL.
+// window.c: pictures on a window of the host, with the host's OpenGL context.
 #include "base/heap.h"
 #include "draw/painter.h"
 #include "draw/picture.h"
@@ -21,16 +21,16 @@ uint64_t petri_painter_readback_count(const PetriPainter *painter) {
     return painter && painter->gl ? gl_readback_count(painter->gl) : 0;
 }
 
-// What is drawn on a window.
+// The content of a window.
 typedef struct Presentation {
     PetriPainter *painter;
-    PetriPicture *picture; // or NULL
+    PetriPicture *picture; // NULL: black
     const PetriLabel *labels;
     size_t count;
     double scale;
     int width;
     int height;
-    const Texture *texture; // the picture's, on the GPU; NULL: the painter's pixels
+    const Texture *texture; // the picture's texture on the GPU; NULL: show the painter's pixels
     bool done;
 } Presentation;
 
@@ -44,7 +44,7 @@ static uint32_t *window_pixels(PetriPainter *painter, int width, int height) {
     return painter->window;
 }
 
-// A label by itself, so that what is shown without its pixels can lie below it.
+// Draws a label to separate pixels, which are then composited over the window.
 static bool present_label(const Presentation *presentation, const PetriLabel *label) {
     PetriPainter *painter = presentation->painter;
     double scale = presentation->scale, left = floor(label->x * scale), top = floor(label->y * scale);
@@ -89,7 +89,7 @@ static void present_protected(void *context) {
         presentation->done = presentation->done && present_label(presentation, &presentation->labels[i]);
 }
 
-// Makes the picture: its texture if that is what can be shown, else the window's pixels.
+// Renders the picture: to a texture if possible, else to the window's pixels.
 static PetriStatus prepare_picture(Presentation *presentation) {
     PetriPainter *painter = presentation->painter;
     PetriPicture *picture = presentation->picture;

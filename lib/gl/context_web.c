@@ -9,7 +9,7 @@ HOST(gl_ready) bool gl_web_ready(void);
 HOST(gl_has) bool gl_web_has(const char *extension);
 
 bool gl_context_open(Gl *gl, const char **problem) {
-    *problem = "there is no WebGL 2 here";
+    *problem = "WebGL 2 is not available";
     gl->context = gl_web_ready() ? gl : NULL;
     return gl->context;
 }
@@ -40,7 +40,7 @@ void gl_after_draw(Gl *gl) {
 
 bool gl_enter(Gl *gl, const char **problem) {
     (void)gl;
-    *problem = "the browser has taken WebGL away";
+    *problem = "the browser dropped the WebGL context";
     return gl_web_ready();
 }
 

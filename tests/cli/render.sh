@@ -211,7 +211,7 @@ END
         "!text: point should be" "!paint: color should be grey" "!paint: stroke_width should be number, 0 or more" \
         "!paint: stroke_join should be :miter, :round or :bevel, not :rond" "!paint: composite should be a word such as :over" \
         "unknown attribute 'colour', did you mean 'color'?" "'!elipse' is not drawn; it is left out, did you mean '!ellipse'?" \
-        "'!stop' has no effect here" "cannot read 'absent.png': No such file" "cannot read 'disc.fl': it is neither PNG nor JPEG" \
+        "'!stop' has no effect here" "cannot read 'absent.png': No such file" "cannot read 'disc.fl': neither PNG nor JPEG" \
         "there is no font 'No Such Font'"; do
         check "told once: $text" count_is err "$text" 1
     done
@@ -227,7 +227,7 @@ END
     rm -f points.png
     petri render points.fl -o points.png --frames 1
     check "a million points all over the picture are refused" one_error
-    check "… with a reason" has err "a path is too complex"
+    check "… with a reason" has err "path is too complex"
     check "… without a file" [ ! -e points.png ]
     printf '!window size=1000;1000\n    !canvas\n        !line points=(..2000000)/2000 stroke=true color=0;1;0\n' >points.fl
     petri render points.fl -o points.png --frames 1
@@ -259,7 +259,7 @@ END
     check "… as if they were not there" cmp -s nest.png blue.png
     sed 's/!group/!layer size=1000/; /!path/d; /!ellipse/d; /!clip/d' nest.fl >layers.fl
     petri render layers.fl -o layers.png --frames 1
-    check "of 10,000 layers the innermost are drawn without" count_is err "layers are too many" 1
+    check "of 10,000 layers the innermost are drawn without" count_is err "too many or too large layers" 1
     check "… and nothing is lost" cmp -s layers.png blue.png
 
     # films
@@ -429,13 +429,13 @@ END
         '!image filename="disc.png" size=100'; do
         printf '!window size=100\n    !canvas id=:c\n        for i in ..1000\n            %s\n' "$many" >many.fl
         petri render many.fl -o many.png --work 500k --scale 5
-        check "drawing is charged: $many" has err "drawing takes longer than a script may (--work): what comes now is left"
+        check "drawing is charged: $many" has err "drawing exceeded the work limit (--work): the rest is left"
         petri render many.fl -o many.png
         check "… but not for so few: $many" [ ! -s err ]
     done
     printf '!physics state=:p dimensions=2\n    for i in ..1000\n        !particle id=i position=0 radius=1\n' >many.fl
     petri render many.fl -o many.png --work 500k
-    check "drawing is charged: particles" has err "drawing takes longer than a script may (--work)"
+    check "drawing is charged: particles" has err "drawing exceeded the work limit (--work)"
     PATH='' "$petri" render disc.fl -o none.mp4 --frames 5 >out 2>err </dev/null
     status=$?
     check "without ffmpeg a film is an error" status_is 1

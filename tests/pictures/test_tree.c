@@ -250,8 +250,7 @@ static void test_without(void **state) {
     drawn_open(&drawn, SIZE "    !adjust exposure=-9\n        " RED "    !blur radius=3 alpha=0\n        " GREEN, 2);
     assert_int_equal(at(&drawn, 0), 255);
     assert_int_equal(at(&drawn, 1), 0);
-    assert_claim(drawn.reported,
-                 strstr(drawn.reported, "[needs-gpu] effects and three dimensions are left out: ") != NULL);
+    assert_claim(drawn.reported, strstr(drawn.reported, "[needs-gpu] effects and 3-D scenes are left out: ") != NULL);
     assert_claim(drawn.reported, strchr(drawn.reported, '\n') == drawn.reported + strlen(drawn.reported) - 1);
     drawn_close(&drawn);
 }
@@ -264,9 +263,9 @@ static void test_memory(void **state) {
         "    !canvas3d size=1500;1500 samples=4\n        !light color=1\n        !sphere size=500 color=1;0;0\n",
     };
     static const char *const told[] = {
-        "5 [memory-limit] !blur: a picture of 2000 x 2000 pixels takes more memory than a script may have (--memory); "
+        "5 [memory-limit] !blur: a picture of 2000 x 2000 pixels exceeds the memory limit (--memory); "
         "it is left out\n",
-        "5 [memory-limit] !canvas3d: a picture of 1500 x 1500 pixels takes more memory than a script may have "
+        "5 [memory-limit] !canvas3d: a picture of 1500 x 1500 pixels exceeds the memory limit "
         "(--memory); it is left out\n",
     };
     for (size_t i = 0; i < COUNT_OF(nodes); i++) {

@@ -201,5 +201,5 @@ test('light beyond 1 is not there, and that is told', options, async () => {
     const script = join(pictures, 'canvas_wide.fl');
     const files = { 'images/small.png': readFileSync(join(pictures, 'images/small.png')).toString('base64') };
     const { unsupported } = await page.evaluate(given => window.draw(...given), [readFileSync(script, 'utf8'), 2, files, render(script, 2)]);
-    assert.deepEqual(unsupported, ['light beyond 1 (colorbits)']);
+    assert.deepEqual(unsupported, ['HDR canvas (colorbits)']);
 });

@@ -213,7 +213,7 @@ static void test_misuse(void **state) {
     assert_int_equal(petri_picture_save(picture, painter, "x.jpg"), PETRI_INVALID);
     petri_picture_report(player->session, picture);
     assert_text("suffix", player_diagnostics(player),
-                "error cannot write 'x.jpg': a picture's name ends in .png, .svg or .pdf [cannot-write]\n");
+                "error cannot write 'x.jpg': the name of a picture must end in .png, .svg or .pdf [cannot-write]\n");
     petri_picture_free(&picture);
     petri_painter_close(&painter);
 }
@@ -319,7 +319,7 @@ static void test_images_of_the_host(void **state) {
     petri_picture_report(player->session, picture);
     const char *told = player_diagnostics(player);
     if (status != PETRI_UNSUPPORTED) {
-        assert_non_null(strstr(told, "cannot read 'images/./a.png': it is neither PNG nor JPEG"));
+        assert_non_null(strstr(told, "cannot read 'images/./a.png': neither PNG nor JPEG"));
         assert_non_null(strstr(told, "cannot read '/etc/passwd': No such file"));
     }
     petri_painter_close(&painter);
