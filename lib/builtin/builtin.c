@@ -14,7 +14,7 @@ const Builtin builtin_table[] = {
 };
 const uint32_t builtin_table_count = sizeof builtin_table / sizeof builtin_table[0];
 
-// No row has more parameters before "...", which a test checks.
+// No row has more parameters before "..."; a test checks this.
 enum { MAX_FIXED = 8 };
 
 const Builtin *builtin_find(Str name) {
@@ -33,7 +33,7 @@ const Builtin *builtin_find(Str name) {
 }
 
 Value builtin_error(BuiltinContext *context, const char *name, const char *format, ...) {
-    enum { ERROR_WORK = 50 }; // each is written, if only to see that it is known
+    enum { ERROR_WORK = 50 }; // for each diagnostic, including repeated ones
     if (!context->report_error)
         return VALUE_NULL;
     arena_charge(context->arena, ERROR_WORK);
@@ -47,7 +47,7 @@ Value builtin_error(BuiltinContext *context, const char *name, const char *forma
     return VALUE_NULL;
 }
 
-// The name of parameter i, which must exist, from the text "xs, ys=0".
+// Returns the name of parameter i, which must exist, from a text such as "xs, ys=0".
 static Str parameter_name(const Builtin *builtin, uint32_t i) {
     const char *at = builtin->parameters;
     while (i-- > 0)
@@ -55,7 +55,7 @@ static Str parameter_name(const Builtin *builtin, uint32_t i) {
     return (Str){at, strcspn(at, ",=")};
 }
 
-// The position of a named parameter, or `fixed`.
+// Returns the index of a named parameter, or `fixed` if there is none.
 static uint32_t parameter_find(const Builtin *builtin, Str name) {
     uint32_t i = 0;
     while (i < builtin->fixed && !str_equal(parameter_name(builtin, i), name))
@@ -73,7 +73,7 @@ static Value bad_name(BuiltinContext *context, const Builtin *builtin, const cha
                          name.bytes, builtin->name, builtin->parameters);
 }
 
-// The call when not every parameter has its argument by position.
+// Handles calls with named or missing arguments.
 static Value call_matched(BuiltinContext *context, const Builtin *builtin, const Value *args, uint32_t count,
                           const Symbol *const *names, const Value *named, uint32_t named_count) {
     Value all[MAX_FIXED];

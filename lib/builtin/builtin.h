@@ -1,8 +1,8 @@
 // builtin.h: the registry of built-in functions (spec builtins.md).
 //
-// A built-in is one row of builtin_list.h: name, function, parameters, purity, one line of help. The function gets its
-// arguments by position, already matched with the parameters; one that was not given is VALUE_ABSENT. It returns the
-// specified value, null for arguments of the wrong form, and reports a *bad call* of its own through builtin_error.
+// A built-in is one row of builtin_list.h: name, function, parameters, purity and one line of help. The function gets
+// its arguments in the order of the parameters; a missing one is VALUE_ABSENT. It returns the specified value, or null
+// for arguments of the wrong form, and reports a *bad call* with builtin_error.
 #ifndef PETRI_BUILTIN_BUILTIN_H
 #define PETRI_BUILTIN_BUILTIN_H
 
@@ -13,17 +13,17 @@
 typedef struct FileCache FileCache;   // builtin/files.h
 typedef struct NoiseCache NoiseCache; // builtin/noise.h
 
-// What a call may use. Everything is borrowed for the call.
+// The context of a call. Everything is borrowed for the call.
 typedef struct BuiltinContext {
-    const struct Builtin *called;  // whose call it is
-    Arena *arena;                  // results and temporaries
-    const SymbolTable *symbols;    // for texts
-    FileCache *files;              // NULL: file functions find no file
-    NoiseCache *noise;             // NULL: permutations are made anew for each call
-    const FileAccess *file_access; // NULL: all files may be used
-    Str directory;                 // relative file names start here (L13.3); "" is the working directory
-    void (*report_error)(void *user_data, Str text); // a diagnostic at the place of the call
-    void (*log)(void *user_data, Str text);          // a line of debug()
+    const struct Builtin *called;                    // the built-in that is called
+    Arena *arena;                                    // owns results and temporaries
+    const SymbolTable *symbols;                      // for texts of symbols
+    FileCache *files;                                // NULL: file functions find no file
+    NoiseCache *noise;                               // NULL: permutations are computed in each call
+    const FileAccess *file_access;                   // NULL: unrestricted
+    Str directory;                                   // base of relative file names (L13.3); "": the working directory
+    void (*report_error)(void *user_data, Str text); // called with a diagnostic for the call
+    void (*log)(void *user_data, Str text);          // called with a line from debug()
     void *user_data;
 } BuiltinContext;
 
@@ -32,14 +32,14 @@ typedef Value BuiltinCall(BuiltinContext *context, const Value *args, uint32_t c
 typedef struct Builtin {
     const char *name;
     BuiltinCall *call;
-    const char *parameters; // as in the spec: "xs, ys=0", "x", "xs, ..."; a trailing "..." takes any number more
-    uint8_t required;       // fewest arguments
-    uint8_t fixed;          // parameters before "..."; also the length of args unless more were given
+    const char *parameters; // as in the spec: "xs, ys=0", "x", "xs, ..."; a trailing "..." accepts further arguments
+    uint8_t required;       // minimum number of arguments
+    uint8_t fixed; // number of parameters before "..."; also the length of args unless there are more arguments
     bool variadic;
     bool named; // accepts parameters by name (B0.3)
     bool pure;  // B0.5
-    // With so many arguments or more it is element-wise (B0.4): for numbers and vectors of one length the result is the
-    // vector of the results for their elements, where it is a vector of that length. 0: it is not.
+    // With at least this many arguments, the function is element-wise (B0.4): for numbers and vectors of one length,
+    // each element of the result depends only on the elements at the same index. 0: never.
     uint8_t each;
 #define BUILTIN_EACH_POINT UINT8_MAX // noise: see builtin_noise_points
     const char *help;
@@ -48,18 +48,19 @@ typedef struct Builtin {
 extern const Builtin builtin_table[];
 extern const uint32_t builtin_table_count;
 
-// The row of a name, or NULL.
+// Returns the row of a built-in, or NULL.
 const Builtin *builtin_find(Str name);
 
-// Calls a built-in with positional and named arguments; checks counts and names first (*bad call*, B0.2, B0.3).
+// Calls a built-in with positional and named arguments, after checking their number and names (*bad call*, B0.2, B0.3).
 Value builtin_call(BuiltinContext *context, const Builtin *builtin, const Value *args, uint32_t count,
                    const Symbol *const *names, const Value *named, uint32_t named_count);
 
-// Reports "NAME: text" as a diagnostic; null.
+// Reports the diagnostic "NAME: text" and returns null.
 Value builtin_error(BuiltinContext *context, const char *name, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-// A constant that is visible like a built-in (L4.2): true false null inf nan pi π tau 𝜏. False if there is none.
+// Looks up a constant that is visible like a built-in (L4.2): true false null inf nan pi π tau 𝜏. Returns false if
+// there is none.
 bool builtin_constant(Str name, Value *value);
 
 #endif

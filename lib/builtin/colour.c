@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-// x without its negative part; a nan counts as 0.
+// Returns max(x, 0), and 0 for NaN.
 static double clamp_negative(double x) {
     return x > 0 ? x : 0;
 }
@@ -16,7 +16,7 @@ static double clamp_unit(double x) {
     return 1 < x ? 1 : x;
 }
 
-// fmod(v, 6), to the bit and at once where hues are nearly always: there the difference is exact.
+// Returns fmod(v, 6) bit for bit. Hues are usually within one period of the range, where a difference is exact.
 static double modulo_6(double v) {
     return v > -6 && v < 6 ? v : v >= 6 && v < 12 ? v - 6 : fmod(v, 6);
 }

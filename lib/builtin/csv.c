@@ -1,7 +1,7 @@
 // csv.c: rows of comma-separated files (spec builtins.md B13.5).
 //
-// The cache keeps the file and where its rows start; the fields of a row are taken apart when it is asked for, so a
-// large table costs a frame only the rows that it uses.
+// The cache holds the file and the offsets of its rows. The fields of a row are parsed on demand, so a frame pays only
+// for the rows of a large table that it uses.
 #include "base/number.h"
 #include "builtin/family.h"
 #include "builtin/files.h"
@@ -18,9 +18,9 @@ typedef struct CsvFile {
 
 // --- fields
 
-// Scans the field at *at, puts its text to `out` unless that is NULL, and moves *at behind the separator that ends it;
-// *last tells whether that was a line end or the end of the file. Returns the length of the text, which is at most that
-// of the field.
+// Scans the field at *at, copies its text to `out` unless that is NULL, and moves *at past the separator after it. Sets
+// *last if the separator was a line end or the end of the file. Returns the length of the text, at most that of the
+// field.
 static size_t scan_field(Str in, size_t *at, char *out, bool *last) {
     size_t i = *at, len = 0;
     if (i < in.len && in.bytes[i] == '"') {
@@ -47,7 +47,8 @@ static size_t scan_field(Str in, size_t *at, char *out, bool *last) {
     return len;
 }
 
-// The number of fields of the row at `at` without the empty ones at its end; *end is where the next row starts.
+// Returns the number of fields of the row at `at`, without empty fields at its end. *end becomes the start of the next
+// row.
 static size_t scan_row(Str in, size_t at, size_t *end) {
     size_t fields = 0, kept = 0;
     for (bool last = false; !last;) {
@@ -61,8 +62,8 @@ static size_t scan_row(Str in, size_t at, size_t *end) {
 
 // --- numbers
 
-// Length of an unsigned decimal number at the start of the text, or 0: digits with single underscores between them,
-// at most one point with a digit on at least one side, optional exponent.
+// Returns the length of an unsigned decimal number at the start of the text, or 0. It has digits with single
+// underscores between them, at most one point next to a digit, and an optional exponent.
 static size_t scan_decimal(Str text) {
     size_t whole = builtin_scan_digits(text), at = whole, part = 0;
     if (at < text.len && text.bytes[at] == '.') {
@@ -85,7 +86,7 @@ static bool is_word(Str text, const char *word) {
     return text.len == strlen(word) && strncasecmp(text.bytes, word, text.len) == 0;
 }
 
-// Is the field a number, apart from white space around it?
+// Returns true if the field is a number, ignoring white space around it.
 static bool read_number(Str field, double *x) {
     Str text = str_trim(field);
     bool negative = text.len && text.bytes[0] == '-';
@@ -112,7 +113,7 @@ static bool read_number(Str field, double *x) {
 static const void *parse_csv(Arena *arena, char *bytes, size_t len, const char **problem) {
     if (!file_is_text(bytes, len, problem))
         return NULL;
-    if (str_starts_with((Str){bytes, len}, STR("\xef\xbb\xbf"))) { // as spreadsheets write it
+    if (str_starts_with((Str){bytes, len}, STR("\xef\xbb\xbf"))) { // byte order mark, as written by spreadsheets
         bytes += 3;
         len -= 3;
     }
@@ -138,7 +139,7 @@ static Value row_value(BuiltinContext *context, const CsvFile *file, uint32_t ro
         return builtin_too_long(context, "csv");
     if (fields == 0)
         return VALUE_NULL;
-    char *text = arena_alloc(arena, end - at); // of all fields of the row
+    char *text = arena_alloc(arena, end - at); // bytes of all fields of the row
     String *strings = arena_alloc_array(arena, fields, sizeof *strings);
     Item *items = arena_alloc_array(arena, fields, sizeof *items);
     bool mixed = false, last = false;
@@ -160,7 +161,8 @@ static Value row_value(BuiltinContext *context, const CsvFile *file, uint32_t ro
     return value_numbers_view(numbers, (uint32_t)fields);
 }
 
-// A row number: a number, floored, or one string that reads as an integer. Symbols are numbers below 0 and so no rows.
+// Reads a row number: a number, rounded down, or a string that is an integer. Symbols are negative numbers and so match
+// no row.
 static bool read_row_number(Value v, double *row) {
     if (is_scalar(v))
         *row = floor(v.as.number);

@@ -1,4 +1,4 @@
-// family.h: what the families of built-ins share; private to lib/builtin.
+// family.h: helpers shared by the built-ins; private to lib/builtin.
 #ifndef PETRI_BUILTIN_FAMILY_H
 #define PETRI_BUILTIN_FAMILY_H
 
@@ -21,26 +21,26 @@ static inline bool is_absent(Value v) {
     return v.kind == VALUE_ABSENT;
 }
 
-// Numeric of one length, as 3-vectors, quaternions and matrices are.
+// Returns true for a numeric vector of one length, such as a 3-vector, quaternion or matrix.
 static inline bool is_numeric_of(Value v, uint32_t len) {
     return v.kind == VALUE_NUMBERS && v.len == len;
 }
 
-// A value of the language for an argument that may be absent.
+// Returns the value of an argument, or `fallback` if it is absent.
 static inline Value value_or(Value v, Value fallback) {
     return is_absent(v) ? fallback : v;
 }
 
-// Reports "NAME: result is too long" and gives null.
+// Reports "NAME: result is too long" and returns null.
 Value builtin_too_long(BuiltinContext *context, const char *name);
 
-// Texts, at least one, as a vector; their bytes are borrowed.
+// Returns a vector of at least one text. The bytes are borrowed.
 Value builtin_texts(Arena *arena, const Str *texts, uint32_t count);
 
-// A copy of `len` numbers as a vector.
+// Returns a vector with a copy of `len` numbers.
 Value builtin_numbers(Arena *arena, const double *numbers, uint32_t len);
 
-// f of each element; null unless x is numeric (B1.1).
+// Returns a vector with f of each element, or null unless x is numeric (B1.1).
 Value builtin_each(Arena *arena, Value x, double (*f)(double));
 
 #define ELEMENT_WISE(name, function)                                                                                   \
@@ -48,21 +48,22 @@ Value builtin_each(Arena *arena, Value x, double (*f)(double));
         return builtin_each(context->arena, args[0], function);                                                        \
     }
 
-// The same with a function that takes many numbers at once and gives the bits of f (maths/arrays.h).
+// Like builtin_each, with an additional function for arrays that gives the bits of f (maths/arrays.h).
 typedef void BuiltinArrayCall(CpuLevel level, const double *x, size_t count, double *to);
 Value builtin_each_array(Arena *arena, Value x, double (*f)(double), BuiltinArrayCall *array_call);
 
-// f of the `count` elements at each position of `count` vectors, element-wise with repetition (B0.4); null unless all
-// are numeric, or if there are none.
+// Applies f to the elements at each index of `count` vectors, repeating shorter vectors (B0.4). Returns null if there
+// are no vectors or one is not numeric.
 Value builtin_repeat(Arena *arena, const Value *args, uint32_t count, double (*f)(const double *x, uint32_t count));
 
-// Stable ascending sorts (B3.3). The result is `numbers` or another array of the arena; with a nan the order is any.
+// Sort in ascending order, stably (B3.3). Return `numbers` or `texts`, or another array of the arena. The order is
+// unspecified if there is a NaN.
 double *builtin_sort_numbers(Arena *arena, double *numbers, uint32_t len);
 Str *builtin_sort_texts(Arena *arena, Str *texts, uint32_t len);
 
-// Reads digits with single underscores between them, as far as they go; returns how many bytes that is.
+// Returns the number of bytes at the start of the text that are digits with single underscores between them.
 size_t builtin_scan_digits(Str text);
-// Is a text an integer: such digits, perhaps with a sign and white space around?
+// Returns true if the text is an integer: such digits with an optional sign and surrounding white space.
 bool builtin_is_integer(Str text);
 
 #endif

@@ -14,31 +14,31 @@
 enum {
     MAX_NAME_LENGTH = 4096,
     MAX_FILE_SIZE = 1 << 30,
-    MAX_ENTRIES = 16384, // a script that makes up names must not fill the memory
+    MAX_ENTRIES = 16384, // limits the memory of scripts that generate file names
 };
-static const size_t MAX_BYTES = (size_t)2 << 30; // kept over all entries
+static const size_t MAX_BYTES = (size_t)2 << 30; // limit for all entries together
 
-// What tells a file from an earlier state of it.
+// The state of a file, by which changes are detected.
 typedef struct Stamp {
-    int error; // of stat, or 0
+    int error; // errno of stat, or 0
     dev_t device;
     ino_t inode;
     off_t size;
     struct timespec modified;
-    struct timespec changed; // also tells of permissions
+    struct timespec changed; // also changes with permissions
 } Stamp;
 
 typedef struct FileEntry {
     Str path;
     FileParse *parse;
     Stamp stamp;
-    bool tried;         // `stamp` and `parsed` are of a finished attempt
-    const void *parsed; // in `arena`, or NULL
+    bool tried;         // `stamp` and `parsed` belong to a finished attempt
+    const void *parsed; // in `arena`; NULL: unreadable
     Arena arena;
 } FileEntry;
 
 struct FileCache {
-    Arena arena; // entries and paths, and the cache itself
+    Arena arena; // owns the entries, the paths and the cache itself
     ArenaMark empty;
     FileEntry **entries;
     uint32_t count;
@@ -71,7 +71,7 @@ void file_cache_free(FileCache *cache) {
         return;
     file_cache_clear(cache);
     hash_index_free(&cache->index);
-    Arena arena = cache->arena; // the cache dies with its arena
+    Arena arena = cache->arena; // the cache is in its own arena
     arena_free(&arena);
 }
 
@@ -102,7 +102,7 @@ static const char *describe_error(int error) {
     switch (error) {
     case ENOENT:
     case ENOTDIR:
-        return "there is no such file";
+        return "no such file";
     case EACCES:
     case EPERM:
         return "permission denied";
@@ -115,7 +115,7 @@ static const char *describe_error(int error) {
     }
 }
 
-// Reads up to `size` bytes; a file that has grown meanwhile has another stamp and is read again at the next call.
+// Reads up to `size` bytes. If the file has grown since, its stamp differs and it is read again at the next call.
 static bool read_bytes(const BuiltinContext *context, const char *path, char *bytes, size_t size, size_t *len,
                        const char **problem) {
     Str host_bytes;
@@ -126,7 +126,7 @@ static bool read_bytes(const BuiltinContext *context, const char *path, char *by
             memcpy(bytes, host_bytes.bytes, *len);
         return !*problem;
     }
-    // A pipe put in the file's place must not block.
+    // Do not block if the file was replaced by a pipe.
     int file = file_access_open(context->file_access, path, O_RDONLY | O_NONBLOCK);
     struct stat info;
     if (file < 0 || fstat(file, &info) != 0) {
@@ -155,7 +155,7 @@ static bool read_bytes(const BuiltinContext *context, const char *path, char *by
     return good;
 }
 
-// The memory is taken before the file is opened: an allocation may not return (base/arena.h).
+// Memory is allocated before the file is opened, because a failed allocation does not return (base/arena.h).
 static const void *load_entry(const BuiltinContext *context, FileEntry *entry, const char *path, const char **problem) {
     if (entry->stamp.error) {
         *problem = describe_error(entry->stamp.error);
@@ -206,7 +206,7 @@ static FileEntry *entry_get(FileCache *cache, Str path, FileParse *parse) {
     return found != HASH_INDEX_NONE ? cache->entries[found] : entry_add(cache, &key, hash);
 }
 
-// Frees the contents of the other entries if all together have become too large. They are read again when needed.
+// Frees the contents of the other entries if all together are too large. They are read again when needed.
 static void evict_entries(FileCache *cache, const FileEntry *kept) {
     size_t used = 0;
     for (uint32_t i = 0; i < cache->count; i++)
@@ -235,7 +235,7 @@ const void *file_cache_get(BuiltinContext *context, const char *function, FilePa
         report_unreadable(context, function, text, cache ? "not a file name" : "files are not available here");
         return NULL;
     }
-    // While entries are made, running out of memory ends where it does for everything else in this call.
+    // If memory runs out in the cache's arena, escape to the same place as from the call's arena.
     cache->arena.escape = context->arena->escape;
     Str path = path_join(context->arena, context->directory, text);
     const char *c_path = str_to_c(context->arena, path);

@@ -1,28 +1,27 @@
-// files.h: contents of files for built-ins, re-read when a file changes (spec builtins.md B13.1).
+// files.h: a cache of file contents for built-ins, which reads a file again when it changes (spec builtins.md B13.1).
 //
-// Each combination of a path and a way to read it has one entry, in an arena of its own. A failure is kept like a
-// success, so a missing file is reported once and tried again when it appears. Nothing that a script gets points into
-// the cache: results are copied, so an entry may be dropped at any call.
+// Each combination of a path and a parser has one entry with its own arena. Failures are cached as well, so a missing
+// file is reported once and found when it appears. Results are copied from the cache, so any call may evict entries.
 #ifndef PETRI_BUILTIN_FILES_H
 #define PETRI_BUILTIN_FILES_H
 
 #include "builtin/builtin.h"
 
-// NULL if memory is used up.
+// Returns NULL if out of memory.
 FileCache *file_cache_new(void);
 void file_cache_free(FileCache *cache);
-// Forgets all files, for when others may be used.
+// Discards all entries; needed after file access rights change.
 void file_cache_clear(FileCache *cache);
 
-// Turns the bytes of a file, which lie in `arena` and may be changed, into what is kept: something in `arena`. NULL
-// with *problem set means that the file counts as unreadable.
+// Parses the bytes of a file. The bytes are in `arena` and may be changed; the result must also be in `arena`. Returns
+// NULL and sets *problem if the file is unreadable.
 typedef const void *FileParse(Arena *arena, char *bytes, size_t len, const char **problem);
 
-// What `parse` makes of the file named by `name`, valid until the next call with this cache; NULL if it cannot be read,
-// of which the first attempt is reported as a fault of `function`.
+// Returns the result of `parse` for the file `name`, valid until the next call with this cache. Returns NULL if the
+// file cannot be read; the first failure is reported as an error of `function`.
 const void *file_cache_get(BuiltinContext *context, const char *function, FileParse *parse, Value name);
 
-// For parsers: true if the bytes are UTF-8.
+// For parsers: returns true if the bytes are UTF-8, else sets *problem.
 bool file_is_text(const char *bytes, size_t len, const char **problem);
 
 #endif

@@ -1,4 +1,4 @@
-// glob.c: paths that match a pattern (spec builtins.md B13.2).
+// glob.c: the paths that match a pattern (spec builtins.md B13.2).
 #include "base/source.h"
 #include "builtin/family.h"
 
@@ -15,8 +15,8 @@
 
 // --- one component
 
-// Does the set that starts behind a "[" at *at contain the character? Moves *at behind its "]"; if there is none, the
-// bracket stands for itself: -1. A "]" that comes first belongs to the set.
+// Returns 1 if the set whose "[" is before *at contains the character, else 0; moves *at past its "]". Returns -1 if
+// there is no "]", so that the bracket is literal. A "]" at the start belongs to the set.
 static int match_set(Str pattern, size_t *at, int32_t c) {
     size_t i = *at;
     bool negated = i < pattern.len && pattern.bytes[i] == '!', found = false;
@@ -37,7 +37,7 @@ static int match_set(Str pattern, size_t *at, int32_t c) {
     return found != negated;
 }
 
-// One character of the pattern that is not "*" against the next one of the name; both move on.
+// Matches one character of the pattern other than "*" with the next one of the name, and advances in both.
 static bool match_one(Str pattern, size_t *at, Str name, size_t *from) {
     int32_t c = utf8_next(name, from);
     int32_t p = utf8_next(pattern, at);
@@ -51,7 +51,7 @@ static bool match_one(Str pattern, size_t *at, Str name, size_t *from) {
     return p == c;
 }
 
-// `*` any run of characters, `?` one, `[…]` sets. Only the last star need ever take one character more.
+// Matches `*` with any characters, `?` with one, `[…]` with a set. Backtracking to the last star is sufficient.
 static bool match_name(Str pattern, Str name) {
     size_t at = 0, from = 0, star = SIZE_MAX, star_from = 0;
     while (from < name.len || at < pattern.len) {
@@ -86,14 +86,14 @@ typedef struct Glob {
     uint32_t found_capacity;
     uint32_t listings;
     bool limit_exceeded;
-    const char *denied; // a folder that may not be looked at, or NULL
+    const char *denied; // a folder to which access is denied, or NULL
 } Glob;
 
 static bool is_deep(Str part) {
     return str_equal(part, STR("**"));
 }
 
-// Splits a pattern at slashes. Empty parts, "." and a "**" after another one change nothing and are dropped.
+// Splits a pattern at slashes. Empty parts, "." and repeated "**" have no effect and are dropped.
 static void glob_parse(Glob *glob, Str pattern) {
     glob->parts = arena_alloc_array(glob->arena, pattern.len, sizeof *glob->parts);
     glob->only_directories = pattern.bytes[pattern.len - 1] == '/';
@@ -117,7 +117,7 @@ static void glob_found(Glob *glob, Str path) {
     glob->found[glob->found_count++] = path;
 }
 
-// A host's answer for a folder (PetriOptions.read): the names in it, a line each.
+// Asks the host for the names in a folder (PetriOptions.read_file), one per line.
 static bool host_names(const FileAccess *file_access, const char *path, Str *names) {
     char folder[PATH_MAX + 2];
     if (!file_access_normalise(path, folder))
@@ -147,7 +147,7 @@ static size_t list_hosted(Glob *glob, const char *path, Str **names) {
     return count;
 }
 
-// Adds up the names of a directory, or copies as many as there is room for. Nothing is allocated while it is open.
+// Counts the names of a directory, or copies as many as fit. Nothing is allocated while the directory is open.
 static void scan_directory(Arena *arena, const char *path, Str *names, char *bytes, size_t *count, size_t *size) {
     size_t most_count = *count, most_size = *size;
     *count = *size = 0;
@@ -211,7 +211,7 @@ static bool path_exists(const FileAccess *file_access, const char *path) {
 
 static void visit_parts(Glob *glob, Str path, uint32_t k);
 
-// A path that matches the parts up to k: a result, or a directory to go on in.
+// Handles a path that matches the parts up to k: a result, or a directory in which to continue.
 static void visit_path(Glob *glob, Str path, uint32_t k) {
     const char *c_path = str_to_c(glob->arena, path);
     arena_charge(glob->arena, PATH_WORK);
@@ -225,7 +225,7 @@ static void visit_path(Glob *glob, Str path, uint32_t k) {
     }
 }
 
-// "**" at part k: this directory, and then the same in each directory in it, but not through symbolic links.
+// Handles "**" at part k: matches in this directory and recursively in all directories in it, except symbolic links.
 static void visit_deep(Glob *glob, Str path, uint32_t k) {
     bool last = k + 1 == glob->part_count;
     if (last)
@@ -244,8 +244,8 @@ static void visit_deep(Glob *glob, Str path, uint32_t k) {
     }
 }
 
-// Everything below the directory `path` that matches the parts from k on. Paths have a greatest length, so the depth
-// has too.
+// Finds everything below the directory `path` that matches the parts from k on. Paths have a maximum length, which
+// limits the depth.
 static void visit_parts(Glob *glob, Str path, uint32_t k) {
     if (path.len >= PATH_MAX || glob->limit_exceeded)
         return;
@@ -271,8 +271,8 @@ static bool resolve_found(const Glob *glob, Str path, char resolved[PATH_MAX]) {
     return is_hosted(glob->file_access) ? file_access_normalise(name, resolved) : realpath(name, resolved) != NULL;
 }
 
-// The matches as absolute paths without symbolic links, sorted. The same match may have been reached in several ways
-// ("**"), but two matches may well be one file.
+// Returns the matches as sorted absolute paths without symbolic links. A "**" can find the same match several times,
+// while two different matches can be the same file.
 static Value glob_value(Glob *glob) {
     Arena *arena = glob->arena;
     const Str *found = builtin_sort_texts(arena, glob->found, glob->found_count);

@@ -12,7 +12,7 @@ static double fract(double x) {
     return x - number_floor(x);
 }
 
-// No reduction of the angle, unlike sin and cos (B1.1).
+// Unlike sin and cos, the angle is not reduced (B1.1).
 static double turns_tan(double x) {
     return maths_tan(x * BUILTIN_TAU);
 }
@@ -25,7 +25,7 @@ static double turns_acos(double x) {
     return maths_acos(x) / BUILTIN_TAU;
 }
 
-// Functions that are faster for many numbers at once
+// Functions that have a faster version for arrays.
 #define ELEMENT_WISE_ARRAY(name, function, many)                                                                       \
     Value name(BuiltinContext *context, const Value *args, uint32_t count) {                                           \
         return builtin_each_array(context->arena, args[0], function, many);                                            \
@@ -33,7 +33,7 @@ static double turns_acos(double x) {
 
 static void turns_cos_array(CpuLevel level, const double *t, size_t count, double *to) {
     for (size_t i = 0; i < count; i++)
-        to[i] = t[i] + 0.25; // as turns_cos does
+        to[i] = t[i] + 0.25; // same rounding as turns_cos
     maths_turns_sin_array(level, to, count, to);
 }
 
@@ -51,7 +51,7 @@ ELEMENT_WISE_ARRAY(builtin_cos, turns_cos, turns_cos_array)
 ELEMENT_WISE(builtin_asin, turns_asin)
 ELEMENT_WISE(builtin_acos, turns_acos)
 
-// Close to a multiple of a quarter turn the tangent is found by long arithmetic.
+// Near multiples of a quarter turn, the tangent needs extended precision.
 static bool is_steep(double turns) {
     double quarters = turns * 4;
     return fabs(quarters - floor(quarters + 0.5)) < 0x1p-24;
@@ -67,7 +67,7 @@ Value builtin_tan(BuiltinContext *context, const Value *args, uint32_t count) {
     (void)count;
 }
 
-// B1.4: roundhalfaway(x * s) / s with s = 10^d, which is 0 for d < 0.
+// B1.4: roundhalfaway(x * s) / s with s = 10^d; s is 0 for d < 0.
 Value builtin_round(BuiltinContext *context, const Value *args, uint32_t count) {
     Value xs = args[0], ys = value_or(args[1], value_number(0));
     if (!value_is_numeric(xs) || !is_scalar(ys))
@@ -110,7 +110,7 @@ static double pair_length(const double *xy, uint32_t count) {
     return sqrt(xy[0] * xy[0] + xy[1] * xy[1]);
 }
 
-// B2.2: f of the consecutive pairs of one vector, or of the pairs that two vectors form.
+// B2.2: applies f to the consecutive pairs of one vector, or to the pairs of elements of two vectors.
 static Value each_pair(Arena *arena, const Value *args, double (*f)(const double *xy, uint32_t count)) {
     if (!is_absent(args[1]))
         return builtin_repeat(arena, args, 2, f);
@@ -200,7 +200,7 @@ Value builtin_map(BuiltinContext *context, const Value *args, uint32_t count) {
     return builtin_repeat(context->arena, args, count, map_one);
 }
 
-// The high limit wins if the two are crossed; a nan is below both (B2.8).
+// The upper limit takes precedence if the limits are swapped; NaN is below both (B2.8).
 static double clamp_one(const double *x, uint32_t count) {
     double raised = x[0] > x[1] ? x[0] : x[1];
     return x[2] < raised ? x[2] : raised;

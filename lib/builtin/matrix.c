@@ -13,8 +13,8 @@ static void inverse_3x3(const double *m, double *result) {
         result[i] = (m[at[i][0]] * m[at[i][1]] - m[at[i][2]] * m[at[i][3]]) * k;
 }
 
-// Element i is (ma*P - mb*Q + mc*R)*k, in odd columns and rows (-ma*P + mb*Q - mc*R)*k, where P, Q and R are 2x2
-// determinants: numbers 0 to 5 are s0 to s5, 6 to 11 are c0 to c5.
+// Element i is (ma*P - mb*Q + mc*R)*k; if column plus row is odd, (-ma*P + mb*Q - mc*R)*k. P, Q and R are 2x2
+// determinants, numbered 0 to 5 for s0 to s5 and 6 to 11 for c0 to c5.
 typedef struct Cofactor {
     uint8_t a, p, b, q, c, r;
     bool minus;
@@ -62,7 +62,7 @@ static void multiply_4x4(const double *a, const double *b, double *result) {
                 a[r] * b[4 * c] + a[4 + r] * b[4 * c + 1] + a[8 + r] * b[4 * c + 2] + a[12 + r] * b[4 * c + 3];
 }
 
-// B6.2: the three axes of a view along `direction`; false if they are not 3-vectors.
+// B6.2: computes the three axes of a view along `direction`. Returns false if the arguments are not 3-vectors.
 static bool view_axes(BuiltinContext *context, Value direction, Value up, Value axes[3]) {
     Arena *arena = context->arena;
     static const double origin[3] = {0, 0, 0};

@@ -15,7 +15,7 @@ enum { MAX_DIMS = 4 };
 
 // --- permutations (B10.3)
 
-enum { CACHE_SLOTS = 64 }; // 17 KiB; an evicted permutation only costs its making
+enum { CACHE_SLOTS = 64 }; // 17 KiB; an evicted permutation is computed again
 
 typedef struct Permutation {
     uint64_t key;
@@ -24,7 +24,7 @@ typedef struct Permutation {
 } Permutation;
 
 struct NoiseCache {
-    Arena arena; // holds the cache itself
+    Arena arena; // owns the cache itself
     Permutation slots[CACHE_SLOTS];
 };
 
@@ -42,11 +42,11 @@ NoiseCache *noise_cache_new(void) {
 void noise_cache_free(NoiseCache *cache) {
     if (!cache)
         return;
-    Arena arena = cache->arena; // the cache dies with its arena
+    Arena arena = cache->arena; // the cache is in its own arena
     arena_free(&arena);
 }
 
-// 0 … 255 shuffled by the uniform stream of this key.
+// Computes the numbers 0 to 255 shuffled by the uniform stream of this key.
 static void permutation_make(uint64_t key, uint8_t values[256]) {
     for (unsigned i = 0; i < 256; i++)
         values[i] = (uint8_t)i;
@@ -59,7 +59,7 @@ static void permutation_make(uint64_t key, uint8_t values[256]) {
     }
 }
 
-// The permutation of a key: from the cache, or made in `local`.
+// Returns the permutation of a key, from the cache or computed in `local`.
 static const uint8_t *permutation_get(NoiseCache *cache, uint64_t key, uint8_t local[256]) {
     if (!cache) {
         permutation_make(key, local);
@@ -76,7 +76,7 @@ static const uint8_t *permutation_get(NoiseCache *cache, uint64_t key, uint8_t l
 
 // --- the functions
 
-// The coordinates of a call and how many results their combinations give.
+// The coordinates of a call, and the number of their combinations.
 typedef struct Grid {
     const double *axes[MAX_DIMS];
     uint32_t lens[MAX_DIMS];
@@ -86,7 +86,7 @@ typedef struct Grid {
 
 typedef enum GridOutcome { GRID_OK, GRID_BAD, GRID_TOO_LONG } GridOutcome;
 
-// One to four numeric vectors; one stands for itself and a second coordinate of 0 (B10.2).
+// Reads one to four numeric vectors. A single vector is combined with a second coordinate of 0 (B10.2).
 static GridOutcome grid_read(Grid *grid, const Value *args, uint32_t count) {
     static const double zero[1] = {0};
     if (count < 1 || count > MAX_DIMS)
@@ -97,7 +97,7 @@ static GridOutcome grid_read(Grid *grid, const Value *args, uint32_t count) {
             return GRID_BAD;
         grid->axes[i] = value_numbers(&args[i]);
         grid->lens[i] = args[i].len;
-        len = len > VALUE_MAX_LEN ? len : len * args[i].len; // stops before it could overflow
+        len = len > VALUE_MAX_LEN ? len : len * args[i].len; // stops before an overflow
     }
     if (count == 1) {
         grid->axes[1] = zero;
@@ -108,11 +108,11 @@ static GridOutcome grid_read(Grid *grid, const Value *args, uint32_t count) {
     return len > VALUE_MAX_LEN ? GRID_TOO_LONG : GRID_OK;
 }
 
-// result[j] = the noise, or result[j] + noise*weight, at every combination, the last coordinate varying fastest.
+// Sets result[j] to the noise, or adds noise*weight, for each combination; the last coordinate varies fastest.
 static void grid_noise(Arena *arena, const Grid *grid, const uint8_t *permutation, double *result, bool add,
                        double weight) {
     enum { CHARGE_INTERVAL = 1024 };
-    const unsigned work = grid->dims == 2 ? 4 : grid->dims == 3 ? 10 : 30; // of a point
+    const unsigned work = grid->dims == 2 ? 4 : grid->dims == 3 ? 10 : 30; // per point
     double (*const noise)(const uint8_t *, const double *) = grid->dims == 2   ? noise_point_2
                                                              : grid->dims == 3 ? noise_point_3
                                                                                : noise_point_4;
@@ -136,7 +136,7 @@ static void grid_noise(Arena *arena, const Grid *grid, const uint8_t *permutatio
     }
 }
 
-// Every coordinate times 2, in place once `grid` has coordinates of its own.
+// Multiplies every coordinate by 2; in place if `own`, else in a copy that belongs to `grid`.
 static void grid_double(Arena *arena, Grid *grid, bool own) {
     for (int i = 0; i < grid->dims; i++) {
         double *axis = own ? (double *)grid->axes[i] : arena_alloc_array(arena, grid->lens[i], sizeof *axis);
@@ -148,7 +148,7 @@ static void grid_double(Arena *arena, Grid *grid, bool own) {
 
 Value builtin_noise(BuiltinContext *context, const Value *args, uint32_t count) {
     uint8_t local[256];
-    if (count == 3 && is_scalar(args[1]) && is_scalar(args[2])) { // one point, as loops ask for
+    if (count == 3 && is_scalar(args[1]) && is_scalar(args[2])) { // a single point, as is usual in loops
         const double c[2] = {args[1].as.number, args[2].as.number};
         return value_number(
             noise_point_2(permutation_get(context->noise, value_seed_hash(context->arena, args[0]), local), c));
@@ -165,8 +165,8 @@ Value builtin_noise(BuiltinContext *context, const Value *args, uint32_t count) 
 
 void builtin_noise_points(BuiltinContext *context, Value seed, const double *x, const double *y, uint32_t count,
                           double *to) {
-    enum { MIN_POINTS = 16 };             // for which it is worth it
-    const double MAX_COORDINATE = 0x1p45; // that maths_plane_noise_array takes
+    enum { MIN_POINTS = 16 };             // minimum for which maths_plane_noise_array is faster
+    const double MAX_COORDINATE = 0x1p45; // limit of maths_plane_noise_array
     uint8_t local[256];
     const uint8_t *permutation = permutation_get(context->noise, value_seed_hash(context->arena, seed), local);
     if (count < MIN_POINTS) {
@@ -181,16 +181,16 @@ void builtin_noise_points(BuiltinContext *context, Value seed, const double *x, 
             to[i] = noise_point_2(permutation, (double[2]){x[i], y[i]});
 }
 
-// Far more than the number of doublings that a double survives near 1: a mistake, and it would take for ever.
+// A coordinate overflows after about 1000 doublings. More octaves are a mistake and would take too long.
 enum { MAX_OCTAVES = 1024 };
 
-// B10.11: r = noise, then r = r + noise(c*2^o)*k^o, divided by the total weight.
+// B10.11: r = noise, then r = r + noise(c*2^o)*k^o; finally divided by the total weight.
 static void sum_octaves(BuiltinContext *context, Grid *grid, uint64_t seed, uint32_t octaves, double k,
                         double *result) {
     uint8_t local[256];
     double weight = 1, total = 0;
     ArenaMark scratch = arena_mark(context->arena);
-    // A weight that has faded to 0 adds nothing more.
+    // Once the weight underflows to 0, further octaves add nothing.
     for (uint32_t o = 0; o < octaves && weight != 0; o++) {
         if (o > 0)
             grid_double(context->arena, grid, o > 1);

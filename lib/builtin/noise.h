@@ -1,17 +1,17 @@
-// noise.h: a cache of the permutations that noise draws from seeds.
+// noise.h: a cache of the permutations from which noise is computed, by seed.
 //
-// A script asks for the same few seeds in every frame, often one point at a time; shuffling 256 numbers for each would
-// cost more than the noise. A context without a cache works too.
+// A script uses the same few seeds in every frame, often for one point at a time. Shuffling 256 numbers for each call
+// would cost more than the noise. The cache is optional.
 #ifndef PETRI_BUILTIN_NOISE_H
 #define PETRI_BUILTIN_NOISE_H
 
 #include "builtin/builtin.h"
 
-// Lives until freed; for one thread at a time.
+// The caller frees it with noise_cache_free. Not thread-safe.
 NoiseCache *noise_cache_new(void);
 void noise_cache_free(NoiseCache *cache);
 
-// What noise gives for each of `count` points of the plane.
+// Computes noise for each of `count` points of the plane.
 void builtin_noise_points(BuiltinContext *context, Value seed, const double *x, const double *y, uint32_t count,
                           double *to);
 

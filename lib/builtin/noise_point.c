@@ -1,8 +1,8 @@
 // noise_point.c: classic OpenSimplex noise at one point (spec builtins.md B10.4 to B10.9); see noise_point.h.
 //
-// A point lies in a cell of the skewed lattice. The cell's regions (A at the base corner, B at the far corner, C and D
-// between) decide which vertices can reach the point: a fixed core, and a few extra ones beyond the cell that depend on
-// which coordinates are closest. The noise is the sum of their contributions in the order of the spec.
+// A point is in a cell of the skewed lattice. The cell's regions (A at the base corner, B at the far corner, C and D
+// between) decide which vertices influence the point: a fixed core, and a few extra ones outside the cell that depend
+// on which coordinates are closest. The noise is the sum of their contributions in the order of the spec.
 #include "builtin/noise_point.h"
 
 #include "base/number.h"
@@ -16,13 +16,13 @@ enum { MAX_DIMS = 4, MAX_EXTRA = 3 };
 
 typedef struct NoisePoint {
     const uint8_t *permutation;
-    uint64_t base[MAX_DIMS]; // two's complement: only sums and the low eight bits matter
-    double frac[MAX_DIMS];   // fx … of B10.4
+    uint64_t base[MAX_DIMS]; // two's complement: only sums and the low eight bits are used
+    double frac[MAX_DIMS];   // fx, fy, … of B10.4
     double d0[MAX_DIMS];
-    double sum; // of the fractions
+    double sum; // sum of frac
 } NoisePoint;
 
-// B10.4. False if the point is too far out or not a number.
+// B10.4. Returns false if a coordinate is too large or NaN.
 static inline bool point_locate(NoisePoint *point, const double *c, int dims) {
     double t = c[0], whole[MAX_DIMS];
     for (int i = 1; i < dims; i++)
@@ -77,9 +77,9 @@ static inline double add_vertices(const NoisePoint *point, double value, const N
     return value;
 }
 
-// --- choosing extra vertices
+// --- selection of extra vertices
 
-// bit(c): the coordinate of the lowest set bit; gap(c) is that of the lowest clear one.
+// bit(c) is the coordinate of the lowest set bit, gap(c) that of the lowest clear bit.
 static int lowest_bit(unsigned mask) {
     int i = 0;
     while (!(mask >> i & 1))
@@ -91,7 +91,7 @@ static int lowest_gap(unsigned mask) {
     return lowest_bit(~mask);
 }
 
-// The vertex with offset `set` where the mask is set and `clear` elsewhere.
+// Returns the vertex with offset `set` where the mask is set and `clear` elsewhere.
 static NoiseVertex vertex_of_mask(unsigned mask, int set, int clear, int units) {
     NoiseVertex v = {.units = (uint8_t)units};
     for (int i = 0; i < MAX_DIMS; i++)
@@ -99,22 +99,22 @@ static NoiseVertex vertex_of_mask(unsigned mask, int set, int clear, int units) 
     return v;
 }
 
-// `all` everywhere, and `late` more at one coordinate, all of it late.
+// Returns the vertex with offset `all` everywhere and `late` more at one coordinate, all subtracted late.
 static NoiseVertex vertex_late(int all, int coordinate, int late, int units) {
     NoiseVertex v = vertex_of_mask(0, 0, all, units);
     v.late[coordinate] = (int8_t)late;
     return v;
 }
 
-// Two candidates with their scores and coordinate masks; the flags are "big" in B10.9 and unused in B10.8. At the far
-// corner of the cell the least scores win, so they count negative.
+// Two candidates with their scores and coordinate masks. The flags are "big" in B10.9 and unused in B10.8. At the far
+// corner of the cell the smallest scores win, so scores are negated.
 typedef struct Candidates {
     double a, b;
     unsigned mask_a, mask_b;
     bool flag_a, flag_b;
 } Candidates;
 
-// The score replaces the lesser candidate if it is greater.
+// Replaces the candidate with the lower score if this score is greater.
 static void replace_lesser(Candidates *c, double score, unsigned mask, bool flag) {
     if (c->a >= c->b && score > c->b) {
         c->b = score;
@@ -127,9 +127,9 @@ static void replace_lesser(Candidates *c, double score, unsigned mask, bool flag
     }
 }
 
-// Regions A and B in three and four dimensions: the row of extra vertices in one of two tables.
+// Selects the row of extra vertices for regions A and B in three and four dimensions.
 typedef struct Choice {
-    bool corner_is_nearer; // the corner of the cell is nearer than one of the candidates
+    bool corner_is_nearer; // true if the corner of the cell is nearer than one of the candidates
     unsigned row;
 } Choice;
 
@@ -146,7 +146,7 @@ static inline Choice choose_at_corner(const NoisePoint *point, int dims, bool fa
 
 // --- two dimensions (B10.7)
 
-// `yes` where the condition holds, else `no`: without a branch, for points are as random as can be.
+// Returns `yes` if the condition holds, else `no`, without a branch, because points are hard to predict.
 static inline double select_value(bool condition, double yes, double no) {
     uint64_t mask = -(uint64_t)condition, bits = (number_bits(yes) & mask) | (number_bits(no) & ~mask);
     double chosen;
@@ -154,7 +154,7 @@ static inline double select_value(bool condition, double yes, double no) {
     return chosen;
 }
 
-// add_vertex for the vertex (a, b) with `units` squish units. In two dimensions nothing is subtracted late.
+// Like add_vertex, for the vertex (a, b) with `units` squish units. In two dimensions nothing is subtracted late.
 static inline double add_vertex_2(const NoisePoint *point, double value, int a, int b, int units) {
     double squish = units * NOISE_Q[2];
     double dx = (point->d0[0] - a) - squish, dy = (point->d0[1] - b) - squish;
@@ -173,7 +173,7 @@ double noise_point_2(const uint8_t *permutation, const double *c) {
     double fx = point.frac[0], fy = point.frac[1];
     double value = add_vertex_2(&point, 0, 1, 0, 1);
     value = add_vertex_2(&point, value, 0, 1, 1);
-    // The corner of the cell that is nearer, and the vertex beyond it or beside it, or the other corner.
+    // The nearer corner of the cell, and either the vertex beyond or beside it, or the other corner.
     int far = point.sum > 1, right = fx > fy ? 1 : -1;
     double u = 1 + far - point.sum;
     int beyond = far ? (u < fx) | (u < fy) : (u > fx) | (u > fy);
@@ -205,7 +205,7 @@ static void extras_3c(const double *f, NoiseVertex extra[2]) {
         score[i] = far[i] ? sums[i] - 1 : 1 - sums[i];
         mask[i] = far[i] ? far_masks[i] : near_masks[i];
     }
-    // On a tie the first gives way here, the second in take_greater.
+    // On a tie the first candidate is replaced here, the second in take_greater.
     int replaced = score[0] <= score[1] && score[0] < score[2] ? 0 : score[0] > score[1] && score[1] < score[2] ? 1 : 2;
     mask[replaced] = mask[2];
     far[replaced] = far[2];
@@ -246,8 +246,8 @@ double noise_point_3(const uint8_t *permutation, const double *c) {
 
 // --- four dimensions (B10.9)
 
-// The first scores of region C: of each of three pairs of opposite edges the greater; D (`far`) mirrors C. All start
-// big.
+// Returns the first scores of region C: the greater of each of three pairs of opposite edges. Region D (`far`) mirrors
+// C. All scores start as big.
 static inline Candidates candidates_4cd(const double *f, double sum, bool far) {
     double sign = far ? -1 : 1;
     unsigned flip = far ? 15 : 0;

@@ -6,12 +6,12 @@
 
 #include <stdint.h>
 
-// The noise at the point c of two, three or four coordinates, for a permutation of 0 to 255.
+// Return the noise at the point c with two, three or four coordinates, for a permutation of 0 to 255.
 double noise_point_2(const uint8_t *permutation, const double *c);
 double noise_point_3(const uint8_t *permutation, const double *c);
 double noise_point_4(const uint8_t *permutation, const double *c);
 
-// noise_point_2 for maths_plane_noise_array.
+// Returns the implementation of noise_point_2 for maths_plane_noise_array.
 PlaneNoise noise_plane(void);
 
 #endif

@@ -7,7 +7,7 @@
 
 static const uint32_t NO_POSITION = UINT32_MAX;
 
-// The position of the first least (sign -1) or greatest (sign 1) number; a leading nan stays.
+// Returns the index of the first smallest (sign -1) or largest (sign 1) number; a NaN at the start stays.
 static uint32_t extreme_number(const double *x, uint32_t len, int sign) {
     uint32_t best = 0;
     for (uint32_t i = 1; i < len; i++)
@@ -16,7 +16,7 @@ static uint32_t extreme_number(const double *x, uint32_t len, int sign) {
     return best;
 }
 
-// The same for a mixed vector; NO_POSITION if two elements cannot be ordered.
+// Like extreme_number, for a mixed vector. Returns NO_POSITION if two elements cannot be ordered.
 static uint32_t extreme_item(const Item *items, uint32_t len, int sign) {
     uint32_t best = 0;
     for (uint32_t i = 1; i < len; i++) {
@@ -34,7 +34,7 @@ static uint32_t extreme_item(const Item *items, uint32_t len, int sign) {
     return best;
 }
 
-// The argument that is the extreme by the order of L5.5; NO_POSITION if a comparison is incomparable.
+// Returns the index of the extreme argument in the order of L5.5, or NO_POSITION if two are incomparable.
 static uint32_t extreme_argument(Arena *arena, const Value *args, uint32_t count, int sign) {
     uint32_t best = 0;
     for (uint32_t i = 1; i < count; i++) {
@@ -86,8 +86,8 @@ Value builtin_maxindex(BuiltinContext *context, const Value *args, uint32_t coun
 
 // --- sorting (B3.3)
 
-// Merges the ascending runs from[low … middle-1] and from[middle … high-1] into `to`. The right one is taken only if it
-// is less, which makes the sort stable and keeps it within bounds whatever a nan answers.
+// Merges the ascending runs from[low … middle-1] and from[middle … high-1] into `to`. The right element is taken only
+// if it is less. This makes the sort stable, and keeps indices within bounds even if there are NaNs.
 typedef void Merge(Arena *arena, void *to, const void *from, uint32_t low, uint32_t middle, uint32_t high);
 
 static void merge_numbers(Arena *arena, void *to, const void *from, uint32_t low, uint32_t middle, uint32_t high) {
@@ -95,7 +95,7 @@ static void merge_numbers(Arena *arena, void *to, const void *from, uint32_t low
     double *y = to;
     for (uint32_t i = low, j = middle, k = low; k < high; k++) {
         y[k] = i < middle && (j == high || !(x[j] < x[i])) ? x[i++] : x[j++];
-        arena_charge_chunk(arena, k, 0); // is charged by merge_sort
+        arena_charge_chunk(arena, k, 0); // the work is charged by merge_sort
     }
 }
 
@@ -104,11 +104,11 @@ static void merge_texts(Arena *arena, void *to, const void *from, uint32_t low, 
     Str *y = to;
     for (uint32_t i = low, j = middle, k = low; k < high; k++) {
         y[k] = i < middle && (j == high || str_compare(x[j], x[i]) >= 0) ? x[i++] : x[j++];
-        arena_charge_chunk(arena, k, 2); // texts may be long
+        arena_charge_chunk(arena, k, 2); // more work, because texts may be long
     }
 }
 
-// A bottom-up merge sort; the result is one of two arrays.
+// Sorts bottom-up by merging. Returns `items` or `other`, whichever holds the result.
 static void *merge_sort(Arena *arena, void *items, void *other, uint32_t len, Merge *merge) {
     for (uint64_t width = 1; width < len; width *= 2) {
         arena_charge(arena, 1 + len / 2);
@@ -132,7 +132,7 @@ Str *builtin_sort_texts(Arena *arena, Str *texts, uint32_t len) {
     return merge_sort(arena, texts, arena_alloc_array(arena, len, sizeof *texts), len, merge_texts);
 }
 
-// Is every element of a mixed vector a string?
+// Returns true if every element of a mixed vector is a string.
 static bool all_texts(Value v) {
     for (uint32_t i = 0; i < v.len; i++)
         if (v.as.items[i].type != ITEM_STRING)
@@ -159,15 +159,15 @@ Value builtin_sort(BuiltinContext *context, const Value *args, uint32_t count) {
 
 // --- counting (B3.4)
 
-// The elements that are counted among, sorted by type so that long vectors cost n log n.
+// The elements of ys, sorted by type, so that counting in long vectors takes n log n steps.
 typedef struct Census {
-    double *numbers; // ascending, without nan, which equals nothing
+    double *numbers; // ascending, without NaN, which equals nothing
     Str *texts;      // ascending
     Item *others;    // nodes and functions
     uint32_t number_count, text_count, other_count;
 } Census;
 
-enum { COUNT_WORK = 10 }; // of a search in a sorted vector
+enum { COUNT_WORK = 10 }; // of a binary search
 
 static Census read_census(Arena *arena, const Value *v) {
     Census census = {.numbers = arena_alloc_array(arena, v->len, sizeof(double))};
@@ -191,7 +191,7 @@ static Census read_census(Arena *arena, const Value *v) {
     return census;
 }
 
-// How many numbers are below x, or not above it.
+// Returns how many numbers are less than x, or at most x if `inclusive`.
 static uint32_t numbers_below(const Census *census, double x, bool inclusive) {
     uint32_t low = 0, high = census->number_count;
     while (low < high) {

@@ -1,4 +1,4 @@
-// others.c: debug output, and what petri has no pictures or fonts for (spec builtins.md B14).
+// others.c: debug output, and functions for pictures and fonts that petri only accepts (spec builtins.md B14).
 #include "builtin/family.h"
 #include "value/format.h"
 

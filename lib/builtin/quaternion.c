@@ -37,7 +37,7 @@ static Quaternion multiply_quaternions(Quaternion a, Quaternion b) {
     };
 }
 
-// The vector v turned by a: (a v) a^-1 (B5.2).
+// Returns the vector v rotated by a: (a v) a^-1 (B5.2).
 static Value rotate_vector(Arena *arena, Quaternion a, const double *v) {
     double x = v[0], y = v[1], z = v[2];
     double bw = -a.x * x - a.y * y - a.z * z;
@@ -64,7 +64,7 @@ Value builtin_qmul(BuiltinContext *context, const Value *args, uint32_t count) {
     return quaternion_value(context->arena, multiply_quaternions(quaternion_of(args[0]), quaternion_of(args[1])));
 }
 
-// A quaternion of angle 1/2 about some axis at right angles to a (B5.3, opposite directions).
+// Returns a rotation by half a turn about an axis perpendicular to a (B5.3, opposite directions).
 static Quaternion half_turn(double ax, double ay, double az) {
     bool flat = ax != 0 || ay != 0;
     double x = flat ? -ay : 0, y = flat ? ax : -az, z = flat ? 0 : ay;

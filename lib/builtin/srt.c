@@ -17,7 +17,8 @@ typedef struct SrtFile {
     uint32_t count;
 } SrtFile;
 
-// Moves the part before a separator out of *text, and the separator too. False if there is none: then *part is all.
+// Moves the part before a separator from *text to *part and drops the separator. Returns false if there is no
+// separator; then *part is the whole text.
 static bool split_part(Str *text, Str separator, Str *part) {
     size_t at = 0;
     while (at + separator.len <= text->len && memcmp(text->bytes + at, separator.bytes, separator.len) != 0)
@@ -69,7 +70,7 @@ static uint32_t count_lines(Str text) {
 
 static bool read_section(Str section, Subtitle *subtitle) {
     Str number, times, start;
-    if (section.len && section.bytes[section.len - 1] == '\n') // ends the last line of the file
+    if (section.len && section.bytes[section.len - 1] == '\n') // terminator of the last line of the file
         section.len--;
     if (!split_part(&section, STR("\n"), &number) || !builtin_is_integer(number))
         return false;

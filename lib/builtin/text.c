@@ -35,7 +35,7 @@ Value builtin_ord(BuiltinContext *context, const Value *args, uint32_t count) {
     return value_numbers_view(result, (uint32_t)len);
 }
 
-// The next occurrence of a non-empty separator at or after `at`, or text.len.
+// Returns the index of the next non-empty separator at or after `at`, or text.len.
 static size_t find_separator(Str text, Str separator, size_t at) {
     while (separator.len <= text.len - at) {
         const char *first = memchr(text.bytes + at, separator.bytes[0], text.len - at - separator.len + 1);
@@ -48,7 +48,7 @@ static size_t find_separator(Str text, Str separator, size_t at) {
     return text.len;
 }
 
-// Number of pieces without the empty ones at the end.
+// Returns the number of parts without empty ones at the end.
 static size_t count_pieces(Str text, Str separator) {
     size_t pieces = 0, kept = 0;
     for (size_t at = 0; at <= text.len; pieces++) {
@@ -60,7 +60,7 @@ static size_t count_pieces(Str text, Str separator) {
     return kept;
 }
 
-// The pieces are slices of the text, which lives as long as the value that it was taken from.
+// The parts are slices of the text, which lives as long as the value it belongs to.
 static Value split_text(Arena *arena, Str text, Str separator, uint32_t len) {
     Str *pieces = arena_alloc_array(arena, len, sizeof *pieces);
     size_t at = 0;

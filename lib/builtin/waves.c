@@ -35,7 +35,8 @@ static double linear(double x) {
     return x < 0 ? 0 : x > 1 ? 1 : x;
 }
 
-// The curved easings: `f` of the distance from the nearer end, mirrored in the upper half. A nan is not below 0.5.
+// The curved easings apply `f` to the distance from the nearer end, mirrored in the upper half. NaN counts as upper
+// half.
 static double ease(double x, double (*f)(double)) {
     if (x < 0)
         return 0;
@@ -85,7 +86,7 @@ static double impulse(double x, double c) {
     return (y * y) * y;
 }
 
-// The length is that of xs, also if there are more centres.
+// The result has the length of xs, even if there are more centres.
 Value builtin_impulse(BuiltinContext *context, const Value *args, uint32_t count) {
     Value xs = args[0], cs = value_or(args[1], value_number(0.25));
     if (!value_is_numeric(xs) || !value_is_numeric(cs))

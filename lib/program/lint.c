@@ -168,7 +168,7 @@ void lint_import(Compiler *compiler, const Ast *ast, const Expr *file) {
     Str version;
     if (name.len && !file_version(arena, compiler->options->files, str_to_c(arena, path), &version))
         add_warning(compiler, ast->span, "cannot-import",
-                    str_format(arena, "cannot import '%.*s': there is no such file", STR_ARGS(path)));
+                    str_format(arena, "cannot import '%.*s': no such file", STR_ARGS(path)));
 }
 
 void lint_pragma(Compiler *compiler, const Ast *pragma) {

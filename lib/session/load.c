@@ -338,7 +338,7 @@ const Program *session_module(void *host, Str path, Str *reason) {
     const char *file = str_to_c(&session->frame.arena, path);
     Str version;
     if (!file_version(&session->frame.arena, host_files(session), file, &version)) {
-        *reason = STR("there is no such file");
+        *reason = STR("no such file");
         return NULL;
     }
     if (session->reach.read_unsaved)

@@ -97,8 +97,8 @@ for told in "4:13: warning: !path: '!elipse' is not drawn; it is left out, did y
     "16:23: warning: !particle id=:far: unknown attribute 'positoin', did you mean 'position'?" \
     "17:16: warning: !collision: strength should be one number, not 'much'" \
     "20:15: warning: !rect: unknown attribute 'piont', did you mean 'point'?" \
-    "21:1: warning: cannot import 'nowhere.fl': there is no such file" \
-    "23:5: warning: cannot import 'neither.fl': there is no such file" \
+    "21:1: warning: cannot import 'nowhere.fl': no such file" \
+    "23:5: warning: cannot import 'neither.fl': no such file" \
     "25:10: warning: cannot include 'gone.fl'"; do
     check "check finds $told" count_is err "nodes.fl:$told" 1
 done

@@ -93,7 +93,7 @@ static void test_warnings(void **state) {
     write_bytes(place, "binary", "\xff", 1);
     assert_int_equal(faults_of(world, "read('')"), 0);
     assert_int_equal(faults_of(world, "read('missing')"), 1);
-    assert_string_equal(world->text, "read: cannot read 'missing': there is no such file");
+    assert_string_equal(world->text, "read: cannot read 'missing': no such file");
     assert_int_equal(faults_of(world, "read('missing')"), 0);
     assert_int_equal(faults_of(world, "csv('missing', 0)"), 1);
     assert_int_equal(faults_of(world, "read('folder')"), 1);

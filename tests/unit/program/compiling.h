@@ -83,7 +83,7 @@ static inline const Ast *include_file(void *host, Str path, const Source **sourc
     desk->include_calls++;
     if (str_equal(path, STR("inc.fl")))
         return parse_text(desk, "inc.fl", "let inner=seen+1\n!included v=inner\n", source);
-    *reason = STR("there is no such file");
+    *reason = STR("no such file");
     return NULL;
 }
 

@@ -316,7 +316,7 @@ static void test_no_other_files(void **state) {
     player_run(player, script, 2);
     assert_text("nothing", player_tree(player), "!a\n");
     assert_true(shelf.asked >= 3);
-    check_reported(desk, "there is no such file");
+    check_reported(desk, "no such file");
 }
 
 static const char *read_unsaved(void *host, const char *name, size_t *length) {

@@ -258,8 +258,8 @@ static void test_several_texts_at_one_place(void **state) {
     Player *player = *state;
     player_run(player, "!a v=(read(f) for f in ('missing1';'missing2'))\n", 1);
     assert_text("frame", player_print(player, PETRI_PRINT_ERROR),
-                "? read: cannot read 'missing1': there is no such file (t.fl:1)\n"
-                "? read: cannot read 'missing2': there is no such file (t.fl:1)\n");
+                "? read: cannot read 'missing1': no such file (t.fl:1)\n"
+                "? read: cannot read 'missing2': no such file (t.fl:1)\n");
 }
 
 // Between a load and its first frame nothing of the old script is left, neither shown nor read.

@@ -82,7 +82,7 @@ static inline const Program *runner_module(void *host, Str path, Str *reason) {
     for (size_t i = 0; i < runner->module_count; i++)
         if (str_equal(path, str_from(runner->modules[i].path)))
             return runner_compile_text(runner, runner->modules[i].path, runner->modules[i].text, true);
-    *reason = STR("there is no such file");
+    *reason = STR("no such file");
     return NULL;
 }
 

@@ -28,7 +28,7 @@ static void test_imports(void **state) {
         {"import a;none;b;nothing from 'm.fl'\n!r v=a;b;none\n", "!r v=10;2\n",
          "1:1 'm.fl' does not bind 'none' 'nothing' [unknown-import]\n"},
         {"import a from 'gone.fl'\n!r v=a\n", "!r\n",
-         "1:1 cannot import 'gone.fl': there is no such file [cannot-import]\n"},
+         "1:1 cannot import 'gone.fl': no such file [cannot-import]\n"},
         {"import a from null\n!r v=a\n", "!r\n", "1:1 cannot import '': no file name [cannot-import]\n"},
         {"import again from 'round.fl'\n!r v=again\n", "!r v=3\n",
          "1:1 circular import of 'round.fl' [circular-import]\n"},
