@@ -1,10 +1,10 @@
-// arrays.c: see arrays.h. Each function asks the instance for the vector instructions that are there.
+// arrays.c: see arrays.h. Each function calls the variant for the selected vector instructions.
 #include "maths/arrays.h"
 
 #include "maths/arrays_isa.h"
 
-// Without vector instructions that were asked for there are still two lanes on every processor that we know; one lane
-// is there to be compared.
+// Returns the functions for a level. CPU_SCALAR still uses two lanes, which every supported processor has. The one-lane
+// variant exists for comparison in tests.
 static const ArraysIsa *select_isa(CpuLevel level) {
 #if defined(__x86_64__)
     if (level == CPU_AVX512)

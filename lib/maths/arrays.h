@@ -1,6 +1,6 @@
-// arrays.h: elementary functions of many numbers at once. The bits are those of maths.h, number by number.
+// arrays.h: elementary functions of arrays. Each element gets exactly the result of the scalar function in maths.h.
 //
-// `to` may be the array that is read. `level` says which vector instructions to use; the result does not depend on it.
+// `to` may be the same array as the input. `level` selects the vector instructions; the result does not depend on it.
 #ifndef PETRI_MATHS_ARRAYS_H
 #define PETRI_MATHS_ARRAYS_H
 
@@ -12,20 +12,21 @@
 void maths_exp_array(CpuLevel level, const double *x, size_t count, double *to);
 void maths_log_array(CpuLevel level, const double *x, size_t count, double *to);
 void maths_sin_cos_array(CpuLevel level, const double *x, size_t count, double *sines, double *cosines);
-// x[i]^y[i], and x[i]^power
+// maths_pow_array computes x[i]^y[i], maths_power_array x[i]^power.
 void maths_pow_array(CpuLevel level, const double *x, const double *y, size_t count, double *to);
 void maths_power_array(CpuLevel level, const double *x, double power, size_t count, double *to);
-// The sine of t full turns, as turns_sin (random.h) defines it.
+// Computes the sine of t[i] full turns, as turns_sin (random.h).
 void maths_turns_sin_array(CpuLevel level, const double *t, size_t count, double *to);
-// Items first, first + 1, … of a stream: random_uniform.
+// Computes random_uniform for items first to first + count - 1 of a stream.
 void maths_uniform_array(CpuLevel level, uint64_t key, uint64_t first, size_t count, double *to);
 
-// Noise of the plane (spec builtins.md B10.7) at the points x[i], y[i], which are nearer to 0 than 2^45: a permutation
-// of 0 to 255, and what all have in common.
+// Constants of two-dimensional noise (spec builtins.md B10.7).
 typedef struct PlaneNoise {
     double skew, squish, scale;
     double gradient_x[8], gradient_y[8];
 } PlaneNoise;
+// Computes the noise at the points (x[i], y[i]), with |x[i]| and |y[i]| below 2^45. `permutation` holds 0 to 255 in
+// random order.
 void maths_plane_noise_array(CpuLevel level, const PlaneNoise *noise, const uint8_t *permutation, const double *x,
                              const double *y, size_t count, double *to);
 

@@ -1,6 +1,6 @@
-// arrays_isa.c: the functions of arrays.h for one instruction set: LANES numbers at a time, named by MATHS_ISA.
+// arrays_isa.c: the functions of arrays.h for one instruction set, LANES numbers at a time. MATHS_ISA is its name.
 //
-// Lanes that the fast path cannot decide are asked for once more, by the scalar function.
+// Lanes that the fast path cannot decide are recomputed by the scalar function.
 #include "maths/arrays_isa.h"
 
 #include "maths/fast_exp.h"
@@ -14,7 +14,7 @@
 #define JOIN(name, instance) name##instance
 #define NAMED(name, instance) JOIN(name, instance)
 
-// Up to LANES numbers; what is missing is 1, which each function takes.
+// Loads up to LANES numbers. Missing ones become 1, a valid argument of every function.
 KERNEL Real load(const double *from, size_t count) {
     if (count >= LANES)
         return real_load(from);
@@ -27,13 +27,13 @@ KERNEL void store(double *to, size_t count, Real r) {
     memcpy(to, &r, count >= LANES ? sizeof r : count * sizeof *to);
 }
 
-// The lanes that are left over, of those that count.
+// Returns the lanes below `count` that are not decided yet.
 KERNEL Lanes lanes_left(Lanes good, size_t count) {
     return ~good & (count >= LANES ? ALL_LANES : (1u << count) - 1);
 }
 
-// Asks for the lanes of a set once more.
-static __attribute__((noinline)) void again(double (*function)(double x), Lanes left, Real in, double *to) {
+// Recomputes a set of lanes by the scalar function.
+static __attribute__((noinline)) void recompute_lanes(double (*function)(double x), Lanes left, Real in, double *to) {
     double x[LANES];
     real_store(x, in);
     for (unsigned lane = 0; left >> lane; lane++)
@@ -41,7 +41,7 @@ static __attribute__((noinline)) void again(double (*function)(double x), Lanes 
             to[lane] = function(x[lane]);
 }
 
-// The sine of turns: the quarters go to the row of the table, so that no lane needs another function than the others.
+// Computes the sine of turns. The quadrant is added to the table row, so that all lanes use the same function.
 KERNEL Lanes turns_sin_lanes(Real t, Real *result) {
     Real quarters = t * real_set(4);
     Bits quadrant;
@@ -56,7 +56,7 @@ KERNEL Lanes turns_sin_lanes(Real t, Real *result) {
             Lanes left = lanes_left(fast(in, &out), count - i);                                                        \
             store(to + i, count - i, out);                                                                             \
             if (left)                                                                                                  \
-                again(function, left, in, to + i);                                                                     \
+                recompute_lanes(function, left, in, to + i);                                                           \
         }                                                                                                              \
     }
 ARRAY_FUNCTION(exp, exp_lanes, maths_exp)
@@ -70,8 +70,8 @@ static void sin_cos_array(const double *x, size_t count, double *sines, double *
         store(sines + i, count - i, sine);
         store(cosines + i, count - i, cosine);
         if (left) {
-            again(maths_sin, left, in, sines + i);
-            again(maths_cos, left, in, cosines + i);
+            recompute_lanes(maths_sin, left, in, sines + i);
+            recompute_lanes(maths_cos, left, in, cosines + i);
         }
     }
 }
@@ -92,8 +92,8 @@ static void pow_array(const double *x, const double *y, size_t step, size_t coun
     }
 }
 
-// A whole number to the nearest double: the upper half behind the exponent of 2^84, the lower one behind that of 2^52.
-// The only rounding is that of their sum.
+// Converts integers to the nearest doubles. The upper half of the bits is combined with the exponent of 2^84 and the
+// lower half with that of 2^52, both exactly. Only their sum is rounded.
 KERNEL Real lanes_to_real(Bits x) {
     Real upper = real_of(x >> 32 | bits_of(real_set(0x1p84))) - real_set(0x1p84 + 0x1p52);
     return upper + real_of((x & bits_set(UINT32_MAX)) | bits_of(real_set(0x1p52)));
@@ -112,7 +112,7 @@ static void plane_noise_array(const PlaneNoise *noise, const uint8_t *permutatio
                               size_t count, double *to) {
     union {
         uint64_t bits[256];
-        double numbers[256]; // as they are looked up
+        double numbers[256]; // the same bits as doubles, for real_gather_table
     } widened;
     for (int i = 0; i < 256; i++)
         widened.bits[i] = permutation[i];

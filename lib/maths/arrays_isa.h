@@ -1,4 +1,4 @@
-// arrays_isa.h: what arrays_isa.c offers for each instruction set.
+// arrays_isa.h: the table of functions that arrays_isa.c provides for each instruction set.
 #ifndef PETRI_MATHS_ARRAYS_ISA_H
 #define PETRI_MATHS_ARRAYS_ISA_H
 
@@ -11,7 +11,8 @@ typedef struct ArraysIsa {
     void (*exp)(const double *x, size_t count, double *to);
     void (*log)(const double *x, size_t count, double *to);
     void (*sin_cos)(const double *x, size_t count, double *sines, double *cosines);
-    void (*pow)(const double *x, const double *y, size_t step, size_t count, double *to); // y[step i]
+    void (*pow)(const double *x, const double *y, size_t step, size_t count,
+                double *to); // exponent of x[i]: y[step * i]
     void (*turns_sin)(const double *t, size_t count, double *to);
     void (*uniform)(uint64_t key, uint64_t first, size_t count, double *to); // items of a stream: random_uniform
     void (*plane_noise)(const PlaneNoise *noise, const uint8_t *permutation, const double *x, const double *y,

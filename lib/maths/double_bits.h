@@ -1,4 +1,4 @@
-// double_bits.h: doubles taken apart and put together, without the C library.
+// double_bits.h: access to the bits of doubles, without the C library.
 #ifndef PETRI_MATHS_DOUBLE_BITS_H
 #define PETRI_MATHS_DOUBLE_BITS_H
 
@@ -7,7 +7,7 @@
 #include <string.h>
 
 #define DOUBLE_SIGN (UINT64_C(1) << 63)
-#define DOUBLE_ONE (UINT64_C(1) << 52) // the hidden bit of the mantissa
+#define DOUBLE_ONE (UINT64_C(1) << 52) // hidden bit of the mantissa
 #define DOUBLE_INFINITY __builtin_inf()
 #define DOUBLE_NAN __builtin_nan("")
 
@@ -39,12 +39,12 @@ static inline bool double_is_nan(double x) {
     return x != x;
 }
 
-// Neither infinite nor nan.
+// Returns true if x is neither infinite nor NaN.
 static inline bool double_is_finite(double x) {
     return double_absolute(x) < DOUBLE_INFINITY;
 }
 
-// |x| = m 2^*exponent with 2^52 ≤ m < 2^53, for a finite x that is not 0.
+// Returns m with |x| = m 2^*exponent and 2^52 ≤ m < 2^53. x must be finite and not 0.
 static inline uint64_t double_split(double x, int *exponent) {
     uint64_t m = double_bits(x) & (DOUBLE_ONE - 1);
     int field = (int)(double_bits(x) >> 52 & 0x7ff);
@@ -57,7 +57,7 @@ static inline uint64_t double_split(double x, int *exponent) {
     return m << shift;
 }
 
-// The exponent of |x|, rounded down: 2^e ≤ |x| < 2^(e + 1).
+// Returns e with 2^e ≤ |x| < 2^(e + 1). x must be finite and not 0.
 static inline int double_exponent(double x) {
     int exponent;
     double_split(x, &exponent);

@@ -1,13 +1,13 @@
-// exact.c: the cases that the fast paths leave: special arguments, and those that need many bits.
+// exact.c: elementary functions for arguments that the fast paths cannot handle, either special or hard to round.
 //
-// Ziv (ACM TOMS 17, 1991): the result is computed with 192 bits of fraction, then with 384 and 768, until all
-// numbers within the error bound round to the same double. This ends, because no result lies on the border of two
-// doubles: by Lindemann's theorem the functions of one argument and atan2 give no algebraic number but where it is told
-// apart first (0, 1, ratios that vanish), and the borders that pow meets are found by whole numbers. The hardest
-// arguments known (Lefèvre and Muller's tables and what was computed since) need fewer than 128 bits of relative
-// accuracy; the first two steps give more than 300.
+// Ziv's method (ACM TOMS 17, 1991): the result is computed with 192 bits of fraction, then with 384 and 768, until all
+// numbers within the error bound round to the same double. This terminates, because no result is exactly halfway
+// between two doubles. By Lindemann's theorem the results of atan2 and the functions of one argument are not algebraic,
+// except in cases that are handled first (0, 1, tiny ratios). Halfway cases of pow are found by integer arithmetic. The
+// hardest arguments known (tables by Lefèvre and Muller and later work) need fewer than 128 bits of relative accuracy;
+// the first two steps give more than 300.
 //
-// What fixed.h promises for each function is 2^16 ulps; SLACK covers the few products, sums and constants around it.
+// fixed.h guarantees an error of 2^16 ulps for each function. SLACK also covers the few additional operations.
 #include "maths/double_bits.h"
 #include "maths/fast.h"
 #include "maths/fixed.h"
@@ -20,8 +20,8 @@
 
 typedef enum Trig { SINE, COSINE, TANGENT } Trig;
 
-// The tangent: the divisor is brought to [1/2, 1) first, then the quotient multiplied as much. No cosine of a double is
-// below 2^-62 (nor a sine, if it is not 0), so that 62 bits are lost.
+// Returns sine / cosine. The divisor is scaled to [1/2, 1) before the division and the quotient is scaled by the same
+// factor. No cosine of a double is below 2^-62 (nor a sine other than 0), so at most 62 bits are lost.
 static Fixed fixed_quotient(Fixed *sine, Fixed *cosine) {
     int shift = -double_exponent(fixed_to_double(cosine)) - 1;
     bool negative = fixed_is_negative(cosine);
@@ -36,7 +36,7 @@ static Fixed fixed_quotient(Fixed *sine, Fixed *cosine) {
 static double exact_trig(double x, Trig trig) {
     if (!double_is_finite(x))
         return double_is_nan(x) ? x + x : DOUBLE_NAN;
-    // x - x^3/6 … x + x^3/3 is nearer to x than to its neighbours; below 2^-27 the cosine is 1 - 2^-55 at least.
+    // Sine and tangent are between x - x^3/6 and x + x^3/3, which round to x. The cosine is at least 1 - 2^-55.
     if (double_absolute(x) < 0x1p-27)
         return trig == COSINE ? 1 : x;
     double result = 0;
@@ -53,7 +53,7 @@ static double exact_trig(double x, Trig trig) {
             c = fixed_negate(&t);
         }
         if (trig == TANGENT) {
-            // In a turn the signs of both cancel. What the shift of a large quotient adds to the error is its square.
+            // Both signs cancel after a half turn. The error of a quotient q grows with q^2.
             int shift = double_exponent(fixed_to_double(&c));
             slack += shift < 0 ? -2 * shift : 0;
             s = fixed_quotient(&s, &c);
@@ -74,7 +74,7 @@ EXACT(tan, exact_trig, TANGENT)
 
 // --- arcs
 
-// What is done with the angle of (a, b), 0 ≤ b ≤ a: the octant.
+// How the angle of (a, b), 0 ≤ b ≤ a, is mapped to the octant of the result.
 typedef enum Octant { AS_IT_IS, FROM_QUARTER, PAST_QUARTER, FROM_HALF } Octant;
 
 static Fixed in_octant(const Fixed *angle, Octant octant) {
@@ -86,7 +86,7 @@ static Fixed in_octant(const Fixed *angle, Octant octant) {
                                     : fixed_sub(&constant, angle);
 }
 
-// The angle at (a, b), both not negative and at most 1, a^2 + b^2 = 1.
+// Returns the angle of the point (a, b) on the unit circle, 0 ≤ a, b ≤ 1. If `mirrored`, of (-a, b).
 static Fixed circle_angle(const Fixed *b, const Fixed *a, bool mirrored) {
     Fixed d = fixed_sub(a, b);
     bool swap = fixed_is_negative(&d);
@@ -94,8 +94,9 @@ static Fixed circle_angle(const Fixed *b, const Fixed *a, bool mirrored) {
     return in_octant(&angle, mirrored ? (swap ? PAST_QUARTER : FROM_HALF) : (swap ? FROM_QUARTER : AS_IT_IS));
 }
 
-// asin or acos of x, 2^-27 ≤ |x| < 1: the angle at (sqrt(1 - x^2), |x|) or (|x|, sqrt(1 - x^2)). |x| and its square are
-// exact with 192 bits; 1 - x^2 ≥ 2^-53 is brought to [1/4, 1] by an even shift before the root is taken.
+// Returns asin or acos of x, 2^-60 ≤ |x| < 1: the angle of (sqrt(1 - x^2), |x|) or (|x|, sqrt(1 - x^2)). With 192 bits
+// |x| is exact and its square is exact up to an ulp. 1 - x^2 ≥ 2^-53 is scaled to [1/4, 1] by an even shift before the
+// root is taken.
 static double exact_circle(double x, bool cosine) {
     double result = 0;
     bool done = false;
@@ -117,7 +118,7 @@ double exact_asin(double x) {
     if (!(double_absolute(x) <= 1))
         return double_is_nan(x) ? x + x : DOUBLE_NAN;
     if (double_absolute(x) < 0x1p-27)
-        return x; // as for the sine
+        return x; // asin x is nearer to x than to any other double
     return double_absolute(x) == 1 ? double_with_sign(HALF_PI_HIGH, x) : exact_circle(x, false);
 }
 
@@ -125,13 +126,14 @@ double exact_acos(double x) {
     if (!(double_absolute(x) <= 1))
         return double_is_nan(x) ? x + x : DOUBLE_NAN;
     if (double_absolute(x) < 0x1p-60)
-        return HALF_PI_HIGH; // its rest is 2^-53.9, far from half of 2^-52
+        return HALF_PI_HIGH; // the low part of pi/2 is 2^-53.9, far from the rounding limit 2^-53
     return x == 1 ? 0 : x == -1 ? PI_HIGH : exact_circle(x, true);
 }
 
-// The double nearest to q - q^3/3 + … for q = (b / a) 2^scale below 2^-60, with whole b and a below 2^53: a quotient of
-// 120 bits. No quotient of such numbers is nearer than 2^-107 q to the border of two doubles but on it: the cube, below
-// 2^-120 q, only matters there, and there it goes down. The bits are 2 q - 1 with q cut off, an odd number.
+// Returns the double nearest to atan(q) = q - q^3/3 + … for q = (b / a) 2^scale below 2^-60, with integers b and a
+// below 2^53. Such a quotient is either exactly halfway between two doubles or at least 2^-107 q away from that. So the
+// cube, below 2^-120 q, matters only for halfway cases, which it makes smaller. The quotient is therefore truncated to
+// 120 bits, an exact one is reduced by an ulp, and the last bit is set.
 static double tiny_ratio(uint64_t b, uint64_t a, int scale) {
     __extension__ typedef unsigned __int128 Long;
     Fixed q = fixed_from_int(0, 2);
@@ -145,7 +147,7 @@ static double tiny_ratio(uint64_t b, uint64_t a, int scale) {
     Fixed ulp = {.size = 2, .limb = {1}};
     if (exact)
         q = fixed_sub(&q, &ulp);
-    q.limb[0] |= 1; // it is not on the border
+    q.limb[0] |= 1; // never exactly halfway
     return fixed_round(&q, scale);
 }
 
@@ -154,7 +156,7 @@ static Octant octant_of(double b, double a, double x) {
     return x < 0 ? (swap ? PAST_QUARTER : FROM_HALF) : swap ? FROM_QUARTER : AS_IT_IS;
 }
 
-// atan2(y, x) of finite numbers that are not 0, without y's sign
+// Returns |atan2(y, x)| for finite x and y other than 0, with b = |y| and a = |x|.
 static double exact_ratio(double b, double a, double x) {
     int a_exponent, b_exponent;
     Octant octant = octant_of(b, a, x);
@@ -166,7 +168,7 @@ static double exact_ratio(double b, double a, double x) {
     double result = 0;
     bool done = false;
     for (int size = FIRST_SIZE; !done && size <= FIXED_MAX_LIMBS; size *= 2) {
-        // A ratio below 2^-100 is nothing beside pi/2 and pi: their nearest border is 2^-56 away.
+        // A ratio below 2^-100 cannot change the rounding of pi/2 and pi, which are 2^-56 away from a halfway case.
         Fixed a_fixed = fixed_from_double((double)am * 0x1p-53, size);
         Fixed b_fixed = fixed_from_double((double)bm * 0x1p-53, size);
         b_fixed = scale < -100 ? fixed_from_int(0, size) : fixed_scale(&b_fixed, scale);
@@ -196,7 +198,7 @@ double exact_atan2(double y, double x) {
 
 // --- exponential and logarithms
 
-// e^t with t of a size, wrong by 2^slack ulps: t = k ln2 + r, and e^r in [1/2, 2].
+// Rounds e^t = 2^k e^r with t = k ln2 + r and e^r in [1/2, 2], if an error of 2^slack ulps allows it.
 static bool decide_exp(const Fixed *t, int slack, double *result) {
     int k = (int)(fixed_to_double(t) * LOG_2E_HIGH);
     Fixed log_2 = fixed_constant(fixed_log_2, FIXED_MAX_LIMBS, t->size);
@@ -222,11 +224,11 @@ double exact_exp(double x) {
     return result;
 }
 
-// ln x of a positive finite number other than 1
+// Returns ln x for a positive finite x other than 1.
 static Fixed fixed_log_of(double x, int size) {
     int exponent;
     double m = (double)double_split(x, &exponent) * 0x1p-52;
-    // ln m must not take away most of the exponent's part: m is in [0.7, 1.4).
+    // With m in [0.7, 1.4), ln m does not cancel most of exponent * ln 2.
     return m < 1.40625 ? fixed_log(m, exponent + 52, size) : fixed_log(m * 0.5, exponent + 53, size);
 }
 
@@ -264,7 +266,7 @@ double exact_pow_sign(double x, double y) {
     return x > 0 ? 1 : !is_whole(y) ? 0 : is_odd(y) ? -1 : 1;
 }
 
-// x = *odd 2^*exponent with an odd whole number
+// Splits x into *odd * 2^*exponent with an odd integer.
 static void split_odd(double x, uint64_t *odd, int *exponent) {
     *odd = double_split(x, exponent);
     int zeros = __builtin_ctzll(*odd);
@@ -272,16 +274,18 @@ static void split_odd(double x, uint64_t *odd, int *exponent) {
     *exponent += zeros;
 }
 
-// The root of a perfect square, or 0.
+// Returns the square root of a perfect square, else 0.
 static uint64_t whole_root(uint64_t m) {
     uint64_t r = (uint64_t)__builtin_sqrt((double)m);
     return r * r == m ? r : 0;
 }
 
-// Is x^y, x > 0, a finite binary fraction of at most 64 bits? Such a number may lie on the border of two doubles; one
-// with more bits than 54 does not. x = m 2^e and y = k 2^f with odd m and k. For m = 1 it is one if e y is whole. For
-// m > 1, y must be positive (3^-1 ends nowhere), and for f < 0 x must be a square of a square … -f times: that is m <
-// 2^53 no more than five times. Then m^(k 2^f) has 64 bits at most for an exponent of 40 at most, as m ≥ 3.
+// If x^y, x > 0, is a finite binary fraction of at most 64 bits, sets *result to it, rounded, and returns true. Such a
+// number can be halfway between two doubles; one with more than 54 bits cannot.
+// Let x = m 2^e and y = k 2^f with odd m and k. For m = 1 the power is finite if e y is an integer. For m > 1, y must
+// be positive, because the fraction 1/3 is infinite. For f < 0, x must be a perfect square -f times in a row, which is
+// possible at most five times for m < 2^53. Since m ≥ 3, m^(k 2^f) has at most 64 bits only if the exponent is at
+// most 40.
 static bool pow_is_exact(double x, double y, double *result) {
     uint64_t m, k, power = 1;
     int e, f;
@@ -299,7 +303,7 @@ static bool pow_is_exact(double x, double y, double *result) {
         return true;
     }
     if (f > 12 || k >> (12 - f))
-        return false; // beyond the range, or it has too many bits
+        return false; // out of range, or too many bits
     int n = (int)(k << f);
     if (m > 1 && (y < 0 || n > 40))
         return false;
@@ -308,12 +312,13 @@ static bool pow_is_exact(double x, double y, double *result) {
             if (__builtin_mul_overflow(power, m, &power))
                 return false;
     Fixed whole = fixed_from_int(0, 1);
-    whole.limb[0] = power; // as a fraction
+    whole.limb[0] = power; // power 2^-64
     *result = fixed_round(&whole, 64 + (y < 0 ? -e * n : e * n));
     return true;
 }
 
-// y ln x for |y ln x| < 2^11: y is a whole number times 2^exponent. ln x is within 2^SLACK ulps, which y multiplies.
+// Returns x^y = e^(y ln x) for x > 0 and |y ln x| < 2^11. y is an integer times 2^exponent. The error of ln x, at most
+// 2^SLACK ulps, is multiplied by y.
 static double exact_positive_pow(double x, double y) {
     double result;
     if (pow_is_exact(x, y, &result))
@@ -324,7 +329,7 @@ static double exact_positive_pow(double x, double y) {
     bool done = false;
     for (int size = FIRST_SIZE; !done && size <= FIXED_MAX_LIMBS; size *= 2) {
         Fixed t = fixed_log_of(x, size);
-        double near = fixed_to_double(&t) * y; // but for 2^-48 of it
+        double near = fixed_to_double(&t) * y; // relative error 2^-48
         if (near > 720 || near < -760)
             return near < 0 ? 0 : DOUBLE_INFINITY;
         if (double_absolute(near) < 0x1p-55)
@@ -338,7 +343,7 @@ static double exact_positive_pow(double x, double y) {
     return result;
 }
 
-// The cases of C17 F.10.4.4 where x is 0 or infinite: their result for |x|, before the sign.
+// Returns |x|^y where x is 0 or infinite (C17 F.10.4.4).
 static double pow_of_zero_or_infinity(double x, double y) {
     return (x == 0) == (y < 0) ? DOUBLE_INFINITY : 0;
 }

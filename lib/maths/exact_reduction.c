@@ -1,8 +1,9 @@
-// exact_reduction.c: the reduction of large arguments of sine, cosine and tangent for the fast paths.
+// exact_reduction.c: reduction of large arguments for the fast paths of sine, cosine and tangent.
 //
-// Payne and Hanek (1983) in whole numbers: see fixed_reduce. Here 256 bits of m 2/pi 2^exponent are kept, the upper 64
-// of them above the binary point, and of the fraction the upper 128 are used: the next limb is cut off and the lowest
-// is wrong by less than m (2^53), so that the angle is within 2^-127 quarters; as two doubles it is within 2^-116.
+// Payne and Hanek's method (1983) in integers, as in fixed_reduce. 256 bits of m 2/pi 2^exponent are computed, of which
+// the upper 64 are above the binary point. The upper 128 bits of the fraction are used. The lowest limb is truncated
+// and the error of the product is below m (2^53), so the angle is accurate to 2^-127 quarter turns. As two doubles it
+// is accurate to 2^-116.
 #include "maths/double_bits.h"
 #include "maths/fast.h"
 #include "maths/fixed.h"
@@ -20,16 +21,16 @@ void exact_reduction(double x, uint64_t *n, double *high, double *low) {
     const uint64_t *table = fixed_two_over_pi + from / 64;
     int shift = from % 64;
     for (int i = 0; i <= FRACTION; i++) {
-        uint64_t above = from / 64 + i < LIMBS ? table[i + 1] : 0; // nothing above the whole part
+        uint64_t above = from / 64 + i < LIMBS ? table[i + 1] : 0; // there is nothing above the integer part
         uint64_t window = shift ? table[i] >> shift | above << (64 - shift) : table[i];
         Product t = (Product)m * window + carry;
         product[i] = (uint64_t)t;
         carry = (uint64_t)(t >> 64);
     }
-    // In units of pi/512: 8 bits of the fraction go to n, to the nearest.
+    // Rounded to units of pi/512: the integer part and 8 bits of the fraction become n.
     uint64_t upper = product[2] << 8 | product[1] >> 56, rest = product[1] << 8 | product[0] >> 56;
     *n = (product[3] << 8 | product[2] >> 56) + (upper >> 63);
-    // 2^-64 steps, in [-1/2, 1/2): 53 bits, then the 11 that are left and the next 64.
+    // The rest in [-1/2, 1/2) steps, in units of 2^-64: 53 bits, then the other 11 and the next 64.
     double first = (double)(int64_t)(upper & ~UINT64_C(2047));
     double second = (double)(upper & 2047) + (double)rest * 0x1p-64;
     if (x < 0) {
@@ -37,7 +38,7 @@ void exact_reduction(double x, uint64_t *n, double *high, double *low) {
         first = -first;
         second = -second;
     }
-    // times pi/512 2^-64, once more as two doubles
+    // multiplied by pi/512 2^-64, again as two doubles
     double a = first * HALF_PI_HIGH, b = real_two_product_error(first, HALF_PI_HIGH, a);
     b += first * HALF_PI_LOW + second * HALF_PI_HIGH;
     double sum = a + b;

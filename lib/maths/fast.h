@@ -1,14 +1,14 @@
-// fast.h: what the instances of the fast paths offer (maths_isa.c, once per instruction set), and what stands behind
-// them.
+// fast.h: internal declarations of the elementary functions.
 //
-// A fast path either returns the correctly rounded result or leaves the case to the exact_ function, which decides all.
+// Each function has a fast path, compiled once per instruction set (maths_isa.c). It either finds the correctly rounded
+// result or calls the exact_ function (exact.c), which handles all arguments.
 #ifndef PETRI_MATHS_FAST_H
 #define PETRI_MATHS_FAST_H
 
 #include <stddef.h>
 #include <stdint.h>
 
-// name and parameters of the scalar functions
+// Names of the scalar functions with one parameter and with two.
 #define MATHS_FUNCTIONS(ONE, TWO)                                                                                      \
     ONE(sin)                                                                                                           \
     ONE(cos)                                                                                                           \
@@ -34,14 +34,14 @@ MATHS_FUNCTIONS(DECLARE_ONE, DECLARE_TWO)
 #undef DECLARE_ONE
 #undef DECLARE_TWO
 
-// exact_pow for x ≥ 0 or an even or no whole y; the sign of the result for the other cases: 1, -1, or 0 if it is nan.
+// Returns the sign of x^y for a negative x: -1 for odd integers y, 1 for even ones, 0 if the result is NaN.
 double exact_pow_sign(double x, double y);
 
-// Doubles near ln m for m in [1/2, 2), and atan q for q in [0, 1].
+// Return approximations of ln m for m in [1/2, 2) and of atan q for q in [0, 1].
 double fast_log_near(double m);
 double fast_atan_near(double q);
 
-// x = (n pi/512 mod 2 pi) + high + low for any finite x of at least 1; |high| ≤ pi/1024, up to 2^-110.
+// Reduces a finite x ≥ 1 to x = (n pi/512 mod 2 pi) + high + low with |high| ≤ pi/1024. The error is at most 2^-110.
 void exact_reduction(double x, uint64_t *n, double *high, double *low);
 
 #endif

@@ -1,24 +1,27 @@
-// fast_arc.h: asin, acos, atan2 and tan, one number at a time: they take branches.
+// fast_arc.h: fast paths of asin, acos, atan2 and tan. They are scalar, because they branch.
 //
-// Taylor series around the nearest c = i/128, f(c + d) = a0 + a1 d + a2 d^2 + …, the first two coefficients in two
-// parts, |d| ≤ 2^-8, cut after d^8. The error, with u = 2^-53 (a rounding of x is at most u |x|):
-//   d          exact, for the upper part of an argument of two parts; the rest counts in a1 d + a2 d^2: what is left
-//              is below 3 |a3| d^2 u < 2^-68 f for atan, in the row 0 2^-69
-//   a0, a1 d   exact but for 2^-104
-//   a2 d^2 …   of the size s: its square, sum (two), product, and three sums with something not much larger: 8 u s
-// atan (c ≤ 1): s is at most 2^-15 f: in row 0 it is d^3/3, else |a2| ≤ c and f ≥ c - d (c = 1/128 is the worst); cut
-// off: |a9| ≤ 1/9, 2^-75. Together below 2^-64.8 f. asin (c ≤ 1/16): |a2| ≤ 0.51 c, s is at most 2^-16 f, there is no
-// rest; cut off: |a9| ≤ 0.2, 2^-74. Together below 2^-65.9 f.
+// Each function uses a Taylor series around the nearest c = i/128: f(c + d) = a0 + a1 d + a2 d^2 + … up to d^8, with
+// |d| ≤ 2^-8. The first two coefficients have two parts. Sources of error, with u = 2^-53 (rounding x costs at most
+// u |x|):
+//   d          exact for the high part of a two-part argument. The low part contributes to a1 d + a2 d^2; the neglected
+//              terms are below 3 |a3| d^2 u < 2^-68 f for atan, 2^-69 f in row 0
+//   a0, a1 d   exact up to 2^-104
+//   a2 d^2 …   its value is called s. A square, two sums, a product, and three sums with slightly larger terms: 8 u s
+// atan (c ≤ 1): s ≤ 2^-15 f. In row 0, s is d^3/3; elsewhere |a2| ≤ c and f ≥ c - d, and c = 1/128 is the worst case.
+// With |a9| ≤ 1/9 the truncated terms are below 2^-75. The total is below 2^-64.8 f.
+// asin (c ≤ 1/16): |a2| ≤ 0.51 c, s ≤ 2^-16 f, and the argument has no low part. With |a9| ≤ 0.2 the truncated terms
+// are below 2^-74. The total is below 2^-65.9 f.
 //
-// asin (1/16 ≤ x ≤ 15/16), |d| ≤ 2^-7 (1 - c), cut after d^9: |a10 d^10| ≤ 0.013 · 2^-70; s is below 2^-16 f (asserted
-// by the generator): the same bound. d is exact, as c has 11 bits and a - c no bit below those of a.
+// asin (1/16 ≤ x ≤ 15/16): |d| ≤ 2^-7 (1 - c), terms up to d^9, |a10 d^10| ≤ 0.013 · 2^-70. The generator asserts
+// s < 2^-16 f, so the same bound holds. d is exact, because c has 11 bits and a - c has no bit below those of a.
 //
-// acos x = sqrt(1 - x) P(x) for x > 15/16, where P has no singularity near 1: s is at most 0.09 · 2^-16, P at least
-// 1.41; cut off: |a9| ≤ 0.02. Below 2^-69.9; the root in two parts (2^-104) and the product in two parts add 2^-72.
-// What is then subtracted from pi/2 or pi is so exactly but for 2^-105.
+// acos x = sqrt(1 - x) P(x) for x > 15/16, where P has no singularity near 1: s ≤ 0.09 · 2^-16, P ≥ 1.41, |a9| ≤ 0.02.
+// The error is below 2^-69.9. The two-part root (2^-104) and the two-part product add 2^-72. The subtraction from pi/2
+// or pi is exact up to 2^-105.
 //
-// tan = sine / cosine, with the quotient corrected once: the sum of both relative errors, and 2^-100. Only one of the
-// two has n = 1 or 255 or less than 2^-12 in size: 2^-67.1 + 2^-67.8 + 2^-69 (the absolute error of the smaller one).
+// tan = sine / cosine, with the quotient corrected once. The error is the sum of both relative errors and 2^-100. Only
+// one of the two can have n = 1 or 255 or be smaller than 2^-12. So the sum is 2^-67.1 + 2^-67.8 + 2^-69, where the
+// last term is the absolute error of the smaller one.
 #ifndef PETRI_MATHS_FAST_ARC_H
 #define PETRI_MATHS_FAST_ARC_H
 
@@ -28,10 +31,10 @@
 #define ARC_ERROR 0x1.2p-66
 #define ATAN_ERROR 0x1.4p-65
 #define ACOS_ERROR 0x1.8p-70
-#define HALF_PI_ERROR 0x1p-102 // of its two parts, and of the sum with what is lower
+#define HALF_PI_ERROR 0x1p-102 // of the two parts of pi/2 and of sums with them
 #define TAN_ERROR 0x1.3p-66
 
-// a + b for |a| ≥ |b| or a = 0, with what is lower, as high + low.
+// Computes a + b + lower as high + low. Requires |a| ≥ |b| or a = 0.
 KERNEL void arc_sum(double a, double b, double lower, double *high, double *low) {
     *high = a + b;
     *low = real_fast_two_sum_error(a, b, *high) + lower;
@@ -39,17 +42,17 @@ KERNEL void arc_sum(double a, double b, double lower, double *high, double *low)
 
 #define ARC_COLUMNS 11
 
-// The row for x = i/128 + d of a table that begins with i = first; d is exact.
+// Returns the table row for x = i/128 + d and the exact d. The table starts with row i = first.
 KERNEL const double *arc_row(const double (*table)[ARC_COLUMNS], unsigned first, double x, double *d) {
     Bits i;
     *d = x - real_steps(x, 128, &i) * (1.0 / 128);
     return table[i - first];
 }
 
-// A row of a table at i/128 + d
+// Evaluates the series of a table row at d.
 KERNEL void arc_series(const double *row, double d, double *high, double *low) {
     const double *a = row + 4;
-    // In pairs and pairs of pairs (Estrin): a shorter way than Horner's.
+    // Estrin's scheme, whose dependency chain is shorter than that of Horner's.
     double square = d * d, third = real_muladd(d, a[5], a[4]);
     double sum = real_muladd(square, real_muladd(d, a[3], a[2]), real_muladd(d, a[1], a[0]));
     sum = real_muladd(square * square, real_muladd(square, a[6], third), sum);
@@ -58,14 +61,14 @@ KERNEL void arc_series(const double *row, double d, double *high, double *low) {
     arc_sum(row[0], p, small, high, low);
 }
 
-// Adds first: high + low + first_high + first_low.
+// Adds first_high + first_low to high + low and rounds the sum if the error allows it.
 KERNEL bool arc_decide(double first_high, double first_low, double high, double low, double error, double *result) {
     arc_sum(first_high, high, low + first_low, &high, &low);
     return lanes_decide(high, low, error, result);
 }
 
-// acos(a) for a in [15/16, 1); 1 - a is exact. The root's rest is its error over twice the root, here divided by the
-// square and multiplied by the root, to wait less for the root.
+// Computes acos(a) for a in [15/16, 1), where 1 - a is exact. The low part of the root is residue / (2 root). It is
+// computed as residue * root * (0.5 / square), so that the division need not wait for the root.
 KERNEL void acos_parts(double a, double *high, double *low) {
     double square = 1 - a, root = __builtin_sqrt(square);
     double d, h, l;
@@ -76,7 +79,7 @@ KERNEL void acos_parts(double a, double *high, double *low) {
     *low = real_two_product_error(root, h, *high) + real_muladd(root, l, rest * h);
 }
 
-// asin(a) for a in [1/16, 15/16], in rows of 1/128 of 1 - a
+// Computes asin(a) for a in [1/16, 15/16]. The row follows from the exponent and the next 6 mantissa bits of 1 - a.
 KERNEL void steep_asin_parts(double a, double *high, double *low) {
     const double *row = steep_asin_table[(double_bits(1 - a) >> 46) - (UINT64_C(0x3fb0) << 2)], *t = row + 5;
     double d = a - row[0], square = d * d;
@@ -87,7 +90,7 @@ KERNEL void steep_asin_parts(double a, double *high, double *low) {
     arc_sum(row[1], p, real_muladd(square, sum, real_muladd(row[4], d, row[2]) + pl), high, low);
 }
 
-// asin(a) for a in [0, 15/16]
+// Computes asin(a) for a in [0, 15/16].
 KERNEL void asin_parts(double a, double *high, double *low) {
     if (a >= 0.0625)
         steep_asin_parts(a, high, low);
@@ -132,22 +135,22 @@ KERNEL bool acos_fast(double x, double *result) {
     return arc_decide(constant[0], constant[1], sign * high, sign * low, high * ACOS_ERROR, result);
 }
 
-// atan(b / a), 0 ≤ b ≤ a, both far from the ends of the range
+// Computes atan(b / a) for 0 ≤ b ≤ a, both far from overflow and underflow.
 KERNEL void atan_parts(double b, double a, double *high, double *low) {
     double inverse = 1 / a, q = b * inverse, rest = real_residue(b, q, a) * inverse, d;
     const double *row = arc_row(atan_table, 0, q, &d);
     arc_series(row, d, high, low);
-    *low += real_muladd(2 * row[4], d, row[2]) * rest; // the slope
+    *low += real_muladd(2 * row[4], d, row[2]) * rest; // low part of the quotient times the derivative
 }
 
 KERNEL bool atan2_fast(double y, double x, double *result) {
-    // An octant's angle and its sign, chosen by |y| > |x| and by x < 0
+    // By |y| > |x| and x < 0: the angle to add (two parts) and the sign of the arc tangent.
     static const double plans[2][2][3] = {{{0, 0, 1}, {PI_HIGH, PI_LOW, -1}},
                                           {{HALF_PI_HIGH, HALF_PI_LOW, -1}, {HALF_PI_HIGH, HALF_PI_LOW, 1}}};
     double a = real_absolute(x), b = real_absolute(y), high, low;
     double small = a < b ? a : b, large = a < b ? b : a;
-    // All steps are then far from under- and overflow, and the angle's error counts more than that of pi (2^-105); nan
-    // fails, too.
+    // Ensures that no step overflows or underflows, and that the error of the angle exceeds that of pi (2^-105).
+    // Rejects NaN.
     if (!(small > 0x1p-400 && large < 0x1p400 && small > 0x1p-36 * large))
         return false;
     atan_parts(small, large, &high, &low);
@@ -167,7 +170,7 @@ KERNEL bool tan_fast(const ReducedArgument *turn, double *result) {
     arc_sum(ch, cl, 0, &ch, &cl);
     double inverse = 1 / ch, q = sh * inverse;
     double rest = (real_residue(sh, q, ch) + (sl - q * cl)) * inverse;
-    // The reduction's absolute error counts where the sine or the cosine is small.
+    // For a small sine or cosine the absolute error of the reduction would be too large.
     bool large = real_absolute(sh) > 0x1p-26 && real_absolute(ch) > 0x1p-26;
     return lanes_decide(q, rest, real_absolute(q) * TAN_ERROR, result) && large;
 }

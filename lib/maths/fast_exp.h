@@ -1,17 +1,17 @@
-// fast_exp.h: e^(x + tail) in lanes, as high + low.
+// fast_exp.h: fast path of the exponential function, e^(x + tail) as high + low, in lanes.
 //
-// Tang (ACM TOMS 15, 1989): x = k ln2/128 + r, e^x = 2^(k/128) e^r, with 2^(i/128) from a table of two doubles.
+// Tang's method (ACM TOMS 15, 1989): x = k ln2/128 + r and e^x = 2^(k/128) e^r. A table holds 2^(i/128) as two doubles.
 //
-// The error, relative to 2^(k/128), with u = 2^-53 and |r| ≤ 2^-8.5 (1 + 2^-40):
-//   k ln2/128    its second part -k LOW: rounded and cut off, |k| < 2^17.1     2 · 2^-79.5
-//   r            high - k HIGH is exact (35 + 18 bits; the difference has a unit of 2^-61 and is below 2^-8); in the
-//                square, r = rounded sum of two: r u |r|                        2^-70
-//   series       cut after r^6 / 6!: r^7 / 5040                                2^-71.8
-//                r^2 (1/2 + …): four roundings of something below 2^-17.9      2^-68.9 (2^-17.9 · 4 u / 2)
-//   sums         rest + series, high q, its sum with three smaller ones:
-//                at most six roundings of something below 2^-17.8              2^-68.2
+// Sources of error relative to 2^(k/128), with u = 2^-53 and |r| ≤ 2^-8.5 (1 + 2^-40):
+//   k ln2/128    rounding and truncation of k EXP_STEP_LOW, |k| < 2^17.1       2 · 2^-79.5
+//   r            x - k EXP_STEP_HIGH is exact (35 + 18 bits; the difference is a multiple of 2^-61 below 2^-8); the
+//                square uses r + rest, rounded: r u |r|                        2^-70
+//   series       truncated after r^6 / 6!: r^7 / 5040                          2^-71.8
+//                r^2 (1/2 + …): four roundings of terms below 2^-17.9          2^-68.9 (2^-17.9 · 4 u / 2)
+//   sums         rest + series, th q, and the sum with three smaller terms:
+//                at most six roundings of terms below 2^-17.8                  2^-68.2
 //   table        both parts together                                           2^-107
-// together below 2^-67.2, which EXP_ERROR covers; 2^(i/128) is below 2.
+// The total is below 2^-67.2, which EXP_ERROR covers. 2^(i/128) is below 2.
 #ifndef PETRI_MATHS_FAST_EXP_H
 #define PETRI_MATHS_FAST_EXP_H
 
@@ -19,9 +19,9 @@
 #include "maths/maths_tables.h"
 
 #define EXP_ERROR 0x1p-67
-#define EXP_MAX 708.0 // no overflow and no result below the normal range
+#define EXP_MAX 708.0 // the result neither overflows nor is subnormal
 
-// 2^(exponent / 2^52) (high + low) for |x| < EXP_MAX; high is in [0.99, 2), |low| < 2^-16.
+// Computes e^(x + tail) = 2^(exponent / 2^52) (high + low) for |x| < EXP_MAX. high is in [0.99, 2), |low| < 2^-16.
 KERNEL void exp_parts(Real x, Real tail, Bits *exponent, Real *high, Real *low) {
     Bits number;
     Real k = real_steps(x, EXP_STEPS_PER_ONE, &number);

@@ -1,34 +1,36 @@
-// fast_log.h: logarithms and powers in lanes.
+// fast_log.h: fast paths of logarithms and powers, in lanes.
 //
-// Tang (ACM TOMS 16, 1990): x = 2^k m with m in [0.6875, 1.375), and from the table a short r near 1/m with -ln r in
-// two parts: ln x = k ln2 - ln r + ln(1 + z), z = r m - 1 exactly (the generator asserts that z is a double), |z| ≤
-// 2^-8.
+// Tang's method (ACM TOMS 16, 1990): x = 2^k m with m in [0.6875, 1.375). A table holds a short r near 1/m, and -ln r
+// in two parts. Then ln x = k ln2 - ln r + ln(1 + z) with z = r m - 1, |z| ≤ 2^-8. The generator asserts that z is a
+// double, so it is exact.
 //
-// The error, with u = 2^-53 and c = z^3/3 - z^4/4 + … ≈ z^3/3:
-//   k ln2 - ln r   the upper parts are multiples of 2^-42 and their sum is exact; the lower parts are rounded and cut
-//                  off by at most (|k| + 3) 2^-97
-//   z - z^2/2      three doubles, exactly: sums with their rests, the square with its low half
-//   c              its last terms, z^9 / 9 and later: z^10 / 10 < 2^-57 |c| is cut off, and the factor z^6 / 9 is
-//                  replaced by the nearest parabola in z^2 (Chebyshev), 2^-48 / 288 < 2^-54.5 / 3 away for |z| ≤ 2^-8.
-//                  The rounded square, z times it, times a sum of six terms (less than 2 u), the product: all of it
-//                  less than 5.1 u |c|
-//   low            its sum has c as the largest term or rests below u |high|: two roundings of the former, 2 u |c|, and
-//                  four of what is below 1.1 u |high| + 2^-34: 2^-104 |high|
-// together below 7.5 u |c| + 2^-96 |high|. The generator asserts |z|^3 ≤ 2^-15.9 |ln x| in each row (|c| is at most
-// 0.34 |z|^3), so this is less than 2^-67.6 |ln x|; LOG_ERROR covers it, and what log2 and log10 add (2^-104).
+// Sources of error, with u = 2^-53 and c = z^3/3 - z^4/4 + … ≈ z^3/3:
+//   k ln2 - ln r   the high parts are multiples of 2^-42, so their sum is exact; rounding and truncation of the low
+//                  parts cost at most (|k| + 3) 2^-97
+//   z - z^2/2      exact as three doubles: sums with their rounding errors, the square with its low part
+//   c              terms from z^10 / 10 < 2^-57 |c| are truncated. The factor z^6 / 9 of the term z^9 / 9 is replaced
+//   by
+//                  the nearest parabola in z^2 (Chebyshev), which differs by 2^-48 / 288 < 2^-54.5 / 3 for |z| ≤ 2^-8.
+//                  The roundings are those of the square, its product with z, a sum of six terms (less than 2 u), and
+//                  the final product: in all less than 5.1 u |c|
+//   low            the largest term of its sum is c or rounding errors below u |high|: two roundings of c, 2 u |c|, and
+//                  four of terms below 1.1 u |high| + 2^-34: 2^-104 |high|
+// The total is below 7.5 u |c| + 2^-96 |high|. The generator asserts |z|^3 ≤ 2^-15.9 |ln x| in each row, and |c| is at
+// most 0.34 |z|^3. So the error is below 2^-67.6 |ln x|. LOG_ERROR covers it and the 2^-104 that log2 and log10 add.
 #ifndef PETRI_MATHS_FAST_LOG_H
 #define PETRI_MATHS_FAST_LOG_H
 
 #include "maths/fast_exp.h"
 
 #define LOG_ERROR 0x1.4p-67
-#define LOG_CUBE_ERROR 0x1p-50 // 7.5 u, and more
+#define LOG_CUBE_ERROR 0x1p-50 // at least 7.5 u
 
-#define LOG_REACH 0x1p-16 // |z|^2 is not larger
+#define LOG_REACH 0x1p-16 // maximum of z^2
 
 #define LOG_FIRST UINT64_C(0x3fe6000000000000) // 0.6875
 
-// The logarithm of lanes that hold positive normal numbers is high + low; low is below 2^-15 |high|. *cube: see above.
+// Computes ln x as high + low for positive normal x, with |low| < 2^-15 |high|. *cube is c (see above), which bounds
+// the error.
 KERNEL void log_parts(Real x, Real *high, Real *low, Real *cube) {
     Bits from = bits_of(x) - bits_set(LOG_FIRST), row = from >> 44 & bits_set(255);
     Real m = real_of(bits_of(x) - (from & bits_set(UINT64_C(0xfff) << 52)));
@@ -39,7 +41,7 @@ KERNEL void log_parts(Real x, Real *high, Real *low, Real *cube) {
 #if HAS_FMA
     Real z = real_muladd(r, m, real_set(-1));
 #else
-    // r has 10 bits: both products are exact, and so are both sums.
+    // r has 10 bits, so both products and both sums are exact.
     Real upper = real_of(bits_of(m) & bits_set(~UINT64_C(0x7ffffff)));
     Real z = (r * upper - real_set(1)) + r * (m - upper);
 #endif
@@ -67,7 +69,7 @@ KERNEL Lanes log_lanes(Real x, Real *result) {
     return LANES_BOTH(lanes_decide(high, low, error, result), lanes_positive_normal(x));
 }
 
-// log2 and log10: the natural logarithm times a constant of two parts.
+// Computes log2 or log10: the natural logarithm times a two-part constant.
 KERNEL Lanes log_lanes_scaled(Real x, double scale_high, double scale_low, Real *result) {
     Real high, low, cube;
     log_parts(x, &high, &low, &cube);
@@ -77,8 +79,8 @@ KERNEL Lanes log_lanes_scaled(Real x, double scale_high, double scale_low, Real 
     return LANES_BOTH(lanes_decide(product, rest, error, result), lanes_positive_normal(x));
 }
 
-// x^y = e^(y ln x). With ln x = high + low, t = y (high + low) is again two parts, wrong by at most |y| times the error
-// of the logarithm and 2^-103 |t|; that is the relative error that e^t adds to its own. |t| < 708.
+// Computes x^y = e^t with t = y ln x in two parts and |t| < 708. The error of t is at most |y| times the error of the
+// logarithm, plus 2^-103 |t|. It becomes a relative error of e^t, in addition to that of the exponential function.
 KERNEL Lanes pow_lanes(Real x, Real y, Real *result) {
     Real high, low, cube;
     log_parts(x, &high, &low, &cube);

@@ -1,12 +1,12 @@
-// fast_noise.h: noise of the plane in lanes (arrays.h); the operations and their order are those of one point
-// (lib/builtin/noise_point.c), with choices instead of branches.
+// fast_noise.h: two-dimensional noise in lanes (arrays.h). It performs the operations of lib/builtin/noise_point.c in
+// the same order, but selects values instead of branching.
 #ifndef PETRI_MATHS_FAST_NOISE_H
 #define PETRI_MATHS_FAST_NOISE_H
 
 #include "maths/arrays.h"
 #include "maths/lanes.h"
 
-// Where a comparison holds: all bits.
+// Sets all bits of the lanes where a comparison is true.
 #if LANES == 1
 #define LANES_MASK(claim) (-(Bits)(claim))
 #else
@@ -21,7 +21,7 @@ KERNEL Real real_choose(Bits mask, double yes, double no) {
     return real_of(bits_choose(mask, bits_of(real_set(yes)), bits_of(real_set(no))));
 }
 
-// floor(x), |x| < 2^50, also in two's complement.
+// Returns floor(x) for |x| < 2^50, and the same as an integer in *whole.
 KERNEL Real real_floor(Real x, Bits *whole) {
     Real near = real_steps(x, 1, whole);
     Bits above = LANES_MASK(near > x);
@@ -31,12 +31,12 @@ KERNEL Real real_floor(Real x, Bits *whole) {
 
 typedef struct NoiseLanes {
     const PlaneNoise *noise;
-    const double *permutation; // the bits of its numbers
-    Real x, y;                 // from the base point
+    const double *permutation; // integers, stored in the bits of doubles
+    Real x, y;                 // position relative to the base vertex
     Bits base_x, base_y;
 } NoiseLanes;
 
-// The value with what the vertex (a, b) adds, given as numbers and in two's complement.
+// Adds the contribution of the vertex (a, b) to `value`. a and b are given as doubles and as integers.
 KERNEL Real noise_vertex(const NoiseLanes *p, Real value, Real a, Real b, Bits whole_a, Bits whole_b, Real squish) {
     const Bits byte = bits_set(255);
     Real dx = (p->x - a) - squish, dy = (p->y - b) - squish, reach = (real_set(2) - dx * dx) - dy * dy;
@@ -58,11 +58,11 @@ KERNEL Real noise_lanes(const PlaneNoise *noise, const double *permutation, Real
     p.y = y - (whole_y + q);
     Real value = noise_vertex(&p, real_set(0), real_set(1), real_set(0), one, zero, real_set(squish));
     value = noise_vertex(&p, value, real_set(0), real_set(1), zero, one, real_set(squish));
-    // The corner of the cell that is nearer
+    // The nearer of the vertices (0, 0) and (1, 1).
     Bits far = LANES_MASK(sum > real_set(1)), right = LANES_MASK(fx > fy);
     Real corner = real_choose(far, 1, 0), u = real_choose(far, 2, 1) - sum, side = real_choose(right, 1, -1);
     value = noise_vertex(&p, value, corner, corner, far & one, far & one, real_choose(far, 2 * squish, 0));
-    // … and the vertex beyond it or beside it, or the other corner
+    // The last vertex: beyond or beside that one, or the other of the two.
     Bits beyond = bits_choose(far, LANES_MASK(u < fx) | LANES_MASK(u < fy), LANES_MASK(u > fx) | LANES_MASK(u > fy));
     Bits other = ~far & one, step = (right & bits_set(2)) - one;
     Real rest = real_set(1) - corner;

@@ -1,4 +1,4 @@
-// fast_random.h: the raw generator of random streams in lanes.
+// fast_random.h: the raw generator of random streams, several items at a time.
 #ifndef PETRI_MATHS_FAST_RANDOM_H
 #define PETRI_MATHS_FAST_RANDOM_H
 
@@ -8,7 +8,7 @@ KERNEL Bits bits_swap_halves(Bits x) {
     return x << 32 | x >> 32;
 }
 
-// Items of five-round Squares (random.h): random_raw.
+// Computes random_raw (random.h) in each lane.
 KERNEL Bits raw_lanes(Bits key, Bits item) {
     Bits y = item * key, z = y + key, x = y;
     x = bits_swap_halves(x * x + y);

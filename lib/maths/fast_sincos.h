@@ -1,19 +1,20 @@
-// fast_sincos.h: sine and cosine in lanes.
+// fast_sincos.h: fast paths of sine and cosine, in lanes.
 //
-// Cody and Waite's reduction (1980) with three parts of pi/512: x = n pi/512 + r, and the addition theorems with sine
-// and cosine of n pi/512 from a table (Tang, 1991):
-//   sin x = S + C r + [S (cos r - 1) + C (sin r - r)]; the cosine is the sine a quarter further.
+// The argument is reduced to x = n pi/512 + r with pi/512 in three parts P1, P2, P3 (Cody and Waite, 1980). A table
+// holds S and C, the sine and cosine of n pi/512 (Tang, 1991). Then
+//   sin x = S + C r + [S (cos r - 1) + C (sin r - r)]; the cosine is the sine a quarter turn further.
 //
-// The error, with u = 2^-53 (a rounding of x is at most u |x|), |r| ≤ pi/1024 (1 + 2^-20) < 2^-8.34, |n| < 2^24:
+// Sources of error, with u = 2^-53 (rounding x costs at most u |x|), |r| ≤ pi/1024 (1 + 2^-20) < 2^-8.34, |n| < 2^24:
 //   reduction    n P1 and n P2 are exact (29 + 24 bits), x - n P1 is exact, n P3 < 2^-43.3 is rounded, P1 + P2 + P3 is
-//                pi/512 up to 2^-122: less than 2^-95 absolutely, 0 for n = 0
-//   cos r - 1    at most 2^-17.69. Cut after r^6/720: 2^-82. The square: u, times a sum near 1/2: u/2, which is added
-//                to r low: 2^-71 and with an unfused product as much again: 1.93 · 2^-70
-//   S times it   its product, and two sums behind it that are not larger: at most 3 · 2^-71 S
-//   sin r - r    at most 2^-27.6: cut after r^7/5040: 2^-85 |r|; all of its roundings are below 2^-77 |C r|
-//   C r, S       exact but for 2^-104
-// together below 3.5 · 2^-70 S + 2^-76 |sin x| + 2^-95. S is at most 2 |sin x| (n = 1, r = -pi/1024), and less from n =
-// 2 on: 2^-67.1 |sin x| + 2^-95.
+//                pi/512 up to 2^-122. The absolute error is below 2^-95, and 0 for n = 0
+//   cos r - 1    at most 2^-17.69. Truncation after r^6/720: 2^-82. The square (u), times a sum near 1/2 (u/2), which
+//   is
+//                added to r low: 2^-71, and twice that if the product is not fused: 1.93 · 2^-70
+//   S times it   the product and two later sums that are not larger: at most 3 · 2^-71 S
+//   sin r - r    at most 2^-27.6. Truncation after r^7/5040: 2^-85 |r|. Roundings: below 2^-77 |C r|
+//   C r, S       exact up to 2^-104
+// The total is below 3.5 · 2^-70 S + 2^-76 |sin x| + 2^-95. S is at most 2 |sin x| (for n = 1, r = -pi/1024) and
+// smaller for larger n. So the error is below 2^-67.1 |sin x| + 2^-95.
 #ifndef PETRI_MATHS_FAST_SINCOS_H
 #define PETRI_MATHS_FAST_SINCOS_H
 
@@ -24,12 +25,13 @@
 #define SINCOS_REDUCTION_ERROR 0x1p-94
 #define SINCOS_MAX 65536.0 // |n| < 2^24
 
-// x = n pi/512 + high + low for |x| < SINCOS_MAX
+// An argument reduced to x = n pi/512 + high + low.
 typedef struct ReducedArgument {
     Bits n;
     Real high, low;
 } ReducedArgument;
 
+// Reduces x, |x| < SINCOS_MAX.
 KERNEL ReducedArgument sincos_reduce(Real x) {
     ReducedArgument turn;
     Real n = real_steps(x, SINCOS_STEPS_PER_ONE, &turn.n);
@@ -40,9 +42,11 @@ KERNEL ReducedArgument sincos_reduce(Real x) {
     return turn;
 }
 
-// What sine and cosine need of r: cos r - 1 and sin r - r.
+// Functions of the reduced argument r.
 typedef struct Arc {
-    Real high, versed, bent;
+    Real high;   // high part of r
+    Real versed; // cos r - 1
+    Real bent;   // sin r - r, plus the low part of r
 } Arc;
 
 KERNEL Arc sincos_arc(const ReducedArgument *turn) {
@@ -56,16 +60,16 @@ KERNEL Arc sincos_arc(const ReducedArgument *turn) {
     return (Arc){r, versed, bent};
 }
 
-// Sine and cosine of n pi/512, in two parts each.
+// Sine and cosine of n pi/512.
 typedef struct Row {
-    Real sh, sl, ch, cl;
+    Real sh, sl, ch, cl; // high and low parts
 } Row;
 
 KERNEL Real real_flip(Real a, Bits sign) {
     return real_of(bits_of(a) ^ sign);
 }
 
-// In the odd quadrants the table is read backwards: place becomes 256 - place.
+// Returns the table row for n. In odd quadrants the table is read backwards: the index is 256 - n mod 256.
 KERNEL Row sincos_row(Bits n) {
     Bits backwards = bits_set(0) - (n >> 8 & bits_set(1)), index = n & bits_set(255);
     index = (index ^ backwards) + (backwards & bits_set(257));
@@ -76,11 +80,12 @@ KERNEL Row sincos_row(Bits n) {
                  real_flip(row[3], cosine_sign)};
 }
 
-// The same a quarter turn further.
+// Returns the row for an angle that is a quarter turn larger.
 KERNEL Row sincos_quarter(const Row *row) {
     return (Row){row->ch, row->cl, -row->sh, -row->sl};
 }
 
+// Computes the sine of the angle given by row and arc.
 KERNEL void sincos_sine(const Row *row, const Arc *arc, Real *high, Real *low) {
     Real p = row->ch * arc->high, pl = real_two_product_error(row->ch, arc->high, p);
     Real small = real_muladd(row->cl, arc->high, row->sl) + pl;
@@ -95,7 +100,7 @@ KERNEL Lanes sincos_decide(Real high, Real low, Real *result) {
     return lanes_decide(high, low, error, result);
 }
 
-// The sine of x plus so many right angles
+// Computes the sine of x plus `quarters` quarter turns.
 KERNEL Lanes sin_lanes(Real x, Bits quarters, Real *result) {
     ReducedArgument turn = sincos_reduce(x);
     Arc arc = sincos_arc(&turn);

@@ -1,18 +1,19 @@
-// fixed_functions.c: elementary functions of wide numbers.
+// fixed_functions.c: elementary functions of fixed.h.
 //
-// Taylor series after a reduction that leaves a short argument, summed by Horner's rule: each step multiplies the error
-// so far by less than 2^-6 and adds 2 ulps (of a product and of a constant): 3 ulps in all. The sums stop where the
-// terms left are below one ulp.
+// The argument is reduced to a small one, and a Taylor series is summed by Horner's rule. Each step multiplies the
+// previous error by less than 2^-6 and adds 2 ulps for a product and a constant. The total error is 3 ulps. The series
+// is truncated where the remaining terms are below one ulp.
 #include "maths/double_bits.h"
 #include "maths/fast.h"
 #include "maths/fixed.h"
 #include "maths/maths_tables.h"
 
-// How often arguments are halved first.
+// Number of times that an argument is halved for the series.
 #define EXP_HALVINGS 8
 #define SINCOS_HALVINGS 6
 
-// The last term of e^x, |x| < 2^-bits, for `size` limbs: the n-th is below 2^-(bits n) / n!, the next ones even less.
+// Returns the index of the last term of e^x needed for |x| < 2^-bits and `size` limbs. Term n is below 2^-(bits n) /
+// n!.
 static int last_term(int bits, int size) {
     int left = 64 * size, n = 0;
     while (left > 0)
@@ -27,17 +28,19 @@ Fixed fixed_exp(const Fixed *r) {
         x = fixed_negate(&x);
     Series powers = {0, last_term(EXP_HALVINGS, r->size), 1, negative};
     Fixed sum = fixed_series(&x, powers);
-    // Each squaring doubles the relative error (4 ulps) and adds an ulp: 2^12 ulps after eight, with e < 4.
+    // Each squaring doubles the relative error, at first 4 ulps, and adds an ulp. After eight squarings it is 2^12
+    // ulps.
     for (int i = 0; i < EXP_HALVINGS; i++)
         sum = fixed_mul(&sum, &sum);
     return sum;
 }
 
-// Of the short argument: s = sin x, v = 1 - cos x; then 1 - cos 2x = 2 s^2 and sin 2x = 2 s (1 - v), which multiply an
-// error by less than 4 in the first doublings and by less than 3 on average: 2^12 ulps after six.
+// Computes s = sin x and v = 1 - cos x of the small argument, then doubles the angle by 1 - cos 2x = 2 s^2 and
+// sin 2x = 2 s (1 - v). A doubling multiplies the error by less than 4, on average by less than 3. After six doublings
+// it is 2^12 ulps.
 void fixed_sin_cos(const Fixed *r, Fixed *sine, Fixed *cosine) {
     Fixed x = fixed_scale(r, -SINCOS_HALVINGS), one = fixed_from_int(1, r->size), square = fixed_mul(&x, &x);
-    int last = last_term(SINCOS_HALVINGS, r->size) | 1; // of both series: an odd number and the even one above it
+    int last = last_term(SINCOS_HALVINGS, r->size) | 1; // odd, for the sine; the cosine uses the next even number
     Series odd = {1, last, 2, true}, even = {2, last + 1, 2, true};
     Fixed s = fixed_series(&square, odd), v = fixed_series(&square, even);
     s = fixed_mul(&x, &s);
@@ -53,8 +56,8 @@ void fixed_sin_cos(const Fixed *r, Fixed *sine, Fixed *cosine) {
     *cosine = fixed_sub(&one, &v);
 }
 
-// From the double h near ln m: m e^-h = 1 + d, and ln m = h + ln(1 + d) with |d| < 2^-40. e^-h is within 2^13 ulps and
-// so is d, as m < 2; the series adds less than 8.
+// Starts from a double h near ln m. With m e^-h = 1 + d, |d| < 2^-40, the result is ln m = h + ln(1 + d). The error of
+// e^-h and of d is below 2^13 ulps, because m < 2. The series adds less than 8 ulps.
 Fixed fixed_log(double m, int exponent, int size) {
     double h = fast_log_near(m);
     Fixed minus = fixed_from_double(-h, size), d = fixed_exp(&minus), one = fixed_from_int(1, size);
@@ -73,9 +76,9 @@ Fixed fixed_log(double m, int exponent, int size) {
     return exponent < 0 ? fixed_sub(&sum, &log_2) : fixed_add(&sum, &log_2);
 }
 
-// From the double h near the angle: turning (a, b) back by h leaves the small angle d = atan(t), t = (b cos h - a sin
-// h) / (a cos h + b sin h) with |t| < 2^-40. The divisor is the length of (a, b), in [1/2, 1.42]; sine and cosine are
-// within 2^12 ulps, the numerator within 2^13, the quotient within 2^14.
+// Starts from a double h near the angle. Rotating (a, b) by -h leaves the small angle atan(t) with
+// t = (b cos h - a sin h) / (a cos h + b sin h), |t| < 2^-40. The divisor is the length of (a, b), in [1/2, 1.42]. The
+// error is below 2^12 ulps for sine and cosine, 2^13 for the numerator and 2^14 for the quotient.
 Fixed fixed_atan(const Fixed *b, const Fixed *a) {
     double h = fast_atan_near(fixed_to_double(b) / fixed_to_double(a));
     Fixed angle = fixed_from_double(h, a->size), sine, cosine, u, v, square, sum = fixed_from_int(0, a->size);
@@ -99,15 +102,15 @@ Fixed fixed_atan(const Fixed *b, const Fixed *a) {
     return fixed_add(&angle, &sum);
 }
 
-// Payne and Hanek (1983): of the bits of 2/pi only those matter that make no whole number of turns and no dust of the
-// product. x = m 2^exponent with a whole m < 2^53. The window of 2/pi 2^exponent has two limbs more than the result,
-// one of them above the binary point and one below its last ulp, so that what is cut off is worth less than an ulp.
+// Payne and Hanek's method (1983) multiplies only by those bits of 2/pi that contribute neither full turns nor amounts
+// below the precision. x = m 2^exponent with an integer m < 2^53. The window of 2/pi 2^exponent has two limbs more than
+// the result: one above the binary point and one below the last ulp. So the truncated bits are worth less than an ulp.
 Fixed fixed_reduce(double x, int size, int *quadrant) {
     enum { LIMBS = 1024 / 64 + FIXED_MAX_LIMBS + 2 };
     int exponent;
     uint64_t m = double_split(x, &exponent);
-    // The window's limb i is 64 bits of the table from bit `from` + 64 i on; bit 64 LIMBS has the weight 1. x < 2^1024
-    // leaves `from` at 117 or more.
+    // Limb i of the window holds 64 bits of the table starting at bit `from` + 64 i. Bit 64 LIMBS has the weight 1.
+    // Since x < 2^1024, `from` is at least 117.
     int from = 64 * LIMBS - exponent - 64 * (size + 1);
     Fixed window = fixed_from_int(0, size + 1);
     for (int i = 0; i <= size + 1; i++) {
@@ -116,11 +119,11 @@ Fixed fixed_reduce(double x, int size, int *quadrant) {
         uint64_t high = limb < LIMBS ? fixed_two_over_pi[limb + 1] : 0;
         window.limb[i] = bits ? low >> bits | high << (64 - bits) : low;
     }
-    window = fixed_mul_small(&window, m); // what overflows are whole turns
+    window = fixed_mul_small(&window, m); // the overflow consists of full turns
     Fixed part = fixed_from_int(0, size);
     for (int i = 0; i < size; i++)
         part.limb[i] = window.limb[i + 1];
-    // To the nearest quarter: the rest is in [-1/2, 1/2].
+    // Rounded to the nearest quarter turn; the rest is in [-1/2, 1/2].
     uint64_t whole = window.limb[size + 1] + (part.limb[size - 1] >> 63);
     if (part.limb[size - 1] >> 63)
         part.limb[size] = UINT64_MAX;

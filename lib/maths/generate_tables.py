@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""generate_tables.py: writes maths_tables.h, the constants of lib/maths, from nothing but whole numbers.
+"""generate_tables.py: writes maths_tables.h, the constants of lib/maths, by integer arithmetic.
 
 usage: generate_tables.py >maths_tables.h
 
-Needs Python alone. Real numbers are integers in units of 2^-BITS; every series is summed until its terms vanish, with
-GUARD bits to spare, so that each constant is the double nearest to the exact value (or the bits of it cut off). What
-the error bounds of the fast paths take for granted about a table is asserted here.
+Needs only Python. Real numbers are integers in units of 2^-BITS. Every series is summed until its terms vanish, with
+GUARD extra bits. So each constant is the double nearest to the exact value, or its truncated bits. The assumptions that
+the error bounds of the fast paths make about the tables are asserted here.
 """
 from fractions import Fraction
 
@@ -15,7 +15,7 @@ ONE = 1 << BITS
 
 
 def fixed(value):
-    """A Fraction as a fixed-point number."""
+    """Returns a Fraction as a fixed-point number."""
     return (value.numerator << BITS) // value.denominator
 
 
@@ -24,7 +24,7 @@ def times(a, b):
 
 
 def atanh_inverse(n):
-    """atanh(1/n) for a whole number n."""
+    """Returns atanh(1/n) for an integer n."""
     term, total, k = ONE // n, 0, 1
     while term:
         total += term // k
@@ -57,7 +57,7 @@ def exponential(x):
 
 
 def logarithm(value):
-    """ln of a Fraction near 1."""
+    """Returns ln of a Fraction near 1."""
     x = (value - 1) / (value + 1)
     term, total, k = fixed(x), 0, 1
     square = fixed(x * x)
@@ -78,7 +78,7 @@ def sine_cosine(x):
 
 
 def nearest(x, unit=None):
-    """The double nearest to a fixed-point number, as a Fraction; or the nearest multiple of 2^-unit."""
+    """Returns the double nearest to a fixed-point number, or the nearest multiple of 2^-unit, as a Fraction."""
     if x == 0:
         return Fraction(0)
     shift = abs(x).bit_length() - 53 if unit is None else BITS - unit
@@ -91,12 +91,12 @@ def nearest(x, unit=None):
 
 
 def double(value):
-    """A double in C's hexadecimal form."""
+    """Returns a double in C's hexadecimal form."""
     return float(value).hex()
 
 
 def parts(x, unit=None):
-    """x as high + low, the high part a multiple of 2^-unit."""
+    """Returns x as high + low, where the high part is a multiple of 2^-unit."""
     high = nearest(x, unit)
     return [high, nearest(x - fixed(high))]
 
@@ -114,20 +114,20 @@ def show_number(name, values):
 
 
 def show_fixed_point(name, value, limbs, comment):
-    """The fraction bits of a number below 1, or below 2^64 with its whole part last, lowest limb first."""
+    """Prints the fraction of a number below 2^64 in limbs, lowest first, followed by its integer part."""
     words = value >> (BITS - 64 * limbs)
     rows = [f'UINT64_C(0x{words >> 64 * i & (2**64 - 1):016x})' for i in range(limbs + 1)]
     show('uint64_t', name, f'[{limbs + 1}]', [', '.join(rows[i:i + 4]) for i in range(0, limbs + 1, 4)], comment)
 
 
 WIDE = 12  # FIXED_MAX_LIMBS of fixed.h
-FACTORIALS = 80  # more than the series of fixed_functions.c need: fixed_series asserts it
-print('// maths_tables.h: the constants of lib/maths. Written by generate_tables.py; not for the hand.')
+FACTORIALS = 80  # more than the series of fixed_functions.c need; fixed_series asserts this
+print('// maths_tables.h: the constants of lib/maths. Written by generate_tables.py; do not edit.')
 print('//')
 print('// clang-format off')
 print('#ifndef PETRI_MATHS_TABLES_H\n#define PETRI_MATHS_TABLES_H\n\n#include <stdint.h>\n')
 
-# --- exponential: ln 2 / 128 in two parts (k of 18 bits times the first is exact), and 2^(i/128)
+# --- exponential: ln 2 / 128 in two parts, whose first is exact when multiplied by an 18-bit k, and 2^(i/128)
 step = parts(LN2 // 128, 42)
 assert (step[0] * 2**42).numerator.bit_length() <= 35
 show_number('EXP_STEPS_PER_ONE', [nearest(128 * ONE * ONE // LN2)])
@@ -138,7 +138,7 @@ show_number('LOG_2_LOW', [parts(LN2, 42)[1]])
 for name, value in (('LOG_2E', ONE * ONE // LN2), ('LOG_10E', ONE * ONE // LN10)):
     show_number(name + '_HIGH', [parts(value)[0]])
     show_number(name + '_LOW', [parts(value)[1]])
-# --- turns: pi / 512 in three parts (k of 24 bits times either of the first two is exact)
+# --- turns: pi / 512 in three parts, whose first two are exact when multiplied by a 24-bit k
 first = nearest(PI // 512, 36)
 second = nearest(PI // 512 - fixed(first), 65)
 third = nearest(PI // 512 - fixed(first) - fixed(second))
@@ -155,13 +155,13 @@ for name, value in (('PI', PI), ('HALF_PI', PI // 2)):
 show('double', 'exp_table', '[128][2]', [parts(exponential(LN2 * i // 128)) for i in range(128)],
      '2^(i/128) as high + low')
 
-# --- logarithm: for m in [0.6875, 1.375), row i = the next 8 bits of the mantissa counted from 0.6875
+# --- logarithm: for m in [0.6875, 1.375); row i is given by the upper 8 bits of the mantissa, counted from 0.6875
 rows = []
 for i in range(256):
     bits = 0x3fe6000000000000 + (i << 44)
     mantissa, below = 2**52 + (bits & (2**52 - 1)), bits >> 52 == 0x3fe
     low, width = Fraction(mantissa, 2**(53 if below else 52)), Fraction(1, 2**(9 if below else 8))
-    # The rows on both sides of 1 take r = 1, for relative accuracy; a shorter r below 1 keeps r m - 1 in 53 bits.
+    # The rows on both sides of 1 use r = 1, for relative accuracy. A shorter r below 1 keeps r m - 1 within 53 bits.
     unit = 8 if below else 9
     r = Fraction(round(2**unit / (low + width / 2)), 2**unit)
     if low == 1 or low + width == 1:
@@ -170,8 +170,8 @@ for i in range(256):
     assert largest <= Fraction(1, 2**8), (i, float(largest))
     assert largest <= Fraction(2**53, 2**((53 if below else 52) + unit)), i  # r m - 1 is a double
     log = -logarithm(r)
-    assert r == 1 or abs(log) > fixed(largest)  # the order that the sum log + z needs
-    # |z|^3 against the least |ln x| of the row: here, k = 0
+    assert r == 1 or abs(log) > fixed(largest)  # fast_two_sum of log + z needs this order
+    # |z|^3 relative to the smallest |ln x| of the row, which has k = 0
     ends = [low, low + width]
     least = min(abs(1 - m) for m in ends if m != 1) if r != 1 else 0
     assert r == 1 or largest**3 <= least * Fraction(1, 2**16), i
@@ -196,7 +196,7 @@ def root(value):
 
 
 def taylor_asin(c, degree):
-    """All derivatives are sqrt(1 - c^2) times rational numbers: the root is taken out."""
+    """Returns the Taylor coefficients of asin at c, divided by sqrt(1 - c^2), which makes them rational."""
     a = [Fraction(0), 1 / (1 - c * c)]
     for k in range(0, degree - 1):
         a.append((c * (k + 1) * (2 * k + 1) * a[k + 1] + k * k * (a[k] if k else 0)) / ((1 - c * c) * (k + 1) * (k + 2)))
@@ -204,7 +204,7 @@ def taylor_asin(c, degree):
 
 
 def arctangent(value):
-    """atan of a Fraction in [0, 1], by halving the angle until the series is short."""
+    """Returns atan of a Fraction in [0, 1]. Halves the angle until the series is short."""
     x, halvings = fixed(value), 0
     while x > ONE >> 6:
         from math import isqrt
@@ -235,7 +235,7 @@ for i in range(9):
 rows[0] = parts(0) + parts(ONE) + [nearest(fixed(v)) for v in taylor_asin(Fraction(0), 8)[2:]]
 show('double', 'asin_table', '[9][11]', rows, 'Taylor coefficients of asin at i/128: two as high + low, seven more')
 
-# For larger x the rows become shorter with 1 - x: row i is the next 6 bits of the mantissa of 1 - x, from 1/16 on.
+# For larger x the rows become narrower with 1 - x: row i is given by the upper 6 bits of its mantissa, from 1/16.
 rows = []
 for i in range(256):
     unit = Fraction(1, 16) * 2**(i // 64)
@@ -249,7 +249,7 @@ for i in range(256):
 show('double', 'steep_asin_table', '[256][13]', rows, 'c, and Taylor coefficients of asin at c, for 1 - c from 1/16 to 1')
 
 # acos x / sqrt(1 - x) has no singularity at 1: with t = 1 - x it is sqrt 2 times the sum of binomial(2 k, k) / (2 k + 1)
-# (t/8)^k. Around c = i/128, t = 1 - c - d. The coefficients fall as 4^-k.. 2^-k: 400 terms for 300 bits.
+# (t/8)^k. Around c = i/128, t = 1 - c - d. The coefficients decrease like 4^-k to 2^-k: 400 terms for 300 bits.
 from math import comb
 
 UNIT = 300

@@ -1,7 +1,7 @@
-// lanes.h: the vocabulary of the fast paths: LANES doubles at a time, for the instruction set of the file.
+// lanes.h: SIMD types and operations for the fast paths, LANES doubles at a time.
 //
-// LANES (1, 2, 4 or 8) is set by the file that includes this. With one lane a Real is a double, so that the same source
-// gives the scalar functions. Arithmetic is written with operators; each is one IEEE operation per lane.
+// The including file defines LANES as 1, 2, 4 or 8. With one lane a Real is a double, so that the same source also
+// compiles to the scalar functions. Arithmetic is written with C operators. Each is one IEEE operation per lane.
 #ifndef PETRI_MATHS_LANES_H
 #define PETRI_MATHS_LANES_H
 
@@ -19,7 +19,7 @@
 #define LANES 1
 #endif
 
-// A test may look at what is decided.
+// Hook for tests, called with the arguments of every lanes_decide.
 #ifndef LANES_WATCH
 #define LANES_WATCH(high, low, error) (void)0
 #endif
@@ -34,18 +34,18 @@ typedef double Real __attribute__((vector_size(8 * LANES)));
 typedef uint64_t Bits __attribute__((vector_size(8 * LANES)));
 #endif
 
-// A set of lanes, the first in the lowest bit.
+// A set of lanes as a bit mask; bit 0 is the first lane.
 typedef unsigned Lanes;
 #define ALL_LANES ((1u << LANES) - 1)
 
-// The lanes in both sets. A single lane takes a branch, which is foreseen well.
+// The intersection of two sets. A single lane uses a branch, which is predicted well.
 #if LANES == 1
 #define LANES_BOTH(a, b) ((a) && (b))
 #else
 #define LANES_BOTH(a, b) ((a) & (b))
 #endif
 
-// Has this instruction set a fused multiply-add? It only serves to find results, never to change them.
+// True if the instruction set has a fused multiply-add. Its use never changes results.
 #if defined(__FMA__) || defined(__aarch64__)
 #define HAS_FMA 1
 #else
@@ -88,7 +88,7 @@ KERNEL Real real_absolute(Real a) {
 #endif
 }
 
-// a b + c with one rounding or with two: for sums whose error bound covers both.
+// Returns a b + c, rounded once or twice. Only for sums whose error bound covers both cases.
 KERNEL Real real_muladd(Real a, Real b, Real c) {
 #if !HAS_FMA
     return a * b + c;
@@ -106,14 +106,15 @@ KERNEL Real real_muladd(Real a, Real b, Real c) {
 }
 
 #if !HAS_FMA
-// Veltkamp: a is the sum of the result and a rest, 26 bits each. |a| < 2^996.
+// Returns the upper 26 bits of a; the difference from a also has 26 bits (Veltkamp). |a| < 2^996.
 KERNEL Real real_split_high(Real a) {
     Real c = a * real_set(134217729.0);
     return c - (c - a);
 }
 #endif
 
-// a b - p, exactly, for p = a b rounded: by a fused operation or as Dekker (1971) does it. No exponent below -1022.
+// Returns the exact rounding error a b - p of p = a b, by a fused operation or by Dekker's method (1971). No operand or
+// result may be subnormal.
 KERNEL Real real_two_product_error(Real a, Real b, Real p) {
 #if HAS_FMA
     return real_muladd(a, b, -p);
@@ -123,7 +124,7 @@ KERNEL Real real_two_product_error(Real a, Real b, Real p) {
 #endif
 }
 
-// c - a b, exactly if that is a double and a b is near c: the rest of a quotient or of a root.
+// Returns c - a b, the residue of a quotient or a root. Exact if it is a double and a b is near c.
 KERNEL Real real_residue(Real c, Real a, Real b) {
 #if HAS_FMA
     return real_muladd(-a, b, c);
@@ -133,18 +134,18 @@ KERNEL Real real_residue(Real c, Real a, Real b) {
 #endif
 }
 
-// The rounding error of s = a + b, exactly, where |a| ≥ |b| or a = 0 (Dekker).
+// Returns the exact rounding error of s = a + b for |a| ≥ |b| or a = 0 (Dekker).
 KERNEL Real real_fast_two_sum_error(Real a, Real b, Real s) {
     return b - (s - a);
 }
 
-// The same for any a and b (Knuth).
+// Returns the exact rounding error of s = a + b for any a and b (Knuth).
 KERNEL Real real_two_sum_error(Real a, Real b, Real s) {
     Real t = s - a;
     return (a - (s - t)) + (b - t);
 }
 
-// table[index] per lane.
+// Returns table[index] in each lane.
 KERNEL Real real_gather_table(const double *table, Bits index) {
 #if LANES == 1
     return table[index];
@@ -173,7 +174,7 @@ KERNEL void real_store(double *to, Real a) {
 #if defined(__AVX2__)
 typedef double Quad __attribute__((vector_size(32)));
 
-// The columns of four rows.
+// Transposes a 4 x 4 matrix.
 KERNEL void quads_transpose(Quad *r) {
     Quad a = _mm256_unpacklo_pd(r[0], r[1]), b = _mm256_unpackhi_pd(r[0], r[1]);
     Quad c = _mm256_unpacklo_pd(r[2], r[3]), d = _mm256_unpackhi_pd(r[2], r[3]);
@@ -184,8 +185,8 @@ KERNEL void quads_transpose(Quad *r) {
 }
 #endif
 
-// The columns of rows of four, one row per lane. One load a lane and an exchange of places are faster than four
-// gathers.
+// Loads a row of four numbers per lane and transposes them into four columns. One load per lane and a transposition are
+// faster than four gathers.
 KERNEL void real_load_rows(const double *const *rows, Real *columns) {
 #if LANES == 1
     for (int m = 0; m < 4; m++)
@@ -217,7 +218,7 @@ KERNEL void real_load_rows(const double *const *rows, Real *columns) {
 #endif
 }
 
-// Row `index` of a table of four columns: its columns per lane.
+// Loads row `index` of a table with four columns in each lane.
 KERNEL void real_gather_table_row(const double (*table)[4], Bits index, Real *columns) {
 #if LANES == 1
     const double *rows[] = {table[index]};
@@ -229,18 +230,18 @@ KERNEL void real_gather_table_row(const double (*table)[4], Bits index, Real *co
     real_load_rows(rows, columns);
 }
 
-// The upper 12 bits, as signed numbers.
+// Returns the upper 12 bits as signed numbers.
 KERNEL Real lanes_exponent(Bits a) {
 #if LANES == 1
     return (double)((int64_t)a >> 52);
 #else
-    // Plus 2048 they are positive; put behind the exponent of 2^52 they make a double.
+    // Adding 2048 makes them positive. Combined with the exponent of 2^52 they form a double.
     Bits above = (a ^ bits_set(UINT64_C(1) << 63)) >> 52;
     return real_of(above | bits_set(UINT64_C(0x4330000000000000))) - real_set(4503599627370496.0 + 2048);
 #endif
 }
 
-// Comparisons; false for nan.
+// Comparisons return the lanes where they are true; false for NaN.
 KERNEL Lanes lanes_equal(Real a, Real b) {
 #if LANES == 1
     return a == b;
@@ -271,15 +272,15 @@ KERNEL Lanes lanes_less(Real a, Real b) {
 #endif
 }
 
-// Ziv's rounding test (ACM TOMS 17, 1991): if the exact value is within `error` of high + low, *result is that value
-// rounded to nearest in the lanes that are returned.
+// Ziv's rounding test (ACM TOMS 17, 1991). The exact value must be within `error` of high + low. Returns the lanes in
+// which *result is certainly the exact value rounded to nearest.
 KERNEL Lanes lanes_decide(Real high, Real low, Real error, Real *result) {
     LANES_WATCH(high, low, error);
     *result = high + (low + error);
     return lanes_equal(*result, high + (low - error));
 }
 
-// x to the nearest whole number, |x| < 2^51 (times `step` before): as a double, and in two's complement.
+// Returns x times `step` rounded to the nearest integer, and the same as an integer in *number. |x step| < 2^51.
 #define REAL_ROUNDER 6755399441055744.0 // 1.5 2^52
 KERNEL Real real_steps(Real x, double step, Bits *number) {
     Real shifted = x * real_set(step) + real_set(REAL_ROUNDER);

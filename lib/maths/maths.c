@@ -1,4 +1,4 @@
-// maths.c: the public functions: each calls the instance for this processor. All instances give the same bits.
+// maths.c: see maths.h. Each function calls the variant for this processor. All variants return the same bits.
 #include "maths/maths.h"
 
 #include "base/cpu.h"

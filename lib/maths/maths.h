@@ -1,10 +1,10 @@
-// maths.h: elementary functions whose bits mathematics defines.
+// maths.h: correctly rounded elementary functions.
 //
-// Each result is the double nearest to the exact value, ties to even: the same with every compiler, C library,
-// processor and instruction set. Special cases are those of C17 Annex F. What is not a number comes out as a nan; no
-// exception flag and no errno means anything. The processor must round to nearest.
+// Each result is the double nearest to the exact value, ties to even. So it is the same with every compiler, C library,
+// processor and instruction set. Special cases follow C17 Annex F, but any NaN may be returned, and exception flags and
+// errno are undefined. The processor must be in the rounding mode to nearest.
 //
-// How it is done: fast.h (Ziv's two steps), fast_exp.h, fast_log.h, fast_sincos.h, fast_arc.h, fixed.h.
+// The method is described in fast.h (Ziv's two steps), fast_exp.h, fast_log.h, fast_sincos.h, fast_arc.h and fixed.h.
 #ifndef PETRI_MATHS_H
 #define PETRI_MATHS_H
 
@@ -20,7 +20,7 @@ double maths_log2(double x);
 double maths_log10(double x);
 double maths_pow(double x, double y);
 
-// sqrt(x^2 + y^2) without overflow in between: the same everywhere, but with more than one rounding.
+// Returns sqrt(x^2 + y^2) without intermediate overflow. Not correctly rounded, but the same on every machine.
 double maths_hypot(double x, double y);
 
 #endif

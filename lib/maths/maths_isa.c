@@ -1,7 +1,7 @@
-// maths_isa.c: the scalar functions for one instruction set, named by MATHS_ISA: maths_sin_plain and so on.
+// maths_isa.c: the scalar functions for one instruction set. MATHS_ISA is its name, as in maths_sin_plain.
 //
-// Each asks its fast path first. What that cannot decide (once in some thousand arguments), and all that is special, is
-// left to exact_….
+// Each function tries its fast path first. If that cannot decide (about one in a thousand arguments), or if the
+// argument is special, it calls the exact_ function.
 #include "maths/fast.h"
 
 #define LANES 1

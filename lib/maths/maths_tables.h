@@ -1,4 +1,4 @@
-// maths_tables.h: the constants of lib/maths. Written by generate_tables.py; not for the hand.
+// maths_tables.h: the constants of lib/maths. Written by generate_tables.py; do not edit.
 //
 // clang-format off
 #ifndef PETRI_MATHS_TABLES_H

@@ -9,16 +9,16 @@
 #include <math.h>
 #include <string.h>
 
-// What is left of x ≥ 0 after the nearest whole number (the even one of two), exactly, and that number modulo 4.
+// Returns x ≥ 0 minus the nearest integer (ties to even), exactly, and that integer modulo 4 in *quadrant.
 static double quarter_rest(double x, unsigned *quadrant) {
     *quadrant = 0;
     if (!(x < 9007199254740992.0)) {
-        // A whole number, infinity or nan; from 2^63 on a multiple of 4.
+        // x is an integer, infinite or NaN. Integers from 2^63 are multiples of 4.
         if (x < 9223372036854775808.0)
             *quadrant = (uint64_t)x & 3;
         return x - x;
     }
-    // Multiples of 4 do not count; what is left can be rounded by adding and taking away 2^52.
+    // Remove a multiple of 4, so that the rest can be rounded by adding and subtracting 2^52.
     if (x >= 2251799813685248.0)
         x -= 2251799813685248.0 * (double)((uint64_t)x >> 51);
     double whole = x + 4503599627370496.0 - 4503599627370496.0;
@@ -82,7 +82,7 @@ double random_normal(uint64_t key, uint64_t i) {
 
 enum { PAIRS_AT_ONCE = 64 };
 
-// The pairs with items 2 `pair` and 2 `pair` + 1 and so on.
+// Computes `count` pairs of items; the first pair is 2 `pair` and 2 `pair` + 1.
 static void normal_pairs(CpuLevel level, uint64_t key, uint64_t pair, size_t count, double *to) {
     double radius[PAIRS_AT_ONCE], turns[2 * PAIRS_AT_ONCE];
     maths_uniform_array(level, key, 2 * pair, 2 * count, turns);
