@@ -1,14 +1,14 @@
-// backoff.c: see backoff.h.
+// backoff.c: decides from earlier jobs whether to use helper threads (backoff.h).
 #include "physics/backoff.h"
 
-static const int64_t max_saved = 4000000; // that counts: about a turn of another process
+static const int64_t max_saved = 4000000; // limit of PhysBackoff.saved; about a time slice of another process
 static const uint64_t max_pause = 1000000000;
 
 bool phys_backoff_pauses(const PhysBackoff *backoff, uint64_t now) {
     return now < backoff->pause_end;
 }
 
-// A pause after `lost` nanoseconds; a longer one, if the last one is not long over.
+// Starts a pause after a loss of `lost` nanoseconds. It is longer if the last one ended recently.
 static void start_pause(PhysBackoff *backoff, uint64_t lost, uint64_t now) {
     bool again = backoff->pause_length && now - backoff->pause_end < backoff->pause_length;
     backoff->doublings = !again                                    ? 0
@@ -21,7 +21,7 @@ static void start_pause(PhysBackoff *backoff, uint64_t lost, uint64_t now) {
     backoff->saved = 0;
 }
 
-// With help the caller spares about half as long as it works.
+// Helpers save about half of the time that the caller works.
 void phys_backoff_learn(PhysBackoff *backoff, const PhysJobTimes *job) {
     uint64_t took = job->end - job->begin;
     if (!job->answered) {
@@ -44,7 +44,7 @@ bool phys_tuner_should_help(const PhysTuner *tuner) {
     return tuner->alone_is_faster == other;
 }
 
-// A job that somebody disturbed counts no more than twice what is usual.
+// Updates a smoothed mean. Disturbed jobs count at most twice the mean.
 static void update_mean(double *mean, double value) {
     enum { WEIGHT = 8 };
     double max = *mean * 2;

@@ -1,4 +1,5 @@
-// barrier.c: bounces off hard boundaries (4.4). Soft ones, and the formulas used here, are in single_formulas.h.
+// barrier.c: reflections at hard boundaries (4.4). Soft boundaries, and the formulas used here, are in
+// single_formulas.h.
 #define LANES 1
 #include "physics/single_formulas.h"
 
@@ -50,7 +51,7 @@ static double acceleration_along(const Columns *columns, const PhysForce *barrie
     return sum;
 }
 
-// Motion once more; a_k = (v_k − v_k before) / delta.
+// Moves the particle again and sets a_k = (v_k − v_k before) / delta.
 static void move_again(const Columns *columns, size_t i, double delta, double speed_of_light) {
     size_t n = columns->dimensions;
     Block block = block_at(columns, i);
@@ -64,14 +65,14 @@ static void move_again(const Columns *columns, size_t i, double delta, double sp
 
 //   x = Σ (p_k − position_k)·normal_k accumulated from −r;   w = Σ v_k·normal_k;   b = Σ a_k·normal_k
 //   if x ≥ 0: done
-//   if not w < 0: put on the surface; done                     already leaving
+//   if not w < 0: put on the surface; done                     already moving away
 //   τ = x / w;  outside = τ > delta;  if outside: τ = delta    time since contact, at most the whole step
-//   back to the contact
+//   move back to the contact
 //   w' = Σ v_k·normal_k
 //   if outside: x' as x above; if x' < 0: put on the surface
 //   if w' < 0: reflect
 //   if b < 0 and w'/b < τ: τ = max(w'/b, 0)                    not beyond the top of the bounce
-//   if τ > 0: motion again with τ for delta and the same force; else a = 0
+//   if τ > 0: move again with τ for delta and the same force; else a = 0
 void phys_reflect(const Columns *columns, size_t i, const Force *force, double delta, double speed_of_light) {
     const PhysForce *barrier = &force->given;
     double radius = columns->radius[phys_numbers_at(columns, i)], x = particle_height(columns, i, barrier, -radius);

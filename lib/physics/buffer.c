@@ -1,33 +1,33 @@
-// buffer.c: arrays that grow and are kept from frame to frame.
+// buffer.c: growing arrays whose memory is reused from frame to frame.
 #include "physics/internal.h"
 
 #include <string.h>
 
-enum { GROWTH_DIVISOR = 16 }; // one more byte for so many
+enum { GROWTH_DIVISOR = 16 }; // without `retained`, capacity grows by at least 1/16
 
 bool phys_buffer_reserve(PhysSystem *system, Buffer *buffer, uint64_t retained, uint64_t count, uint64_t size) {
     if (system->failed)
         return false;
     uint64_t needed;
     if (!__builtin_mul_overflow(count, size, &needed) && needed <= buffer->capacity)
-        return true; // nearly always, and for every particle
+        return true; // the fast path: called for every particle
     uint64_t others = system->bytes - buffer->capacity;
     if (size && count > (PHYS_MAX_BYTES - others) / size) {
         system->failed = true;
         return false;
     }
-    // Twice as much as before keeps the cost of growing by single elements linear. What is filled anew grows by little,
-    // if at all, but perhaps often.
+    // Doubling keeps the cost of adding single elements linear. Buffers that are refilled from scratch grow rarely and
+    // by little.
     uint64_t more = retained ? buffer->capacity : buffer->capacity / GROWTH_DIVISOR;
     uint64_t capacity = buffer->capacity + more > needed ? buffer->capacity + more : needed;
-    if (!retained) // the old block first, so that both need not fit into memory
+    if (!retained) // free the old block first, so that both need not fit into memory
         phys_buffer_free(buffer);
     if (capacity > PHYS_MAX_BYTES - others)
         capacity = needed;
     Buffer larger = {.capacity = capacity, .shown = buffer->shown};
     arena_init(&larger.arena, "physics", SIZE_MAX);
     larger.arena.budget = system->options.meter;
-    // Its only block: without it there is nothing to free.
+    // The arena's only block, so nothing must be freed on failure.
     larger.bytes = arena_try_alloc(&larger.arena, (size_t)capacity);
     if (!larger.bytes) {
         system->bytes = others + buffer->capacity;

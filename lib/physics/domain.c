@@ -1,13 +1,13 @@
-// domain.c: see domain.h. What the ranks do in a frame.
+// domain.c: the steps of a frame with domain decomposition (domain.h).
 #include "physics/domain.h"
 
 #include <time.h>
 
 enum {
-    MIN_PARTICLES = 8000, // for fewer it is not worth it
-    FIRST_INTERVAL = 32,  // steps before plots are dealt out again, at first; doubled each time
+    MIN_PARTICLES = 8000, // fewer are not worth the communication
+    FIRST_INTERVAL = 32,  // steps before the first rebalancing; doubled each time
 };
-#define MAX_IMBALANCE 1.15 // the longest work of a rank, divided by the mean, that lets plots be dealt out again
+#define MAX_IMBALANCE 1.15 // largest time of a rank divided by the mean; above it, patches are rebalanced
 
 static bool has_unbounded_force(const PhysSystem *system, Domain *reach) {
     const Force *forces = system->forces.bytes;
@@ -30,7 +30,7 @@ static bool has_unbounded_force(const PhysSystem *system, Domain *reach) {
     return !any || !(reach->bound < INFINITY);
 }
 
-// Making particles whole at the end of a frame takes about as long as one step.
+// A frame must make at least two steps, because collecting all particles at its end takes about as long as one.
 static bool pays_off(const PhysSystem *system, const PhysTime *time) {
     const PhysOptions *options = &system->options;
     bool many = system->particle_count >= MIN_PARTICLES && time->now - time->last > 1.5 * time->resolution;
@@ -52,7 +52,7 @@ static Domain *get_domain(PhysSystem *system) {
     PhysOptions options = system->options;
     options.neighbours = PHYS_NEIGHBOURS_ALWAYS;
     options.pool = system->threads;
-    options.meter = NULL; // all ranks charge the same, whatever their part
+    options.meter = NULL; // phys_domain_step charges the same on all ranks
     options.ranks = (PhysRanks){.rank_count = 0};
     if (!system->threads)
         options.threads = 1;
@@ -79,7 +79,7 @@ void phys_domain_free(PhysSystem *system) {
     phys_buffer_free(&system->domain);
 }
 
-// Some particle sees farther than the halo was made for.
+// Returns true if a particle has a larger range than the halo was built for.
 static bool sees_farther(const PhysSystem *system, const Domain *domain) {
     const double *radius = system->columns.radius;
     for (uint32_t i = 0; i < system->particle_count; i++) {
@@ -94,7 +94,7 @@ static bool sees_farther(const PhysSystem *system, const Domain *domain) {
     return false;
 }
 
-// Has the work turned out uneven? All ranks know the same.
+// Returns true if the work was distributed unevenly. Returns the same on all ranks.
 static bool is_unbalanced(const PhysSystem *system, const Domain *domain) {
     const double *rank_seconds = domain->rank_seconds.bytes;
     double max_seconds = 0, sum = 0;
@@ -111,7 +111,7 @@ static bool rebalance(PhysSystem *system, Domain *domain) {
         phys_fill_motion(system);
     if (!phys_domain_balance(system, domain) || !phys_domain_find_halo(system, domain))
         return false;
-    domain->is_valid = false; // for what is there is not to be taken along
+    domain->is_valid = false; // so that phys_domain_build_local does not reuse the old local system
     domain->is_valid = phys_domain_build_local(system, domain);
     domain->columns_version = system->columns_version;
     return domain->is_valid;
@@ -148,7 +148,7 @@ bool phys_domain_begin(PhysSystem *system, const PhysTime *time) {
     Domain reach, *domain = system->domain.bytes;
     bool shared = pays_off(system, time) && !has_unbounded_force(system, &reach) && begin_frame(system, &reach);
     if (!shared && domain)
-        domain->is_valid = false; // it does not know of what happens in this frame
+        domain->is_valid = false; // the local system does not take part in this frame
     if (!shared && system->columns_stale && !system->failed)
         phys_fill_motion(system);
     system->edited = false;
@@ -156,7 +156,7 @@ bool phys_domain_begin(PhysSystem *system, const PhysTime *time) {
     return shared;
 }
 
-// Has an own particle left its skin, or grown? For forces that have no lists, which would tell.
+// Returns true if an owned particle has left its skin or has grown. Only needed if a pass has no list to detect this.
 static bool left_skin(const PhysSystem *system, const Domain *domain) {
     const Columns *columns = &domain->local->columns;
     const double *built = domain->built.bytes;
@@ -185,7 +185,7 @@ static bool rebuild_local(PhysSystem *system, Domain *domain) {
            phys_domain_build_local(system, domain);
 }
 
-// Brings the halo up to date, with a new one if some rank needs it.
+// Updates the halo, or rebuilds it if any rank needs that.
 static bool update_halo(PhysSystem *system, Domain *domain) {
     const PhysRanks *ranks = &system->options.ranks;
     if (!domain->age)

@@ -1,12 +1,10 @@
-// domain_balance.c: plots of space, along a Hilbert curve, for ranks.
+// domain_balance.c: divides space into patches and assigns them to ranks along a Hilbert curve.
 #include "physics/domain.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-    PATCHES_PER_RANK = 8192
-}; // plots for a rank: the smaller they are, the fewer particles are looked at one by one
+enum { PATCHES_PER_RANK = 8192 }; // with smaller patches, fewer particles must be tested one by one
 
 static uint32_t rotate_right(uint32_t word, uint32_t by, uint32_t bits) {
     by %= bits;
@@ -18,16 +16,15 @@ static uint32_t gray_encode(uint32_t word) {
 }
 
 static uint32_t gray_decode(uint32_t word) {
-    return word ^ word >> 1 ^ word >> 2; // of at most three bits
+    return word ^ word >> 1 ^ word >> 2; // valid for at most three bits
 }
 
 static uint32_t trailing_ones(uint32_t word) {
     return (uint32_t)__builtin_ctz(~word);
 }
 
-// How far along a Hilbert curve a cell is, in a cube of 2^levels cells along each of n axes. From level to level the
-// curve enters a cube at a corner and leaves it along an axis; in what order it goes through its parts is a Gray code
-// that is reflected and rotated accordingly.
+// At each level, the curve enters a cube at a corner and leaves it along an axis. It visits the parts of the cube in
+// the order of a Gray code, which is reflected and rotated accordingly.
 uint64_t phys_hilbert_index(const uint32_t *cell, uint32_t n, uint32_t levels) {
     uint64_t index = 0;
     uint32_t corner = 0, axis = 0;
@@ -70,7 +67,7 @@ static void index_patches(const Grid *grid, Patch *patches, uint32_t count) {
     }
 }
 
-// Runs of plots with equal loads, as nearly as they come.
+// Assigns contiguous ranges of patches with nearly equal loads.
 static void assign_patches(Patch *patches, uint32_t count, uint32_t ranks, uint32_t *owners) {
     double total = 0, so_far = 0;
     for (uint32_t i = 0; i < count; i++)
@@ -83,7 +80,7 @@ static void assign_patches(Patch *patches, uint32_t count, uint32_t ranks, uint3
     }
 }
 
-// What a particle of each rank has cost, if that is known.
+// Computes the measured cost of a particle of each rank, or 1 if no cost is known.
 static void price_particles(const PhysSystem *system, const Domain *domain, double *prices) {
     const uint32_t *counts = domain->counts.bytes;
     const double *rank_seconds = domain->rank_seconds.bytes;
@@ -93,11 +90,11 @@ static void price_particles(const PhysSystem *system, const Domain *domain, doub
         prices[r] = domain->steps && counts[r] && rank_seconds[r] > 0 ? rank_seconds[r] / counts[r] : 0;
         highest = prices[r] > highest ? prices[r] : highest;
     }
-    for (int r = 0; r < ranks; r++) // a rank that had nothing knows no price
+    for (int r = 0; r < ranks; r++) // a rank without particles has no measured cost
         prices[r] = prices[r] > 0 ? prices[r] : highest > 0 ? highest : 1;
 }
 
-// As many plots along each axis as the curve has: cut in the middle, it gives halves with a straight border.
+// Rounds the number of patches along each axis down to a power of two, so that half of the curve has a straight border.
 static void round_patches(Grid *grid) {
     for (size_t k = 0; k < grid->dimensions; k++) {
         uint32_t cells = 1;
@@ -130,7 +127,7 @@ static bool layout_patches(PhysSystem *system, Domain *domain) {
     return true;
 }
 
-// Who owns which particle, and which of this rank are on the shore.
+// Sets the owners of all particles, and lists the boundary particles of this rank.
 static bool assign_owners(PhysSystem *system, Domain *domain) {
     const uint32_t *at = domain->survey.cell, *patch_owners = domain->patch_owners.bytes,
                    *interior = domain->interior.bytes;

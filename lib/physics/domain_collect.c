@@ -1,26 +1,25 @@
-// domain_collect.c: the end of a frame: what all ranks have come to goes into the rows of each.
+// domain_collect.c: collects the results of all ranks in the rows of every rank at the end of a frame.
 //
-// What a rank has is a part of its own of what is whole: columns of its particles, in the order in which its local
-// system has them, their handles, and a tail.
+// Each rank fills one section of a common array: columns of its particles in local order, their handles, and a tail.
 #include "physics/domain.h"
 #include "physics/threads.h"
 
 enum {
-    LINE = 8, // doubles by which columns, and what is behind them, are rounded up
+    LINE = 8, // doubles; the parts of a section are rounded up to it
     TAIL = LINE,
 };
 
 typedef struct RankSection {
     Columns columns;
     uint32_t *handles;
-    double *tail; // the seconds that it worked
+    double *tail; // Domain.seconds of the rank
 } RankSection;
 
 static size_t round_up(size_t doubles) {
     return (doubles + LINE - 1) / LINE * LINE;
 }
 
-// Doubles of a part.
+// Returns the number of doubles in a section.
 static size_t section_length(uint32_t count, size_t vectors, size_t n) {
     return vectors * n * round_up(count) + round_up((count + 1) / 2) + TAIL;
 }
@@ -39,10 +38,10 @@ typedef struct Packing {
     const PhysSystem *local;
     RankSection section;
     size_t vectors;
-    uint32_t start[PHYS_MAX_CHUNKS]; // own particles before each share
+    uint32_t start[PHYS_MAX_CHUNKS]; // number of owned particles before each chunk
 } Packing;
 
-// A run of own particles, to place `to` on.
+// Copies `count` owned particles, starting at local column `first`, to the section, starting at index `to`.
 static void pack_range(const Packing *packing, size_t first, size_t count, size_t to) {
     const Columns *from = &packing->local->columns, *into = &packing->section.columns;
     for (size_t k = 0; k < from->dimensions; k++) {
@@ -107,7 +106,7 @@ bool phys_domain_collect(PhysSystem *system, bool keep_last_finite) {
     pack_section(system, domain, section_at(gathered + starts[ranks->rank], counts[ranks->rank], vectors, n), vectors);
     double nothing = 0;
     if (shared)
-        ranks->allreduce_max(ranks->user_data, &nothing, 1); // all are done when it returns
+        ranks->allreduce_max(ranks->user_data, &nothing, 1); // a barrier: all ranks have written when it returns
     else
         ranks->allgatherv(ranks->user_data, gathered, starts);
     system->rank_stats.frame_bytes += shared ? 0 : (starts[ranks->rank + 1] - starts[ranks->rank]) * sizeof(double);

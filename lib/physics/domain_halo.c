@@ -1,6 +1,6 @@
-// domain_halo.c: particles that go from one rank to another: those that move, and those that others need.
+// domain_halo.c: transfers of particles between ranks: migration and halos.
 //
-// Each message is one that both sides expect: who sends how many is made known to all first.
+// All ranks exchange the numbers of particles first, so a rank knows which messages it will receive.
 #include "physics/domain.h"
 
 #include <string.h>
@@ -30,7 +30,7 @@ static bool reserve_transfers(PhysSystem *system, Transfers *transfers, uint64_t
     return true;
 }
 
-// Sorts the parcels by rank; their order stays.
+// Sorts the transfers by rank; stable.
 static bool sort_transfers(PhysSystem *system, const Domain *domain, Transfers *to) {
     const Transfer *transfers = domain->transfers.bytes;
     uint32_t ranks = (uint32_t)system->options.ranks.rank_count;
@@ -65,7 +65,8 @@ static void receive_message(const PhysSystem *system, const Domain *domain, uint
     ranks->receive(ranks->user_data, (int)from, domain->message.bytes, 1, count, count);
 }
 
-// Tells all how many particles go from each rank to each: row `from`, column `to`.
+// Exchanges how many particles go from rank to rank, and returns the table: row `from`, column `to`. Returns NULL if
+// out of memory.
 static const double *exchange_counts(PhysSystem *system, Domain *domain, const Transfers *to) {
     size_t ranks = (size_t)system->options.ranks.rank_count, self = (size_t)system->options.ranks.rank;
     if (!phys_buffer_reserve(system, &domain->transfer_counts, 0, ranks * ranks, sizeof(double)) ||
@@ -73,7 +74,7 @@ static const double *exchange_counts(PhysSystem *system, Domain *domain, const T
         return NULL;
     double *table = domain->transfer_counts.bytes;
     size_t *starts = domain->starts.bytes;
-    memset(table, 0, ranks * ranks * sizeof *table); // should the others never answer
+    memset(table, 0, ranks * ranks * sizeof *table); // zeros if the exchange is interrupted
     for (size_t r = 0; r <= ranks; r++)
         starts[r] = r * ranks;
     for (size_t r = 0; r < ranks; r++)
@@ -88,7 +89,7 @@ static double *reserve_numbers(PhysSystem *system, Domain *domain, uint64_t coun
     return phys_buffer_reserve(system, &domain->message, 0, count, sizeof(double)) ? domain->message.bytes : NULL;
 }
 
-// One component after the other, of the particles of some columns; `place`: where each is, unless there.
+// Packs the vectors of some particles, component by component. `column_of` maps `columns` to indices; NULL: no mapping.
 static void pack_vectors(const double *vectors, const Columns *at, const uint32_t *column_of, const uint32_t *columns,
                          size_t count, double *to) {
     for (size_t k = 0; k < at->dimensions; k++)
@@ -115,7 +116,8 @@ static void change_owner(const Domain *domain, uint32_t from, uint32_t to, uint3
     phys_owners(domain)[column] = to;
 }
 
-// Particles that move go to their new owner with all that they have; everybody gets to know.
+// Sends positions and velocities of migrating particles to their new owners, and the columns of all of them to every
+// rank.
 static bool send_movers(PhysSystem *system, Domain *domain, const Transfers *to) {
     const Columns *columns = &system->columns;
     uint32_t ranks = (uint32_t)system->options.ranks.rank_count, all = to->start[ranks];
@@ -163,7 +165,7 @@ static bool receive_movers(PhysSystem *system, Domain *domain, const double *tab
     return true;
 }
 
-// The particle in a column of the local system, as it is within a frame, into one of the system.
+// Copies position and velocity from a local column to one of the system.
 static void copy_back(const PhysSystem *system, const Domain *domain, uint32_t here, uint32_t column) {
     const Columns *from = &domain->local->columns, *to = &system->columns;
     for (size_t k = 0; k < to->dimensions; k++) {
@@ -172,7 +174,7 @@ static void copy_back(const PhysSystem *system, const Domain *domain, uint32_t h
     }
 }
 
-// The ends of links are sent wherever they are.
+// Copies the owned ends of links back, because they are sent even if they are not on the boundary.
 static void copy_link_ends_back(const PhysSystem *system, const Domain *domain) {
     const Force *forces = system->forces.bytes;
     for (uint32_t f = 0; f < system->force_count; f++) {
@@ -187,8 +189,8 @@ static void copy_link_ends_back(const PhysSystem *system, const Domain *domain) 
 
 enum { RUN_LENGTH = 64, SIDE_BY_SIDE = 8, MAX_PATCHES = 32 };
 
-// Whether all particles of a whole chunk are inland, as most are; by the box that they are in, which is small where
-// columns are in the order of a list. False, too, where that is not easily found out.
+// Returns true if RUN_LENGTH particles from `first` are certainly in interior patches, as most are. Tests the patches
+// of their bounding box, which is small if the columns are in sorted order.
 static bool run_is_interior(const Columns *columns, const Grid *patches, const uint32_t *interior, size_t first) {
     uint32_t low[PHYS_VECTOR_DIMENSIONS] = {0}, high[PHYS_VECTOR_DIMENSIONS] = {0}, count = 1;
     for (size_t k = 0; k < patches->dimensions; k++) {
@@ -221,7 +223,7 @@ static bool run_is_interior(const Columns *columns, const Grid *patches, const u
     return all;
 }
 
-// Own particles that are not inland: they move, or are on the shore.
+// Finds owned particles outside the interior, and lists them as boundary particles or transfers to their new owner.
 static bool scan_boundary(PhysSystem *system, Domain *domain) {
     const Columns *columns = &domain->local->columns;
     const bool *remote = domain->local->remote;
@@ -318,7 +320,7 @@ bool phys_domain_find_halo(PhysSystem *system, Domain *domain) {
     const double *table;
     return phys_domain_select(system, domain) && sort_transfers(system, domain, &domain->to) &&
            (table = exchange_counts(system, domain, &domain->to)) && send_halo(system, domain) &&
-           receive_halo(system, domain, table) && phys_may_continue(system); // else what came is not what was sent
+           receive_halo(system, domain, table) && phys_may_continue(system); // an interrupted exchange delivers zeros
 }
 
 bool phys_domain_exchange(PhysSystem *system, Domain *domain) {

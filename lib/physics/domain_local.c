@@ -1,15 +1,15 @@
-// domain_local.c: the system that one process simulates: its own particles and its halo.
+// domain_local.c: the local system of a rank: its owned particles and its halo.
 //
-// Its handles are the columns of the whole system, so they are in the order of all, with gaps. Its columns are in that
-// order, too, or else in that of a list (reorder.c): then own particles stay where they are when a new halo comes, and
-// fresh ones take the places of those that have gone.
+// Its handles are the columns of the whole system, with gaps. Its columns are in the same order, or in that of a list
+// (reorder.c). In the latter case, owned particles keep their columns when the halo is rebuilt, and arrivals fill the
+// gaps.
 #include "physics/domain.h"
 #include "physics/threads.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-enum { LINE = 8 }; // particles, by which the room for columns is rounded up
+enum { LINE = 8 }; // particles; the capacity of the columns is rounded up to it
 
 static int compare_columns(const void *left, const void *right) {
     uint32_t a = *(const uint32_t *)left, b = *(const uint32_t *)right;
@@ -22,7 +22,7 @@ static void set_column(const Domain *domain, uint32_t here, uint32_t column, uin
     ((uint32_t *)domain->sources.bytes)[here] = source;
 }
 
-// Room for columns in order, and for more than there are now.
+// Reserves `orders`, `sources` and `column_of` for `count` local columns, and retains the old `orders`.
 static bool reserve_orders(PhysSystem *system, Domain *domain, uint64_t count) {
     Buffer orders = domain->last_orders;
     domain->last_orders = domain->orders;
@@ -37,7 +37,8 @@ static bool reserve_orders(PhysSystem *system, Domain *domain, uint64_t count) {
     return true;
 }
 
-// Orders all columns anew. Without a local system before, own particles come from the system's columns.
+// Assigns the local columns from scratch. Without an earlier local system, owned particles come from the system's
+// columns.
 static bool order_columns(PhysSystem *system, Domain *domain, uint32_t spare) {
     PhysSystem *local = domain->local;
     uint32_t self = (uint32_t)system->options.ranks.rank, arrivals = domain->arrivals.count, next = 0, here = 0;
@@ -86,7 +87,7 @@ static bool build_groups(const PhysSystem *system, const Domain *domain) {
     return true;
 }
 
-// How many particles of its group come before each, anchors apart: where it is in the streams of random numbers.
+// Counts for each particle those before it in its group that are not anchors: its position in the random streams.
 static bool count_movers(PhysSystem *system, Domain *domain) {
     const Columns *columns = &system->columns;
     Group *groups = system->groups.bytes;
@@ -154,7 +155,7 @@ static void copy_attributes(const ColumnCopy *copy, size_t first, size_t end) {
     for (int i = 0; i < 3; i++)
         if (system->record_stride)
             gather_column(sources, first, end, numbers[i][0], numbers[i][1]);
-        else // all have the same
+        else // all particles have the same attributes
             fill_range(first, end, numbers[i][0][sources[first]], numbers[i][1]);
     if (is_needed(system, NEED_SECTION))
         gather_column(sources, first, end, from->section, to->section);
@@ -185,7 +186,7 @@ static void copy_chunk(void *context, int chunk, int chunks) {
     copy_range(copy, phys_chunk_begin(count, chunk, chunks), phys_chunk_begin(count, chunk + 1, chunks));
 }
 
-// Attributes are in the system's columns, the rest is in the rows.
+// Attributes come from the system's columns, positions and velocities from the rows.
 static void reload_chunk(void *context, int chunk, int chunks) {
     const ColumnCopy *copy = context;
     const PhysSystem *system = copy->system;
@@ -230,7 +231,7 @@ static void copy_arrivals(const PhysSystem *system, const Domain *domain) {
     }
 }
 
-// The numbers of all into new columns, with some room behind them.
+// Copies all particles to new columns, which have some spare capacity.
 static bool copy_all(PhysSystem *system, Domain *domain) {
     PhysSystem *local = domain->local;
     uint32_t spare = phys_own_count(system, domain) / 32 + 256;
@@ -255,7 +256,7 @@ static bool copy_all(PhysSystem *system, Domain *domain) {
     return true;
 }
 
-// Those that have gone leave their columns to fresh ones, or to the last.
+// Fills the columns of particles that have left with arrivals, or else with the last columns.
 static void fill_gaps(const PhysSystem *system, const Domain *domain) {
     PhysSystem *local = domain->local;
     const uint32_t *arriving = domain->arrivals.columns.bytes;
@@ -280,7 +281,7 @@ static void fill_gaps(const PhysSystem *system, const Domain *domain) {
     local->particle_count = local->columns.count = count;
 }
 
-// The particles whom the rank knows from now on.
+// Builds the columns of the owned and halo particles.
 static bool build_particles(PhysSystem *system, Domain *domain) {
     PhysSystem *local = domain->local;
     uint32_t arrivals = domain->arrivals.count;
@@ -298,7 +299,7 @@ static bool build_particles(PhysSystem *system, Domain *domain) {
     return true;
 }
 
-// Where own particles were when the halo was made, and how large, if some pass had no list so far.
+// Records positions and radii of the owned particles if a pass has run without a list.
 static bool record_built(PhysSystem *system, Domain *domain) {
     const Columns *columns = &domain->local->columns;
     size_t n = columns->dimensions;
@@ -333,7 +334,8 @@ bool phys_domain_build_local(PhysSystem *system, Domain *domain) {
     return true;
 }
 
-// A link that acts on own particles has both ends here; others are left out.
+// Translates the columns of a link. Returns false for links that do not act on owned particles. Otherwise both ends are
+// in the local system.
 static bool localise_force(const PhysSystem *system, const Domain *domain, Force *force) {
     if (phys_force_row(force->given.kind).stage != STAGE_LINK)
         return true;

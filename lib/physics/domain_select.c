@@ -1,19 +1,19 @@
-// domain_select.c: which particles of this rank others need to know.
+// domain_select.c: selects the owned particles that other ranks need for their halos.
 //
-// Nearly all are inland, where nobody can see them, so plots are looked at before particles are.
+// Nearly all particles are in interior patches, which no other rank needs. So patches are tested before particles.
 #include "physics/domain.h"
 
 #include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
-// How far a particle with this radius may be from one of its partners, except for large ones.
+// Returns the distance up to which particles with these radii interact until the next rebuild.
 static double interaction_range(const Domain *domain, double radius, double partner) {
     double touch = domain->contact ? radius + partner : 0;
     return (fmax(touch, domain->bound) + domain->survey.skin) * (1 + 1e-9);
 }
 
-// On each line of plots along an axis, those within `margin` of one that is not inland are not inland either.
+// On each line of patches along an axis, clears those within `margin` of a patch that is not interior.
 static void shrink_interior(uint32_t *patches, uint32_t count, uint32_t length, uint32_t stride, uint32_t margin) {
     for (uint32_t l = 0; l < count / length; l++) {
         uint32_t *line = patches + (size_t)(l / stride) * stride * length + l % stride, away = margin;
@@ -27,7 +27,7 @@ static void shrink_interior(uint32_t *patches, uint32_t count, uint32_t length, 
     }
 }
 
-// How many plots a regular particle sees along an axis beyond its own, rounding included.
+// Returns how many patches along an axis a regular particle can reach beyond its own, with a margin for rounding.
 static uint32_t patch_margin(const Domain *domain, size_t k) {
     const Grid *grid = &domain->patches;
     double span = grid->cells[k] / grid->scale[k];
@@ -45,7 +45,7 @@ bool phys_domain_find_interior(PhysSystem *system, Domain *domain) {
         return false;
     uint32_t *interior = domain->interior.bytes;
     const uint32_t *owners = domain->patch_owners.bytes;
-    bool near = !domain->large_count; // they may see any particle
+    bool near = !domain->large_count; // large particles may reach any other
     for (uint32_t i = 0; i < count; i++)
         interior[i] = near && owners[i] == (uint32_t)system->options.ranks.rank;
     for (size_t k = 0; k < grid->dimensions; stride *= grid->cells[k], k++)
@@ -54,7 +54,8 @@ bool phys_domain_find_interior(PhysSystem *system, Domain *domain) {
     return true;
 }
 
-// All plots that a particle can see into, rounding included, because the number of a plot rises with the position.
+// Adds transfers to the owners of all patches that a particle can reach. Rounding is safe, because the index of a patch
+// is monotonic in the position.
 static bool select_for_patches(PhysSystem *system, Domain *domain, uint32_t column, uint32_t *last_sent) {
     const Columns *columns = &system->columns;
     const Grid *grid = &domain->patches;
@@ -79,7 +80,7 @@ static bool select_for_patches(PhysSystem *system, Domain *domain, uint32_t colu
     return true;
 }
 
-// Those that a large particle of another rank can see.
+// Adds transfers to the owners of large particles that can reach a particle.
 static bool select_for_large(PhysSystem *system, Domain *domain, uint32_t column, const double *positions,
                              uint32_t *last_sent) {
     const Columns *columns = &system->columns;
@@ -99,7 +100,7 @@ static bool select_for_large(PhysSystem *system, Domain *domain, uint32_t column
     return true;
 }
 
-// Where large particles are must be known to all.
+// Returns the positions of all large particles, exchanged between the ranks. Returns NULL if out of memory.
 static const double *large_positions(PhysSystem *system, Domain *domain) {
     const Columns *columns = &system->columns;
     size_t n = columns->dimensions;
@@ -123,7 +124,7 @@ static int compare_transfers(const void *left, const void *right) {
     return (a->column > b->column) - (a->column < b->column);
 }
 
-// A link takes its ends along, however far apart.
+// Adds transfers for links whose ends are on different ranks, however far apart, and removes duplicates.
 static bool select_for_links(PhysSystem *system, Domain *domain) {
     const Force *forces = system->forces.bytes;
     const uint32_t *owners = phys_owners(domain);
@@ -155,7 +156,7 @@ bool phys_domain_select(PhysSystem *system, Domain *domain) {
         !phys_buffer_reserve(system, &domain->to.items, 0, ranks, sizeof(uint32_t)))
         return false;
     const uint32_t *boundary = domain->boundary.columns.bytes;
-    uint32_t *last_sent = domain->to.items.bytes; // by rank: the last particle that it was given, plus 1
+    uint32_t *last_sent = domain->to.items.bytes; // by rank: last column selected for it, plus 1
     memset(last_sent, 0, ranks * sizeof *last_sent);
     domain->transfer_count = 0;
     for (uint32_t i = 0; i < domain->boundary.count; i++) {

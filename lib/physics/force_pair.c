@@ -1,16 +1,16 @@
-// force_pair.c: forces between all pairs of particles (4.1), by passes. The formulas are in pair_formulas.h.
+// force_pair.c: forces between all pairs of particles (4.1), in passes. The formulas are in pair_formulas.h.
 #include "physics/integrate.h"
 #include "physics/internal.h"
 #include "physics/neighbour_list.h"
 #include "physics/pair_wavefront.h"
 
-// One pass on its way through the groups.
+// One pass over the pairs of a group.
 typedef struct Pass {
     PhysSystem *system;
-    const Kernels *kernels;   // NULL: not for this pass, which goes row by row
-    const PairKernel *kernel; // likewise
-    PairPass pairs;           // what the kernel is given
-    Move *move;               // of the particles, if this is the last pass; or NULL
+    const Kernels *kernels;   // NULL: the pass is computed row by row
+    const PairKernel *kernel; // NULL: the pass is computed row by row
+    PairPass pairs;           // argument of the kernel
+    Move *move;               // motion after the last pass; NULL: none
 } Pass;
 
 static void fill_terms(PairTerm *terms, ForceRange forces) {
@@ -44,7 +44,7 @@ static Pass prepare_pass(PhysSystem *system, ForceRange forces) {
     pass.pairs = phys_columns_pass(columns);
     pass.pairs.term_count = (size_t)(forces.end - forces.begin);
     pass.pairs.terms = system->terms.bytes;
-    // What one process leaves out, others would wait for.
+    // With several ranks, no row may be skipped, because others wait for it.
     pass.pairs.stop = system->options.ranks.rank_count > 1 ? NULL : phys_stop(system);
     if (columns->dimensions <= PHYS_VECTOR_DIMENSIONS && pass.pairs.term_count <= PHYS_MAX_TERMS &&
         columns->count >= MIN_FOR_LANES) {
@@ -58,7 +58,7 @@ static void move_rows(const void *context, size_t first, size_t end) {
     phys_integrate_rows(context, first, end);
 }
 
-// On several threads, with the motion if nothing comes between.
+// Computes a region on several threads, together with the motion if it follows directly.
 static void run_wavefront(const Pass *pass, const PairRegion *region, int threads) {
     Integrator integrator;
     Move *move = region->triangle ? pass->move : NULL;
@@ -71,7 +71,7 @@ static void run_wavefront(const Pass *pass, const PairRegion *region, int thread
     move->done = true;
 }
 
-// All pairs inside one range.
+// Computes all pairs within one range.
 static void pass_triangle(const Pass *pass, size_t first, size_t end) {
     size_t count = end - first;
     if (pass->kernel && phys_ranks_should_split(pass->system, count * count / 2)) {
@@ -92,13 +92,13 @@ static void pass_triangle(const Pass *pass, size_t first, size_t end) {
         phys_pair_row(&pass->pairs, i, i + 1, end);
 }
 
-// Vectors that a rectangle with so many rows and columns takes.
+// Returns the number of vector operations of a rectangle.
 static size_t vector_count(const Pass *pass, size_t rows, size_t columns) {
     size_t lanes = pass->kernels->lanes;
     return (rows + lanes - 1) / lanes * columns;
 }
 
-// All pairs of two ranges. As action equals reaction, it does not matter which of the two has the lanes.
+// Computes all pairs between two ranges. Every K is symmetric, so either range may be the rows.
 static void pass_rectangle(const Pass *pass, size_t first, size_t end, size_t other, size_t other_end) {
     size_t rows = end - first, columns = other_end - other;
     if (!pass->kernel || rows + columns <= 4) {
@@ -120,8 +120,8 @@ static void pass_rectangle(const Pass *pass, size_t first, size_t end, size_t ot
         pass->kernel->tiles(&pass->pairs, region.row, region.row_end, region.column, region.column_end);
 }
 
-// Charges for all of so many pairs; false if they are not to be computed. A single force has a kernel of its own, which
-// takes half a nanosecond for a pair.
+// Charges for `pairs` pairs. Returns false if they must not be computed. A single force has a special kernel, which
+// needs 0.5 ns per pair.
 static bool charge_pairs(const Pass *pass, uint64_t pairs) {
     enum { GROUP_WORK = 3, SINGLE_A_UNIT = 20, TERMS_A_UNIT = 8, ROWS_A_UNIT = 4 };
     size_t n = pass->pairs.dimensions, terms = pass->pairs.term_count;
@@ -131,8 +131,8 @@ static bool charge_pairs(const Pass *pass, uint64_t pairs) {
     return phys_charge(pass->system, GROUP_WORK + units);
 }
 
-// The pair forces that `level`, the group itself or one above it, declares. The partners of a particle are the later
-// ones of its group, then the particles of the enclosing groups up to `level`.
+// Computes the pair forces that `level`, the group itself or an enclosing one, declares. The partners of a particle are
+// the later ones of its group, then those of the enclosing groups up to `level`.
 static void pair_pass(PhysSystem *system, const Group *group, uint32_t level, Move *move) {
     const Group *groups = system->groups.bytes;
     uint32_t number = (uint32_t)(group - groups);
@@ -147,7 +147,7 @@ static void pair_pass(PhysSystem *system, const Group *group, uint32_t level, Mo
     if (!charge_pairs(&pass, (uint64_t)group->count * group->count / 2))
         return;
     pass_triangle(&pass, first, end);
-    // Numbers ascend from parent to child, so on the way up those below `level` are beyond it.
+    // Group numbers ascend from parent to child, so groups below `level` are outside it.
     for (uint32_t g = number ? groups[group->parent].populated : NO_GROUP; g != NO_GROUP && g >= level;) {
         if (!charge_pairs(&pass, (uint64_t)group->count * groups[g].count))
             return;

@@ -1,9 +1,9 @@
 // grid.c: sorts the particles of a pass into the cells of a grid.
 //
-// Cells are at least as wide as the reach of a regular particle, so its neighbours are in its own cell and the ones
-// around it. The grid covers where most particles are; those outside count to the cells at its rim, which is right
-// however far away they are: it keeps neighbours in the same or in adjacent cells. Particles that are much larger than
-// the others (a few may be) are in no cell; everyone tests them.
+// Cells are at least as wide as the range of a regular particle, so its neighbours are in its own cell and the adjacent
+// ones. The grid covers the area of most particles. Particles outside belong to the cells at its edge, which still
+// keeps neighbours in the same or in adjacent cells. A few particles may be much larger than the others. They are in no
+// cell; every particle tests them.
 #include "physics/grid.h"
 
 #include "maths/maths.h"
@@ -12,18 +12,18 @@
 #include <float.h>
 #include <string.h>
 
-enum { SAMPLES = 256 }; // particles by which the grid is chosen
+enum { SAMPLES = 256 }; // number of particles from which the grid is chosen
 
-// Some of the particles: positions and radii.
+// Positions and radii of some particles.
 typedef struct Samples {
     double of[PHYS_VECTOR_DIMENSIONS + 1][SAMPLES];
     size_t count;
 } Samples;
 
-// What is known of the particles before they are sorted.
+// Extent, radii and numbers of the particles before they are sorted.
 typedef struct Survey {
     double low[PHYS_VECTOR_DIMENSIONS], high[PHYS_VECTOR_DIMENSIONS];
-    double max_radius, min_radius; // radii of regular ones
+    double max_radius, min_radius; // of regular particles
     uint32_t regular, large_count;
 } Survey;
 
@@ -32,7 +32,7 @@ static Survey no_survey(void) {
         .low = {INFINITY, INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY, -INFINITY}, .min_radius = INFINITY};
 }
 
-// Squares of lengths that a list deals with must be normal numbers.
+// Squares of lengths in a list must not be subnormal.
 #define MIN_LENGTH 1e-100
 
 static void sort_doubles(double *values, size_t count) {
@@ -53,7 +53,7 @@ static bool is_idle(const PairPass *pass, const NeighbourList *list, size_t colu
     return lost;
 }
 
-// Looks at some of the particles, so that outliers cannot spoil the grid.
+// Samples particles, so that outliers do not determine the grid.
 static void sample_particles(const PairPass *pass, const NeighbourList *list, Samples *samples) {
     uint64_t every = list->total / SAMPLES + 1, i = 0;
     samples->count = 0;
@@ -72,9 +72,9 @@ static void sample_particles(const PairPass *pass, const NeighbourList *list, Sa
         sort_doubles(samples->of[k], k < pass->dimensions || k == PHYS_VECTOR_DIMENSIONS ? samples->count : 0);
 }
 
-// Work on the particles of a pass, cut into shares.
+// Context of the jobs that sort the particles of a pass.
 typedef struct Sorting {
-    const PhysSystem *system; // NULL: one thread does it
+    const PhysSystem *system; // NULL: use one thread
     const PairPass *pass;
     NeighbourList *list;
     const Grid *grid;
@@ -93,7 +93,7 @@ static int chunk_count_of(const Sorting *sorting) {
     return sorting->system ? phys_chunk_count(sorting->system, sorting->list->total, PHYS_MIN_FOR_THREADS) : 1;
 }
 
-// The column of a particle of the pass.
+// Returns the column of a particle by its number in the ranges.
 static inline size_t column_of(const NeighbourList *list, uint32_t number) {
     const ColumnRange *range = list->ranges.at;
     while (number >= range->count)
@@ -117,9 +117,9 @@ static void survey_particle(const PairPass *pass, Survey *survey, size_t column)
     }
 }
 
-// The least and the largest of some numbers; false if one of them is not finite.
+// Extends *low and *high to cover `count` numbers. Returns false if one of them is not finite.
 static bool find_extremes(const double *numbers, size_t count, double *low, double *high) {
-    enum { WIDE = 8 }; // that a compiler takes at once
+    enum { WIDE = 8 }; // numbers that a compiler can vectorise
     double min[WIDE], max[WIDE], rest[WIDE], lost = 0;
     for (size_t m = 0; m < WIDE; m++) {
         min[m] = INFINITY;
@@ -143,7 +143,7 @@ static bool find_extremes(const double *numbers, size_t count, double *low, doub
     return lost == 0;
 }
 
-// A share in which all particles are regular, as most are; else false.
+// Surveys a chunk if all of its particles are regular, as in most chunks. Otherwise returns false.
 static bool survey_regular(const Sorting *sorting, size_t first, size_t count, Survey *survey) {
     const PairPass *pass = sorting->pass;
     bool regular = find_extremes(pass->radius + first, count, &survey->min_radius, &survey->max_radius);
@@ -176,7 +176,7 @@ static void survey_chunk(void *context, int chunk, int chunks) {
     sorting->surveys[chunk] = survey;
 }
 
-// Extent of all, and how many are large; fills list->cell with PHYS_CELL_IDLE, PHYS_CELL_LARGE or 0.
+// Surveys all particles, and sets list->cell to PHYS_CELL_IDLE, PHYS_CELL_LARGE or 0.
 static Survey survey_all(Sorting *sorting) {
     Survey parts[PHYS_MAX_CHUNKS], all = no_survey();
     int chunks = chunk_count_of(sorting);
@@ -195,7 +195,7 @@ static Survey survey_all(Sorting *sorting) {
     return all;
 }
 
-// Where the grid lies and how fine it is: cells no narrower than `width`, and not many more of them than particles.
+// Chooses the extent and resolution of the grid: at most about `max` cells, none narrower than `width`.
 static void choose_cells(const Survey *survey, const Samples *samples, double width, double max, Grid *grid) {
     double product = 1;
     double span[PHYS_VECTOR_DIMENSIONS];
@@ -210,7 +210,7 @@ static void choose_cells(const Survey *survey, const Samples *samples, double wi
         span[k] = high - low;
         product *= fmax(span[k] / width, 1);
     }
-    // Where the particles are astronomically far apart, each axis gets its share of the cells.
+    // If the particles are extremely far apart, each axis gets the same number of cells.
     bool vast = !(product <= 1e100);
     double chunk = floor(maths_pow(max, 1.0 / (double)grid->dimensions));
     if (product > max && !vast)
@@ -220,7 +220,7 @@ static void choose_cells(const Survey *survey, const Samples *samples, double wi
         double cells = floor(span[k] / width);
         if (vast && cells > chunk)
             cells = chunk;
-        cells = cells >= 1 && cells <= max / product ? cells : 1; // also where the span is not finite
+        cells = cells >= 1 && cells <= max / product ? cells : 1; // also if the span is not finite
         product *= cells;
         grid->cells[k] = (uint32_t)cells;
         grid->scale[k] = cells > 1 ? cells / span[k] : 0;
@@ -245,7 +245,7 @@ static void find_cells_chunk(void *context, int chunk, int chunks) {
             list->cell[i] = phys_cell_of(sorting->grid, pass->position + column_of(list, i), pass->stride);
 }
 
-// The place of each particle instead of its cell, by counting.
+// Replaces the cell of each particle by its sorted index, with a counting sort.
 static void number_sorted(NeighbourList *list, const Survey *survey, const Grid *grid) {
     uint32_t cells = 1, large = survey->regular, rest = survey->regular + survey->large_count;
     for (size_t k = 0; k < grid->dimensions; k++)
@@ -271,7 +271,7 @@ static void store_chunk(void *context, int chunk, int chunks) {
         store_at_index(sorting->pass, list, list->cell[i], i, column_of(list, i));
 }
 
-// Stable: inside a cell, places are in the order of the columns.
+// Sorts stably: within a cell, particles are in the order of the pass.
 static void sort_by_cell(Sorting *sorting, const Survey *survey) {
     int chunks = chunk_count_of(sorting);
     run_chunks(sorting, find_cells_chunk, chunks);
@@ -279,7 +279,7 @@ static void sort_by_cell(Sorting *sorting, const Survey *survey) {
     run_chunks(sorting, store_chunk, chunks);
 }
 
-// Points the arrays of a list into their memory.
+// Reserves memory for the arrays of a list.
 static bool reserve_arrays(PhysSystem *system, const PairPass *pass, NeighbourList *list) {
     uint64_t total = (list->total + PHYS_MAX_LANES - 1) / PHYS_MAX_LANES * PHYS_MAX_LANES + PHYS_MAX_LANES,
              n = pass->dimensions;
@@ -305,7 +305,7 @@ static bool reserve_arrays(PhysSystem *system, const PairPass *pass, NeighbourLi
     return true;
 }
 
-// What lies beyond the last place is read but never counts.
+// Fills the elements beyond the last particle, which are read but do not affect results.
 static void pad_arrays(const PairPass *pass, NeighbourList *list, uint32_t dummy) {
     for (uint32_t index = list->total; index < dummy + PHYS_MAX_LANES; index++) {
         list->view.column[index] = list->ranges.at[0].first;
@@ -314,7 +314,7 @@ static void pad_arrays(const PairPass *pass, NeighbourList *list, uint32_t dummy
         list->view.radius[index] = 0;
     }
     ListView *view = &list->view;
-    // Pairs leave half of the quads' room.
+    // PHYS_PAIR uses only half of the memory for PHYS_QUAD.
     list->next_packed = view->width == PHYS_PAIR ? view->packed + PHYS_PAIR * ((size_t)dummy + PHYS_MAX_LANES) : NULL;
     for (size_t m = 0; m < view->width; m++) {
         size_t last = view->width * (size_t)dummy + m;
@@ -326,7 +326,7 @@ static void pad_arrays(const PairPass *pass, NeighbourList *list, uint32_t dummy
         list->view.sources[2 * (size_t)dummy] = list->view.sources[2 * (size_t)dummy + 1] = 0;
 }
 
-// Finds out how long a skin is, which particles are large, and where cells lie: no more than about `most`.
+// Determines the skin, the large particles and the cells, at most about `max`.
 static bool layout_cells(Sorting *sorting, double max, Survey *survey, Grid *grid) {
     NeighbourList *list = sorting->list;
     Samples samples;
@@ -340,7 +340,7 @@ static bool layout_cells(Sorting *sorting, double max, Survey *survey, Grid *gri
         list->skin = 0.3 * list->contact_distance;
     sorting->large = 2 * list->contact_distance;
     *survey = survey_all(sorting);
-    if (survey->large_count > PHYS_MAX_LARGE) { // they are no exception
+    if (survey->large_count > PHYS_MAX_LARGE) { // too many to treat as exceptions
         sorting->large = INFINITY;
         *survey = survey_all(sorting);
     }

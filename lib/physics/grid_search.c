@@ -1,18 +1,18 @@
-// grid_search.c: neighbour lists from the cells of a grid.
+// grid_search.c: builds neighbour lists from the cells of a grid.
 #include "physics/grid.h"
 #include "physics/threads.h"
 
 enum {
-    FIRST_ENTRIES = 12, // room in the lists for so many entries a particle, at first
-    MAX_ENTRIES = 160,  // and at most
+    FIRST_ENTRIES = 12, // initial capacity, in entries per particle
+    MAX_ENTRIES = 160,  // maximum capacity, in entries per particle
     ENTRIES_SPARE = PHYS_MAX_NEIGHBOURS * PHYS_MAX_LANES,
 };
 
-// The lists of all blocks, made by several workers, each with a part of the blocks and of the memory.
+// A search for the lists of all blocks. Each chunk has its part of the blocks and of the memory.
 typedef struct SearchJob {
     const Kernels *kernels;
     const ListSearch *search;
-    uint64_t capacity; // entries in all
+    uint64_t capacity; // total number of entries
     ListChunk chunks[PHYS_MAX_CHUNKS];
 } SearchJob;
 
@@ -29,7 +29,7 @@ static void search_chunk(void *context, int chunk, int chunks) {
     job->kernels->list_search(job->search, list_chunk);
 }
 
-// Runs the search, with more memory if there was too little.
+// Runs the search, and repeats it with more memory if necessary.
 static bool search_all(PhysSystem *system, SearchJob *job, NeighbourList *list) {
     uint64_t first = (uint64_t)FIRST_ENTRIES * list->total + ENTRIES_SPARE;
     uint64_t max_entries = (uint64_t)MAX_ENTRIES * list->total + ENTRIES_SPARE;
@@ -68,7 +68,7 @@ bool phys_grid_search(PhysSystem *system, const Kernels *kernels, const Grid *gr
     uint64_t own = list->ranges.at[0].count, total = list->total;
     ListSearch search = {
         .list = list, .grid = grid, .remote = system->remote, .own = phys_own_keys(list), .dummy = dummy};
-    // Where nearly everybody is a candidate of everybody, a grid does not help.
+    // If nearly every particle is a candidate of every other, a grid does not help.
     search.scan_limit = own * total / 4 + 64 * total;
     if (search.scan_limit > 4000 * total)
         search.scan_limit = 4000 * total;

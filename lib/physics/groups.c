@@ -1,4 +1,4 @@
-// groups.c: brings particles and forces into the order in which a step walks through them.
+// groups.c: sorts particles and forces into the order in which a step processes them.
 #include "physics/internal.h"
 #include "physics/kernels.h"
 
@@ -6,11 +6,11 @@ static size_t slot_of(const ForceRecord *record) {
     return (size_t)record->group * STAGE_COUNT + phys_force_row(record->given.kind).stage;
 }
 
-// A stable counting sort by group. Group numbers ascend in pre-order, so this is the storage order. `first` counts down
-// from the end of each range to its beginning.
+// Sorts particles by group with a stable counting sort. Group numbers ascend in pre-order, so this is the storage
+// order. `first` counts down from the end of each range to its start.
 static void arrange_particles(PhysSystem *system) {
     Group *groups = system->groups.bytes;
-    if (system->group_count == 1) { // in order already, or in that of a list
+    if (system->group_count == 1) { // already in order, or in sorted order of a list
         groups[0].first = 0;
         groups[0].count = system->particle_count;
         for (uint32_t i = 0; i < system->particle_count && !system->in_cell_order; i++)
@@ -39,13 +39,13 @@ static Force arranged_force(const PhysSystem *system, const ForceRecord *record)
     if (phys_force_row(force.given.kind).stage != STAGE_LINK)
         return force;
     bool valid = force.given.from < system->particle_count && force.given.to < system->particle_count;
-    // A particle linked with itself has the distance 0: the kernel skips it without a look at the columns.
+    // An invalid link becomes a link of column 0 with itself, which the kernel skips without reading columns.
     force.given.from = valid ? system->column_of[force.given.from] : 0;
     force.given.to = valid ? system->column_of[force.given.to] : 0;
     return force;
 }
 
-// The same sort for forces, by group and stage.
+// Sorts forces by group and stage with the same counting sort.
 static void arrange_forces(PhysSystem *system) {
     ForceRecord *records = system->force_records.bytes;
     Force *forces = system->forces.bytes;

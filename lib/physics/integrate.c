@@ -1,10 +1,10 @@
-// integrate.c: see integrate.h. The work on one group, dealt out to threads.
+// integrate.c: divides the integration of one group among threads (integrate.h).
 #include "physics/integrate.h"
 
 #include "physics/threads.h"
 
-// The forces of a stage for a group, behind those that are in the chain already: own ones, then those of the groups
-// around it. Returns how many there are.
+// Appends the forces of a stage that act on a group to the chain: its own, then those of the enclosing groups. Returns
+// their number. `already` is the number of forces in the chain.
 static uint32_t collect_forces(const PhysSystem *system, uint32_t group, Stage stage, uint32_t already) {
     const Group *groups = system->groups.bytes;
     const Force **chain = system->chain.bytes;
@@ -54,7 +54,7 @@ static void integrate_chunk(void *context, int chunk, int chunks) {
     phys_integrate_rows(integrator, first, end < stop ? end : stop);
 }
 
-// Does one of the forces draw from a stream?
+// Returns true if one of the forces uses a random stream.
 static bool draws_random(const IntegratePass *pass) {
     for (uint32_t f = 0; f < pass->force_count; f++)
         if (phys_force_row(pass->forces[f]->given.kind).need == NEED_STREAM)
@@ -62,7 +62,7 @@ static bool draws_random(const IntegratePass *pass) {
     return false;
 }
 
-// The streams go on behind what the particles of a group have taken.
+// Advances the random streams by the items that the particles of a group have used.
 static void advance_streams(const IntegratePass *pass, const Group *group) {
     const Columns *columns = pass->columns;
     uint64_t movers = columns->random_offset

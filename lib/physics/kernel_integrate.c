@@ -1,5 +1,5 @@
-// kernel_integrate.c: what happens to each particle alone, LANES particles at once: forces on single particles,
-// barriers, motion, bounces. With one lane it takes any number of dimensions.
+// kernel_integrate.c: single-particle forces, barriers, motion and reflections, for LANES particles at once. With one
+// lane it supports any number of dimensions.
 #include "physics/kernels.h"
 #include "physics/single_formulas.h"
 
@@ -15,7 +15,6 @@ KERNEL void apply_forces(const IntegratePass *pass, size_t n, Block *block) {
 
 #if LANES == 1
 
-// One particle, where it lies.
 static void integrate_particle(IntegratePass *pass, size_t i) {
     const Columns *columns = pass->columns;
     size_t n = columns->dimensions;
@@ -42,7 +41,7 @@ void integrate_all_one(IntegratePass *pass, size_t first, size_t end) {
 
 #else
 
-// Lanes that some barrier has to turn back: not x ≥ 0.
+// Returns the lanes that must be reflected at some barrier: not x ≥ 0.
 KERNEL Mask lanes_behind_barrier(const IntegratePass *pass, size_t n, const Block *block) {
     Mask clear = block->live;
     const Force *const *barriers = phys_barriers(pass);
@@ -62,7 +61,7 @@ KERNEL void reflect_lanes(const IntegratePass *pass, size_t n, const Block *bloc
     double lanes[PHYS_VECTOR_DIMENSIONS][LANES];
     for (size_t k = 0; k < n; k++) {
         real_store(lanes[k], before[k]);
-        // Who bounces moves again with the same force.
+        // Reflected particles move again with the same force.
         real_store_where(block->live, columns->force + k * columns->stride + block->first, block->force[k]);
     }
     for (; bits; bits &= bits - 1) {
@@ -142,7 +141,7 @@ void PER_ISA(integrate_all)(IntegratePass *pass, size_t first, size_t end) {
         integrate_3(pass, first, end);
 }
 
-// All lanes are finite? If so, `zeros` are those where one of the parts is 0.
+// Returns true if all lanes are finite. Sets `zeros` to the lanes in which one of the parts is 0.
 KERNEL bool all_finite(const Real *parts, size_t count, Lanes *zeros) {
     Mask finite = mask_first(LANES), large = finite;
     for (size_t k = 0; k < count; k++) {
@@ -160,7 +159,7 @@ KERNEL bool has_other_zero(const double *row, const Real *parts, size_t count, s
     return false;
 }
 
-// The rows of LANES particles, each of 2 n numbers.
+// Writes the rows of LANES particles, each of 2 n numbers.
 KERNEL void write_lane_rows(size_t n, const uint32_t *order, double *rows, const Real *parts) {
     double *row[LANES];
     for (size_t lane = 0; lane < LANES; lane++)
@@ -178,11 +177,11 @@ KERNEL void write_lane_rows(size_t n, const uint32_t *order, double *rows, const
         real_store_rows(row, parts + 2);
 }
 
-// Where all numbers are finite, keeping the last finite ones (particles.c) is to copy: numbers that are equal to those
-// in the rows have the same bits, but for zeros.
+// If all numbers are finite, PhysTime.keep_last_finite means a plain copy, because equal numbers have the same bits,
+// except zeros.
 KERNEL size_t write_range(const Columns *columns, size_t n, const uint32_t *order, double *rows, size_t first,
                           size_t end) {
-    enum { AHEAD = 64, MANY = 30000 }; // rows that are fetched before they are needed, where caches do not hold all
+    enum { AHEAD = 64, MANY = 30000 }; // distance of prefetching in rows; number of rows that exceeds the caches
     bool many = columns->count > MANY;
     for (; first + LANES <= end; first += LANES) {
         Real parts[2 * PHYS_VECTOR_DIMENSIONS];

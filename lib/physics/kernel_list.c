@@ -1,13 +1,13 @@
-// kernel_list.c: forces of bounded reach, with neighbour lists. Lanes are targets; each walks its own list, which is in
-// the order of the pass. A pair is computed from both ends.
+// kernel_list.c: forces of bounded range, with neighbour lists. Each lane is a target and processes its own list, in
+// the order of the pass. Every pair is computed twice, once for each particle.
 #include "physics/pair_sum.h"
 
-// The radius is the last element of a quad that is in use: x y r, or x y z r.
+// Returns the index of the radius in ListView.packed: x y r, or x y z r.
 KERNEL size_t radius_component(size_t dimensions) {
     return dimensions < 3 ? 2 : 3;
 }
 
-// Without a radius for each, the places of two dimensions take pairs.
+// Returns true if ListView.packed uses PHYS_PAIR: two dimensions and no separate radii.
 KERNEL bool uses_pairs(size_t dimensions, bool one_size) {
     return dimensions == 2 && one_size;
 }
@@ -36,7 +36,7 @@ KERNEL PairEnd packed_end(PairShape shape, const ListView *view, const uint32_t 
     return end;
 }
 
-// What a column has for LANES places from one on.
+// Loads a column for LANES sorted indices, starting at `index`.
 KERNEL Real load_sorted(const double *column, const ListView *view, size_t index) {
     return view->direct ? real_load(column + index) : real_gather(column, view->column + index);
 }
@@ -145,7 +145,7 @@ KERNEL bool refresh_range(const PairPass *pass, const ListView *view, size_t dim
             real_store_pairs(view->packed + PHYS_PAIR * s, parts);
         else
             real_store_quads(view->packed + PHYS_QUAD * s, parts);
-        // Written so that a NaN counts as a move.
+        // A NaN counts as a move.
         Mask still = real_at_most_where(live, square, real_set(view->max_move_squared));
         still = real_at_most_where(still, radius, built);
         hold &= mask_bits(still) == mask_bits(live);
@@ -182,7 +182,7 @@ KERNEL void apply_range(const PairPass *pass, PairShape shape, const uint32_t *t
     target.mass = real_gather(pass->mass, targets);
     target.charge = real_gather(pass->charge, targets);
     for (size_t j = first; j < end; j++) {
-        // A target meets itself at the distance 0, which is no pair.
+        // A target is at distance 0 from itself, which pair_geometry ignores.
         PairEnd partner = pair_partner(pass, shape, j);
         PairGeometry pair;
         if (pair_geometry(shape, &target, &partner, live, &pair))

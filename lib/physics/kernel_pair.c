@@ -1,20 +1,21 @@
-// kernel_pair.c: all pairs of a pass, each computed once, in tiles of LANES x LANES.
+// kernel_pair.c: computes all pairs of a pass, each once, in tiles of LANES x LANES.
 //
-// A tile has LANES targets in the lanes (its rows) and takes LANES partners (its columns) one after the other. The
-// terms are added to the rows' sums as they come: ascending partner. Then the tile is transposed, and the terms are
-// subtracted from the columns' sums: ascending row. Tiles go row by row, so every particle still sums its partners in
-// ascending order, as pair_rows.c does.
+// A tile has LANES targets in the lanes (its rows) and processes LANES partners (its columns) one after the other. The
+// terms are added to the rows' sums immediately, in ascending order of partners. Then the tile is transposed, and the
+// terms are subtracted from the columns' sums in ascending order of rows. Tiles are processed row by row, so every
+// particle sums its partners in ascending order, as in pair_rows.c.
 #include "physics/pair_sum.h"
 
 // The rows of a tile.
 typedef struct Rows {
     PairEnd target;
     Mask live;
-    Mask lead; // rows that the leading force can act on
+    Mask lead; // rows on which the leading force can act
     Real sum[PHYS_VECTOR_DIMENSIONS];
 } Rows;
 
-// All forces between the rows that are `live` and one column. `whole`: the leading force acts on the column.
+// Adds all forces between the `live` rows and one column. `lead_applies`: the leading force is known to act on the
+// column.
 KERNEL void add_column(const PairPass *pass, PairShape shape, Rows *rows, Mask live, size_t j, bool lead_applies,
                        Tile *tile, size_t k) {
     const PairEnd *target = &rows->target;
@@ -34,7 +35,7 @@ KERNEL void add_column(const PairPass *pass, PairShape shape, Rows *rows, Mask l
         add_rest(pass, shape, &pair, target, &partner, rows->sum, tile, k);
 }
 
-// Gives the terms of forces that are not the leading one to the columns, each after those that precede it.
+// Subtracts the terms of all forces from the columns' sums, row by row and in the order of the forces.
 static void finish_mixed(const PairPass *pass, Tile *tile, bool lead, size_t m, Real *total) {
     for (size_t t = 0; t < pass->term_count; t++)
         if (tile->hits >> t & 1)
@@ -48,7 +49,7 @@ static void finish_mixed(const PairPass *pass, Tile *tile, bool lead, size_t m, 
     }
 }
 
-// Gives a tile's terms to its columns.
+// Subtracts the terms of a tile from the columns' sums.
 KERNEL void finish_tile(const PairPass *pass, PairShape shape, Tile *tile, size_t j, size_t columns) {
     bool lead = shape.lead != LEAD_NONE, mixed = shape.rest != REST_NONE && tile->hits;
     if (!lead && !mixed)
@@ -72,7 +73,7 @@ KERNEL void finish_tile(const PairPass *pass, PairShape shape, Tile *tile, size_
     }
 }
 
-// Does the leading force act on all of LANES columns?
+// Returns true if the leading force acts on all LANES columns from `j`.
 KERNEL bool lead_acts_on_all(const PairPass *pass, PairShape shape, size_t j) {
     ForceNeed need = lead_need(shape);
     if (need == NEED_NOTHING)
@@ -91,7 +92,7 @@ KERNEL void full_tile(const PairPass *pass, PairShape shape, Rows *rows, size_t 
     finish_tile(pass, shape, &tile, j, LANES);
 }
 
-// A tile that is not full or in which the leading force leaves out columns.
+// Computes a tile that has fewer than LANES columns, or columns on which the leading force does not act.
 KERNEL void partial_tile(const PairPass *pass, PairShape shape, Rows *rows, size_t j, size_t columns) {
     Tile tile;
     tile.hits = 0;
@@ -102,7 +103,7 @@ KERNEL void partial_tile(const PairPass *pass, PairShape shape, Rows *rows, size
     finish_tile(pass, shape, &tile, j, columns);
 }
 
-// The tile on the diagonal: each of its particles is a row and takes all the others.
+// Computes the tile on the diagonal: each of its particles is a row and is paired with all the others.
 KERNEL void diagonal_tile(const PairPass *pass, PairShape shape, Rows *rows, size_t i, size_t count) {
     for (size_t k = 0; k < count; k++) {
         Mask self = mask_and(mask_first(k + 1), mask_not(mask_first(k)));
@@ -110,7 +111,7 @@ KERNEL void diagonal_tile(const PairPass *pass, PairShape shape, Rows *rows, siz
     }
 }
 
-// LANES rows against all their columns; those of a triangle begin right of the diagonal.
+// Computes LANES rows with all their columns. The columns of a triangle begin to the right of the diagonal.
 KERNEL void tile_row(const PairPass *pass, PairShape shape, size_t i, size_t count, size_t column, size_t column_end,
                      bool triangle) {
     Rows rows = {.target = pair_targets(pass, shape, i), .live = mask_first(count)};
@@ -135,7 +136,7 @@ KERNEL void tile_rows(const PairPass *pass, PairShape shape, size_t row, size_t 
         tile_row(pass, shape, i, row_end - i < LANES ? row_end - i : LANES, column, column_end, triangle);
 }
 
-// The kernels themselves. dimensions, lead and rest are constants in each.
+// The kernels. Dimensions, lead and rest are constants in each.
 #define PAIR_KERNEL(n, name, lead, rest)                                                                               \
     static void triangle_##n##name##rest(const PairPass *pass, size_t first, size_t end) {                             \
         tile_rows(pass, (PairShape){n, lead, rest, false}, first, end, 0, end, true);                                  \
@@ -146,7 +147,7 @@ KERNEL void tile_rows(const PairPass *pass, PairShape shape, size_t row, size_t 
     }
 #define PAIR_ENTRY(n, name, lead, rest) [n - 1][lead][rest] = {triangle_##n##name##rest, tiles_##n##name##rest},
 
-// Every force that may be without bound has kernels in which it leads, in 1, 2 and 3 dimensions.
+// Every force that may have no bound has kernels with it as the lead, in 1, 2 and 3 dimensions.
 #define LEAD_CONTACT(MAKE, KIND)
 #define LEAD_FAR(MAKE, KIND)                                                                                           \
     MAKE(1, KIND, PHYS_##KIND, REST_NONE)                                                                              \

@@ -1,40 +1,40 @@
-// kernel_search.c: neighbour lists from the cells of a grid, LANES candidates at a time.
+// kernel_search.c: builds neighbour lists from the cells of a grid, LANES candidates at a time.
 //
-// Places side by side have most of their candidates in common. So those of a batch of places are copied and put into
-// the order of the pass once, and what is near to each place comes out in that order. Where a batch lies in two rows of
-// cells, or has very many candidates, each place looks at its own, and what it finds is put in order.
+// Particles with adjacent sorted indices share most of their candidates. So the candidates of a batch of particles are
+// copied and sorted into the order of the pass once, and each list is filled from them in that order. If a batch spans
+// two rows of cells, or has very many candidates, each particle searches separately, and its list is sorted afterwards.
 #include "physics/grid.h"
 #include "physics/lanes.h"
 
 enum {
-    MAX_ROWS = 9 + 1, // of cells around one, and the large particles
+    MAX_ROWS = 9 + 1, // rows of cells around a cell, and the large particles
     WORDS = LANES < 4 ? 4 : 2 * LANES,
-    BATCH = 8,       // places
-    MAX_BATCH = 128, // candidates of a batch; each counts half, as it has been fetched before
-    SPARE = 16,      // dummies behind the list of a place
+    BATCH = 8,       // particles
+    MAX_BATCH = 128, // maximum number of candidates of a batch
+    SPARE = 16,      // dummies after the list of a particle
 };
 
 typedef int32_t Words __attribute__((vector_size(4 * WORDS)));
 
-// The candidates of a batch in the order of the pass, and a few that are nowhere.
+// The candidates of a batch in the order of the pass, padded with positions that are NaN.
 typedef struct Batch {
-    uint32_t end;   // first place behind it
-    bool ordered;   // else each place is on its own
+    uint32_t end;   // first sorted index after the batch
+    bool ordered;   // false: each particle searches separately
     uint32_t count; // candidates
     double built[PHYS_VECTOR_DIMENSIONS][MAX_BATCH + LANES], radius[MAX_BATCH + LANES];
     uint32_t entry[MAX_BATCH + LANES];
 } Batch;
 
-// The candidates for some places, and those of them that are near one of these places.
+// Working memory of a search.
 typedef struct Finder {
-    uint32_t cell;      // of the place
-    uint32_t low, high; // cells of one row that rows are for
+    uint32_t cell;      // of the current particle
+    uint32_t low, high; // range of cells in one row for which `first` and `end` were found
     uint32_t rows;
-    uint32_t candidates; // in all rows
+    uint32_t candidates; // number in all rows
     uint32_t first[MAX_ROWS], end[MAX_ROWS];
     uint32_t near[PHYS_MAX_NEIGHBOURS + LANES];
-    Words keys[PHYS_MAX_NEIGHBOURS / WORDS + 2];  // where they stand in the order of the pass
-    Words ranks[PHYS_MAX_NEIGHBOURS / WORDS + 2]; // and among each other
+    Words keys[PHYS_MAX_NEIGHBOURS / WORDS + 2];  // of `near`: position in the order of the pass
+    Words ranks[PHYS_MAX_NEIGHBOURS / WORDS + 2]; // of `near`: number of smaller keys
     uint32_t dummies[SPARE];
     uint32_t lists[LANES][PHYS_MAX_NEIGHBOURS + LANES + SPARE];
     Batch batch;
@@ -47,7 +47,7 @@ static void add_row(Finder *finder, uint32_t first, uint32_t end) {
     finder->candidates += end - first;
 }
 
-// Neighbours are in the cells around the own one, or large.
+// Finds the candidates of particles in cells low_cell to high_cell: those in adjacent cells, and the large ones.
 static void find_rows(const ListSearch *search, Finder *finder, uint32_t low_cell, uint32_t high_cell) {
     const Grid *grid = search->grid;
     uint32_t low[PHYS_VECTOR_DIMENSIONS], high[PHYS_VECTOR_DIMENSIONS], rest = low_cell;
@@ -68,58 +68,58 @@ static void find_rows(const ListSearch *search, Finder *finder, uint32_t low_cel
     add_row(finder, search->list->view.regular, search->list->view.listed);
 }
 
-static uint32_t cell_from(const Grid *grid, uint32_t cell, uint32_t place) {
-    while (place >= grid->start[cell + 1])
+static uint32_t cell_from(const Grid *grid, uint32_t cell, uint32_t index) {
+    while (index >= grid->start[cell + 1])
         cell++;
     return cell;
 }
 
-// How places are compared.
+// Constants on which the search is specialised.
 typedef struct Measure {
     size_t dimensions;
-    bool one_size; // of touching particles
+    bool one_size; // all particles have the same radius, and all forces need contact
 } Measure;
 
-// A place, and how far its neighbours reach.
+// LANES copies of a particle whose neighbours are searched.
 typedef struct SearchTarget {
     Real position[PHYS_VECTOR_DIMENSIONS], radius, bound, skin;
-    Real square; // of the reach, if it is the same for all
+    Real square; // square of the distance up to which neighbours are listed; if one_size
 } SearchTarget;
 
-KERNEL Real square_of_reach(const SearchTarget *place, Real radius) {
-    Real reach = real_max(radius + place->radius, place->bound) + place->skin;
+KERNEL Real square_of_reach(const SearchTarget *target, Real radius) {
+    Real reach = real_max(radius + target->radius, target->bound) + target->skin;
     return reach * reach;
 }
 
-KERNEL SearchTarget search_target_of(const ListSearch *search, Measure shape, uint32_t number) {
+KERNEL SearchTarget search_target_of(const ListSearch *search, Measure shape, uint32_t index) {
     const ListView *view = &search->list->view;
-    SearchTarget place = {.radius = real_set(view->radius[number]),
-                          .bound = real_set(search->list->bound),
-                          .skin = real_set(search->list->skin)};
+    SearchTarget target = {.radius = real_set(view->radius[index]),
+                           .bound = real_set(search->list->bound),
+                           .skin = real_set(search->list->skin)};
     for (size_t k = 0; k < shape.dimensions; k++)
-        place.position[k] = real_set(view->built[k][number]);
-    place.square = square_of_reach(&place, place.radius);
-    return place;
+        target.position[k] = real_set(view->built[k][index]);
+    target.square = square_of_reach(&target, target.radius);
+    return target;
 }
 
-// Who of LANES candidates is nearer than max(radius + radius, bound) + skin?
-KERNEL Mask is_near(const SearchTarget *place, Measure shape, const double *const *built, const double *radius,
+// Returns the candidates of `mask` whose distance is at most max(radius + radius, bound) + skin.
+KERNEL Mask is_near(const SearchTarget *target, Measure shape, const double *const *built, const double *radius,
                     size_t s, Mask mask) {
     Real square = real_zero();
     for (size_t k = 0; k < shape.dimensions; k++) {
-        Real d = real_load(built[k] + s) - place->position[k];
+        Real d = real_load(built[k] + s) - target->position[k];
         square += d * d;
     }
-    // Both may overflow; the pair is listed then.
+    // If both sides overflow, the pair is listed.
     return real_at_most_where(mask, square,
-                              shape.one_size ? place->square : square_of_reach(place, real_load(radius + s)));
+                              shape.one_size ? target->square : square_of_reach(target, real_load(radius + s)));
 }
 
-// Collects who is near to a place; stops beyond PHYS_MAX_NEIGHBOURS.
-KERNEL size_t find_near(const ListSearch *search, Finder *finder, Measure shape, uint32_t place) {
+// Collects the particles near `index` in finder->near and returns their number. Stops above PHYS_MAX_NEIGHBOURS.
+KERNEL size_t find_near(const ListSearch *search, Finder *finder, Measure shape, uint32_t index) {
     const ListView *view = &search->list->view;
     const double *built[] = {view->built[0], view->built[1], view->built[2]};
-    SearchTarget target = search_target_of(search, shape, place);
+    SearchTarget target = search_target_of(search, shape, index);
     size_t count = 0;
     for (uint32_t row = 0; row < finder->rows; row++)
         for (uint32_t s = finder->first[row], end = finder->end[row]; s < end && count <= PHYS_MAX_NEIGHBOURS;
@@ -129,22 +129,22 @@ KERNEL size_t find_near(const ListSearch *search, Finder *finder, Measure shape,
     return count;
 }
 
-// Without the place itself, and without pairs of two particles of enclosing groups, which are none.
-KERNEL size_t exclude_self(const ListSearch *search, Finder *finder, uint32_t place, size_t found) {
+// Removes the particle itself, and pairs of two particles of enclosing groups, which belong to other passes.
+KERNEL size_t exclude_self(const ListSearch *search, Finder *finder, uint32_t index, size_t found) {
     const uint32_t *key = search->list->key;
-    uint32_t limit = key[place] < search->own ? UINT32_MAX : search->own;
+    uint32_t limit = key[index] < search->own ? UINT32_MAX : search->own;
     int32_t *keys = (int32_t *)finder->keys;
     size_t count = 0;
     for (size_t k = 0; k < found; k++) {
         uint32_t other = finder->near[k];
         finder->near[count] = other;
         keys[count] = (int32_t)key[other];
-        count += other != place && key[other] < limit;
+        count += other != index && key[other] < limit;
     }
     return count;
 }
 
-// Adds 1 where a key is less than mine.
+// Adds 1 to `rank` where `key` is less than `mine`.
 KERNEL Words count_less(Words rank, int32_t key, Words mine) {
 #if LANES == 8
     __m512i others = _mm512_set1_epi32(key), is = (__m512i)mine;
@@ -155,7 +155,7 @@ KERNEL Words count_less(Words rank, int32_t key, Words mine) {
 #endif
 }
 
-// How many keys are smaller than each: quicker than sorting for as many as there are.
+// Counts for each key how many are smaller, which is faster than sorting for such numbers of keys.
 KERNEL void rank_keys(Finder *finder, size_t count) {
     const int32_t *keys = (const int32_t *)finder->keys;
     for (size_t v = 0; v * WORDS < count; v += 2) {
@@ -169,14 +169,14 @@ KERNEL void rank_keys(Finder *finder, size_t count) {
     }
 }
 
-// Numbers and keys of all candidates: how many.
+// Collects sorted indices and keys of all candidates, and returns their number.
 KERNEL uint32_t collect_candidates(const ListSearch *search, Finder *finder) {
     uint32_t count = 0;
     for (uint32_t row = 0; row < finder->rows; row++) {
         uint32_t *near = finder->near + count, first = finder->first[row], length = finder->end[row] - first;
         int32_t *keys = (int32_t *)finder->keys + count;
         const uint32_t *key = search->list->key + first;
-        for (uint32_t c = 0; c < length; c += BATCH) // what is written behind the row does not count
+        for (uint32_t c = 0; c < length; c += BATCH) // elements written after the row are ignored
             for (uint32_t m = c; m < c + BATCH; m++) {
                 near[m] = first + m;
                 keys[m] = (int32_t)key[m];
@@ -193,12 +193,12 @@ KERNEL void order_batch(const ListSearch *search, Finder *finder, Measure shape)
     rank_keys(finder, count);
     const uint32_t *ranks = (const uint32_t *)finder->ranks;
     for (uint32_t c = 0; c < count; c++) {
-        uint32_t rank = ranks[c], place = finder->near[c];
-        batch->entry[rank] = place * (uint32_t)view->width;
+        uint32_t rank = ranks[c], index = finder->near[c];
+        batch->entry[rank] = index * (uint32_t)view->width;
         for (size_t k = 0; k < shape.dimensions; k++)
-            batch->built[k][rank] = view->built[k][place];
+            batch->built[k][rank] = view->built[k][index];
         if (!shape.one_size)
-            batch->radius[rank] = view->radius[place];
+            batch->radius[rank] = view->radius[index];
     }
     for (uint32_t c = count; c < count + LANES; c++) {
         batch->entry[c] = 0;
@@ -208,7 +208,7 @@ KERNEL void order_batch(const ListSearch *search, Finder *finder, Measure shape)
     }
 }
 
-// Makes a batch of the places from one on.
+// Prepares the batch that starts at sorted index `first`.
 KERNEL void next_batch(const ListSearch *search, Finder *finder, Measure shape, uint32_t first) {
     const Grid *grid = search->grid;
     Batch *batch = &finder->batch;
@@ -225,12 +225,12 @@ KERNEL void next_batch(const ListSearch *search, Finder *finder, Measure shape, 
         order_batch(search, finder, shape);
 }
 
-// The list of a place of an ordered batch: how many.
-KERNEL size_t list_from_batch(const ListSearch *search, const Batch *batch, Measure shape, uint32_t place,
+// Fills the list of a particle of an ordered batch, and returns its length.
+KERNEL size_t list_from_batch(const ListSearch *search, const Batch *batch, Measure shape, uint32_t index,
                               uint32_t *list) {
     const double *built[] = {batch->built[0], batch->built[1], batch->built[2]};
-    SearchTarget target = search_target_of(search, shape, place);
-    uint32_t self = place * (uint32_t)search->list->view.width;
+    SearchTarget target = search_target_of(search, shape, index);
+    uint32_t self = index * (uint32_t)search->list->view.width;
     size_t count = 0;
     for (uint32_t s = 0; s < batch->count; s += LANES)
         count += mask_compress(is_near(&target, shape, built, batch->radius, s, mask_first(LANES)), batch->entry + s,
@@ -238,22 +238,23 @@ KERNEL size_t list_from_batch(const ListSearch *search, const Batch *batch, Meas
     return count;
 }
 
-// The list of a place that is on its own; beyond PHYS_MAX_NEIGHBOURS there is none.
-KERNEL size_t list_single(const ListSearch *search, Finder *finder, Measure shape, uint32_t place, uint32_t *list) {
-    finder->cell = cell_from(search->grid, finder->cell, place);
+// Fills the list of a particle that searches separately, and returns its length. Above PHYS_MAX_NEIGHBOURS the list is
+// not filled.
+KERNEL size_t list_single(const ListSearch *search, Finder *finder, Measure shape, uint32_t index, uint32_t *list) {
+    finder->cell = cell_from(search->grid, finder->cell, index);
     if (finder->low != finder->cell || finder->high != finder->cell)
         find_rows(search, finder, finder->cell, finder->cell);
-    size_t count = find_near(search, finder, shape, place);
+    size_t count = find_near(search, finder, shape, index);
     if (count > PHYS_MAX_NEIGHBOURS)
         return count;
-    count = exclude_self(search, finder, place, count);
+    count = exclude_self(search, finder, index, count);
     rank_keys(finder, count);
     for (size_t k = 0; k < count; k++)
         list[((const int32_t *)finder->ranks)[k]] = finder->near[k] * search->list->view.width;
     return count;
 }
 
-// The lists of one block side by side; false if there is no room for them.
+// Builds the lists of one block side by side. Returns false and sets chunk->crowded or chunk->full if that fails.
 KERNEL bool search_block(const ListSearch *search, ListChunk *chunk, Finder *finder, Measure shape, uint32_t block) {
     const ListView *view = &search->list->view;
     uint32_t first = block * LANES, dummy = search->dummy * view->width;
@@ -261,13 +262,13 @@ KERNEL bool search_block(const ListSearch *search, ListChunk *chunk, Finder *fin
     if (first >= finder->batch.end)
         next_batch(search, finder, shape, first);
     for (uint32_t lane = 0; lane < LANES; lane++) {
-        uint32_t place = first + lane, *list = finder->lists[lane];
+        uint32_t index = first + lane, *list = finder->lists[lane];
         size_t count = 0;
-        if (place < view->regular && !(search->remote && search->remote[view->column[place]])) {
+        if (index < view->regular && !(search->remote && search->remote[view->column[index]])) {
             if (finder->batch.ordered)
-                count = list_from_batch(search, &finder->batch, shape, place, list);
+                count = list_from_batch(search, &finder->batch, shape, index, list);
             else
-                count = list_single(search, finder, shape, place, list);
+                count = list_single(search, finder, shape, index, list);
             chunk->scanned += finder->batch.ordered ? finder->candidates / 2 : finder->candidates;
             if (count > PHYS_MAX_NEIGHBOURS || chunk->scanned > search->scan_limit) {
                 chunk->crowded = true;
@@ -317,10 +318,10 @@ void PER_ISA(list_search)(const ListSearch *search, ListChunk *chunk) {
     if (chunk->block == chunk->block_end)
         return;
     Finder finder;
-    double place[PHYS_VECTOR_DIMENSIONS] = {0};
+    double position[PHYS_VECTOR_DIMENSIONS] = {0};
     for (size_t k = 0; k < grid->dimensions; k++)
-        place[k] = search->list->view.built[k][chunk->block * LANES];
-    finder.cell = phys_cell_of(grid, place, 1);
+        position[k] = search->list->view.built[k][chunk->block * LANES];
+    finder.cell = phys_cell_of(grid, position, 1);
     finder.low = UINT32_MAX;
     finder.batch.end = 0;
     for (size_t k = 0; k < SPARE; k++)

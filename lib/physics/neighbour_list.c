@@ -1,4 +1,4 @@
-// neighbour_list.c: when to use neighbour lists, and how (see neighbour_list.h).
+// neighbour_list.c: decides when to use neighbour lists, tunes them and computes passes with them (neighbour_list.h).
 #include "physics/neighbour_list.h"
 
 #include "physics/integrate.h"
@@ -8,12 +8,12 @@
 
 enum {
     MIN_FOR_LISTS = 160, // particles of a pass
-    FIRST_COOLDOWN = 64, // steps without lists after they did not pay; doubled each time
+    FIRST_COOLDOWN = 64, // steps without lists after they did not pay off; doubled each time
     MAX_COOLDOWN = 1024,
     ENTRIES_A_UNIT = 4,
-    FIRST_LIFETIME = 8, // steps that a list is expected to serve at first
-    MIN_LIFETIME = 8,   // and that it should serve
-    MANY = 250000,      // particles that no cache holds
+    FIRST_LIFETIME = 8, // steps that the first list is expected to serve
+    MIN_LIFETIME = 8,   // steps that a list should serve
+    MANY = 250000,      // particles that do not fit into the cache
 };
 
 void phys_neighbour_list_free(NeighbourList *list) {
@@ -22,7 +22,7 @@ void phys_neighbour_list_free(NeighbourList *list) {
     phys_buffer_free(&list->entries);
 }
 
-// The reach of a pass; false if one of its forces has none.
+// Finds the range of a pass. Returns false if one of its forces has no bound.
 static bool is_bounded(const PairPass *pass, double *bound, bool *contact_only) {
     *bound = 0;
     *contact_only = true;
@@ -36,7 +36,7 @@ static bool is_bounded(const PairPass *pass, double *bound, bool *contact_only) 
     return *bound < INFINITY;
 }
 
-// The particles of a pass; false if there are too many ranges.
+// Finds the particles of a pass. Returns false if there are too many ranges.
 static bool find_ranges(const PhysSystem *system, uint32_t group, uint32_t level, PassRanges *ranges) {
     const Group *groups = system->groups.bytes;
     memset(ranges, 0, sizeof *ranges);
@@ -48,7 +48,7 @@ static bool find_ranges(const PhysSystem *system, uint32_t group, uint32_t level
     return true;
 }
 
-// The list that was made for this pass, or one that is not used in this frame.
+// Returns the list of this pass, else the least recently used one of earlier frames, or NULL.
 static NeighbourList *find_list(PhysSystem *system, uint32_t group, uint32_t level) {
     NeighbourList *spare = NULL;
     for (int i = 0; i < PHYS_MAX_LISTS; i++) {
@@ -75,17 +75,17 @@ static bool still_idle(const PairPass *pass, const NeighbourList *list) {
     return true;
 }
 
-// A pass with a list, as the threads see it.
+// Context of the threads for a pass with a list.
 typedef struct ListPass {
     const Kernels *kernels;
     const PairPass *pass;
     NeighbourList *list;
-    const Integrator *sweep;     // of step_share
-    bool reuse;                  // likewise: chunks of a share take turns with one piece of the column of forces
-    bool valid[PHYS_MAX_CHUNKS]; // by share: nothing has left its skin
+    const Integrator *sweep;     // for step_chunk
+    bool reuse;                  // for step_chunk: all blocks of a chunk reuse the same part of the force columns
+    bool valid[PHYS_MAX_CHUNKS]; // by chunk: true if no particle has left its skin
 } ListPass;
 
-// Whole blocks for each worker.
+// Returns the first block of a chunk.
 static size_t chunk_first_block(const ListPass *work, size_t count, int chunk, int chunks) {
     size_t lanes = work->list->lanes, blocks = (count + lanes - 1) / lanes;
     return phys_chunk_begin(blocks, chunk, chunks);
@@ -107,10 +107,10 @@ static void force_chunk(void *context, int chunk, int chunks) {
     work->kernels->list_forces(work->pass, view, first, chunk_first_block(work, view->regular, chunk + 1, chunks));
 }
 
-// Forces, motion and the quads of the next step in one go, by chunks that stay in the cache. What moves is the columns,
-// and the kernels for forces read the quads alone.
+// Computes forces, motion and `packed` of the next step in one pass, in parts that fit into the cache. Motion changes
+// the columns, while the force kernels read only `packed`.
 static void step_chunk(void *context, int chunk, int chunks) {
-    enum { CHUNK = 16384 }; // places
+    enum { CHUNK = 16384 }; // particles
     ListPass *work = context;
     const ListView *view = &work->list->view;
     ListView next = *view;
@@ -135,7 +135,7 @@ static int chunk_count_for(const PhysSystem *system, const NeighbourList *list) 
     return phys_chunk_count(system, list->total, PHYS_MIN_FOR_THREADS);
 }
 
-// Runs `share`; false if something has left its skin.
+// Runs `task` for all chunks. Returns false if a particle has left its skin.
 static bool run_chunks(const PhysSystem *system, ListPass *work, PhysTask *task) {
     bool held = true;
     memset(work->valid, true, sizeof work->valid);
@@ -145,7 +145,7 @@ static bool run_chunks(const PhysSystem *system, ListPass *work, PhysTask *task)
     return held;
 }
 
-// The halo is where others say.
+// Refreshes the halo particles, whose positions come from other ranks.
 static bool refresh_remote(const PhysSystem *system, const ListPass *work) {
     const ListView *view = &work->list->view;
     uint32_t lanes = (uint32_t)work->list->lanes, count = system->remote ? work->list->total : 0, i = 0;
@@ -157,7 +157,7 @@ static bool refresh_remote(const PhysSystem *system, const ListPass *work) {
     return held;
 }
 
-// Brings the list's copy of the particles up to date. False if something has left its skin.
+// Updates the list's copy of the particles. Returns false if a particle has left its skin.
 static bool refresh_list(const PhysSystem *system, ListPass *work) {
     NeighbourList *list = work->list;
     if (list->next_motion_version && list->next_motion_version == system->motion_version) {
@@ -171,8 +171,8 @@ static bool refresh_list(const PhysSystem *system, ListPass *work) {
     return run_chunks(system, work, refresh_chunk) && still_idle(work->pass, list);
 }
 
-// The whole step, if all that it has is this pass, the motion and what is in the columns. Where caches hold all of it,
-// this gains nothing.
+// Makes the whole step if it consists of only this pass and the motion. Returns false if it does not, or if the
+// particles fit into the cache, where this is not faster.
 static bool step_with_list(PhysSystem *system, ListPass *work, Move *move) {
     NeighbourList *list = work->list;
     bool many = list->total >= MANY || system->options.neighbours == PHYS_NEIGHBOURS_ALWAYS;
@@ -183,14 +183,14 @@ static bool step_with_list(PhysSystem *system, ListPass *work, Move *move) {
     work->reuse = !system->has_own_forces && !system->options.keep_forces;
     move->done = true;
     if (!phys_integrate_begin(system, 0, move->delta, move->speed_of_light, &integrator))
-        return true; // the meter gives the step up
+        return true; // the budget is exceeded, so the step is aborted
     list->next_valid = run_chunks(system, work, step_chunk);
-    list->next_motion_version = system->motion_version + 1; // as it is after the step
+    list->next_motion_version = system->motion_version + 1; // its value after the step
     phys_integrate_end(&integrator);
     return true;
 }
 
-// The few large particles: each takes everyone.
+// Adds the forces on the few large particles, which are tested against all others.
 static void large_forces(const ListPass *work) {
     const NeighbourList *list = work->list;
     const PassRanges *ranges = &list->ranges;
@@ -198,7 +198,7 @@ static void large_forces(const ListPass *work) {
     for (uint32_t index = list->view.regular; index < end && !phys_pass_stopped(work->pass);) {
         uint32_t targets[8] = {0}, count = 0;
         bool inner = list->key[index] < own;
-        // Those of enclosing groups meet only the particles of the group itself.
+        // Large particles of enclosing groups interact only with the group itself.
         for (; index < end && count < list->lanes && (list->key[index] < own) == inner; index++)
             targets[count++] = list->view.column[index];
         for (uint32_t r = 0; r < (inner ? ranges->count : 1); r++)
@@ -207,12 +207,12 @@ static void large_forces(const ListPass *work) {
     }
 }
 
-// Costs relative to that of a list entry, with eight lanes; only ratios count, so the unit is left open. Where a force
-// needs contact, few pairs get as far as a square root. Wrong costs cost time and change no result.
+// Costs in units of the cost of a list entry with eight lanes. For contact forces, few pairs need a square root. Wrong
+// values only cost time and do not change results.
 #define PAIR_COST(touch_only) ((touch_only) ? 1.0 / 6 : 1.0)
-#define SCAN_COST (1.0 / 3)  // of a candidate, when a list is built
+#define SCAN_COST (1.0 / 3)  // of a candidate in a build
 #define LARGE_COST (1.0 / 3) // of a pair with a large particle
-#define BUILD_COST 44.0      // of a particle, when a list is built
+#define BUILD_COST 44.0      // of a particle in a build
 #define REFRESH_COST 5.5     // of a particle, in every step
 
 static double all_pairs_cost(const NeighbourList *list) {
@@ -224,7 +224,7 @@ uint64_t phys_max_useful_entries(const NeighbourList *list) {
     return (uint64_t)all_pairs_cost(list) + 1;
 }
 
-// Is a step with lists cheaper than one with all pairs?
+// Returns true if a step with lists is cheaper than one with all pairs.
 static bool pays_off(const NeighbourList *list) {
     double lifetime = list->lifetime ? list->lifetime : FIRST_LIFETIME, n = list->total,
            width = (double)list->lanes / 8;
@@ -233,15 +233,15 @@ static bool pays_off(const NeighbourList *list) {
     return each + (scan + large + (double)list->padded) / width < all_pairs_cost(list) / width;
 }
 
-// Of a step with lists, but for what does not depend on the skin. Counted, not timed: which way is taken shows in the
-// work that is charged.
+// Returns the part of the cost of a step with lists that depends on the skin. It is counted and not timed, because the
+// choice affects the work that is charged.
 static double cost_of_step(const NeighbourList *list) {
     double build = (double)list->total * BUILD_COST, width = (double)list->lanes / 8;
     return build / list->lifetime + ((double)list->scanned * SCAN_COST / list->lifetime + (double)list->padded) / width;
 }
 
-// A longer skin makes longer lists that serve more steps. Each life tries another one, in the same direction until it
-// costs more than the last; but motion changes costs, too, and must not lead to lists that serve hardly any step.
+// A larger skin makes longer lists that serve more steps. Each list tries another skin, in the same direction as long
+// as the cost falls. Motion also changes the cost, so the skin never shrinks below MIN_LIFETIME steps.
 static void tune_skin(NeighbourList *list) {
     double cost = cost_of_step(list);
     bool worse = list->cost > 0 && cost > list->cost;
@@ -251,7 +251,6 @@ static void tune_skin(NeighbourList *list) {
     list->skin = fmax(MIN_SKIN * list->contact_distance, fmin(list->skin, MAX_SKIN * list->contact_distance));
 }
 
-// Neither many steps nor few are best.
 void phys_adapt_skin(NeighbourList *list, uint32_t lifetime) {
     if (lifetime < MIN_LIFETIME)
         list->skin = fmin(list->skin * 1.25, MAX_SKIN * list->contact_distance);
@@ -259,7 +258,8 @@ void phys_adapt_skin(NeighbourList *list, uint32_t lifetime) {
         list->skin = fmax(list->skin / 1.15, MIN_SKIN * list->contact_distance);
 }
 
-// Large particles meet all others in the order of the columns, and so do all where there is no list.
+// Sorts the particles and builds the list. Restores the order of the columns if there are large particles or no list,
+// because they are then summed in column order.
 static bool sort_particles(PhysSystem *system, const Kernels *kernels, const PairPass *pass, NeighbourList *list) {
     bool sorted = phys_grid_build(system, kernels, pass, list);
     if (!system->in_cell_order || (sorted && list->view.listed == list->view.regular))
@@ -272,7 +272,7 @@ static bool build_list(PhysSystem *system, const Kernels *kernels, const PairPas
     list->next_motion_version = 0;
     list->built = sort_particles(system, kernels, pass, list);
     list->radius_version = system->radius_version;
-    system->failed = false; // lists may fail, the frame need not
+    system->failed = false; // a frame can do without lists
     list->age = 0;
     if (list->built && (system->options.neighbours == PHYS_NEIGHBOURS_ALWAYS || pays_off(list))) {
         list->backoff = 0;
@@ -281,7 +281,7 @@ static bool build_list(PhysSystem *system, const Kernels *kernels, const PairPas
         return true;
     }
     list->built = false;
-    if (system->remote) { // until the next halo
+    if (system->remote) { // no list until the next halo
         list->cooldown = UINT32_MAX;
         return false;
     }
@@ -291,7 +291,7 @@ static bool build_list(PhysSystem *system, const Kernels *kernels, const PairPas
     return false;
 }
 
-// A list for this pass as it is described now, valid or not; NULL if there is none to be had.
+// Returns a list for this pass, which may need a rebuild, or NULL if lists cannot be used.
 static NeighbourList *prepare_list(PhysSystem *system, const Kernels *kernels, const PairPass *pass, uint32_t group,
                                    uint32_t level) {
     double bound;

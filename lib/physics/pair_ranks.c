@@ -1,16 +1,15 @@
-// pair_ranks.c: all pairs of a pass on several processes, each pair once.
+// pair_ranks.c: force decomposition: computes all pairs of a pass on several ranks, each pair once.
 //
-// The blocks are those of pair_wavefront.c. A row of blocks is a process's own, the next row the next one's; what the
-// columns of a block have received so far goes from row to row, so that all sums are made in the order of one process.
-// A message is a block's columns. In the end each process gives to all what is whole at its place, and moves all
-// particles itself.
+// The blocks are those of pair_wavefront.c. Rows of blocks are assigned to ranks in turn. The partial sums of a block's
+// columns are sent from row to row, one message per block, so all sums have the order of a single process. At the end
+// every rank broadcasts the sums of its rows, and all ranks move all particles.
 #include "physics/pair_wavefront.h"
 
 enum {
-    MIN_PAIRS = 200000,
-    BLOCKS_PER_COLUMN = 32, // blocks in a column
-    MIN_BLOCK = 64,
-    TEST_BLOCK = 8, // smaller ones, for systems that are shared only to be tested
+    MIN_PAIRS = 200000, // default of PhysRanks.min_pairs
+    BLOCKS_PER_COLUMN = 32,
+    MIN_BLOCK = 64, // minimum number of rows in a block
+    TEST_BLOCK = 8, // MIN_BLOCK if PhysRanks.min_pairs is set, as in tests
 };
 
 bool phys_ranks_should_split(const PhysSystem *system, uint64_t pairs) {
@@ -28,7 +27,7 @@ static int row_owner(const Shared *shared, size_t row) {
     return (int)(row % (size_t)shared->ranks->rank_count);
 }
 
-// The columns of a block, as they stand.
+// Returns the sums of a block's rows or columns, and their number.
 static double *block_sums(const Shared *shared, size_t first, size_t end, size_t number, size_t *length) {
     size_t begin = first + number * shared->blocks.block, rest = end - begin;
     *length = shared->blocks.block < rest ? shared->blocks.block : rest;
@@ -46,7 +45,7 @@ static void compute_row(const Shared *shared, size_t row) {
             ranks->receive(ranks->user_data, row_owner(shared, row - 1), numbers, pass->dimensions, length,
                            pass->stride);
         phys_pair_block(&shared->blocks, row, column);
-        // On the diagonal the columns are the rows, which are whole at the end of the row.
+        // On the diagonal the columns are the rows, whose sums are complete at the end of the row.
         if (row + 1 == shared->blocks.rows || (pairs->triangle && row == column))
             continue;
         ranks->send(ranks->user_data, row_owner(shared, row + 1), numbers, pass->dimensions, length, pass->stride);
@@ -63,7 +62,8 @@ static void broadcast_range(const Shared *shared, int from, double *numbers, siz
     shared->rank_stats->step_bytes += ranks->rank == from ? length * pass->dimensions * sizeof *numbers : 0;
 }
 
-// Rows of blocks are whole where they were computed, the columns of a rectangle where the last row was.
+// The sums of a row are complete on the rank that computed it. The column sums of a rectangle are complete on the rank
+// of the last row.
 static void broadcast_sums(const Shared *shared) {
     const PairRegion *pairs = shared->blocks.pairs;
     for (size_t row = 0; row < shared->blocks.rows; row++) {

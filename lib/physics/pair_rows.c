@@ -1,10 +1,9 @@
-// pair_rows.c: one particle against a range, pair by pair: the formulas with one lane, for any number of dimensions and
-// of forces.
+// pair_rows.c: the pairs of one particle with a range, one at a time, for any number of dimensions and forces.
 #define LANES 1
 #include "physics/pair_formulas.h"
 #include "physics/pair_wavefront.h"
 
-// Adds K along the line between particles i and j.
+// Adds a force with coefficient K along the line between particles i and j.
 KERNEL void add_pair(const PairPass *pass, size_t n, size_t i, size_t j, double inverse, double coefficient) {
     for (size_t k = 0; k < n; k++) {
         size_t first = k * pass->stride + i, second = k * pass->stride + j;
@@ -18,7 +17,7 @@ KERNEL PairEnd end_at(const PairPass *pass, size_t i) {
     return (PairEnd){.radius = pass->radius[i], .mass = pass->mass[i], .charge = pass->charge[i]};
 }
 
-// Pairs of particle i with the particles of one range, in ascending order.
+// Computes the pairs of particle i with the particles of one range, in ascending order.
 KERNEL void row_forces(const PairPass *pass, size_t n, size_t i, size_t first, size_t end) {
     const PairEnd target = end_at(pass, i);
     for (size_t j = first; j < end; j++) {

@@ -1,13 +1,13 @@
-// pair_wavefront.c: all pairs of a pass on several threads.
+// pair_wavefront.c: computes all pairs of a pass on several threads.
 //
-// The pairs form a triangle or a rectangle, cut into blocks. A block may be computed when the one to its left and the
-// one above it are done: then the sums of its rows and of its columns have received everything that comes before, in
-// order. Threads take rows of blocks in turns and follow each other through them like the steps of a staircase, so the
-// order of all sums is that of one thread. When a row of a triangle is done, nobody asks any more where its particles
-// are: they may be moved, which is what threads do that have to wait.
+// The pairs form a triangle or a rectangle, which is divided into blocks. A block may be computed when the one to its
+// left and the one above it are done: then the sums of its rows and columns have received all earlier terms in order.
+// Threads claim rows of blocks in turn and follow each other through them, so all sums have the order of a single
+// thread. When a row of a triangle is done, the positions of its particles are no longer needed. Waiting threads may
+// then move them.
 //
-// A thread hears of another's work after some 300 nanoseconds, in which it would do six tiles of pairs: so blocks are
-// small, and what two threads write to lies in different lines of the cache.
+// A thread sees the result of another after about 300 ns, in which it would compute six tiles of pairs. So blocks are
+// small, and data written by two threads is in different cache lines.
 #include "physics/pair_wavefront.h"
 
 #include "physics/threads.h"
@@ -15,29 +15,29 @@
 #include <stdatomic.h>
 
 enum {
-    PAIRS_FOR_THREADS = 60000, // fewer are done before another thread is awake
-    PAIRS_FOR_AWAKE = 10000,   // which helps with fewer if it is
-    MIN_BLOCK = 24,            // rows of a block
-    BLOCKS_PER_COLUMN = 24,    // and so many blocks in a column, if they are not smaller than that
+    PAIRS_FOR_THREADS = 60000, // smallest job for which sleeping threads are woken
+    PAIRS_FOR_AWAKE = 10000,   // smallest job for threads that are awake
+    MIN_BLOCK = 24,            // // minimum number of rows in a block
+    BLOCKS_PER_COLUMN = 24,    // number of blocks in a column, unless limited by MIN_BLOCK
     MAX_BLOCKS = BLOCKS_PER_COLUMN + 1,
-    BLOCK_ALIGN = 8, // rows, a multiple of all lanes
-    LINE_BYTES = 64, // of the cache
+    BLOCK_ALIGN = 8, // rows; a multiple of every number of lanes
+    LINE_BYTES = 64, // of a cache line
 };
 
 // A row of blocks.
 typedef struct Row {
     _Alignas(LINE_BYTES) atomic_bool claimed;
-    atomic_size_t done; // the column up to which it is
+    atomic_size_t done; // number of leading columns of blocks that are done
 } Row;
 
 typedef struct Wavefront {
-    // what a thread must fetch before it can begin, side by side
+    // contiguous, because every thread reads these fields first
     _Alignas(LINE_BYTES) PairBlocks blocks;
     PairRegion pairs;
     PairPass pass;
     PhysThreads *threads;
-    const PairMotion *motion;                 // or NULL
-    _Alignas(LINE_BYTES) atomic_size_t moved; // rows whose particles are, or somebody is about to
+    const PairMotion *motion;                 // NULL: none
+    _Alignas(LINE_BYTES) atomic_size_t moved; // number of leading rows whose particles are moved or being moved
     Row rows[MAX_BLOCKS];
 } Wavefront;
 
@@ -72,7 +72,7 @@ static bool is_done_to(const Row *row, size_t column) {
     return atomic_load_explicit(&row->done, memory_order_acquire) >= column;
 }
 
-// Moves the particles of the next row that is done; false if there is none.
+// Moves the particles of the next row that is done. Returns false if there is none.
 static bool move_next_row(Wavefront *wavefront) {
     size_t row = atomic_load_explicit(&wavefront->moved, memory_order_relaxed);
     if (!wavefront->motion || row >= wavefront->blocks.rows ||
@@ -105,7 +105,7 @@ static void compute_row(Wavefront *wavefront, size_t row, bool caller) {
     }
 }
 
-// Every thread has rows of its own, and takes those before them that nobody has begun.
+// Computes the rows of a chunk, and earlier rows that no thread has claimed.
 static void run_rows(void *context, int chunk, int chunks) {
     Wavefront *wavefront = context;
     for (size_t byte = 0; byte < offsetof(Wavefront, moved); byte += LINE_BYTES)

@@ -1,4 +1,4 @@
-// particles.c: the columns that are simulated, filled from the description and written back to it.
+// particles.c: fills the columns from the description and writes the results back to the rows.
 #include "base/number.h"
 #include "maths/arrays.h"
 #include "physics/internal.h"
@@ -10,14 +10,14 @@
 bool phys_reserve_columns(PhysSystem *system, uint64_t spare) {
     Columns *columns = &system->columns;
     uint64_t n = system->dimensions, count = system->particle_count;
-    // The last of each only if there are own forces; the first one that comes has the columns made anew.
+    // The last element of each is used only with own forces. The first own force causes new columns.
     double **vectors[] = {&columns->position, &columns->velocity, &columns->force, &columns->own_force};
     double **scalars[] = {&columns->radius,  &columns->mass,   &columns->charge,
                           &columns->section, &columns->volume, &columns->ease};
     enum { SCRATCH = 3 };
     const unsigned vector_count = system->has_own_forces ? 4 : 3, scalar_count = system->has_own_forces ? 6 : 5;
-    // n * count is bounded by the rows, which exist already. Without particles nothing is needed, however large n is.
-    // Vector kernels want columns that begin at a cache line, and may read one vector beyond the last.
+    // n * count cannot overflow, because the rows already exist. Without particles no memory is needed, however large n
+    // is. Columns are aligned to cache lines, and kernels may read one vector beyond the end.
     enum { LINE = 8 };
     uint64_t stride = n <= PHYS_VECTOR_DIMENSIONS ? (count + spare + LINE - 1) / LINE * LINE : count;
     uint64_t doubles = vector_count * n * stride + scalar_count * stride + (count ? SCRATCH * n : 0) + 2 * LINE;
@@ -37,7 +37,8 @@ bool phys_reserve_columns(PhysSystem *system, uint64_t spare) {
         *scalars[i] = next;
     columns->scratch = next;
     columns->anchor = (bool *)(next + SCRATCH * n);
-    // Lanes beyond the last particle are computed and thrown away: from defined numbers, not from whatever lay here.
+    // Kernels also compute the lanes beyond the last particle and discard the results, so these must be defined
+    // numbers.
     size_t padding = (size_t)(stride - count) * sizeof(double);
     for (unsigned i = 0; i < vector_count; i++)
         for (uint64_t k = 0; k < n && padding; k++)
@@ -52,7 +53,7 @@ static void power_radii(const PhysSystem *system, double power, double *to) {
     maths_power_array(system->options.cpu, system->columns.radius, power, system->columns.count, to);
 }
 
-// radius^(n-1) and radius^n are wanted at every step.
+// Computes radius^(n-1) and radius^n once, because every step needs them.
 void phys_update_radius_powers(PhysSystem *system) {
     const Columns *columns = &system->columns;
     const Force *forces = system->forces.bytes;
@@ -113,13 +114,13 @@ typedef struct RowWriter {
     const Columns *columns;
     const uint32_t *order; // handles by column
     bool keep_last_finite;
-    const PhysSystem *home;               // whose columns get what the rows do not take; NULL: none
-    bool any_not_finite[PHYS_MAX_CHUNKS]; // something was not finite
+    const PhysSystem *home;               // system whose columns receive restored values; NULL: none
+    bool any_not_finite[PHYS_MAX_CHUNKS]; // by chunk: some value was not finite
 } RowWriter;
 
-// PhysTime.keep_last_finite for one vector: the column's replaces the row's, or the row's is put back `home`. False if
-// the column's was not finite. No other function keeps inf and nan of `!physics` out of the state: its entries borrow
-// the rows (scene/mirror.h).
+// Applies PhysTime.keep_last_finite to one vector: writes the column's value to the row, or restores the row's value in
+// `home`. Returns false if the column's value was not finite. Only this function keeps inf and nan of `!physics` out of
+// the state, whose entries reference the rows (scene/mirror.h).
 static inline bool keep_last_finite(const Columns *columns, const double *column, double *row, bool from_attribute,
                                     double *home, size_t home_stride) {
     size_t n = columns->dimensions, stride = columns->stride;
@@ -134,7 +135,7 @@ static inline bool keep_last_finite(const Columns *columns, const double *column
     return finite;
 }
 
-// For one particle. False if something was not finite, which it marks.
+// Applies PhysTime.keep_last_finite to one particle. Returns false and sets marks if a value was not finite.
 static bool write_finite_row(const RowWriter *writer, size_t i) {
     const PhysSystem *system = writer->system, *home = writer->home;
     const Columns *columns = writer->columns;
@@ -147,10 +148,10 @@ static bool write_finite_row(const RowWriter *writer, size_t i) {
         velocity = home->columns.velocity + at;
     }
     uint8_t *from = system->any_from_attribute ? (uint8_t *)system->from_attribute.bytes + handle : NULL;
-    bool given = from && (*from & PHYS_POSITION), given_too = from && (*from & PHYS_VELOCITY);
-    bool kept = keep_last_finite(columns, columns->position + i, row, given, position, stride);
-    bool kept_too = keep_last_finite(columns, columns->velocity + i, row + n, given_too, velocity, stride);
-    uint8_t marks = (uint8_t)((kept ? 0 : PHYS_POSITION) | (kept_too ? 0 : PHYS_VELOCITY));
+    bool position_given = from && (*from & PHYS_POSITION), velocity_given = from && (*from & PHYS_VELOCITY);
+    bool position_finite = keep_last_finite(columns, columns->position + i, row, position_given, position, stride);
+    bool velocity_finite = keep_last_finite(columns, columns->velocity + i, row + n, velocity_given, velocity, stride);
+    uint8_t marks = (uint8_t)((position_finite ? 0 : PHYS_POSITION) | (velocity_finite ? 0 : PHYS_VELOCITY));
     if (from)
         *from &= marks;
     if (marks)
@@ -174,7 +175,7 @@ static void write_chunk(void *context, int chunk, int chunks) {
     size_t n = columns->dimensions, end = phys_chunk_begin(columns->count, chunk + 1, chunks);
     size_t first = phys_chunk_begin(columns->count, chunk, chunks);
     if (writer->keep_last_finite) {
-        // What the kernel does not take is gone through particle by particle, as many as it takes at once.
+        // Where the kernel stops, the next `lanes` particles are written one at a time.
         const Kernels *kernels = phys_kernels(system);
         while (first < end) {
             if (n <= PHYS_VECTOR_DIMENSIONS && !system->any_from_attribute)
@@ -199,7 +200,7 @@ bool phys_clear_not_finite(PhysSystem *system) {
     return true;
 }
 
-// The forces by handle, for those who look.
+// Writes the forces by handle, for PhysColumns.force.
 static void write_forces(PhysSystem *system, const Columns *columns, const uint32_t *order) {
     size_t n = columns->dimensions;
     for (size_t i = 0; i < columns->count; i++) {

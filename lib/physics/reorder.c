@@ -1,23 +1,21 @@
-// reorder.c: columns in the order of the places of a neighbour list.
+// reorder.c: spatial reordering of the particle columns.
 //
-// A list sorts particles by the cells of a grid, so that neighbours lie near each other. As long as its system is one
-// of those that can, the columns are brought into the same order whenever a list has been made: then the kernels need
-// not look for the column of each place, and partners are near in memory. Which particle is in a column says
-// system->order. As all particles are of one group, their handles count up in the order of the description, which is
-// that of sums.
+// A neighbour list sorts particles by grid cell. If phys_can_reorder allows it, the columns are permuted into that
+// order after each rebuild, so that kernels read neighbours from nearby memory without an index. system->order maps
+// columns to handles. All particles are in one group then, so ascending handles give the order of summation.
 #include "physics/neighbour_list.h"
 #include "physics/threads.h"
 
 #include <string.h>
 
-enum { MAX_ARRAYS = 4 * PHYS_VECTOR_DIMENSIONS + 6 }; // arrays
+enum { MAX_ARRAYS = 4 * PHYS_VECTOR_DIMENSIONS + 6 };
 
 typedef struct Reordering {
     PhysSystem *system;
     const NeighbourList *list;
-    double *arrays[MAX_ARRAYS]; // but for positions, which the list has in its order
+    double *arrays[MAX_ARRAYS]; // columns to permute, without positions, which the list already has in its order
     size_t count;
-    size_t next; // those that are on their way
+    size_t next; // first array of the current batch
 } Reordering;
 
 static void add_vector(Reordering *reordering, double *vector, size_t parts) {
@@ -25,7 +23,7 @@ static void add_vector(Reordering *reordering, double *vector, size_t parts) {
         reordering->arrays[reordering->count++] = vector + k * reordering->system->columns.stride;
 }
 
-// What the particles of a system with one record share need not be moved.
+// Collects the columns to permute. Attributes that all particles share (record_stride 0) are not moved.
 static void add_arrays(Reordering *reordering, bool positions) {
     const PhysSystem *system = reordering->system;
     const Columns *columns = &system->columns;
@@ -37,7 +35,7 @@ static void add_arrays(Reordering *reordering, bool positions) {
         add_vector(reordering, columns->ease, 1);
     }
     if (system->has_own_forces || positions)
-        add_vector(reordering, columns->force, columns->dimensions); // else they are 0 before the pairs
+        add_vector(reordering, columns->force, columns->dimensions); // else they are 0 before the pair forces
     if (!system->record_stride)
         return;
     double *numbers[] = {columns->radius, columns->mass, columns->charge, columns->section, columns->volume};
@@ -45,7 +43,7 @@ static void add_arrays(Reordering *reordering, bool positions) {
         add_vector(reordering, numbers[i], 1);
 }
 
-// Until a list is brought up to date its quads serve no purpose, but for the dummy behind them.
+// Returns how many arrays fit into ListView.packed, which is free until the list is refreshed, except for its dummy.
 static size_t arrays_at_once(const Reordering *reordering) {
     size_t left = reordering->count - reordering->next, room = reordering->list->view.width;
     return left < room ? left : room;
@@ -95,7 +93,7 @@ static void swap_marks(bool *marks, uint32_t i, uint32_t j) {
     marks[j] = mark;
 }
 
-// Positions, and who is where, the list knows.
+// Copies the positions and the order from the list.
 static void set_order_chunk(void *context, int chunk, int chunks) {
     const Reordering *reordering = context;
     const NeighbourList *list = reordering->list;
@@ -129,7 +127,7 @@ bool phys_can_reorder(const PhysSystem *system) {
 }
 
 void phys_reorder(PhysSystem *system, NeighbourList *list) {
-    if (list->view.listed > list->view.regular) // large ones meet all others in the order of the columns
+    if (list->view.listed > list->view.regular) // large particles are summed in column order
         return;
     Reordering reordering = {.system = system, .list = list};
     int chunks = phys_chunk_count(system, list->total, PHYS_MIN_FOR_THREADS);
@@ -151,13 +149,13 @@ void phys_forget_order(PhysSystem *system) {
     system->in_cell_order = false;
 }
 
-// In place, as there may be no memory: a particle that is not where it belongs changes places with the one that is
-// there.
+// Permutes in place by swaps, because there may be no memory left.
 void phys_restore_order(PhysSystem *system) {
     Reordering reordering = {.system = system};
     uint32_t *order = system->order, *column_of = system->column_of, next = 0;
     add_arrays(&reordering, true);
-    for (uint32_t handle = 0; handle < system->handle_count; handle++) // what is to be in which column
+    for (uint32_t handle = 0; handle < system->handle_count;
+         handle++) // order[i] is the column where the particle in column i belongs
         if (column_of[handle] != NO_COLUMN)
             order[column_of[handle]] = next++;
     for (uint32_t i = 0; i < system->columns.count; i++)

@@ -1,17 +1,19 @@
-// step.c: one step as the ordered list of stages of section 4.
+// step.c: one step, in the order of section 4.
 #include "physics/integrate.h"
 #include "physics/threads.h"
 
 #include <string.h>
 
-// Strength of every force applier and barrier: `strength`, times (clock / ease) while ease > 0 and clock < ease.
+// Computes the strength of every force applier and barrier: `strength`, times clock / ease while ease > 0 and clock <
+// ease.
 static void ease_strengths(const PhysSystem *system, double clock) {
     Force *forces = system->forces.bytes;
     for (uint32_t i = 0; i < system->force_count; i++)
         forces[i].strength = forces[i].given.strength * phys_ramp(forces[i].given.ease, clock);
 }
 
-// The force on a particle at the start of the step is its own, eased in likewise. (A factor of 1 changes no bit.)
+// Initial value of a particle's force in a step: its own force, times clock / ease while it is eased in. A factor of 1
+// changes no bit.
 typedef struct StartForces {
     const PhysSystem *system;
     double clock;
@@ -26,7 +28,7 @@ static void start_chunk(void *context, int chunk, int chunks) {
     size_t count = phys_chunk_begin(columns->count, chunk + 1, chunks) - first;
     for (size_t k = 0; k < n; k++) {
         double *force = columns->force + k * stride + first;
-        if (!system->has_own_forces) { // nor a column of them
+        if (!system->has_own_forces) { // the column does not exist either
             memset(force, 0, count * sizeof *force);
             continue;
         }
@@ -58,7 +60,7 @@ bool phys_step(PhysSystem *system, double clock, double delta, double speed_of_l
         return false;
     ease_strengths(system, clock);
     start_forces(system, clock);
-    // 1. Forces between particles, all of them before anything moves that acts on others.
+    // 1. Forces between particles. All are computed before a particle moves that another one still needs.
     Move move = {delta, speed_of_light, false};
     for (uint32_t g = 0; g < system->group_count; g++) {
         phys_apply_links(columns, phys_forces(system, g, STAGE_LINK));
@@ -67,7 +69,7 @@ bool phys_step(PhysSystem *system, double clock, double delta, double speed_of_l
     }
     if (!phys_may_continue(system))
         return false;
-    // 2. What happens to each particle alone.
+    // 2. Single-particle forces, motion and barriers.
     for (uint32_t g = 0; g < system->group_count && !move.done; g++)
         if (groups[g].count)
             phys_integrate(system, g, delta, speed_of_light);

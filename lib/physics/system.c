@@ -1,4 +1,4 @@
-// system.c: the description of a system (see system.h).
+// system.c: the description of a system (system.h).
 #include "physics/domain.h"
 #include "physics/threads.h"
 
@@ -20,7 +20,7 @@ PhysSystem *phys_new(void) {
         NeighbourList lists[PHYS_MAX_LISTS];
     } * memory;
     arena_init(&home, "physics", SIZE_MAX);
-    memory = arena_try_alloc(&home, sizeof *memory); // one block, so that nothing is left if there is none
+    memory = arena_try_alloc(&home, sizeof *memory); // one block, so that nothing must be freed on failure
     if (!memory)
         return NULL;
     PhysSystem *system = &memory->system;
@@ -47,7 +47,7 @@ void phys_free(PhysSystem *system) {
     phys_domain_free(system);
     if (system->owns_threads)
         phys_threads_free(system->threads);
-    Arena home = system->home; // the struct goes with it
+    Arena home = system->home; // copied, because it holds the struct
     arena_free(&home);
 }
 
@@ -93,7 +93,7 @@ void phys_begin(PhysSystem *system, uint32_t dimensions) {
     phys_add_group(system, 0);
 }
 
-// Makes room for one more element of a buffer that holds `count`.
+// Reserves memory for one more element of a buffer that holds `count`.
 static bool reserve_one(PhysSystem *system, Buffer *buffer, uint64_t count, uint64_t size) {
     return phys_buffer_reserve(system, buffer, count * size, count + 1, size);
 }
@@ -114,7 +114,7 @@ static void copy_vector(double *to, PhysVector from, size_t dimensions) {
         memset(to, 0, dimensions * sizeof *to);
 }
 
-// Keeps a particle's own force. There is no room for such forces until the first one comes.
+// Stores a particle's own force. The buffer is allocated only when the first own force is set.
 static void set_own_force(PhysSystem *system, uint32_t handle, PhysVector force, double ease) {
     size_t n = system->dimensions, first = system->has_own_forces ? handle : 0;
     if (!force && !(ease > 0) && !system->has_own_forces)
@@ -125,7 +125,7 @@ static void set_own_force(PhysSystem *system, uint32_t handle, PhysVector force,
     double *own_forces = system->own_forces.bytes;
     if (!system->has_own_forces) {
         memset(own_forces, 0, system->particle_count * n * sizeof *own_forces);
-        system->arranged = false; // the columns have none
+        system->arranged = false; // the columns have no own forces yet
     }
     if (ease > 0 && !system->has_eased_forces)
         system->arranged = false;
@@ -143,8 +143,8 @@ static ParticleRecord record_of(const PhysParticle *particle, uint32_t group, bo
                             .anchor = anchor};
 }
 
-// Keeps the record of a particle, of `count` with this one. As long as all are the same there is one. False if memory
-// is used up.
+// Stores the record of a particle; `count` includes it. As long as all records are equal, only one is stored. Returns
+// false if out of memory.
 static bool set_record(PhysSystem *system, uint32_t handle, uint32_t count, const ParticleRecord *record) {
     bool single = !system->record_stride && count > 1;
     if (single && memcmp(phys_record(system, 0), record, sizeof *record) == 0)
@@ -172,7 +172,7 @@ void phys_expect_particles(PhysSystem *system, uint64_t more) {
         return;
     phys_buffer_reserve(system, &system->rows, count * row, count + more, row);
     phys_buffer_reserve(system, &system->from_attribute, count, count + more, 1);
-    system->failed = false; // they need not come
+    system->failed = false; // a failed reservation is not an error
 }
 
 uint32_t phys_add_particle(PhysSystem *system, uint32_t group, const PhysParticle *particle) {
@@ -194,7 +194,7 @@ uint32_t phys_add_particle(PhysSystem *system, uint32_t group, const PhysParticl
     return handle;
 }
 
-// Takes new numbers of a particle into the columns too, if they are made.
+// Also updates the columns with a particle's new attributes, if the columns exist.
 static void update_columns(PhysSystem *system, uint32_t handle, const ParticleRecord *record, const double *row) {
     if (!system->arranged)
         return;
@@ -239,7 +239,7 @@ void phys_update_particle(PhysSystem *system, uint32_t particle, const PhysParti
     update_columns(system, particle, &record, row);
 }
 
-// Copies a vector of a force; returns where it begins plus 1, or 0 for all zeros (or no memory).
+// Copies a vector of a force. Returns its index plus 1, or 0 for all zeros and if out of memory.
 static uint64_t store_vector(PhysSystem *system, PhysVector vector) {
     uint64_t n = system->dimensions, begin = system->vector_doubles;
     if (!vector || !phys_buffer_reserve(system, &system->vectors, begin * sizeof(double), begin + n, sizeof(double)))
@@ -253,7 +253,7 @@ uint32_t phys_add_force(PhysSystem *system, uint32_t group, const PhysForce *for
     if (!reserve_one(system, &system->force_records, system->force_count, sizeof(ForceRecord)))
         return 0;
     assert(group < system->group_count);
-    int vectors = phys_force_row(force->kind).vectors; // the others may be garbage
+    int vectors = phys_force_row(force->kind).vectors; // the others may be uninitialised
     ForceRecord record = {.given = *force, .group = group};
     record.vector = vectors > 0 ? store_vector(system, force->vector) : 0;
     record.vector2 = vectors > 1 ? store_vector(system, force->vector2) : 0;

@@ -1,4 +1,4 @@
-// threads.c: see threads.h.
+// threads.c: the thread pool and the claiming of chunks (threads.h).
 #include "physics/threads.h"
 
 #include "base/heap.h"
@@ -13,44 +13,44 @@
 #include <time.h>
 #include <unistd.h>
 
-// What there is to claim, in one word: number of the job, its shares, and those claimed already from its front and from
-// its back. Every other thread takes from the back, so that a thread meets much
-// the same particles in each job and finds them in its cache.
+// The ticket is one word with the number of the job, its number of chunks, and the numbers of chunks claimed from the
+// front and from the back. Every other thread claims from the back, so that a thread processes nearly the same
+// particles in each job and finds them in its cache.
 enum { COUNT_BITS = 8, BACK_SHIFT = COUNT_BITS, CHUNKS_SHIFT = 2 * COUNT_BITS, JOB_SHIFT = 3 * COUNT_BITS };
-_Static_assert(PHYS_MAX_CHUNKS < 1 << COUNT_BITS, "the number of claimed shares must fit");
+_Static_assert(PHYS_MAX_CHUNKS < 1 << COUNT_BITS, "the number of claimed chunks must fit");
 
 enum {
     TUNERS = 3,
-    MIN_TUNER_BITS = 13,  // the first is of jobs below twice 2^13 units, the last of all that are larger
-    LINE_BYTES = 64,      // of the cache
-    POLLS_PER_CHECK = 64, // for work or at others, between two looks at the clock
-    SPIN_NS = 50000,      // a thread looks for new work before it goes to sleep: as long as it takes to be awake again
-    YIELD_NS = 50000      // and at others before it leaves the processor
+    MIN_TUNER_BITS = 13,  // tuners are for jobs below 2^14 units, below 2^15 units, and larger
+    LINE_BYTES = 64,      // of a cache line
+    POLLS_PER_CHECK = 64, // polls between two readings of the clock
+    SPIN_NS = 50000,      // a thread polls for work before it sleeps; about the time that waking takes
+    YIELD_NS = 50000      // a thread polls for other threads before it yields the processor
 };
 
 struct PhysThreads {
-    int count; // that are running, without the caller
-    atomic_int serving;
+    int count;          // number of running threads, without the caller
+    atomic_int serving; // number of threads that have started
     pthread_t threads[PHYS_MAX_THREADS];
-    pid_t process; // which they are of: a child that was forked off has none of them
+    pid_t process; // that created the pool; a forked child has none of its threads
     bool started;
-    void *block; // that this lies in
-    int wanted;
-    // of the caller
+    void *block; // allocated memory that contains this struct
+    int wanted;  // number of threads, with the caller
+    // used by the caller only
     PhysBackoff backoff;
-    PhysTuner tuners[TUNERS]; // by the size of a brief job
-    uint64_t last_request;    // when phys_help_at_hand found nobody awake
-    uint64_t waited;          // nanoseconds in this job
-    bool helped;              // the last job was
-    // the job, in one line: what others must fetch first
+    PhysTuner tuners[TUNERS]; // by the size of a short job
+    uint64_t last_request;    // when has_awake_helper last found no thread awake
+    uint64_t waited;          // nanoseconds that the caller waited in this job
+    bool helped;              // a helper took part in the last job
+    // the job, in one cache line, because other threads read it first
     _Alignas(LINE_BYTES) atomic_uint_fast64_t ticket;
     PhysTask *work;
     void *context;
-    _Alignas(LINE_BYTES) atomic_uint done; // shares that others have done, of all jobs
-    // sleep
+    _Alignas(LINE_BYTES) atomic_uint done; // chunks of all jobs that helpers have finished
+    // sleeping
     _Alignas(LINE_BYTES) atomic_int sleeping;
-    atomic_uint wakeups;          // to wake up
-    atomic_uint answered_wakeups; // the last of them that somebody has followed
+    atomic_uint wakeups;          // number of broadcasts of `wake`
+    atomic_uint answered_wakeups; // last of them that a thread has followed
     bool stop;
     pthread_mutex_t mutex;
     pthread_cond_t wake;
@@ -70,7 +70,7 @@ static bool any_left(uint64_t ticket) {
     return count_at(ticket, 0) + count_at(ticket, BACK_SHIFT) < count_at(ticket, CHUNKS_SHIFT);
 }
 
-// Claims a share; false if there is none. A claim keeps the job alive, so its fields may be read afterwards.
+// Claims a chunk. Returns false if there is none. A claim keeps the job alive, so its fields may be read afterwards.
 static bool claim_chunk(PhysThreads *threads, bool from_back, int *chunk, int *chunks) {
     uint64_t ticket = atomic_load_explicit(&threads->ticket, memory_order_acquire);
     while (any_left(ticket)) {
@@ -85,7 +85,7 @@ static bool claim_chunk(PhysThreads *threads, bool from_back, int *chunk, int *c
     return false;
 }
 
-// Returns how many shares it has done.
+// Runs chunks until none is left, and returns how many.
 static int run_chunks(PhysThreads *threads, bool helping, bool from_back) {
     int chunk, chunks, count = 0;
     for (; claim_chunk(threads, from_back, &chunk, &chunks); count++) {
@@ -106,7 +106,7 @@ static bool has_work(PhysThreads *threads) {
     return any_left(atomic_load(&threads->ticket));
 }
 
-// False if the threads are to end.
+// Sleeps until there may be work. Returns false if the threads must end.
 static bool sleep_until_woken(PhysThreads *threads) {
     pthread_mutex_lock(&threads->mutex);
     unsigned calls = atomic_load(&threads->wakeups);
@@ -156,7 +156,7 @@ PhysThreads *phys_threads_new(int count) {
     return threads;
 }
 
-// Threads that cannot be had are done without. They take no signals: those are for the host's threads.
+// Starts as many threads as the system allows. They block all signals, which are for the host's threads.
 static void start_threads(PhysThreads *threads) {
     sigset_t all, before;
     sigfillset(&all);
@@ -186,7 +186,7 @@ void phys_threads_free(PhysThreads *threads) {
     heap_free(threads->block);
 }
 
-// Wakes those who sleep, unless they are on their way already.
+// Wakes sleeping threads, unless an earlier wakeup is still in progress.
 static void wake_threads(PhysThreads *threads) {
     if (atomic_load(&threads->sleeping) == 0 ||
         atomic_load(&threads->answered_wakeups) != atomic_load(&threads->wakeups))
@@ -197,7 +197,7 @@ static void wake_threads(PhysThreads *threads) {
     pthread_mutex_unlock(&threads->mutex);
 }
 
-// The first share is the caller's.
+// Publishes a job whose first chunk is already claimed for the caller.
 static void publish_job(PhysThreads *threads, int chunks, PhysTask *work, void *context) {
     threads->work = work;
     threads->context = context;
@@ -245,7 +245,7 @@ static bool has_helpers(PhysThreads *threads) {
     return threads && threads->count > 0 && !phys_backoff_pauses(&threads->backoff, nanoseconds());
 }
 
-// Somebody is awake, or will be for one of the next jobs if they come quickly.
+// Returns true if a helper is awake. If not, and if short jobs come in quick succession, wakes one for later jobs.
 static bool has_awake_helper(PhysThreads *threads) {
     uint64_t now = nanoseconds();
     if (phys_backoff_pauses(&threads->backoff, now))
