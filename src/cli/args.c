@@ -1,4 +1,4 @@
-// args.c: reading a command line, one option or operand at a time.
+// args.c: see args.h.
 #include "cli/args.h"
 
 #include "cli/byte_buffer.h"
@@ -13,7 +13,7 @@ static const OptionSpec *find_option(unsigned commands, const char *name, char l
     return NULL;
 }
 
-// Another of the commands that run scripts, which has the option: what is asked of one is at times another's.
+// Returns the name of another command that has the option, or NULL. Users often confuse run, render and view.
 static const char *find_other_command(const Args *args, const char *name) {
     char letter = strlen(name) == 1 ? name[0] : '\0';
     static const char *const names[] = {"run", "render", "view"};
@@ -34,17 +34,17 @@ static int unknown_option(const Args *args, const char *word, const char *name) 
     const char *meant = strcmp(name, "v") == 0 ? "version" : nearest.found.bytes;
     const char *elsewhere = !meant || nearest.limit > 1 ? find_other_command(args, name) : NULL;
     if (elsewhere) {
-        message("'petri %s' has no option '%s', but 'petri %s' has; 'petri help %s' lists the options",
-                args->command->name, word, elsewhere, args->command->name);
+        message("'petri %s' has no option '%s', but 'petri %s' has; see 'petri help %s'", args->command->name, word,
+                elsewhere, args->command->name);
     } else if (meant) {
-        message("unknown option '%s', did you mean '--%s'?", word, meant);
+        message("unknown option '%s'; did you mean '--%s'?", word, meant);
     } else {
-        message("unknown option '%s'; 'petri help %s' lists the options", word, args->command->name);
+        message("unknown option '%s'; see 'petri help %s'", word, args->command->name);
     }
     return ARG_INVALID;
 }
 
-// An option with the value that is in its own word, if there is one, else with the next word.
+// Sets args->option and its value: `value` if it is in the same argument, else the next argument.
 static int accept_option(Args *args, const OptionSpec *spec, const char *word, const char *value) {
     args->option = spec;
     args->value = value;
@@ -76,7 +76,7 @@ static int short_option(Args *args, const char *word) {
     args->version = word[1] == 'V';
     if ((word[1] == 'h' || args->version) && word[2] == '\0')
         return ARG_HELP;
-    // No flag has a short form, so a letter is always followed by a value.
+    // Flags have no short form, so a letter is always followed by a value.
     const OptionSpec *spec = find_option(args->command->options, "", word[1]);
     return !spec ? unknown_option(args, word, word + 1)
                  : accept_option(args, spec, word, word[2] == '\0' ? NULL : word + 2);

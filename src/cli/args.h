@@ -1,4 +1,4 @@
-// args.h: reading a command line, one option or operand at a time.
+// args.h: a reader for a command line, one option or operand at a time.
 //
 // Options and operands may be mixed; `--` ends the options. `--name value`, `--name=value`, `-x value` and `-xvalue`
 // mean the same.
@@ -11,17 +11,17 @@ enum { ARG_END = 0, ARG_OPTION = 1, ARG_OPERAND = -1, ARG_HELP = -2, ARG_INVALID
 
 typedef struct Args {
     const Command *command;
-    struct Options *options; // what the command line asks for so far
+    struct Options *options; // values read so far
     int argc;
     char **argv;
     int next;
     bool operands_only;       // `--` was seen
-    bool version;             // --version asked for the help
-    const OptionSpec *option; // the one that args_next returned
-    const char *value;        // its value, or the operand
+    bool version;             // ARG_HELP means --version, not --help
+    const OptionSpec *option; // the option that args_next returned
+    const char *value;        // the option's value, or the operand
 } Args;
 
-// What comes next. After ARG_INVALID the message has been given.
+// Returns the kind of the next argument (ARG_...). Before it returns ARG_INVALID, it prints a message.
 int args_next(Args *args);
 
 #endif

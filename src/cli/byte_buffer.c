@@ -1,4 +1,4 @@
-// byte_buffer.c: growable text and memory for the command.
+// byte_buffer.c: see byte_buffer.h.
 #include "cli/byte_buffer.h"
 
 #include "base/file.h"

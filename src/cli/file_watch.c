@@ -1,5 +1,7 @@
-// file_watch.c: see file_watch.h. On Linux one epoll descriptor stands for inotify (something happened) and a timer
-// (the quiet after it is over); elsewhere the files are looked at by time.
+// file_watch.c: see file_watch.h.
+//
+// On Linux, one epoll descriptor combines inotify and a timer that expires when a changed file has been stable long
+// enough. Elsewhere the files are only polled.
 #include "cli/file_watch.h"
 
 #include "base/source.h"
@@ -21,13 +23,13 @@
 #define HAVE_INOTIFY 0
 #endif
 
-// Seconds without a change before one is told; the most that is waited for a writer who does not close the file; and
-// between looks at all files, with and without inotify.
+// QUIET_SECONDS: how long a file must be stable before a change is reported. MAX_WRITE_SECONDS: the same while a writer
+// keeps it open. SLOW_POLL_SECONDS, FAST_POLL_SECONDS: interval between polls of all files, with and without inotify.
 static const double QUIET_SECONDS = 0.05, MAX_WRITE_SECONDS = 2, SLOW_POLL_SECONDS = 1, FAST_POLL_SECONDS = 0.2;
 
-// What a file is, as far as stat tells.
+// Identity and version of a file, from stat. All zero if there is no regular file.
 typedef struct Stamp {
-    int64_t exists;
+    int64_t exists; // 1 or 0
     int64_t device;
     int64_t inode;
     int64_t size;
@@ -37,29 +39,29 @@ typedef struct Stamp {
 
 typedef struct File {
     char *path;
-    Stamp reported; // as of the last time that a change was told
-    Stamp found;    // at the last look
-    double since;   // when `found` was found first
-    bool pending;   // differs from `told`
-    bool written;   // someone has begun to write and not closed it
-    // Of the folders that hold the path and what it is a link to (often the same).
+    Stamp reported; // stamp at the last reported change
+    Stamp found;    // stamp at the last poll
+    double since;   // time when `found` was first seen
+    bool pending;   // `found` differs from `reported` and is not reported yet
+    bool written;   // a process has written to the file and not closed it
+    // inotify watches of the folders of the path and of the file that it links to (often the same); -1: none.
     int folders[2];
-    const char *names[2]; // in these folders; the second points into `target`
-    char *target;
+    const char *names[2]; // file names in these folders; they point into `path` and `target`
+    char *target;         // path with symbolic links resolved; NULL: does not exist
 } File;
 
 struct FileWatch {
-    int wake; // epoll; -1: none
-    int events;
-    int timer;
+    int wake;   // epoll descriptor; -1: none
+    int events; // inotify descriptor
+    int timer;  // timerfd
     File *files;
     size_t count;
-    double last_check;
+    double last_check; // time of the last poll
 };
 
 static Stamp stamp_of(const char *path) {
     struct stat info;
-    if (stat(path, &info) != 0 || !S_ISREG(info.st_mode)) // to read a pipe once more would wait for ever
+    if (stat(path, &info) != 0 || !S_ISREG(info.st_mode)) // reading a pipe again would block for ever
         return (Stamp){0};
     return (Stamp){true,
                    (int64_t)info.st_dev,
@@ -88,7 +90,7 @@ static bool add_wake_source(const FileWatch *watch, int descriptor) {
     return descriptor >= 0 && epoll_ctl(watch->wake, EPOLL_CTL_ADD, descriptor, &event) == 0;
 }
 
-// Without descriptors to spare, looking by time has to do.
+// If this fails, for example without free descriptors, files are only polled.
 static void open_wake(FileWatch *watch) {
     watch->wake = epoll_create1(EPOLL_CLOEXEC);
     watch->events = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
@@ -97,7 +99,7 @@ static void open_wake(FileWatch *watch) {
         close_all(watch);
 }
 
-// Events of the folder that a path is in; its number, or -1.
+// Watches the folder of a path. Returns the number of the watch, or -1.
 static int watch_folder(const FileWatch *watch, const char *path) {
     const uint32_t kinds = IN_MODIFY | IN_CLOSE_WRITE | IN_ATTRIB | IN_CREATE | IN_DELETE | IN_MOVED_FROM | IN_MOVED_TO;
     size_t length = path_directory(str_from(path)).len;
@@ -109,7 +111,8 @@ static const char *name_in_folder(const char *path) {
     return path + path_directory(str_from(path)).len;
 }
 
-// Asking anew gives the same numbers while the folders are the same; one that was removed and made again gets another.
+// Updates the watches of a file's folders. For an unchanged folder, inotify returns the same number again; a folder
+// that was deleted and created again gets a new number.
 static void watch_folders(const FileWatch *watch, File *file) {
     free(file->target);
     file->target = realpath(file->path, NULL);
@@ -128,7 +131,7 @@ static void handle_event(FileWatch *watch, const struct inotify_event *event) {
     }
 }
 
-// Takes what inotify and the timer have to say; true if that was anything.
+// Reads all pending events of inotify and the timer. Returns true if there were any.
 static bool handle_events(FileWatch *watch) {
     bool any = false;
     union {
@@ -147,7 +150,7 @@ static bool handle_events(FileWatch *watch) {
     return (watch->timer >= 0 && read(watch->timer, &expired, sizeof expired) > 0) || any;
 }
 
-// The descriptor shall become readable once more after so many seconds; 0: not by itself.
+// Makes the descriptor readable after this many seconds. 0 stops the timer.
 static void set_timer(const FileWatch *watch, double seconds) {
     struct itimerspec time = {.it_value = {(time_t)seconds, (long)((seconds - (double)(time_t)seconds) * 1e9)}};
     if (watch->timer >= 0)
@@ -167,7 +170,7 @@ static void watch_folders(const FileWatch *watch, File *file) {
     (void)file;
 }
 
-static bool take_events(FileWatch *watch) {
+static bool handle_events(FileWatch *watch) {
     (void)watch;
     return false;
 }
@@ -198,7 +201,8 @@ void file_watch_free(FileWatch *watch) {
     free(watch);
 }
 
-// True if this file's change is to be told now; else `*wait` falls to the time until it may be.
+// Returns true if a change of this file must be reported now. Otherwise, if a change is pending, lowers *wait to the
+// seconds until it can be reported.
 static bool check_file(const FileWatch *watch, File *file, double time, double *wait) {
     Stamp stamp = stamp_of(file->path);
     if (!is_same_stamp(&stamp, &file->found)) {
@@ -226,7 +230,8 @@ static bool any_pending(const FileWatch *watch) {
     return false;
 }
 
-// Whether something may happen that inotify does not tell: a folder that cannot be watched, or is gone with its file.
+// Returns true if inotify can miss a change, because a folder cannot be watched or a file (perhaps with its folder)
+// does not exist.
 static bool needs_polling(const FileWatch *watch) {
     for (size_t i = 0; i < watch->count; i++)
         if (watch->files[i].folders[0] < 0 || !watch->files[i].found.exists)
@@ -248,7 +253,7 @@ void file_watch_add(FileWatch *watch, const char *path) {
     watch->files = memory_realloc(watch->files, (watch->count + 1) * sizeof *watch->files);
     File *file = &watch->files[watch->count++];
     *file = (File){.path = memory_strdup(path)};
-    watch_folders(watch, file); // before the look, so that nothing is missed between the two
+    watch_folders(watch, file); // before stat, so that no change in between is missed
     file->reported = file->found = stamp_of(path);
     schedule_wake(watch, QUIET_SECONDS);
 }
@@ -263,7 +268,7 @@ bool file_watch_changed(FileWatch *watch) {
     bool changed = false;
     for (size_t i = 0; i < watch->count; i++) {
         if (late && !watch->files[i].found.exists)
-            watch_folders(watch, &watch->files[i]); // its folder may be a new one
+            watch_folders(watch, &watch->files[i]); // its folder may have been created again
         changed = check_file(watch, &watch->files[i], time, &wait) || changed;
     }
     schedule_wake(watch, wait);

@@ -22,32 +22,35 @@ static bool wait_for(pid_t process) {
     do {
         done = waitpid(process, &status, 0);
     } while (done < 0 && errno == EINTR);
-    if (done == process && WIFSIGNALED(status)) // else it has told itself
+    if (done == process && WIFSIGNALED(status)) // otherwise petri-hdf5 has printed its own message
         message("petri-hdf5, which writes the file, was ended by signal %d", WTERMSIG(status));
     return done == process && WIFEXITED(status) && WEXITSTATUS(status) == STATUS_DONE;
 }
 
-// Before a signal ends this process.
+// Lets petri-hdf5 finish the file before a signal ends this process (a SignalCleanup).
 static void close_on_signal(void *context) {
     Hdf5 *writer = context;
     close(writer->stream);
     wait_for(writer->process);
 }
 
-// In the child. Signals for all processes of a terminal are not for it: it ends with the stream.
+// Executes petri-hdf5 in the child process. It ignores signals from the terminal, because it must finish the file and
+// ends with the stream.
 static void exec_writer(int stream, char **words) {
     static const int ignored[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
     for (size_t i = 0; i < sizeof ignored / sizeof ignored[0]; i++)
         signal(ignored[i], SIG_IGN);
-    int cause = errno, nothing = open("/dev/null", O_WRONLY); // whoever reads what petri prints need not wait for this
+    // Its standard output is not petri's, so a program that reads petri's output does not wait for petri-hdf5.
+    int cause = errno, nothing = open("/dev/null", O_WRONLY);
     if (nothing >= 0 && dup2(stream, STDIN_FILENO) >= 0 && dup2(nothing, STDOUT_FILENO) >= 0)
         cause = helper_exec(words[0], words);
-    message("cannot write %s: there is no petri-hdf5: %s%s", words[2], strerror(cause),
-            cause == ENOENT ? "; this petri was built without HDF5 (Debian: libhdf5-dev)" : "");
+    message("cannot write %s: cannot start petri-hdf5: %s%s", words[2], strerror(cause),
+            cause == ENOENT ? "; petri was built without HDF5 (Debian: libhdf5-dev)" : "");
     _exit(STATUS_FAILED);
 }
 
-// The writer says a word as soon as all that can fail at first is done.
+// Waits for a byte from petri-hdf5, which it sends after the steps that are likely to fail. Returns false if it ended
+// instead.
 static bool wait_for_ready(int stream) {
     char word;
     ssize_t length;

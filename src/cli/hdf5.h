@@ -1,6 +1,7 @@
-// hdf5.h: files in HDF5: what is to stand in them goes down a stream to petri-hdf5, which alone takes libhdf5.
+// hdf5.h: HDF5 output through petri-hdf5, the only program that links libhdf5.
 //
-// So no signal that ends petri can harm a file: petri-hdf5 ends with the stream, and keeps what is whole.
+// petri sends the data through a socket. If a signal ends petri, petri-hdf5 sees the end of the stream and finishes the
+// file, so no signal can damage it.
 #ifndef PETRI_SRC_HDF5_H
 #define PETRI_SRC_HDF5_H
 
@@ -9,47 +10,49 @@
 #include <stdint.h>
 #include <sys/types.h>
 
-// Of a trajectory that a run cannot go on with.
-#define TRAJECTORY_FILE_UNKNOWN                                                                                        \
-    "it is not what --trajectory writes; remove it, or give another name, and a new one begins"
+// Error text for an existing trajectory file that a run cannot continue.
+#define TRAJECTORY_FILE_UNKNOWN "not a file that --trajectory writes; remove it or choose another name"
 
+// A running petri-hdf5.
 typedef struct Hdf5 {
-    pid_t process;
-    int stream;
-    int cleanup_id; // its number there
+    pid_t process;  // -1: not started
+    int stream;     // socket; -1: none
+    int cleanup_id; // number from signal_cleanup_begin
 } Hdf5;
 
-// Starts petri-hdf5 on a file of a kind: "trajectory" takes a stream of Hdf5Head with what it counts, "table" CSV
-// behind one, and then another. `after` is NULL, or the number of the frame from which a trajectory is gone on with, -1
-// for one that begins, and that of the last one that the file should have: it is then kept safe from whatever ends the
-// two programs. False after a message.
+// Starts petri-hdf5. `kind` is "trajectory" (any number of Hdf5Head, each with its data) or "table" (one HDF5_ADD with
+// CSV, then HDF5_COMMIT). If `after` is not NULL, the trajectory survives a crash of both programs and can be resumed;
+// `after` is then "FRAME LAST": the frame to resume after (-1: none), and the last frame the file should contain.
+// Returns false after a message.
 bool hdf5_start(Hdf5 *writer, const char *kind, const char *path, const char *after);
-// Waits until what was sent, HDF5_SYNC at last, is on the disk. False if that failed, which petri-hdf5 has told.
+// Waits until the data before the last HDF5_SYNC is on disk. Returns false on failure; petri-hdf5 has printed a message
+// then.
 bool hdf5_wait(Hdf5 *writer);
-// A table as a whole. False after a message.
+// Writes a whole table. Returns false after a message.
 bool hdf5_table(const char *path, const char *csv, size_t length);
-// Whether a table is to be in HDF5, by its name.
+// Returns true if the file name says that a table is written as HDF5 (.h5, .hdf5).
 bool hdf5_has_suffix(const char *path);
-// Waits until the file has taken its name. False if there is none, which petri-hdf5 has told if it is its fault.
+// Closes the stream and waits until the file has its final name. Returns false if there is no file. petri-hdf5 has
+// printed a message if it failed.
 bool hdf5_end(Hdf5 *writer);
 
-// What follows is the layout of the stream, of two programs that are built together.
+// Format of the stream. Both programs are built together, so it has no version and uses native byte order.
 
 typedef enum Hdf5Command {
-    HDF5_ADD = 1, // `bytes` follow
-    HDF5_COMMIT,  // the file is complete; it is also kept if the stream ends after something was added
-    HDF5_DISCARD, // it is not to be
-    HDF5_SYNC,    // what there is so far must be on the disk; answered by a byte
-    HDF5_NEW_RUN, // in a spool (hdf5/spool.h): what follows comes from another run
+    HDF5_ADD = 1, // followed by `bytes` bytes of data
+    HDF5_COMMIT,  // the file is complete; also implied if the stream ends after data was added
+    HDF5_DISCARD, // the file is not wanted
+    HDF5_SYNC,    // write everything so far to disk; answered by one byte
+    HDF5_NEW_RUN, // in a spool (hdf5/spool.h): the following data comes from another run
 } Hdf5Command;
 
 typedef struct Hdf5Head {
-    uint64_t command;
+    uint64_t command; // Hdf5Command
     uint64_t bytes;
 } Hdf5Head;
 
-// A frame. Its ids that are new and no whole numbers from 0 follow, each ended by NUL, then the systems. All texts are
-// filled up with NULs to eight bytes.
+// A frame. It is followed by the new ids that are not integers >= 0, each NUL-terminated, then by the systems. All
+// texts are padded with NULs to a multiple of eight bytes.
 typedef struct Hdf5Frame {
     int64_t number;
     double time;
@@ -58,18 +61,19 @@ typedef struct Hdf5Frame {
     uint64_t system_count;
 } Hdf5Frame;
 
-// A system. Its name follows, then of all particles: positions, velocities, radii, masses and charges as doubles; ids
-// as int64_t, -2-K for text K of all frames; whether it is an anchor as int64_t.
+// A system. It is followed by its name, then by one array per quantity: positions, velocities, radii, masses and
+// charges as double; ids as int64_t, where -2-K means text K, counted over all frames; anchor flags as int64_t.
 typedef struct Hdf5System {
     uint64_t particles;
     uint64_t dimensions;
     uint64_t name_bytes;
 } Hdf5System;
 
-enum { HDF5_NUMBERS = 5 }; // of a particle besides those of position and velocity, all of eight bytes
+enum { HDF5_NUMBERS = 5 }; // eight-byte values per particle besides position and velocity
 
+// Returns the size of a text of this length with its padding, which has at least one NUL.
 static inline size_t hdf5_padded(size_t length) {
-    return (length + 8) / 8 * 8; // at least one NUL
+    return (length + 8) / 8 * 8;
 }
 
 #endif

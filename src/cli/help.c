@@ -1,4 +1,4 @@
-// help.c: what the commands and their options are; the version.
+// help.c: help on commands and their options, and the version.
 #include "cli/help.h"
 
 #include "cli/byte_buffer.h"
@@ -25,14 +25,14 @@ int help_end(Output *output) {
     return status;
 }
 
-const char HELP_TITLE[] = "runs Flitter scripts that hold systems of particles";
+const char HELP_TITLE[] = "runs Flitter scripts with particle physics";
 const char HELP_BEGINNING[] =
-    "To begin: petri new dish, then petri view dish.fl, and change dish.fl in an editor.\n\n"
-    "'petri help COMMAND' lists a command's options. Scripts are made of functions ('petri help builtins') and\n"
-    "nodes ('petri help nodes'); 'petri help WORD' tells of one, such as sin, particle or tempo. SCRIPT.fl may\n"
-    "be - for standard input. 'petri --version' prints the version.";
+    "To start, run petri new dish, then petri view dish.fl, and edit dish.fl.\n\n"
+    "'petri help COMMAND' lists a command's options, 'petri help builtins' all functions and 'petri help nodes'\n"
+    "all nodes. 'petri help WORD' explains a word of scripts, such as sin, particle or tempo. SCRIPT.fl can be -\n"
+    "for standard input. 'petri --version' prints the version.";
 
-// Writes a line, from a column on, in as many lines as its words need. `hang`: the column where further lines begin.
+// Writes text that starts in `column`, wrapped at words. Further lines start in column `hang`.
 static void write_words(Output *output, Str line, size_t column, size_t hang, size_t width) {
     for (size_t at = 0; at < line.len;) {
         size_t start = at, word;
@@ -52,7 +52,7 @@ static void write_words(Output *output, Str line, size_t column, size_t hang, si
 }
 
 static void write_line(Output *output, Str line, size_t width) {
-    enum { NARROWEST = 24, INDENT = 4 }; // columns for the last cell, else it is put below the others
+    enum { NARROWEST = 24, INDENT = 4 }; // minimum width of the last cell; if there is less, it goes below the others
     size_t indent = 0, gap = 0;
     while (indent < line.len && line.bytes[indent] == ' ')
         indent++;

@@ -1,4 +1,4 @@
-// help.h: writing help to standard output.
+// help.h: formatting of help texts for standard output.
 #ifndef PETRI_SRC_HELP_H
 #define PETRI_SRC_HELP_H
 
@@ -7,41 +7,41 @@
 #include "cli/output.h"
 #include "petri.h"
 
-// To be ended.
+// Returns an output for standard output. It must be closed with help_end.
 Output *help_begin(void);
-// Writes what is left and frees the output; returns the exit status.
+// Flushes and frees the output. Returns the exit status.
 int help_end(Output *output);
-// Writes text wrapped at words to the width of the terminal, or to 80 columns elsewhere. The rest of a line begins
-// below the last of its columns, which are separated by two blanks or more.
+// Writes text, wrapped at words to the width of the terminal (COLUMNS overrides it; default: 80). Columns of a line are
+// separated by at least two spaces; a wrapped line continues below its last column.
 void help_write(Output *output, const ByteBuffer *text);
-// Writes text in this way to standard output; returns the exit status.
+// Writes text like help_write, to standard output. Returns the exit status.
 int help_print(const ByteBuffer *text);
-// Adds prose: a line that begins without a blank continues the one above it. Ends with a newline.
+// Adds paragraphs and a newline. A line that does not begin with a space is joined to the line above.
 void help_prose(ByteBuffer *text, const char *prose);
-// Adds a line with an option and what it does.
+// Adds a line with an option and its help.
 void help_option(ByteBuffer *text, const OptionSpec *spec);
 
-// What `petri help` and the manual begin with: after the name, and after the list of commands.
+// Texts of `petri help` and of the manual: one after the program's name, one after the list of commands.
 extern const char HELP_TITLE[], HELP_BEGINNING[];
 
-// Words of the language that are neither functions nor nodes, ended by one without a word (topics.c).
+// A word of the language that is neither a function nor a node (topics.c).
 typedef struct Topic {
     const char *word;
-    const char *form;
+    const char *form; // syntax
     const char *help;
 } Topic;
-extern const Topic TOPICS[];
+extern const Topic TOPICS[]; // all topics, then one with word NULL
 
-// The formula of a force, indented, a line each (nothing of other nodes), and what its letters stand for.
+// Adds the formulas of a force, one per line, indented. Adds nothing for other nodes.
 void help_formula(ByteBuffer *text, const PetriNodeKind *kind);
-extern const char FORMULA_LETTERS[];
+extern const char FORMULA_LETTERS[]; // explains the symbols in formulas
 
-// What there is to say of a word of the language, for `petri help` and `.help` at the prompt (topics.c).
+// Help on words of the language, for `petri help` and `.help` at the prompt (topics.c).
 
-// Tells of the built-in function, the node (`!name` means no other), the word or the attribute of this name. False if
-// there is none.
+// Adds the help for all functions, nodes and words with this name, or else for attributes. `!name` matches only nodes.
+// Returns false if there is nothing with this name.
 bool topics_print(ByteBuffer *text, const char *topic);
-// Offers all of these names.
+// Offers the names of all topics as candidates.
 void topics_offer(StrNearest *nearest);
 
 #endif

@@ -1,6 +1,6 @@
-// helper_exec.c: starting the other programs, petri-pictures, petri-lsp and petri-ranks, for what this one cannot do.
+// helper_exec.c: see helper_exec.h.
 //
-// They lie beside this one, as in a build folder, or where `meson install` puts what only other programs call.
+// Helper programs are in the folder of this program, as in a build folder, or in ../libexec, as installed.
 #include "cli/helper_exec.h"
 
 #include "cli/cli.h"
@@ -31,14 +31,13 @@ bool helper_exec_forwards_unknown(void) {
     return !HAS_ALL;
 }
 
-// Where the path's last part begins.
+// Returns the last component of the path.
 static char *find_base_name(char *path) {
     char *slash = strrchr(path, '/');
     return !slash ? path : slash + 1;
 }
 
-// Becomes a program that lies beside this one or where `meson install` puts it. Returns, if that fails, why, and in
-// `path` the folder of this one.
+// Executes a helper program. On failure, returns the value of errno, with the folder of this program in `path`.
 static int exec_helper(const char *name, char **argv, char path[PATH_MAX + 64]) {
     static const char *const folders[] = {"", "../libexec/"};
     ssize_t length = readlink("/proc/self/exe", path, PATH_MAX - 1);
@@ -51,7 +50,7 @@ static int exec_helper(const char *name, char **argv, char path[PATH_MAX + 64]) 
     for (size_t i = 0; i < sizeof folders / sizeof folders[0]; i++) {
         strcpy(base_name, folders[i]);
         strcat(base_name, name);
-        execvp(path, argv); // looks along PATH if there is no slash
+        execvp(path, argv); // searches PATH if there is no slash
         cause = cause == 0 || errno != ENOENT ? errno : cause;
     }
     *base_name = '\0';
@@ -69,8 +68,8 @@ int helper_exec_pictures(char **argv) {
     int folder = (int)strlen(path), above = folder - 1;
     while (above > 0 && path[above - 1] != '/')
         above--;
-    message("cannot start petri-pictures, which draws and prompts: %s; it belongs in %.*s or in %.*slibexec/",
-            strerror(cause), folder, path, above < 0 ? 0 : above, path);
+    message("cannot start petri-pictures: %s; install it in %.*s or %.*slibexec/", strerror(cause), folder, path,
+            above < 0 ? 0 : above, path);
     return STATUS_FAILED;
 }
 
@@ -81,8 +80,8 @@ int helper_exec_lsp(char **argv) {
 #else
     char path[PATH_MAX + 64];
     int cause = exec_helper("petri-lsp", argv, path);
-    message("cannot start petri-lsp, which serves editors: %s%s", strerror(cause),
-            cause == ENOENT ? "; this petri was built without json-c (Debian: libjson-c-dev)" : "");
+    message("cannot start petri-lsp: %s%s", strerror(cause),
+            cause == ENOENT ? "; petri was built without json-c (Debian: libjson-c-dev)" : "");
     return STATUS_FAILED;
 #endif
 }
@@ -96,8 +95,8 @@ int helper_exec_ranks(char **argv, bool needed) {
     if (cause == ENOENT && !needed)
         return -1;
     if (rank == 0) {
-        message("cannot start petri-ranks, which mpirun takes: %s%s", strerror(cause),
-                cause == ENOENT ? "; this petri was built without MPI (Debian: libopenmpi-dev)" : "");
+        message("cannot start petri-ranks: %s%s", strerror(cause),
+                cause == ENOENT ? "; petri was built without MPI (Debian: libopenmpi-dev)" : "");
     }
     return STATUS_FAILED;
 }

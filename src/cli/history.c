@@ -27,18 +27,18 @@ void history_free(FrameHistory *history) {
     *history = (FrameHistory){0};
 }
 
-// A keyframe with which its epoch begins: without it frames would be lost.
+// Returns true for the first keyframe of an epoch. Without it, frames of the epoch could not be recomputed.
 static bool is_pinned(const FrameHistory *history, size_t at) {
     return at == 0 || history->keyframes[at - 1].epoch != history->keyframes[at].epoch;
 }
 
-// How little is lost with a keyframe: the frames between its neighbours for each frame that they lie back.
+// Returns the cost of dropping a keyframe: the distance of its neighbours relative to their age.
 static double keyframe_cost(const FrameHistory *history, size_t at) {
     const Keyframe *before = &history->keyframes[at - 1], *after = &history->keyframes[at + 1];
     return (double)(after->frame - before->frame) / (double)(history->last - before->frame + 8 * HISTORY_INTERVAL);
 }
 
-// The timeline begins later.
+// Drops the oldest keyframe, so that the timeline starts later.
 static void drop_oldest(FrameHistory *history) {
     drop_keyframe(history, 0);
     while (history->epoch_count > 1 && history->epochs[0].number != history->keyframes[0].epoch) {
@@ -46,7 +46,7 @@ static void drop_oldest(FrameHistory *history) {
         memmove(history->epochs, history->epochs + 1, history->epoch_count * sizeof *history->epochs);
     }
     history->first = history->epochs[0].start = history->keyframes[0].frame;
-    history->why = "what was before it was dropped to save memory";
+    history->why = "earlier frames were dropped to save memory";
 }
 
 static void drop_one(FrameHistory *history) {
@@ -76,8 +76,8 @@ static bool add_keyframe(FrameHistory *history, PetriSession *session) {
     return true;
 }
 
-// From the present frame on, the present configuration counts; `anew`: what was before is forgotten. No epoch is ever
-// without its first keyframe.
+// Starts an epoch with a keyframe at the current frame. If `restart` is true, drops all earlier keyframes and epochs.
+// Returns false if out of memory, with nothing changed, so that no epoch is without its first keyframe.
 static bool begin_epoch(FrameHistory *history, PetriSession *session, bool restart) {
     PetriSnapshot *snapshot = petri_snapshot(session);
     if (!snapshot)
@@ -101,12 +101,12 @@ bool history_start(FrameHistory *history, PetriSession *session, const char *why
     return history->origin && begin_epoch(history, session, true);
 }
 
-// Begins it now if there was no memory when it was to begin. The session cannot have gone on since.
+// Starts the timeline if an earlier attempt ran out of memory. The session cannot have advanced since then.
 static bool ensure_started(FrameHistory *history, PetriSession *session) {
     return history->keyframe_count > 0 || history_start(history, session, history->why);
 }
 
-// The epoch in which a frame beyond the first was made.
+// Returns the epoch of a frame after the first.
 static const Epoch *epoch_of(const FrameHistory *history, int64_t frame) {
     size_t at = history->epoch_count - 1;
     while (at > 0 && history->epochs[at].start >= frame)
@@ -114,7 +114,7 @@ static const Epoch *epoch_of(const FrameHistory *history, int64_t frame) {
     return &history->epochs[at];
 }
 
-// Forgets what was after a frame.
+// Removes all frames after `frame` from the timeline.
 static void drop_frames_after(FrameHistory *history, int64_t frame) {
     while (history->keyframe_count > 1 && history->keyframes[history->keyframe_count - 1].frame > frame)
         drop_keyframe(history, history->keyframe_count - 1);
@@ -130,7 +130,7 @@ static bool begin_epoch_if_changed(FrameHistory *history, PetriSession *session,
     if (epoch_of(history, frame + 1)->config == petri_config_revision(session))
         return true;
     drop_frames_after(history, frame);
-    // Up to the first frame nothing was made with the old configuration that could be asked for.
+    // If this is the first frame, no frame of the old configuration is left.
     return begin_epoch(history, session, frame <= history->first);
 }
 
@@ -166,9 +166,8 @@ PetriStatus history_step(FrameHistory *history, PetriSession *session) {
     if (status == PETRI_INTERRUPTED || frame == before)
         return status;
     if (petri_config_revision(session) != config) {
-        PetriStatus started = history_start(history, session, "a file that the script imports was changed")
-                                  ? PETRI_OK
-                                  : PETRI_OUT_OF_MEMORY;
+        PetriStatus started =
+            history_start(history, session, "an imported file has changed") ? PETRI_OK : PETRI_OUT_OF_MEMORY;
         return status == PETRI_OK ? started : status;
     }
     PetriFrame made = petri_frame(session);
@@ -182,7 +181,7 @@ PetriStatus history_step(FrameHistory *history, PetriSession *session) {
     return status;
 }
 
-// The last keyframe from which a frame beyond the first can be made, or NULL.
+// Returns the last keyframe before `frame` in its epoch, or NULL. `frame` is after the first.
 static const Keyframe *keyframe_before(const FrameHistory *history, int64_t frame) {
     uint32_t epoch = epoch_of(history, frame)->number;
     for (size_t i = history->keyframe_count; i > 0; i--) {
@@ -193,7 +192,8 @@ static const Keyframe *keyframe_before(const FrameHistory *history, int64_t fram
     return NULL;
 }
 
-// Makes frames again up to one in the timeline, from a keyframe or from where the session is.
+// Recomputes frames up to `frame`, which is in the timeline: from the current frame if it lies between the keyframe
+// `from` and `frame`, else from the keyframe.
 static PetriStatus replay_frames(const FrameHistory *history, PetriSession *session, const Keyframe *from,
                                  uint64_t config, int64_t frame) {
     int64_t now = petri_frame(session).number;
@@ -210,8 +210,8 @@ static PetriStatus seek_back(FrameHistory *history, PetriSession *session, int64
         return petri_rewind(session, history->keyframes[0].snapshot);
     const Keyframe *from = frame < history->first ? NULL : keyframe_before(history, frame);
     if (!from) {
-        byte_buffer_format(why, "frame %" PRId64 " cannot be made again: the history begins with frame %" PRId64 "%s%s",
-                           frame, history->first, !history->why ? "" : ": ", !history->why ? "" : history->why);
+        byte_buffer_format(why, "cannot go to frame %" PRId64 ": the history starts at frame %" PRId64 "%s%s", frame,
+                           history->first, !history->why ? "" : ": ", !history->why ? "" : history->why);
         return PETRI_INVALID;
     }
     return replay_frames(history, session, from, epoch_of(history, frame)->config, frame);

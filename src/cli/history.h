@@ -1,22 +1,21 @@
-// history.h: the frames that were made, so that one can go back to them.
+// history.h: a timeline of computed frames that a session can go back to.
 //
-// A timeline of frames from `first` to `last`. Some of them, the keyframes, are kept whole; a frame between two of them
-// is made again from the one before it, which gives the same bits. Keyframes are kept denser for the recent past,
-// within HISTORY_BYTES and HISTORY_MAX of them: when there are too many, the one goes whose absence lengthens the way
-// to its neighbours least, measured by how long ago that is.
+// The timeline covers the frames `first` to `last`. Some of them, the keyframes, are stored as snapshots. Other frames
+// are recomputed from the keyframe before them, with bit-identical results. HISTORY_BYTES and HISTORY_MAX limit the
+// keyframes. Beyond that, the keyframe is dropped that saves the fewest steps relative to its age, so keyframes are
+// denser in the recent past.
 //
-// What is changed by hand (script, definitions, clock rates, statements of the prompt) begins a new epoch with a
-// keyframe of its own: a frame is made again with what was in force when it was made. To step on from a frame in the
-// past under a changed configuration gives the timeline another future: what was after that frame is forgotten then.
-// A session that follows the wall clock makes a frame again at the time that it had. What is then made after it is made
-// at other times, so that the timeline has another future there, too.
+// A change of the configuration (script, definitions, clock rates, prompt statements) starts a new epoch with its own
+// keyframe. A frame is always recomputed with the configuration of its epoch. Stepping from a past frame under a
+// changed configuration discards the frames after it. If the session follows the wall clock, a frame is recomputed at
+// its recorded time; a new frame after a past frame has a new time, so the frames after that are discarded.
 #ifndef PETRI_SRC_CLI_HISTORY_H
 #define PETRI_SRC_CLI_HISTORY_H
 
 #include "cli/byte_buffer.h"
 #include "petri.h"
 
-// 64 MiB, or two keyframes where they are larger than that.
+// Limits of the keyframes: number, least distance in frames, and bytes. Two keyframes are kept whatever their size.
 enum { HISTORY_MAX = 512, HISTORY_INTERVAL = 8 };
 #define HISTORY_BYTES ((size_t)64 << 20)
 
@@ -26,17 +25,17 @@ typedef struct Keyframe {
     PetriSnapshot *snapshot;
 } Keyframe;
 
-// Frames after `start` up to the next epoch's start.
+// Frames with the same configuration: from start + 1 to the start of the next epoch.
 typedef struct Epoch {
-    uint32_t number;
+    uint32_t number; // unique in the history
     int64_t start;
-    uint64_t config;
+    uint64_t config; // petri_config_revision
 } Epoch;
 
-// When a frame was, in seconds and beats.
+// Time of a frame.
 typedef struct FrameTime {
-    double time;
-    double beat;
+    double time; // seconds
+    double beat; // beats
 } FrameTime;
 
 typedef struct FrameHistory {
@@ -44,33 +43,35 @@ typedef struct FrameHistory {
     size_t keyframe_count;
     Epoch *epochs;
     size_t epoch_count;
-    uint32_t last_epoch; // number given last
-    size_t bytes;        // of all keyframes
-    int64_t first;
+    uint32_t last_epoch; // number of the newest epoch
+    size_t bytes;        // size of all keyframes
+    int64_t first;       // first and last frame of the timeline
     int64_t last;
-    PetriSnapshot *origin; // where `.reset` goes
-    bool live;             // the session follows the wall clock; set before history_start
-    FrameTime *times;      // … of the frames after `times_start`, as far as they are known
+    PetriSnapshot *origin; // state that history_reset returns to
+    bool live;             // true if the session follows the wall clock; set before history_start
+    FrameTime *times;      // if live: times of the frames from times_start + 1
     size_t time_count;
     size_t time_capacity;
     int64_t times_start;
-    const char *why; // why the timeline begins where it does, or NULL if nothing was before it
+    const char *why; // reason why earlier frames are missing, a literal; NULL: there were none
 } FrameHistory;
 
-// The timeline begins with the present frame; `why` (a literal) says what became of the one before. False if memory is
-// used up: what needs the timeline then tries again.
+// Starts a new timeline at the current frame and drops the old one. `why` becomes history->why. Returns false if out of
+// memory; the other functions then try again.
 bool history_start(FrameHistory *history, PetriSession *session, const char *why);
 void history_free(FrameHistory *history);
-// petri_step, with the history kept.
+// Like petri_step, but records the frame.
 PetriStatus history_step(FrameHistory *history, PetriSession *session);
-// Goes to a frame of the timeline, or beyond it by stepping. PETRI_INVALID with a reason in `why` if it cannot be made
-// again. PETRI_INTERRUPTED in some frame on the way. The configuration stays.
+// Goes to a frame of the timeline, or steps until a later frame. Keeps the current configuration. Returns PETRI_INVALID
+// and adds a reason to `why` if the frame cannot be recomputed. After PETRI_INTERRUPTED the session is at a frame in
+// between.
 PetriStatus history_goto(FrameHistory *history, PetriSession *session, int64_t frame, ByteBuffer *why);
-// Makes the present frame again, with its systems and its tree, from the keyframe before it. The first one of the
-// timeline stays as it is, and so does any that cannot be made again. PETRI_INTERRUPTED and PETRI_OUT_OF_MEMORY change
+// Recomputes the current frame with its systems and its tree from the keyframe before it. Does nothing for the first
+// frame of the timeline and for frames that cannot be recomputed. PETRI_INTERRUPTED and PETRI_OUT_OF_MEMORY change
 // nothing.
 PetriStatus history_recompute(FrameHistory *history, PetriSession *session);
-// Goes to where the timeline began, even if that was dropped since. The configuration stays.
+// Goes to the frame at which history_start was called, even if its keyframe was dropped. Keeps the current
+// configuration.
 PetriStatus history_reset(FrameHistory *history, PetriSession *session);
 
 #endif

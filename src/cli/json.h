@@ -1,15 +1,15 @@
-// json.h: writing JSON.
+// json.h: functions that write JSON.
 #ifndef PETRI_SRC_JSON_H
 #define PETRI_SRC_JSON_H
 
 #include "cli/byte_buffer.h"
 #include "petri.h"
 
-// Adds a string with its quotes; what is not UTF-8 becomes U+FFFD. NULL is null.
+// Adds a quoted and escaped string. Invalid UTF-8 becomes U+FFFD; NULL becomes null.
 void json_add_text(ByteBuffer *out, const char *text);
-// The word for a level.
+// Returns "error", "warning" or "note".
 const char *level_word(PetriLevel level);
-// Adds a diagnostic as an object in one line.
+// Adds a diagnostic as an object on one line.
 void json_add_diagnostic(ByteBuffer *out, const PetriDiagnostic *diagnostic);
 
 #endif

@@ -1,4 +1,4 @@
-// message.c: messages of the command itself, signals, and the search for what a mistyped word was meant to be.
+// message.c: messages of the command, signal handlers, and suggestions for mistyped words (cli.h).
 #include "base/file.h"
 #include "base/str.h"
 #include "cli/cli.h"
@@ -16,7 +16,8 @@ void signal_catch(int number, void (*handler)(int), int flags) {
         sigaction(number, &action, NULL);
 }
 
-// What a stranger's script or link is called must not reach a terminal as its orders. The new length.
+// Replaces control characters with `?`, so that a file name or link cannot send escape sequences to the terminal.
+// Returns the new length.
 static size_t without_controls(char *line, size_t length) {
     size_t kept = 0;
     for (size_t at = 0; at < length;) {
@@ -33,7 +34,7 @@ static size_t without_controls(char *line, size_t length) {
 }
 
 void message(const char *format, ...) {
-    // One write for the whole line, so that messages of parallel processes do not mix.
+    // The line is written at once, so that messages of parallel processes do not mix.
     char line[1024];
     size_t length = (size_t)snprintf(line, sizeof line, "petri: ");
     va_list list;
@@ -46,7 +47,7 @@ void message(const char *format, ...) {
     length = without_controls(line, length);
     line[length] = '\n';
     length++;
-    // Not by stdio, which drops what a signal interrupts: Ctrl-C comes just when there is something to say about it.
+    // stdio would lose output when a signal such as Ctrl-C interrupts it.
     file_write(STDERR_FILENO, line, length);
 }
 
@@ -56,7 +57,7 @@ StrNearest nearest_start(const char *word) {
 }
 
 bool nearest_offer(StrNearest *nearest, const char *name) {
-    // A shortened word counts as near: `--def` for `--define`.
+    // A prefix counts as similar, such as `--def` for `--define`.
     bool shortened = nearest->wanted.len >= 3 && str_starts_with(str_from(name), nearest->wanted);
     if (!shortened || nearest->limit <= 1)
         return !shortened && str_try_nearest(nearest, str_from(name));

@@ -1,4 +1,4 @@
-// motion.h: what is measured of the particles of a system together. Anchors do not count.
+// motion.h: total energy and momentum of the particles of a system. Anchors are not counted.
 #ifndef PETRI_SRC_MOTION_H
 #define PETRI_SRC_MOTION_H
 
@@ -7,15 +7,15 @@
 #include <stdint.h>
 
 typedef struct Motion {
-    uint32_t moving;           // particles
-    double kinetic_energy;     // half the mass times the speed squared
-    double *momentum;          // mass times velocity
-    double fastest;            // speed
-    uint32_t fastest_particle; // if some are moving
+    uint32_t moving;           // number of particles that are not anchors
+    double kinetic_energy;     // sum of mass * speed^2 / 2
+    double *momentum;          // sum of mass * velocity, one value per dimension
+    double fastest;            // highest speed
+    uint32_t fastest_particle; // index of the particle with that speed; undefined if `moving` is 0
 } Motion;
 
 double particle_speed(const PetriSystem *system, uint32_t particle);
-// Free it with motion_free.
+// The caller frees the result with motion_free.
 Motion motion_measure(const PetriSystem *system);
 void motion_free(Motion *motion);
 

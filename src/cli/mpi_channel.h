@@ -1,15 +1,17 @@
-// mpi_channel.h: letters between the processes that mpirun has started, for what is not done in step.
+// mpi_channel.h: messages between the processes that mpirun has started.
+//
+// For asynchronous work, such as the assignment of sweep runs; collective operations are in PetriRanks.
 #ifndef PETRI_SRC_MPI_CHANNEL_H
 #define PETRI_SRC_MPI_CHANNEL_H
 
 #include "cli/byte_buffer.h"
 
-typedef struct Mail {
-    int rank; // of this process, from 0
-    int count;
-    // May wait until the other takes it, if it is long.
+typedef struct MpiChannel {
+    int rank;  // number of this process, from 0
+    int count; // number of processes
+    // Sends a message. May block until the receiver accepts it, if it is long.
     void (*send)(int to, const void *bytes, size_t length);
-    // Adds the bytes of a letter that has come; false if none has.
+    // Appends a received message to `message` and sets *from to its sender. Returns false if there is none.
     bool (*receive)(int *from, ByteBuffer *message);
 } MpiChannel;
 

@@ -1,10 +1,10 @@
-// mpirun.h: whether this process is one of several that mpirun has started, without MPI.
+// mpirun.h: detection of mpirun without linking MPI.
 #ifndef PETRI_SRC_MPIRUN_H
 #define PETRI_SRC_MPIRUN_H
 
 #include <stdbool.h>
 
-// False if it is alone; else its number, from 0, and how many there are.
+// Returns true if mpirun has started several processes, and sets *rank (from 0) and *count.
 bool mpirun_rank(int *rank, int *count);
 
 #endif

@@ -1,8 +1,8 @@
-// new_dish.h: the lines of samples/dish.fl, which `petri new` writes; lines.sed makes new_dish.c of that script.
+// new_dish.h: the lines of samples/dish.fl, which `petri new` writes. lines.sed generates new_dish.c from that script.
 #ifndef PETRI_SRC_NEW_DISH_H
 #define PETRI_SRC_NEW_DISH_H
 
-// Ended by NULL; each line has its newline.
+// The lines, each with its newline, then NULL.
 extern const char *const NEW_DISH[];
 
 #endif

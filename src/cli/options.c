@@ -16,9 +16,9 @@
 
 enum { DEFAULT_FRAMES = 600 };
 
-// Readers take the value of an option into a field of the Options; false after a message.
+// The read_ functions parse args->value and store it in a field of Options. They return false after a message.
 
-// Says that the value is wrong and what it should be; returns false.
+// Reports an invalid value and what is expected. Returns false.
 static bool report_invalid_value(const Args *args, const char *expected) {
     message("option '--%s' expects %s, not '%s'", args->option->name, expected, args->value);
     return false;
@@ -36,7 +36,7 @@ static bool read_unset(const Args *args, void *field) {
     return true;
 }
 
-// --quiet, --verbose, --debug, --trace.
+// Reads --quiet, --verbose, --debug or --trace. The level is in option->min.
 static bool read_verbosity(const Args *args, void *field) {
     *(Verbosity *)field = (Verbosity)args->option->min;
     return true;
@@ -55,9 +55,10 @@ static bool read_integer(const Args *args, void *field) {
     bool is_number = args->value[0] >= '-' && end != args->value && *end == '\0';
     if (!is_number || errno != 0 || value < option->min || value > option->max) {
         SCOPED_BYTE_BUFFER expected = {0};
-        byte_buffer_format(&expected, "a whole number from %" PRId64, option->min);
         if (option->max < INT64_MAX - 1)
-            byte_buffer_format(&expected, " to %" PRId64, option->max);
+            byte_buffer_format(&expected, "an integer from %" PRId64 " to %" PRId64, option->min, option->max);
+        else
+            byte_buffer_format(&expected, "an integer >= %" PRId64, option->min);
         return report_invalid_value(args, expected.data);
     }
     *(int64_t *)field = value;
@@ -68,10 +69,10 @@ static bool read_positive(const Args *args, void *field) {
     double value = 0;
     bool good = petri_parse_number(args->value, &value) && isfinite(value) && value > 0;
     *(double *)field = value;
-    return good || report_invalid_value(args, "a number above 0");
+    return good || report_invalid_value(args, "a positive number");
 }
 
-// A number of things, with K, M, G or T for 2^10, 2^20, 2^30 or 2^40 of them.
+// Reads an amount such as 512M. K, M, G and T multiply by 2^10, 2^20, 2^30 and 2^40.
 static bool read_amount(const Args *args, void *field) {
     static const char suffixes[] = "KMGT";
     char *end = NULL;
@@ -83,7 +84,7 @@ static bool read_amount(const Args *args, void *field) {
     }
     *(uint64_t *)field = amount >= 1 && amount <= 0x1p62 ? (uint64_t)amount : 0;
     bool good = end != args->value && *end == '\0' && *(uint64_t *)field > 0;
-    return good || report_invalid_value(args, "a number from 1, such as 500M or 2G");
+    return good || report_invalid_value(args, "a number >= 1, such as 500M or 2G");
 }
 
 static bool read_fps(const Args *args, void *field) {
@@ -98,7 +99,7 @@ static bool read_time(const Args *args, void *field) {
     return good || report_invalid_value(args, "seconds or a time code");
 }
 
-// The place of a word in a list that ends with NULL; -1 if it is not there.
+// Returns the index of a word in a list that ends with NULL; -1 if it is not in the list.
 static int find_word(const char *const *words, const char *word) {
     int i = 0;
     while (words[i] && strcmp(words[i], word) != 0)
@@ -106,7 +107,7 @@ static int find_word(const char *const *words, const char *word) {
     return words[i] ? i : -1;
 }
 
-// One of the row's words, as its number.
+// Reads one of option->words and stores its index.
 static bool read_choice(const Args *args, void *field) {
     const char *const *words = args->option->words;
     int choice = *(int *)field = find_word(words, args->value);
@@ -119,7 +120,7 @@ static bool read_choice(const Args *args, void *field) {
     return true;
 }
 
-// Some of the row's words, as the bits PETRI_PRINT_…, which follow each other.
+// Reads a list of option->words and stores the PETRI_PRINT_... bits. The words are in the order of the bits.
 static bool read_sections(const Args *args, void *field) {
     unsigned *sections = field;
     SCOPED_TEXT list = memory_strdup(args->value);
@@ -143,7 +144,7 @@ static bool no_colour(void) {
     return refused && refused[0] != '\0';
 }
 
-// Whether standard error is a terminal that may be coloured.
+// Returns true if messages are coloured without --color.
 static bool colour_by_default(void) {
     return progress_possible() && !no_colour();
 }
@@ -164,17 +165,17 @@ static bool read_definition(const Args *args, void *field) {
     return true;
 }
 
-// "all" stands for the folder that all is in.
+// Reads a folder and adds it to a list. "all" means the root folder.
 static bool read_folder(const Args *args, void *field) {
     const char *folder = strcmp(args->value, "all") == 0 ? "/" : args->value;
     struct stat info;
     if (stat(folder, &info) != 0 || !S_ISDIR(info.st_mode))
-        return report_invalid_value(args, "a folder that is there");
+        return report_invalid_value(args, "an existing folder");
     texts_add(field, folder);
     return true;
 }
 
-// WIDTHxHEIGHT.
+// Reads WIDTHxHEIGHT, in pixels.
 static bool read_size(const Args *args, void *field) {
     char *end = NULL;
     long width = strtol(args->value, &end, 10);
@@ -188,7 +189,7 @@ static bool read_size(const Args *args, void *field) {
     return true;
 }
 
-// Readers with what their rows say.
+// Readers with their parameters, for option_list.h.
 #define WHOLE(from, to) read_integer, .min = from, .max = to
 #define VERBOSITY(level) read_verbosity, .min = level
 #define ONE_OF(reader, ...)                                                                                            \
@@ -301,7 +302,7 @@ int options_open(const Options *options, const CommandContext *host,
     wanted.neighbours = (PetriNeighbours)options->neighbours;
     wanted.simplify = !options->unsimplified;
     wanted.keep_forces = options->prompt;
-    wanted.rollback_frames = options->prompt || options->state_file; // the state of whole frames only is kept
+    wanted.rollback_frames = options->prompt || options->state_file; // a partly computed frame must not be saved
     wanted.profile = options->profile;
     wanted.memory_limit = options->memory > 0 ? options->memory : wanted.memory_limit;
     wanted.work_limit = options->work > 0 ? options->work : wanted.work_limit;

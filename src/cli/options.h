@@ -1,4 +1,4 @@
-// options.h: the options of all commands: one table, one reader.
+// options.h: the options of all commands.
 #ifndef PETRI_SRC_OPTIONS_H
 #define PETRI_SRC_OPTIONS_H
 
@@ -16,31 +16,32 @@ typedef struct Size {
     int height;
 } Size;
 
-// What a command line asks for. Texts point into argv.
+// The values from a command line. Texts point into argv.
 typedef struct Options {
 #define FIELD(type, name, at_first) type name;
 #define OPTION(commands, name, letter, value, reader, field, help)
 #include "cli/option_list.h"
 #undef FIELD
 #undef OPTION
-    const char *script; // the operand that came last; NULL: none was given
-    ScriptList scripts; // of commands for many, sorted
-    bool unreadable;    // some path could not be read
-    const char *(*read)(void *host, const char *path, size_t *length);    // … likewise, with the same host
-    const char *(*unsaved)(void *host, const char *path, size_t *length); // see PetriOptions; NULL
-    void *unsaved_host;
-    bool prompt; // the session keeps forces to show and can be interrupted
-    int argc;    // the words of the command line, from behind the command's name
+    const char *script; // the last operand; NULL: none
+    ScriptList scripts; // operands of commands that accept several scripts, sorted
+    bool unreadable;    // true if a path could not be read
+    const char *(*read)(void *host, const char *path, size_t *length);    // PetriOptions.read_file; NULL: none
+    const char *(*unsaved)(void *host, const char *path, size_t *length); // PetriOptions.read_unsaved; NULL: none
+    void *unsaved_host;                                                   // passed to both
+    bool prompt; // true if the session must keep forces for display and roll back interrupted frames
+    int argc;    // arguments after the command's name
     char **argv;
 } Options;
 
-enum { OPTIONS_READ = -1 };
+enum { OPTIONS_READ = -1 }; // success, where other values are exit statuses
 
-// Whether frames are still to be made, as --frames and --runtime say: after so many since `start`.
+// Returns true if another frame must be computed according to --frames and --runtime. `frames` frames have been
+// computed since `start`, a time of the monotonic clock in seconds.
 bool options_due(const Options *options, int64_t frames, double start, double fps);
 
-// Opens a session as the options say, with the names that they define. OPTIONS_READ, or the status to exit with after
-// a message; *session is then NULL.
+// Opens a session with the options and defines the names of -D. Returns OPTIONS_READ, or an exit status after a message
+// with *session set to NULL.
 int options_open(const Options *options, const CommandContext *host,
                  void (*diagnostic)(void *context, const PetriDiagnostic *diagnostic), void *context,
                  PetriSession **session);

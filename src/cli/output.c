@@ -1,4 +1,4 @@
-// output.c: buffered writing to standard output that notices when it fails.
+// output.c: see output.h.
 #include "cli/output.h"
 
 #include "base/file.h"
@@ -24,7 +24,7 @@ static void write_all(Output *output, const char *text, size_t length) {
         output->error = errno;
 }
 
-// A signal handler may look at any moment: what is counted as written is no longer counted as waiting.
+// `used` is cleared before `written` grows, so a signal handler that reads both never counts bytes twice.
 bool output_flush(Output *output) {
     size_t used = output->used;
     write_all(output, output->buffer, used);

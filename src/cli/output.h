@@ -1,6 +1,7 @@
-// output.h: buffered writing to standard output that notices when it fails.
+// output.h: buffered output that records write errors.
 //
-// After the first failure everything is dropped, and the writer is told, so that a run ends as soon as nobody reads.
+// After the first error all further output is discarded and each function returns false, so that a run can end when its
+// reader has closed the pipe.
 #ifndef PETRI_SRC_OUTPUT_H
 #define PETRI_SRC_OUTPUT_H
 
@@ -9,21 +10,21 @@
 
 typedef struct Output {
     int fd;
-    int error;      // errno of the first failure, 0 while all is well
-    size_t written; // bytes, without those that wait
-    size_t used;    // bytes that wait
+    int error;      // errno of the first failure; 0: none
+    size_t written; // bytes written, without those in the buffer
+    size_t used;    // bytes in the buffer
     char buffer[1 << 16];
 } Output;
 
 void output_start(Output *output, int fd);
-// False once writing has failed. `host` is the Output: the function can serve as a PetriWriteCallback.
+// Writes to the Output that `user_data` points to. Can be used as a PetriWriteCallback. Returns false after an error.
 bool output_write(void *user_data, const char *text, size_t length);
 __attribute__((format(printf, 2, 3))) bool output_format(Output *output, const char *format, ...);
 bool output_flush(Output *output);
-// Flushes and turns a failure into an exit status: a closed pipe is no failure, for the reader has what it wanted.
-// Gives the message otherwise.
+// Flushes. Returns `status`, or STATUS_FAILED after a message if an error has occurred. A closed pipe is not an error,
+// because its reader has what it wanted.
 int output_finish(Output *output, int status);
-// Writes a text to standard output, and that is all: output_finish of it.
+// Writes a text to standard output and returns the result of output_finish.
 int output_text(const char *text, size_t length, int status);
 
 #endif

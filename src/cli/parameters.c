@@ -49,7 +49,7 @@ static void add_row(TextTable *table, const PetriParameter *parameter) {
     byte_buffer_add_text(&value, parameter->defined ? parameter->value : parameter->default_value);
     if (parameter->defined)
         byte_buffer_format(&value, " (default %s)", parameter->default_value);
-    byte_buffer_add_text(&range, ""); // so that there is a text
+    byte_buffer_add_text(&range, ""); // makes range.data a text even without a range
     parameter_range(&range, parameter);
     const char *const cells[COLUMNS] = {parameter->name, value.data, range.data, parameter->comment};
     for (int i = 0; i < COLUMNS; i++)
@@ -59,7 +59,7 @@ static void add_row(TextTable *table, const PetriParameter *parameter) {
 size_t parameters_list(PetriSession *session, Output *output) {
     PetriParameter parameter;
     SCOPED_TEXT_TABLE table = text_table_new(COLUMNS);
-    SCOPED_BYTE_BUFFER file = {0}; // of the module whose rows these are
+    SCOPED_BYTE_BUFFER file = {0}; // path of the module whose parameters are being written
     size_t own = 0;
     for (size_t i = 0; petri_parameter(session, i, &parameter); i++) {
         own += parameter.settable;
@@ -67,8 +67,8 @@ size_t parameters_list(PetriSession *session, Output *output) {
             text_table_write(&table, output);
             text_table_free(&table);
             table = text_table_new(COLUMNS);
-            output_format(output, "%s%s, a module: it sees no definitions, so that its defaults stay\n",
-                          i == 0 ? "" : "\n", parameter.file);
+            output_format(output, "%s%s, a module: definitions do not apply, defaults are used\n", i == 0 ? "" : "\n",
+                          parameter.file);
             byte_buffer_free(&file);
             byte_buffer_add_text(&file, parameter.file);
         }

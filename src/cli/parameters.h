@@ -1,4 +1,4 @@
-// parameters.h: a script's parameters (`let NAME=NAME or DEFAULT`) as text, for all commands.
+// parameters.h: display of a script's parameters (`let NAME=NAME or DEFAULT`).
 #ifndef PETRI_SRC_PARAMETERS_H
 #define PETRI_SRC_PARAMETERS_H
 
@@ -6,16 +6,16 @@
 #include "cli/output.h"
 #include "petri.h"
 
-// Writes a table of the loaded script's parameters: name, present value, range, comment; then those of its modules,
-// which cannot be set. Returns how many lines of the first kind there were.
+// Writes a table of the loaded script's parameters: name, current value, range and comment. Parameters of its modules,
+// which cannot be set, follow. Returns the number of parameters that can be set.
 size_t parameters_list(PetriSession *session, Output *output);
-// The script's own parameter of this name; false if there is none.
+// Finds a parameter of the script itself. Returns false if there is none of this name.
 bool parameter_find(PetriSession *session, const char *name, PetriParameter *parameter);
-// Adds `1..500`, or nothing if it has no range.
+// Adds the range, such as `1..500`, or nothing if the parameter has none.
 void parameter_range(ByteBuffer *out, const PetriParameter *parameter);
-// Adds `NAME = VALUE  (1..500, default 200)`.
+// Adds a description such as `NAME = VALUE  (1..500, default 200)`.
 void parameter_describe(ByteBuffer *out, const PetriParameter *parameter);
-// Is a diagnostic that of a definition which the script cannot take: a wrong command line?
+// Returns true if a diagnostic reports a definition (-D) that the script does not accept.
 bool is_invalid_definition(const PetriDiagnostic *diagnostic);
 
 #endif

@@ -6,13 +6,13 @@
 #include <stdio.h>
 #include <string.h>
 
-typedef struct FloatImage {
+typedef struct RowWriter {
     uint32_t dimensions;
     PetriWriteCallback *write;
     void *host;
 } RowWriter;
 
-// Numbers and short words.
+// Writes formatted text of at most 63 bytes.
 __attribute__((format(printf, 2, 3))) static void write_format(const RowWriter *writer, const char *format, ...) {
     char text[64];
     va_list list;
@@ -22,7 +22,7 @@ __attribute__((format(printf, 2, 3))) static void write_format(const RowWriter *
     writer->write(writer->host, text, (size_t)length);
 }
 
-// Quoted where it must be: ids may hold commas and quotes.
+// Writes a comma and a text, quoted if it contains commas, quotes or line ends.
 static void write_text(const RowWriter *writer, const char *text) {
     size_t length = strlen(text);
     writer->write(writer->host, ",", 1);

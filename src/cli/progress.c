@@ -1,4 +1,4 @@
-// progress.c: the progress line on standard error.
+// progress.c: see progress.h.
 #include "cli/progress.h"
 
 #include <stdio.h>
@@ -50,7 +50,7 @@ static void draw_line(const Progress *progress, int64_t done, double elapsed) {
     char bar[BAR_WIDTH + 4] = "";
     int columns = DEFAULT_COLUMNS, rows = 0;
     terminal_extent(STDERR_FILENO, &columns, &rows);
-    // A line that wraps cannot be erased: leave out what does not fit.
+    // A wrapped line cannot be erased, so the bar is left out if it does not fit.
     if (length + BAR_WIDTH + 3 < columns) {
         int filled = (int)((double)done / (double)progress->total * BAR_WIDTH);
         bar[0] = '[';

@@ -1,4 +1,4 @@
-// progress.h: the progress line on standard error: a bar, frames, frames per second, time left.
+// progress.h: a progress line on standard error with a bar, frames, frames per second and time left.
 #ifndef PETRI_SRC_PROGRESS_H
 #define PETRI_SRC_PROGRESS_H
 
@@ -7,24 +7,24 @@
 
 typedef struct Progress {
     bool enabled;
-    bool drawn;
-    int64_t total;      // frames to come in all
-    const char *things; // what they are called: frames
+    bool drawn;         // the line is on the screen
+    int64_t total;      // number of frames, or of other things
+    const char *things; // plural noun, such as "frames"
     double start;       // seconds of the monotonic clock
-    double last;        // when it was drawn last
+    double last;        // time of the last redraw, in the same seconds; 0: none
 } Progress;
 
-// Seconds of the monotonic clock.
+// Returns the time of the monotonic clock in seconds.
 double clock_seconds(void);
-// The size of the terminal that a descriptor is; what is not known stays.
+// Gets the size of the terminal `fd`. Does not modify *columns and *rows if `fd` is not a terminal.
 void terminal_extent(int fd, int *columns, int *rows);
-// Whether standard error is a terminal that knows how to erase a line.
+// Returns true if standard error is a terminal that can erase a line.
 bool progress_possible(void);
 
 void progress_start(Progress *progress, bool enabled, int64_t total);
-// Redraws the line, though not more often than the eye can follow.
+// Redraws the line, at most ten times per second.
 void progress_update(Progress *progress, int64_t done);
-// Removes the line, so that other text can be written.
+// Erases the line, so that other text can be written.
 void progress_erase(Progress *progress);
 
 #endif

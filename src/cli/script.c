@@ -13,7 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-// As much as the library takes of a file.
+// Maximum size of a script, the same as for files in the library.
 static const size_t MAX_BYTES = (size_t)256 << 20;
 
 bool script_is_stdin(const char *name) {
@@ -37,19 +37,20 @@ void script_report_second(const char *first, const char *second) {
     bool swapped = is_picture(first) || strchr(first, '=');
     const char *other = swapped ? first : second;
     if (is_picture(other))
-        message("'%s' is no script; to write it: petri render %s -o %s", other, swapped ? second : first, other);
+        message("'%s' is not a script; to write it, run: petri render %s -o %s", other, swapped ? second : first,
+                other);
     else if (strchr(other, '='))
-        message("'%s' is no script, did you mean '-D %s'?", other, other);
+        message("'%s' is not a script; did you mean '-D %s'?", other, other);
     else
-        message("one script at a time: '%s' and '%s' were given", first, second);
+        message("too many scripts: '%s' and '%s'; give one", first, second);
 }
 
 static bool read_stdin(ByteBuffer *text) {
     if (isatty(STDIN_FILENO))
-        message("reading the script from the terminal; Ctrl-D ends it");
+        message("reading the script from the terminal; press Ctrl-D to end it");
     bool read = byte_buffer_read(text, STDIN_FILENO, MAX_BYTES);
     if (!read || text->length > MAX_BYTES)
-        message("cannot read standard input: %s", read ? "it is too large" : strerror(errno));
+        message("cannot read standard input: %s", read ? "too large" : strerror(errno));
     return read && text->length <= MAX_BYTES;
 }
 
@@ -78,7 +79,7 @@ PetriStatus script_check(PetriSession *session, const char *name) {
     return load_from(session, name, petri_check, petri_check_text);
 }
 
-// What a pattern of the shell stands for, sorted; to be freed by globfree.
+// Returns the files that match a shell pattern, sorted. The caller frees them with globfree.
 __attribute__((format(printf, 1, 2))) static glob_t find_files(const char *format, ...) {
     SCOPED_BYTE_BUFFER pattern = {0};
     glob_t found = {0};
@@ -97,18 +98,19 @@ static void list_scripts(const char *folder) {
     for (size_t i = 0; i < scripts.gl_pathc && i < MAX_SUGGESTIONS; i++)
         byte_buffer_format(&list, "%s%s", i == 0 ? "" : ", ", scripts.gl_pathv[i]);
     if (scripts.gl_pathc > 0)
-        message("name a script in it: %s%s", list.data, scripts.gl_pathc > MAX_SUGGESTIONS ? " ..." : "");
+        message("choose a script in it: %s%s", list.data, scripts.gl_pathc > MAX_SUGGESTIONS ? " ..." : "");
     globfree(&scripts);
 }
 
-// Whether `name` is what is left of `script` without a suffix such as `.bak`, or what it becomes with `.fl`.
+// Returns true if `name` is `script` plus a suffix such as `.bak`, or `script` without `.fl`.
 static bool differs_in_suffix(const char *name, const char *script) {
     size_t length = strlen(name);
     return strncmp(name, script, strlen(script)) == 0 ||
            (strncmp(name, script, length) == 0 && strcmp(script + length, ".fl") == 0);
 }
 
-// The script whose name in its folder is nearest; NULL: none is near.
+// Returns the path of the script whose file name is most similar to `name`, or NULL if none is. `folder` is the length
+// of the folder in all paths.
 static const char *find_nearest(const glob_t *scripts, size_t folder, const char *name) {
     StrNearest nearest = nearest_start(name);
     const char *found = NULL;
@@ -178,5 +180,5 @@ void hint_pictures(const CommandContext *context, const char *script) {
     shell_add_program(&program, context->invoked_as);
     shell_add_word(&operand, script);
     message("to see it: %s view %s", program.data, operand.data);
-    message("to keep a picture of it: %s render %s -o OUT.png (or OUT.mp4)", program.data, operand.data);
+    message("to save a picture of it: %s render %s -o OUT.png (or OUT.mp4)", program.data, operand.data);
 }

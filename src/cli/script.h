@@ -1,4 +1,4 @@
-// script.h: the script that a command line names: a file, or `-` for what comes on standard input.
+// script.h: the script named on a command line: a file, or `-` for standard input.
 #ifndef PETRI_SRC_SCRIPT_H
 #define PETRI_SRC_SCRIPT_H
 
@@ -6,31 +6,30 @@
 #include "cli/cli.h"
 #include "petri.h"
 
-// What messages call standard input. Files that such a script names are looked for in the current folder.
+// Name of standard input in messages. Relative paths in such a script start at the current folder.
 #define SCRIPT_STDIN "<stdin>"
 
 bool script_is_stdin(const char *name);
-// The name, or SCRIPT_STDIN.
+// Returns the name, or SCRIPT_STDIN for `-`.
 const char *script_display_name(const char *name);
-// petri_load and petri_check for what the name stands for. Where there is no such script, a message may tell which one
-// could be meant.
+// Like petri_load and petri_check, but `-` reads standard input. If the file does not exist, a message may suggest
+// another.
 PetriStatus script_load(PetriSession *session, const char *name);
 PetriStatus script_check(PetriSession *session, const char *name);
-// Says that a second script was named on the command line, which may have been meant as an option's value.
+// Reports a second script on the command line, which is often a misplaced option value.
 void script_report_second(const char *first, const char *second);
-// Gives that message, after one that a script cannot be read: the name that is nearest to this one, or what a folder
-// holds.
+// Prints a suggestion for a script that cannot be read: a file with a similar name, or the scripts in a folder.
 void script_suggest(const char *name);
-// Which of the words, from 0 on, a file's name ends in, such as ".png" in ".csv .png"; -1 for none.
+// Returns the number, from 0, of the suffix in `words` that the file name ends with; -1: none. For example, 1 for
+// "a.png" and ".csv .png".
 int script_suffix(const char *name, const char *words);
-// The folder that it is in, "." for this one; to be freed.
+// Returns the folder of the path, "." for the current one. The caller frees it.
 char *script_folder(const char *name);
-// Adds a word as a shell takes it.
+// Adds a word, quoted for a shell if necessary.
 void shell_add_word(ByteBuffer *text, const char *word);
-// Adds the program as it was called, from the current folder where it is below that.
+// Adds the path of the program, relative to the current folder if it is below it.
 void shell_add_program(ByteBuffer *text, const char *called);
-// Tells on standard error how to see what a script shows, and how to keep a picture of it: command lines that work from
-// the current folder.
+// Prints the commands that show the script and that save a picture of it.
 void hint_pictures(const CommandContext *context, const char *script);
 
 #endif

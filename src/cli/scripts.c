@@ -1,4 +1,4 @@
-// scripts.c: finding the scripts that are meant by files and folders on the command line.
+// scripts.c: see scripts.h.
 #include "cli/scripts.h"
 
 #include "base/source.h"
@@ -22,7 +22,7 @@ static void add_script(ScriptList *list, const char *path, size_t below) {
 
 static bool cannot_read(const char *path) {
     if (path[0] == '\0') {
-        message("the name of a script is empty");
+        message("the script name is empty");
         return false;
     }
     message("cannot read %s: %s", path, strerror(errno));
@@ -31,14 +31,14 @@ static bool cannot_read(const char *path) {
 
 static bool search_folder(ScriptList *list, const char *folder, size_t below);
 
-// One entry of a folder. Links to folders are not followed: they may lead round in a circle.
+// Adds an entry of a folder. Symbolic links to folders are not followed, because they can form a cycle.
 static bool add_entry(ScriptList *list, const char *path, const char *name, size_t below) {
     struct stat about;
     if (lstat(path, &about) != 0)
         return cannot_read(path);
     if (S_ISDIR(about.st_mode))
         return search_folder(list, path, below);
-    // A pipe or device of that name would keep us waiting.
+    // Reading a pipe or device could block.
     if (str_ends_with(str_from(name), STR(".fl")) && stat(path, &about) == 0 && S_ISREG(about.st_mode))
         add_script(list, path, below);
     return true;

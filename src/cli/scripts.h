@@ -1,4 +1,4 @@
-// scripts.h: finding the scripts that are meant by files and folders on the command line.
+// scripts.h: the list of scripts in the files and folders on a command line.
 #ifndef PETRI_SRC_SCRIPTS_H
 #define PETRI_SRC_SCRIPTS_H
 
@@ -7,7 +7,7 @@
 
 typedef struct Script {
     char *path;
-    size_t relative_start; // where the part of the path begins that was found below the folder asked for
+    size_t relative_start; // offset in `path` of the part below the folder that was searched
 } Script;
 
 typedef struct ScriptList {
@@ -16,12 +16,12 @@ typedef struct ScriptList {
     size_t capacity;
 } ScriptList;
 
-// Adds a file, or each file named *.fl in a folder and the folders in it. False, after a message, if something cannot
-// be read. Hidden files and folders are passed by.
+// Adds a file, or all files named *.fl below a folder except hidden ones. Returns false after a message if something
+// cannot be read.
 bool scripts_find(ScriptList *list, const char *path);
-// Adds a name that is taken as it is, such as `-`.
+// Adds a name without looking for a file, such as `-`.
 void scripts_add(ScriptList *list, const char *path);
-// By path; what was named twice stays once.
+// Sorts by path and removes duplicates.
 void scripts_sort(ScriptList *list);
 void scripts_free(ScriptList *list);
 

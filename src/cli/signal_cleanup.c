@@ -7,11 +7,11 @@
 #include <stddef.h>
 #include <unistd.h>
 
-enum { MAX_FILES = 4, PAUSE_MS = 20 }; // milliseconds
+enum { MAX_FILES = 4, PAUSE_MS = 20 };
 
 typedef enum EntryState { FREE, CHANGING, REGISTERED } EntryState;
 
-// A signal handler can reach nothing but globals.
+// Global, because a signal handler has no context.
 static struct {
     atomic_int state;
     SignalCleanup *act;
@@ -39,7 +39,7 @@ void signal_cleanup_end(int number) {
         atomic_store(&entries[number].state, FREE);
 }
 
-// Other threads are still at work; what they were just beginning is there a moment later.
+// Other threads keep running. The second pass catches files that they were registering during the first.
 void signal_cleanup_run(void) {
     atomic_store(&ending, true);
     for (int pass = 0; pass < 2; pass++) {

@@ -1,16 +1,16 @@
-// signal_cleanup.h: what is still to be done about files that are being written when a signal ends the process at once.
+// signal_cleanup.h: actions on unfinished files, run before a signal ends the process.
 #ifndef PETRI_SRC_SIGNAL_CLEANUP_H
 #define PETRI_SRC_SIGNAL_CLEANUP_H
 
-// Called from a signal handler, perhaps twice, and perhaps while another thread is just ending the file.
+// An action. It is called from a signal handler, possibly twice, possibly while another thread completes the file.
 typedef void SignalCleanup(void *context);
 
-// A file is begun. Returns its number, -1 if there are too many. Any thread may call this; it does not return once the
-// end has come.
+// Registers the action for a file that is being written. Returns its number, or -1 if there are too many. Any thread
+// may call it. It never returns after signal_cleanup_run has started.
 int signal_cleanup_begin(SignalCleanup *act, void *context);
-// It is complete, or removed. -1 is fine.
+// Removes an action, because the file is complete or deleted. -1 is ignored.
 void signal_cleanup_end(int number);
-// Does what is to be done. For a signal handler that ends the process next.
+// Runs all actions. For a signal handler that ends the process afterwards.
 void signal_cleanup_run(void);
 
 #endif

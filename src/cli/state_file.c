@@ -14,7 +14,7 @@ bool state_file_restore(StateFile *file, PetriSession *session, const char *name
     file->unreadable = status != PETRI_OK;
     file->last_attempt = clock_seconds();
     if (file->unreadable) {
-        message("%sit starts afresh; '%s' is left alone and nothing is saved",
+        message("%sstarting without it; '%s' is unchanged, nothing is saved",
                 status == PETRI_OUT_OF_MEMORY ? "out of memory: " : "", name);
     }
     return !file->unreadable;
@@ -24,7 +24,7 @@ const char *state_file_save(StateFile *file, PetriSession *session, bool at_once
     if (!file->name || file->unreadable || (!at_once && clock_seconds() - file->last_attempt <= SECONDS_BETWEEN))
         return NULL;
     bool before = file->outdated;
-    if (file->before && !file->before(file->context)) { // which has told why
+    if (file->before && !file->before(file->context)) { // `before` has printed a message
         file->outdated = true;
         return NULL;
     }
@@ -33,8 +33,7 @@ const char *state_file_save(StateFile *file, PetriSession *session, bool at_once
     file->last_attempt = clock_seconds();
     if (file->outdated == before)
         return NULL;
-    return !file->outdated ? "the state is saved again"
-           : status == PETRI_OUT_OF_MEMORY
-               ? "out of memory: the state is not saved; it is tried again every few seconds"
-               : "the state is not saved; it is tried again every few seconds";
+    return !file->outdated                 ? "the state is saved again"
+           : status == PETRI_OUT_OF_MEMORY ? "out of memory: cannot save the state; retrying every few seconds"
+                                           : "cannot save the state; retrying every few seconds";
 }

@@ -1,7 +1,7 @@
-// state_file.h: the file of `--state`, for the commands that go on from it and keep it.
+// state_file.h: the file of `--state`, for commands that load and save it.
 //
-// A file that could not be read is left alone: it may be all that is left of something. One that could not be written
-// is tried again; that is said once, and once more when it works again.
+// A file that cannot be read is never overwritten, because it may be the only copy of a state. If writing fails, it is
+// retried; the failure is reported once, and so is the next success.
 #ifndef PETRI_SRC_STATE_FILE_H
 #define PETRI_SRC_STATE_FILE_H
 
@@ -10,20 +10,22 @@
 #include <stdbool.h>
 
 typedef struct StateFile {
-    const char *name;    // NULL: none is kept
-    bool unreadable;     // it could not be read, and is not written
-    bool outdated;       // the last state is not in it
-    double last_attempt; // when it was tried last, in seconds of the monotonic clock
-    // What must be on the disk before a state is; after false none is saved. May be NULL.
+    const char *name;    // NULL: no state file
+    bool unreadable;     // the file could not be read, so it is not written
+    bool outdated;       // the last state could not be written
+    double last_attempt; // time of the last attempt, in seconds of the monotonic clock
+    // Writes data to disk that must be there before the state. If it returns false after a message, the state is not
+    // saved. NULL: nothing to write.
     bool (*before)(void *context);
-    void *context;
+    void *context; // passed to `before`
 } StateFile;
 
-// False, after a message, if there is a file that cannot be read.
+// Loads the state. Returns false after a message if the file exists but cannot be read.
 bool state_file_restore(StateFile *file, PetriSession *session, const char *name);
-// NULL, or what is to be told beside the session's diagnostics. Not within a few seconds, unless that is asked for.
+// Saves the state, unless it was saved in the last few seconds and `at_once` is false. Returns a text for the user if
+// saving has begun to fail or works again, else NULL.
 const char *state_file_save(StateFile *file, PetriSession *session, bool at_once);
-// Whether what the user has asked for is not so: for the exit status.
+// Returns true if the file does not contain the last state, which makes the command fail.
 static inline bool state_file_failed(const StateFile *file) {
     return file->unreadable || file->outdated;
 }

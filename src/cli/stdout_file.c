@@ -30,8 +30,7 @@ bool stdout_file_check(const char *format) {
         return false;
     }
     if (isatty(STDOUT_FILENO)) {
-        message(
-            "standard output is a terminal, which '-o -' would fill with bytes: put '>FILE' or '| COMMAND' behind it");
+        message("'-o -' cannot write to a terminal; add '>FILE' or '| COMMAND'");
         return false;
     }
     return true;
@@ -42,7 +41,7 @@ bool stdout_file_open(StdoutFile *piped, const char *format) {
     ByteBuffer folder = {0}, file = {0};
     byte_buffer_format(&folder, "%s/petri.XXXXXX", !temporary || temporary[0] == '\0' ? "/tmp" : temporary);
     if (!mkdtemp(folder.data)) {
-        message("cannot make a folder '%s': %s", folder.data, strerror(errno));
+        message("cannot create folder '%s': %s", folder.data, strerror(errno));
         byte_buffer_free(&folder);
         return false;
     }

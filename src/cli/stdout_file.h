@@ -1,26 +1,27 @@
-// stdout_file.h: pictures and films for standard output (`-o -`): made as a file in a folder of our own, sent when
-// complete.
+// stdout_file.h: images and video on standard output (`-o -`).
 //
-// Writers of pictures replace files as a whole and containers of films are mended at their end, so neither is streamed;
-// what comes out is the same as a file.
+// The output is written to a file in a temporary folder and copied when it is complete. It cannot be streamed, because
+// images replace their file as a whole and video containers are patched at the end.
 #ifndef PETRI_SRC_STDOUT_FILE_H
 #define PETRI_SRC_STDOUT_FILE_H
 
 #include <stdbool.h>
 
 typedef struct StdoutFile {
-    char *folder; // NULL: not open
-    char *file;   // what to write
+    char *folder; // temporary folder; NULL: not open
+    char *file;   // path of the file to write
 } StdoutFile;
 
+// Returns true if the value of -o is `-`.
 bool stdout_file_is_requested(const char *output);
-// Checks the format ("png", "mp4", …; NULL: png) and that standard output is no terminal. False after a message.
+// Checks the format (such as "png" or "mp4"; NULL: png) and that standard output is not a terminal. Returns false after
+// a message.
 bool stdout_file_check(const char *format);
-// Makes the folder. False after a message.
+// Creates the folder. Returns false after a message.
 bool stdout_file_open(StdoutFile *piped, const char *format);
-// Sends the file, if there is one. False after a message; a reader that has gone is no failure.
+// Copies the file, if it exists, to standard output. Returns false after a message. A closed pipe is not a failure.
 bool stdout_file_send(const StdoutFile *piped);
-// Removes what is there. To do so twice, or without opening, is fine.
+// Deletes the file and the folder. Can be called repeatedly, also without stdout_file_open.
 void stdout_file_close(StdoutFile *piped);
 
 #endif

@@ -1,4 +1,4 @@
-// subprocess.c: `petri run` in a process of its own.
+// subprocess.c: see subprocess.h.
 #include "cli/subprocess.h"
 
 #include <errno.h>
@@ -22,13 +22,13 @@ int subprocess_temporary_file(void) {
     return fd;
 }
 
-// In the child: nothing here may depend on what other threads held when it was forked.
+// Runs in the child after fork. Must not use locks or memory that another thread may have held.
 static void exec_program(const Subprocess *child, const char *program, const char *folder, char **argv) {
     int nothing = open("/dev/null", O_RDONLY);
     if (nothing < 0 || dup2(nothing, STDIN_FILENO) < 0 || dup2(child->output, STDOUT_FILENO) < 0 ||
         dup2(child->errors, STDERR_FILENO) < 0 || chdir(folder) != 0)
         _exit(STATUS_FAILED);
-    // Ends a script that hangs, whatever it does; an alarm outlives exec.
+    // Ends a script that hangs. The alarm stays set across exec.
     alarm(SUBPROCESS_MAX_SECONDS);
     execvp(program, argv);
     _exit(STATUS_FAILED);

@@ -18,7 +18,7 @@ void text_table_add(TextTable *table, const char *cell) {
 
 void table_text(const TextTable *table, ByteBuffer *text) {
     const char *cell = table->cells.data;
-    size_t due = 0; // blanks before the next cell that holds something
+    size_t due = 0; // spaces before the next cell that is not empty
     for (size_t i = 0; i < table->count; i++, cell += strlen(cell) + 1) {
         size_t column = i % table->columns;
         if (cell[0] != '\0') {

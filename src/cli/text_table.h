@@ -1,4 +1,4 @@
-// text_table.h: cells in columns that are as wide as what they hold.
+// text_table.h: a text table whose columns are as wide as their widest cell.
 #ifndef PETRI_SRC_REPL_TEXT_TABLE_H
 #define PETRI_SRC_REPL_TEXT_TABLE_H
 
@@ -7,14 +7,15 @@
 
 typedef struct TextTable {
     size_t columns;
-    ByteBuffer cells; // each ended by NUL
-    size_t count;     // of cells
-    size_t *width;    // of columns, in characters
+    ByteBuffer cells; // texts of the cells, each NUL-terminated
+    size_t count;     // number of cells
+    size_t *width;    // widths of the columns, in characters
 } TextTable;
 
 TextTable text_table_new(size_t columns);
-// The next cell, row by row.
+// Adds the next cell, row by row.
 void text_table_add(TextTable *table, const char *cell);
+// Adds the formatted table to a text.
 void table_text(const TextTable *table, ByteBuffer *text);
 void text_table_write(const TextTable *table, Output *output);
 void text_table_free(TextTable *table);

@@ -1,4 +1,4 @@
-// topics.c: see help.h.
+// topics.c: help on words of the language; see help.h.
 #include "cli/cli.h"
 #include "cli/help.h"
 #include "cli/text_table.h"
@@ -35,7 +35,7 @@ static bool print_builtin(ByteBuffer *text, const char *name) {
     return false;
 }
 
-// What an attribute takes, and in which unit.
+// Adds a cell with the type and unit of an attribute.
 static void add_type(TextTable *table, const PetriNodeAttribute *attribute) {
     char type[160];
     snprintf(type, sizeof type, "%s%s%s", attribute->type, attribute->unit[0] != '\0' ? ", in " : "", attribute->unit);
@@ -59,8 +59,8 @@ static void print_attributes(ByteBuffer *text, size_t kind) {
 }
 
 const char FORMULA_LETTERS[] =
-    "of a particle, or the first and the second of a pair: r radius, m mass, q charge, v velocity; l their distance, "
-    "s that from a wall; n dimensions, δ a step; F > 0 pushes a pair apart, in your units of mass·length/time²";
+    "of a particle, or of both particles of a pair: r radius, m mass, q charge, v velocity; l distance of a pair, "
+    "s distance from a wall; n dimensions, δ time step; F > 0 is repulsive, in your units of mass·length/time²";
 
 void help_formula(ByteBuffer *text, const PetriNodeKind *kind) {
     for (const char *line = kind->formula; *line != '\0'; line += line[0] == '\n') {
@@ -70,7 +70,7 @@ void help_formula(ByteBuffer *text, const PetriNodeKind *kind) {
     }
 }
 
-// A kind may belong to several areas, such as `!group`.
+// Adds the help for a kind of node. Some, such as `!group`, belong to several areas.
 static bool print_node(ByteBuffer *text, const char *name) {
     PetriNodeKind kind;
     bool found = false;
@@ -88,7 +88,7 @@ static bool print_node(ByteBuffer *text, const char *name) {
     return found;
 }
 
-// The nodes that have an attribute of this name, each with what it means there.
+// Adds the nodes that have an attribute of this name, each with the meaning of the attribute.
 static bool print_owners(ByteBuffer *text, const char *name) {
     SCOPED_TEXT_TABLE table = text_table_new(3);
     PetriNodeKind kind;
@@ -114,7 +114,7 @@ static bool print_owners(ByteBuffer *text, const char *name) {
 
 bool topics_print(ByteBuffer *text, const char *topic) {
     bool node_only = topic[0] == '!';
-    bool found = !node_only && print_builtin(text, topic); // one name may be a function and a node, such as random
+    bool found = !node_only && print_builtin(text, topic); // a name such as random can be a function and a node
     found = print_node(text, topic) || found;
     found = (!node_only && print_word(text, topic)) || found;
     return found || (!node_only && print_owners(text, topic));

@@ -2,19 +2,19 @@
 
 petri new
 check "new without a name is a usage error" status_is 2
-check "… which says what is missing" has err "a new script needs a name: petri new NAME"
+check "… which says what is missing" has err "no name given: petri new NAME"
 petri new one two
 check "new with two names is a usage error" status_is 2
 for name in '' . .. absent/ .fl; do
     petri new "$name"
     check "new '$name' is a usage error" status_is 2
-    check "… new '$name': told what is expected" has err "is not the name of a script"
+    check "… new '$name': told what is expected" has err "not a script name"
 done
 
 petri new newdish
 check "new starts a script" status_is 0
 check "… named as it was told" [ -s newdish.fl ]
-check "… says so" has err "newdish.fl is a dish of drops"
+check "… says so" has err "created newdish.fl, a dish of drops"
 check "… and how to see it" has err " view newdish.fl"
 check "… and nothing on standard output" empty out
 petri check --werror newdish.fl
@@ -39,7 +39,7 @@ petri new mine
 check "a file that is there is left alone" status_is 1
 check "… to the letter" [ "$(cat mine.fl)" = mine ]
 check "… with one message" lines_are err 1
-check "… which names it" has err "mine.fl is there already"
+check "… which names it" has err "mine.fl already exists"
 ln -s nowhere.fl link.fl
 petri new link.fl
 check "so is a link that leads nowhere" status_is 1

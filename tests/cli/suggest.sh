@@ -38,12 +38,12 @@ petri run dish2
 check "a name like no other is one message" lines_are err 1
 petri run shelf
 check "a folder is told to be one" has err "'shelf': it is a directory"
-check "and what is in it" has err "name a script in it: shelf/book.fl, shelf/lamp.fl"
+check "and what is in it" has err "choose a script in it: shelf/book.fl, shelf/lamp.fl"
 petri run ''
 check "an empty name is a wrong command line" status_is 2
-check "an empty name is told" [ "$(cat err)" = "petri: the name of the script is empty" ]
+check "an empty name is told" [ "$(cat err)" = "petri: the script name is empty" ]
 petri ''
-check "also without a command" [ "$(cat err)" = "petri: the name of the script is empty" ]
+check "also without a command" [ "$(cat err)" = "petri: the script name is empty" ]
 petri check ''
 check "also to be checked" has err "the name of a script is empty"
 petri run -o x.png dish.fl
@@ -86,13 +86,13 @@ done
 
 # values that lack their option, options that lack their value
 petri run dish.fl SIZE=5
-check "NAME=VALUE alone is taken for a definition" has err "'SIZE=5' is no script, did you mean '-D SIZE=5'?"
+check "NAME=VALUE alone is taken for a definition" has err "'SIZE=5' is not a script; did you mean '-D SIZE=5'?"
 petri render dish.fl dish.png
-check "a picture alone is taken for an output" has err "to write it: petri render dish.fl -o dish.png"
+check "a picture alone is taken for an output" has err "to write it, run: petri render dish.fl -o dish.png"
 petri view dish.png dish.fl
-check "in whatever order" has err "to write it: petri render dish.fl -o dish.png"
+check "in whatever order" has err "to write it, run: petri render dish.fl -o dish.png"
 petri run dish.fl shelf/book.fl
-check "two scripts are told to be two" has err "one script at a time: 'dish.fl' and 'shelf/book.fl'"
+check "two scripts are told to be two" has err "too many scripts: 'dish.fl' and 'shelf/book.fl'"
 petri run dish.fl --frames
 check "an option tells what its value would do" has err "option '--frames' needs a value: N, stop after N frames"
 petri nodes

@@ -71,7 +71,7 @@ for format in $formats; do
     echo something else >other.$format
     petri run w.fl --frames 2 --state s --trajectory other.$format
     check "$format: a file of another kind is refused" status_is 1
-    check "… which is told" has err "cannot go on with other.$format: it is not what --trajectory writes"
+    check "… which is told" has err "cannot go on with other.$format: not a file that --trajectory writes"
     check "… left alone" [ "$(cat other.$format)" = "something else" ]
     echo bad >bad.state
     petri run w.fl --frames 2 --state bad.state --trajectory $way.copy.$format

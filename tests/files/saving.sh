@@ -12,7 +12,7 @@ good_state() { head -n 1 "$1" | grep -qx 'petri-state 1' && tail -n 1 "$1" | gre
 job=$!
 sleep 1
 check "a state that cannot be written is told, with its file" has err "cannot write the state to 'later/w.state': No such file"
-check "… and that it is tried again" has err "the state is not saved; it is tried again every few seconds"
+check "… and that it is tried again" has err "cannot save the state; retrying every few seconds"
 mkdir later
 wait $job
 status=$?
@@ -25,7 +25,7 @@ kill -TERM $job
 wait $job
 status=$?
 check "a run whose last state is not on disk fails, a signal or not" status_is 1
-check "… and has said so once" count_is err "the state is not saved" 1
+check "… and has said so once" count_is err "cannot save the state" 1
 if [ "$(id -u)" -eq 0 ] && mkdir small && mount -t tmpfs -o size=256k tmpfs small 2>/dev/null; then
     petri run w.fl --frames 3 --state small/w.state
     check "a state on a small disk" status_is 0

@@ -37,7 +37,7 @@ check "in one line" [ "$(wc -l <out)" -eq 1 ]
 # hint PATH [NAME=VALUE]: how the petri that is called so says, at a terminal, that a picture is kept.
 hint() {
     env ${2:+"$2"} TERM=dumb script -qec "'$1' run --frames 2 dish.fl" /dev/null 2>/dev/null </dev/null |
-        tr -d '\r' | tee out | sed -n 's/.*to keep a picture of it: \(.*\) (or OUT.mp4)/\1/p'
+        tr -d '\r' | tee out | sed -n 's/.*to save a picture of it: \(.*\) (or OUT.mp4)/\1/p'
 }
 sh_works() { rm -f OUT.png && sh -c "$1" >out 2>&1 && [ -s OUT.png ]; }
 # A bare container has no pseudo-terminals.

@@ -274,7 +274,7 @@ END
     printf 'script: sum.fl\nfrmes: 2\n' >wrong.yaml
     refused "a wrong line of a plan" "wrong.yaml:2:1: 'frmes' is no option of petri sweep, did you mean frames" --plan wrong.yaml
     printf 'script: sum.fl\nframes: x\n' >wrong.yaml
-    refused "a wrong value" "option '--frames' expects a whole number" --plan wrong.yaml
+    refused "a wrong value" "option '--frames' expects an integer" --plan wrong.yaml
     printf 'a: [1\n' >wrong.yaml
     refused "no YAML" 'wrong.yaml:2:1: this is no YAML' --plan wrong.yaml
     refused "a plan that is not there" 'cannot read nope.yaml: No such file' --plan nope.yaml

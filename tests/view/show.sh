@@ -35,7 +35,7 @@ check "the last picture stays" eval 'screen | grep -q "[▀▄█▌▐]"'
 check "nothing is said of the graphics card" hides 'graphics card'
 check "with a line that sums up" soon shows 'petri: 30 frames in '
 check "it says how to see more of it" soon shows 'petri: to see it: '
-check "and how to keep it" soon shows 'petri: to keep a picture of it: '
+check "and how to keep it" soon shows 'petri: to save a picture of it: '
 mkdir -p build/src
 cp "$petri" "$(dirname "$petri")/petri-pictures" build/src
 ln -s src/petri build/petri
