@@ -1,8 +1,8 @@
-// drawing.h: a window's tree in the form in which it is drawn: kinds and attributes are numbers, values have their
-// types.
+// drawing.h: a window's tree in the form in which it is drawn: kinds and attribute names are numbers, and values are
+// typed.
 //
-// Reading turns nodes into this form and finds all faults that can be seen in the tree, in the thread that has the
-// session. What draws, perhaps in another thread, meets neither symbols nor values of the language.
+// The tree is translated and checked in the session's thread. The code that draws, perhaps in another thread, never
+// sees symbols or values of the language.
 #ifndef PETRI_CANVAS_DRAWING_H
 #define PETRI_CANVAS_DRAWING_H
 
@@ -13,13 +13,13 @@ struct DrawNode {
     uint8_t kind; // NodeKind
     uint32_t attr_count;
     uint32_t child_count;
-    const AttrValue *attrs; // as they were written: transforms are applied in this order
+    const AttrValue *attrs; // in the order written, in which transforms are applied
     const DrawNode *const *children;
-    Str tags;      // of nodes among pictures, which tell them apart: names with a space behind each, in order
-    Origin origin; // its program's text, or the node; who tells of it sees to it that the source is still there
+    Str tags;      // identify picture nodes from frame to frame: names in order, with a space after each
+    Origin origin; // position of the shader text or of the node; the source may no longer exist when it is reported
 };
 
-// The attribute, or NULL.
+// Returns the attribute; NULL if it is not set.
 static inline const AttrValue *draw_attr(const DrawNode *node, AttrName name) {
     for (uint32_t i = 0; i < node->attr_count; i++)
         if (node->attrs[i].name == name)
@@ -27,7 +27,7 @@ static inline const AttrValue *draw_attr(const DrawNode *node, AttrName name) {
     return NULL;
 }
 
-// A number, or its default.
+// Returns a number attribute, or its default.
 static inline double draw_number(const DrawNode *node, AttrName name) {
     const AttrValue *attr = draw_attr(node, name);
     return attr ? attr->as.numbers[0] : schema_row((NodeKind)node->kind, name)->default_value.value;
@@ -43,7 +43,7 @@ static inline int draw_word(const DrawNode *node, AttrName name) {
     return attr ? attr->as.word : (int)schema_row((NodeKind)node->kind, name)->default_value.value;
 }
 
-// Two numbers; false, and 0;0, without the attribute.
+// Reads two numbers. Returns false, and sets both to 0, if the attribute is not set.
 static inline bool draw_pair(const DrawNode *node, AttrName name, double pair[2]) {
     const AttrValue *attr = draw_attr(node, name);
     pair[0] = attr ? attr->as.numbers[0] : 0;

@@ -10,7 +10,7 @@ static void report_misplaced(const Reader *reader, const Node *child, bool known
     Text out = text_new(reader->arena);
     Str name = child->kind->name;
     text_add_format(&out, "'!%.*s' ", STR_ARGS(name));
-    text_add_c(&out, known ? "has no effect here; it is left out" : "is not drawn; it is left out");
+    text_add_c(&out, known ? "has no effect here; ignored" : "is not supported; ignored");
     bool exists = !known && schema_is_unsupported(name);
     if (!known && !exists)
         schema_add_nearest_kind(&out, name, PLACE_TOP, "'!", "'");
@@ -21,7 +21,7 @@ static void report_misplaced(const Reader *reader, const Node *child, bool known
                      node_origin(child, NULL), name, text_str(&out));
 }
 
-// A file out of reach is told here, where the place is known; who is to write it finds out again.
+// Checks the access to a node's file here, because the position in the script is known. Writing checks it again.
 static bool can_use_file(const Reader *reader, const DrawNode *node) {
     const FileAccess *reach = reader->schema->file_access;
     const AttrValue *name = reach && schema_row(reader->kind, ATTR_FILENAME) ? draw_attr(node, ATTR_FILENAME) : NULL;
@@ -44,7 +44,8 @@ static bool can_use_file(const Reader *reader, const DrawNode *node) {
 
 static const DrawNode *read_node(Schema *schema, Arena *arena, const Node *node, NodeKind kind);
 
-// `!blend` and the like are sources, and filters too: what is inside tells.
+// Returns true if the node contains filters. `!blend` and similar nodes are paint sources or filters, depending on
+// their children.
 static bool holds_filters(const Reader *reader, const Node *node, int depth) {
     enum { MAX_DEPTH = 100 };
     const Schema *schema = reader->schema;
@@ -93,13 +94,13 @@ static Str join_tags(Arena *arena, const Node *node) {
 
 enum { NODE_WORK = 8, STOPS_A_UNIT = 16 };
 
-// NULL if the node is left out. The depth is limited by NODE_MAX_HEIGHT.
+// Returns NULL if the node is left out. The recursion is limited by NODE_MAX_HEIGHT.
 static const DrawNode *read_node(Schema *schema, Arena *arena, const Node *node, NodeKind kind) {
     Reader reader = {schema, arena, node, kind, 1};
     schema->current_node = node;
     uint64_t count = node_child_count(node);
     arena_charge(arena, NODE_WORK + node->attr_count + count / 4);
-    if (kind == KIND_GRADIENT) // drawing libraries sort its stops one by one
+    if (kind == KIND_GRADIENT) // drawing libraries insert stops one by one into a sorted list
         arena_charge(arena, count * count / STOPS_A_UNIT);
     DrawNode *out = arena_alloc(arena, sizeof *out);
     AttrValue *attrs = arena_alloc_array(arena, node->attr_count, sizeof *attrs);

@@ -1,4 +1,4 @@
-// windows.c: the windows of a frame.
+// windows.c: finds the windows of a frame.
 #include "canvas/read.h"
 
 const Node *canvas_next_window(const Schema *schema, Value tree, uint32_t *at) {
@@ -11,14 +11,14 @@ const Node *canvas_next_window(const Schema *schema, Value tree, uint32_t *at) {
     return NULL;
 }
 
-// A program alone makes nothing, but these do: out of nothing, or from elsewhere.
+// Effect nodes need a picture to process, but these nodes make one by themselves or refer to one.
 static bool is_source(NodeKind kind) {
     return kind == KIND_CANVAS || kind == KIND_CANVAS3D || kind == KIND_PICTURE_IMAGE || kind == KIND_REFERENCE ||
            kind == KIND_NOISE || kind == KIND_SHADER;
 }
 
 static bool has_source(const Schema *schema, const Node *node, int depth, uint32_t *remaining) {
-    enum { MAX_DEPTH = 100 }; // nobody draws what is deeper
+    enum { MAX_DEPTH = 100 }; // deeper nodes are not drawn
     for (uint32_t i = 0; i < node->child_count && depth < MAX_DEPTH; i++) {
         NodeKind kind = schema_kind_in(schema, node->children[i], PLACE_PICTURES);
         if (*remaining == 0 || (kind < KIND_COUNT && is_source(kind)))

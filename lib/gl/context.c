@@ -1,4 +1,4 @@
-// context.c: contexts of EGL; see internal.h.
+// context.c: EGL contexts; see internal.h.
 #include "gl/internal.h"
 
 #include <dlfcn.h>
@@ -7,11 +7,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Contexts of one process share more than they should: with Mesa 22.3 a thread that draws looks into the scenes of
-// other contexts, and crashes while another thread draws there. So one thread at a time has OpenGL.
+// Contexts of one process are not independent: with Mesa 22.3 a thread that draws reads the scenes of other contexts,
+// and crashes while another thread draws there. So only one thread at a time may use OpenGL.
 static pthread_mutex_t one_thread = PTHREAD_MUTEX_INITIALIZER;
 
-// Mesa can do without any display. Else the usual one, without a surface.
+// Prefers Mesa's platform without a display; otherwise uses the default display without a surface.
 static EGLDisplay find_display(void) {
     const char *extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     if (extensions && strstr(extensions, "EGL_MESA_platform_surfaceless"))
@@ -25,7 +25,7 @@ static bool find_own(Gl *gl, const char **problem) {
     EGLConfig config;
     EGLint count;
     gl->display = find_display();
-    *problem = "EGL does not start";
+    *problem = "EGL cannot be initialised";
     if (gl->display == EGL_NO_DISPLAY || !eglInitialize(gl->display, NULL, NULL))
         return false;
     *problem = "EGL has no OpenGL ES 3 that works without a window";
@@ -45,14 +45,14 @@ static bool find_current(Gl *gl, const char **problem) {
     return !epoxy_is_desktop_gl() && epoxy_gl_version() >= 30;
 }
 
-// libepoxy ends the process where one of them is missing. They stay loaded, for it to find.
+// libepoxy ends the process if one of these libraries is missing. They stay loaded, so that libepoxy finds them.
 static bool are_installed(const char **problem) {
     *problem = "EGL or OpenGL ES is not installed (Debian: libegl1, libgles2)";
     return dlopen("libEGL.so.1", RTLD_LAZY) && dlopen("libGLESv2.so.2", RTLD_LAZY);
 }
 
 static bool open_context(Gl *gl, bool (*find_context)(Gl *gl, const char **problem), const char **problem) {
-    // A driver that is not there says so at length on standard error; *problem is enough.
+    // Drivers that are missing print long messages on standard error; *problem is enough.
     if (!getenv("EGL_LOG_LEVEL"))
         setenv("EGL_LOG_LEVEL", "fatal", 0);
     pthread_mutex_lock(&one_thread);
@@ -78,7 +78,7 @@ void gl_context_close(Gl *gl) {
 
 bool gl_context_has(const Gl *gl, const char *extension) {
     (void)gl;
-    bool drawn = strcmp(extension, "GL_EXT_color_buffer_float") == 0; // which 3.2 has without it
+    bool drawn = strcmp(extension, "GL_EXT_color_buffer_float") == 0; // OpenGL ES 3.2 has it without the extension
     return (drawn && epoxy_gl_version() >= 32) || epoxy_has_gl_extension(extension);
 }
 
@@ -88,12 +88,12 @@ bool gl_context_is(const Gl *gl, const char *renderer) {
     return name && strstr(name, renderer);
 }
 
-// Mesa's llvmpipe sees without a lock that its threads have signalled a fence, and frees it when the next one comes,
-// while the last of them may still be at it: that thread then waits in memory that is another's, for ever, or writes to
-// it (Mesa 22.3: lp_fence_signalled and lp_fence_signal in lp_fence.c). What a GLsync holds is not freed. Threads
-// signal one fence after the other, so all but the newest can go when that was waited for; the newest ends with its
-// context. (What one drawing of more than 36 MB of triangles is split to has fences of its own, which are not held;
-// they are not freed soon, either.)
+// Mesa's llvmpipe checks without a lock that its threads have signalled a fence, and frees the fence when the next one
+// arrives. The last thread may still use it then, and waits forever or writes to memory of others (Mesa 22.3:
+// lp_fence_signalled and lp_fence_signal in lp_fence.c). A fence that a GLsync refers to is not freed. Threads signal
+// fences in order, so after waiting for the newest one, all older ones can be deleted. The newest is deleted with its
+// context. (A draw of more than 36 MB of triangles is split, and its internal fences are not held. They are not freed
+// soon either.)
 static void delete_fences(Gl *gl) {
     for (int i = 0; i + 1 < gl->fence_count; i++)
         glDeleteSync(gl->fences[i]);
@@ -119,7 +119,7 @@ bool gl_enter(Gl *gl, const char **problem) {
     pthread_mutex_lock(&one_thread);
     if (gl->adopted ? eglGetCurrentContext() == gl->context
                     : eglMakeCurrent(gl->display, EGL_NO_SURFACE, EGL_NO_SURFACE, gl->context)) {
-        gl_after_draw(gl); // by the host
+        gl_after_draw(gl); // for drawing by the host
         return true;
     }
     pthread_mutex_unlock(&one_thread);

@@ -1,10 +1,10 @@
-// context_web.c: the context of WebGL 2 that a page has made: all painters there share it, and one thread; see
+// context_web.c: the WebGL 2 context of a page, which has one thread and shares the context between all painters; see
 // internal.h.
 #include "gl/internal.h"
 
 #define HOST(name) __attribute__((import_module("petri"), import_name(#name)))
 
-// Whether there is one, and it is not lost; JavaScript makes it when it is first asked.
+// Returns true if the context exists and is not lost. JavaScript creates it on the first call.
 HOST(gl_ready) bool gl_web_ready(void);
 HOST(gl_has) bool gl_web_has(const char *extension);
 
@@ -27,7 +27,7 @@ bool gl_context_has(const Gl *gl, const char *extension) {
     return gl_web_has(extension);
 }
 
-// Browsers do not tell.
+// Browsers do not report the renderer.
 bool gl_context_is(const Gl *gl, const char *renderer) {
     (void)gl;
     (void)renderer;

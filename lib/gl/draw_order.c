@@ -1,4 +1,4 @@
-// draw_order.c: what a camera sees of a scene, and in which order it is drawn (spec canvas3d.md 2.6).
+// draw_order.c: culls, sorts and batches the instances of a scene; see draw_order.h.
 #include "gl/draw_order.h"
 
 #include "gl/sphere_impostor.h"
@@ -11,12 +11,13 @@ typedef struct Sorted {
     double depth;
     uint32_t segments;
     uint32_t instance;
-    uint32_t rank; // of its model and textures
+    uint32_t rank; // rank of its model and textures
     bool last;     // transparent, in a group that sorts
-    bool disc;     // it can be one
+    bool disc;     // can be drawn as a disc
 } Sorted;
 
-// Opaque instances by model, nearest first; then transparent ones, farthest first, and equally far ones by model.
+// Order: opaque instances by model, nearest first; then transparent ones, farthest first, those at equal depth by
+// model.
 static int compare_sorted(const void *a, const void *b) {
     const Sorted *one = a, *two = b;
     if (one->last != two->last)
@@ -30,7 +31,7 @@ static int compare_sorted(const void *a, const void *b) {
     return one->instance < two->instance ? -1 : one->instance > two->instance;
 }
 
-// The least and the most that a·x + b·y + c·z + d is within a box.
+// Computes the minimum and maximum of a·x + b·y + c·z + d within a box.
 static void range_of(const double f[4], const SceneBox *box, double *min, double *max) {
     double middle = f[3], extent = 0;
     for (int k = 0; k < 3; k++) {
@@ -46,7 +47,7 @@ static void row_of(const Matrix *a, int row, double out[4]) {
         out[column] = a->m[4 * column + row];
 }
 
-// Whether some of the box may be in the picture.
+// Returns true if a part of the box may be visible.
 static bool is_seen(const Matrix *clip, const SceneBox *box) {
     double w[4], row[4], plane[4], min, max;
     row_of(clip, 3, w);
@@ -62,8 +63,8 @@ static bool is_seen(const Matrix *clip, const SceneBox *box) {
 }
 
 typedef struct Ranks {
-    uint64_t *ranks; // of model and textures: the number of the group + 1 in the upper half
-    uint32_t count;  // in this group
+    uint64_t *ranks; // by model and textures: rank, with the number of the group + 1 in the upper half
+    uint32_t count;  // number of ranks in this group
 } Ranks;
 
 static uint32_t rank_of(Ranks *ranks, size_t pair, uint32_t group) {
@@ -90,7 +91,7 @@ static bool can_extend(const SceneDraw *draw, const SceneDraw *wanted, bool spli
 
 static void add_draws(const Scene *scene, DrawOrder *order, uint32_t number, const Sorted *sorted, uint32_t count,
                       bool deep) {
-    enum { MAX_SPLIT = 2000 }; // a draw takes time, too
+    enum { MAX_SPLIT = 2000 }; // limited because each draw has a cost
     const SceneGroup *group = scene->groups[number];
     for (uint32_t i = 0; i < count; i++) {
         const SceneInstance *instance = &group->instances[sorted[i].instance];
@@ -116,7 +117,7 @@ static void add_draws(const Scene *scene, DrawOrder *order, uint32_t number, con
     }
 }
 
-// How many pixels an edge of 1 of a model has where it is nearest, `scale` being that at a distance of 1.
+// Returns the pixels of a model's edge of length 1 at its nearest point. `scale` is that number at a distance of 1.
 static double pixels_of(const Matrix *placed, double depth, bool perspective, double scale) {
     double max = 0;
     for (int column = 0; column < 3; column++)
@@ -124,15 +125,15 @@ static double pixels_of(const Matrix *placed, double depth, bool perspective, do
     return perspective ? scale * sqrt(max) / fmax(depth, 1e-9) : scale * sqrt(max);
 }
 
-static const double CHORD = 4.93; // of radius / segments²: the arc beyond its chord
+static const double CHORD = 4.93; // distance between an arc and its chord, in units of radius / segments²
 
 static bool is_ball(const Scene *scene, const SceneInstance *instance) {
     const SceneModel *model = &scene->models[instance->model];
     return model->kind == KIND_SPHERE && !model->flat && model->snap == 0.5 && instance->material->textures == 0;
 }
 
-// Segments of a sphere that is so large: as few as leave no point off by more than a twentieth of a pixel; what shines
-// sharply shows more.
+// Returns the number of segments of a sphere of this size: as few as keep every point within a twentieth of a pixel.
+// Shiny surfaces need more.
 static uint32_t segments_of(const Scene *scene, const SceneInstance *instance, double pixels) {
     double roughness = instance->material->surface.roughness, max = 0.05 * roughness * roughness;
     bool ball = is_ball(scene, instance);
@@ -142,23 +143,23 @@ static uint32_t segments_of(const Scene *scene, const SceneInstance *instance, d
     return segments;
 }
 
-// Whether a disc looks like the sphere: no point is off by more than a tenth of a pixel.
+// Returns true if a disc looks like the sphere: no point differs by more than a tenth of a pixel.
 static bool can_be_disc(const Scene *scene, const SceneGroup *group, const SceneInstance *instance, double pixels) {
     const SceneModel *model = &scene->models[instance->model];
     return is_ball(scene, instance) && !model->invert && group->state.face_cull &&
            group->state.cull_face == FACE_BACK && pixels * CHORD < 0.1 * model->segments * model->segments;
 }
 
-// What is seen of a camera's picture.
+// The projection of a camera.
 typedef struct Sight {
     const Eye *eye;
     const Matrix *view;
     const Matrix *projection;
     Matrix both;
-    double scale; // pixels of an edge of 1 at a distance of 1
+    double scale; // pixels of an edge of length 1 at a distance of 1
 } Sight;
 
-// Fills all but `rank` and `last`; false if the instance is not seen.
+// Fills all fields but `rank` and `last`. Returns false if the instance is not visible.
 static bool measure_instance(const Scene *scene, const SceneGroup *group, const Sight *sight, const SceneBox *box,
                              Sorted *sorted) {
     const SceneInstance *instance = &group->instances[sorted->instance];
@@ -178,8 +179,9 @@ static bool measure_instance(const Scene *scene, const SceneGroup *group, const 
     return true;
 }
 
-// All discs of a model are drawn at once. Where something has a depth, a few balls are better drawn as such: then each
-// sample of a pixel is compared. Whether anything has left its depth until then.
+// Decides which spheres are drawn as discs; all discs of a model are drawn at once. If other depth was written, a few
+// spheres are better drawn as triangles, because then each sample of a pixel is compared. Returns true if any draw so
+// far writes depth.
 static bool choose_discs(const Scene *scene, const SceneGroup *group, Sorted *sorted, uint32_t count, bool deep) {
     enum { MANY = 50 };
     uint32_t discs = 0;
@@ -205,7 +207,7 @@ DrawOrder draw_order(const Scene *scene, const Eye *eye, const Matrix *view, con
     Ranks ranks = {arena_alloc_array(scene->arena, pairs, sizeof *ranks.ranks), 0};
     memset(ranks.ranks, 0, pairs * sizeof *ranks.ranks);
     Sight sight = {eye, view, projection, matrix_product(projection, view), fabs(projection->m[0]) * width / 2};
-    bool deep = false; // something has left its depth
+    bool deep = false; // true if a draw has written depth
     for (uint32_t number = 0; number < scene->group_count; number++) {
         const SceneGroup *group = scene->groups[number];
         bool sorts = group->state.depth_sort && group->state.depth_test;

@@ -1,4 +1,4 @@
-// draw_order.h: what a camera sees of a scene, and in which order it is drawn (spec canvas3d.md 2.6).
+// draw_order.h: the visible instances of a scene, and the order in which they are drawn (spec canvas3d.md 2.6).
 #ifndef PETRI_GL_DRAW_ORDER_H
 #define PETRI_GL_DRAW_ORDER_H
 
@@ -6,25 +6,25 @@
 
 enum { SCENE_MAX_TRIANGLES = 50000000 };
 
-// Of a model, in its own coordinates.
+// The bounding box of a model, in model coordinates.
 typedef struct SceneBox {
     float low[3];
     float high[3];
-    uint32_t triangles; // 0: there is no model
+    uint32_t triangles; // number of triangles; 0: nothing to draw
 } SceneBox;
 
-// Instances that are drawn at once.
+// Instances that are drawn with one call.
 typedef struct SceneDraw {
     uint32_t group;
     uint32_t model;
     uint32_t textures;
     bool transparent; // drawn last, from back to front
-    bool translucent; // likewise; leaves its depth
-    bool disc;        // spheres as sphere_impostor.h has them
-    bool deep;        // discs: something is there that has a depth
+    bool translucent; // drawn last, from back to front, and writes depth
+    bool disc;        // spheres drawn as discs (sphere_impostor.h)
+    bool deep;        // for discs: earlier draws have written depth
     uint32_t first;
     uint32_t count;
-    uint32_t segments; // of the model: fewer than it has where that looks the same
+    uint32_t segments; // segments of the model; fewer than it has where that looks the same
 } SceneDraw;
 
 typedef struct DrawOrder {
@@ -34,10 +34,10 @@ typedef struct DrawOrder {
     uint32_t draw_count;
     uint32_t draw_capacity;
     uint64_t triangles;
-    bool cut; // some are left out, since there are too many triangles
+    bool cut; // true if instances were left out because there are too many triangles
 } DrawOrder;
 
-// Of all groups in a picture of a width; `boxes` has one for each model.
+// Determines the draws of all groups in a picture of this width. `boxes` has an entry for each model.
 DrawOrder draw_order(const Scene *scene, const Eye *eye, const Matrix *view, const Matrix *projection, int width,
                      const SceneBox *boxes);
 

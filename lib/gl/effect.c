@@ -1,5 +1,5 @@
-// effect.c: see effect.h. An effect is a file of shaders/: what its passes have in common, then a `main` for each pass,
-// behind a line that tells the pass's size.
+// effect.c: runs effects; see effect.h. An effect is a file in shaders/: the declarations that its passes share, then a
+// `main` for each pass, after a line with the size of the pass.
 #include "gl/effect.h"
 
 #include "gl/input_composite.h"
@@ -13,7 +13,7 @@ enum { MAX_PASSES = 8 };
 typedef struct Effect {
     const char *text;
     GlEdge edge;
-    bool merges; // several pictures are merged before the first pass
+    bool merges; // several inputs are composited before the first pass
 } Effect;
 
 static Effect find_effect(NodeKind kind) {
@@ -45,13 +45,13 @@ static Effect find_effect(NodeKind kind) {
     }
 }
 
-// One pass of a program.
+// One pass of an effect.
 typedef struct Pass {
-    Str text; // of main
+    Str text; // source of main
     bool reduced;
 } Pass;
 
-// Splits a file at the lines "//: full" and "//: reduced"; *common is what comes before.
+// Splits a file at the lines "//: full" and "//: reduced". *common is the text before the first one.
 static uint32_t split_passes(const char *text, Str *common, Pass passes[MAX_PASSES]) {
     static const char mark[] = "//: ";
     uint32_t count = 0;
@@ -67,7 +67,7 @@ static uint32_t split_passes(const char *text, Str *common, Pass passes[MAX_PASS
 
 void gl_report(DiagSink *faults, const DrawNode *node, const char *code, Str problem) {
     Text text = text_new(faults->arena);
-    size_t line = 0; // compilers say much after it that follows from it
+    size_t line = 0; // only the first line is reported; the others usually follow from it
     while (line < problem.len && problem.bytes[line] != '\n')
         line++;
     text_add_format(&text, "!%s: %.*s", schema_kinds[node->kind].name, (int)line, problem.bytes);
@@ -110,7 +110,7 @@ bool gl_run_passes(Gl *gl, const GlEffect *effect, const GlPass *passes, uint32_
     return good;
 }
 
-// How a pass reads what it is to change: what was merged before, or else the only input.
+// Adds functions that read the picture to change: the result of merging, or else the only input.
 static void add_source(Text *text, const GlEffect *effect, bool merged, bool reduced) {
     const char *name = merged ? "first" : "texture0";
     bool same = merged || (effect->count > 0 && gl_fits(effect, effect->inputs[0])), near = same && !reduced;
@@ -125,7 +125,7 @@ static void add_source(Text *text, const GlEffect *effect, bool merged, bool red
         text_add_c(text, "vec4 source_at(ivec2 d) { return source(coord + vec2(d) / size); }\n");
 }
 
-// The program of a pass: 0, after a report, if it cannot be.
+// Returns the program of a pass; 0, after a report, if it does not compile.
 static unsigned build_pass(Gl *gl, Arena *arena, const GlEffect *effect, const Effect *kind, Str common, Pass pass,
                            DiagSink *faults) {
     Text text = text_new(arena);
@@ -157,7 +157,7 @@ GlImage gl_effect(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults
     GlPass programs[MAX_PASSES + 1];
     uint32_t count = split_passes(kind.text, &common, passes), first = 0;
     if (effect->count == 0 && node != KIND_NOISE)
-        kind = find_effect(KIND_WINDOW), count = split_passes(kind.text, &common, passes); // transparent
+        kind = find_effect(KIND_WINDOW), count = split_passes(kind.text, &common, passes); // a transparent picture
     if (kind.merges && effect->count > 1)
         programs[first++] = (GlPass){build_pass(gl, arena, effect, &kind, common, merging, faults), false};
     for (uint32_t i = 0; i < count; i++)

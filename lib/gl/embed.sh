@@ -1,5 +1,5 @@
 #!/bin/sh
-# embed.sh FILE...: writes the texts of shaders as C: `const char gl_text_NAME[]` for NAME.glsl.
+# embed.sh FILE...: writes shader sources as C strings: `const char gl_source_NAME[]` for NAME.glsl.
 printf '#include "gl/shader_sources.h"\n'
 for file; do
     name=${file##*/}

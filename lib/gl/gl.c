@@ -1,8 +1,8 @@
-// gl.c: what a context has; see gl.h.
+// gl.c: opening and closing of a Gl; see gl.h.
 #include "base/heap.h"
 #include "gl/internal.h"
 
-// Samplers are of low precision unless told otherwise, and then give halves.
+// Samplers have low precision by default, and then return 16-bit floats.
 const char gl_header[] = "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n";
 
 static void read_limits(Gl *gl) {

@@ -1,9 +1,8 @@
-// gl.h: OpenGL ES 3, with a context of its own or in that of a window: pictures on the GPU, programs.
+// gl.h: OpenGL ES 3, in a separate context or in that of a window: pictures on the GPU and shader programs.
 //
-// A Gl belongs to one painter; between gl_enter and gl_leave it is current in the calling thread, and the other
-// functions may be called; other threads wait in gl_enter meanwhile. Files that need more include <epoxy/gl.h> and call
-// OpenGL themselves. What Mesa's llvmpipe does here serves machines without a GPU. Shaders are written so that WebGL 2
-// takes them, too.
+// A Gl belongs to one painter. Between gl_enter and gl_leave its context is current in the calling thread and the other
+// functions may be called. Other threads wait in gl_enter meanwhile. Files that need more include <epoxy/gl.h> and call
+// OpenGL directly. Machines without a GPU use Mesa's llvmpipe. Shaders are also valid in WebGL 2.
 #ifndef PETRI_GL_GL_H
 #define PETRI_GL_GL_H
 
@@ -14,23 +13,23 @@
 
 typedef struct Gl Gl;
 
-// NULL, with the reason, if there is no OpenGL ES 3 here; with none if memory is used up.
+// Returns NULL, with the reason, if OpenGL ES 3 is not available; without a reason if out of memory.
 Gl *gl_open(const char **problem);
-// The same in the context that is current in this thread, which stays the host's: it has to be current whenever the Gl
-// is used.
+// Like gl_open, but adopts the context that is current in this thread. The host keeps it, and makes it current whenever
+// the Gl is used.
 Gl *gl_adopt(const char **problem);
-// What pictures and scenes hold on the GPU is charged to this from here on; it outlives the Gl. What it refuses is as
-// if the GPU's memory were used up, and it knows that.
+// Charges the GPU memory of pictures and scenes to this budget from now on. The budget must outlive the Gl. If it
+// refuses memory, allocations fail as if the GPU were out of memory, and `memory_refused` is set.
 void gl_charge(Gl *gl, Budget *meter);
-void gl_close(Gl *gl); // NULL is fine; not between enter and leave
-// False, with the reason, if the context was lost.
+void gl_close(Gl *gl); // NULL is ignored; not between gl_enter and gl_leave
+// Returns false, with the reason, if the context was lost.
 bool gl_enter(Gl *gl, const char **problem);
 void gl_leave(Gl *gl);
 
 typedef enum GlFormat { GL_FORMAT_SRGB8, GL_FORMAT_RGBA8, GL_FORMAT_RGBA16F, GL_FORMAT_RGBA32F } GlFormat;
 
-// A picture on the GPU: four channels multiplied by alpha, rows from the bottom. Reading it gives linear light,
-// whatever the format, and writing to it takes linear light.
+// A picture on the GPU: four premultiplied channels, rows from the bottom. Shaders read and write linear light,
+// whatever the format.
 typedef struct GlImage {
     unsigned texture; // 0: none
     int width;
@@ -38,49 +37,50 @@ typedef struct GlImage {
     GlFormat format;
 } GlImage;
 
-// The format of a picture with so many bits for each channel; 8 bits where the GPU cannot draw to more.
+// Returns the format for this number of bits per channel; one of 8 bits if the GPU cannot render to more.
 GlFormat gl_format(const Gl *gl, int bits);
-int gl_max_size(const Gl *gl); // width and height of a picture
-// Images that are given back are used again for others of their size and format: warm frames create none. What is in a
-// new one is undefined. `texture` 0 if the GPU's memory is used up.
+int gl_max_size(const Gl *gl); // maximum width and height of a picture
+// Returns an image with undefined content. Freed images are reused for others of the same size and format, so steady
+// frames create none. Its texture is 0 if the GPU is out of memory.
 GlImage gl_image_new(Gl *gl, int width, int height, GlFormat format);
 void gl_image_free(Gl *gl, GlImage image);
-// From rows that begin at the top: ARGB32 of an sRGB picture, or r, g, b, a in linear light.
+// Upload rows from the top: ARGB32 of an sRGB picture, or r, g, b, a in linear light.
 void gl_upload_bytes(Gl *gl, GlImage image, const uint32_t *pixels);
 void gl_upload_linear(Gl *gl, GlImage image, const float *pixels);
-// To rows that begin at the top: ARGB32, encoded; over black if `opaque`, else as Texture rows are (draw/texture.h).
+// Download rows from the top: ARGB32 of an sRGB picture, or r, g, b, a in linear light.
 bool gl_read_bytes(Gl *gl, GlImage image, uint32_t *pixels);
 bool gl_read_linear(Gl *gl, GlImage image, float *pixels);
-uint64_t gl_readback_count(const Gl *gl); // how often that was done
+uint64_t gl_readback_count(const Gl *gl); // number of downloads so far
 
-// What is drawn next goes to this image; the viewport is all of it. It is not cleared.
+// Makes the image the target of drawing, with the whole image as viewport. The image is not cleared.
 void gl_target(Gl *gl, GlImage image);
 
-// What is wrong with a program.
+// An error of a shader program.
 typedef struct GlShaderError {
-    Str text;       // the compiler's words
-    bool in_vertex; // shader; else in the other, or in how they fit
+    Str text;       // the compiler's message
+    bool in_vertex; // true: in the vertex shader; false: in the fragment shader or in linking
 } GlShaderError;
 
-// A program of two shaders; kept by its text, so that asking again costs a look-up. 0, with what is wrong (in the
-// arena), if it does not compile; that is kept, too. Texts begin with the version line.
+// Returns the program of two shaders. Programs are cached by their texts, also those that do not compile. Returns 0,
+// with the error in the arena, if the program does not compile. Texts must begin with the version line.
 unsigned gl_program(Gl *gl, Arena *arena, Str vertex, Str fragment, GlShaderError *fault);
-extern const char gl_header[]; // version and precision lines: what ${HEADER} stands for
-extern const char gl_quad[];   // vertex shader of a strip over the whole target: out vec2 coord, 0 to 1, v up
-// Runs a program that has gl_quad's inputs over the whole target.
+extern const char gl_header[]; // version and precision lines, which replace ${HEADER}
+extern const char gl_quad[];   // vertex shader of a strip that covers the target: out vec2 coord, 0 to 1, v up
+// Draws over the whole target with a program whose vertex shader is gl_quad or has the same inputs.
 void gl_draw_quad(Gl *gl, unsigned program);
 
-// What follows draws on the window of a context that was adopted; boxes are in its pixels, from its bottom left. False
-// if the GPU's memory is used up. The arena takes what is needed meanwhile.
+// The following functions draw on the window of an adopted context. Boxes are in pixels from the window's bottom left.
+// They return false if the GPU is out of memory. The arena is for temporaries.
 typedef struct GlBox {
     double x, y, width, height;
 } GlBox;
-// The part of a window of that size in which the picture lies, with black around it. Its bytes are those that are
-// encoded by the table: from which linear value on a byte is larger than its number. `opaque`: over black; else its
-// colours are encoded without their alpha, which then multiplies them.
+// Draws a picture into a box of the window, whose size is width x height, with black around it. Colours are encoded
+// with the table: thresholds[b] is the linear value from which the byte is larger than b. If `opaque`, the picture is
+// composited over black. Otherwise colours are encoded without their alpha and then multiplied by it.
 bool gl_present_image(Gl *gl, Arena *arena, GlImage image, const GlBox *box, int width, int height,
                       const float thresholds[256], bool opaque);
-// ARGB32 multiplied by alpha, rows from the top: as they are, or over what is there.
+// Draws premultiplied ARGB32 pixels, rows from the top. If `over`, composites them over the window; otherwise replaces
+// it.
 bool gl_present_pixels(Gl *gl, Arena *arena, const uint32_t *pixels, int x, int y, int width, int height, bool over);
 
 #endif

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-enum { MAX_IDLE_SCENES = 30 }; // scenes after the last that had a model
+enum { MAX_IDLE_SCENES = 30 }; // models are freed after this number of scenes without them
 
 struct CachedModel {
     CachedModel *next;
@@ -112,7 +112,7 @@ const SceneShape *gpu_cache_shape(GpuCache *store, const Scene *scene, const Sce
             model_entry->used = store->now;
             if (model_entry->shape.array || model_entry->model.kind != KIND_MODEL)
                 return &model_entry->shape;
-            break; // what is wrong is reported in each scene
+            break; // create it again, to report its problem in each scene
         }
     ArenaMark mark = arena_mark(scene->arena);
     Mesh mesh;
@@ -120,7 +120,7 @@ const SceneShape *gpu_cache_shape(GpuCache *store, const Scene *scene, const Sce
     if (!model_entry)
         arena_exhausted(scene->arena);
     *model_entry = (CachedModel){.next = store->models, .model = *model, .used = store->now};
-    store->models = model_entry; // from here on it is freed with the store
+    store->models = model_entry; // from now on it is freed with the cache
     evict_old_models(store);
     if (scene_mesh(scene, model, scene->arena, &mesh)) {
         upload_mesh(&model_entry->shape, &mesh);
@@ -146,12 +146,12 @@ void gpu_cache_bind_instances(const GpuCache *store, const SceneShape *shape, ui
     }
 }
 
-// As many as are wanted and the GPU has for this format; 0 for fewer than 2.
+// Returns the largest number of samples, at most `wanted`, that the GPU supports for this format; 0 if that is below 2.
 static int samples_for(int wanted, GLenum format) {
     GLint count = 0, list[16] = {0};
     glGetInternalformativ(GL_RENDERBUFFER, format, GL_NUM_SAMPLE_COUNTS, 1, &count);
     glGetInternalformativ(GL_RENDERBUFFER, format, GL_SAMPLES, count < 16 ? count : 16, list);
-    for (int i = 0; i < count && i < 16; i++) // from the most
+    for (int i = 0; i < count && i < 16; i++) // in descending order
         if (list[i] <= wanted && list[i] >= 2)
             return list[i];
     return 0;
@@ -185,9 +185,9 @@ static bool make_target(SceneTarget *target) {
     return glGetError() == GL_NO_ERROR;
 }
 
-// Charges a target, if need be in place of all others.
+// Charges a target. If necessary, frees all other targets for it.
 static bool charge_target(Gl *gl, SceneTarget *target) {
-    size_t pixel = 4 + (target->samples > 0 ? gl_pixel_size(target->format) : 0); // depth, and what is resolved
+    size_t pixel = 4 + (target->samples > 0 ? gl_pixel_size(target->format) : 0); // depth, and colour if multisampled
     size_t bytes =
         (size_t)target->width * (size_t)target->height * pixel * (size_t)(target->samples > 0 ? target->samples : 1);
     bool known = gl_is_refused(gl), taken = budget_reserve(gl->meter, bytes);

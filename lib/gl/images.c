@@ -1,4 +1,4 @@
-// images.c: pictures on the GPU.
+// images.c: pictures on the GPU; see gl.h.
 #include "base/heap.h"
 #include "gl/internal.h"
 
@@ -7,7 +7,7 @@
 
 static const struct {
     GLenum inner;
-    size_t bytes; // of a pixel
+    size_t bytes; // bytes of a pixel
 } formats[] = {
     [GL_FORMAT_SRGB8] = {GL_SRGB8_ALPHA8, 4},
     [GL_FORMAT_RGBA8] = {GL_RGBA8, 4},
@@ -38,7 +38,7 @@ static void drop_oldest(Gl *gl) {
     memmove(gl->spare, gl->spare + 1, (size_t)--gl->spare_count * sizeof *gl->spare);
 }
 
-// Spare images are not charged, but are no more than could be.
+// Spare images are not charged, but are freed if they exceed the memory that is left.
 static void free_spare(Gl *gl) {
     size_t spare = 0;
     for (int i = 0; i < gl->spare_count; i++)

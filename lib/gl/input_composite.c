@@ -10,7 +10,7 @@ GlEdge gl_edge(const DrawNode *node, GlEdge default_edge) {
     return repeat && (repeat->as.numbers[0] != 0 || repeat->as.numbers[1] != 0) ? GL_EDGE_REPEAT : default_edge;
 }
 
-// There are no border colours in OpenGL ES: the four texels are mixed by hand.
+// OpenGL ES has no border colours, so the four texels are interpolated in the shader.
 static const char border_sampling[] =
     "vec4 texel(sampler2D t, ivec2 p) {\n"
     "    ivec2 s = textureSize(t, 0);\n"
@@ -19,7 +19,7 @@ static const char border_sampling[] =
 static const char repeat_sampling[] =
     "vec4 texel(sampler2D t, ivec2 p) {\n"
     "    ivec2 s = textureSize(t, 0), far = 1024 * s, c = clamp(p, ivec2(0), s - 1);\n"
-    "    ivec2 r = (clamp(p, -far, far) + far) % s;\n" // not of negative numbers
+    "    ivec2 r = (clamp(p, -far, far) + far) % s;\n" // % is undefined for negative numbers
     "    return texelFetch(t, ivec2(repeated.x ? r.x : c.x, repeated.y ? r.y : c.y), 0);\n"
     "}\n";
 static const char clamped_sampling[] = "vec4 texel(sampler2D t, ivec2 p) {\n"
@@ -56,11 +56,11 @@ static void add_sampling(Text *out, const DrawNode *node, GlEdge edge) {
                     : edge == GL_EDGE_REPEAT ? repeat_sampling
                                              : clamped_sampling);
     text_add_c(out, nearest                 ? nearest_sampling
-                    : edge == GL_EDGE_CLAMP ? filtered_sampling // what the sampler does by itself
+                    : edge == GL_EDGE_CLAMP ? filtered_sampling // the sampler does the same
                                             : smooth_sampling);
 }
 
-// How one input is read at `uv`, or at this pixel.
+// Adds an expression that reads one input at `uv`, or at this pixel.
 static void add_input(Text *out, const GlEffect *effect, uint32_t i, bool here) {
     if (here && gl_fits(effect, effect->inputs[i]))
         text_add_format(out, "texelFetch(texture%u, here(), 0)", i);

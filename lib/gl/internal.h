@@ -1,4 +1,4 @@
-// internal.h: what the files of this room share.
+// internal.h: internal declarations of lib/gl.
 #ifndef PETRI_GL_INTERNAL_H
 #define PETRI_GL_INTERNAL_H
 
@@ -11,50 +11,50 @@
 #endif
 
 typedef struct GlProgram GlProgram;
-typedef struct GpuCache GpuCache; // of scenes
+typedef struct GpuCache GpuCache; // state of scenes, gpu_cache.h
 
 enum { GL_SPARE_IMAGES = 32, GL_MAX_FENCES = 16 };
 
 struct Gl {
     void *display; // EGLDisplay
-    void *context; // EGLContext; NULL: none yet
-    bool adopted;  // it is the host's
-    bool lost;     // and gone: what it has is gone with it, and only memory is given back
+    void *context; // EGLContext; NULL: not opened
+    bool adopted;  // true if the context belongs to the host
+    bool lost;     // true if the context is lost: its objects no longer exist, so only memory is freed
     int max_size;
-    bool floats; // can be drawn to
-    bool halves;
-    bool float_filter; // floats can be read between pixels
+    bool floats;       // can render to 32-bit floats
+    bool halves;       // can render to 16-bit floats
+    bool float_filter; // 32-bit floats can be sampled with linear filtering
     GLuint framebuffer;
     GLuint strip; // vertex array of four corners: attribute 0
     GLuint corners;
-    GLuint nothing; // a texture of one transparent pixel
-    GLuint curve;   // a texture of the table that windows' bytes are encoded by; 0: none yet
+    GLuint nothing; // texture of one transparent pixel
+    GLuint curve;   // texture of the table that encodes colours for windows; 0: not created yet
     uint64_t readback_count;
-    bool retains_fences; // see gl_after_draw
+    bool retains_fences; // keeps fences, see gl_after_draw
     int fence_count;
-    GLsync fences[GL_MAX_FENCES]; // of what was drawn, the oldest first
-    Budget *meter;                // or NULL
+    GLsync fences[GL_MAX_FENCES]; // of recent drawing, oldest first
+    Budget *meter;                // NULL: not charged
     GlImage spare[GL_SPARE_IMAGES];
     int spare_count;
     GlProgram *programs;
-    GpuCache *cache; // made by the first scene
+    GpuCache *cache; // created by the first scene
 };
 
-// context.c, or context_web.c: what gl_open, gl_adopt and gl_close do first or last; gl_enter and gl_leave are there,
-// too.
+// context.c or context_web.c: the platform part of gl_open, gl_adopt and gl_close. gl_enter and gl_leave are defined
+// there as well.
 bool gl_context_open(Gl *gl, const char **problem);
 bool gl_context_adopt(Gl *gl, const char **problem);
 void gl_context_close(Gl *gl);
 bool gl_context_has(const Gl *gl, const char *extension);
-// Whether what draws has this in its name.
+// Returns true if the name of the renderer contains this string.
 bool gl_context_is(const Gl *gl, const char *renderer);
-// To be called when something was drawn and another target, or nothing, comes next: context.c keeps its fence.
+// Must be called after drawing, before the target changes or the context is released. context.c keeps a fence.
 void gl_after_draw(Gl *gl);
 
 void gl_images_close(Gl *gl);
-// Bytes of a pixel.
+// Returns the bytes of a pixel.
 size_t gl_pixel_size(GlFormat format);
-// Whether the meter has refused something, which is for its owner to tell.
+// Returns true if the budget has refused memory, which its owner reports.
 static inline bool gl_is_refused(const Gl *gl) {
     return gl->meter && gl->meter->memory_refused;
 }

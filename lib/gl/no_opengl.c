@@ -1,4 +1,4 @@
-// no_opengl.c: gl.h in a build without OpenGL: nobody gets a Gl, so nothing else is called.
+// no_opengl.c: implements gl.h in builds without OpenGL. gl_open fails, so the other functions are never called.
 #include "gl/effect.h"
 #include "gl/scene.h"
 

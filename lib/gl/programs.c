@@ -1,4 +1,4 @@
-// programs.c: shaders, compiled once for each text.
+// programs.c: compiles shader programs and caches them by their texts.
 #include "base/heap.h"
 #include "gl/internal.h"
 
@@ -16,7 +16,7 @@ struct GlProgram {
     GlProgram *next;
     char *vertex;
     char *fragment;
-    char *problem; // or NULL
+    char *problem; // message of the compiler or linker; NULL: none
     bool in_vertex;
     GLuint program;
 };
@@ -47,7 +47,7 @@ void gl_programs_close(Gl *gl) {
     gl->programs = NULL;
 }
 
-// Adds a shader; false with the compiler's words.
+// Compiles and attaches a shader. Returns false with the compiler's message if it does not compile.
 static bool attach_shader(GLuint program, GLenum kind, const char *text, char **problem) {
     GLuint shader = glCreateShader(kind);
     GLint good = 0, length = 0;
@@ -58,7 +58,7 @@ static bool attach_shader(GLuint program, GLenum kind, const char *text, char **
     if (!good && (*problem = heap_calloc((size_t)length + 1, 1)))
         glGetShaderInfoLog(shader, length, NULL, *problem);
     glAttachShader(program, shader);
-    glDeleteShader(shader); // lives on with the program
+    glDeleteShader(shader); // kept until the program is deleted
     return good;
 }
 
@@ -89,7 +89,7 @@ static GlProgram *find_program(Gl *gl, Str vertex, Str fragment) {
 }
 
 unsigned gl_program(Gl *gl, Arena *arena, Str vertex, Str fragment, GlShaderError *fault) {
-    enum { MAX_PROGRAMS = 200 }; // a script may write another text in each frame
+    enum { MAX_PROGRAMS = 200 }; // limited because a script may create a new text in each frame
     GlProgram *program = find_program(gl, vertex, fragment);
     if (!program) {
         int count = 0;

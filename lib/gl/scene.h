@@ -1,5 +1,5 @@
-// scene.h: `!canvas3d` (spec canvas3d.md): its nodes read into groups, lights, cameras and instances of models, which
-// the GPU then draws once for each camera.
+// scene.h: 3-D scenes (`!canvas3d`, spec canvas3d.md). The nodes are read into groups, lights, cameras and instances of
+// models, and each camera's view is rendered on the GPU.
 #ifndef PETRI_GL_SCENE_H
 #define PETRI_GL_SCENE_H
 
@@ -10,7 +10,7 @@
 
 enum { SCENE_TEXTURES = 6, SCENE_MAX_INSTANCES = 200000, SCENE_MAX_MODELS = 2000, SCENE_MAX_LIGHTS = 4000 };
 
-// As the shader has it: four vectors. A ball is a point with a radius.
+// A light as four vectors, as the shader reads it. LIGHT_BALL is a point light with a radius.
 typedef enum LightKind {
     LIGHT_AMBIENT,
     LIGHT_DIRECTIONAL,
@@ -30,7 +30,7 @@ typedef struct SceneLight {
     float falloff[4];
 } SceneLight;
 
-// The triangles of an instance: what they are made from.
+// The properties from which the triangles of an instance are created.
 typedef struct SceneModel {
     uint64_t source; // hash of the file's name and version, or of the vectors; 0: none
     double snap;
@@ -40,19 +40,19 @@ typedef struct SceneModel {
     uint8_t remap;
     bool flat;
     bool invert;
-    bool disc;            // of a sphere: its outline alone, seen from the camera (sphere_impostor.h)
-    const DrawNode *node; // one that has it
+    bool disc;            // of a sphere: draws only its outline, seen from the camera (sphere_impostor.h)
+    const DrawNode *node; // a node with this model
 } SceneModel;
 
-// Pictures over a surface, and how they are read.
+// Texture maps of a surface, and how they are sampled.
 typedef struct SceneTextures {
-    Str ids[SCENE_TEXTURES]; // of color, metal, roughness, ao, emissive, transparency; empty: none
+    Str ids[SCENE_TEXTURES]; // of colour, metal, roughness, ao, emissive, transparency; empty: none
     bool border;
     bool repeat[2];
     float border_color[4];
 } SceneTextures;
 
-// What the GPU is given of each instance.
+// Surface parameters of an instance, in the GPU's layout.
 typedef struct SceneSurface {
     float albedo[3];
     float transparency;
@@ -66,7 +66,7 @@ typedef struct SceneSurface {
 
 typedef struct SceneMaterial {
     SceneSurface surface;
-    uint32_t textures; // number of the scene's; 0: none
+    uint32_t textures; // index in the scene's textures; 0: none
 } SceneMaterial;
 
 typedef struct SceneInstance {
@@ -77,9 +77,9 @@ typedef struct SceneInstance {
 
 typedef struct SceneGroup SceneGroup;
 struct SceneGroup {
-    const SceneGroup *parent; // or NULL
+    const SceneGroup *parent; // NULL: the top group
     GraphicsState3D state;
-    SceneLight *lights; // its own
+    SceneLight *lights; // of this group, without those of its parents
     uint32_t light_count;
     uint32_t light_capacity;
     SceneInstance *instances;
@@ -104,50 +104,50 @@ typedef struct Scene {
     const DrawNode *node; // the `!canvas3d`
     const FileAccess *reach;
     DiagSink *faults;
-    SceneGroup **groups; // in the order in which they are drawn
+    SceneGroup **groups; // in drawing order
     uint32_t group_count;
     uint32_t group_capacity;
-    SceneCamera *cameras; // the first is the scene's own
+    SceneCamera *cameras; // the first one is the scene's own
     uint32_t camera_count;
     uint32_t camera_capacity;
     SceneModel *models;
     uint32_t model_count;
     uint32_t model_capacity;
-    SceneTextures *textures; // number 0 has none
+    SceneTextures *textures; // entry 0 has no textures
     uint32_t texture_count;
     uint32_t texture_capacity;
     uint32_t instance_count;
     uint32_t light_count;
-    uint32_t shown; // the camera whose picture is the node's
-    double width;   // of the node
+    uint32_t shown; // index of the camera whose picture is that of the node
+    double width;   // width of the node in pixels
     double detail;  // pixels per unit; below 1 edges are not multisampled
-    int bits;       // of the window
+    int bits;       // bits per channel of the window
 } Scene;
 
-// Reads a `!canvas3d` that is width x height pixels large. All is in the arena.
+// Reads a `!canvas3d` of width x height pixels, into the arena.
 Scene *scene_read(Arena *arena, const DrawNode *node, int width, int height, int bits, const FileAccess *reach,
                   DiagSink *faults);
-// What a camera sees: near, far and the like in the limits that they have.
+// Returns the view of a camera, with near, far and other values clamped to their limits.
 Eye scene_eye(const Scene *scene, const SceneCamera *camera);
-// The triangles of a model, in the arena; none, after a report, if they cannot be made.
+// Creates the triangles of a model in the arena. Returns false, after a report, if that is not possible.
 struct Mesh;
 bool scene_mesh(const Scene *scene, const SceneModel *model, Arena *arena, struct Mesh *mesh);
-// What the triangles of a `!model` are made from: a hash, never 0.
+// Returns a hash of the data that the triangles of a `!model` are created from; never 0.
 uint64_t scene_model_hash(const Scene *scene, const DrawNode *node);
 bool scene_same_model(const SceneModel *a, const SceneModel *b);
-// The lights that shine in a group, up to `most`; how many.
+// Copies the lights that shine in a group, at most `max`, and returns their number.
 uint32_t scene_lights(const SceneGroup *group, SceneLight *lights, uint32_t max);
 
-// Reports what is wrong with a node.
+// Reports a problem of a node.
 void scene_report(const Scene *scene, const char *code, const DrawNode *node, const char *problem);
 
-// Where textures come from: the picture of an id as it is known now, texture 0 for none.
+// The source of texture maps: `find` returns the current picture of an id; texture 0: none.
 typedef struct ScenePictures {
     void *user_data;
-    GlImage (*find)(void *host, Str id);
+    GlImage (*find)(void *user_data, Str id);
 } ScenePictures;
 
-// Draws what a camera sees. The picture is the caller's; texture 0, after a report, if it cannot be.
+// Renders a camera's view. The caller owns the picture. Its texture is 0, after a report, if that failed.
 GlImage gl_scene(Gl *gl, const Scene *scene, const SceneCamera *camera, const ScenePictures *pictures);
 
 #endif

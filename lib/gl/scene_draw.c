@@ -1,4 +1,4 @@
-// scene_draw.c: a scene as a camera sees it; see scene.h.
+// scene_draw.c: renders a camera's view of a scene; see scene.h.
 #include "gl/gpu_cache.h"
 #include "gl/shader_sources.h"
 #include "gl/sphere_impostor.h"
@@ -6,9 +6,9 @@
 #include <math.h>
 #include <string.h>
 
-enum { BLOCK_LIGHTS = 255 }; // fit into what each GPU has for a block of uniforms
+enum { BLOCK_LIGHTS = 255 }; // fit into the minimum size of a uniform block
 
-// The drawing of a camera's picture.
+// The rendering of a camera's view.
 typedef struct Drawing {
     Gl *gl;
     GpuCache *store;
@@ -19,17 +19,17 @@ typedef struct Drawing {
     Matrix view;
     Matrix projection;
     DrawOrder order;
-    SceneTarget *target;         // of the picture
-    GlImage backs;               // what shines through the group's backs
-    bool many;                   // lights of the group are in a texture
-    double ambient[3];           // of its lights
-    GLint ends[LIGHT_KINDS - 1]; // where those of other kinds end
+    SceneTarget *target;         // buffers of the picture
+    GlImage backs;               // light that enters translucent bodies of the current group at their backs
+    bool many;                   // true if the group's lights are in a texture, false if in a uniform block
+    double ambient[3];           // sum of the group's ambient lights
+    GLint ends[LIGHT_KINDS - 1]; // index after the lights of each other kind
 } Drawing;
 
 static void make_record(const SceneInstance *instance, SceneRecord *record) {
     double cofactors[9];
     matrix_cofactors(&instance->matrix, cofactors);
-    // Their length means nothing; as floats they must not overflow.
+    // The length of a normal does not matter, but it must not overflow as a float.
     double max = 1e-300;
     for (int k = 0; k < 9; k++)
         max = fmax(max, fabs(cofactors[k]));
@@ -39,7 +39,7 @@ static void make_record(const SceneInstance *instance, SceneRecord *record) {
         record->matrix[k] = (float)instance->matrix.m[k];
 }
 
-// A disc has the ball in place of cofactors.
+// A disc stores the parameters of its sphere instead of cofactors.
 static void make_disc_record(const Drawing *drawing, const SceneInstance *instance, SceneRecord *record) {
     SphereImpostor disc;
     sphere_impostor(&drawing->eye, &drawing->view, &instance->matrix, &disc);
@@ -119,7 +119,7 @@ static void send_light_texture(const Drawing *drawing, const SceneLight *lights,
     glActiveTexture(GL_TEXTURE0);
 }
 
-// Ambient lights are added up, the others put in the order of their kinds.
+// Adds up the ambient lights and sorts the others by kind. Returns the number of the others.
 static uint32_t sort_lights(Drawing *drawing, const SceneLight *all, uint32_t count, SceneLight *sorted) {
     uint32_t made = 0;
     memset(drawing->ambient, 0, sizeof drawing->ambient);
@@ -153,7 +153,7 @@ static void send_lights(Drawing *drawing, const SceneGroup *group) {
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, drawing->store->light_block);
 }
 
-// What a program does beside the usual.
+// Features of a shader variant.
 enum { TEXTURED = 1, DISC = 2, DEEP = 4, BACK = 8, TRANSLUCENT = 16 };
 
 static void add_variant(Text *text, unsigned variant) {
@@ -163,7 +163,7 @@ static void add_variant(Text *text, unsigned variant) {
             text_add_format(text, "#define %s\n", names[i]);
 }
 
-// The program, set up; 0, after a report, if it does not compile.
+// Returns the program of a variant, with its uniforms set. Returns 0, after a report, if it does not compile.
 static GLuint use_program(const Drawing *drawing, unsigned variant) {
     const Scene *scene = drawing->scene;
     Text vertex = text_new(scene->arena), fragment = text_new(scene->arena);
@@ -237,7 +237,7 @@ static void set_blending(const GraphicsState3D *state, bool transparent, bool tr
         [MIX3D_DARKEN] = {GL_MIN, GL_ONE, GL_ONE},
     };
     bool sorts = state->depth_sort && state->depth_test;
-    // What is opaque covers what is there: nothing to mix.
+    // Opaque surfaces replace the colours below them, so they need no blending.
     (sorts && !transparent && state->composite == MIX3D_OVER ? glDisable : glEnable)(GL_BLEND);
     glBlendEquation(modes[state->composite].equation);
     glBlendFunc(modes[state->composite].source, modes[state->composite].target);
@@ -276,8 +276,8 @@ static void draw_shape(const Drawing *drawing, const SceneDraw *draw, GLuint pro
     glDrawElementsInstanced(GL_TRIANGLES, shape->index_count, GL_UNSIGNED_INT, NULL, (GLsizei)draw->count);
 }
 
-// The backs of what is translucent in the group that begins with this draw (spec 5.6): the light that goes in there,
-// and how far away it is. False if that cannot be.
+// Renders the backs of translucent bodies in the group that starts with this draw (spec 5.6): the light that enters
+// there, and its distance. Returns false if that is not possible.
 static bool draw_backs(Drawing *drawing, uint32_t first) {
     const DrawOrder *order = &drawing->order;
     GlFormat format = drawing->gl->floats ? GL_FORMAT_RGBA32F : GL_FORMAT_RGBA16F;
@@ -408,7 +408,7 @@ GlImage gl_scene(Gl *gl, const Scene *scene, const SceneCamera *camera, const Sc
     if (image.texture && draw_to_image(&drawing, image))
         return image;
     if (!gl_is_refused(gl))
-        scene_report(scene, "bad-size", scene->node, "the GPU has no room for a picture of this size");
+        scene_report(scene, "bad-size", scene->node, "the GPU is out of memory for a picture of this size");
     gl_image_free(gl, image);
     return none;
 }

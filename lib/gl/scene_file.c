@@ -1,6 +1,6 @@
-// scene_file.c: triangles from files and from numbers (spec canvas3d.md 8); see scene_mesh.h.
+// scene_file.c: reads triangles from files and lists (spec canvas3d.md 8); see scene_mesh.h.
 //
-// What a file says of sizes is never believed: it is compared with how long the file is.
+// Sizes in a file are never trusted, but checked against the length of the file.
 #include "base/hash_index.h"
 #include "base/number.h"
 #include "gl/scene_matrix.h"
@@ -21,7 +21,7 @@ bool mesh_from_lists(Arena *arena, const double *vertices, uint32_t vertex_numbe
                    arena_alloc_array(arena, face_numbers, sizeof(uint32_t)), count, face_numbers};
     double(*normals)[3] = arena_alloc_array(arena, count, sizeof *normals);
     memset(normals, 0, count * sizeof *normals);
-    *problem = "faces has a number that is none of a vertex";
+    *problem = "faces refers to a vertex that does not exist";
     for (uint32_t i = 0; i < face_numbers; i++) {
         double number = floor(faces[i]);
         if (!(number >= 0 && number < count))
@@ -32,7 +32,7 @@ bool mesh_from_lists(Arena *arena, const double *vertices, uint32_t vertex_numbe
         const double *a = vertices + 3 * (size_t)mesh->indices[i], *b = vertices + 3 * (size_t)mesh->indices[i + 1],
                      *c = vertices + 3 * (size_t)mesh->indices[i + 2];
         double one[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, two[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-        vector_cross(one, two, one); // twice the area long
+        vector_cross(one, two, one); // its length is twice the area
         for (uint32_t k = 0; k < 9; k++)
             normals[mesh->indices[i + k / 3]][k % 3] += one[k % 3];
     }
@@ -54,7 +54,7 @@ static bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\r';
 }
 
-// The next word of a text; empty at the end of its line.
+// Returns the next word of a line; empty at its end.
 static Str next_word(Str *line) {
     while (line->len > 0 && is_blank(*line->bytes))
         *line = (Str){line->bytes + 1, line->len - 1};
@@ -84,7 +84,7 @@ static size_t skip_one_of(Str word, size_t at, const char *which) {
     return at < word.len && strchr(which, word.bytes[at]) ? at + 1 : at;
 }
 
-// A decimal number, with or without sign, point and exponent.
+// Reads a decimal number, with optional sign, point and exponent.
 static bool read_float(Str word, float *out) {
     size_t start = skip_one_of(word, 0, "+-"), whole = skip_digits(word, start), point = skip_one_of(word, whole, ".");
     size_t end = skip_digits(word, point), mark = skip_one_of(word, end, "eE");
@@ -110,7 +110,7 @@ static bool read_floats(Str line, int min, int max, float *out) {
     return true;
 }
 
-// A list of vectors of `size` floats.
+// A list of vectors with a fixed number of floats.
 typedef struct Floats {
     float *items;
     uint32_t count;
@@ -125,16 +125,16 @@ static float *add_floats(Arena *arena, Floats *list, uint32_t size) {
 }
 
 typedef struct Corner {
-    uint32_t parts[3]; // numbers of position, place in the texture, normal, from 1; 0: none
+    uint32_t parts[3]; // numbers of position, texture coordinates and normal, from 1; 0: none
 } Corner;
 
 typedef struct Obj {
     Arena *arena;
-    Floats lists[3]; // v, vt, vn
-    Corner *corners; // three for each triangle
+    Floats lists[3]; // vectors of v, vt and vn lines
+    Corner *corners; // three per triangle
     uint32_t count;
     uint32_t capacity;
-    bool normals; // all corners have them
+    bool normals; // true if all corners have normals
     const char *problem;
 } Obj;
 
@@ -146,7 +146,7 @@ static bool fail_parse(Obj *obj, const char *problem) {
 static const char corner_form[] = "a corner of a face is written 1, 1/2, 1//3 or 1/2/3";
 static const char too_large[] = "there are more than 12 million corners";
 
-// "a", "a/b", "a//c" or "a/b/c"; numbers below 0 count from the end.
+// Reads "a", "a/b", "a//c" or "a/b/c". Negative numbers count from the end.
 static bool read_corner(Obj *obj, Str word, Corner *out) {
     size_t at = 0;
     *out = (Corner){{0}};
@@ -159,9 +159,9 @@ static bool read_corner(Obj *obj, Str word, Corner *out) {
         int64_t count = obj->lists[part].count;
         number = minus ? count + 1 - number : number;
         if (at > start && (number < 1 || number > count))
-            return fail_parse(obj, part == 0   ? "a face has a vertex that is not there"
-                                   : part == 1 ? "a face has a place in textures, vt, that is not there"
-                                               : "a face has a normal, vn, that is not there");
+            return fail_parse(obj, part == 0   ? "a face refers to a vertex that does not exist"
+                                   : part == 1 ? "a face refers to texture coordinates (vt) that do not exist"
+                                               : "a face refers to a normal (vn) that does not exist");
         if (at == start && (minus || part == 0))
             return fail_parse(obj, corner_form);
         out->parts[part] = at > start ? (uint32_t)number : 0;
@@ -195,18 +195,18 @@ static bool read_face(Obj *obj, Str line) {
         }
         before = corner;
     }
-    return count >= 3 || fail_parse(obj, "a face has three corners or more");
+    return count >= 3 || fail_parse(obj, "a face needs at least three corners");
 }
 
 static bool read_obj_line(Obj *obj, Str line) {
     static const struct {
         const char *name;
-        int least;
+        int min;
         int size;
         const char *form;
-    } lists[] = {{"v", 3, 3, "v is followed by three numbers"},
-                 {"vt", 1, 2, "vt is followed by one number or two"},
-                 {"vn", 3, 3, "vn is followed by three numbers"}};
+    } lists[] = {{"v", 3, 3, "v needs three numbers"},
+                 {"vt", 1, 2, "vt needs one or two numbers"},
+                 {"vn", 3, 3, "vn needs three numbers"}};
     Str word = next_word(&line);
     for (int i = 0; i < 3; i++) {
         if (!str_equal(word, str_from(lists[i].name)))
@@ -214,7 +214,7 @@ static bool read_obj_line(Obj *obj, Str line) {
         if (obj->lists[i].count >= MESH_MAX_CORNERS)
             return fail_parse(obj, too_large);
         float *out = add_floats(obj->arena, &obj->lists[i], (uint32_t)lists[i].size);
-        return read_floats(line, lists[i].least, lists[i].size, out) || fail_parse(obj, lists[i].form);
+        return read_floats(line, lists[i].min, lists[i].size, out) || fail_parse(obj, lists[i].form);
     }
     return !str_equal(word, STR("f")) || read_face(obj, line);
 }
@@ -239,10 +239,10 @@ static bool read_obj(Arena *arena, Str bytes, Mesh *mesh, MeshError *fault) {
             *fault = (MeshError){obj.problem, line};
             return false;
         }
-    *fault = (MeshError){"it has no triangles", 0};
+    *fault = (MeshError){"no triangles", 0};
     if (obj.count == 0)
         return false;
-    // A vertex for each different corner.
+    // Creates a vertex for each distinct corner.
     Corner *different = arena_alloc_array(arena, obj.count, sizeof *different);
     *mesh = (Mesh){.vertices = arena_alloc_array(arena, obj.count, sizeof(MeshVertex)),
                    .indices = arena_alloc_array(arena, obj.count, sizeof(uint32_t)),
@@ -268,7 +268,7 @@ static bool read_obj(Arena *arena, Str bytes, Mesh *mesh, MeshError *fault) {
     return true;
 }
 
-// Three corners in a row; the normals in the file are not used.
+// Adds the three corners of a triangle. The normals in the file are not used.
 static bool add_stl_triangle(Arena *arena, Floats *list, const float corners[9]) {
     for (int k = 0; k < 9; k++)
         if (!(fabsf(corners[k]) < 1e30f))
@@ -286,12 +286,12 @@ static bool read_stl_text(Arena *arena, Str bytes, Floats *list, MeshError *faul
     for (fault->line = 1; bytes.len > 0; fault->line++) {
         Str line = next_line(&bytes), word = next_word(&line);
         if (str_equal(word, STR("vertex"))) {
-            fault->text = "vertex is followed by three numbers, and each loop has three of them";
+            fault->text = "vertex needs three numbers, and a loop needs three vertices";
             if (count == 3 || !read_floats(line, 3, 3, corners + 3 * count))
                 return false;
             count++;
         } else if (str_equal(word, STR("endloop"))) {
-            fault->text = count == 3 ? too_large : "a loop has three vertices";
+            fault->text = count == 3 ? too_large : "a loop needs three vertices";
             if (count != 3 || !add_stl_triangle(arena, list, corners))
                 return false;
             count = 0;
@@ -333,10 +333,10 @@ bool mesh_from_file(Arena *arena, Str bytes, Mesh *mesh, MeshError *fault) {
     bool binary = is_binary_stl(bytes), text = !binary && str_starts_with(bytes, STR("solid"));
     if (!binary && !text)
         return read_obj(arena, bytes, mesh, fault);
-    *fault = (MeshError){"a triangle is beyond all numbers, or there are more than 4 million", 0};
+    *fault = (MeshError){"a triangle is out of range, or there are more than 4 million", 0};
     if (binary ? !read_stl_binary(arena, bytes, &list) : !read_stl_text(arena, bytes, &list, fault))
         return false;
-    *fault = (MeshError){"it has no triangles", 0};
+    *fault = (MeshError){"no triangles", 0};
     if (list.count == 0)
         return false;
     *mesh = (Mesh){.vertices = arena_alloc_array(arena, list.count, sizeof(MeshVertex)),

@@ -1,5 +1,5 @@
-// scene_hull.c: the convex hull of points (spec canvas3d.md 8.2): points are added one by one; the faces that one sees
-// give way to those between it and their outline.
+// scene_hull.c: the convex hull of points (spec canvas3d.md 8.2). Points are added one by one; the faces that are
+// visible from the new point are replaced by faces between the point and their outline.
 #include "gl/scene_matrix.h"
 #include "gl/scene_mesh.h"
 
@@ -18,7 +18,7 @@ typedef struct Hull {
     Face *faces;
     uint32_t count;
     uint32_t capacity;
-    double thick; // what is nearer to a plane lies in it
+    double thick; // points nearer to a plane count as being in it
 } Hull;
 
 static double plane_distance(const Face *face, const double point[3]) {
@@ -36,7 +36,7 @@ static void add_face(Hull *hull, uint32_t a, uint32_t b, uint32_t c) {
     face->offset = vector_dot(face->normal, p);
 }
 
-// How far a point is from the first ones: from one point, from a line, from a plane.
+// Returns the distance of a point from the first `count` points: from a point, a line or a plane.
 static double distance_from(const Hull *hull, const uint32_t *first, int count, const double p[3]) {
     const double *a = hull->points[first[0]];
     double d[3] = {p[0] - a[0], p[1] - a[1], p[2] - a[2]}, axis[3], across[3];
@@ -52,7 +52,7 @@ static double distance_from(const Hull *hull, const uint32_t *first, int count, 
     return fabs(plane_distance(&hull->faces[0], p));
 }
 
-// Four points that are as far apart as can be, and their faces; false if all lie in a plane.
+// Starts with four points that are as far apart as possible. Returns false if all points lie in a plane.
 static bool begin_hull(Hull *hull, uint32_t count) {
     uint32_t first[4] = {0};
     for (int found = 1; found < 4; found++) {
@@ -80,7 +80,7 @@ static bool begin_hull(Hull *hull, uint32_t count) {
     return true;
 }
 
-// Whether one of the first faces has the edge from a to b.
+// Returns true if one of the first `count` faces has the edge from a to b.
 static bool has_edge(const Hull *hull, uint32_t count, uint32_t a, uint32_t b) {
     for (uint32_t i = 0; i < count; i++)
         for (int k = 0; k < 3; k++)
@@ -90,7 +90,7 @@ static bool has_edge(const Hull *hull, uint32_t count, uint32_t a, uint32_t b) {
 }
 
 static void add_point(Hull *hull, uint32_t point) {
-    uint32_t seen = 0; // go first
+    uint32_t seen = 0; // number of visible faces, which are moved to the front
     for (uint32_t i = 0; i < hull->count; i++)
         if (plane_distance(&hull->faces[i], hull->points[point]) > hull->thick) {
             Face face = hull->faces[i];

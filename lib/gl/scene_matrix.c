@@ -23,7 +23,7 @@ Matrix matrix_product(const Matrix *a, const Matrix *b) {
 }
 
 bool matrix_is_finite(const Matrix *a) {
-    // What floats hold: beyond, the GPU would meet infinities.
+    // Larger values could overflow floats on the GPU.
     for (int i = 0; i < 16; i++)
         if (!(fabs(a->m[i]) < 1e18))
             return false;
@@ -37,7 +37,7 @@ void matrix_point(const Matrix *a, const double p[3], double out[3]) {
 }
 
 void matrix_cofactors(const Matrix *a, double out[9]) {
-    for (int column = 0; column < 3; column++) // each is the product of the two others
+    for (int column = 0; column < 3; column++) // each column is the cross product of the two others
         vector_cross(a->m + 4 * ((column + 1) % 3), a->m + 4 * ((column + 2) % 3), out + 3 * column);
 }
 
@@ -80,10 +80,10 @@ static Matrix scaling(const double v[3]) {
     return out;
 }
 
-// About an axis: 0 x, 1 y, 2 z.
+// Returns a rotation about an axis: 0 x, 1 y, 2 z.
 static Matrix rotation_about(int axis, double turns) {
     Matrix out = matrix_identity;
-    double part = turns - floor(turns); // quarters come out exactly
+    double part = turns - floor(turns); // multiples of a quarter are exact
     double cosine = part == 0.25 || part == 0.75 ? 0 : maths_cos(TURN * part);
     double sine = part == 0.5 ? 0 : maths_sin(TURN * part);
     int a = (axis + 1) % 3, b = (axis + 2) % 3;
@@ -154,7 +154,7 @@ Matrix matrix_transformed(Matrix a, const DrawNode *node) {
     return a;
 }
 
-// From start to end: false if that is no place.
+// Places a model along the line from start to end. Returns false if that is not possible.
 static bool place_along(Matrix *a, const DrawNode *node, const double end[3]) {
     const AttrValue *attr = draw_attr(node, ATTR_START);
     double zero[3] = {0}, axis[3], middle[3], radius = draw_number(node, ATTR_RADIUS);
@@ -166,7 +166,7 @@ static bool place_along(Matrix *a, const DrawNode *node, const double end[3]) {
     double length = sqrt(vector_dot(axis, axis));
     if (!(radius > 0) || !vector_normalise(axis))
         return false;
-    // The shortest rotation from z: a quaternion half way between.
+    // The shortest rotation from z to the axis: the quaternion halfway between them.
     Matrix turn = axis[2] < -0.9999999999 ? rotation_about(1, 0.5) : matrix_identity;
     if (axis[2] >= -0.9999999999) {
         double q[4] = {1 + axis[2], -axis[1], axis[0], 0}, size = sqrt(2 * q[0]);

@@ -1,4 +1,5 @@
-// scene_matrix.h: places in space (spec canvas3d.md 1.4, 6.1). Vectors are columns; matrices are kept by columns.
+// scene_matrix.h: matrices and cameras of scenes (spec canvas3d.md 1.4, 6.1). Vectors are columns, and matrices are
+// stored by columns.
 #ifndef PETRI_GL_SCENE_MATRIX_H
 #define PETRI_GL_SCENE_MATRIX_H
 
@@ -13,15 +14,15 @@ extern const Matrix matrix_identity;
 Matrix matrix_product(const Matrix *a, const Matrix *b); // applies b first
 bool matrix_is_finite(const Matrix *a);
 void matrix_point(const Matrix *a, const double p[3], double out[3]);
-// The cofactors of the upper 3 x 3, by columns: they carry normals and directions.
+// Computes the cofactors of the upper 3 x 3, by columns. They transform normals and directions.
 void matrix_cofactors(const Matrix *a, double out[9]);
-void matrix_direction(const Matrix *a, const double d[3], double out[3]); // of length 1, or 0;0;0
+void matrix_direction(const Matrix *a, const double d[3], double out[3]); // length 1, or 0;0;0
 
-// a · the node's transform attributes, in the order written.
+// Returns a times the node's transform attributes, in the order written.
 Matrix matrix_transformed(Matrix a, const DrawNode *node);
-// a · where the attributes of a model place it.
+// Returns a times the transform that places a model by its attributes.
 Matrix matrix_placed(Matrix a, const DrawNode *node);
-// View and projection of a camera (spec 3.2, 3.3).
+// The parameters of a camera's view and projection (spec 3.2, 3.3).
 typedef struct Eye {
     double position[3];
     double focus[3];
@@ -29,7 +30,7 @@ typedef struct Eye {
     const GraphicsState3D *state;
     double near;
     double far;
-    double width; // of the view, without perspective
+    double width; // width of the view if orthographic
     double aspect;
 } Eye;
 Matrix matrix_view(const Eye *eye);
@@ -37,6 +38,6 @@ Matrix matrix_projection(const Eye *eye);
 
 double vector_dot(const double a[3], const double b[3]);
 void vector_cross(const double a[3], const double b[3], double out[3]);
-bool vector_normalise(double a[3]); // false, and as it was, if it has no direction
+bool vector_normalise(double a[3]); // returns false, and changes nothing, if the vector has no direction
 
 #endif

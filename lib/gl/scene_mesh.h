@@ -1,5 +1,5 @@
-// scene_mesh.h: the triangles of models (spec canvas3d.md 6 to 8), made on the CPU: corners counter-clockwise seen from
-// outside. Nothing here needs OpenGL.
+// scene_mesh.h: the triangles of models (spec canvas3d.md 6 to 8), created on the CPU without OpenGL. Corners are
+// counter-clockwise when seen from outside.
 #ifndef PETRI_GL_SCENE_MESH_H
 #define PETRI_GL_SCENE_MESH_H
 
@@ -13,44 +13,44 @@ typedef struct MeshVertex {
     float uv[2];
 } MeshVertex;
 
-// In an arena, as is what the functions below return.
+// Triangles. The arrays are in the arena that was passed to the function that created them.
 typedef struct Mesh Mesh;
 struct Mesh {
     MeshVertex *vertices;
-    uint32_t *indices; // three for each triangle
+    uint32_t *indices; // three per triangle
     uint32_t vertex_count;
     uint32_t index_count;
 };
 
 enum { MESH_MAX_SEGMENTS = 1024, MESH_MAX_CORNERS = 12 << 20 };
 
-Mesh mesh_box(Arena *arena, bool repeat);                        // each face has all of the texture
-Mesh mesh_sphere(Arena *arena, uint32_t segments);               // rounded up to a multiple of 4
-Mesh mesh_disc(Arena *arena, uint32_t segments);                 // likewise; radius 1, towards z
-Mesh mesh_cylinder(Arena *arena, uint32_t segments);             // 2 or more
-Mesh mesh_cone(Arena *arena, uint32_t segments);                 // likewise
-void mesh_bounds(const Mesh *mesh, float low[3], float high[3]); // the mesh is not empty
+Mesh mesh_box(Arena *arena, bool repeat);            // `repeat`: each face shows the whole texture
+Mesh mesh_sphere(Arena *arena, uint32_t segments);   // `segments` is rounded up to a multiple of 4
+Mesh mesh_disc(Arena *arena, uint32_t segments);     // radius 1, facing z; `segments` is rounded up to a multiple of 4
+Mesh mesh_cylinder(Arena *arena, uint32_t segments); // `segments` is at least 2
+Mesh mesh_cone(Arena *arena, uint32_t segments);     // `segments` is at least 2
+void mesh_bounds(const Mesh *mesh, float low[3], float high[3]); // the mesh must not be empty
 
-// Changes of a surface.
+// Modify the surface of a mesh.
 void mesh_flat(Arena *arena, Mesh *mesh);
-// Splits it at edges where normals of triangles differ by more than `turns`; normals are made anew.
+// Splits the mesh at edges where the normals of triangles differ by more than `turns`, and recomputes the normals.
 void mesh_snap(Arena *arena, Mesh *mesh, double turns);
 void mesh_invert(Mesh *mesh);
-void mesh_remap(Arena *arena, Mesh *mesh, int how); // REMAP_…
+void mesh_remap(Arena *arena, Mesh *mesh, int how); // `how` is REMAP_SPHERE and so on
 
-// Why a file has no triangles.
+// Why a file could not be read as a mesh.
 typedef struct MeshError {
     const char *text;
-    uint32_t line; // of the file; 0: none in particular
+    uint32_t line; // line of the file; 0: unknown
 } MeshError;
 
-// From the bytes of a file: OBJ, STL as text or in binary. False with a reason.
+// Reads an OBJ file, or a text or binary STL file. Returns false with a reason.
 bool mesh_from_file(Arena *arena, Str bytes, Mesh *mesh, MeshError *fault);
-// The faces of the convex hull of points, three numbers each: numbers of points, three for a triangle. NULL if all lie
-// in a plane.
-enum { MESH_MAX_HULL = 2000 }; // points
+// Returns the faces of the convex hull of points, which are three numbers each. A face is three indices of points.
+// Returns NULL if all points lie in a plane.
+enum { MESH_MAX_HULL = 2000 }; // maximum number of points
 const double *mesh_hull(Arena *arena, const double *vertices, uint32_t count, uint32_t *numbers);
-// From numbers: of vertices, three each, of faces, three each, of texture places, two each or none.
+// Creates a mesh from lists: vertices and faces of three numbers each, and texture coordinates of two each or none.
 bool mesh_from_lists(Arena *arena, const double *vertices, uint32_t vertex_numbers, const double *faces,
                      uint32_t face_numbers, const double *uv, uint32_t uv_numbers, Mesh *mesh, const char **problem);
 

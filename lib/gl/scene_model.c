@@ -1,4 +1,4 @@
-// scene_model.c: which models are the same, and their triangles; see scene.h.
+// scene_model.c: identifies equal models and creates their triangles; see scene.h.
 #include "base/file.h"
 #include "base/source.h"
 #include "gl/effect.h"
@@ -55,7 +55,7 @@ static bool read_triangles(const Scene *scene, const DrawNode *node, Arena *aren
         return false;
     const double *corners = faces ? faces->as.list : NULL;
     uint32_t count = faces ? faces->count : 0;
-    const char *problem = "vertices without faces are 2000 at the most, and do not lie in a plane";
+    const char *problem = "vertices without faces must be at most 2000, and not all in one plane";
     if (!faces && vertices->count % 3 == 0 && vertices->count <= 3 * MESH_MAX_HULL)
         corners = mesh_hull(arena, vertices->as.list, vertices->count / 3, &count);
     if (corners && mesh_from_lists(arena, vertices->as.list, vertices->count, corners, count, uv ? uv->as.list : NULL,

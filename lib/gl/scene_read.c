@@ -1,4 +1,4 @@
-// scene_read.c: the nodes of a scene; see scene.h.
+// scene_read.c: reads the nodes of a scene; see scene.h.
 #include "base/source.h"
 #include "gl/effect.h"
 #include "gl/scene.h"
@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-// What holds at a place of the scene.
+// The inherited state at a node of the scene.
 typedef struct InheritedState {
     Matrix matrix;
     GraphicsState3D look;
@@ -98,7 +98,7 @@ static void make_material(Scene *scene, InheritedState *place) {
     place->material = material;
 }
 
-// Takes the attributes of all that is inherited.
+// Applies a node's attributes to the inherited state.
 static void read_state(Scene *scene, InheritedState *place, const DrawNode *node) {
     double roughness = place->look.roughness, given = 1;
     bool any = false;
@@ -245,7 +245,7 @@ static void read_camera(Scene *scene, const InheritedState *place, const DrawNod
     }
 }
 
-// UINT32_MAX, after a report, if there are too many.
+// Returns the index of a node's model. Returns UINT32_MAX, after a report, if there are too many.
 static uint32_t number_model(Scene *scene, const DrawNode *node) {
     NodeKind kind = (NodeKind)node->kind;
     SceneModel model = {.kind = node->kind,
@@ -261,7 +261,7 @@ static uint32_t number_model(Scene *scene, const DrawNode *node) {
     } else {
         double segments = draw_number(node, ATTR_SEGMENTS);
         if (segments > MESH_MAX_SEGMENTS)
-            scene_report(scene, "too-many-segments", node, "more than 1024 segments count as 1024");
+            scene_report(scene, "too-many-segments", node, "segments limited to 1024");
         model.segments = (uint32_t)clamp(segments, kind == KIND_SPHERE ? 4 : 2, MESH_MAX_SEGMENTS);
     }
     for (uint32_t i = scene->model_count; i-- > 0;)
@@ -294,7 +294,7 @@ static void read_model(Scene *scene, const InheritedState *outside, const DrawNo
     scene->instance_count++;
 }
 
-// The depth is limited by that of nodes.
+// The recursion is limited by the maximum depth of nodes.
 static void read_children(Scene *scene, const InheritedState *outside, const DrawNode *node) {
     for (uint32_t i = 0; i < node->child_count; i++) {
         const DrawNode *child = node->children[i];

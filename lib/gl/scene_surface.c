@@ -1,4 +1,4 @@
-// scene_surface.c: changes of a model's surface (spec canvas3d.md 7); see scene_mesh.h.
+// scene_surface.c: operations on a model's surface (spec canvas3d.md 7); see scene_mesh.h.
 #include "gl/scene_matrix.h"
 #include "gl/scene_mesh.h"
 #include "maths/maths.h"
@@ -14,7 +14,7 @@ static void corner_at(const Mesh *mesh, uint32_t index, double out[3]) {
         out[k] = mesh->vertices[mesh->indices[index]].position[k];
 }
 
-// Of length 1, or 0;0;0.
+// Computes the unit normal of a triangle; 0;0;0 if it has no area.
 static void triangle_normal(const Mesh *mesh, uint32_t triangle, double normal[3]) {
     double a[3], b[3], c[3];
     corner_at(mesh, 3 * triangle, a);
@@ -61,7 +61,7 @@ static int compare_spots(const void *a, const void *b) {
     return one->vertex < two->vertex ? -1 : one->vertex > two->vertex;
 }
 
-// For each vertex the first one at the same position.
+// Returns, for each vertex, the first vertex at the same position.
 static uint32_t *join_positions(Arena *arena, const Mesh *mesh) {
     Spot *spots = arena_alloc_array(arena, mesh->vertex_count, sizeof *spots);
     uint32_t *joined = arena_alloc_array(arena, mesh->vertex_count, sizeof *joined), first = 0;
@@ -79,7 +79,7 @@ static uint32_t *join_positions(Arena *arena, const Mesh *mesh) {
     return joined;
 }
 
-// An edge of a triangle, from its corner `corner` to the next; `low` and `high` are its ends.
+// An edge of a triangle, from its corner `corner` to the next one. `low` and `high` are its end points.
 typedef struct Edge {
     uint32_t low;
     uint32_t high;
@@ -111,15 +111,15 @@ static void unite_corners(uint32_t *parents, uint32_t a, uint32_t b) {
     parents[a > b ? a : b] = a > b ? b : a;
 }
 
-// Unites the corners at both ends of an edge of two triangles.
+// Unites the corners at both ends of an edge that two triangles share.
 static void unite_across(uint32_t *parents, const uint32_t *points, uint32_t a, uint32_t b) {
     uint32_t a_end = next_corner(a), b_end = next_corner(b);
-    bool same = points[a] == points[b]; // they run along it in the same direction
+    bool same = points[a] == points[b]; // both triangles have the edge in the same direction
     unite_corners(parents, a, same ? b : b_end);
     unite_corners(parents, a_end, same ? b_end : b);
 }
 
-// Corners that share a normal get a common root.
+// Unites corners that share a normal, so that they have a common root.
 static uint32_t *find_roots(Arena *arena, const Mesh *mesh, const uint32_t *points, const double (*normals)[3],
                             double turns) {
     uint32_t count = mesh->index_count;
@@ -132,7 +132,7 @@ static uint32_t *find_roots(Arena *arena, const Mesh *mesh, const uint32_t *poin
         edges[i] = (Edge){a < b ? a : b, a < b ? b : a, i};
     }
     qsort(edges, count, sizeof *edges, compare_edges);
-    for (uint32_t i = 0; i < count; i++) // of several triangles at an edge, each with the one before
+    for (uint32_t i = 0; i < count; i++) // if several triangles share an edge, each is compared with the previous one
         if (i > 0 && edges[i].low == edges[i - 1].low && edges[i].high == edges[i - 1].high &&
             vector_dot(normals[edges[i].corner / 3], normals[edges[i - 1].corner / 3]) >= min_cosine - 1e-9)
             unite_across(parents, points, edges[i - 1].corner, edges[i].corner);
@@ -172,7 +172,7 @@ void mesh_snap(Arena *arena, Mesh *mesh, double turns) {
         for (int k = 0; k < 3; k++)
             sums[root][k] += angle * normals[i / 3][k];
     }
-    // The vertices of the first corners at each root, with the texture's place of their old vertex.
+    // Creates one vertex per root and texture coordinates.
     MeshVertex *vertices = arena_alloc_array(arena, count, sizeof *vertices);
     for (uint32_t i = 0; i < count; i++) {
         uint32_t root = turns < 0.5 ? root_of(roots, i) : roots[i];
@@ -205,7 +205,7 @@ static void remap_sphere(MeshVertex *vertex) {
     vertex->uv[1] = (float)(maths_atan2(z, sqrt(x * x + y * y)) / (TURN / 2) + 0.5);
 }
 
-// A triangle across the seam gets corners of its own, beyond 1.
+// Duplicates the corners of triangles across the seam, with texture coordinates beyond 1.
 static void mend_seam(Arena *arena, Mesh *mesh) {
     MeshVertex *vertices = arena_alloc_array(arena, (size_t)mesh->vertex_count + mesh->index_count, sizeof *vertices);
     memcpy(vertices, mesh->vertices, mesh->vertex_count * sizeof *vertices);

@@ -7,13 +7,13 @@
 
 enum { MAX_PASSES = 64 };
 
-// A text with the host's lines in place of ${HEADER}; what the compiler says counts lines as the text does. False if
-// there are other templates.
+// Expands ${HEADER} to gl_header. #line directives keep the line numbers of compiler messages right. Returns false if
+// the text contains other templates.
 static bool expand_template(Text *out, Str text) {
     static const Str header = {"${HEADER}", 9}, version = {"#version 330", 12};
     size_t line_number = 1, i = 0;
     for (; i < text.len && strchr(" \t\n\r", text.bytes[i]); i++)
-        line_number += text.bytes[i] == '\n'; // the version is the first line
+        line_number += text.bytes[i] == '\n'; // the version must be the first line
     const size_t start = i;
     for (; i < text.len; i++) {
         Str rest = {text.bytes + i, text.len - i};
@@ -34,7 +34,7 @@ static bool expand_template(Text *out, Str text) {
     return true;
 }
 
-// Whether a pass is one of `downsample_passes`.
+// Returns true if a pass is listed in `downsample_passes`.
 static bool is_reduced(const DrawNode *node, uint32_t pass) {
     const AttrValue *list = draw_attr(node, ATTR_DOWNSAMPLE_PASSES);
     for (uint32_t i = 0; list && i < list->count; i++)
@@ -56,7 +56,7 @@ GlImage gl_shader(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults
     else
         text_add_c(&texts[1], "void main() { color = merged(coord) * alpha; }\n");
     if (!good) {
-        gl_report(faults, node, "bad-shader", STR("of templates only ${HEADER} can be used"));
+        gl_report(faults, node, "bad-shader", STR("only the template ${HEADER} is supported"));
         return (GlImage){0};
     }
     unsigned program = gl_program(gl, arena, text_str(&texts[0]), text_str(&texts[1]), &fault);

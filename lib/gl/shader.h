@@ -1,4 +1,4 @@
-// shader.h: programs that scripts bring along (spec pictures.md 8), and what effects share with them.
+// shader.h: shaders written by scripts (spec pictures.md 8), and the functions that effects share with them.
 #ifndef PETRI_GL_SHADER_H
 #define PETRI_GL_SHADER_H
 
@@ -6,15 +6,15 @@
 
 #include <string.h>
 
-// Runs the program in the attributes `fragment` and `vertex`.
+// Runs the shaders in the attributes `fragment` and `vertex`.
 GlImage gl_shader(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults);
 
 // effect.c
 typedef struct GlPass {
     unsigned program;
-    bool reduced; // its target is `downsample` times smaller
+    bool reduced; // renders to a target that is `downsample` times smaller
 } GlPass;
-// Runs passes one after the other; false if the GPU's memory is used up.
+// Runs the passes in order. Returns false if the GPU is out of memory.
 bool gl_run_passes(Gl *gl, const GlEffect *effect, const GlPass *passes, uint32_t count, GlImage *out);
 int gl_downsample(const DrawNode *node);
 void gl_report(DiagSink *faults, const DrawNode *node, const char *code, Str problem);

@@ -4,7 +4,7 @@
 #include <ctype.h>
 #include <string.h>
 
-// What a compiler says: a line of the text, from 1, 0 if unknown; and what is wrong there.
+// A compiler's message. The line of the text counts from 1; 0: unknown.
 typedef struct CompilerMessage {
     uint32_t line;
     Str text;
@@ -26,21 +26,21 @@ static bool skip_char(Str *text, char c) {
     return true;
 }
 
-// Drivers say `0:5(22): error: …` or `ERROR: 0:5: …` or `0(5) : error …`. The first line is enough: what follows often
-// comes of it.
+// Drivers write `0:5(22): error: …`, `ERROR: 0:5: …` or `0(5) : error …`. Only the first line is used, because the
+// others usually follow from it.
 static CompilerMessage read_message(Str problem) {
     const char *end = memchr(problem.bytes, '\n', problem.len);
     Str all = str_trim((Str){problem.bytes, end ? (size_t)(end - problem.bytes) : problem.len}), rest = all;
     CompilerMessage message = {.text = all};
     while (rest.len > 0 && !isdigit((unsigned char)*rest.bytes))
         rest.bytes++, rest.len--;
-    read_number(&rest); // of the text
+    read_number(&rest); // number of the text
     bool colon = skip_char(&rest, ':');
     if (!colon && !skip_char(&rest, '('))
         return message;
     message.line = read_number(&rest);
     if (colon && skip_char(&rest, '('))
-        read_number(&rest); // columns of what Mesa's preprocessor has left of the line
+        read_number(&rest); // the column, which Mesa counts after its preprocessor
     while (rest.len > 0 && (*rest.bytes == ')' || *rest.bytes == ':' || *rest.bytes == ' '))
         rest.bytes++, rest.len--;
     if (str_starts_with(rest, STR("error: ")))
@@ -53,7 +53,8 @@ static bool is_letter(char c) {
     return isalnum((unsigned char)c) || c == '_';
 }
 
-// Where a text stands in another, from an offset on, as a word if it is one; UINT32_MAX: nowhere.
+// Returns the offset of a text within another one, from an offset on. If it is a word, only whole words match.
+// UINT32_MAX: not found.
 static uint32_t find_text(Str in, Str text, size_t from) {
     for (size_t i = from; text.len > 0 && i + text.len <= in.len; i++) {
         size_t end = i + text.len;
@@ -65,7 +66,7 @@ static uint32_t find_text(Str in, Str text, size_t from) {
     return UINT32_MAX;
 }
 
-// What a compiler has put in quotes: `blue' or 'blue'.
+// Returns the text that a compiler has put in quotes: `blue' or 'blue'.
 static Str find_quoted(Str text) {
     for (size_t i = 0; i + 2 < text.len; i++) {
         const char *end =
@@ -76,7 +77,7 @@ static Str find_quoted(Str text) {
     return (Str){0};
 }
 
-// What is wrong in a line of a text that stands at `start`: the word in quotes, or all of the line.
+// Returns the span of the error in a text that starts at `start`: the quoted word, or the whole line.
 static Span span_of(Str source, uint32_t start, const CompilerMessage *message) {
     size_t at = start;
     for (uint32_t line = 1; line < message->line && at < source.len; at++)
@@ -93,7 +94,7 @@ static Span span_of(Str source, uint32_t start, const CompilerMessage *message) 
     return (Span){(uint32_t)at, (uint32_t)(end > at ? end : at + 1)};
 }
 
-// The name in the first `read('name')` of a text; empty: there is none.
+// Returns the name in the first `read('name')` of a text; empty: none.
 static Str find_file(Str text) {
     for (size_t i = 0; i + 6 < text.len; i++) {
         char quote = text.bytes[i + 5];
@@ -113,7 +114,7 @@ static Str format_message(Arena *arena, const DrawNode *node, const CompilerMess
     if (message->line == 0)
         return str_format(arena, "!%s: %.*s", kind, STR_ARGS(message->text));
     if (file.len == 0)
-        return str_format(arena, "!%s: line %u of its program: %.*s", kind, message->line, STR_ARGS(message->text));
+        return str_format(arena, "!%s: line %u of its shader: %.*s", kind, message->line, STR_ARGS(message->text));
     return str_format(arena, "!%s: %.*s:%u: %.*s", kind, STR_ARGS(file), message->line, STR_ARGS(message->text));
 }
 

@@ -1,12 +1,13 @@
-// shader_errors.h: where in a script a shader is wrong, out of what the driver's compiler says of it.
+// shader_errors.h: finds the position in a script that a shader compiler's message refers to.
 #ifndef PETRI_GL_SHADER_ERRORS_H
 #define PETRI_GL_SHADER_ERRORS_H
 
 #include "canvas/drawing.h"
 #include "gl/gl.h"
 
-// Reports what a compiler says of a program of the node: at the line and column in the script if the text of the shader
-// that is wrong is there as it is; else at the attribute, with the line in the file that it reads, or in the text.
+// Reports a compiler's message about a node's shader. If the shader text is written literally in the script, the
+// position is its line and column there. Otherwise it is the attribute, and the message has the line in the file or
+// text.
 void gl_report_shader_error(DiagSink *faults, const DrawNode *node, const GlShaderError *fault);
 
 #endif

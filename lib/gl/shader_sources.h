@@ -1,4 +1,4 @@
-// shader_sources.h: the shaders of this room, whose files are in shaders/: embed.sh makes them part of the library.
+// shader_sources.h: the shaders of lib/gl. embed.sh translates the files in shaders/ to C strings.
 #ifndef PETRI_GL_SHADER_SOURCES_H
 #define PETRI_GL_SHADER_SOURCES_H
 

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-// Whether a matrix only turns and enlarges; the factor in *scale.
+// Returns true if a matrix only rotates and scales uniformly. *scale is the factor.
 static bool is_similarity(const Matrix *a, double *scale) {
     double squares[3], product[3];
     for (int k = 0; k < 3; k++)
@@ -15,7 +15,7 @@ static bool is_similarity(const Matrix *a, double *scale) {
             return false;
     vector_cross(a->m, a->m + 4, product);
     *scale = sqrt(squares[0]);
-    return squares[0] > 0 && vector_dot(product, a->m + 8) > 0; // mirrored, the inside is seen
+    return squares[0] > 0 && vector_dot(product, a->m + 8) > 0; // a mirrored sphere shows its inside
 }
 
 bool sphere_impostor(const Eye *eye, const Matrix *view, const Matrix *place, SphereImpostor *disc) {
@@ -29,7 +29,7 @@ bool sphere_impostor(const Eye *eye, const Matrix *view, const Matrix *place, Sp
     disc->near = eye->state->orthographic ? 0 : radius / distance;
     if (!(disc->near < 0.999))
         return false;
-    // In the camera's coordinates: towards it, to the right, up.
+    // Axes in camera coordinates: [2] towards the camera, [0] to the right, [1] up.
     for (int k = 0; k < 3; k++)
         axes[2][k] = eye->state->orthographic ? k == 2 : -seen[k] / distance;
     vector_cross((double[3]){0, 1, 0}, axes[2], axes[0]);
@@ -39,7 +39,7 @@ bool sphere_impostor(const Eye *eye, const Matrix *view, const Matrix *place, Sp
     double scale = radius * sqrt(1 - disc->near * disc->near), forward = radius * disc->near;
     disc->place = matrix_identity;
     for (int column = 0; column < 3; column++)
-        for (int row = 0; row < 3; row++) // the view's rows are its axes
+        for (int row = 0; row < 3; row++) // the rows of the view matrix are the camera's axes
             disc->place.m[4 * column + row] = (column < 2 ? scale : 1) * vector_dot(view->m + 4 * row, axes[column]);
     for (int k = 0; k < 3; k++)
         disc->place.m[12 + k] = disc->middle[k] + forward * disc->place.m[8 + k];

@@ -1,23 +1,23 @@
-// sphere_impostor.h: balls drawn as discs.
+// sphere_impostor.h: spheres drawn as discs.
 //
-// Seen from a camera, a ball is the disc that its outline bounds, and where a ray through the disc meets the ball is
-// known: a fragment shader finds place and normal by itself. A disc of 64 corners has 62 triangles, a ball 2048, most
-// of which are smaller than the blocks of pixels in which surfaces are shaded. The shader tells the ball's depth, too,
-// once for all samples of a pixel, where there is something to compare it with.
+// Seen from a camera, a sphere is the disc within its outline. The fragment shader intersects the ray through each
+// point of the disc with the sphere, which gives position and normal. A disc of 64 corners has 62 triangles, a sphere
+// 2048, most of which are smaller than the blocks of pixels that GPUs shade. If there is other depth to compare with,
+// the shader also writes the sphere's depth, once for all samples of a pixel.
 #ifndef PETRI_GL_SPHERE_IMPOSTOR_H
 #define PETRI_GL_SPHERE_IMPOSTOR_H
 
 #include "gl/scene.h"
 
 typedef struct SphereImpostor {
-    Matrix place; // of a disc of radius 1 towards z; its third column is of length 1, towards the camera
+    Matrix place; // transform of a disc of radius 1 facing z; the third column has length 1 and points to the camera
     double middle[3];
-    double radius; // of the ball
+    double radius; // radius of the sphere
     double near;   // radius / distance from the camera; 0 without perspective
 } SphereImpostor;
 
-// The disc of a ball of radius 1 that is placed so; false if it is no ball there, or too near or too far to be seen
-// whole.
+// Computes the disc of a unit sphere with this transform. Returns false if the result is not a sphere, or is too near
+// or too far to be seen whole.
 bool sphere_impostor(const Eye *eye, const Matrix *view, const Matrix *place, SphereImpostor *disc);
 
 #endif

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The numbers of a uniform.
+// The value of a uniform.
 typedef struct Numbers {
     const double *list;
     uint32_t count;
@@ -25,7 +25,7 @@ static void set_scalar(Numbers *out, double x) {
     set_list(out, out->own, 1);
 }
 
-// a = a · b, matrices of 3 x 3 by columns.
+// Computes a = a · b for 3 x 3 matrices by columns.
 static void multiply_3x3(double a[9], const double b[9]) {
     double out[9] = {0};
     for (int column = 0; column < 3; column++)
@@ -51,7 +51,7 @@ static bool invert_3x3(double m[9]) {
 static const double unit_matrix[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 static const double TURN = 6.283185307179586;
 
-// That of `!transform` (spec pictures.md 7.7), inverse; zeros if there is none.
+// Computes the inverse of the matrix of `!transform` (spec pictures.md 7.7); zeros if it is not invertible.
 static void find_matrix(const GlEffect *effect, double m[9]) {
     memcpy(m, unit_matrix, sizeof unit_matrix);
     for (uint32_t i = 0; i < effect->node->attr_count; i++) {
@@ -77,10 +77,10 @@ static void find_matrix(const GlEffect *effect, double m[9]) {
         memset(m, 0, 9 * sizeof *m);
 }
 
-// An attribute of the node, or its default.
+// Finds an attribute of the node, or its default.
 static bool find_attribute(const DrawNode *node, const char *name, Numbers *out) {
     if (strcmp(name, "other") == 0)
-        name = "default"; // a word of the language of shaders
+        name = "default"; // `default` is a keyword of GLSL
     for (uint32_t i = 0; i < node->attr_count; i++)
         if (node->attrs[i].name == ATTR_NONE && strcmp(node->attrs[i].custom_name, name) == 0) {
             set_list(out, node->attrs[i].as.list, node->attrs[i].count);
@@ -137,7 +137,7 @@ static bool find_builtin(const GlState *state, const char *name, Numbers *out) {
     return true;
 }
 
-// Radii of blurs, and how far a picture is moved, are in units; programs count pixels.
+// Blur radii are in units, but shaders need pixels.
 static void scale_lengths(const GlEffect *effect, const char *name, Numbers *out) {
     NodeKind kind = (NodeKind)effect->node->kind;
     bool blurs = kind == KIND_BLUR || kind == KIND_BLOOM || kind == KIND_EDGES || kind == KIND_CHROMAKEY;
@@ -156,13 +156,13 @@ static void find_numbers(const GlState *state, const char *name, Numbers *out) {
         scale_lengths(effect, name, out);
     } else {
         set_scalar(out, 0);
-        for (uint32_t i = effect->frame->name_count; i-- > 0;) // of several the first counts
+        for (uint32_t i = effect->frame->name_count; i-- > 0;) // the first of several equal names counts
             if (strcmp(effect->frame->names[i], name) == 0)
                 set_scalar(out, effect->frame->numbers[i]);
     }
 }
 
-// How many numbers a type takes; 0: it is none of those that are set. `whole`: they are rounded down.
+// Returns how many numbers a type has; 0: not supported. *is_integer: values are rounded down.
 static uint32_t size_of(GLenum type, bool *is_integer) {
     static const struct {
         GLenum type;
@@ -200,7 +200,8 @@ static void send_uniform(GLint at, GLenum type, uint32_t size, GLsizei count, bo
         is_integer ? glUniform4iv(at, count, n) : glUniform4fv(at, count, x);
 }
 
-// Numbers that fit are taken as they are, one stands for all, a vector for each of an array; others count as 0.
+// Sets a uniform. Lists of matching length are used as they are. One number fills all elements, and a vector fills each
+// element of an array. Other lists count as 0.
 static void set_numbers(GLint at, GLenum type, GLsizei count, const Numbers *numbers) {
     enum { MAX_NUMBERS = 256 };
     bool is_integer;
@@ -245,7 +246,7 @@ void gl_set_uniforms(const Gl *gl, unsigned program, const GlState *state) {
         Numbers numbers = {.list = NULL};
         glGetActiveUniform(program, (GLuint)i, sizeof name, NULL, &size, &type, name);
         GLint at = glGetUniformLocation(program, name);
-        name[strcspn(name, "[")] = 0; // of arrays
+        name[strcspn(name, "[")] = 0; // of the elements of arrays
         if (type == GL_SAMPLER_2D) {
             set_picture(gl, at, state, name, unit++);
         } else {

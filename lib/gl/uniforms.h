@@ -1,14 +1,14 @@
-// uniforms.h: what programs are told (spec pictures.md 8.3): each uniform that a program has is looked up by its name.
+// uniforms.h: sets the uniforms of shaders by name (spec pictures.md 8.3).
 #ifndef PETRI_GL_UNIFORMS_H
 #define PETRI_GL_UNIFORMS_H
 
 #include "gl/effect.h"
 
-// A pass that is about to be run.
+// The state of a pass that is about to run.
 typedef struct GlState {
     const GlEffect *effect;
-    GlImage first; // result of pass 0; texture 0 during it
-    GlImage last;  // of the pass before, or of the frame before
+    GlImage first; // result of pass 0; texture 0 during pass 0
+    GlImage last;  // result of the previous pass, or of the previous frame in pass 0
     GlImage target;
     int pass;
     int passes;

@@ -1,10 +1,10 @@
-// window.c: pictures on the window of a context that was adopted, without reading them back; see gl.h.
+// window.c: draws pictures on the window of an adopted context, without downloading them; see gl.h.
 #include "gl/internal.h"
 #include "gl/shader_sources.h"
 
 static const uint32_t ONE = 1;
 
-// A table of floats that is read as it is.
+// Creates a texture that contains the table.
 static void init_curve(Gl *gl, const float thresholds[256]) {
     if (gl->curve)
         return;
@@ -15,7 +15,7 @@ static void init_curve(Gl *gl, const float thresholds[256]) {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
 }
 
-// Our own programs compile.
+// Returns one of petri's own programs, which always compile.
 static GLuint get_program(Gl *gl, Arena *arena, const char *text) {
     GlShaderError fault;
     Text source = text_new(arena);
@@ -51,13 +51,13 @@ bool gl_present_image(Gl *gl, Arena *arena, GlImage image, const GlBox *box, int
 
 bool gl_present_pixels(Gl *gl, Arena *arena, const uint32_t *pixels, int x, int y, int width, int height, bool over) {
     Budget *meter = gl->meter;
-    gl->meter = NULL; // the window's pixels are not the script's
+    gl->meter = NULL; // the window's pixels are not charged to the script
     GlImage image = gl_image_new(gl, width, height, GL_FORMAT_RGBA8);
-    gl_image_free(gl, image); // to be used again, but not before this is done
+    gl_image_free(gl, image); // for reuse, but not before this function returns
     gl->meter = meter;
     if (!image.texture)
         return false;
-    // Alpha comes first or last, as this machine orders bytes.
+    // The position of alpha depends on the byte order of the machine.
     Str text =
         str_format(arena,
                    "uniform sampler2D picture;\nuniform ivec2 corner;\nout vec4 color;\nvoid main() {\n"

@@ -86,9 +86,9 @@ check "warnings of nodes do not fail a check" status_is 0
 check "a check prints nothing of the frame" empty out
 check "… nor what it logs" lacks err "> seen"
 check "… and draws no !record" [ ! -e out.png ]
-for told in "4:13: warning: !path: '!elipse' is not drawn; it is left out, did you mean '!ellipse'?" \
+for told in "4:13: warning: !path: '!elipse' is not supported; ignored, did you mean '!ellipse'?" \
     "5:34: warning: !ellipse: unknown attribute 'radus', did you mean 'radius'?" \
-    "6:9: warning: !canvas: '!fil' is not drawn; it is left out, did you mean '!fill'?" \
+    "6:9: warning: !canvas: '!fil' is not supported; ignored, did you mean '!fill'?" \
     "8:1: warning: '!pysics' does nothing" \
     "9:1: warning: !physics: no state prefix" \
     "12:5: warning: !particle: no id; ignored" \

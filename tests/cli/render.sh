@@ -99,7 +99,7 @@ END
     petri render solid.fl -o solid.png --frames 2
     check "a window that petri cannot draw shows the particles" status_is 0
     check "… in its size" sized solid.png 60x40
-    check "… and what is left out is told once" count_is err "'!video' is not drawn" 1
+    check "… and what is left out is told once" count_is err "'!video' is not supported" 1
     printf '!physics state=:w dimensions=2\n    !particle id=1 radius=1\n' >bare.fl
     petri render bare.fl -o bare.png --frames 2
     check "physics alone has a picture too" sized bare.png 1080x1080
@@ -210,7 +210,7 @@ END
         "!ellipse: radius should be" "!line: points should be" "!rect: size should be" "!font: size should be" \
         "!text: point should be" "!paint: color should be grey" "!paint: stroke_width should be number, 0 or more" \
         "!paint: stroke_join should be :miter, :round or :bevel, not :rond" "!paint: composite should be a word such as :over" \
-        "unknown attribute 'colour', did you mean 'color'?" "'!elipse' is not drawn; it is left out, did you mean '!ellipse'?" \
+        "unknown attribute 'colour', did you mean 'color'?" "'!elipse' is not supported; ignored, did you mean '!ellipse'?" \
         "'!stop' has no effect here" "cannot read 'absent.png': No such file" "cannot read 'disc.fl': neither PNG nor JPEG" \
         "there is no font 'No Such Font'"; do
         check "told once: $text" count_is err "$text" 1

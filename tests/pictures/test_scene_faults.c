@@ -30,14 +30,14 @@ static const Row rows[] = {
     {"damaged models",
      "        for i in ..3\n            !model filename='hole.obj' color=1 position=i\n"
      "        !model filename='cut.stl' color=1\n        !model filename='empty.stl' color=1\n",
-     "6 [cannot-read] !model: hole.obj:4: a face has a vertex that is not there\n"
-     "7 [cannot-read] !model: cut.stl:5: vertex is followed by three numbers, and each loop has three of them\n"
-     "8 [cannot-read] !model: cannot read 'empty.stl': it has no triangles\n"},
+     "6 [cannot-read] !model: hole.obj:4: a face refers to a vertex that does not exist\n"
+     "7 [cannot-read] !model: cut.stl:5: vertex needs three numbers, and a loop needs three vertices\n"
+     "8 [cannot-read] !model: cannot read 'empty.stl': no triangles\n"},
     {"models of bad numbers",
      "        !model vertices=0;0;0;1;0;0;0;1;0 faces=0;1;3 color=1\n        !model vertices=0;0;0 color=1\n"
      "        !model vertices=1;2 faces=0;1;2 color=1\n",
-     "5 [bad-model] !model: faces has a number that is none of a vertex\n"
-     "6 [bad-model] !model: vertices without faces are 2000 at the most, and do not lie in a plane\n"
+     "5 [bad-model] !model: faces refers to a vertex that does not exist\n"
+     "6 [bad-model] !model: vertices without faces must be at most 2000, and not all in one plane\n"
      "7 [bad-model] !model: vertices and faces are three numbers each, uv is two for each vertex\n"},
     {"textures that are not there", "        !box position=-1.5;0;0 color=0;1;0 color_id=:none emissive_id=''\n", ""},
     {"textures in circles",
@@ -76,7 +76,7 @@ static const Row rows[] = {
      "fog_curve=-1 width=0 orthographic=true samples=1e9\n",
      ""},
     {"too many segments", "        !sphere segments=5000 position=1.5;0;0 size=0.1 color=1\n",
-     "5 [too-many-segments] !sphere: more than 1024 segments count as 1024\n"},
+     "5 [too-many-segments] !sphere: segments limited to 1024\n"},
     {"damaged images",
      "        !box position=1.5;0;0 color=1 color_id=:hurt\n    !image id=:hurt filename='damaged.png' hidden=true\n"
      "    !image filename='none.png' hidden=true\n",

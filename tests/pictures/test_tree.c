@@ -158,7 +158,7 @@ static void test_bad_programs(void **state) {
                      "0.0, 1.0); }\n\"\"\"\n",
                 1, 124, 0, 0);
     check_reported("templates", SIZE "    !shader fragment=\"${HEADER} ${more}\"\n    !vignette inset=0\n        " RED,
-                   "2 [bad-shader] !shader: of templates only ${HEADER} can be used\n", 255, 0, 0);
+                   "2 [bad-shader] !shader: only the template ${HEADER} is supported\n", 255, 0, 0);
     // The compiler's words come from the driver; the line is the script's, where the text stands there.
     static const struct {
         const char *row;
@@ -178,7 +178,7 @@ static void test_bad_programs(void **state) {
         {"of vertices", "    !shader vertex=\"\"\"${HEADER}\nvoid main() { gl_Position = wrong; }\"\"\"\n",
          "5:29 [bad-shader] !shader: "},
         {"made", "    !shader fragment=concat('${HEADER}';\"\"\"\n\"\"\";'void main() { wrong(); }')\n",
-         "4:13 [bad-shader] !shader: line 2 of its program: "},
+         "4:13 [bad-shader] !shader: line 2 of its shader: "},
         {"read", "    !shader fragment=read('bad.glsl')\n", "4:13 [bad-shader] !shader: bad.glsl:3: "},
     };
     FILE *file = fopen("bad.glsl", "w");

@@ -1,4 +1,5 @@
-// common.glsl: what effects share (spec pictures.md 6). It follows what merge.c writes: take, merged, source, previous.
+// common.glsl: functions of all effects (spec pictures.md 6). It follows the text of input_composite.c and effect.c,
+// which defines take, merged, source and previous.
 float lum(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
 
 vec3 unpremultiplied(vec4 c) { return c.a > 0.0 ? c.rgb / c.a : vec3(0.0); }
@@ -21,8 +22,9 @@ vec3 rgb_of(vec3 hsv) {
     return hsv.z * (1.0 - hsv.y + hsv.y * k);
 }
 
-// A Gaussian of 2r+1 pixels of the target of this pass along an axis: weights exp(-i^2/2sigma^2), each from the last.
-// previous_at needs a pass before of the same size.
+// A Gaussian blur over 2r+1 pixels of this pass's target along an axis. Weights exp(-i^2/2sigma^2) are computed
+// incrementally.
+// previous_at needs a previous pass of the same size.
 #define BLUR(NAME, AT) \
 vec4 NAME(float r, float sigma, ivec2 axis) { \
     vec4 sum = AT(ivec2(0)); \

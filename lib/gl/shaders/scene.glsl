@@ -1,7 +1,8 @@
 // scene.glsl: the colour of a point of a surface as the camera sees it (spec canvas3d.md 5.3, 5.5).
 void main() {
 #ifdef DISC
-    // Where the ray through this point of the disc meets the ball; the disc's radius is sqrt(1 - near²) of the ball's.
+    // Where the ray through this point of the disc meets the sphere; the disc's radius is sqrt(1 - near²) of the
+    // sphere's.
     float near = towards.w, depth = sqrt(max(1.0 - dot(across, across) / (1.0 - near * near), 0.0));
     N = (across + towards.xyz * (depth + near)) / (1.0 + near * depth);
     world = ball.xyz + ball.w * N;
@@ -57,7 +58,7 @@ void main() {
     float brightness = lum(emissive);
     specular = brightness <= 1.0 ? emissive
                                  : emissive / brightness + (emissive - emissive / brightness) * nv;
-    // A loop for each kind of light: each leaves out what the others need.
+    // One loop for each kind of light, because each kind needs only some of the computations.
     diffuse += diffuse_share * ambient * ao;
     for (int i = 0; i < ends[0]; i++)
         shine(LIGHT(i, 0).rgb, LIGHT(i, 3), -LIGHT(i, 2).xyz, 1.0, 1.0, true, true);

@@ -1,6 +1,6 @@
-// scene_light.glsl: what lights do to a point of a surface (spec canvas3d.md 5.3, 5.4).
+// scene_light.glsl: the effect of lights on a point of a surface (spec canvas3d.md 5.3, 5.4).
 #ifdef DISC
-in vec3 across;                // from the middle of the disc, in radii of the ball
+in vec3 across;                // from the middle of the disc, in radii of the sphere
 flat in vec4 ball, towards;    // middle and radius; direction to the camera, radius / distance
 vec3 world;
 #ifdef DEEP
@@ -13,12 +13,12 @@ in vec2 coord;
 flat in vec4 albedo_transparency, emissive_translucency, surface;
 out vec4 color;
 
-uniform vec3 eye, ahead; // where the camera is; from what it looks at to it
+uniform vec3 eye, ahead; // position of the camera; direction from its focus to it
 uniform bool orthographic, monochrome;
 uniform float fog_min, fog_max, fog_curve;
 uniform vec3 fog_color, tint;
 uniform vec3 ambient;
-uniform int ends[5]; // where the lights of each kind end: from directions, spots, points, balls, lines
+uniform int ends[5]; // index after the lights of each kind: directional, spots, points, balls, lines
 
 #ifdef MANY_LIGHTS
 uniform highp sampler2D lights;
@@ -36,7 +36,7 @@ vec3 entering, entering_share;
 #endif
 float alpha2, k, NV, GV;
 
-// One light, or one step of it, from a direction at a distance.
+// Adds one light, or one step of it, from a direction and distance.
 void shine(vec3 c, vec4 falloff, vec3 L, float d, float b, bool first, bool last) {
     float NL = clamp(dot(N, L), 0.0, 1.0);
     vec3 I = c * (b * NL / (falloff.x + d * (falloff.y + d * (falloff.z + d * falloff.w))));

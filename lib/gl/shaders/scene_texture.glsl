@@ -1,6 +1,6 @@
-// scene_texture.glsl: pictures over surfaces (spec canvas3d.md 5.2).
+// scene_texture.glsl: texture maps of surfaces (spec canvas3d.md 5.2).
 uniform sampler2D color_texture, metal_texture, roughness_texture, ao_texture, emissive_texture, transparency_texture;
-uniform int textured; // a bit for each that there is
+uniform int textured; // one bit for each texture map that is set
 uniform bool bordered;
 uniform bvec2 repeated;
 uniform vec4 border;

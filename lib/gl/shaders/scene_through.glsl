@@ -1,9 +1,9 @@
-// scene_through.glsl: light that has gone in at the back of a translucent body (spec canvas3d.md 5.6).
-uniform sampler2D backs; // what goes in, and its distance
+// scene_through.glsl: light that enters a translucent body at its back (spec canvas3d.md 5.6).
+uniform sampler2D backs; // light that enters, and its distance
 uniform mat4 view, projection;
 
-// Adds what comes through; what is left of the surface's opacity. Light from around the back point is taken, the more
-// the thicker the body: points of a spiral, as dense as a Gaussian.
+// Adds the light that comes through, and returns the remaining opacity. Light from around the back point is sampled in
+// a wider area the thicker the body is, at points of a spiral with the density of a Gaussian.
 float come_through(float translucency, float away) {
     vec4 sum = texelFetch(backs, ivec2(gl_FragCoord.xy), 0);
     if (sum.a <= away)

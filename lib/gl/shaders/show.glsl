@@ -1,10 +1,11 @@
-// show.glsl: a picture on a window: encoded as in files, scaled as Cairo does, black around (spec pictures.md 4.1)
+// show.glsl: draws a picture on a window: encoded as in files, scaled as in Cairo, with black around it (spec
+// pictures.md 4.1).
 uniform sampler2D picture, curve;
 uniform vec4 box; // left, bottom, width, height
 uniform bool opaque;
 out vec4 color;
 float limit(int n) { return texelFetch(curve, ivec2(n, 0), 0).r; }
-// What `pow` leaves open the table decides.
+// Rounds by the table, because `pow` is not exact.
 float byte_of(float c) {
     if (!(c > 0.0))
         return 0.0;

@@ -1,5 +1,5 @@
 // transform.glsl (spec pictures.md 7.7)
-uniform mat3 inverse_matrix; // all 0: it has none
+uniform mat3 inverse_matrix; // all 0: not invertible
 
 //: full
 void main() {

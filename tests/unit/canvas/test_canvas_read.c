@@ -89,9 +89,9 @@ static void test_reports(void **state) {
          1,
          {1},
          false,
-         "!canvas '!grup' is not drawn; it is left out, did you mean '!group'? [unknown-node]\n"},
-        {"stop", "offset", 1, {1}, false, "!canvas '!stop' has no effect here; it is left out [misplaced-node]\n"},
-        {"canvas", "size", 1, {1}, false, "!canvas '!canvas' has no effect here; it is left out [misplaced-node]\n"},
+         "!canvas '!grup' is not supported; ignored, did you mean '!group'? [unknown-node]\n"},
+        {"stop", "offset", 1, {1}, false, "!canvas '!stop' has no effect here; ignored [misplaced-node]\n"},
+        {"canvas", "size", 1, {1}, false, "!canvas '!canvas' has no effect here; ignored [misplaced-node]\n"},
         {"font",
          "weight",
          1,
@@ -133,10 +133,10 @@ static void test_unsupported_nodes(void **state) {
     Fixture f;
     begin(&f);
     assert_null(read_one(&f, "video", "size", value_number(1)));
-    assert_string_equal(f.reported, "!canvas '!video' is not drawn; it is left out [unsupported-node]\n");
+    assert_string_equal(f.reported, "!canvas '!video' is not supported; ignored [unsupported-node]\n");
     assert_null(read_one(&f, "canvaz", "size", value_number(1)));
     assert_string_equal(f.reported,
-                        "!canvas '!canvaz' is not drawn; it is left out, did you mean '!canvas'? [unknown-node]\n");
+                        "!canvas '!canvaz' is not supported; ignored, did you mean '!canvas'? [unknown-node]\n");
     end(&f);
 }
 

@@ -210,12 +210,12 @@ static void test_obj(void **state) {
     } bad[] = {
         {"", 0, "no triangles"},
         {"v 0 0 0\n", 0, "no triangles"},
-        {"# a\n\nv 0 0\n", 3, "v is followed by three numbers"},
-        {"v 0 0 x\n", 1, "v is followed by three numbers"},
+        {"# a\n\nv 0 0\n", 3, "v needs three numbers"},
+        {"v 0 0 x\n", 1, "v needs three numbers"},
         {"v nan 0 0\nf 1 1 1\n", 1, "v is followed"},
         {"v 1e300 0 0\nf 1 1 1\n", 1, "v is followed"},
-        {"v 0 0 0\nvt\nf 1 1 1\n", 2, "vt is followed by one number or two"},
-        {"v 0 0 0\r\nvn 1\r\nf 1 1 1\n", 2, "vn is followed by three numbers"},
+        {"v 0 0 0\nvt\nf 1 1 1\n", 2, "vt needs one or two numbers"},
+        {"v 0 0 0\r\nvn 1\r\nf 1 1 1\n", 2, "vn needs three numbers"},
         {"f 1 2 3\n", 1, "a vertex that is not there"},
         {"v 0 0 0\nf 1 1\n", 2, "three corners or more"},
         {"v 0 0 0\nf 1 1 2\n", 2, "a vertex that is not there"},
@@ -241,7 +241,7 @@ static void test_stl(void **state) {
     assert_int_equal(mesh.index_count, 3);
     assert_true(has_vertex(&mesh, (const float[]){1, 0, 0, 0, 0, 1, 0, 0}));
     check_bad(*state, "solid x\nendsolid x\n", 0, "no triangles");
-    check_bad(*state, "solid x\nvertex 0 0 0\nendloop\n", 3, "a loop has three vertices");
+    check_bad(*state, "solid x\nvertex 0 0 0\nendloop\n", 3, "a loop needs three vertices");
     check_bad(*state, "solid x\nvertex 0 0 0\n", 2, "ends within a loop");
     check_bad(*state, "solid\n\nvertex 0 0 inf\nendloop\n", 3, "vertex is followed by three numbers");
     char binary[84 + 50] = "binary";
