@@ -52,7 +52,7 @@ static bool resume_trajectory(TrajectoryFile *way, Store *store, const Resumed *
     if (!store->existing) {
         trajectory_file_begin(way, store);
     } else if (!trajectory_file_resume(way, store, from->after)) {
-        message("cannot go on with %s: %s", store->path, TRAJECTORY_FILE_UNKNOWN);
+        message("cannot continue %s: %s", store->path, TRAJECTORY_FILE_UNKNOWN);
         return false;
     }
     while (!store->failed && spool_next(from->spool, from->after, &head, &block))
@@ -63,8 +63,8 @@ static bool resume_trajectory(TrajectoryFile *way, Store *store, const Resumed *
     free(block);
     trajectory_file_begin_run(way);
     if ((store->existing || from->spool->has_frames) && way->last < from->expected) {
-        message("frames %" PRId64 " to %" PRId64 " are missing in %s, which goes on with frame %" PRId64, way->last + 1,
-                from->after, store->path, from->after + 1);
+        message("frames %" PRId64 " to %" PRId64 " are missing in %s, which continues with frame %" PRId64,
+                way->last + 1, from->after, store->path, from->after + 1);
     }
     return spool_add(from->spool, &(Hdf5Head){HDF5_NEW_RUN, 0}, "");
 }

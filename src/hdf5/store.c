@@ -67,7 +67,7 @@ bool store_begin(Store *store, const char *path, bool continues) {
         return report_error(store, strerror(errno));
     if (store->replacement.direct) {
         replace_abort(&store->replacement);
-        return report_error(store, "it is no regular file");
+        return report_error(store, "not a regular file");
     }
     if (continues && !copy_existing(store)) {
         int cause = errno;
@@ -86,7 +86,7 @@ bool store_begin(Store *store, const char *path, bool continues) {
     H5Pclose(access);
     if (store->file < 0 && store->existing) {
         replace_abort(&store->replacement);
-        message("cannot go on with %s: %s", path, TRAJECTORY_FILE_UNKNOWN);
+        message("cannot continue %s: %s", path, TRAJECTORY_FILE_UNKNOWN);
         return false;
     }
     return !store->failed || store_end(store, false);

@@ -1,5 +1,7 @@
-// frame_writer.c: draws and writes pictures in threads of their own. Files get their names in the order of their
-// frames, so that a series that is given up has no gaps, and of frames with one name the last one's picture stays.
+// frame_writer.c: threads that draw and write pictures; see frame_writer.h.
+//
+// Files are renamed to their final names in the order of their frames. Hence an interrupted series has no gaps, and if
+// several frames write the same file, the last one remains.
 #include "render/frame_writer.h"
 
 #include "base/file.h"
@@ -21,7 +23,7 @@
 #include <unistd.h>
 
 enum { QUEUE = 4, MAX_WORKERS = 16, MAX_READY = 32 };
-static const double GRACE_SECONDS = 0.05; // seconds
+static const double GRACE_SECONDS = 0.05; // time for running jobs after a signal
 
 typedef struct Job Job;
 struct Job {
@@ -31,37 +33,37 @@ struct Job {
     bool needs_history;
     char *file; // owned, or NULL
     Replacement target;
-    bool target_open; // the target is
+    bool target_open; // true if `target` is in use
     bool failed;
-    int error;       // why it could not be put in its place; 0: it could
-    uint64_t number; // in the order in which they were added
+    int error;       // errno of renaming the file; 0: none
+    uint64_t number; // from 0, in the order of frame_writer_add
 };
 
 struct FrameWriter {
-    pthread_mutex_t lock; // for what follows, up to the film
+    pthread_mutex_t lock; // protects the fields up to `seconds`
     pthread_cond_t changed;
-    Job *waiting; // oldest first
-    Job **last;
+    Job *waiting; // queue, oldest first
+    Job **last;   // where the next job is linked
     int waiting_count;
-    int running; // taken, and not done
-    Job *ready;  // written, waiting for those before them; in any order
+    int running; // number of jobs taken from the queue and not finished
+    Job *ready;  // written jobs that wait for earlier jobs, in any order
     int ready_count;
     uint64_t added;
-    uint64_t next_committed; // all before this one are where they belong
-    Job *done;
-    bool begun;  // there is a first worker
-    bool ending; // no more will be added
+    uint64_t next_committed; // all jobs before this number are committed: their files have their names
+    Job *done;               // jobs to be reported and freed
+    bool begun;              // true if the first worker has started
+    bool ending;             // true if no more jobs will be added
     bool failed;
-    bool abandoned;      // no file gets its name any more
-    bool drawing;        // a frame of the film, which nobody has to wait for
-    bool film_abandoned; // the film ends without the frame that is being drawn
-    bool has_frame;      // it has a frame
-    int unfinished;      // that were given up in their midst
-    double seconds;
-    const char *film; // the rest is the threads' own
+    bool abandoned;      // true if no more files are renamed
+    bool drawing;        // true while a frame of the film is drawn; such a frame can be abandoned
+    bool film_abandoned; // true if the film ends without the frame that is being drawn
+    bool has_frame;      // true if the film has a frame
+    int unfinished;      // number of abandoned jobs
+    double seconds;      // spent by all threads
+    const char *film;    // this and the following fields are used by the first worker only
     double fps;
     Video video;
-    uint32_t *pixels; // of the film's frames
+    uint32_t *pixels; // buffer for a frame of the film
     Recording recording;
     pthread_t workers[MAX_WORKERS];
     int worker_count;
@@ -75,7 +77,8 @@ static void set_error_text(FrameWriter *writer, const char *text) {
     pthread_mutex_unlock(&writer->lock);
 }
 
-// Draws a frame of the film. If it is given up meanwhile, what the film has is no longer for this thread to touch.
+// Draws a frame of the film. Never returns if the frame is abandoned meanwhile, because then another thread ends the
+// film.
 static bool draw_for_film(FrameWriter *writer, PetriPicture *picture, PetriPainter *painter) {
     const Video *video = &writer->video;
     pthread_mutex_lock(&writer->lock);
@@ -85,7 +88,7 @@ static bool draw_for_film(FrameWriter *writer, PetriPicture *picture, PetriPaint
                                             (size_t)video->width * sizeof(uint32_t));
     pthread_mutex_lock(&writer->lock);
     while (writer->film_abandoned)
-        pthread_cond_wait(&writer->changed, &writer->lock); // until the process ends
+        pthread_cond_wait(&writer->changed, &writer->lock); // sleeps until the process ends
     writer->drawing = false;
     pthread_mutex_unlock(&writer->lock);
     if (status == PETRI_OUT_OF_MEMORY)
@@ -135,7 +138,7 @@ static bool write_bytes(FrameWriter *writer, Job *job, const ByteBuffer *bytes) 
     return file_write(job->target.file, bytes->data, bytes->length) || cannot_write(writer, job->file);
 }
 
-// Waits until all before it are put. False if that will not be.
+// Waits until all earlier jobs are committed. Returns false after a failure.
 static bool wait_for_turn(FrameWriter *writer, const Job *job) {
     pthread_mutex_lock(&writer->lock);
     while (writer->next_committed < job->number && !writer->failed)
@@ -145,7 +148,7 @@ static bool wait_for_turn(FrameWriter *writer, const Job *job) {
     return good;
 }
 
-// Writes all but the name; what is no regular file has its name already.
+// Writes a temporary file; commit_ready_jobs renames it. A target that is not a regular file is written directly.
 static bool write_file(FrameWriter *writer, Job *job, PetriPainter *painter) {
     SCOPED_BYTE_BUFFER bytes = {0};
     if (!check_saved(writer, petri_picture_encode(job->picture, painter, job->file, byte_buffer_collect, &bytes)))
@@ -169,7 +172,7 @@ static bool run_job(FrameWriter *writer, Job *job, PetriPainter *painter) {
     return good;
 }
 
-// Takes the next job out of those that are ready; NULL: it is not among them, or has failed.
+// Removes the job to be committed next from the ready jobs. Returns NULL if it is not ready or has failed.
 static Job *pop_ready_job(FrameWriter *writer) {
     Job **at = &writer->ready;
     while (*at && (*at)->number != writer->next_committed)
@@ -182,7 +185,8 @@ static Job *pop_ready_job(FrameWriter *writer) {
     return job;
 }
 
-// Gives what is ready its name, as far as nothing is missing before it, for the caller to end (end_jobs).
+// Renames the files of ready jobs up to the first missing one. Returns these jobs, which the caller passes to
+// finish_jobs.
 static Job *commit_ready_jobs(FrameWriter *writer) {
     Job *named = NULL, *job;
     while (!writer->abandoned && (job = pop_ready_job(writer))) {
@@ -196,7 +200,7 @@ static Job *commit_ready_jobs(FrameWriter *writer) {
     return named;
 }
 
-// False if one of them has failed.
+// Completes renamed files. Returns false if one of them failed.
 static bool finish_jobs(FrameWriter *writer, Job *named) {
     bool good = true;
     for (Job *job = named; job; job = job->next) {
@@ -216,7 +220,7 @@ static void add_done(FrameWriter *writer, Job *jobs) {
     }
 }
 
-// The next job, or NULL if there will be none. Those that look back are all made by the first worker.
+// Waits for the next job. Returns NULL when no more will come. Only the first worker takes jobs that need history.
 static Job *pop_job(FrameWriter *writer, bool first) {
     while (writer->waiting
                ? (writer->waiting->needs_history && !first) || (writer->ready_count >= MAX_READY && !writer->failed)
@@ -280,7 +284,7 @@ FrameWriter *frame_writer_start(const char *film, double film_fps, double fps) {
     writer->fps = film_fps;
     writer->recording.fps = fps;
     writer->video = (Video){.frames = -1, .errors = -1, .cleanup_id = -1};
-    sigset_t all, before; // signals are for the thread that makes the frames
+    sigset_t all, before; // workers block all signals: the main thread handles them
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
     while (writer->worker_count < wanted &&
@@ -295,7 +299,7 @@ FrameWriter *frame_writer_start(const char *film, double film_fps, double fps) {
     return writer;
 }
 
-// Waits for a change, but not long: a signal is none.
+// Waits for a change, at most 20 ms, because a signal does not wake the condition variable.
 static void wait_briefly(FrameWriter *writer) {
     enum { NANOSECONDS = 20000000, SECOND = 1000000000 };
     struct timespec until;
@@ -338,8 +342,8 @@ void frame_writer_report(FrameWriter *writer, PetriSession *session) {
     }
 }
 
-// Waits until nothing is drawn any more; after a signal for a moment only, and until what is drawn for a film is in it.
-// Returns how many are given up.
+// Waits until all jobs are finished. After a signal, waits only GRACE_SECONDS and until the film has no half-written
+// frame. Returns the number of abandoned jobs.
 static int wait_for_end(FrameWriter *writer) {
     double signalled = 0;
     for (;;) {
@@ -349,7 +353,7 @@ static int wait_for_end(FrameWriter *writer) {
             signalled = signalled == 0 ? clock_seconds() : signalled;
             bool patient = clock_seconds() - signalled <= GRACE_SECONDS;
             if (!patient && (!writer->film || writer->drawing)) {
-                writer->failed = writer->failed || !writer->film; // what waits is not begun any more
+                writer->failed = writer->failed || !writer->film; // queued jobs are not started
                 writer->abandoned = true;
                 writer->film_abandoned = writer->film;
                 return (int)(writer->added - writer->next_committed);
@@ -359,7 +363,7 @@ static int wait_for_end(FrameWriter *writer) {
     }
 }
 
-bool frame_writer_finish(FrameWriter *writer, PetriSession *session, bool abandon, const char **trouble) {
+bool frame_writer_finish(FrameWriter *writer, PetriSession *session, bool abandon, const char **error_text) {
     pthread_mutex_lock(&writer->lock);
     writer->ending = true;
     writer->failed = writer->failed || abandon;
@@ -371,7 +375,7 @@ bool frame_writer_finish(FrameWriter *writer, PetriSession *session, bool abando
         pthread_join(writer->workers[--writer->worker_count], NULL);
     for (Job *job = writer->unfinished == 0 ? writer->ready : NULL; job; job = job->next)
         if (job->target_open)
-            replace_abort(&job->target); // one before it has failed
+            replace_abort(&job->target); // an earlier job has failed
     if (writer->unfinished == 0) {
         add_done(writer, writer->ready);
         writer->ready = NULL;
@@ -391,7 +395,7 @@ bool frame_writer_finish(FrameWriter *writer, PetriSession *session, bool abando
         writer->failed = true;
         set_error_text(writer, writer->recording.error_text ? writer->recording.error_text : "out of memory");
     }
-    *trouble = writer->error_text[0] == '\0' ? NULL : writer->error_text;
+    *error_text = writer->error_text[0] == '\0' ? NULL : writer->error_text;
     return !writer->failed;
 }
 

@@ -9,13 +9,13 @@
 #include <string.h>
 #include <unistd.h>
 
-// A file that was begun in this run.
+// A file that this run has written or started.
 struct RecordedFile {
     RecordedFile *next;
     char *name;
-    Video video; // of a film; not open: it is closed, or a picture
+    Video video; // open only while a film is written
     uint64_t frames;
-    bool film;
+    bool film; // true for a film, false for a picture
 };
 
 static RecordedFile *find_file(const Recording *recording, const char *name) {
@@ -46,7 +46,7 @@ static bool add_frame(Recording *recording, RecordedFile *file, const PetriRecor
     if (over)
         return close_film(recording, file);
     bool good = file->frames > 0 || video_open(&file->video, file->name, record->width, record->height, recording->fps);
-    // A film's frames are all of one size: others are left out.
+    // All frames of a film have the same size; others are skipped.
     if (good && record->width == file->video.width && record->height == file->video.height) {
         good = video_add(&file->video, record->pixels);
         file->frames++;
@@ -56,7 +56,7 @@ static bool add_frame(Recording *recording, RecordedFile *file, const PetriRecor
     return good;
 }
 
-// A picture is written once for each name in a run, and again if it has gone meanwhile.
+// Writes a picture once per name and run, and again only if the file has been removed.
 static bool save_picture(Recording *recording, PetriPicture *picture, PetriPainter *painter, size_t index,
                          const char *name) {
     RecordedFile *file = find_file(recording, name);

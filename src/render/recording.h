@@ -1,4 +1,4 @@
-// recording.h: what `!record` nodes write: pictures, once for each name, and films.
+// recording.h: the files of `!record` nodes: films, and pictures, which are written once per file name.
 #ifndef PETRI_SRC_RECORDING_H
 #define PETRI_SRC_RECORDING_H
 
@@ -8,16 +8,16 @@
 
 typedef struct RecordedFile RecordedFile;
 
-// Begin with zeros and the frames per second.
+// Must be initialised with zeros and the frames per second.
 typedef struct Recording {
     double fps;
     RecordedFile *files;
-    const char *error_text; // why something failed that was not told through pictures
+    const char *error_text; // reason of a failure that no picture's diagnostics contain; NULL: none
 } Recording;
 
-// Makes a picture, if that is not done, and writes what its records say. False if something failed.
+// Renders a picture, if it is not rendered yet, and writes its records. Returns false on failure.
 bool recording_add(Recording *recording, PetriPicture *picture, PetriPainter *painter);
-// Completes all films, or gives them up. False if that failed; *trouble stays valid.
+// Completes all films, or discards them if `abandon`. Returns false on failure. error_text remains valid.
 bool recording_end(Recording *recording, bool abandon);
 void recording_free(Recording *recording);
 

@@ -1,4 +1,4 @@
-// render.c: `petri render`: frames as pictures, series of pictures and films.
+// render.c: `petri render`, which writes frames as a picture, a series of pictures or a film.
 #include "cli/byte_buffer.h"
 #include "cli/script.h"
 #include "cli/stdout_file.h"
@@ -20,14 +20,15 @@ typedef struct Render {
     OutputKind kind;
     PetriPictureOptions picture;
     FrameWriter *writer;
-    int64_t drawn;
-    bool thread_running;      // a thread still draws what is given up
-    bool failed;              // nothing more is to be drawn
-    StdoutFile stdout_file;   // for standard output
-    const char *display_name; // how messages call what is written
+    int64_t drawn;            // number of frames drawn for the output
+    bool thread_running;      // true if a thread is still drawing an abandoned picture
+    bool failed;              // true if no more frames must be drawn
+    StdoutFile stdout_file;   // temporary file, for output to standard output
+    const char *display_name; // name of the output in messages
 } Render;
 
-// The place of the frame's number in the name of a series: `%d` or `%05d`, with its end in *end. NULL if there is none.
+// Finds the placeholder of the frame number in a file name, `%d` or `%05d`. *end is its end. Returns NULL if there is
+// none.
 static const char *find_number(const char *name, const char **end) {
     const char *at = strchr(name, '%');
     if (!at)
@@ -37,7 +38,7 @@ static const char *find_number(const char *name, const char **end) {
     return *after == 'd' && after - at <= 3 ? at : NULL;
 }
 
-// The name of a frame's file; to be freed.
+// Returns the file name of a frame. The caller frees it with free.
 static char *series_name(const char *name, int64_t frame) {
     ByteBuffer text = {0};
     const char *end = NULL;
@@ -52,7 +53,7 @@ static char *series_name(const char *name, int64_t frame) {
     return text.data;
 }
 
-// Finds out what is to be written. False after a message.
+// Determines the kind of output. Returns false after a message.
 static bool read_output(Render *render) {
     Options *options = render->frames.options;
     const char *end = NULL;
@@ -61,7 +62,7 @@ static bool read_output(Render *render) {
         return false;
     }
     if (options->format && !stdout_file_is_requested(options->output)) {
-        message("option '--format' is for '-o -'; what '%s' is, its ending tells", options->output);
+        message("option '--format' is only for '-o -'; the format of '%s' follows from its suffix", options->output);
         return false;
     }
     if (stdout_file_is_requested(options->output)) {
@@ -73,7 +74,7 @@ static bool read_output(Render *render) {
     if (video_has_suffix(options->output)) {
         render->kind = OUTPUT_FILM;
     } else if (!petri_picture_can_save(options->output)) {
-        message("'%s' should end in .png, .svg, .pdf, .mp4, .webm or .gif", options->output);
+        message("unknown suffix: '%s'; use .png, .svg, .pdf, .mp4, .webm or .gif", options->output);
         return false;
     } else {
         render->kind = find_number(options->output, &end) ? OUTPUT_SERIES : OUTPUT_PICTURE;
@@ -87,7 +88,7 @@ static bool read_output(Render *render) {
     return true;
 }
 
-// A folder that cannot be written to is better known before the work is done.
+// Checks that the folder is writable before frames are computed. Returns false after a message.
 static bool check_folder(const char *file) {
     SCOPED_TEXT folder = script_folder(file);
     bool good = access(folder, W_OK | X_OK) == 0;
@@ -96,14 +97,14 @@ static bool check_folder(const char *file) {
     return good;
 }
 
-// Draws the last frame: for the film, for a file, or only for its own `!record` nodes.
+// Draws the last frame for the film, for a file, or only for its `!record` nodes.
 static void draw_frame(Render *render, bool for_film, const char *file) {
     PetriPicture *picture = NULL;
     frames_set_interruptible(&render->frames, true);
     PetriStatus status = petri_picture(render->frames.session, &render->picture, &picture);
     frames_set_interruptible(&render->frames, false);
     if (status == PETRI_INTERRUPTED)
-        return; // by a signal: what was drawn before it stays
+        return; // by a signal: frames drawn before are kept
     if (status == PETRI_OUT_OF_MEMORY) {
         progress_erase(&render->frames.progress);
         message("out of memory");
@@ -127,19 +128,19 @@ static void output_frame(Render *render) {
     }
 }
 
-// The frames before particles are where they are (petri_picture_ready) are made, since what comes depends on them, but
-// neither drawn nor counted: a film does not begin with everything in one place. Files keep the numbers of their
-// frames, and whoever asks for a frame by its number gets it.
+// Returns true for the first frames, in which particles have no positions yet (petri_picture_ready). They are computed,
+// but neither drawn nor counted, so that a film does not begin with all particles in one point. File names keep the
+// frame numbers, and --frame can still select these frames.
 static bool is_before_first_picture(const Render *render) {
     return render->frames.options->frame < 0 && !petri_picture_ready(render->frames.session, &render->picture);
 }
 
-// A single picture shows the last frame that there is.
+// Draws a single picture: the last frame, which must be that of --frame if it was given.
 static void output_picture(Render *render) {
     const Options *options = render->frames.options;
     int64_t number = petri_frame(render->frames.session).number;
     if (options->frame >= 0 && number != options->frame) {
-        message("there is nothing to draw: the run ended with frame %" PRId64 ", not %" PRId64, number, options->frame);
+        message("nothing to draw: the run ended with frame %" PRId64 ", not %" PRId64, number, options->frame);
         render->failed = true;
     } else {
         draw_frame(render, false, options->output);
@@ -152,18 +153,18 @@ static void report_summary(const Render *render) {
     if (verbosity < LOG_NORMAL || (verbosity == LOG_NORMAL && !isatty(STDERR_FILENO)))
         return;
     double seconds = clock_seconds() - frames->start;
-    message("%" PRId64 " frame%s in %.3f s (%.1f frames/s), %" PRId64 " drawn in %.3f s meanwhile", frames->done,
+    message("%" PRId64 " frame%s in %.3f s (%.1f frames/s), %" PRId64 " drawn in %.3f s in parallel", frames->done,
             frames->done == 1 ? "" : "s", seconds, seconds > 0 ? (double)frames->done / seconds : 0, render->drawn,
             frame_writer_seconds(render->writer));
 }
 
-// Films and series keep what was drawn before a signal came; half of what a picture needs is no picture.
+// Reports what was kept after a signal: films and series keep the frames drawn so far; a single picture is not written.
 static void report_stop(const Render *render, bool saved) {
     const char *frames = render->drawn == 1 ? "frame" : "frames";
     if (!saved) {
-        message("stopped; '%s' is not written", render->display_name);
+        message("stopped; '%s' was not written", render->display_name);
     } else if (render->kind == OUTPUT_FILM) {
-        message("stopped; '%s' is whole, with the %" PRId64 " %s drawn so far", render->display_name, render->drawn,
+        message("stopped; '%s' is complete, with the %" PRId64 " %s drawn so far", render->display_name, render->drawn,
                 frames);
     } else {
         message("stopped; '%s' has the %" PRId64 " %s drawn so far", render->display_name, render->drawn, frames);
@@ -180,7 +181,7 @@ static int end_render(Render *render, bool going) {
     if (frame_writer_unfinished_count(render->writer) > 0) {
         render->thread_running = true;
         render->drawn -= frame_writer_unfinished_count(render->writer);
-        stopped = frames_signal(); // which may have come just now
+        stopped = frames_signal(); // may have arrived only now
         keeps = keeps && render->drawn > 0;
     }
     frames_end(frames, going);
@@ -193,7 +194,7 @@ static int end_render(Render *render, bool going) {
     if (!going || !good || state_file_failed(&frames->state))
         return STATUS_FAILED;
     if (render->drawn == 0) {
-        message("no frame was drawn; '%s' is not written", render->display_name);
+        message("no frame was drawn; '%s' was not written", render->display_name);
         return STATUS_FAILED;
     }
     report_summary(render);
@@ -255,7 +256,7 @@ static int render_run(const CommandContext *context, Options *options) {
     stdout_file_close(&render.stdout_file);
     if (render.thread_running) {
         fflush(NULL);
-        _exit(status); // at once: what those threads use must stay as long as they do
+        _exit(status); // without freeing what the threads still use
     }
     petri_close(&render.frames.session);
     return status;
@@ -264,21 +265,20 @@ static int render_run(const CommandContext *context, Options *options) {
 const Command RENDER_COMMAND = {
     .name = "render",
     .operands = "SCRIPT.fl -o OUT",
-    .summary = "draw a script's frames to pictures and films",
+    .summary = "render frames to images or video",
     .details =
-        "Draws what a script's !window holds, or its particles if it does not draw itself. OUT's suffix tells what is\n"
-        "written: a picture of the last frame, or of one that is chosen; a picture of each frame, if the name has a\n"
-        "place for its number (%05d); or a film, for which ffmpeg has to be installed. '-o -' writes to standard\n"
-        "output when all is drawn (petri render dish.fl -o - --format gif >dish.gif).\n"
-        "Ctrl-C ends a film or a series after the frame at hand and keeps what is done; a second Ctrl-C keeps no "
-        "film.\n"
+        "Renders the script's !window, or its particles if it does not draw. The suffix of OUT selects the output: an\n"
+        "image of the last frame or of --frame; an image of every frame, if the name contains %d or %05d; or a video,\n"
+        "which needs ffmpeg. '-o -' writes to standard output at the end (petri render dish.fl -o - --format gif\n"
+        ">dish.gif). Ctrl-C ends a video or a series after the current frame and keeps it; a second Ctrl-C discards\n"
+        "the video.\n"
         "\n"
-        "A script that draws what its !physics has stored finds nothing stored in frames 0 and 1. They are made, but\n"
-        "not drawn and not counted: the first picture is that of frame 2, and --frames 60 makes a film of 60 frames.",
-    .examples = "  petri render dish.fl -o dish.png --frame 100    one picture\n"
+        "If a script draws positions that its !physics has stored, frames 0 and 1 have none yet. They are computed,\n"
+        "but neither rendered nor counted: the first image is frame 2, and --frames 60 renders 60 frames.",
+    .examples = "  petri render dish.fl -o dish.png --frame 100    one image\n"
                 "  petri render dish.fl -o dish%05d.png --every 10 every tenth frame\n"
-                "  petri render dish.fl -o dish.mp4 --runtime 10   ten seconds as a film\n",
-    .missing_operand = "no script was given",
+                "  petri render dish.fl -o dish.mp4 --runtime 10   ten seconds as a video\n",
+    .missing_operand = "no script given",
     .options = FOR_RENDER,
     .run = render_run,
 };

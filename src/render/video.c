@@ -1,4 +1,4 @@
-// video.c: films, made by an ffmpeg process.
+// video.c: films, encoded by an ffmpeg process; see video.h.
 #include "render/video.h"
 
 #include "base/file.h"
@@ -22,9 +22,9 @@ extern char **environ;
 
 enum { MAX_WORDS = 64, PIPE_BYTES = 1 << 20, FILM = 3 };
 
-// What comes out, by suffix: words for ffmpeg. The colours of screens are those of BT.709.
+// Arguments for ffmpeg, by suffix. Screen colours are those of BT.709.
 #define COLOURS "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709"
-// Many players want an even number of rows and columns.
+// Many players need an even width and height.
 #define EVEN "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv,format=yuv420p"
 
 static const struct {
@@ -37,7 +37,7 @@ static const struct {
     {".webm",
      {"-vf", EVEN, COLOURS, "-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-deadline", "realtime", "-cpu-used", "6",
       "-row-mt", "1", "-f", "webm", NULL}},
-    // A palette for each frame: one for all would need all frames in memory.
+    // A palette per frame: one palette for all would need all frames in memory.
     {".gif",
      {"-filter_complex", "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1:dither=bayer", "-f",
       "gif", NULL}},
@@ -57,7 +57,7 @@ bool video_has_suffix(const char *file) {
     return find_format(file) >= 0;
 }
 
-// Our pixels are 32-bit numbers; ffmpeg names the order of their bytes.
+// Pixels are 32-bit integers; ffmpeg names formats by the order of the bytes.
 static const char *pixel_format(void) {
     const uint32_t one = 1;
     unsigned char first;
@@ -79,7 +79,7 @@ static pid_t spawn_ffmpeg(Video *video, int input, double fps) {
     const char *const *format = formats[find_format(video->file)].words;
     for (size_t i = 0; format[i]; i++)
         words[count++] = format[i];
-    words[count] = "file:/dev/fd/3"; // the film has no name yet
+    words[count] = "file:/dev/fd/3"; // the film is still an unnamed file, open as descriptor 3
 
     posix_spawn_file_actions_t files;
     posix_spawnattr_t attributes;
@@ -89,7 +89,7 @@ static pid_t spawn_ffmpeg(Video *video, int input, double fps) {
     posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_adddup2(&files, video->errors, STDERR_FILENO);
     posix_spawn_file_actions_adddup2(&files, video->film.file, FILM);
-    // A group of its own: Ctrl-C is for us to deal with.
+    // A separate process group, so that Ctrl-C does not reach ffmpeg.
     posix_spawnattr_init(&attributes);
     sigemptyset(&usual);
     sigaddset(&usual, SIGPIPE);
@@ -129,7 +129,7 @@ static int wait_for(pid_t pid) {
     return status;
 }
 
-// A signal ends this process at once: ffmpeg must not go on.
+// Kills ffmpeg and discards the film. Called when a signal ends this process.
 static void abort_on_signal(void *context) {
     Video *video = context;
     pid_t pid = atomic_exchange(&video->pid, 0);
@@ -167,7 +167,7 @@ bool video_open(Video *video, const char *file, int width, int height, double fp
     video->pid = pid < 0 ? 0 : pid;
     close(ends[0]);
     if (pid < 0) {
-        set_error_text(video, "cannot start ffmpeg, which writes '%s': %s%s", file, strerror(error),
+        set_error_text(video, "cannot write '%s': cannot start ffmpeg: %s%s", file, strerror(error),
                        error == ENOENT ? " (Debian: apt install ffmpeg)" : "");
         reset_video(video);
         return false;
@@ -175,7 +175,7 @@ bool video_open(Video *video, const char *file, int width, int height, double fp
     return true;
 }
 
-// The last line that ffmpeg wrote.
+// Sets error_text from the exit status and the last line that ffmpeg wrote.
 static void report_failure(Video *video, int status) {
     SCOPED_BYTE_BUFFER text = {0};
     byte_buffer_add(&text, "", 0);
@@ -186,15 +186,15 @@ static void report_failure(Video *video, int status) {
     const char *line = strrchr(text.data, '\n');
     line = !line ? text.data : line + 1;
     if (WIFSIGNALED(status)) {
-        set_error_text(video, "'%s' is not written: ffmpeg was killed by signal %d (%s)", video->file, WTERMSIG(status),
+        set_error_text(video, "cannot write '%s': ffmpeg was killed by signal %d (%s)", video->file, WTERMSIG(status),
                        strsignal(WTERMSIG(status)));
     } else {
-        set_error_text(video, "'%s' is not written: ffmpeg failed with status %d%s%.300s", video->file,
+        set_error_text(video, "cannot write '%s': ffmpeg failed with status %d%s%.300s", video->file,
                        WEXITSTATUS(status), line[0] == '\0' ? "" : ": ", line);
     }
 }
 
-// Ends ffmpeg's input and waits for its end. False, after a message and without the film, if it has failed.
+// Closes ffmpeg's input and waits for its end. If it failed, discards the film, sets error_text and returns false.
 static bool finish_ffmpeg(Video *video) {
     close(video->frames);
     video->frames = -1;
@@ -211,9 +211,9 @@ bool video_add(Video *video, const uint32_t *pixels) {
     size_t length = (size_t)video->width * (size_t)video->height * sizeof *pixels;
     if (file_write(video->frames, (const char *)pixels, length))
         return true;
-    // It takes no more: whatever it says, the film lacks frames.
+    // ffmpeg has ended too early: even if it reports success, frames are missing.
     if (finish_ffmpeg(video)) {
-        set_error_text(video, "'%s' is not written: ffmpeg ended before its time", video->file);
+        set_error_text(video, "cannot write '%s': ffmpeg ended early", video->file);
         reset_video(video);
     }
     return false;

@@ -1,7 +1,7 @@
-// video.h: films, made by an ffmpeg process that gets frames through a pipe.
+// video.h: films, encoded by an ffmpeg process that receives frames through a pipe.
 //
-// The film takes its name when it is complete (base/replace.h); nothing is left behind otherwise. What fails says why
-// in `trouble`, since this is for a thread that does not write messages.
+// The film gets its name when it is complete (base/replace.h); otherwise no file remains. On failure, error_text has
+// the reason, because the calling thread does not write messages.
 #ifndef PETRI_SRC_VIDEO_H
 #define PETRI_SRC_VIDEO_H
 
@@ -19,21 +19,21 @@ typedef struct Video {
     int height;
     _Atomic pid_t pid;    // 0: none
     int frames;           // pipe to ffmpeg
-    int errors;           // file without a name that holds its messages
-    int cleanup_id;       // its number there (signal_cleanup.h)
-    char error_text[512]; // why the last of the functions below failed
+    int errors;           // unnamed file with the messages of ffmpeg
+    int cleanup_id;       // from signal_cleanup_begin
+    char error_text[512]; // reason of the last failure
 } Video;
 
-// Whether the name's suffix is one of a film: .mp4, .webm or .gif.
+// Returns true if the file name ends in .mp4, .webm or .gif.
 bool video_has_suffix(const char *file);
-// Starts ffmpeg. False with trouble.
+// Starts ffmpeg. Returns false and sets error_text on failure.
 bool video_open(Video *video, const char *file, int width, int height, double fps);
-// Adds a frame of width x height pixels, in rows without gaps. False, with trouble, if ffmpeg has failed; the film is
-// then given up.
+// Adds a frame of width x height pixels, in rows without gaps. If ffmpeg has failed, discards the film, sets error_text
+// and returns false.
 bool video_add(Video *video, const uint32_t *pixels);
-// Completes the film and gives it its name. False with trouble.
+// Completes the film and renames it. Returns false and sets error_text on failure.
 bool video_close(Video *video);
-// Gives a film up. To do so twice, or without a film, is fine.
+// Stops ffmpeg and discards the film. Does nothing if no film is open.
 void video_abandon(Video *video);
 
 #endif

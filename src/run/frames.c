@@ -12,13 +12,13 @@
 #include <stdio.h>
 #include <unistd.h>
 
-// Seconds: timeout(1) sends its signal twice, which is no second wish.
+// Seconds within which signals count as one, because timeout(1) sends its signal twice.
 static const double SAME_SIGNAL = 0.2;
 
-// A signal handler can reach nothing but a global.
-static volatile sig_atomic_t interrupted;
-static PetriSession *volatile working; // the session that makes a frame, which is to be given up
-static void (*leave_ranks)(void);      // if there are others
+// Globals, because the signal handler needs them.
+static volatile sig_atomic_t interrupted; // number of the first signal; 0: none
+static PetriSession *volatile working;    // session to interrupt; NULL: none is computing a frame
+static void (*leave_ranks)(void);         // ends the MPI communication; NULL: a single process
 
 static pthread_t main_thread;
 
@@ -26,7 +26,7 @@ static void on_signal(int number) {
     static const char note[] = "\r\033[Kpetri: stopping; Ctrl-C again stops at once\n";
     static double first;
     if (!pthread_equal(pthread_self(), main_thread)) {
-        pthread_kill(main_thread, number); // which then is at nothing else
+        pthread_kill(main_thread, number); // the handler must run in the main thread only
         return;
     }
     if (interrupted) {
@@ -49,8 +49,9 @@ static void on_signal(int number) {
     }
 }
 
-// The first Ctrl-C (SIGTERM, or SIGHUP unless nohup has it ignored) gives up the frame at hand and ends the run, with
-// the state after the frame before saved and what was drawn kept; a second one ends the process, should that take long.
+// Catches SIGINT, SIGTERM and, unless nohup ignores it, SIGHUP. The first one aborts the current frame and ends the
+// run; the state after the previous frame is saved and frames drawn so far are kept. A second one ends the process at
+// once.
 static void catch_signals(void) {
     main_thread = pthread_self();
     signal_catch(SIGINT, on_signal, 0);
@@ -105,7 +106,7 @@ static int64_t expected_frames(const Frames *frames) {
     return frames->options->frames;
 }
 
-// Returns when all other ranks have come here.
+// Waits until all ranks have called this.
 static void rank_barrier(const PetriRanks *ranks) {
     for (int rank = 1; ranks && rank < ranks->rank_count; rank++) {
         double nothing = 0;
@@ -113,7 +114,7 @@ static void rank_barrier(const PetriRanks *ranks) {
     }
 }
 
-// Rank 0 keeps the state for all, once the others have read what was there.
+// Restores the state on all ranks. Only rank 0 saves it, and only after the others have read the file.
 static void restore_state(Frames *frames) {
     bool first = !frames->ranks || frames->ranks->rank == 0;
     if (first)
@@ -123,7 +124,7 @@ static void restore_state(Frames *frames) {
         rank_barrier(frames->ranks);
         frames->state.name = NULL;
     } else if (restored) {
-        save_state(frames, true); // so that a file that cannot be written is known before the work is done
+        save_state(frames, true); // at once, to find out early if the file cannot be written
     }
 }
 
@@ -143,12 +144,12 @@ bool frames_due(const Frames *frames) {
 void frames_set_interruptible(Frames *frames, bool begins) {
     working = begins ? frames->session : NULL;
     if (!begins)
-        petri_clear_interrupt(frames->session); // what came too late must not stop the next thing
+        petri_clear_interrupt(frames->session); // a late interrupt must not stop the next call
 }
 
 bool frames_step(Frames *frames) {
     progress_update(&frames->progress, frames->done - frames->before_first_picture);
-    int64_t number = petri_frame(frames->session).number + 1; // of the frame, even if it is given up
+    int64_t number = petri_frame(frames->session).number + 1; // read before the step, which may abort
     frames_set_interruptible(frames, true);
     PetriStatus status = interrupted ? PETRI_INTERRUPTED : petri_step(frames->session);
     frames_set_interruptible(frames, false);
@@ -159,7 +160,7 @@ bool frames_step(Frames *frames) {
         progress_erase(&frames->progress);
         message("stopped in frame %" PRId64 "%s", number,
                 status == PETRI_OUT_OF_MEMORY    ? ": out of memory"
-                : status == PETRI_LIMIT_EXCEEDED ? "; '--work' and '--memory' set other limits"
+                : status == PETRI_LIMIT_EXCEEDED ? "; set other limits with --work and --memory"
                                                  : "");
         return false;
     }
@@ -177,8 +178,8 @@ void frames_end(Frames *frames, bool going) {
     if (going)
         save_state(frames, true);
     if (interrupted && frames->ranks) {
-        message("signal %d: a rank has died, or somebody wants an end; %s%s", (int)interrupted,
-                !frames->state.name ? "no --state is kept" : "what there was of whole frames is in ",
+        message("stopped by signal %d: a rank has died or the run was cancelled; %s%s", (int)interrupted,
+                !frames->state.name ? "no state is saved without --state" : "the last complete frame is in ",
                 !frames->state.name ? "" : frames->state.name);
     }
 }

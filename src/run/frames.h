@@ -1,6 +1,7 @@
-// frames.h: the loop over a script's frames, for the commands that have one.
+// frames.h: the loop over a script's frames, for `petri run` and `petri render`.
 //
-// frames_open, frames_load, frames_begin; while frames_due: frames_step, frames_save_state; frames_end; petri_close.
+// Order of calls: frames_open, frames_load, frames_begin; while frames_due: frames_step, frames_save_state; frames_end,
+// petri_close.
 #ifndef PETRI_SRC_FRAMES_H
 #define PETRI_SRC_FRAMES_H
 
@@ -13,35 +14,34 @@ typedef struct Frames {
     Options *options;
     PetriSession *session;
     Progress progress;
-    int64_t done; // frames that were made
-    int64_t
-        before_first_picture; // … of these, those that --frames and --runtime do not count: nothing was to be seen yet
-    double start;             // seconds of the monotonic clock
+    int64_t done;                 // number of computed frames
+    int64_t before_first_picture; // number of these with nothing to draw yet, which --frames and --runtime do not count
+    double start;                 // seconds of the monotonic clock
     StateFile state;
-    const PetriRanks *ranks; // the processes that share the work; NULL: this alone
-    bool abandoned;          // the frame at hand was, because of a signal
-    bool shown_last;         // the last diagnostic that was no note was shown
-    bool invalid_definition; // the script cannot take a value of -D
+    const PetriRanks *ranks; // MPI ranks; NULL: a single process
+    bool abandoned;          // true if a signal aborted the current frame
+    bool shown_last;         // true if the last error or warning was shown; its notes are then shown as well
+    bool invalid_definition; // true if the script rejected a value of -D
 } Frames;
 
-// Opens a session. OPTIONS_READ, or the status to exit with. Frames must be zero at first, and stay where it is.
+// Opens a session. Returns OPTIONS_READ or the exit status. *frames must be zero and must not move afterwards.
 int frames_open(Frames *frames, const CommandContext *context, Options *options);
-// Loads the script; false if that failed, which has been told.
+// Loads the script. Returns false after a diagnostic.
 bool frames_load(Frames *frames);
-// Takes the state from its file and from here on catches signals and shows progress.
+// Restores the state from its file, and begins to catch signals and to show progress.
 void frames_begin(Frames *frames);
-// Whether another frame is to be made.
+// Returns true if another frame must be computed.
 bool frames_due(const Frames *frames);
-// Makes one frame. False if there is no going on: after a message, for a limit that one frame has reached the next will
-// reach as well, or because a signal has made it give the frame up (given_up).
+// Computes one frame. Returns false, after a message, if the run must end: on failure, including an exceeded limit,
+// which the next frame would exceed as well. Also returns false if a signal aborted the frame (`abandoned`).
 bool frames_step(Frames *frames);
-// Saves the state if it is time, once what belongs to the frame is written.
+// Saves the state if it is due. Must be called after the frame's output is written.
 void frames_save_state(Frames *frames);
-// Between these calls, a signal interrupts the session.
+// Sets whether a signal interrupts the session.
 void frames_set_interruptible(Frames *frames, bool begins);
-// Takes the progress line away and, if all went well, saves the state.
+// Erases the progress line and, if the run succeeded (`going`), saves the state.
 void frames_end(Frames *frames, bool going);
-// The signal that asked for an end, or 0.
+// Returns the signal that asked the run to end, or 0.
 int frames_signal(void);
 double frames_fps(const Frames *frames);
 

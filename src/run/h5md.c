@@ -1,4 +1,4 @@
-// h5md.c: see h5md.h. Numbers go to petri-hdf5 from where they lie.
+// h5md.c: see h5md.h. Columns are sent to petri-hdf5 directly from the session's memory, without a copy.
 #include "run/h5md.h"
 
 #include <errno.h>
@@ -20,7 +20,8 @@ static bool is_text(const void *owner, uint32_t entry, const void *key) {
     return strcmp(((const H5md *)owner)->texts.items[entry], key) == 0;
 }
 
-// The number that stands for the text of an id in the whole file.
+// Sets *number to the negative number that represents the text of an id in the whole file. Returns false if out of
+// memory.
 static bool number_text(H5md *file, const char *text, int64_t *number) {
     uint64_t hash = hash_bytes(0, text, strlen(text));
     uint32_t entry = hash_index_find(&file->index, hash, is_text, file, text);
@@ -34,9 +35,9 @@ static bool number_text(H5md *file, const char *text, int64_t *number) {
     return true;
 }
 
-// A whole number from 0 stands for itself, all else is text.
+// Appends an id: an integer >= 0 as it is, any other value as the number of its text. Returns false if out of memory.
 static bool add_id(H5md *file, PetriSession *session, PetriValue value) {
-    const double MAX_INTEGER = 9007199254740992; // 2^53: above it doubles are not all whole numbers
+    const double MAX_INTEGER = 9007199254740992; // 2^53: above it, doubles cannot represent every integer
     double number = value.length == 1 && value.numbers ? value.numbers[0] : -1;
     int64_t id = number >= 0 && number <= MAX_INTEGER ? (int64_t)number : -1;
     if (id < 0 || (double)id != number) {
@@ -121,7 +122,7 @@ bool h5md_add(H5md *file, PetriSession *session, Output *output) {
         send_system(output, &system, ids);
         ids += system.particle_count;
     }
-    output_flush(output); // so that petri-hdf5 has all whole frames if this process is killed
+    output_flush(output); // so that petri-hdf5 has all complete frames if this process is killed
     return true;
 }
 

@@ -1,4 +1,4 @@
-// h5md.h: what `petri run --trajectory FILE.h5` hands to petri-hdf5.
+// h5md.h: H5MD trajectories (`petri run --trajectory FILE.h5`), which petri-hdf5 writes.
 #ifndef PETRI_SRC_H5MD_H
 #define PETRI_SRC_H5MD_H
 
@@ -11,19 +11,19 @@
 
 typedef struct H5md {
     Hdf5 writer;
-    TextList texts;  // of ids that are no whole numbers from 0
-    HashIndex index; // of them
-    size_t sent;     // of them
-    ByteBuffer ids;  // of the frame's particles, int64_t
+    TextList texts;  // ids that are not integers >= 0, as text
+    HashIndex index; // index of `texts`
+    size_t sent;     // number of `texts` that petri-hdf5 has
+    ByteBuffer ids;  // int64_t ids of the frame's particles
 } H5md;
 
-// `resume` is NULL if there is no state to go on from. False after a message.
+// Starts petri-hdf5. `resume`: the state from which the run continues; NULL: none. Returns false after a message.
 bool h5md_open(H5md *file, const char *path, const Resume *resume, Output *output);
-// Adds the last frame of a session. False if memory is used up; `output` has an error if the file cannot be written.
+// Adds the last frame of a session. Returns false if out of memory. Write errors are stored in `output`.
 bool h5md_add(H5md *file, PetriSession *session, Output *output);
-// Returns when all that was added is on the disk. False after a message of petri-hdf5.
+// Waits until all frames are on the disk. Returns false after a message of petri-hdf5.
 bool h5md_sync(H5md *file, Output *output);
-// Puts the file in its place if all is well with it. False if there is none, after a message of petri-hdf5.
+// Completes the file, or discards it if `keep` is false. Returns false, after a message of petri-hdf5, on failure.
 bool h5md_close(H5md *file, bool keep, Output *output);
 
 #endif

@@ -18,13 +18,14 @@
 // A file that is read line by line.
 typedef struct Lines {
     FILE *stream;
-    char *line; // with its end
+    char *line; // current line with its line feed
     size_t capacity;
     size_t length;
-    size_t end; // bytes up to the line's end
+    size_t end; // offset of the line's end in the file
 } Lines;
 
-// False at the end, and where a line has none: it was cut.
+// Reads the next line. Returns false at the end of the file, and for a last line without line feed, which is
+// incomplete.
 static bool next_line(Lines *lines) {
     ssize_t length = getline(&lines->line, &lines->capacity, lines->stream);
     if (length <= 0 || lines->line[length - 1] != '\n')
@@ -34,7 +35,7 @@ static bool next_line(Lines *lines) {
     return true;
 }
 
-// The whole number that a text begins with, up to a character. False if there is none.
+// Parses an integer >= 0 that is followed by one of the characters `ends`. Returns false if there is none.
 static bool read_integer(const char *text, const char *ends, int64_t *number) {
     char *end = NULL;
     errno = 0;
@@ -42,7 +43,8 @@ static bool read_integer(const char *text, const char *ends, int64_t *number) {
     return errno == 0 && end > text && text[0] >= '0' && text[0] <= '9' && strchr(ends, *end) && *end != '\0';
 }
 
-// Each returns false for what petri does not write; a frame that was cut or is later is none of those that are kept.
+// read_xyz and read_csv find the end of the last complete frame up to `after`. They return false if the file is not a
+// trajectory written by petri.
 
 static bool read_xyz(Lines *lines, int64_t after, ResumeFile *file) {
     int64_t count = 0, frame = 0;
@@ -65,7 +67,7 @@ static bool read_xyz(Lines *lines, int64_t after, ResumeFile *file) {
     return true;
 }
 
-// `frame,time,system,id,anchor,x1,…,v1,…,radius,mass,charge`
+// Reads the header `frame,time,system,id,anchor,x1,…,v1,…,radius,mass,charge`.
 static bool read_header(const Lines *lines, ResumeFile *file) {
     static const char first[] = "frame,time,system,id,anchor,x1";
     if (strncmp(lines->line, first, sizeof first - 1) != 0)
@@ -92,18 +94,18 @@ static bool read_csv(Lines *lines, int64_t after, ResumeFile *file) {
 }
 
 static bool report_error(const char *path, const char *why) {
-    message("cannot go on with %s: %s", path, why);
+    message("cannot continue %s: %s", path, why);
     return false;
 }
 
 static bool read_existing(ResumeFile *file, const char *path, bool csv, int64_t after) {
     struct stat info;
     if (flock(file->fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-        return report_error(path, "another petri writes it");
+        return report_error(path, "the file is in use by another petri process");
     int again = fstat(file->fd, &info) == 0 && S_ISREG(info.st_mode) ? dup(file->fd) : -1;
     Lines lines = {.stream = again < 0 ? NULL : fdopen(again, "r")};
     if (!lines.stream)
-        return report_error(path, again < 0 ? "it is no regular file" : strerror(errno));
+        return report_error(path, again < 0 ? "not a regular file" : strerror(errno));
     bool known = csv ? read_csv(&lines, after, file) : read_xyz(&lines, after, file);
     bool read = !ferror(lines.stream);
     int cause = errno;
@@ -132,7 +134,7 @@ bool resume_open(ResumeFile *file, const char *path, bool csv, int64_t after) {
 
 void resume_report_gap(const char *path, int64_t last, const Resume *resume) {
     if (last < resume->expected) {
-        message("frames %" PRId64 " to %" PRId64 " are missing in %s, which goes on with frame %" PRId64, last + 1,
+        message("frames %" PRId64 " to %" PRId64 " are missing in %s, which continues with frame %" PRId64, last + 1,
                 resume->after, path, resume->after + 1);
     }
 }

@@ -1,7 +1,7 @@
-// resume.h: a trajectory that is there already, for a run that goes on from a state (`--state`).
+// resume.h: continuing an existing trajectory file in a run that continues from a state (`--state`).
 //
-// Such a file is not replaced but lengthened: what is on the disk when a state is saved has all frames up to it, so a
-// run that goes on from there cuts what is later, whole or not, and adds the same frames again.
+// Such a file is extended, not replaced. When a state is saved, the file on the disk has all frames up to that state.
+// A run that continues from the state truncates later frames and computes them again.
 #ifndef PETRI_SRC_RESUME_H
 #define PETRI_SRC_RESUME_H
 
@@ -9,24 +9,24 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// The frame of the state that the run goes on from.
+// The state from which the run continues.
 typedef struct Resume {
-    bool wanted;      // there is a `--state`
-    int64_t after;    // its frame; -1: the run begins
-    int64_t expected; // the last frame that a trajectory has before it; -1: none
+    bool wanted;      // true if `--state` was given
+    int64_t after;    // frame of the state; -1: the run starts from the beginning
+    int64_t expected; // last frame up to `after` that a trajectory should have; -1: none
 } Resume;
 
 typedef struct ResumeFile {
-    int fd;              // locked, to be lengthened from `end`; -1: there is no file
-    size_t end;          // of what is kept
-    int64_t last;        // frame in it; -1: none
-    uint32_t dimensions; // that a CSV's header has; 0: it has none yet
+    int fd;              // locked, positioned at `end`; -1: the file does not exist
+    size_t end;          // length in bytes after truncation
+    int64_t last;        // last frame in the file; -1: none
+    uint32_t dimensions; // number of dimensions in a CSV header; 0: no header yet
 } ResumeFile;
 
-// Opens a file of text and cuts what is later than the frame. False after a message; a file that is no trajectory of
-// petri is left alone.
+// Opens an XYZ or CSV file and truncates the frames after `after`. Returns false after a message. Does not modify a
+// file that is not a trajectory of petri.
 bool resume_open(ResumeFile *file, const char *path, bool csv, int64_t after);
-// Tells of frames that are missing between what the file has and the state.
+// Reports frames that are missing between the end of the file and the state.
 void resume_report_gap(const char *path, int64_t last, const Resume *resume);
 
 #endif

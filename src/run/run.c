@@ -1,4 +1,4 @@
-// run.c: `petri run`: runs frames without drawing them and prints what was asked for.
+// run.c: `petri run`, which runs frames without drawing them and prints the requested results.
 #include "cli/byte_buffer.h"
 #include "cli/helper_exec.h"
 #include "cli/output.h"
@@ -17,9 +17,9 @@
 typedef struct Run {
     const CommandContext *host;
     Frames frames;
-    bool to_terminal;    // standard output is a terminal
-    size_t after_signal; // bytes that were printed since
-    bool truncated;      // what was printed of a frame is not all
+    bool to_terminal;    // true if standard output is a terminal
+    size_t after_signal; // bytes printed since a signal
+    bool truncated;      // true if the text of a frame was cut
     Stats stats;
     Trajectory trajectory;
     Output output;
@@ -33,9 +33,9 @@ static void report_frame(Run *run, const PetriFrame *frame, bool printed) {
             frame->evaluation_seconds * 1e3, frame->physics_seconds * 1e3, frame->physics_steps);
 }
 
-// On a terminal the bar must make way before text comes, and come back below it.
+// Writes text to the output. On a terminal, erases the progress line first.
 static bool write_text(void *host, const char *text, size_t length) {
-    enum { MAX_AFTER_SIGNAL = 1 << 22 }; // bytes: a frame's text is whole, unless that takes long
+    enum { MAX_AFTER_SIGNAL = 1 << 22 }; // bytes; after a signal, a longer text is cut
     Run *run = host;
     run->after_signal += frames_signal() != 0 ? length : 0;
     if (run->after_signal > MAX_AFTER_SIGNAL)
@@ -45,21 +45,21 @@ static bool write_text(void *host, const char *text, size_t length) {
     return output_write(&run->output, text, length);
 }
 
-// A text that was cut is no result.
+// Records if a frame's text was cut, other than by a signal or a write error.
 static void note_status(Run *run, PetriStatus status) {
     run->truncated = run->truncated || (status != PETRI_OK && run->output.error == 0 && frames_signal() == 0);
 }
 
-// Of logs and errors only: a frame that has none is left out (spec cli.md 3.3).
+// Prints logs and errors only. A frame that has neither is not printed (spec cli.md 3.3).
 static void print_if_any(Run *run, unsigned sections) {
     SCOPED_BYTE_BUFFER text = {0};
     note_status(run, petri_print(run->frames.session, sections, byte_buffer_collect, &text));
-    const char *end = memchr(text.data, '\n', text.length); // of the line that every frame has
+    const char *end = memchr(text.data, '\n', text.length); // end of the `@` line
     if (end + 1 < text.data + text.length)
         write_text(run, text.data, text.length);
 }
 
-// What is printed and recorded of a frame.
+// Prints the frame and adds it to the trajectory.
 static void output_frame(Run *run) {
     double start = clock_seconds();
     unsigned sections = run->frames.options->sections;
@@ -100,7 +100,7 @@ static void report_profile(Run *run) {
         petri_profile(run->frames.session, run->stats.output_seconds, write_message, NULL);
 }
 
-// What there is to see is told to a person who watches, and to nobody else.
+// Suggests commands that show the picture, if standard error is a terminal.
 static void report_pictures(const Run *run) {
     const Options *options = run->frames.options;
     if (options->verbosity != LOG_NORMAL || !isatty(STDERR_FILENO) || !petri_has_picture(run->frames.session) ||
@@ -120,8 +120,8 @@ static void report_summary(Run *run) {
             run->stats.physics_steps, run->stats.physics_steps == 1 ? "" : "s");
 }
 
-// Once the state is there that the run goes on from. What belongs to a state that cannot be read is left alone as that
-// is.
+// Opens the trajectory; called after the state was restored. If the state file is unreadable, the trajectory that
+// belongs to it is not modified either. Returns false after a message.
 static bool open_trajectory(Run *run) {
     Frames *frames = &run->frames;
     const Options *options = frames->options;
@@ -130,7 +130,7 @@ static bool open_trajectory(Run *run) {
     if (!options->trajectory)
         return true;
     if (frames->state.unreadable && access(options->trajectory, F_OK) == 0) {
-        message("'%s' is left alone, too", options->trajectory);
+        message("'%s' is unchanged as well", options->trajectory);
         return true;
     }
     frames->state.before = trajectory_sync;
@@ -167,10 +167,10 @@ static int run_frames(Run *run) {
 static int list_parameters(Run *run) {
     uint64_t errors = petri_diagnostic_count(run->frames.session, PETRI_ERROR);
     if (parameters_list(run->frames.session, &run->output) == 0 && run->frames.options->verbosity > LOG_QUIET) {
-        message("%s has no parameters; a line such as `let SIZE=SIZE or 20 -- 1..100 how large` makes one",
+        message("%s has no parameters; to add one, write `let SIZE=SIZE or 20 -- 1..100 how large`",
                 script_display_name(run->frames.options->script));
     }
-    // A list that memory has cut is no result.
+    // A list cut by the memory limit is a failure.
     return petri_diagnostic_count(run->frames.session, PETRI_ERROR) == errors ? STATUS_DONE : STATUS_FAILED;
 }
 
@@ -192,7 +192,7 @@ static bool is_named(const char *word, const char *name) {
     return strncmp(word, "--", 2) == 0 && strncmp(word + 2, name, length) == 0 && strchr("=", word[2 + length]);
 }
 
-// What `petri view` does not know asks for text or files.
+// Returns true if `petri view` accepts the option. All other options request text or files.
 static bool is_view_option(const char *word) {
     for (const OptionSpec *spec = OPTIONS; spec->name; spec++)
         if (spec->commands & FOR_VIEW && is_named(word, spec->name))
@@ -200,8 +200,8 @@ static bool is_view_option(const char *word) {
     return strncmp(word, "--", 2) != 0 || is_named(word, "show");
 }
 
-// Whether the picture is to be shown: --show was given, a person sits at the terminal, and the command line asks for
-// nothing that a picture does not give, such as --print.
+// Returns true if the picture must be shown: --show was given, input and output are terminals, and the command line
+// requests no text or files, such as --print.
 static bool should_show(const Options *options) {
 #ifdef HAVE_CHAFA
     bool at_terminal = isatty(STDIN_FILENO) && isatty(STDOUT_FILENO) && progress_possible();
@@ -215,7 +215,7 @@ static bool should_show(const Options *options) {
            (options->verbosity == LOG_NORMAL || options->verbosity == LOG_VERBOSE);
 }
 
-// Whether the command line says when to stop.
+// Returns true if --frames or --runtime was given.
 static bool has_end(const Options *options) {
     bool has = false;
     for (int i = 0; i < options->argc; i++)
@@ -223,13 +223,13 @@ static bool has_end(const Options *options) {
     return has;
 }
 
-// What is wrong is told by the run, or the view, to come.
+// Ignores diagnostics, because the run or view that follows reports them.
 static void ignore_diagnostic(void *context, const PetriDiagnostic *diagnostic) {
     (void)context;
     (void)diagnostic;
 }
 
-// The first frame tells.
+// Computes the first frame to find out if the script has a picture.
 static bool is_drawable(const Options *options, const CommandContext *host) {
     PetriSession *session = NULL;
     if (options_open(options, host, ignore_diagnostic, NULL, &session) != OPTIONS_READ)
@@ -240,8 +240,8 @@ static bool is_drawable(const Options *options, const CommandContext *host) {
     return drawable;
 }
 
-// Becomes `petri view` in the terminal, with the same options, for ten seconds unless they say how long.
-// Returns if there is nothing to see, or no way to show it.
+// Replaces the process by `petri view --terminal` with the same options, for ten seconds unless they set an end.
+// Returns if the script has no picture or petri-pictures cannot be started.
 static void exec_view(const Options *options, const CommandContext *host) {
     if (!is_drawable(options, host))
         return;
@@ -259,17 +259,16 @@ static void exec_view(const Options *options, const CommandContext *host) {
     free(words);
 }
 
-// What several processes cannot do together. False after a message.
+// Checks the options of a run under MPI. Returns false after a message.
 static bool check_rank_options(const PetriRanks *ranks, Options *options) {
     if (!ranks)
         return true;
     if (options->realtime || script_is_stdin(options->script)) {
-        message("under mpirun petri takes %s", options->realtime
-                                                   ? "no --realtime: each rank has a clock of its own"
-                                                   : "no script on standard input: the ranks do not share it");
+        message("cannot use %s under mpirun: %s", options->realtime ? "--realtime" : "a script on standard input",
+                options->realtime ? "each rank has its own clock" : "the ranks do not share it");
         return false;
     }
-    if (ranks->rank > 0) { // what rank 0 writes is not to be made by all
+    if (ranks->rank > 0) { // only rank 0 writes output
         options->trajectory = NULL;
         options->sections = 0;
     }
@@ -278,7 +277,7 @@ static bool check_rank_options(const PetriRanks *ranks, Options *options) {
 
 static int run_run(const CommandContext *host, Options *options) {
     if (options->save_every > 0 && !options->state_file) {
-        message("--save-every needs a file to keep the state in: add --state FILE");
+        message("option '--save-every' needs --state FILE");
         return STATUS_USAGE;
     }
     if (!check_rank_options(host->ranks, options))
@@ -296,21 +295,20 @@ static int run_run(const CommandContext *host, Options *options) {
 const Command RUN_COMMAND = {
     .name = "run",
     .operands = "SCRIPT.fl",
-    .summary = "run a script's frames and print what they hold",
+    .summary = "run a script without drawing and print results",
     .details =
-        "Runs frames without drawing them. What is asked for goes to standard output, all else to standard error.\n"
-        "Ctrl-C gives the frame at hand up and ends the run, a second Ctrl-C at once.\n"
+        "Runs frames without drawing. Prints the requested results to standard output, messages to standard error.\n"
+        "Ctrl-C aborts the current frame and ends the run; a second Ctrl-C ends it at once.\n"
         "\n"
-        "A script has parameters where it says, at its top level, `let CELLS=CELLS or 200 -- 1..500 how many`:\n"
-        "'petri run --parameters SCRIPT.fl' lists them, '-D CELLS=50' sets one. The range is optional; a value "
-        "outside\n"
-        "is a warning, and so is a name that the script does not take. Numbers may have suffixes (1k, 20m), vectors\n"
-        "are 1;2;3, symbols :name; 0 is as good as none, for it is false. Modules see none of this.",
-    .examples = "  petri run dish.fl --stats                       how fast it is, and the energy at the end\n"
-                "  petri run dish.fl --print state --every 60      where everything is, once a second\n"
-                "  petri run dish.fl -D DROPS=50 --frames 100      another number of drops\n"
-                "  petri run dish.fl --trajectory dish.csv         all ways as a table\n",
-    .missing_operand = "no script was given",
+        "A top-level line such as `let CELLS=CELLS or 200 -- 1..500 how many` declares a parameter. 'petri run\n"
+        "--parameters SCRIPT.fl' lists parameters, '-D CELLS=50' sets one. The range is optional; a value outside it\n"
+        "and an unknown name cause warnings. Numbers may have suffixes (1k, 20m), vectors are 1;2;3, symbols are\n"
+        ":name. A value of 0 selects the default, because 0 is false. Modules do not see definitions.",
+    .examples = "  petri run dish.fl --stats                       print speed and final energy\n"
+                "  petri run dish.fl --print state --every 60      print the state once a second\n"
+                "  petri run dish.fl -D DROPS=50 --frames 100      set a parameter\n"
+                "  petri run dish.fl --trajectory dish.csv         write all positions as a table\n",
+    .missing_operand = "no script given",
     .options = FOR_RUN,
     .run = run_run,
 };

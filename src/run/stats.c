@@ -1,4 +1,4 @@
-// stats.c: the table that `petri run --stats` closes with.
+// stats.c: the table that `petri run --stats` prints at the end.
 #include "run/stats.h"
 
 #include "cli/motion.h"
@@ -17,10 +17,10 @@ void stats_count(Stats *stats, PetriSession *session) {
         stats->particle_steps += (double)system.steps * system.particle_count;
 }
 
-// What ranks sent each other for a system: the most that one of them did.
+// Prints communication statistics of a system: for each number, the maximum over the ranks.
 static void print_traffic(PetriSession *session, size_t number, const PetriRanks *ranks) {
-    static const char *const how[] = {
-        "not shared: it is small, its frames have one step, or nobody can share its forces", "by pairs", "by region"};
+    static const char *const how[] = {"replicated: small, one step per frame, or forces that cannot be distributed",
+                                      "by pairs", "by region"};
     enum { OWN, HALO, BYTES, MESSAGES, FRAME_BYTES, REDUCTIONS, NUMBERS };
     PetriRankStats traffic;
     if (!ranks || !petri_rank_stats(session, number, &traffic))
@@ -40,10 +40,10 @@ static void print_traffic(PetriSession *session, size_t number, const PetriRanks
     if (traffic.decomposition == PETRI_REPLICATED)
         return;
     if (traffic.decomposition == PETRI_DOMAIN_DECOMPOSED)
-        fprintf(stderr, "      particles       at most %.6g a rank, and %.6g of others\n", max[OWN], max[HALO]);
-    fprintf(stderr, "      sent by a rank  at most %.6g bytes in %.3g messages a step, %.6g bytes a frame\n",
+        fprintf(stderr, "      particles       at most %.6g per rank, plus a halo of %.6g\n", max[OWN], max[HALO]);
+    fprintf(stderr, "      sent by a rank  at most %.6g bytes in %.3g messages per step, %.6g bytes per frame\n",
             max[BYTES], max[MESSAGES], max[FRAME_BYTES]);
-    fprintf(stderr, "      agreed upon     %.3g times a step\n", max[REDUCTIONS]);
+    fprintf(stderr, "      reductions      %.3g per step\n", max[REDUCTIONS]);
 }
 
 static void print_system(PetriSession *session, size_t number, const PetriSystem *system) {
@@ -67,7 +67,7 @@ static void print_system(PetriSession *session, size_t number, const PetriSystem
 }
 
 static void print_time(const char *what, double seconds, int64_t frames) {
-    fprintf(stderr, "  %-18s%.4f ms a frame\n", what, frames > 0 ? seconds * 1e3 / (double)frames : 0);
+    fprintf(stderr, "  %-18s%.4f ms per frame\n", what, frames > 0 ? seconds * 1e3 / (double)frames : 0);
 }
 
 void stats_print(const Stats *stats, PetriSession *session, double seconds, const PetriRanks *ranks) {
@@ -77,7 +77,7 @@ void stats_print(const Stats *stats, PetriSession *session, double seconds, cons
     print_time("physics", stats->physics_seconds, stats->frames);
     print_time("output", stats->output_seconds, stats->frames);
     double rate = stats->physics_seconds > 0 ? stats->particle_steps / stats->physics_seconds : 0;
-    fprintf(stderr, "  %-18s%.4g million a second of physics\n", "particle-steps", rate * 1e-6);
+    fprintf(stderr, "  %-18s%.4g million per second of physics\n", "particle-steps", rate * 1e-6);
     PetriSystem system;
     for (size_t i = 0; petri_system(session, i, &system); i++) {
         print_system(session, i, &system);

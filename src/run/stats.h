@@ -1,4 +1,4 @@
-// stats.h: the table that `petri run --stats` closes with.
+// stats.h: the table that `petri run --stats` prints at the end.
 #ifndef PETRI_SRC_STATS_H
 #define PETRI_SRC_STATS_H
 
@@ -16,10 +16,10 @@ typedef struct Stats {
     double output_seconds;
 } Stats;
 
-// Counts a frame that was made. Its output is counted by whoever writes it.
+// Counts a computed frame. Does not change output_seconds, which the caller maintains.
 void stats_count(Stats *stats, PetriSession *session);
-// Writes the table to standard error: the sums, and for each system of the last frame its energy, momentum and fastest
-// particle; with `ranks`, which must all come here, also what they sent each other.
+// Writes the table to standard error: the sums, and the energy, momentum and fastest particle of each system of the
+// last frame. If `ranks` is not NULL, all ranks must call this, and the table has communication statistics.
 void stats_print(const Stats *stats, PetriSession *session, double seconds, const PetriRanks *ranks);
 
 #endif

@@ -1,8 +1,8 @@
-// trajectory.c: the file of `petri run --trajectory`: where all particles were, frame by frame.
+// trajectory.c: the file of `petri run --trajectory`; see trajectory.h.
 //
-// Extended XYZ (one block a frame, all systems together) as ASE and OVITO read it: the format has three dimensions, so
-// missing ones are 0 and further ones are left out; the species of every particle is X, the one that both know for "no
-// element". CSV: cli/particles.h. H5MD: h5md.h.
+// Extended XYZ, as ASE and OVITO read it, has one block per frame with all systems. The format has three dimensions:
+// missing ones are 0, further ones are omitted. The species is always X, which both programs accept for "no element".
+// CSV: cli/particles.h. H5MD: h5md.h.
 #include "run/trajectory.h"
 
 #include "base/file.h"
@@ -25,7 +25,7 @@
 enum { XYZ_DIMENSIONS = 3 };
 
 static bool report_error(Trajectory *trajectory, int error) {
-    // By petri-hdf5, which has ended; ECONNRESET if it had not read all before.
+    // petri-hdf5 has reported its error and ended; ECONNRESET if it had not read all input.
     bool told = trajectory->format == TRAJECTORY_H5MD && (error == EPIPE || error == ECONNRESET);
     if (!trajectory->failed && !told)
         message("cannot write %s: %s", trajectory->path, strerror(error));
@@ -33,7 +33,7 @@ static bool report_error(Trajectory *trajectory, int error) {
     return false;
 }
 
-// A signal ends this process at once, wherever it is: what is there of whole frames is kept.
+// Called when a signal ends this process at any point. Keeps the complete frames.
 static void commit_on_signal(void *context) {
     Trajectory *trajectory = context;
     Output *output = &trajectory->output;
@@ -41,7 +41,7 @@ static void commit_on_signal(void *context) {
     bool begun = trajectory->file.file >= 0 && !trajectory->file.direct && trajectory->complete_bytes > 0;
     if ((!begun && !trajectory->named) || trajectory->failed)
         return;
-    // Of what waits, some may have been written just now: it is written once more.
+    // A part of the buffer may have been written just before the signal, so all of it is written again.
     if (output->error == 0 && lseek(fd, (off_t)output->written, SEEK_SET) >= 0 &&
         file_write(fd, output->buffer, output->used) && file_truncate(fd, trajectory->complete_bytes) &&
         !trajectory->named)
@@ -59,7 +59,7 @@ static void write_named(Trajectory *trajectory, int fd, size_t end) {
     trajectory->output.written = trajectory->complete_bytes = trajectory->flushed_bytes = end;
 }
 
-// False after a message.
+// Continues an existing XYZ or CSV file. Returns false after a message.
 static bool resume_file(Trajectory *trajectory, const Resume *resume) {
     ResumeFile file;
     if (!resume_open(&file, trajectory->path, trajectory->format == TRAJECTORY_CSV, resume->after))
@@ -152,17 +152,17 @@ static bool add_frame(Trajectory *trajectory, PetriSession *session) {
 void trajectory_add(Trajectory *trajectory, PetriSession *session) {
     uint64_t errors = petri_diagnostic_count(session, PETRI_ERROR);
     bool whole = add_frame(trajectory, session);
-    if (!whole || petri_diagnostic_count(session, PETRI_ERROR) != errors) { // something is missing for want of memory
+    if (!whole || petri_diagnostic_count(session, PETRI_ERROR) != errors) { // part of the frame is missing
         report_error(trajectory, ENOMEM);
         return;
     }
-    atomic_signal_fence(memory_order_seq_cst); // keep_now may look at any moment
+    atomic_signal_fence(memory_order_seq_cst); // commit_on_signal may run at any moment
     trajectory->complete_bytes = trajectory->output.written + trajectory->output.used;
     if (trajectory->output.error != 0)
         report_error(trajectory, trajectory->output.error);
 }
 
-// The file takes its name, and goes on to be written.
+// Renames the file to its final name and continues writing to it.
 static bool commit_name(Trajectory *trajectory) {
     int fd = fcntl(trajectory->file.file, F_DUPFD_CLOEXEC, 0);
     signal_cleanup_end(trajectory->cleanup_id);
@@ -193,7 +193,7 @@ bool trajectory_sync(void *context) {
     return replace_sync(trajectory->output.fd) || report_error(trajectory, errno);
 }
 
-// What could not be written as a whole is cut off.
+// Closes a file that is extended in place, after truncating an incomplete frame.
 static bool end_named(Trajectory *trajectory, bool flushed) {
     int fd = trajectory->output.fd;
     bool good = file_truncate(fd, flushed ? trajectory->complete_bytes : trajectory->flushed_bytes) && replace_sync(fd);

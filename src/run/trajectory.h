@@ -1,4 +1,4 @@
-// trajectory.h: the file of `petri run --trajectory`: where all particles were, frame by frame.
+// trajectory.h: the file of `petri run --trajectory`: all particles, frame by frame.
 #ifndef PETRI_SRC_TRAJECTORY_H
 #define PETRI_SRC_TRAJECTORY_H
 
@@ -12,34 +12,35 @@
 
 typedef enum TrajectoryFormat { TRAJECTORY_XYZ, TRAJECTORY_CSV, TRAJECTORY_H5MD } TrajectoryFormat;
 
-// It takes its name when it is complete (base/replace.h), or when a state is saved first, and is then lengthened where
-// it lies (resume.h).
+// The file gets its name when it is complete (base/replace.h) or, with `--state`, when the first state is saved; after
+// that it is extended in place (resume.h).
 typedef struct Trajectory {
     const char *path;
     TrajectoryFormat format;
     bool open;
     bool resumable;
-    bool named; // `output` writes to the file that has the name
+    bool named; // true if the file has its final name and is extended in place
     Replacement file;
-    int cleanup_id;        // its number there
-    size_t complete_bytes; // bytes up to the last frame's end
-    size_t flushed_bytes;  // … and up to the last that was whole when all was written
-    uint32_t dimensions;   // of a CSV's columns: the most that a system of the first frame has
-    bool failed;           // told already
-    H5md h5md;             // instead of `file`, `unfinished`
+    int cleanup_id;        // from signal_cleanup_begin
+    size_t complete_bytes; // length up to the end of the last frame
+    size_t flushed_bytes;  // length up to the last complete frame at the last flush
+    uint32_t dimensions;   // CSV: largest number of dimensions of a system in the first frame; 0: no header yet
+    bool failed;           // true after an error, which has been reported
+    H5md h5md;             // used instead of `file` for H5MD
     Output output;
 } Trajectory;
 
-// A file whose name ends in .xyz, .csv, .h5 or .h5md. False after a message if the file cannot be made or gone on with.
+// Opens a file whose name ends in .xyz, .csv, .h5 or .h5md. Returns false, after a message, if it cannot be created or
+// continued.
 bool trajectory_open(Trajectory *trajectory, const char *path, const Resume *resume);
-// Adds the last frame of a session. If it cannot be written there is a message, and `failed` is set.
+// Adds the last frame of a session. On failure prints a message and sets `failed`.
 void trajectory_add(Trajectory *trajectory, PetriSession *session);
-// To be called before a state is saved, which is not to be done after false: brings all frames to the disk, so that a
-// run can go on from that state whatever happens. `trajectory` is a Trajectory.
+// Writes all frames to the disk. Must be called before a state is saved, so that a run can continue from that state; if
+// it returns false, the state must not be saved. `trajectory` is a Trajectory.
 bool trajectory_sync(void *trajectory);
-// Puts the file in its place, as does a signal that ends the process at once, with the frames that are whole. False
-// after a message if that or an earlier writing failed; the old file is then untouched, and if no frame is whole in a
-// run that was not good.
+// Completes the file with all complete frames; so does a signal that ends the process. Returns false, after a message,
+// if this or an earlier write failed. An old file is kept on failure, and if the run failed (`good` is false) before
+// its first complete frame.
 bool trajectory_close(Trajectory *trajectory, bool good);
 
 #endif

@@ -65,9 +65,9 @@ compare "gravity 4000" 120 "$workloads/gravity_n4000.fl"
 # rank that has most.
 traffic() {
     PETRI_NO_SHARED_MEMORY=1 mpirun -n "$2" "$petri" run "$(discs "$1")" --fps 5 --frames 4 --stats 2>&1 | tr -d , | awk '
-        $1 == "particles" { own = $4; halo = $8 }
+        $1 == "particles" { own = $4; halo = $11 }
         $1 == "sent" { bytes = $7; messages = $10; frame = $14 }
-        $1 == "agreed" { agreed = $3 }
+        $1 == "reductions" { agreed = $2 }
         END { print own, halo, bytes, messages, agreed, frame }'
 }
 

@@ -321,7 +321,7 @@ END
         printf '#!/bin/sh\nhead -c 9000 >/dev/null\nexit 0\n' >tools/ffmpeg
         PATH=$PWD/tools:$PATH petri render disc.fl -o film.mp4 --frames 50
         check "ffmpeg that ends too early is an error" status_is 1
-        check "… told" has err "ffmpeg ended before its time"
+        check "… told" has err "ffmpeg ended early"
         printf '#!/bin/sh\necho one >&2\necho two >&2\nexit 3\n' >tools/ffmpeg
         PATH=$PWD/tools:$PATH petri render disc.fl -o film.mp4 --frames 50
         check "what ffmpeg says last is told" has err "ffmpeg failed with status 3: two"
@@ -332,7 +332,7 @@ END
         )
         status=$?
         check "a film that the disk cannot hold is an error" status_is 1
-        check "… told once" count_is err "'film.mp4' is not written" 1
+        check "… told once" count_is err "cannot write 'film.mp4'" 1
         check "… the old film is left alone" cmp -s film.mp4 before.mp4
         check "… and no half of a new one" nothing_beside
         printf '!window size=200;200\n    !canvas\n        !ellipse point=frame%%200 radius=9 fill=true\n' >long.fl
@@ -367,7 +367,7 @@ END
             kill -INT "$job"
             stop_long
             check "Ctrl-C in a film ends with the signal's status: $suffix" status_is 130
-            kept=$(sed -n "s/.*stopped; 'long.$suffix' is whole, with the \([0-9]*\) frames* drawn so far.*/\1/p" err)
+            kept=$(sed -n "s/.*stopped; 'long.$suffix' is complete, with the \([0-9]*\) frames* drawn so far.*/\1/p" err)
             frames=$(ffprobe -v error -count_frames -show_entries stream=nb_read_frames -of csv=p=0 long.$suffix 2>&1)
             check "… says how many frames are kept" [ "${kept:-0}" -gt 0 ]
             check "… which can be played: ${frames%%,*}" [ "${frames%%,*}" = "$kept" ]

@@ -64,14 +64,14 @@ for format in $formats; do
     petri run w.fl --frames 3 --state s --trajectory $way
     petri run w.fl --frames 4 --state s
     petri run w.fl --frames 4 --state s --trajectory $way
-    check "$format: frames that are missing are told" has err "frames 3 to 6 are missing in $way, which goes on with frame 7"
+    check "$format: frames that are missing are told" has err "frames 3 to 6 are missing in $way, which continues with frame 7"
     petri run w.fl --frames 5 --every 5 --state s --trajectory $way
     check "… not those that --every leaves out" empty err
 
     echo something else >other.$format
     petri run w.fl --frames 2 --state s --trajectory other.$format
     check "$format: a file of another kind is refused" status_is 1
-    check "… which is told" has err "cannot go on with other.$format: not a file that --trajectory writes"
+    check "… which is told" has err "cannot continue other.$format: not a file that --trajectory writes"
     check "… left alone" [ "$(cat other.$format)" = "something else" ]
     echo bad >bad.state
     petri run w.fl --frames 2 --state bad.state --trajectory $way.copy.$format

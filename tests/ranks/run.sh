@@ -97,9 +97,9 @@ if command -v pgrep >/dev/null; then
     check "from which other ranks come to the same bits" [ "$(tail -n 1 out)" = "$(tail -n 1 one)" ]
 fi
 ranks 2 run - --frames 1
-check "no script on standard input" has err 'under mpirun petri takes no script'
+check "no script on standard input" has err 'cannot use a script on standard input under mpirun'
 ranks 2 run stars.fl --realtime --frames 1
-check "no --realtime" has err 'no --realtime'
+check "no --realtime" has err 'cannot use --realtime under mpirun'
 
 # --- sweeps: rank 0 deals the runs out
 
