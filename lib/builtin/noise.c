@@ -42,7 +42,7 @@ NoiseCache *noise_cache_new(void) {
 void noise_cache_free(NoiseCache *cache) {
     if (!cache)
         return;
-    Arena arena = cache->arena; // the cache is in its own arena
+    Arena arena = cache->arena; // the arena owns the cache
     arena_free(&arena);
 }
 

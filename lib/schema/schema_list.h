@@ -322,7 +322,7 @@ ATTR(PHYSICS, DIMENSIONS, DIMENSIONS, TO_SYSTEM(dimensions), DESCRIBED(0, ""), "
 ATTR(PHYSICS, TIME, TIME, TO_SYSTEM(time), DESCRIBED(0, "the frame's, in seconds"), "", "the clock to follow, such as beat")
 ATTR(PHYSICS, RESOLUTION, ABOVE_ZERO, TO_SYSTEM(resolution), DESCRIBED(0, "1/fps"), "units of time", "longest simulation step")
 ATTR(PHYSICS, RUN, INTEGER, TO_SYSTEM(run), IS(0), "", "a new number restarts the system")
-ATTR(PHYSICS, SPEED_OF_LIGHT, NUMBER, TO_SYSTEM(speed_of_light), DESCRIBED(0, ""), "", "highest speed; 0 or less is no limit")
+ATTR(PHYSICS, SPEED_OF_LIGHT, NUMBER, TO_SYSTEM(speed_of_light), DESCRIBED(0, ""), "", "highest speed; 0 or less: no limit")
 
 NODE(PARTICLE, "particle", PHYSICS, NOTHING, "a particle; position and velocity are read when it appears, and come from the state afterwards")
 ATTR(PARTICLE, ID, ANY, TO_BODY(id), NONE, "", "unique in its system; without it the particle is ignored")

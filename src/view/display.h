@@ -1,6 +1,6 @@
-// display.h: what `petri view` shows its pictures on: a window, or the terminal.
+// display.h: the interface of a display of `petri view`: a window or the terminal.
 //
-// A display shows pictures, tells what the user's hands do, and can be closed at any time. It belongs to one thread.
+// A display shows pictures, reports user input, and can be closed at any time. It must be used by one thread.
 #ifndef PETRI_SRC_DISPLAY_H
 #define PETRI_SRC_DISPLAY_H
 
@@ -14,66 +14,66 @@ typedef struct Display Display;
 
 typedef enum EventKind {
     EVENT_NONE,
-    EVENT_CLOSE,      // the user wants to go
-    EVENT_KEY,        // `key` went down or up
-    EVENT_KEY_TAP,    // `key` was pressed; when it is let go cannot be known
-    EVENT_POINTER,    // it moved, its buttons changed, or it left
-    EVENT_FOCUS_LOST, // the user turned to something else: nothing is pressed any more
-    EVENT_REDRAW,     // another size, or a part was covered
+    EVENT_CLOSE,      // the user closes the display
+    EVENT_KEY,        // `key` was pressed or released
+    EVENT_KEY_TAP,    // `key` was pressed; its release is not reported
+    EVENT_POINTER,    // the pointer moved, its buttons changed, or it left the display
+    EVENT_FOCUS_LOST, // the display lost the focus: all keys and buttons count as released
+    EVENT_REDRAW,     // the size changed, or a covered part became visible
 } EventKind;
 
 typedef struct Event {
     EventKind kind;
-    const char *key; // its name as petri_report_key knows it; NULL: another key
+    const char *key; // name of the key as for petri_report_key; NULL: a key without a name
     bool pressed;
-    bool repeated; // repeated by the keyboard
+    bool repeated; // by auto-repeat
     bool control;  // pressed with Control
-    bool inside;   // the pointer is over the display's picture area
-    double x;      // … in pixels, as `size` counts them
+    bool inside;   // the pointer is over the display
+    double x;      // position in pixels, in the coordinates of DisplayKind.size
     double y;
     unsigned buttons; // PETRI_BUTTON_...
 } Event;
 
-// The name, as petri_report_key knows it, of the key that a character is on: a letter of either case, a digit, a space,
-// a sign of ASCII (+ is on that of =); NULL for others (terminal_keys.c).
+// Returns the name, as for petri_report_key, of the key with an ASCII character: a letter of either case, a digit, a
+// space or a sign (+ is on the key of =). Returns NULL for others (terminal_keys.c).
 const char *key_of_character(char character);
 
 typedef struct DisplayKind {
-    // `width` x `height` is the script's size. The painter, which has made nothing yet and is closed first, draws what
-    // is shown; `colour` is for terminals. NULL after a message.
+    // Opens a display for a script of size `width` x `height`. The painter draws the pictures; it has not drawn yet,
+    // and is closed before the display. `colour` is for terminals. Returns NULL after a message.
     Display *(*open)(const char *title, int width, int height, PetriPainter *painter, bool colour);
-    // NULL is fine.
+    // Closes and frees the display. NULL is ignored.
     void (*close)(Display *display);
-    // The next event, waited for no longer than `seconds`; EVENT_NONE if there was none.
+    // Returns the next event, after waiting at most `seconds`; EVENT_NONE if there is none.
     Event (*next_event)(Display *display, double seconds);
-    // How many pixels a picture of width x height is to be drawn with.
+    // Sets the size in pixels with which a picture of width x height must be drawn.
     void (*size)(Display *display, int width, int height, int *drawn_width, int *drawn_height);
-    // Returns true if pictures may be made with as few pixels as `size` says. NULL: they are made in full detail.
+    // Returns true if pictures may be rendered at the low resolution of `size`. NULL: always full detail.
     bool (*coarse)(const Display *display);
-    // Shows a picture (NULL: black) and the overlay's texts without having its pixels; what became of it in *status.
-    // False, and nothing is done, if it cannot, NULL if it never can: then `show` is to be called.
+    // Shows a picture (NULL: black) and the overlay without reading its pixels, and sets *status. Returns false without
+    // any effect if this is not possible; NULL: never possible. Then `show` must be called.
     bool (*show_directly)(Display *display, PetriPicture *picture, const Overlay *overlay, PetriStatus *status);
-    // Shows that many pixels (32 bits each, alpha in the highest byte, premultiplied, opaque) and the overlay's texts.
-    // False if there is no going on, after a message.
+    // Shows pixels (32 bits each, alpha in the highest byte, premultiplied, opaque) and the overlay. Returns false
+    // after a message if the display can no longer be used.
     bool (*show)(Display *display, uint32_t *pixels, int width, int height, const Overlay *overlay);
     void (*set_title)(Display *display, const char *title);
-    // The script's size has changed; NULL: a display has the size that it has.
+    // Called when the script's size has changed. NULL: the display keeps its size.
     void (*resize)(Display *display, int width, int height);
-    void (*toggle_full_screen)(Display *display); // NULL: it cannot
-    // Whether the display has gone, with its screen: after that nothing of it may be called, `close` neither. NULL: its
-    // functions fail then.
+    void (*toggle_full_screen)(Display *display); // NULL: not possible
+    // Returns true if the display was lost, together with its screen. After that no function may be called, not even
+    // `close`. NULL: the other functions fail instead.
     bool (*gone)(const Display *display);
-    double min_seconds; // between two pictures
-    bool logs;          // standard error may be written to while it is open
+    double min_seconds; // minimum time between two pictures
+    bool logs;          // standard error may be written to while the display is open
 } DisplayKind;
 
-// None at all, for what goes on without: nothing is shown, nothing comes.
+// Returns a display that shows nothing and has no events, to continue a run after the display was lost.
 const DisplayKind *null_display(void);
-// A window; NULL if petri was built without SDL.
+// Returns the window display, or NULL if petri was built without SDL.
 const DisplayKind *window_display(void);
-// Whether there is a screen for windows, as far as the environment tells.
+// Returns true if the environment names a screen for windows.
 bool window_has_screen(void);
-// The terminal; NULL if petri was built without libchafa.
+// Returns the terminal display, or NULL if petri was built without libchafa.
 const DisplayKind *terminal_display(void);
 
 #endif

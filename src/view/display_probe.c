@@ -1,4 +1,4 @@
-// display_probe.c: see display_probe.h.
+// display_probe.c: implementation of display_probe.h.
 #include "view/display_probe.h"
 
 #include <errno.h>
@@ -35,7 +35,7 @@ static bool connect_socket(const struct sockaddr *address, socklen_t length, int
     return false;
 }
 
-// `hidden`: a name that is in no file system, as Linux has them.
+// Connects to a Unix socket. `hidden`: in Linux's abstract namespace, outside the file system.
 static bool connect_path(const char *path, bool hidden, int *connection) {
     struct sockaddr_un address = {.sun_family = AF_UNIX};
     size_t length = strlen(path);
@@ -59,7 +59,7 @@ static bool connect_host(const char *host, long number, int *connection) {
     return reached;
 }
 
-// [PROTOCOL/][HOST]:NUMBER[.SCREEN]; without a host it is this machine, by the ways that Xlib tries.
+// Connects to [PROTOCOL/][HOST]:NUMBER[.SCREEN]. Without a host, tries the local connections in Xlib's order.
 static bool connect_x11(const char *name, int *connection) {
     char host[MAX_NAME_LENGTH], path[64];
     const char *slash = strchr(name, '/'), *start = !slash ? name : slash + 1, *colon = strrchr(start, ':');
@@ -85,8 +85,8 @@ static bool connect_wayland(const char *name, int *connection) {
     return connect_path(path, false, connection);
 }
 
-// Asks for something that is always answered: X11 for a connection without rights, Wayland for a sign of life. Numbers
-// are in this machine's order of bytes, which X11 has to be told.
+// Sends a request that is always answered: X11, a connection without authorisation; Wayland, a sync. Numbers are in
+// native byte order, which the X11 request declares.
 static bool send_probe(const DisplayProbe *screen) {
     const uint16_t one = 1;
     unsigned char x11[REQUEST_BYTES] = {*(const unsigned char *)&one == 1 ? 'l' : 'B'}, answer;
@@ -100,7 +100,7 @@ static bool send_probe(const DisplayProbe *screen) {
            read(connection, &answer, 1) == 1;
 }
 
-// In a process of its own, which can be given up whatever it is waiting for.
+// Probes in a child process, which can be killed whatever it waits for.
 bool display_probe_answers(const DisplayProbe *screen) {
     pid_t child = fork();
     if (child == 0) {
@@ -110,5 +110,5 @@ bool display_probe_answers(const DisplayProbe *screen) {
     int status = 1;
     while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
-    return child < 0 || (WIFEXITED(status) && WEXITSTATUS(status) == 0); // without processes SDL may find out
+    return child < 0 || (WIFEXITED(status) && WEXITSTATUS(status) == 0); // cannot fork: let SDL try
 }

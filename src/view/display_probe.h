@@ -1,7 +1,7 @@
-// display_probe.h: the screens for windows that the environment names, and whether they are there.
+// display_probe.h: the screens that the environment names, and whether they can be reached.
 //
-// SDL takes whatever is left if they are not, such as a window in memory that nobody sees, and the libraries below it
-// wait for minutes if a network does not answer. So we ask first.
+// If none can be reached, SDL falls back to drivers such as an invisible window in memory, and libraries wait for
+// minutes on a network that does not answer. So petri checks first.
 #ifndef PETRI_SRC_DISPLAY_PROBE_H
 #define PETRI_SRC_DISPLAY_PROBE_H
 
@@ -9,15 +9,15 @@
 #include <stddef.h>
 
 typedef struct DisplayProbe {
-    const char *driver;   // what SDL calls the way to it
-    const char *variable; // of the environment, which names it
+    const char *driver;   // SDL's name of the video driver
+    const char *variable; // environment variable that names the screen
 } DisplayProbe;
 
-// Those that SDL can show windows on, in the order in which to try them; NULL beyond the last.
+// Returns the kinds of screens in the order in which to try them, or NULL after the last.
 const DisplayProbe *display_probe_kind(size_t number);
-// What the environment calls it; NULL if it names none.
+// Returns the name of the screen in the environment, or NULL if there is none.
 const char *display_probe_name(const DisplayProbe *screen);
-// Whether somebody answers there, within seconds.
+// Returns true if the screen answers within seconds.
 bool display_probe_answers(const DisplayProbe *screen);
 
 #endif

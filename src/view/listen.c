@@ -1,4 +1,4 @@
-// listen.c: see listen.h.
+// listen.c: implementation of listen.h.
 #include "view/listen.h"
 
 #include "base/file.h"
@@ -18,7 +18,7 @@
 
 static const size_t MAX_BYTES = (size_t)1 << 20;
 
-// A socket that nobody listens on was left by a view that died.
+// Removes a socket without a listener, which was left behind by a view that crashed.
 static void remove_dead(const struct sockaddr_un *address) {
     struct stat about;
     int probe = socket(AF_UNIX, SOCK_STREAM, 0);
@@ -101,7 +101,7 @@ static void add_result_line(ByteBuffer *out, bool done, int64_t frame, const Pet
     byte_buffer_add_text(out, "}\n");
 }
 
-// `.set NAME VALUE`; the text is cut.
+// Executes `.set NAME VALUE`; modifies the text.
 static bool set_parameter(LiveScript *live, char *text) {
     char *name = text + strspn(text, " "), *value = name + strcspn(name, " ");
     bool given = *value != '\0' && value[1] != '\0';
@@ -109,12 +109,12 @@ static bool set_parameter(LiveScript *live, char *text) {
     return live_script_set_parameter(live, name, given ? value + 1 : NULL);
 }
 
-// `.back` or `.back N`.
+// Executes `.back` or `.back N`.
 static bool go_back(LiveScript *live, const char *text, ByteBuffer *output) {
     char *end;
     long long count = *text == '\0' ? 1 : strtoll(text, &end, 10);
     if (*text != '\0' && (*end != '\0' || count < 1)) {
-        byte_buffer_add_text(output, ".back takes a number of frames, 1 or more, or nothing for one");
+        byte_buffer_add_text(output, ".back takes a number of frames >= 1 (default: 1)");
         return false;
     }
     return live_script_go_back(live, count, output);
@@ -122,7 +122,7 @@ static bool go_back(LiveScript *live, const char *text, ByteBuffer *output) {
 
 static ListenerResult execute_command(LiveScript *live, char *text, ByteBuffer *out) {
     static const char set[] = ".set ", back[] = ".back";
-    ListenerResult news = LISTENER_ACCEPTED;
+    ListenerResult result = LISTENER_ACCEPTED;
     PetriPromptResult prompted = {0};
     SCOPED_BYTE_BUFFER output = {0};
     size_t length = strlen(text);
@@ -134,7 +134,7 @@ static ListenerResult execute_command(LiveScript *live, char *text, ByteBuffer *
         done = set_parameter(live, text + strlen(set));
     } else if (strcmp(text, back) == 0 || strncmp(text, ".back ", strlen(".back ")) == 0) {
         done = go_back(live, text + strlen(back) + (text[strlen(back)] == ' '), &output);
-        news = done ? LISTENER_MOVED : LISTENER_NOTHING;
+        result = done ? LISTENER_MOVED : LISTENER_NOTHING;
     } else if (strcmp(text, ".reset") == 0) {
         live_script_reset(live);
     } else if (strcmp(text, ".drop") == 0) {
@@ -145,18 +145,18 @@ static ListenerResult execute_command(LiveScript *live, char *text, ByteBuffer *
     add_output(&output, out);
     add_diagnostics(live->session, out);
     add_result_line(out, done, petri_frame(live->session).number, &prompted);
-    return news;
+    return result;
 }
 
-// A client that does not read is not waited for.
+// Answers the client; waits at most one second if it does not read.
 static ListenerResult answer_client(Listener *listener, LiveScript *live) {
     SCOPED_BYTE_BUFFER out = {0};
     byte_buffer_add(&listener->text, "", 0);
-    ListenerResult news = execute_command(live, listener->text.data, &out);
+    ListenerResult result = execute_command(live, listener->text.data, &out);
     fcntl(listener->client, F_SETFL, 0);
     setsockopt(listener->client, SOL_SOCKET, SO_SNDTIMEO, &(struct timeval){.tv_sec = 1}, sizeof(struct timeval));
     (void)file_write(listener->client, out.data, out.length);
-    return news;
+    return result;
 }
 
 static void disconnect_client(Listener *listener) {
@@ -188,7 +188,7 @@ ListenerResult listener_serve(Listener *listener, LiveScript *live) {
             disconnect_client(listener);
         return LISTENER_NOTHING;
     }
-    ListenerResult news = answer_client(listener, live);
+    ListenerResult result = answer_client(listener, live);
     disconnect_client(listener);
-    return news;
+    return result;
 }

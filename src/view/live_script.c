@@ -1,4 +1,4 @@
-// live_script.c: see live_script.h.
+// live_script.c: implementation of live_script.h.
 #include "view/live_script.h"
 
 #include "cli/parameters.h"
@@ -34,7 +34,7 @@ static void warnings_clear(Warnings *warnings) {
 static void on_diagnostic(void *context, const PetriDiagnostic *diagnostic) {
     LiveScript *live = context;
     live->invalid_definition = live->invalid_definition || is_invalid_definition(diagnostic);
-    if (diagnostic->level != PETRI_NOTE) // notes belong to the diagnostic before them
+    if (diagnostic->level != PETRI_NOTE) // a note belongs to the diagnostic before it
         live->shown = diagnostic->level == PETRI_ERROR || live->options->verbosity > LOG_QUIET;
     if (live->shown) {
         log_text(live, diagnostic->rendered);
@@ -59,7 +59,7 @@ const char *live_script_error_text(const LiveScript *live) {
     return live->error_text.length > 0 ? live->error_text.data : "";
 }
 
-// Puts a line before what is wrong, if anything is.
+// Inserts a line before the error text.
 static void prefix_error_text(LiveScript *live, const char *line) {
     ByteBuffer whole = {0};
     byte_buffer_format(&whole, "%s\n%s", line, live_script_error_text(live));
@@ -67,7 +67,7 @@ static void prefix_error_text(LiveScript *live, const char *line) {
     live->error_text = whole;
 }
 
-// The script, and what it includes and imports as far as that is known.
+// Watches the script and all files that it is known to include or import.
 static void watch_sources(LiveScript *live) {
     const char *source;
     file_watch_add(live->watch, live->options->script);
@@ -125,7 +125,7 @@ bool live_script_check_drawn(LiveScript *live, PetriStatus status) {
     return status == PETRI_OK;
 }
 
-// Files that the script's `!record` nodes name.
+// Writes the files that the script's `!record` nodes name.
 static void record_frame(LiveScript *live) {
     if (live->awaits_display)
         return;
@@ -141,7 +141,8 @@ static PetriPictureOptions picture_options(const LiveScript *live) {
     return options;
 }
 
-// Of an early frame, unless there is a picture that can stay for so long, only the size is wanted.
+// Makes the picture of the last frame. Before the first picture, a previous picture stays; without one, the new picture
+// is made only for its size.
 static void update_picture(LiveScript *live) {
     PetriPictureOptions options = picture_options(live);
     options.detail = live->detail;
@@ -158,7 +159,7 @@ static void update_picture(LiveScript *live) {
 void world_set_detail(LiveScript *live, double detail) {
     bool changed = detail != live->detail;
     live->detail = detail;
-    // A picture that looks back is made once, in full detail.
+    // A picture that uses earlier frames is always in full detail, and is not made twice.
     if (changed && live->picture && !live->before_first_picture && !petri_picture_needs_history(live->picture))
         update_picture(live);
 }
@@ -184,10 +185,11 @@ bool live_script_step(LiveScript *live) {
         live->halted = true;
         return false;
     }
-    watch_sources(live); // modules are imported by frames
+    watch_sources(live); // frames may import modules
     update_picture(live);
     live->frames += live->before_first_picture ? 0 : 1;
-    truncate_error_text(live, before); // faults of a frame that went on are told on standard error, as in a run
+    // Errors of a completed frame are only reported on standard error, as in a run.
+    truncate_error_text(live, before);
     if (live->options->verbosity >= LOG_DEBUG) {
         char line[200];
         snprintf(line, sizeof line, "petri: frame %" PRId64 ": script %.3f ms, physics %.3f ms, %" PRIu64 " steps\n",
@@ -197,7 +199,7 @@ bool live_script_step(LiveScript *live) {
     return true;
 }
 
-// After an attempt to load: what it said counts if it went well, what was said before if not.
+// Keeps the new warnings if the load succeeded, else the previous ones.
 static void choose_warnings(LiveScript *live, Warnings *before, bool loaded) {
     if (loaded) {
         warnings_clear(before);
@@ -218,10 +220,10 @@ bool live_script_reload(LiveScript *live) {
     if (loaded) {
         live->halted = live->broken = false;
         watch_sources(live);
-        clear_error_text(live); // of a load that went well, errors are only warnings to the eye
+        clear_error_text(live); // after a successful load, errors are only listed with the warnings
     } else {
         live->broken = true;
-        prefix_error_text(live, "The script was changed but cannot be loaded. The last good version is running.");
+        prefix_error_text(live, "reload failed, still running the last good version");
     }
     petri_resync_clock(live->session);
     return true;
@@ -252,8 +254,7 @@ bool live_script_enable_history(LiveScript *live) {
 bool live_script_go_back(LiveScript *live, int64_t count, ByteBuffer *why) {
     int64_t now = petri_frame(live->session).number, first = live->history.first + 1;
     if (now <= first) {
-        byte_buffer_format(why, "there is nothing to go back to: %s",
-                           !live->history.why ? "this is the start" : live->history.why);
+        byte_buffer_format(why, "cannot go back: %s", !live->history.why ? "this is the start" : live->history.why);
         return false;
     }
     PetriStatus status = history_goto(&live->history, live->session, count < now - first ? now - count : first, why);
@@ -276,7 +277,7 @@ void live_script_reset(LiveScript *live) {
         clear_error_text(live);
 }
 
-// The script's name without folders and suffix.
+// Sets `name` to the script's name without folder and suffix.
 static void base_name(const char *script, char *name, size_t size) {
     const char *slash = strrchr(script, '/');
     snprintf(name, size, "%s", !slash ? script : slash + 1);
@@ -301,7 +302,7 @@ static bool save_picture(LiveScript *live, const char *name) {
 bool live_script_screenshot(LiveScript *live, char *name, size_t size) {
     char base[200];
     if (!live->picture || live->picture_hidden) {
-        snprintf(name, size, "a picture, for there is none");
+        snprintf(name, size, "a picture: there is none");
         return false;
     }
     base_name(live->options->script, base, sizeof base);
@@ -313,10 +314,10 @@ bool live_script_screenshot(LiveScript *live, char *name, size_t size) {
 }
 
 void live_script_save(LiveScript *live, bool at_once) {
-    const char *news = state_file_save(&live->state, live->session, at_once);
-    if (news) {
+    const char *error = state_file_save(&live->state, live->session, at_once);
+    if (error) {
         log_text(live, "petri: ");
-        log_text(live, news);
+        log_text(live, error);
         log_text(live, "\n");
     }
 }
@@ -340,5 +341,5 @@ void warnings_list(const Warnings *warnings, char *text, size_t size) {
         return;
     }
     snprintf(text, size, "%d warning%s. w hides this.\n%s%s", warnings->count, warnings->count == 1 ? "" : "s",
-             warnings->text.data, warnings->text.length < MAX_WARNINGS ? "" : "… more are on standard error.");
+             warnings->text.data, warnings->text.length < MAX_WARNINGS ? "" : "More warnings are on standard error.");
 }

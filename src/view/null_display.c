@@ -1,4 +1,4 @@
-// null_display.c: a display where there is none any more.
+// null_display.c: a display that shows nothing, for a run whose display was lost.
 #include "view/display.h"
 
 #include <time.h>
@@ -9,7 +9,7 @@ static Event null_next_event(Display *display, double seconds) {
     struct timespec pause = {.tv_sec = (time_t)seconds};
     pause.tv_nsec = (long)((seconds - (double)pause.tv_sec) * nanoseconds);
     if (seconds > 0)
-        nanosleep(&pause, NULL); // until a signal comes, at most
+        nanosleep(&pause, NULL); // a signal may end this early
     return (Event){.kind = EVENT_NONE};
 }
 

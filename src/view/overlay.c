@@ -1,7 +1,7 @@
-// overlay.c: see overlay.h.
+// overlay.c: implementation of overlay.h.
 #include "view/overlay.h"
 
-// Sizes in units of text; a letter of the fixed-width font is about this part of its size wide.
+// Sizes in units of text. CHARACTER_WIDTH is the width of a fixed-width character relative to TEXT_SIZE.
 enum { TEXT_SIZE = 13, LINE = 19, MARGIN = 12, PADDING = 10, MAX_LABELS = 4 };
 static const double CHARACTER_WIDTH = 0.602;
 
@@ -15,14 +15,14 @@ static const PetriLabel ERROR_STYLE = {.background = {0.16, 0.03, 0.04, 0.92},
                         NOTICE_STYLE = {.background = {0.05, 0.07, 0.1, 0.82}, .foreground = {0.7, 0.88, 1, 1}};
 
 typedef struct Layout {
-    double room; // across
+    double room; // available width
     PetriLabel labels[MAX_LABELS];
-    char texts[MAX_LABELS][sizeof(Overlay)]; // as they fit
+    char texts[MAX_LABELS][sizeof(Overlay)]; // wrapped texts
     size_t count;
 } Layout;
 
-// Lays a text out, if there is one; NULL: there is none. A full panel is as wide as there is room, others as their
-// text. Where it is put is still to be said.
+// Adds a label for a text and wraps it. Returns NULL if the text is empty. A `full` label is as wide as possible,
+// others as wide as their text. The caller sets its position.
 static PetriLabel *layout_label(Layout *layout, const PetriLabel *style, const char *text, bool full) {
     if (text[0] == '\0')
         return NULL;
@@ -41,8 +41,8 @@ static PetriLabel *layout_label(Layout *layout, const PetriLabel *style, const c
     return label;
 }
 
-// What is wrong at the top, the mark at its right, the status at the bottom left, a notice at the bottom right, above
-// the status if there is no room beside it.
+// Places the errors at the top, the mark at the top right, the status at the bottom left, and the notice at the bottom
+// right, or above the status if there is not enough space.
 static void layout_labels(Layout *layout, const Overlay *overlay, double scale, int width, int height) {
     double across = width / scale, bottom = height / scale - MARGIN;
     layout->room = across - 2 * MARGIN;

@@ -5,11 +5,11 @@
 #include "petri-draw.h"
 #include "view/overlay_text.h"
 
-// Draws over width x height opaque pixels (as petri_picture_draw has them); `scale` is the number of pixels for each
-// unit of text sizes. What cannot be drawn is left out.
+// Draws over width x height opaque pixels in the format of petri_picture_draw; `scale` is the number of pixels per unit
+// of text sizes. Labels that cannot be drawn are omitted.
 void overlay_draw(PetriPainter *painter, const Overlay *overlay, double scale, uint32_t *pixels, int width, int height);
 
-// Shows a picture (NULL: black) and the text over it on the painter's window (petri_painter_present).
+// Shows a picture (NULL: black) and the text over it in the painter's window (petri_painter_present).
 PetriStatus overlay_show(PetriPainter *painter, PetriPicture *picture, const Overlay *overlay, double scale, int width,
                          int height);
 

@@ -1,17 +1,17 @@
-// overlay_text.c: see overlay_text.h.
+// overlay_text.c: implementation of overlay_text.h.
 #include "view/overlay_text.h"
 
 #include "base/str.h"
 
 #include <string.h>
 
-// Length of the UTF-8 character at the start of a text, 0 if there is none.
+// Returns the length of the UTF-8 character at the start of a text, or 0 if it is invalid or empty.
 static size_t character_length(const char *text) {
     size_t length = 0;
     return *text != '\0' && utf8_next((Str){text, strnlen(text, UTF8_MAX)}, &length) >= 0 ? length : 0;
 }
 
-// Past an escape sequence such as those that colour messages.
+// Returns the end of an escape sequence, such as those that colour messages.
 static const char *skip_escape(const char *text) {
     if (text[1] != '[')
         return text + 1;
@@ -61,7 +61,7 @@ int overlay_lines(const char *text) {
     return lines;
 }
 
-// Characters up to the end of the line.
+// Returns the number of characters up to the end of the line.
 static int line_columns(const char *line) {
     return (int)utf8_length((Str){line, strcspn(line, "\n")});
 }
@@ -75,7 +75,7 @@ int overlay_columns(const char *text) {
     return max_columns;
 }
 
-// So many characters on.
+// Returns the position after `columns` characters, or the end of the line.
 static const char *skip_columns(const char *line, int columns) {
     Str rest = {line, strcspn(line, "\n")};
     size_t at = 0;
@@ -84,7 +84,7 @@ static const char *skip_columns(const char *line, int columns) {
     return line + at;
 }
 
-// Where the part of a line ends that is shown in one row.
+// Returns the end of the part of a line that fits in one row.
 static const char *row_end(const char *line, int columns) {
     const char *end = skip_columns(line, columns);
     if (*end == '\0' || *end == '\n')

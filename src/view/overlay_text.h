@@ -5,25 +5,25 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-// Texts that are shown over a picture; empty ones are not. UTF-8 without control characters but newlines.
+// Texts shown over a picture, in UTF-8 without control characters except newlines. Empty texts are not shown.
 typedef struct Overlay {
-    char status[400];      // frame rate and clocks, some lines
-    char notice[400];      // what was done just now, one line
-    char error_text[4000]; // what is wrong with the script, some lines
-    char mark[40];         // that there is more to tell, a few words in a corner
-    bool is_warning;       // `trouble` tells of nothing that stops anything
+    char status[400];      // frame rate and clocks, several lines
+    char notice[400];      // last action, one line
+    char error_text[4000]; // errors of the script, several lines
+    char mark[40];         // number of warnings, a few words in a corner
+    bool is_warning;       // `error_text` is a list of warnings, which do not stop the script
 } Overlay;
 
-// Sets one of them from any text: escape sequences and what is no UTF-8 are left out, tabs become blanks, and what does
-// not fit is cut off. True if the text is another one than before.
+// Sets one of the texts. Escape sequences and invalid UTF-8 are removed, tabs become blanks, and the end is cut off if
+// it does not fit. Returns true if the text has changed.
 bool overlay_set(char *text, size_t size, const char *from);
 
-// Lines, and characters of the longest.
+// Return the number of lines, and the number of characters of the longest line.
 int overlay_lines(const char *text);
 int overlay_columns(const char *text);
-// The text in lines of at most so many characters (at least 2): longer ones go on in the next line, at a blank if there
-// is one. Those that begin with a blank are a script's, and the marks under them: they are cut, so that they stay below
-// each other. What does not fit into `size` bytes is left out.
+// Wraps a text to at most `columns` characters per line (at least 2), at blanks where possible. Lines that begin with a
+// blank quote a script or mark a place in it; these are cut off, so that they stay aligned. Text that exceeds `size`
+// bytes is omitted.
 void overlay_fit(char *out, size_t size, const char *text, int columns);
 
 #endif

@@ -1,4 +1,4 @@
-// parameter_step.c: see parameter_step.h.
+// parameter_step.c: implementation of parameter_step.h.
 #include "view/parameter_step.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@ static bool is_whole(double x) {
     return !isfinite(x) || x == floor(x);
 }
 
-// The greatest of 1, 2 and 5 times a power of ten that is not above x.
+// Returns the largest number <= x that is 1, 2 or 5 times a power of ten.
 static double round_step(double x) {
     double power = pow(10, floor(log10(x))), digit = x / power;
     return (digit >= 5 ? 5 : digit >= 2 ? 2 : 1) * power;
@@ -29,15 +29,15 @@ static double step_size(const PetriParameter *parameter) {
     return whole ? fmax(1, floor(size)) : size;
 }
 
-// As a person would write it: without the dust of binary fractions.
+// Rounds to 12 digits, which removes binary rounding errors.
 static double round_decimal(double x) {
     char text[40];
     snprintf(text, sizeof text, "%.12g", x);
     double clean = strtod(text, NULL);
-    return clean == 0 ? 0 : clean; // and -0 is 0
+    return clean == 0 ? 0 : clean; // also turns -0 into 0
 }
 
-// Steps lead to multiples of their size, counted from the range's start if it says how large they are.
+// Returns the next multiple of the step size, counted from the minimum of the range if the range defines the step.
 static double step_from(const PetriParameter *parameter, double value, int steps) {
     double size = step_size(parameter), dust = 1e-9;
     double origin = parameter->step > 0 && isfinite(parameter->min) ? parameter->min : 0;
@@ -51,7 +51,7 @@ double parameter_stepped(const PetriParameter *parameter, int steps) {
     if (!isfinite(parameter->number))
         return NAN;
     double to = step_from(parameter, parameter->number, steps);
-    if (to == 0 && parameter->default_number != 0) // beyond it, if there is something
+    if (to == 0 && parameter->default_number != 0) // skip 0 if there are values beyond it
         to = step_from(parameter, to, steps > 0 ? 1 : -1);
     return to == 0 && parameter->default_number != 0 ? NAN : to;
 }

@@ -1,12 +1,13 @@
-// parameter_step.h: how far a key press takes a parameter.
+// parameter_step.h: the value of a parameter after a key press.
 #ifndef PETRI_SRC_PARAMETER_STEP_H
 #define PETRI_SRC_PARAMETER_STEP_H
 
 #include "petri.h"
 
-// The value that is `steps` steps from the present one: those of the comment's range, else round ones, fifty to a range
-// or twenty to the default. It stays in the range, and whole where the script's numbers are. NaN if there is none: the
-// value is no number, or 0 is all that is left, which `or` takes for nothing.
+// Returns the value that is `steps` steps away. A step is that of the range in the parameter's comment, else a round
+// number: about 1/50 of the range or 1/20 of the default. The result stays within the range, and whole if all of the
+// script's numbers are. Returns NaN if the value is not a number, or if the result would be 0, which `or` replaces by
+// the default.
 double parameter_stepped(const PetriParameter *parameter, int steps);
 
 #endif

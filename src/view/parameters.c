@@ -1,4 +1,4 @@
-// parameters.c: see parameters.h.
+// parameters.c: implementation of parameters.h.
 #include "view/parameters.h"
 
 #include "cli/parameters.h"
@@ -48,7 +48,7 @@ bool parameter_key_repeats(const char *key) {
     return meaning_of(key, &by) == MEANS_STEP;
 }
 
-// How many there are that can be set.
+// Returns the number of parameters that can be set.
 static size_t count_parameters(PetriSession *session) {
     PetriParameter parameter;
     size_t count = 0;
@@ -101,12 +101,12 @@ ParameterResult parameter_key(ParameterKeys *keys, LiveScript *live, const char 
         byte_buffer_format(text, "the script has no parameters, such as let SIZE=SIZE or 20");
         return PARAMETER_MESSAGE;
     }
-    bool first = !keys->used || keys->chosen >= count; // it may have been changed
+    bool first = !keys->used || keys->chosen >= count; // the number of parameters may have changed
     keys->used = true;
     keys->chosen = keys->chosen < count ? keys->chosen : 0;
     if (meaning == MEANS_CHOICE && !first)
         keys->chosen = (keys->chosen + (by > 0 ? 1 : count - 1)) % count;
-    if (meaning == MEANS_CHOICE || first) { // nobody changes what is not seen
+    if (meaning == MEANS_CHOICE || first) { // the first key press only shows which parameter is selected
         describe_parameter(live, keys->chosen, text);
         return PARAMETER_MESSAGE;
     }

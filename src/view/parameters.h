@@ -1,4 +1,4 @@
-// parameters.h: keys that choose a parameter of the script and change it while the world goes on.
+// parameters.h: keys that select a parameter of the script and change it while the script runs.
 #ifndef PETRI_SRC_VIEW_PARAMETERS_H
 #define PETRI_SRC_VIEW_PARAMETERS_H
 
@@ -10,21 +10,21 @@
 #include <stddef.h>
 
 typedef struct ParameterKeys {
-    size_t chosen;
-    bool used; // one of the keys was pressed: which parameter is chosen has been seen
+    size_t chosen; // index of the selected parameter
+    bool used;     // a parameter key was pressed, so the user has seen which parameter is selected
 } ParameterKeys;
 
 typedef enum ParameterResult {
-    PARAMETER_NOT_A_KEY, // no key for parameters
-    PARAMETER_MESSAGE,   // something is to be told
-    PARAMETER_CHANGED    // … and the script has another value
+    PARAMETER_NOT_A_KEY, // not a parameter key
+    PARAMETER_MESSAGE,   // there is a message to show
+    PARAMETER_CHANGED    // there is a message to show, and the parameter has changed
 } ParameterResult;
 
-// Does what a key means. `text` gets what is to be told about it.
+// Executes a key. `text` gets the message.
 ParameterResult parameter_key(ParameterKeys *keys, LiveScript *live, const char *key, ByteBuffer *text);
-// Whether a key that is held means the same again and again.
+// Returns true for keys that act repeatedly while held.
 bool parameter_key_repeats(const char *key);
-// Adds lines about the chosen parameter and the keys, if the script has parameters.
+// Adds lines about the selected parameter and the keys, if the script has parameters.
 void parameter_status(const ParameterKeys *keys, LiveScript *live, ByteBuffer *text);
 
 #endif

@@ -1,4 +1,4 @@
-// status_text.c: see view.h.
+// status_text.c: the texts over the picture; see view.h.
 #include "cli/progress.h"
 #include "view/view.h"
 
@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-// Seconds: how long a notice stays; between two measures of the frame rate.
+// Seconds: the duration of a notice, of the hint about keys, and between two measurements of the frame rate.
 static const double NOTICE = 4, HINT = 3, MEASURE = 0.5;
 static const char KEYS[] = "h: keys";
 
@@ -34,10 +34,10 @@ void view_hint_keys(View *view) {
 }
 
 void view_reset_notice(View *view) {
-    set_notice(view, view->paused ? "paused: space goes on, . steps" : "", INFINITY);
+    set_notice(view, view->paused ? "paused: space resumes, . steps" : "", INFINITY);
 }
 
-// What stops the script comes first; warnings are listed if that is wanted, else a mark tells that there are some.
+// Errors take precedence; then warnings are listed if the user wants that, else the mark shows their number.
 void view_update_error_text(View *view) {
     Overlay *overlay = &view->overlay;
     const char *error_text = live_script_error_text(&view->live);

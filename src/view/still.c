@@ -1,4 +1,4 @@
-// still.c: see still.h.
+// still.c: implementation of still.h.
 #include "view/still.h"
 
 #include "base/file.h"

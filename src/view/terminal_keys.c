@@ -1,4 +1,4 @@
-// terminal_keys.c: see terminal_keys.h.
+// terminal_keys.c: implementation of terminal_keys.h.
 #include "view/terminal_keys.h"
 
 #include "cli/progress.h"
@@ -9,7 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 
-// Seconds after which an escape that nothing followed was the key.
+// Seconds after which an escape without further characters counts as the Escape key.
 static const double ESCAPE_SECONDS = 0.05;
 
 static const char letters[26][2] = {"a", "b", "c", "d", "e", "f", "g", "h", "i", "j", "k", "l", "m",
@@ -40,7 +40,7 @@ const char *key_of_character(char character) {
 
 void terminal_input_read(TerminalInput *input, int fd) {
     size_t room = sizeof input->bytes - input->count;
-    if (room == 0) { // nothing so long means anything
+    if (room == 0) { // no valid sequence is this long
         input->count = 0;
         room = sizeof input->bytes;
     }
@@ -80,7 +80,7 @@ static const char *key_of_number(long number) {
     return number > 0 && number < (long)(sizeof names / sizeof names[0]) ? names[number] : NULL;
 }
 
-// A mouse report `<code;column;row` that ends in M (pressed, moved) or m (let go).
+// Decodes a mouse report `<code;column;row`, which ends in M (press, motion) or m (release).
 static Event mouse_event(TerminalInput *input, const char *text, char last) {
     char *end;
     long code = strtol(text, &end, 10), column = *end == ';' ? strtol(end + 1, &end, 10) : 0,
@@ -100,7 +100,7 @@ static Event mouse_event(TerminalInput *input, const char *text, char last) {
                    .buttons = input->buttons};
 }
 
-// A sequence `ESC [ parameters letter`, with its parameters as text.
+// Decodes a sequence `ESC [ parameters letter`; `parameters` is text.
 static Event sequence_event(TerminalInput *input, const char *parameters, unsigned char last) {
     switch (last) {
     case 'M':
@@ -116,7 +116,7 @@ static Event sequence_event(TerminalInput *input, const char *parameters, unsign
     }
 }
 
-// Length of the sequence that begins with ESC [, 0 if its end has not come.
+// Returns the length of the sequence that begins with ESC [, or 0 if it is incomplete.
 static size_t sequence_length(const TerminalInput *input) {
     for (size_t i = 2; i < input->count; i++)
         if (input->bytes[i] >= '@' && input->bytes[i] <= '~')
@@ -152,14 +152,14 @@ static Event next_escape(TerminalInput *input) {
     }
     if (input->bytes[1] == 'O' && !late)
         return (Event){.kind = EVENT_NONE};
-    drop_bytes(input, 1); // a key with Alt, or a second escape
+    drop_bytes(input, 1); // the key was pressed with Alt, or there is a second escape
     return input->bytes[0] == 27 ? key_tap_event("escape") : (Event){.kind = EVENT_NONE};
 }
 
 static Event next_character(TerminalInput *input) {
     unsigned char byte = input->bytes[0];
     drop_bytes(input, 1);
-    if (byte >= 128) // no key of ours
+    if (byte >= 128) // not a key with a name
         return (Event){.kind = EVENT_NONE};
     const char *key = key_of_character((char)byte);
     if (!key && byte > 0 && byte <= 26) {

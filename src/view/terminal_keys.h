@@ -1,5 +1,4 @@
-// terminal_keys.h: what a terminal sends, as events: characters, the sequences of special keys, mouse and focus
-// reports.
+// terminal_keys.h: converts terminal input to events: characters, escape sequences of keys, reports of mouse and focus.
 #ifndef PETRI_SRC_TERMINAL_KEYS_H
 #define PETRI_SRC_TERMINAL_KEYS_H
 
@@ -8,16 +7,17 @@
 #include <stddef.h>
 
 typedef struct TerminalInput {
-    unsigned char bytes[256]; // not understood yet
+    unsigned char bytes[256]; // input that is not decoded yet
     size_t count;
-    double since;     // when the first of them came: an escape by itself is a key, but only after a moment
-    unsigned buttons; // of the mouse, that are down
-    bool closed;      // nothing more will come
+    double since;     // time at which the last bytes came; a lone escape is a key only after a delay
+    unsigned buttons; // mouse buttons that are pressed
+    bool closed;      // end of input
 } TerminalInput;
 
-// Reads what has come; sets `closed` at the end.
+// Reads available input; sets `closed` at its end.
 void terminal_input_read(TerminalInput *input, int fd);
-// The next event, EVENT_NONE if there is none yet. The pointer is told in cells, from 0, in the middle of a cell.
+// Returns the next event, or EVENT_NONE if there is none yet. The pointer's position is the middle of a cell, in cells
+// from 0.
 Event terminal_input_next(TerminalInput *input);
 
 #endif

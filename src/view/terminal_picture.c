@@ -1,4 +1,4 @@
-// terminal_picture.c: see terminal_picture.h.
+// terminal_picture.c: implementation of terminal_picture.h.
 #include "view/terminal_picture.h"
 
 #include <stdlib.h>
@@ -9,8 +9,8 @@
 #ifdef HAVE_CHAFA
 #include <chafa.h>
 
-// A cell if the terminal does not report its size; and the pixels drawn for a cell of text: its symbols
-// show about 2 x 2, and pictures of more pixels come too slowly without a graphics card.
+// The size of a cell if the terminal does not report it, and the number of pixels drawn per cell of text. Symbols show
+// about 2 x 2 pixels per cell, and drawing more is slow without a graphics card.
 enum { CELL_WIDTH = 8, CELL_HEIGHT = 16, DRAWN_WIDTH = 3, DRAWN_HEIGHT = 6 };
 
 struct TerminalPicture {
@@ -25,7 +25,7 @@ bool terminal_picture_possible(void) {
     return true;
 }
 
-// As the C library would find it; the process's own locale is never set.
+// Returns true if the environment selects UTF-8, by the C library's rules; the process never sets its locale.
 static bool locale_is_utf8(void) {
     static const char *const names[] = {"LC_ALL", "LC_CTYPE", "LANG"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
@@ -55,7 +55,7 @@ static ChafaCanvasMode colours_of(const ChafaTermInfo *terminal, bool colour) {
     return CHAFA_CANVAS_MODE_FGBG;
 }
 
-// What lies between us and the terminal (tmux, screen) passes no graphics on, whatever the environment says.
+// Multiplexers such as tmux and screen do not pass graphics on, whatever the environment says.
 static ChafaPixelMode pixels_of(const ChafaTermInfo *terminal, bool colour) {
     const char *name = getenv("TERM");
     bool between = getenv("TMUX") || (name && strncmp(name, "screen", 6) == 0);
@@ -95,7 +95,7 @@ bool terminal_picture_is_graphics(const TerminalPicture *renderer) {
     return renderer->pixels != CHAFA_PIXEL_MODE_SYMBOLS;
 }
 
-// The size of a cell in pixels, which need not be whole: terminals have margins.
+// Returns the size of a cell in pixels, which may be fractional because terminals have margins.
 static void cell_size(const TerminalPicture *renderer, double *width, double *height) {
     struct winsize size;
     *width = CELL_WIDTH;

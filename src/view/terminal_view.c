@@ -1,7 +1,7 @@
-// terminal_view.c: a display that is the terminal: pictures by libchafa, keys and the mouse by escape sequences.
+// terminal_view.c: a display that is the terminal: pictures by libchafa, keys and mouse by escape sequences.
 //
-// While it is open the terminal is on its other screen, tells single keys and the mouse, and shows no cursor. However
-// the process ends, short of SIGKILL, the terminal is given back as it was.
+// While it is open, the terminal uses its alternate screen, reports single keys and the mouse, and hides the cursor.
+// The terminal is restored however the process ends, except by SIGKILL.
 #include "base/file.h"
 #include "cli/byte_buffer.h"
 #include "cli/cli.h"
@@ -20,12 +20,12 @@
 
 enum { DEFAULT_COLUMNS = 80, DEFAULT_ROWS = 24 };
 
-// The other screen, no cursor, mouse and focus reports, title put aside; and back.
+// Alternate screen, hidden cursor, mouse and focus reports, saved title; and the reverse.
 static const char ENTER[] = "\033[?1049h\033[?25l\033[?1003h\033[?1006h\033[?1004h\033[22;0t\033[2J";
 static const char LEAVE[] = "\033[0m\033[?1004l\033[?1006l\033[?1003l\033[?25h\033[23;0t\033[?1049l";
-// Kitty's images are taken away by themselves.
+// Kitty images must be deleted separately.
 static const char DELETE_IMAGES[] = "\033_Ga=d,q=2\033\\";
-// What is between these two is shown at once, where the terminal knows of it.
+// Output between these two is shown at once by terminals that support it.
 static const char BEGIN_UPDATE[] = "\033[?2026h", END_UPDATE[] = "\033[?2026l";
 
 struct Display {
@@ -34,25 +34,25 @@ struct Display {
     TerminalCells cells; // of the picture shown last
     int columns;         // of the terminal
     int rows;
-    int left; // cells before the picture
-    int top;
+    int left; // columns before the picture
+    int top;  // rows above the picture
     Overlay shown;
     char title[200];
     bool colour;
-    bool clear; // everything has to be drawn anew
+    bool clear; // the whole screen must be drawn again
 };
 
-// Signal handlers, and exit, can reach nothing but globals. What has to be given back is here while it has to be.
+// Global, because signal handlers and atexit functions have no other access.
 static struct {
-    pthread_t owner; // the thread that draws
-    volatile sig_atomic_t entered;
+    pthread_t owner;               // the thread that draws
+    volatile sig_atomic_t entered; // the terminal must be restored
     volatile sig_atomic_t resized;
     volatile sig_atomic_t suspended;
     bool has_settings;
     struct termios settings;
 } terminal;
 
-// Safe in signal handlers.
+// Restores the terminal. Safe in signal handlers.
 static void restore_terminal(void) {
     if (terminal.entered) {
         terminal.entered = 0;
@@ -62,7 +62,8 @@ static void restore_terminal(void) {
     }
 }
 
-// A signal from outside may come to any thread, and the one that draws must not go on after the terminal is given back.
+// An external signal may arrive in any thread. It is forwarded to the drawing thread, which must not draw after the
+// terminal is restored.
 static void on_crash(int number, siginfo_t *info, void *context) {
     (void)context;
     if ((info->si_code == SI_USER || number == SIGQUIT) && !pthread_equal(pthread_self(), terminal.owner)) {
@@ -97,7 +98,7 @@ static void catch_signals(void) {
 static void enter_terminal(void) {
     if (terminal.has_settings) {
         struct termios raw = terminal.settings;
-        raw.c_lflag &= ~(tcflag_t)(ICANON | ECHO | IEXTEN); // Ctrl-C and Ctrl-Z stay signals
+        raw.c_lflag &= ~(tcflag_t)(ICANON | ECHO | IEXTEN); // Ctrl-C and Ctrl-Z still send signals
         raw.c_iflag &= ~(tcflag_t)(IXON | ICRNL);
         raw.c_cc[VMIN] = 0;
         raw.c_cc[VTIME] = 0;
@@ -135,7 +136,7 @@ static Display *terminal_open(const char *title, int width, int height, PetriPai
     (void)width;
     (void)height;
     if (!isatty(STDOUT_FILENO)) {
-        message("there is no display, and standard output is no terminal");
+        message("no display, and standard output is not a terminal");
         return NULL;
     }
     Display *display = memory_calloc(sizeof *display);
@@ -148,7 +149,7 @@ static Display *terminal_open(const char *title, int width, int height, PetriPai
         return NULL;
     }
     terminal.has_settings = isatty(STDIN_FILENO) && tcgetattr(STDIN_FILENO, &terminal.settings) == 0;
-    display->input.closed = !terminal.has_settings; // keys come from terminals only
+    display->input.closed = !terminal.has_settings; // keys are only read from terminals
     terminal.owner = pthread_self();
     atexit(restore_terminal);
     catch_signals();
@@ -158,7 +159,7 @@ static Display *terminal_open(const char *title, int width, int height, PetriPai
     return display;
 }
 
-// Ctrl-Z: the shell gets its terminal until it says to go on.
+// On Ctrl-Z, restores the terminal for the shell until the process is continued.
 static void suspend_process(Display *display) {
     terminal.suspended = 0;
     restore_terminal();
@@ -214,7 +215,7 @@ static bool terminal_coarse(const Display *display) {
     return !terminal_picture_is_graphics(display->renderer);
 }
 
-// Writes the lines of a text from a row on, each over the whole width.
+// Writes the lines of a text from `row` on, each over the full width.
 static void add_lines(ByteBuffer *out, const char *text, int row, const Display *display, const char *look) {
     for (const char *line = text; line && *text != '\0' && row < display->rows; row++) {
         byte_buffer_format(out, "\033[%d;1H%s %.*s\033[K\033[0m", row + 1, look, (int)strcspn(line, "\n"), line);
@@ -223,7 +224,7 @@ static void add_lines(ByteBuffer *out, const char *text, int row, const Display 
     }
 }
 
-// What is wrong at the top, the mark at its right, the rest at the bottom.
+// Adds the errors at the top, the mark to their right, and the other texts at the bottom.
 static void add_overlay(ByteBuffer *out, const Display *display, const Overlay *overlay) {
     static const char reverse[] = "\033[7m", careful[] = "\033[38;5;230;48;5;58m";
     char text[sizeof *overlay];
@@ -262,7 +263,7 @@ static bool same_lines(const Overlay *a, const Overlay *b) {
 }
 
 static bool terminal_show(Display *display, uint32_t *pixels, int width, int height, const Overlay *overlay) {
-    (void)width; // what terminal_size said
+    (void)width; // the size set by terminal_size
     (void)height;
     size_t length = 0;
     char *text = terminal_picture_text(display->renderer, pixels, &display->cells, &length);
@@ -273,7 +274,7 @@ static bool terminal_show(Display *display, uint32_t *pixels, int width, int hei
     SCOPED_BYTE_BUFFER out = {0};
     byte_buffer_add_text(&out, BEGIN_UPDATE);
     if (display->clear || !same_lines(overlay, &display->shown))
-        byte_buffer_format(&out, "\033[0%sm\033[2J", display->colour ? ";40" : ""); // bars are black, as in a window
+        byte_buffer_format(&out, "\033[0%sm\033[2J", display->colour ? ";40" : ""); // black bars, as in a window
     if (terminal_picture_is_graphics(display->renderer))
         byte_buffer_add_text(&out, DELETE_IMAGES);
     add_picture(&out, display, text, length);

@@ -1,4 +1,4 @@
-// view.c: `petri view`: a script's picture, live: the loop between a world (live_script.h) and a display (display.h).
+// view.c: `petri view`: the main loop, which connects a live script (live_script.h) and a display (display.h).
 #include "view/view.h"
 
 #include "cli/progress.h"
@@ -13,25 +13,25 @@
 #include <string.h>
 #include <unistd.h>
 
-// Seconds: a saved script is seen after at most that.
+// Seconds: the maximum delay before a saved script is noticed.
 static const double MAX_SLEEP = 0.05;
 enum { MAX_EVENTS = 256, DEFAULT_SIZE = 512 };
 
-// A signal handler can reach nothing but a global.
+// Global, because a signal handler has no other access.
 static volatile sig_atomic_t interrupted;
 
 static void on_interrupt(int number) {
     interrupted = number;
 }
 
-// The first of these closes the view with all that belongs to it; a second one ends the process.
+// The first signal closes the view properly; a second one ends the process.
 static void catch_interrupts(void) {
     signal_catch(SIGINT, on_interrupt, (int)SA_RESETHAND);
     signal_catch(SIGTERM, on_interrupt, (int)SA_RESETHAND);
     signal_catch(SIGHUP, on_interrupt, (int)SA_RESETHAND);
 }
 
-// The window's size and title, of which the script may change its mind at any time.
+// Updates size and title of the display, which the script may change in any frame.
 static void follow_script(View *view) {
     int width = DEFAULT_SIZE, height = DEFAULT_SIZE;
     const char *title = view->live.options->script;
@@ -52,7 +52,7 @@ static void follow_script(View *view) {
 
 static void step_script(View *view) {
     live_script_step(&view->live);
-    view->step_once = view->paused && view->live.before_first_picture; // what is not seen is no step
+    view->step_once = view->paused && view->live.before_first_picture; // continue until a frame is visible
     follow_script(view);
     view_update_error_text(view);
     if (view->paused)
@@ -69,7 +69,7 @@ static bool can_step(const View *view) {
     return !view->live.halted && (!view->paused || view->step_once);
 }
 
-// Seconds until something is to be done: a step, a picture, the end of a notice.
+// Returns the seconds until the next action: a step, a picture, the end of a notice.
 static double idle_seconds(const View *view) {
     double now = clock_seconds(), idle = MAX_SLEEP;
     if (can_step(view))
@@ -79,7 +79,7 @@ static double idle_seconds(const View *view) {
     return fmax(0, fmin(idle, view->notice_ends - now));
 }
 
-// The picture is in the middle of the display's pixels.
+// Reports the pointer to the session. The picture is centred in the display's pixels.
 static void report_pointer(View *view, const Event *event) {
     int across, down;
     view->kind->size(view->display, view->width, view->height, &across, &down);
@@ -112,12 +112,12 @@ static void take_screenshot(View *view) {
 
 static void reset_script(View *view) {
     live_script_reset(&view->live);
-    view->step_once = true; // so that the first frame is seen even while paused
+    view->step_once = true; // show the first frame even while paused
     view_update_error_text(view);
     view_notice(view, "reset");
 }
 
-// Keys for the script's parameters; what they do is seen at once.
+// Handles the keys for the script's parameters.
 static void change_parameters(View *view, const char *key) {
     SCOPED_BYTE_BUFFER text = {0};
     ParameterResult act = parameter_key(&view->parameters, &view->live, key, &text);
@@ -158,7 +158,7 @@ static void execute_key(View *view, const char *key) {
     }
 }
 
-// A key that the script asks for is the script's, unless it is pressed with Control.
+// Keys that the script binds go to the script, unless they are pressed with Control.
 static void handle_key(View *view, const Event *event) {
     if (!event->key)
         return;
@@ -203,7 +203,7 @@ static void handle_events(View *view) {
     }
 }
 
-// Few pixels are made of a picture of which the display can show only so many.
+// Reduces the detail of pictures to the resolution of the display.
 static void choose_detail(View *view) {
     int width = 0, height = 0;
     if (!view->kind->coarse || !view->kind->coarse(view->display))
@@ -212,13 +212,13 @@ static void choose_detail(View *view) {
     world_set_detail(&view->live, width > 0 && width < view->width ? (double)width / view->width : 1);
 }
 
-// What shines through a picture without a window is black.
+// Replaces transparency by black, as there is nothing behind the picture.
 static void make_opaque(uint32_t *pixels, size_t count) {
     for (size_t i = 0; i < count; i++)
         pixels[i] |= 0xFF000000;
 }
 
-// Draws into pixels, and shows those.
+// Draws into view->pixels and shows them.
 static PetriStatus show_pixels(View *view, PetriPicture *picture) {
     int width, height;
     PetriStatus status = PETRI_OK;
@@ -245,22 +245,21 @@ static void draw_view(View *view) {
     PetriPicture *picture = view->live.picture_hidden ? NULL : view->live.picture;
     PetriStatus status;
     view->redraw = false;
-    view->drawn = clock_seconds(); // pictures follow each other at once where drawing is slow
+    view->drawn = clock_seconds(); // if drawing is slow, the next picture follows at once
     if (!view->kind->show_directly || !view->kind->show_directly(view->display, picture, &view->overlay, &status))
         status = show_pixels(view, picture);
     live_script_check_drawn(&view->live, status);
     if (picture) {
         petri_picture_report(view->live.session, picture);
-        view_update_error_text(view); // what drawing has found wrong, which is seen next
+        view_update_error_text(view); // show the problems that drawing reported
     }
     view->pictures++;
 }
 
 static void handle_changes(View *view) {
-    ListenerResult news = listener_serve(&view->listener, &view->live);
-    if (news != LISTENER_NOTHING) {
-        view->step_once =
-            (view->step_once || view->paused) && news == LISTENER_ACCEPTED; // so that what was sent is seen
+    ListenerResult result = listener_serve(&view->listener, &view->live);
+    if (result != LISTENER_NOTHING) {
+        view->step_once = (view->step_once || view->paused) && result == LISTENER_ACCEPTED; // show what was sent
         view->redraw = true;
         view_update_status(view);
         view_update_error_text(view);
@@ -269,27 +268,27 @@ static void handle_changes(View *view) {
         return;
     if (live_script_error_text(&view->live)[0] == '\0') {
         view_notice(view, "loaded the changed script");
-        view->step_once = view->paused; // so that the change is seen
+        view->step_once = view->paused; // show the change
     }
     view_update_error_text(view);
 }
 
-// Whether anything comes of a run that nobody sees.
+// Returns true if the run has an effect even without a display.
 static bool has_purpose(const View *view) {
     const Options *options = view->live.options;
     return options->frames < INT64_MAX || !isnan(options->run_time) || options->state_file || options->listen ||
            (view->live.picture && petri_picture_needs_history(view->live.picture));
 }
 
-// If the screen has gone, what the display has of it can neither be used nor closed any more.
+// After the loss of a screen, the display's resources can neither be used nor closed.
 static void check_display(View *view) {
     if (!view->kind->gone || !view->kind->gone(view->display))
         return;
     view->broken = !has_purpose(view);
-    message(view->broken ? "the display has gone" : "the display has gone; the run goes on without it");
+    message(view->broken ? "display lost" : "display lost; continuing without it");
     view->kind = null_display();
     view->display = NULL;
-    view->paused = false; // by a key that is gone, too
+    view->paused = false; // the keys to resume are lost as well
     petri_report_pointer(view->live.session, NULL);
     petri_resync_clock(view->live.session);
 }
@@ -306,7 +305,7 @@ static void run_loop(View *view) {
                 petri_resync_clock(view->live.session);
             step_script(view);
         }
-        // A run that is to end by itself ends when nothing more can come.
+        // A run with an end stops as soon as no further frame can be computed.
         if (view->live.halted && (view->live.options->frames < INT64_MAX || !isnan(view->live.options->run_time)))
             return;
         view_measure_rate(view);
@@ -315,19 +314,19 @@ static void run_loop(View *view) {
             check_display(view);
         }
     }
-    // However quick a run was, its last frame is seen.
+    // Always show the last frame, even if the run was very short.
     if (view->redraw && at_end(view) && !view->broken)
         draw_view(view);
 }
 
-// A window if there is a screen for it, else the terminal.
+// Opens a window if there is a screen for it, else the terminal.
 static bool open_display(View *view) {
     const Options *options = view->live.options;
     bool window = !options->terminal && window_display() && window_has_screen();
     if (!window && !terminal_display()) {
         message(options->terminal || window_display()
-                    ? "this petri was built without libchafa, so it shows no pictures in terminals"
-                    : "this petri was built without SDL and libchafa, so it has no way to show pictures");
+                    ? "cannot show pictures in a terminal: petri was built without libchafa"
+                    : "cannot show pictures: petri was built without SDL and libchafa");
         return false;
     }
     view->kind = window ? window_display() : terminal_display();
@@ -342,12 +341,12 @@ static bool open_display(View *view) {
     return view->display;
 }
 
-// `petri run --show` passes these options.
+// Returns true for `petri run --show`, which passes these options.
 static bool is_show(const View *view) {
     return view->live.options->terminal && view->live.options->verbosity == LOG_VERBOSE;
 }
 
-// The last picture of a show stays on the screen that is there again, above what report_summary writes.
+// Leaves the last picture of `petri run --show` on the normal screen, above the output of report_summary.
 static void leave_picture(const View *view) {
     enum { LINES_BELOW = 5 };
     if (is_show(view) && !interrupted && view->drawn_width > 0) {
@@ -356,7 +355,7 @@ static void leave_picture(const View *view) {
     }
 }
 
-// To a person who watches, as the other commands do; on the screen that is there again after the pictures.
+// Reports the result on the normal screen, like the other commands, if standard error is a terminal.
 static void report_summary(const View *view) {
     Verbosity verbosity = view->live.options->verbosity;
     double seconds = clock_seconds() - view->start;
@@ -372,7 +371,7 @@ static void report_summary(const View *view) {
     if (is_show(view))
         hint_pictures(view->host, view->live.options->script);
     else if (window_has_screen() && !window_display() && verbosity >= LOG_NORMAL)
-        message("it was shown in the terminal, for this petri was built without SDL; './dev build' adds windows");
+        message("shown in the terminal, because petri was built without SDL; './dev build' adds windows");
 }
 
 static int run_view(View *view) {
@@ -381,7 +380,7 @@ static int run_view(View *view) {
     view->redraw = true;
     view->live.awaits_display = true;
     if (view->live.options->frames > 0)
-        step_script(view); // before anything opens: it tells the size
+        step_script(view); // the display needs the size of the picture
     follow_script(view);
     catch_interrupts();
     bool opened = open_display(view);
@@ -421,7 +420,7 @@ static int view_run(const CommandContext *context, Options *options) {
     free(view.pixels);
     if (view.kind == null_display()) {
         fflush(NULL);
-        _exit(status); // libraries would look for the screen, for ever
+        _exit(status); // libraries would wait for the lost screen forever
     }
     return status;
 }
@@ -430,18 +429,18 @@ const Command VIEW_COMMAND = {
     .name = "view",
     .live = true,
     .operands = "SCRIPT.fl",
-    .summary = "show a script's picture as it runs, in a window or in the terminal",
+    .summary = "show a running script in a window or terminal",
     .details =
-        "Shows what a script draws, or its particles, as it runs: in a window, or in the terminal where there is no\n"
-        "display. Saving the script loads it anew and keeps its state; while it has mistakes they are shown, and the\n"
-        "last good version goes on. When the display goes away, a run that has an end, a state, a socket or pictures\n"
-        "to record goes on without it.\n"
+        "Shows the pictures of a script, or its particles, while it runs, in a window or (without a display) in the\n"
+        "terminal. When the script is saved, it is reloaded and keeps its state. While it has errors, they are\n"
+        "shown and the last good version keeps running. If the display is lost, a run that has an end, a state file,\n"
+        "a socket or pictures to record continues without it.\n"
         "\n"
-        "Keys: space pauses, . makes one step, r starts anew, f fills the screen, s saves the picture, h shows frame\n"
-        "rate and clocks, w lists warnings, whose number a corner shows, q or Escape quits. Tab or ] and [ choose a\n"
-        "parameter of the script (petri help run), up and down or + and - change it (page up and down: ten steps), 0\n"
-        "or backspace sets its default. Those that the script asks for by !key are the script's; with Control they\n"
-        "have the meaning above.",
+        "Keys: space pauses, . makes one step, r restarts, f toggles full screen, s saves the picture, h shows frame\n"
+        "rate and clocks, w lists warnings (a corner shows their number), q or Escape quits. Tab or ] and [ choose a\n"
+        "parameter of the script (petri help run); up and down or + and - change it (page up and down: ten steps);\n"
+        "0 or backspace resets it to its default. Keys that the script requests with !key go to the script; with\n"
+        "Control they have the meaning above.",
     .examples =
         "  petri view dish.fl                              until it is closed; save dish.fl to see what changed\n"
         "  petri view dish.fl --terminal -D DROPS=50       in the terminal\n",

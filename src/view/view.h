@@ -1,4 +1,4 @@
-// view.h: what the files of `petri view` share.
+// view.h: the state of `petri view`, shared by its files.
 #ifndef PETRI_SRC_VIEW_VIEW_H
 #define PETRI_SRC_VIEW_VIEW_H
 
@@ -20,41 +20,41 @@ typedef struct View {
     bool shows_warnings;
     bool redraw;
     bool closing;
-    bool broken; // the display, or memory for it, is gone
+    bool broken; // the display is lost, or out of memory
     double start;
-    double drawn;       // when the drawing of the last picture began
-    double notice_ends; // INFINITY: it stays
+    double drawn;       // time at which drawing the last picture began
+    double notice_ends; // INFINITY: no end
     // The frame rate
     double measured;
     int64_t measured_frames;
     double rate;
     // Pixels of the display
     uint32_t *pixels;
-    int drawn_width; // 0: nothing was drawn into them
+    int drawn_width; // 0: not drawn yet
     int drawn_height;
-    int64_t pictures; // shown since the view was opened
-    // The script's size and title as the display knows them
+    int64_t pictures; // number of pictures shown since the view was opened
+    // Size and title of the script as last passed to the display
     int width;
     int height;
     char title[300];
-    Event pointer; // the last that moved
+    Event pointer; // last pointer event
     ParameterKeys parameters;
 } View;
 
-// status_text.c: the texts over the picture, which is drawn again where they change.
+// status_text.c: the texts over the picture. Changing one makes the picture be drawn again.
 
-// Tells what was done just now, for some seconds.
+// Shows a message about the last action for some seconds.
 __attribute__((format(printf, 2, 3))) void view_notice(View *view, const char *format, ...);
-// Shows for three seconds which key lists the others, unless there is something else to show.
+// Shows for three seconds which key lists the other keys, unless another notice is shown.
 void view_hint_keys(View *view);
-// Shows what there is when there is nothing to tell.
+// Replaces the notice by the default one: how to resume while paused, else nothing.
 void view_reset_notice(View *view);
-// What is wrong with the script, and the number or list of its warnings.
+// Updates the errors of the script, and the number or the list of its warnings.
 void view_update_error_text(View *view);
-// Frame rate, clocks and keys.
+// Updates frame rate, clocks and keys.
 void view_update_status(View *view);
-// The same, if it is time to: twice a second is as much as can be read; while paused the numbers are those of the frame
-// that is seen.
+// Measures the frame rate and updates the status twice a second; more often would be unreadable. While paused, the
+// status stays that of the current frame.
 void view_measure_rate(View *view);
 
 #endif

@@ -1,4 +1,4 @@
-// window.c: a display that is a window, on SDL.
+// window.c: a display that is a window of SDL.
 #include "cli/byte_buffer.h"
 #include "cli/cli.h"
 #include "petri.h"
@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// A way to the screen that the user has chosen, as SDL's users do; NULL: none.
+// Returns the video driver that the user has chosen with SDL's environment variable, or NULL.
 static const char *chosen_driver(void) {
     const char *driver = getenv("SDL_VIDEODRIVER");
     return driver && driver[0] != '\0' ? driver : NULL;
@@ -26,24 +26,24 @@ bool window_has_screen(void) {
 #ifdef HAVE_SDL
 #include <SDL.h>
 
-// A window is never smaller than this, nor larger than this part of the screen.
+// The limits of a window's size: at least MIN_SIZE, at most this fraction of the screen.
 enum { MIN_SIZE = 64 };
 static const double MAX_SCREEN_FRACTION = 0.9;
 
 struct Display {
     SDL_Window *window;
-    SDL_GLContext context;  // in which the painter draws on the window; or NULL
-    SDL_Renderer *renderer; // … and then this brings its pixels there
+    SDL_GLContext context;  // context in which the painter draws into the window; NULL: `renderer` is used
+    SDL_Renderer *renderer; // shows the painter's pixels; NULL: `context` is used
     SDL_Texture *texture;
     int texture_width;
     int texture_height;
     PetriPainter *painter; // borrowed
-    bool gone;             // the screen is
-    bool filled;           // the screen, by ourselves
-    SDL_Rect windowed;     // … where the window was before
+    bool gone;             // the screen was lost
+    bool filled;           // petri made the window as large as the screen, without a window manager
+    SDL_Rect windowed;     // position of the window before that
 };
 
-// As large as the script says, but shrunk to what fits on the screen.
+// Shrinks the script's size to fit the screen.
 static void fit_screen(int *width, int *height) {
     SDL_Rect screen;
     if (SDL_GetDisplayUsableBounds(0, &screen) != 0)
@@ -73,14 +73,14 @@ static void window_close(Display *display) {
     free(display);
 }
 
-// What SDL draws with OpenGL leaves its context in this thread, and then petri's, which come from EGL, cannot be used
-// in it. SDL takes its own up again when it next draws.
+// Releases SDL's OpenGL context. SDL leaves it current in this thread, where it would prevent the use of petri's EGL
+// contexts. SDL makes it current again for its next drawing.
 static void release_context(const Display *display) {
     if (!display->context && SDL_GL_GetCurrentContext())
         SDL_GL_MakeCurrent(display->window, NULL);
 }
 
-// Shown when it has its context or renderer: SDL may replace the window for that.
+// Creates a hidden window, because SDL may replace it when it creates the context or renderer.
 static bool create_window(Display *display, const char *title, int width, int height, Uint32 flags) {
     display->window = SDL_CreateWindow(title, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, width, height,
                                        SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI | SDL_WINDOW_HIDDEN | flags);
@@ -89,13 +89,13 @@ static bool create_window(Display *display, const char *title, int width, int he
     return display->window;
 }
 
-// A window whose OpenGL the painter takes, so that what it makes is shown where it is. Not for those who tell SDL how
-// to draw.
+// Creates a window with an OpenGL context that the painter uses, so that pictures stay on the graphics card. Not if the
+// user has chosen a driver for SDL's renderer.
 static bool create_with_gl(Display *display, const char *title, int width, int height) {
     const char *driver = getenv("SDL_RENDER_DRIVER");
     if (driver && driver[0] != '\0')
         return false;
-    setenv("EGL_LOG_LEVEL", "fatal", 0); // there is another way
+    setenv("EGL_LOG_LEVEL", "fatal", 0); // there is a fallback
     SDL_SetHint(SDL_HINT_VIDEO_X11_FORCE_EGL, "1");
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK, SDL_GL_CONTEXT_PROFILE_ES);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 3);
@@ -121,7 +121,7 @@ static bool create_with_gl(Display *display, const char *title, int width, int h
     return false;
 }
 
-// Drawing is our own; the renderer only brings the pixels to the screen. Where the graphics card cannot, software does.
+// Returns a renderer that copies pixels to the screen, in software if there is no graphics card.
 static SDL_Renderer *new_renderer(SDL_Window *window) {
     SDL_Renderer *renderer = SDL_CreateRenderer(window, -1, SDL_RENDERER_PRESENTVSYNC);
     return renderer ? renderer : SDL_CreateRenderer(window, -1, SDL_RENDERER_SOFTWARE);
@@ -136,7 +136,7 @@ static bool start_on(const DisplayProbe *screen) {
     return SDL_Init(SDL_INIT_VIDEO) == 0;
 }
 
-// Only what the environment names: a window that SDL opens somewhere else is not where the user is.
+// Starts SDL only on screens that the environment names, because others are not where the user is.
 static bool start_video(void) {
     const char *driver = chosen_driver();
     bool started = false, tried = false;
@@ -178,7 +178,7 @@ static Display *window_open(const char *title, int width, int height, PetriPaint
     return display;
 }
 
-// Keys that no character stands for; SDL numbers them as the keyboards do.
+// Returns the name of a key. SDL numbers keys without a character as keyboards do.
 static const char *key_name(SDL_Keycode code) {
     static const char *const keys[] = {
         "caps_lock", "f1",   "f2",         "f3",        "f4",          "f5",           "f6",          "f7",
@@ -207,7 +207,7 @@ static void output_size(const Display *display, int *width, int *height) {
         *width = *height = MIN_SIZE;
 }
 
-// How many pixels a unit of the window has; more than one on screens of high density.
+// Returns the number of pixels per unit of the window; more than one on high-density screens.
 static void density(const Display *display, double *across, double *down) {
     int width = 1, height = 1, pixels_across = 1, pixels_down = 1;
     SDL_GetWindowSize(display->window, &width, &height);
@@ -256,7 +256,7 @@ static Event window_event(const SDL_WindowEvent *event) {
     }
 }
 
-// To quit without having closed the window is what SDL asks for when Wayland has gone.
+// SDL sends a quit event without closing the window if the Wayland server was lost.
 static Event quit_event(Display *display) {
     const char *driver = SDL_GetCurrentVideoDriver();
     display->gone = driver && strcmp(driver, "wayland") == 0;
@@ -280,7 +280,7 @@ static Event translate_event(Display *display, const SDL_Event *event) {
         return pointer_event(display, event->motion.x, event->motion.y, event->motion.state);
     case SDL_MOUSEBUTTONDOWN:
     case SDL_MOUSEBUTTONUP: {
-        // The button at hand counts as the event says, however soon the next event follows.
+        // Set the button of this event explicitly, because SDL's state may already include later events.
         unsigned bit = button_bit(event->button.button);
         Event pointer = pointer_event(display, event->button.x, event->button.y, SDL_GetMouseState(NULL, NULL));
         pointer.buttons = event->type == SDL_MOUSEBUTTONDOWN ? pointer.buttons | bit : pointer.buttons & ~bit;
@@ -291,7 +291,7 @@ static Event translate_event(Display *display, const SDL_Event *event) {
     }
 }
 
-// Events that mean nothing to us are passed over, without waiting anew.
+// Ignored events do not extend the waiting time.
 static Event window_next_event(Display *display, double seconds) {
     SDL_Event found;
     int wait = (int)(seconds * 1000);
@@ -306,7 +306,7 @@ static Event window_next_event(Display *display, double seconds) {
 }
 
 static void window_size(Display *display, int width, int height, int *drawn_width, int *drawn_height) {
-    (void)width; // the picture is put into the middle of whatever the window is
+    (void)width; // the picture is centred in the window, whatever its size
     (void)height;
     output_size(display, drawn_width, drawn_height);
     release_context(display);
@@ -364,7 +364,7 @@ static void window_resize(Display *display, int width, int height) {
     }
 }
 
-// Where nobody manages windows, and so nothing but ours is on the screen, they are what we make them.
+// Fills the screen without a window manager, where a window gets the position and size it asks for.
 static void fill_screen(Display *display) {
     SDL_Rect screen, *windowed = &display->windowed;
     int number = SDL_GetWindowDisplayIndex(display->window);

@@ -1,4 +1,4 @@
-// window_manager.c: see window_manager.h.
+// window_manager.c: implementation of window_manager.h.
 #include "view/window_manager.h"
 
 #ifdef HAVE_SDL
@@ -8,7 +8,7 @@
 #ifdef SDL_VIDEO_DRIVER_X11
 #include <X11/Xatom.h>
 
-// SDL has loaded the library already; to link it as well would make each start slower.
+// Loaded at run time: SDL has loaded it already, and linking it would slow down every start.
 static const char LIBRARY[] = "libX11.so.6";
 
 typedef struct X11 {
@@ -32,7 +32,7 @@ static bool find_symbols(void *library, X11 *x11) {
            find_symbol(library, "XFree", &x11->release);
 }
 
-// A window manager is who has asked to be told before windows of the root are changed.
+// A window manager is a client that redirects changes of the root's windows.
 static bool is_managed(const X11 *x11, Display *display, Window root) {
     XWindowAttributes attributes;
     return x11->get_attributes(display, root, &attributes) != 0 &&
@@ -51,7 +51,7 @@ static bool knows_full_screen(const X11 *x11, Display *display, Window root) {
         x11->get_property(display, root, supported, 0, MAX_ATOMS, False, XA_ATOM, &type, &bits, &count, &left, &data) !=
             Success)
         return false;
-    for (unsigned long i = 0; bits == 32 && i < count; i++) { // of 32 bits on the wire: each is a long here
+    for (unsigned long i = 0; bits == 32 && i < count; i++) { // 32-bit values of the protocol, stored as longs
         Atom one;
         SDL_memcpy(&one, data + i * sizeof one, sizeof one);
         known = known || one == wanted;
@@ -82,7 +82,7 @@ static int ignore_error(Display *display) {
     return 0;
 }
 
-// Xlib ends the process unless this returns; then it fails from call to call.
+// Called after an I/O error. If it returns, Xlib lets calls fail instead of ending the process.
 static void ignore_io_error(Display *display, void *gone) {
     (void)display;
     *(bool *)gone = true;
@@ -95,9 +95,9 @@ void window_manager_watch(struct SDL_Window *window, bool *gone) {
     SDL_VERSION(&info.version);
     if (!SDL_GetWindowWMInfo(window, &info) || info.subsystem != SDL_SYSWM_X11)
         return;
-    void *library = SDL_LoadObject(LIBRARY); // for good: SDL has it, too
+    void *library = SDL_LoadObject(LIBRARY); // never unloaded, as SDL uses it too
     if (library && find_symbol(library, "XSetIOErrorHandler", &set_error) &&
-        find_symbol(library, "XSetIOErrorExitHandler", &set_exit)) { // from libX11 1.7 on
+        find_symbol(library, "XSetIOErrorExitHandler", &set_exit)) { // available since libX11 1.7
         set_error(ignore_error);
         set_exit(info.info.x11.display, ignore_io_error, gone);
     }

@@ -1,5 +1,5 @@
-// window_manager.h: what a window has to know of its screen that SDL does not tell: whether somebody fills the screen
-// with a window when SDL asks for it, and that the screen is gone.
+// window_manager.h: X11 functions that SDL lacks: whether full screen is supported, and surviving the loss of the
+// screen.
 #ifndef PETRI_SRC_WINDOW_MANAGER_H
 #define PETRI_SRC_WINDOW_MANAGER_H
 
@@ -7,11 +7,11 @@
 
 struct SDL_Window;
 
-// False on an X11 screen without a window manager, or with one that knows of no full screen: SDL asks it, is not heard,
-// and takes the window to be as large as the screen all the same.
+// Returns false on an X11 screen without a window manager or whose window manager does not support full screen. SDL's
+// request is ignored there, but SDL assumes that the window fills the screen.
 bool window_manager_fills_screen(struct SDL_Window *window);
-// From here on the end of an X11 screen does not end the process, as Xlib else would: what is asked of the screen then
-// fails, and `*gone` is set, which must live as long as the process.
+// Prevents the loss of an X11 screen from ending the process, which is Xlib's default. Requests to the screen then
+// fail, and `*gone` is set. `gone` must live as long as the process.
 void window_manager_watch(struct SDL_Window *window, bool *gone);
 
 #endif

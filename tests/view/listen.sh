@@ -76,7 +76,7 @@ check "what is no number is refused" done_is false
 send '.back 100000'
 check "beyond the start it goes to the first frame" [ "$(number frame)" = 0 ]
 send '.back'
-check "… before which there is nothing" has out "there is nothing to go back to: this is the start"
+check "… before which there is nothing" has out "cannot go back: this is the start"
 check "… with status 1" status_is 1
 type_keys Space
 send '1/0;"\x01é"'

@@ -511,12 +511,12 @@ kill -KILL "$server"
 wait "$server" 2>/dev/null
 server=
 check "a view whose display goes ends" ended 1
-check "and says why" has still.err "the display has gone"
+check "and says why" has still.err "display lost"
 check "in one line" [ "$(wc -l <still.err)" -eq 1 ]
 viewer=$goes_on
 sed -i 's/fps 0.01/fps 60/' slow.fl
 check "one that has an end reaches it" ended 0
-check "and says so" has err "the display has gone; the run goes on without it"
+check "and says so" has err "display lost; continuing without it"
 check "in one line" [ "$(wc -l <err)" -eq 1 ]
 "$petri" run slow.fl --state gone.state --frames 1 --print state >out 2>err
 check "it has saved its state" has out '@10 '
