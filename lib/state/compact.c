@@ -1,4 +1,4 @@
-// compact.c: keys, and dropping those that nobody needs any more; see state.h.
+// compact.c: copies of keys, and removal of unused slots (state_compact).
 #include "base/heap.h"
 #include "state/internal.h"
 
@@ -17,7 +17,6 @@ static void copy_key(void *context) {
     copy->key = value_copy(copy->keys, copy->key);
 }
 
-// A copy of a key; false if memory is used up.
 bool state_copy_key(Arena *keys, Value *copy, Value key) {
     KeyCopy copy_call = {keys, key};
     bool done = arena_protect(&keys, 1, copy_key, &copy_call) == ARENA_OK;
@@ -25,18 +24,18 @@ bool state_copy_key(Arena *keys, Value *copy, Value key) {
     return done;
 }
 
-// What a compaction makes, to take the place of what there is.
+// The new data of a compaction, which replaces the old data on success.
 typedef struct Compaction {
     HashIndex index;
     Arena keys;
-    Value *copies;                       // of keys, of the entries that are kept
-    Value heads[MAX_KEY_RANGES];         // likewise, of series
-    bool range_retained[MAX_KEY_RANGES]; // that are kept, with all their slots
-    uint32_t count;                      // slots
+    Value *copies;                       // by entry: copy of its key
+    Value heads[MAX_KEY_RANGES];         // by range: copy of its head
+    bool range_retained[MAX_KEY_RANGES]; // by range: true if it is kept with all its slots
+    uint32_t count;                      // number of slots
     uint32_t entry_count;
 } Compaction;
 
-// Which slots stay, under which numbers.
+// Determines which slots are kept and numbers them.
 static void number_slots(const State *state, const uint8_t *used, StateSlot *moved, Compaction *compaction) {
     for (uint32_t k = 0; k < state->range_count; k++) {
         const KeyRange *range = &state->ranges[k];
@@ -52,7 +51,7 @@ static void number_slots(const State *state, const uint8_t *used, StateSlot *mov
     }
 }
 
-// Indexes the slots that are kept, and copies their keys. False if memory is used up.
+// Indexes the kept slots and copies their keys. Returns false if out of memory.
 static bool index_slots(const State *state, const StateSlot *moved, Compaction *compaction) {
     for (uint32_t k = 0; k < state->range_count; k++) {
         const KeyRange *range = &state->ranges[k];

@@ -1,4 +1,4 @@
-// internal.h: what the files of lib/state share; nobody else includes it.
+// internal.h: declarations shared by the files of lib/state only.
 #ifndef PETRI_STATE_INTERNAL_H
 #define PETRI_STATE_INTERNAL_H
 
@@ -7,37 +7,38 @@
 #include "state/key_range.h"
 
 typedef struct StateEntry {
-    Value key;   // in `keys`, or inline
-    Value value; // one heap block, or inline; borrowed if there is a lender. Null: the slot is empty
+    Value key;   // data in the arena `keys`, or inline
+    Value value; // in a heap block, or inline; the owner's numbers if there is an owner; null: the slot is empty
     uint32_t hash;
     StateOwner owner;
 } StateEntry;
 
-// What a slot takes besides its key and value: the entry and its part of the index, both with room to grow.
+// Bytes charged per slot in addition to key and value: the entry and its share of the index, with spare capacity.
 #define SLOT_BYTES (2 * (sizeof(StateEntry) + sizeof(HashIndexSlot)))
 
 enum {
-    MAX_KEY_RANGES = 8,      // each look-up goes through them
-    MAX_SEPARATE_PAIRS = 64, // pairs of slots that have entries though they might be a series
+    MAX_KEY_RANGES = 8,      // every look-up checks all ranges
+    MAX_SEPARATE_PAIRS = 64, // slot pairs stored as entries before they become a range
 };
 
 struct State {
-    StateEntry *entries; // of all slots but those of series, in order
+    StateEntry *entries; // of all slots that are not in a range, in slot order
     uint32_t entry_count;
-    uint32_t capacity;
-    uint32_t count; // slots, empty ones included
-    uint32_t live;
-    KeyRange ranges[MAX_KEY_RANGES]; // in the order of their slots
+    uint32_t capacity;               // of `entries`
+    uint32_t count;                  // number of slots, including empty ones
+    uint32_t live;                   // number of slots with a value
+    KeyRange ranges[MAX_KEY_RANGES]; // in slot order
     uint32_t range_count;
-    uint32_t candidate_pairs; // pairs at the end of the entries that might be a series
+    uint32_t candidate_pairs; // slot pairs at the end of `entries` that could form a range
     HashIndex index;          // slots that have entries
-    Arena keys;
-    bool *modified; // by lender
+    Arena keys;               // data of the keys
+    bool *modified;           // by owner: see state_clear_modified
     uint32_t owner_count;
     bool exhausted; // see state_clear_exhausted
-    Budget *budget; // that memory is charged to, or NULL
+    Budget *budget; // charged for memory; NULL: none
 };
 
+// Returns the range that contains a slot, or NULL.
 static inline KeyRange *state_key_range(const State *state, StateSlot slot) {
     for (uint32_t i = 0; i < state->range_count; i++)
         if (key_range_has_slot(&state->ranges[i], slot))
@@ -45,7 +46,7 @@ static inline KeyRange *state_key_range(const State *state, StateSlot slot) {
     return NULL;
 }
 
-// The entry of a slot that is in no series.
+// Returns the entry of a slot that is not in a range.
 static inline StateEntry *state_entry(const State *state, StateSlot slot) {
     uint32_t skipped = 0;
     for (uint32_t i = 0; i < state->range_count && state->ranges[i].first < slot; i++)
@@ -53,8 +54,9 @@ static inline StateEntry *state_entry(const State *state, StateSlot slot) {
     return &state->entries[slot - skipped];
 }
 
-// compact.c: begins an arena for keys; puts a copy of a key into one, or returns false if memory is used up.
+// Initialises an arena for keys (compact.c).
 void state_start_keys(Arena *keys, Budget *budget);
+// Copies a key to the arena. Returns false if out of memory.
 bool state_copy_key(Arena *keys, Value *copy, Value key);
 
 #endif

@@ -19,14 +19,15 @@ void key_range_write_key(const KeyRange *range, uint32_t pair, double *to) {
 }
 
 static bool begins_with(const double *numbers, const double *prefix, uint32_t len) {
-    uint32_t i = 0; // prefixes are too short for memcmp to pay
+    uint32_t i = 0; // a loop is faster than memcmp for short prefixes
     while (i < len && same_bits(numbers[i], prefix[i]))
         i++;
     return i == len;
 }
 
-// Does a key begin as those of the series do and end as those of second slots, if it is as long?
-static bool is_alike(const KeyRange *range, Value key) {
+// Returns true if a key has the range's prefix and a valid length. The key of a second slot must also end with the
+// range's symbol.
+static bool has_range_form(const KeyRange *range, Value key) {
     uint32_t n = range->prefix_len;
     return key.kind == VALUE_NUMBERS && (key.len == n + 1 || key.len == n + 2) &&
            begins_with(key.as.numbers, range->head, n) &&
@@ -34,7 +35,7 @@ static bool is_alike(const KeyRange *range, Value key) {
 }
 
 StateSlot key_range_find(const KeyRange *range, Value key) {
-    if (!is_alike(range, key))
+    if (!has_range_form(range, key))
         return STATE_NO_SLOT;
     double id = key.as.numbers[range->prefix_len], pair = id - range->head[range->prefix_len];
     if (!(pair >= 0 && pair < range->count))
@@ -44,7 +45,7 @@ StateSlot key_range_find(const KeyRange *range, Value key) {
 }
 
 bool key_range_is_next(const KeyRange *range, Value key) {
-    return is_alike(range, key) && key.len == range->prefix_len + 1 + range->count % 2 &&
+    return has_range_form(range, key) && key.len == range->prefix_len + 1 + range->count % 2 &&
            same_bits(key.as.numbers[range->prefix_len], key_range_id(range, range->count / 2));
 }
 

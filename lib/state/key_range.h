@@ -1,49 +1,49 @@
-// key_range.h: keys of particles whose ids count up, without an entry for each of them.
+// key_range.h: compact storage for the state keys of consecutive particle ids.
 //
-// The slots of a system's particles come in pairs, prefix;id and prefix;id;symbol, and mostly the ids count up. Such
-// pairs in a row are a *series*: its keys follow from the first, and its values, which systems lend (state.h), from the
-// address of the first. So it takes no memory, however long it is. What does not fit is the dictionary's to keep in
-// entries of their own (state.c), into which a series is written out as soon as anything else happens to it.
+// A particle has two slots, prefix;id and prefix;id;symbol. For consecutive ids, the keys follow from the first key and
+// the values from the address of the first value in the owner (state.h). So a range of any length uses constant memory.
+// Other keys are stored as separate entries (state.c). Any other kind of write converts a range to entries.
 #ifndef PETRI_STATE_KEY_RANGE_H
 #define PETRI_STATE_KEY_RANGE_H
 
 #include "state/state.h"
 
-typedef struct Series {
+typedef struct KeyRange {
     StateSlot first;
-    uint32_t count;      // slots, of which the last may lack its partner
-    uint32_t prefix_len; // numbers of the prefix, at least 1
-    const double *head;  // the key of the second slot: prefix;id;symbol
-    const double *keys;  // those of all second slots, once somebody has asked; else NULL
-    uint32_t keys_count; // pairs that have one
-    // Values: slots lend or have none. Those before `fresh` lie at `numbers`, `len` each, those from there on up to
-    // `lent` where the system had them before.
+    uint32_t count;      // number of slots; odd while the last pair is incomplete
+    uint32_t prefix_len; // numbers in the prefix, at least 1
+    const double *head;  // key of the second slot: prefix;id;symbol
+    const double *keys;  // keys of all second slots; NULL until one is requested
+    uint32_t keys_count; // number of pairs in `keys`
+    // Values are either referenced from the owner or null.
     StateOwner owner;
-    uint32_t len;
-    uint32_t stored;
-    uint32_t referenced;
-    const double *numbers;
-    const double *previous;
+    uint32_t len;           // numbers per value
+    uint32_t stored;        // number of slots whose values start at `numbers`
+    uint32_t referenced;    // number of slots with values; those from `stored` still point into `previous`
+    const double *numbers;  // current array of the owner
+    const double *previous; // array that the owner used before
 } KeyRange;
 
 static inline bool key_range_has_slot(const KeyRange *range, StateSlot slot) {
     return slot >= range->first && slot - range->first < range->count;
 }
 
-// The slot of a key; STATE_NO_SLOT if it has none here.
+// Returns the slot of a key, or STATE_NO_SLOT if it is not in the range.
 StateSlot key_range_find(const KeyRange *range, Value key);
-// Is this the key of the slot that comes next?
+// Returns true if this is the key of the slot after the last one of the range.
 bool key_range_is_next(const KeyRange *range, Value key);
-// Do two pairs of keys follow each other in one series?
+// Returns true if the keys of two particles are consecutive in a range.
 bool key_range_follows(Value position, Value velocity, Value next_position, Value next_velocity);
-// The number by which pair number `pair` is known.
+// Returns the particle id of a pair.
 double key_range_id(const KeyRange *range, uint32_t pair);
 // Writes the key of the second slot of a pair.
 void key_range_write_key(const KeyRange *range, uint32_t pair, double *to);
 
+// Returns the value of a slot, or null.
 Value key_range_value(const KeyRange *range, StateSlot slot);
-// Has a slot borrow numbers; false if they do not follow those of the slots before.
+// Makes a slot reference the owner's numbers. Returns false if they are not directly after those of the previous slot.
 bool key_range_reference(KeyRange *range, StateSlot slot, StateOwner owner, const double *numbers, uint32_t len);
+// Returns true if a slot references numbers of the owner.
 static inline bool key_range_references(const KeyRange *range, StateSlot slot, StateOwner owner) {
     return slot - range->first < range->referenced && range->owner == owner;
 }

@@ -18,7 +18,7 @@ State *state_new(Budget *budget) {
     return state;
 }
 
-// A block for a value, within the budget.
+// Allocates the block of a value and charges it to the budget.
 static void *alloc_block(State *state, size_t bytes) {
     void *block = budget_reserve(state->budget, bytes) ? heap_alloc(bytes) : NULL;
     if (!block)
@@ -31,10 +31,10 @@ static bool set_exhausted(State *state) {
     return false;
 }
 
-// A mixed vector is kept as one heap block: items, then Strings, then their bytes.
+// Sizes of a mixed vector, which is stored in one heap block: the items, then the Strings, then their bytes.
 typedef struct Parts {
-    size_t strings;
-    size_t bytes; // of their texts
+    size_t strings; // number of strings
+    size_t bytes;   // total length of the strings
 } Parts;
 
 static Parts count_parts(Value v) {
@@ -47,7 +47,7 @@ static Parts count_parts(Value v) {
     return parts;
 }
 
-// Bytes of the block of a value; 0 if it has none.
+// Returns the size of the block of a value, or 0 if it is stored inline.
 static size_t block_size(Value v) {
     if (v.kind == VALUE_NUMBERS)
         return v.len > 1 ? v.len * sizeof(double) : 0;
@@ -143,7 +143,7 @@ static uint64_t key_hash(Value key) {
     return hash;
 }
 
-// Same bits, same code points (L11.2): stricter than ==.
+// Returns true if two keys have the same bits and strings (L11.2), which is stricter than ==.
 static bool key_equal(Value a, Value b) {
     if (a.len != b.len || a.kind != b.kind)
         return false;
@@ -173,7 +173,7 @@ static StateSlot find_in_key_ranges(const State *state, Value key) {
     return found;
 }
 
-// Turns the entries at the end into a series, if they have no values.
+// Converts the last entries to a range if they have no values.
 static void begin_key_range(State *state) {
     enum { SLOTS = 2 * MAX_SEPARATE_PAIRS };
     const StateEntry *entries = state->entries + state->entry_count - SLOTS;
@@ -192,7 +192,7 @@ static void begin_key_range(State *state) {
     budget_release(state->budget, SLOTS * SLOT_BYTES);
 }
 
-// A slot with an entry was made: is there a row of pairs now that is worth a series?
+// Called after an entry was created. Converts the last entries to a range if enough consecutive pairs exist.
 static void detect_key_range(State *state) {
     const StateEntry *end = state->entries + state->entry_count;
     if (state->range_count == MAX_KEY_RANGES || state->entry_count < 4 || end[-1].key.kind != VALUE_NUMBERS ||
@@ -212,7 +212,7 @@ static bool is_next_in_key_range(const State *state, Value key) {
     return last && last->first + last->count == state->count && key_range_is_next(last, key);
 }
 
-// Room for more entries. False if memory is used up.
+// Makes room for more entries. Returns false if out of memory.
 static bool reserve_entries(State *state, uint32_t count) {
     if (!budget_reserve(state->budget, count * SLOT_BYTES))
         return set_exhausted(state);
@@ -277,7 +277,7 @@ static void write_keys(void *context) {
     range->keys_count = pairs;
 }
 
-// The key of a slot in a series. Keys are written out when the first is asked for; null if there is no memory for them.
+// Returns the key of a slot in a range. The first call creates all keys of the range. Returns null if out of memory.
 static Value range_key(State *state, KeyRange *range, StateSlot slot) {
     uint32_t at = slot - range->first, stride = range->prefix_len + 2;
     Arena *arena = &state->keys;
@@ -340,7 +340,7 @@ double state_slot_last_number(const State *state, StateSlot slot, uint32_t len) 
     return last.type == ITEM_NUMBER ? last.as.number : NAN;
 }
 
-// Makes entries of the slots of a series, behind those of the slots before. False if memory is used up.
+// Converts a range to entries, in slot order. Returns false if out of memory.
 static bool expand_key_range(State *state, KeyRange *gone) {
     KeyRange range = *gone;
     uint32_t at = (uint32_t)(state_entry(state, range.first) - state->entries), added = 0;
@@ -369,13 +369,13 @@ static bool expand_key_range(State *state, KeyRange *gone) {
     return true;
 }
 
-// The same for the series of a slot, if it is in one.
+// If a slot is in a range, converts the range to entries.
 static bool ensure_entry(State *state, StateSlot slot) {
     KeyRange *range = state_key_range(state, slot);
     return !range || expand_key_range(state, range);
 }
 
-// Puts a value that the entry owns from now on in the place of the one it has.
+// Replaces the value of an entry. The entry takes ownership of the new value.
 static void replace_value(State *state, StateEntry *entry, Value owned) {
     state->live += (owned.len > 0);
     state->live -= (entry->value.len > 0);
@@ -390,7 +390,7 @@ bool state_slot_set(State *state, StateSlot slot, Value value) {
         return slot != STATE_NO_SLOT;
     Value present = state_slot_get(state, slot);
     if (present.len == value.len && (value.len == 0 || value_equal(NULL, present, value)))
-        return true; // equal values leave the stored bits alone
+        return true; // an equal value does not change the stored bits
     if (!ensure_entry(state, slot))
         return false;
     StateEntry *entry = state_entry(state, slot);
@@ -455,7 +455,7 @@ bool state_slot_references(const State *state, StateSlot slot, StateOwner owner)
 bool state_slot_detach(State *state, StateSlot slot, StateOwner owner) {
     if (!state_slot_references(state, slot, owner))
         return true;
-    if (!ensure_entry(state, slot)) { // the series cannot keep what its lender is about to take away
+    if (!ensure_entry(state, slot)) { // the owner's numbers become invalid, so the range must not reference them
         KeyRange *range = state_key_range(state, slot);
         state->live -= range->referenced;
         range->referenced = range->stored = 0;

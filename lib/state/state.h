@@ -1,8 +1,8 @@
 // state.h: the state dictionary (spec language.md L11).
 //
-// A mapping from key vectors to non-null vectors that lives as long as the session. Scripts only read it; engine
-// systems write it between evaluations. Entries keep the order in which their slots were made, and a slot is a stable
-// number, so a system finds a key once and then reads and writes its slot without hashing.
+// Maps key vectors to non-null vectors for the lifetime of the session. Scripts only read it; physics systems and other
+// parts of the engine write it between evaluations. Entries keep the order in which their slots were created. A slot is
+// a stable number, so a system looks up a key once and then accesses the slot without hashing.
 #ifndef PETRI_STATE_STATE_H
 #define PETRI_STATE_STATE_H
 
@@ -12,72 +12,73 @@ typedef struct State State;
 typedef uint32_t StateSlot;
 #define STATE_NO_SLOT UINT32_MAX
 
-// NULL if memory is used up. What it holds is charged to the meter (or NULL), which counts as memory that is used up,
-// too, when it refuses.
+// Returns NULL if out of memory. Memory is charged to the budget (NULL: none). If the budget is exceeded, functions
+// fail as if out of memory.
 State *state_new(Budget *budget);
 void state_free(State *state);
-// Removes every entry; slots become invalid.
+// Removes all entries. Slots become invalid.
 void state_clear(State *state);
 
-// Can this vector be a key at all: numbers (no nan) and strings only (L11.2). Null can.
+// Returns true if a vector can be a key: it contains only strings and numbers other than NaN (L11.2), or is null.
 bool state_key_valid(Value key);
 
-// The value under a key, or null. A borrowed view: valid until that key is written or removed.
+// Returns the value of a key, or null. Valid until the key is written or removed.
 Value state_get(const State *state, Value key);
-// Stores a copy of the value; null removes the key. An invalid key is ignored. A value that compares equal to the
-// stored one leaves the stored one, so 0 is not replaced by -0. Returns false if memory is used up.
+// Stores a copy of the value; null removes the key. An invalid key is ignored. A value equal to the stored one changes
+// nothing, so 0 is not replaced by -0. Returns false if out of memory.
 bool state_set(State *state, Value key, Value value);
 
-// Slots. state_slot finds or makes the slot of a valid key; a slot without value is not an entry. It stays valid until
-// state_clear. STATE_NO_SLOT if memory is used up.
+// Returns the slot of a valid key and creates it if necessary. A slot without a value does not count as an entry. Slots
+// are valid until state_clear or state_compact. Returns STATE_NO_SLOT if out of memory.
 StateSlot state_slot(State *state, Value key);
-// The slot of a key if there is one, else STATE_NO_SLOT.
+// Returns the slot of a key, or STATE_NO_SLOT if it has none.
 StateSlot state_find(const State *state, Value key);
 Value state_slot_get(const State *state, StateSlot slot);
-// The key of a slot; a borrowed view, valid until state_clear. Keys of particles whose ids count up are written out
-// when the first of them is asked for (key_range.h): null if memory is used up.
+// Returns the key of a slot. Valid until state_clear or state_compact. The keys of a range (key_range.h) are all
+// created when the first is requested; returns null if that runs out of memory.
 Value state_slot_key(const State *state, StateSlot slot);
-// The same without memory; valid as long as `room` is.
+// Like state_slot_key, but needs no memory: the key may be stored in `buffer`.
 enum { STATE_KEY_BUFFER = 16 };
 Value state_slot_key_in(const State *state, StateSlot slot, double buffer[STATE_KEY_BUFFER]);
 bool state_slot_has_key(const State *state, StateSlot slot, Value key);
-// The last number of a key of so many elements; the quiet NaN, which no key has, if this one has more or fewer or ends
-// with a text.
+// Returns the last number of a key with `len` elements. If the key has another length or ends with a string, returns
+// NaN, which no key contains.
 double state_slot_last_number(const State *state, StateSlot slot, uint32_t len);
-// Where key and value are, or `room`: valid until a slot is made, or state_clear. The slot must exist.
+// Return the address of the key or the value of an existing slot, which may be `buffer`. Valid until a slot is created,
+// state_clear or state_compact. A value is also valid only until it is written.
 const Value *state_slot_key_at(const State *state, StateSlot slot, Value *buffer);
-const Value *state_slot_at(const State *state, StateSlot slot, Value *buffer); // likewise, or until it is written to
-// As state_set. Numbers of unchanged length are overwritten in place.
+const Value *state_slot_at(const State *state, StateSlot slot, Value *buffer);
+// Like state_set. Numbers are overwritten in place if their count does not change.
 bool state_slot_set(State *state, StateSlot slot, Value value);
 
-// Lenders. A system that owns numbers from frame to frame need not copy them here: it is a lender, and an entry borrows
-// its numbers, which means that the entry points at them. Whoever else writes to or removes such an entry disturbs the
-// lender: the entry owns its value from then on. scene/mirror.h says what for.
-typedef uint32_t StateOwner; // 0: nobody
-// 0 if memory is used up.
+// Owners. A physics system that keeps numbers across frames need not copy them to the dictionary. It is an owner, and
+// entries reference its numbers. If such an entry is written or removed in another way, the entry gets its own value
+// and the owner is marked as modified. The reason is explained in scene/mirror.h.
+typedef uint32_t StateOwner; // 0: none
+// Returns 0 if out of memory.
 StateOwner state_add_owner(State *state);
-// Has anything disturbed the lender since this was asked last? Its own writes with state_slot_set count too.
+// Returns true if an entry of the owner was modified since the last call, also by the owner's own state_slot_set.
 bool state_clear_modified(State *state, StateOwner owner);
-// Lets an entry borrow `len` > 1 numbers, which must stay where they are until it is written to or owns a copy.
+// Makes an entry reference `len` > 1 numbers. They must not move until the entry is written or detached.
 void state_slot_reference(State *state, StateSlot slot, StateOwner owner, const double *numbers, uint32_t len);
 bool state_slot_references(const State *state, StateSlot slot, StateOwner owner);
-// If the entry borrows from the lender, gives it a copy instead; if there is no memory for it, the entry is removed and
-// false returned.
+// If the entry references numbers of the owner, copies them to the dictionary. If out of memory, removes the entry, or
+// all entries of its range, and returns false.
 bool state_slot_detach(State *state, StateSlot slot, StateOwner owner);
 
-// How many slots there are, with and without a value. Slots of removed keys stay until state_compact.
+// Returns the number of slots, with or without a value. Slots of removed keys exist until state_compact.
 uint32_t state_slot_count(const State *state);
-// Drops the slots that have neither a value nor a mark in `used` (one byte a slot), and moves the others together in
-// order. `moved[slot]` becomes the new number of each, STATE_NO_SLOT for a dropped one. False, with nothing changed, if
-// memory is used up.
+// Removes the slots that have no value and whose byte in `used` is 0, and renumbers the others in order. moved[slot]
+// gets the new number of each slot, or STATE_NO_SLOT if it is removed. Returns false, with nothing changed, if out of
+// memory.
 bool state_compact(State *state, const uint8_t *used, StateSlot *moved);
 
-// Entries that have a value, in the order of their slots: `*cursor` starts at 0; false at the end. The key is valid as
-// long as `room` is.
+// Iterates over the entries with a value in slot order. *cursor starts at 0. Returns false at the end. The key is valid
+// as long as `buffer`.
 bool state_next(const State *state, uint32_t *cursor, Value *key, Value *value, double buffer[STATE_KEY_BUFFER]);
 uint32_t state_count(const State *state);
 
-// Whether anything failed because memory was used up since this was asked last.
+// Returns true if a function has failed because it was out of memory since the last call.
 bool state_clear_exhausted(State *state);
 
 #endif

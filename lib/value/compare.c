@@ -1,12 +1,12 @@
 // compare.c: equality and order of vectors and nodes (spec language.md L5.4 to L5.6, L7.5).
 //
-// Nodes are shared: a script can make a tree of 2^60 nodes of which it has 60. So after a number of them pairs that
-// were found equal are remembered, and each is charged for, which bounds what is left.
+// Nodes are shared, so a script can build a tree of 2^60 nodes from 60. Therefore comparisons cache pairs that are
+// equal (tree_memo.h), and each visited pair is charged.
 #include "value/node_batch.h"
 #include "value/tree_memo.h"
 
 typedef struct Comparison {
-    Arena *arena; // NULL: free of charge
+    Arena *arena; // NULL: nothing is charged
     TreeMemo memo;
 } Comparison;
 
@@ -14,7 +14,7 @@ static bool equal_values(Comparison *comparison, Value a, Value b);
 
 static bool equal_attrs(Comparison *comparison, const Node *a, const Node *b) {
     for (uint32_t i = 0; i < a->attr_count; i++) {
-        uint32_t at = i; // the same order, nearly always
+        uint32_t at = i; // attributes are nearly always in the same order
         if (b->attrs[at].name != a->attrs[i].name) {
             if (comparison->arena)
                 arena_charge(comparison->arena, b->attr_count / 4);
@@ -62,13 +62,13 @@ static bool equal_items(Comparison *comparison, Item a, Item b) {
     case ITEM_NODE:
         return equal_nodes(comparison, a.as.node, b.as.node);
     default:
-        // A closure is itself only; a built-in is its row, whichever program names it.
+        // Closures are compared by address, built-in functions by table row.
         return a.as.function == b.as.function ||
                (a.as.function->builtin && a.as.function->builtin == b.as.function->builtin);
     }
 }
 
-// How many elements from `start` on are equal, up to `len`.
+// Returns the number of leading elements that are equal, at most `len`.
 static uint32_t equal_prefix_length(Comparison *comparison, Value a, uint32_t a_start, Value b, uint32_t b_start,
                                     uint32_t len) {
     for (uint32_t i = 0; i < len; i++) {
@@ -104,10 +104,10 @@ bool node_equal(Arena *arena, const Node *a, const Node *b) {
     return item_equal(arena, (Item){ITEM_NODE, .as.node = a}, (Item){ITEM_NODE, .as.node = b});
 }
 
-// Order of two elements that are not equal.
+// Compares two elements that are not equal.
 static int item_compare_unequal(Item a, Item b) {
     if (a.type == ITEM_NUMBER && b.type == ITEM_NUMBER)
-        return a.as.number < b.as.number ? -1 : 1; // a nan on either side gives 1
+        return a.as.number < b.as.number ? -1 : 1; // 1 if one of them is NaN
     if (a.type == ITEM_STRING && b.type == ITEM_STRING)
         return str_compare(a.as.string->text, b.as.string->text);
     return VALUE_INCOMPARABLE;
@@ -119,7 +119,7 @@ int value_compare(Arena *arena, Value a, Value b) {
     if (a.kind != b.kind)
         return VALUE_INCOMPARABLE;
     if (a.len == b.len && a.len > 1 && a.as.items == b.as.items)
-        return 0; // the same object (L5.5 rule 1)
+        return 0; // identical vectors are equal (L5.5 rule 1)
     Comparison comparison = {arena, {0}};
     ArenaMark mark = arena ? arena_mark(arena) : (ArenaMark){0};
     uint32_t len = a.len < b.len ? a.len : b.len, same = equal_prefix_length(&comparison, a, 0, b, 0, len);

@@ -41,7 +41,7 @@ static void format_string(Text *out, Str text) {
     text_add_char(out, quote);
 }
 
-// A symbol prints with its colon; true if x is one.
+// If x is a symbol, appends it with its colon and returns true.
 static bool format_symbol(Text *out, const SymbolTable *symbols, double x) {
     const Symbol *symbol = symbol_of_number(symbols, x);
     if (!symbol)
@@ -94,7 +94,7 @@ Str format_text(Arena *arena, const SymbolTable *symbols, Value v) {
 
 typedef void FormatValue(Text *out, const SymbolTable *symbols, Value v);
 
-// `!kind #tags name=value …`, without line end.
+// Appends `!kind #tags name=value …` without a newline.
 static void format_head(Text *out, const SymbolTable *symbols, const Node *node, FormatValue *format) {
     text_add_char(out, '!');
     text_add(out, node->kind->name);
@@ -143,7 +143,7 @@ static void format_debug_number(Text *out, const SymbolTable *symbols, double x,
     if (format_symbol(out, symbols, x))
         return;
     if (numeric && x == 0)
-        x = 0; // a zero in a numeric vector shows no sign
+        x = 0; // in a numeric vector, -0 is printed as 0
     text_add(out, (Str){digits, number_format_short(x, digits)});
 }
 
@@ -167,7 +167,7 @@ void format_debug(Text *out, const SymbolTable *symbols, Value v) {
     }
 }
 
-// Rank of an element's class in a key: symbols, other numbers, strings.
+// Returns the rank of an element in the order of keys: 0 for symbols, 1 for other numbers, 2 for strings.
 static int key_class(const SymbolTable *symbols, Item item) {
     if (item.type != ITEM_NUMBER)
         return 2;
@@ -180,7 +180,7 @@ static int key_item_compare(const SymbolTable *symbols, Item a, Item b) {
         return class_a < class_b ? -1 : 1;
     if (class_a == 0)
         return str_compare(symbol_of_number(symbols, a.as.number)->name, symbol_of_number(symbols, b.as.number)->name);
-    if (class_a == 1 && a.as.number == b.as.number) // 0 and -0 are two keys: -0 comes first
+    if (class_a == 1 && a.as.number == b.as.number) // 0 and -0 are different keys, and -0 sorts first
         return !signbit(a.as.number) - !signbit(b.as.number);
     if (class_a == 1)
         return a.as.number > b.as.number ? 1 : -1;

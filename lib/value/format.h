@@ -1,22 +1,25 @@
-// format.h: values and trees as text (spec language.md L18, cli.md 3.1 and 3.2).
+// format.h: conversion of values and trees to text (spec language.md L18, cli.md 3.1 and 3.2).
 #ifndef PETRI_VALUE_FORMAT_H
 #define PETRI_VALUE_FORMAT_H
 
 #include "value/node.h"
 
-// The printed form (L18.1); reads back as the same value for numbers, symbols and strings. All of these
-// charge their text's arena for work.
+// All functions charge their work to the arena of the text.
+//
+// Appends the printed form of a value (L18.1). Numbers, symbols and strings read back as the same value.
 void format_value(Text *out, const SymbolTable *symbols, Value v);
-// The same as a text of its own, followed by a NUL byte.
+// Returns the printed form as a new text, followed by a NUL byte.
 Str format_text(Arena *arena, const SymbolTable *symbols, Value v);
-// The text of debug() (L18.3).
+// Appends the text that debug() prints (L18.3).
 void format_debug(Text *out, const SymbolTable *symbols, Value v);
-// Takes what the text has, after a line of a tree, and may empty it; false ends the tree there.
+// Called after each line of a tree. May output and clear the text. Returns false to stop printing.
 typedef bool FormatLine(void *user_data, Text *out);
-// One line per node (L18.2), starting at `depth` levels of four spaces. A shared node is printed wherever it is, so the
-// text may be far longer than there is memory for: `line` (or NULL) passes it on. False if that has ended it.
+// Appends one line per node (L18.2), indented by `depth` levels of four spaces. A shared node is printed at every place
+// where it occurs, so the text may not fit into memory. `line`, if not NULL, can output it piece by piece. Returns
+// false if `line` stopped the printing.
 bool format_tree(Text *out, const SymbolTable *symbols, const Node *node, int depth, FormatLine *line, void *user_data);
-// Canonical order of state keys (L18.4): element by element symbols, numbers, strings; a prefix comes first.
+// Compares state keys in canonical order (L18.4). Element by element, symbols sort before numbers and numbers before
+// strings. A prefix sorts first.
 int format_key_compare(const SymbolTable *symbols, Value a, Value b);
 
 #endif

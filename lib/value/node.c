@@ -128,7 +128,7 @@ Node *node_append_list(Arena *arena, const Node *node, const NodeList *list) {
     return copy;
 }
 
-// Depth is limited by NODE_MAX_HEIGHT; what is marked already has been visited.
+// The recursion depth is limited by NODE_MAX_HEIGHT. Marked nodes have been visited.
 static void node_mark_program_lifetime(Node *node) {
     if (node->program_lifetime)
         return;
@@ -177,7 +177,7 @@ const Node *node_copy(Arena *arena, const Node *node) {
     return copy;
 }
 
-// A copy of a mixed vector's items, for the caller to replace nodes in.
+// Returns a copy of a mixed vector's items, in which the caller replaces nodes.
 static Item *items_clone(Arena *arena, Value v) {
     return arena_copy(arena, v.as.items, v.len * sizeof(Item));
 }
@@ -192,7 +192,7 @@ Value value_add_tag(Arena *arena, Value v, const Symbol *tag) {
     return (Value){.len = v.len, .kind = VALUE_MIXED, .as.items = items};
 }
 
-// Puts the extended node in the place of an item, if it could be extended.
+// Replaces an item by the extended node. If it is NULL, keeps the item and sets *too_high.
 static void replace_node(Item *item, const Node *extended, bool *too_high) {
     if (extended)
         item->as.node = extended;

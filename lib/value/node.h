@@ -1,7 +1,7 @@
-// node.h: immutable tree nodes (spec language.md L7), and functions as values.
+// node.h: immutable tree nodes (spec language.md L7) and function values.
 //
-// Every operation returns a new node and leaves its operand alone; children and attribute values are shared. Who goes
-// through the children of any node takes node_children (value/node_batch.h), as some may be kept as rows.
+// Every operation returns a new node and does not modify its operand. Children and attribute values are shared. To read
+// the children of a node, use node_children (value/node_batch.h), because some may be stored as rows.
 #ifndef PETRI_VALUE_NODE_H
 #define PETRI_VALUE_NODE_H
 
@@ -15,13 +15,13 @@ typedef struct Attr {
     Value value; // never null
 } Attr;
 
-// Where a node came from in a script.
+// The location in a script that created a node.
 typedef struct NodeOrigin {
     Origin origin;
     const struct AttrOrigin {
         const Symbol *name;
         Span span;
-    } * attrs; // those that were written with it, in the same text
+    } * attrs; // attributes written in the same source
     uint32_t attr_count;
 } NodeOrigin;
 
@@ -30,64 +30,66 @@ struct Node {
     const Symbol *const *tags; // ascending by bytes
     const Attr *attrs;         // in the order in which they were first set
     const Node *const *children;
-    const NodeOrigin *origin; // lives as long as the program that made the node; NULL: unknown
+    const NodeOrigin *origin; // valid as long as the program that created the node; NULL: unknown
     uint32_t tag_count;
     uint32_t attr_count;
     uint32_t child_count;
-    uint16_t height; // 1 + the greatest height of a child or of a node in an attribute
-    // Lives as long as the program that made it, not only for a frame: as long as no program is dropped, the same
-    // address means the same node with everything in it. The children may live so long though the node does not: then
-    // the same `children` and `child_count` mean the same children.
+    uint16_t height; // 1 + maximum height of the children and of nodes in attributes
+    // True if the node lives as long as the program that created it, not only for a frame. Until a program is freed,
+    // the same address then means the same node with the same contents. program_lifetime_children is the same for only
+    // the children: the same `children` and `child_count` then mean the same children.
     bool program_lifetime : 1;
     bool program_lifetime_children : 1;
-    bool is_batch : 1;    // stands for several children of its parent: value/node_batch.h
-    bool has_batches : 1; // there is such a node below, or in an attribute
+    bool is_batch : 1;    // represents several children of its parent (value/node_batch.h)
+    bool has_batches : 1; // a descendant or a node in an attribute is a batch
 };
 
-_Static_assert(sizeof(Node) <= 56, "scripts make thousands of nodes a frame");
+_Static_assert(sizeof(Node) <= 56, "scripts create thousands of nodes per frame");
 
-enum { NODE_MAX_HEIGHT = 12000 }; // deeper trees are refused, so that walking one never exhausts the stack
+enum { NODE_MAX_HEIGHT = 12000 }; // higher trees are rejected, so that recursion cannot overflow the stack
 
-// What a function value is. The machine extends it for closures, whose identity is the address.
+// A function value. The virtual machine extends the struct for closures, which are identified by address.
 struct Function {
-    Str name;            // for printing; "<anon>" without one
-    const void *builtin; // the row of a built-in, or NULL for a user function
+    Str name;            // for printing; "<anon>": anonymous
+    const void *builtin; // table row of a built-in function; NULL: defined by a script
 };
 
 Node *node_new(Arena *arena, const Symbol *kind);
 Node *node_add_tag(Arena *arena, const Node *node, const Symbol *tag);
-// Sets attributes in order; a null or stream value removes one (L7.2). NULL if the tree would be too high.
+// Sets attributes in order. A null or stream value removes the attribute (L7.2). Returns NULL if the tree would exceed
+// NODE_MAX_HEIGHT.
 Node *node_set_attrs(Arena *arena, const Node *node, const Attr *attrs, uint32_t count);
-// The nodes of a vector, ready to be appended; other elements are ignored. A node that has no children yet shares the
-// array.
+// Nodes to be appended to a node. A node without children shares the array.
 typedef struct NodeList {
     const Node *const *nodes;
     uint32_t count;
-    uint16_t height;       // the greatest of a node
+    uint16_t height;       // maximum height of the nodes
     bool program_lifetime; // as in Node
-    bool has_batches;      // one of them is a run, or has some
+    bool has_batches;      // one of the nodes is a batch or contains one
 } NodeList;
+// Returns the nodes of a vector. Other elements are ignored.
 NodeList node_list(Arena *arena, Value children);
-// The same in an array that has room for as many nodes as there are elements.
+// Like node_list, but stores the nodes in an array with at least as many places as the vector has elements.
 NodeList node_list_in(const Node **nodes, Value children);
-// The greatest height of the nodes in a vector, 0 if there are none; and whether one of them has runs.
+// Returns the maximum height of the nodes in a vector, or 0 if it has none.
 uint32_t value_height(Value v);
+// Returns true if a node in a vector contains batches.
 bool value_has_batches(Value v);
-// NULL if the tree would be too high.
+// Appends children. Returns NULL if the tree would exceed NODE_MAX_HEIGHT.
 Node *node_append_list(Arena *arena, const Node *node, const NodeList *list);
-// Marks the nodes of a value that lives as long as its program, and all that are in them.
+// Sets program_lifetime for all nodes of a value and their descendants.
 void value_mark_program_lifetime(Value v);
-// The attribute's value, or null.
+// Returns the attribute's value, or null.
 Value node_get(const Node *node, const Symbol *name);
-// Where the attribute of this name was written, or else the node; the source is NULL if that is unknown, too.
+// Returns the location of an attribute. If that is unknown, returns the location of the node; its source may be NULL.
 Origin node_origin(const Node *node, const Symbol *attr);
-// Structural equality (L7.5); the arena is as for value_equal.
+// Returns true if the nodes are structurally equal (L7.5). The arena is used as by value_equal.
 bool node_equal(Arena *arena, const Node *a, const Node *b);
 const Node *node_copy(Arena *arena, const Node *node);
 
-// The same over every node element of a vector, other elements untouched.
+// These functions extend every node of a vector, as the node_ functions do. Other elements are kept.
 Value value_add_tag(Arena *arena, Value v, const Symbol *tag);
-// In these two *too_high is set if a node could not be extended and was left as it was.
+// The next two set *too_high if a node would become too high. That node is not changed.
 Value value_set_attrs(Arena *arena, Value v, const Attr *attrs, uint32_t count, bool *too_high);
 Value value_append(Arena *arena, Value v, const NodeList *list, bool *too_high);
 

@@ -6,7 +6,7 @@
 #include <assert.h>
 #include <string.h>
 
-enum { NODE_WORK = 2 }; // of making one
+enum { NODE_WORK = 2 }; // units per created node
 
 static bool in_row(uint32_t numbers) {
     return numbers != NODE_BATCH_UNIFORM && numbers != NODE_BATCH_COUNTING;
@@ -111,7 +111,7 @@ uint64_t node_child_count(const Node *node) {
     return count;
 }
 
-// Makes the nodes of a run; returns the place behind the last.
+// Creates the nodes of a batch in `to`. Returns the address after the last.
 static const Node **make_row_nodes(Arena *arena, const NodeBatch *batch, const Node **to) {
     uint32_t attr_count = batch->node.attr_count;
     NodeRow row;
@@ -132,7 +132,7 @@ const Node *const *node_children(Arena *arena, const Node *node, uint32_t *count
     *count = (uint32_t)all;
     if (all == node->child_count && !node->has_batches)
         return node->children;
-    if (all > UINT32_MAX) // more than there can be memory for
+    if (all > UINT32_MAX) // more than can fit into memory
         arena_exhausted(arena);
     const Node **nodes = arena_alloc_array(arena, *count, sizeof *nodes), **to = nodes;
     for (uint32_t i = 0; i < node->child_count; i++)
@@ -143,7 +143,7 @@ const Node *const *node_children(Arena *arena, const Node *node, uint32_t *count
     return nodes;
 }
 
-// The depth is limited by NODE_MAX_HEIGHT.
+// The recursion depth is limited by NODE_MAX_HEIGHT.
 static const Node *expand_batches(Arena *arena, const Node *node) {
     if (!node->has_batches)
         return node;

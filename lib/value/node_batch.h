@@ -1,63 +1,66 @@
-// node_batch.h: nodes that a loop has made alike, as rows of numbers.
+// node_batch.h: compact storage of similar nodes created by a loop.
 //
-// Where a loop makes one child of a node in each round, all of a kind and with attributes of as many numbers each, they
-// are a *run*: what they have in common is kept once, and of each only the numbers that differ. In `children` a run is
-// one node that is marked (`is_run`) and has the attributes of the first. Runs are in children only, never in a vector
-// that a script can look at; they have no children themselves. Who goes through children takes node_children, which
-// makes nodes of rows, or, where there may be very many, reads one row after the other with node_batch_row.
+// If a loop creates one child of a node per iteration, all of the same kind and with the same number of values in each
+// attribute, the nodes form a batch. Common values are stored once; the numbers that differ form a row per node. In
+// `children` a batch is a single node, marked with `is_batch`, that has the attributes of the first node. Batches occur
+// only in `children`, never in a vector visible to scripts. They have no children themselves. node_children converts
+// rows to nodes; for large batches, node_batch_row reads one row at a time.
 #ifndef PETRI_VALUE_NODE_BATCH_H
 #define PETRI_VALUE_NODE_BATCH_H
 
 #include "value/node.h"
 
 enum {
-    NODE_BATCH_MAX_ATTRS = 12,         // that nodes of a run may have
-    NODE_BATCH_MAX_ROWS = 1 << 16,     // nodes of one run, at most,
-    NODE_BATCH_MAX_BYTES = 1000 << 10, // … and of their rows: blocks of an arena are a little larger than four of these
-    NODE_BATCH_MAX_NUMBERS = 16,       // of an attribute
-    NODE_BATCH_UNIFORM = 0,            // instead of how many numbers a row has: none, it is the same in all
-    NODE_BATCH_COUNTING = NODE_BATCH_MAX_ROWS, // … or it is 1 more from row to row
+    NODE_BATCH_MAX_ATTRS = 12,         // attributes of a node
+    NODE_BATCH_MAX_ROWS = 1 << 16,     // nodes of a batch
+    NODE_BATCH_MAX_BYTES = 1000 << 10, // of the rows of a batch; an arena block is slightly larger than four of them
+    NODE_BATCH_MAX_NUMBERS = 16,       // numbers of an attribute in a row
+    NODE_BATCH_UNIFORM = 0,            // value of `numbers`: the attribute is the same in all nodes
+    NODE_BATCH_COUNTING = NODE_BATCH_MAX_ROWS, // value of `numbers`: the attribute increases by 1 per node
 };
 
 typedef struct NodeBatch {
-    Node node; // first: a Node * that is marked is a NodeBatch *
-    uint32_t count;
-    uint32_t capacity;
-    uint32_t stride; // doubles of a row, at least 1: each has an address of its own
+    Node node;         // first member, so that a Node * with is_batch can be cast
+    uint32_t count;    // nodes
+    uint32_t capacity; // rows allocated
+    uint32_t stride;   // doubles per row; at least 1, so that each row has a distinct address
     double *rows;
-    uint32_t numbers[NODE_BATCH_MAX_ATTRS]; // of a row, by attribute
-    int32_t from[NODE_BATCH_MAX_ATTRS];     // where node_batch_add finds the attribute
+    uint32_t numbers[NODE_BATCH_MAX_ATTRS]; // by attribute: numbers in a row, NODE_BATCH_UNIFORM or NODE_BATCH_COUNTING
+    int32_t from[NODE_BATCH_MAX_ATTRS];     // by attribute: index of its value in the argument of node_batch_add
 } NodeBatch;
 
 static inline const NodeBatch *node_batch(const Node *node) {
     return (const NodeBatch *)node;
 }
 
-// A run of one node that has room for `capacity`, or for as many as a run may have: `first` with these attributes. One
-// whose `numbers` are not NODE_BATCH_UNIFORM is numeric. Its `from` are the caller's to set.
+// Returns a batch of one node: `first` with the given attributes. It has room for `capacity` nodes, or fewer if that
+// exceeds the limits. Attributes whose `numbers` is not NODE_BATCH_UNIFORM must be numeric. The caller sets `from`.
 NodeBatch *node_batch_new(Arena *arena, const Node *first, const Attr *attrs, const uint32_t *numbers,
                           uint32_t attr_count, uint32_t capacity);
-// Adds a node, for which there must be room, whose attributes are values[from[…]]; false if it is not like the others.
+// Adds a node whose attribute i is values[from[i]]. The batch must have room. Returns false if the node does not fit.
 bool node_batch_add(NodeBatch *batch, const Value *values);
 const Node *node_batch_copy(Arena *arena, const NodeBatch *batch);
 
-// One node of a run at a time. Its vectors are in the run, all else here.
+// A node of a batch, for reading one row at a time. Its vectors point into the batch.
 typedef struct NodeRow {
     Node node;
     Attr attrs[NODE_BATCH_MAX_ATTRS];
 } NodeRow;
+// Initialises `row` for a batch.
 void node_batch_open(const NodeBatch *batch, NodeRow *row);
+// Sets `row` to node `number` of the batch.
 void node_batch_row(const NodeBatch *batch, uint32_t number, NodeRow *row);
-// What the same node of the same run has, and no other node.
+// Returns a unique address for a node of a batch. It is only compared, never dereferenced.
 static inline const Node *node_batch_identity(const NodeBatch *batch, uint32_t number) {
     return (const Node *)(const void *)(batch->rows + (size_t)batch->stride * number);
 }
 
-// The children of a node: all of them are nodes. Those of runs are made in the arena, which may be NULL if there are no
-// runs.
+// Returns the children of a node, with batches expanded to nodes in the arena. The arena may be NULL if the node has no
+// batches.
 const Node *const *node_children(Arena *arena, const Node *node, uint32_t *count);
+// Returns the number of children, counting each node of a batch.
 uint64_t node_child_count(const Node *node);
-// A vector in which no node has runs below it; the same one if there were none.
+// Returns a vector whose nodes contain no batches. Returns v itself if it contains none.
 Value value_expand_batches(Arena *arena, Value v);
 
 #endif

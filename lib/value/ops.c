@@ -28,7 +28,7 @@ double op_number(ArithOp op, double x, double y) {
     return NAN;
 }
 
-// result = x op y for a vector and a number, a number and a vector, or two vectors of one length.
+// Computes result = x op y for a vector and a number, a number and a vector, or two vectors of equal length.
 #define EACH_ELEMENT(operator)                                                                                         \
     if (y_len == 1)                                                                                                    \
         for (uint32_t i = 0; i < len; i++)                                                                             \
@@ -41,7 +41,7 @@ double op_number(ArithOp op, double x, double y) {
             result[i] = x[i] operator y[i];                                                                            \
     return true;
 
-// The simple operations in loops that the compiler turns into vector instructions; false if the operation is another.
+// Computes +, -, * and / in loops that the compiler vectorises. Returns false for other operators.
 static bool simple_arith(ArithOp op, const double *restrict x, uint32_t x_len, const double *restrict y, uint32_t y_len,
                          double *restrict result, uint32_t len) {
     switch (op) {
@@ -58,7 +58,7 @@ static bool simple_arith(ArithOp op, const double *restrict x, uint32_t x_len, c
     }
 }
 
-// x^y for a vector: by one exponent, or element by element. False if x is a number.
+// Computes x^y for a vector x and a number or vector y. Returns false if x is a number.
 static bool array_powers(const double *x, uint32_t x_len, const double *y, uint32_t y_len, double *result,
                          uint32_t len) {
     if (x_len != len)
@@ -70,7 +70,7 @@ static bool array_powers(const double *x, uint32_t x_len, const double *y, uint3
     return true;
 }
 
-// The operations on many elements at once, a portion at a time; false if this is none.
+// Computes operators that have array functions, one chunk at a time. Returns false for others.
 static bool arith_in_chunks(Arena *arena, ArithOp op, const double *x, uint32_t x_len, const double *y, uint32_t y_len,
                             double *result, uint32_t len) {
     for (uint32_t at = 0; at < len; at += BUDGET_CHUNK) {
@@ -89,7 +89,7 @@ Value op_arith(Arena *arena, ArithOp op, Value a, Value b) {
     if (!value_is_numeric(a) || !value_is_numeric(b))
         return VALUE_NULL;
     const double *x = value_numbers(&a), *y = value_numbers(&b);
-    // The square is a multiplication (D2): the same bits as maths_pow's, at a fraction of the price.
+    // Squares are computed as x * x (D2), which equals maths_pow but is much faster.
     bool square = op == ARITH_POW && b.len == 1 && y[0] == 2;
     if (a.len == 1 && b.len == 1)
         return value_number(square ? x[0] * x[0] : op_number(op, x[0], y[0]));
@@ -122,7 +122,7 @@ Value op_plus(Value v) {
     return value_is_numeric(v) ? v : VALUE_NULL;
 }
 
-// A bound of a range: its number, or the default for null; false if it has another shape.
+// Gets a bound of a range, which is a number or null for the default. Returns false for other values.
 static bool range_bound(Value v, double fallback, double *x) {
     *x = v.len == 0 ? fallback : v.as.number;
     return v.len == 0 || (v.len == 1 && v.kind == VALUE_NUMBERS);

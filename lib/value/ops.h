@@ -1,4 +1,4 @@
-// ops.h: the operators of spec language.md L5.1 to L5.3, one function for simplifier and machine alike.
+// ops.h: the operators of spec language.md L5.1 to L5.3, used by constant folding and by the virtual machine.
 #ifndef PETRI_VALUE_OPS_H
 #define PETRI_VALUE_OPS_H
 
@@ -6,16 +6,16 @@
 
 typedef enum ArithOp { ARITH_ADD, ARITH_SUB, ARITH_MUL, ARITH_DIV, ARITH_FLOORDIV, ARITH_MOD, ARITH_POW } ArithOp;
 
-// x op y for one pair of numbers; ARITH_POW is maths_pow here.
+// Returns x op y. ARITH_POW calls maths_pow.
 double op_number(ArithOp op, double x, double y);
-// Element-wise with repetition (L5.1); null unless both are numeric.
+// Applies the operator element by element and repeats the shorter vector (L5.1). Returns null unless both are numeric.
 Value op_arith(Arena *arena, ArithOp op, Value a, Value b);
 Value op_negate(Arena *arena, Value v);
-// +x: x itself if numeric, else null.
+// Returns v if it is numeric, else null.
 Value op_plus(Value v);
-// start..stop|step (L5.3). *too_long is set if the count exceeds VALUE_MAX_LEN.
+// Returns start..stop|step (L5.3). Sets *too_long if the count exceeds VALUE_MAX_LEN.
 Value op_range(Arena *arena, Value start, Value stop, Value step, bool *too_long);
-// The same without its vector.
+// A range that is not stored as a vector.
 typedef struct OpRange {
     double start;
     double step;

@@ -51,7 +51,7 @@ static uint32_t intern_name(SymbolTable *table, Str name) {
 }
 
 const Symbol *symbol_intern(SymbolTable *table, Str name) {
-    uint32_t entry = intern_name(table, name); // first: it may move items
+    uint32_t entry = intern_name(table, name); // must be called first, because it may move `items`
     return table->items[entry];
 }
 
@@ -76,7 +76,7 @@ const Symbol *symbol_register(SymbolTable *table, Str name) {
 }
 
 const Symbol *symbol_of_number(const SymbolTable *table, double number) {
-    if (!(number < -8.9e307)) // symbols lie in (-1.8e308, -8.9e307]: nearly every number leaves here
+    if (!(number < -8.9e307)) // symbols are in (-1.8e308, -8.9e307], so most numbers return here
         return NULL;
     uint32_t entry = hash_index_find(&table->by_number, hash_mix(number_bits(number)), has_number, table, &number);
     return entry == HASH_INDEX_NONE ? NULL : table->items[entry];

@@ -1,7 +1,7 @@
-// tree_memo.h: walking trees whose nodes are shared, so that a walk has more steps than there are nodes.
+// tree_memo.h: memoisation for traversals of trees with shared nodes, which may visit a node many times.
 //
-// A walk charges for each node that it comes to and, once they are many, remembers what it found out about the last
-// ones. All zeros begins a walk; what it remembers lies in the arena, above whatever is there.
+// A traversal charges for each visited node. After many visits it caches the results for recently visited nodes in the
+// arena. A zero-initialised TreeMemo starts a traversal.
 #ifndef PETRI_VALUE_TREE_MEMO_H
 #define PETRI_VALUE_TREE_MEMO_H
 
@@ -13,14 +13,15 @@ typedef struct TreeMemoEntry {
     uint64_t value;
 } TreeMemoEntry;
 
-typedef struct Walk {
-    TreeMemoEntry *entries; // by hash, the latest wins; NULL: it has not come far yet
-    uint32_t visits;
+typedef struct TreeMemo {
+    TreeMemoEntry *entries; // by hash; a new entry replaces an old one; NULL: few visits so far
+    uint32_t visits;        // counted until `entries` is allocated
 } TreeMemo;
 
-// Comes to a node, or to two at once (`b` may be NULL); true if their fact is known. Without an arena nothing is
-// charged and nothing remembered.
+// Visits a node, or a pair of nodes (b may be NULL). If the result is cached, gets it and returns true. With a NULL
+// arena nothing is charged or cached.
 bool tree_memo_find(TreeMemo *memo, Arena *arena, const Node *a, const Node *b, uint64_t *value);
+// Caches the result for a node or a pair of nodes.
 void tree_memo_store(TreeMemo *memo, const Node *a, const Node *b, uint64_t value);
 
 #endif

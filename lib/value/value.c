@@ -30,7 +30,7 @@ Value value_function(Arena *arena, const Function *function) {
 static bool item_true(Item item) {
     switch (item.type) {
     case ITEM_NUMBER:
-        return item.as.number != 0; // a nan is true
+        return item.as.number != 0; // NaN is true
     case ITEM_STRING:
         return item.as.string->text.len > 0;
     default:
@@ -52,7 +52,7 @@ uint32_t value_wrap_index(double x, uint32_t n) {
         return (uint32_t)x;
     if (!isfinite(x))
         x = -2147483648.0;
-    double rest = fmod(floor(x), n); // exact, with the sign of x
+    double rest = fmod(floor(x), n); // exact; has the sign of x
     return rest < 0 ? (uint32_t)(rest + n) : (uint32_t)rest;
 }
 

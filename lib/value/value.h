@@ -1,11 +1,12 @@
-// value.h: the vectors that every Flitter value is (spec language.md L4).
+// value.h: values of the Flitter language, which are all vectors (spec language.md L4).
 //
-// A Value is 16 bytes passed by value. Values are immutable and borrowed from an arena; nobody frees one. A value from
-// a frame is valid until that frame's arena is reset; longer life is reached only by value_copy. Functions that take an
-// Arena first put their result there; results may share memory with their operands.
+// A Value is a 16-byte struct that is passed by value. Its data is immutable and in an arena; single values are never
+// freed. A value created in a frame is valid until the frame's arena is reset. value_copy makes a copy that lives
+// longer. Functions whose first parameter is an Arena allocate their result there. Results may share memory with
+// operands.
 //
-// Invariants: a vector of length 0 is VALUE_NUMBERS (null) or VALUE_STREAM; a vector of numbers only is always
-// VALUE_NUMBERS, so VALUE_MIXED means at least one element is not a number; one number is stored inline.
+// Invariants: A vector of length 0 is VALUE_NUMBERS (null) or VALUE_STREAM. A vector that contains only numbers is
+// always VALUE_NUMBERS, so a VALUE_MIXED has at least one other element. A single number is stored inline.
 #ifndef PETRI_VALUE_VALUE_H
 #define PETRI_VALUE_VALUE_H
 
@@ -16,7 +17,7 @@
 typedef struct Node Node;
 typedef struct Function Function;
 
-// Text of a string element; UTF-8, may hold U+0000.
+// A string element in UTF-8. It may contain U+0000.
 typedef struct String {
     Str text;
 } String;
@@ -34,8 +35,8 @@ typedef struct Item {
     } as;
 } Item;
 
+// VALUE_ABSENT is not a value of the language. It marks an omitted argument (builtin/builtin.h).
 typedef enum ValueKind { VALUE_NUMBERS, VALUE_MIXED, VALUE_STREAM, VALUE_ABSENT } ValueKind;
-// VALUE_ABSENT is not a value of the language: it marks an argument that was not given (builtin/builtin.h).
 
 typedef enum StreamKind { STREAM_UNIFORM, STREAM_BETA, STREAM_NORMAL } StreamKind;
 
@@ -51,7 +52,7 @@ typedef struct Value {
     } as;
 } Value;
 
-_Static_assert(sizeof(Value) == 16, "a Value travels in two registers");
+_Static_assert(sizeof(Value) == 16, "a Value must fit into two registers");
 
 enum { VALUE_MAX_LEN = 1 << 27 }; // elements (L5.3, D4)
 
@@ -65,17 +66,17 @@ static inline bool value_is_null(Value v) {
     return v.len == 0 && v.kind == VALUE_NUMBERS;
 }
 
-// Non-empty and numbers only.
+// Returns true if v is not empty and contains only numbers.
 static inline bool value_is_numeric(Value v) {
     return v.kind == VALUE_NUMBERS && v.len > 0;
 }
 
-// The elements of a numeric vector. Takes the address, since one number is stored inline: valid while *v is.
+// Returns the elements of a numeric vector. Valid as long as *v, because a single number is stored inline.
 static inline const double *value_numbers(const Value *v) {
     return v->len == 1 ? &v->as.number : v->as.numbers;
 }
 
-// Borrows `numbers` unless there is one element.
+// Returns a vector that points to `numbers`. A single number is copied.
 static inline Value value_numbers_view(const double *numbers, uint32_t len) {
     return len == 0 ? VALUE_NULL : len == 1 ? value_number(numbers[0]) : (Value){.len = len, .as.numbers = numbers};
 }
@@ -84,50 +85,50 @@ static inline Value value_stream(StreamKind kind, uint64_t key) {
     return (Value){.kind = VALUE_STREAM, .stream = (uint8_t)kind, .as.key = key};
 }
 
-// One-element vectors. The string's bytes are copied.
+// Return vectors of one element. The bytes of a string are copied.
 Value value_string(Arena *arena, Str text);
 Value value_function(Arena *arena, const Function *function);
 Value value_item(Arena *arena, Item item);
 
-// Element i (below len) of any vector.
+// Returns element i of a vector. i must be less than its length.
 static inline Item value_at(const Value *v, uint32_t i) {
     if (v->kind == VALUE_MIXED)
         return v->as.items[i];
     return (Item){ITEM_NUMBER, .as.number = value_numbers(v)[i]};
 }
 
-// Truth (L4.6).
+// Returns true if v is true as a condition (L4.6).
 bool value_true(Value v);
-// Comparisons (compare.c) charge for what they look at to the arena and leave nothing in it; NULL is for values without
-// nodes that somebody else has charged for.
+// Comparisons (compare.c) charge their work to the arena and leave no allocations in it. The arena may be NULL for
+// values without nodes whose work is already charged.
 //
-// Equality of whole vectors (L5.4), the operator ==.
+// Returns true if the vectors are equal (L5.4, operator ==).
 bool value_equal(Arena *arena, Value a, Value b);
 bool item_equal(Arena *arena, Item a, Item b);
-// Order of whole vectors (L5.5): -1, 0, 1, or VALUE_INCOMPARABLE.
 enum { VALUE_INCOMPARABLE = 2 };
+// Returns the order of two vectors (L5.5): -1, 0, 1 or VALUE_INCOMPARABLE.
 int value_compare(Arena *arena, Value a, Value b);
-// `x in y` (L5.6).
+// Returns the result of `x in y` (L5.6).
 bool value_contains(Arena *arena, Value x, Value y);
 
-// v[index] (L5.7). v must not be a stream.
+// Returns v[index] (L5.7). v must not be a stream.
 Value value_index(Arena *arena, Value v, Value index);
-// Element k modulo the length, as a vector; null for null. Used by unpacking; v must not be a stream.
+// Returns element k modulo the length as a vector, or null if v is null. Used for unpacking. v must not be a stream.
 Value value_element(Arena *arena, Value v, uint32_t k);
-// Elements start … start+count-1, which must exist.
+// Returns elements start to start + count - 1, which must exist.
 Value value_slice(Arena *arena, Value v, uint32_t start, uint32_t count);
-// The index of an element for a floored index x into a vector of length n (L5.7, D8).
+// Converts an index x to the index of an element in a vector of length n (L5.7, D8).
 uint32_t value_wrap_index(double x, uint32_t n);
 
-// A deep copy: nothing in the result points outside the arena, but for functions and symbols.
+// Returns a deep copy. Only functions and symbols are not copied.
 Value value_copy(Arena *arena, Value v);
 
-enum { VALUE_TEXT_WORK = 16 }; // of an element that is written as text
-// The text of a vector: the concatenation of its elements' texts (L6).
+enum { VALUE_TEXT_WORK = 16 }; // units per element converted to text
+// Returns the concatenated texts of the elements (L6).
 Str value_text(Arena *arena, const SymbolTable *symbols, Value v);
 
-// A vector under construction. Collects values in order; `vector_finish` gives their composition (L4.7). A stream
-// survives only if it is the single part, nulls counted.
+// A builder that composes values to a vector (L4.7). A stream is kept only if it is the single part, where nulls count
+// as parts.
 typedef struct Vector {
     Arena *arena;
     union {
@@ -137,16 +138,16 @@ typedef struct Vector {
     uint32_t len;
     uint32_t capacity;
     bool mixed;
-    bool overflow;  // more than VALUE_MAX_LEN elements were added: the result is null and the caller reports it
-    uint32_t parts; // that are not null
+    bool overflow;  // more than VALUE_MAX_LEN elements were added; the result is null and the caller reports it
+    uint32_t parts; // number of parts that are not null
     bool several;   // more than one part was added, null or not
-    bool any;
-    Value first; // the first part, returned as it is if it stays the only one
+    bool any;       // at least one part was added, null or not
+    Value first;    // the first part that is not null; the result if there is no other
 } Vector;
 
 Vector vector_new(Arena *arena);
 void vector_add(Vector *vector, Value part);
-// The same for the most common part: one more number or item of a vector that has room for it.
+// Like vector_add, but inline for the most common case: one number or item, and the vector has room.
 static inline void vector_add_part(Vector *vector, const Value *part) {
     if (vector->parts > 1 && part->len == 1 && vector->len < vector->capacity) {
         if (part->kind == VALUE_NUMBERS && !vector->mixed) {

@@ -12,7 +12,7 @@
 #include <string.h>
 
 typedef struct Hashing {
-    Arena *arena; // NULL: free of charge
+    Arena *arena; // NULL: nothing is charged
     TreeMemo memo;
 } Hashing;
 
@@ -25,7 +25,7 @@ static uint64_t hash_node(Hashing *hashing, const Node *node) {
     hash = random_hash_step(RANDOM_HASH_START, symbol_hash(node->kind->name));
     for (uint32_t i = 0; i < node->tag_count; i++)
         hash = random_hash_step(hash, symbol_hash(node->tags[i]->name));
-    // Attributes count in the order of their names, whatever the order in which they were set.
+    // Attributes are hashed in the order of their names, not in the order in which they were set.
     const Symbol *last = NULL;
     for (uint32_t done = 0; done < node->attr_count; done++) {
         const Attr *next = NULL;
@@ -60,7 +60,7 @@ static uint64_t hash_item(Hashing *hashing, Item item, bool floored) {
     case ITEM_NODE:
         return hash_node(hashing, item.as.node);
     default:
-        return symbol_hash(item.as.function->name); // unspecified; the name keeps runs reproducible
+        return symbol_hash(item.as.function->name); // not specified; hashing the name keeps runs reproducible
     }
 }
 
@@ -124,7 +124,7 @@ void value_stream_items(Value stream, const double *at, uint32_t count, double *
 
 uint64_t value_stream_position(double x) {
     double whole = number_floor(x);
-    // Beyond the range of 64 bits the x86 conversion gives the least integer; so do we on every machine.
+    // Outside the range of 64 bits the result is the smallest integer on every machine, as with x86 conversions.
     if (!(whole >= -9223372036854775808.0 && whole < 9223372036854775808.0))
         return UINT64_C(1) << 63;
     return (uint64_t)(int64_t)whole;

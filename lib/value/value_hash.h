@@ -1,18 +1,20 @@
-// value_hash.h: the seed hash of a vector (spec builtins.md B9.2), from which streams and noise get their keys.
+// value_hash.h: seed hashes of vectors (spec builtins.md B9.2), which are the keys of streams and noise, and the items
+// of stream values.
 #ifndef PETRI_VALUE_VALUE_HASH_H
 #define PETRI_VALUE_VALUE_HASH_H
 
 #include "value/value.h"
 
-// The 64-bit key of a seed. A stream counts as null. The arena is as for value_equal.
+// Returns the 64-bit key of a seed. A stream counts as null. The arena is used as by value_equal.
 uint64_t value_seed_hash(Arena *arena, Value seed);
-// The same hash without rounding numbers down (spec pictures.md 7.9).
+// Like value_seed_hash, but does not round numbers down (spec pictures.md 7.9).
 uint64_t value_exact_hash(Arena *arena, Value seed);
-// Item i of a stream value, as `stream[i]` gives it.
+// Returns item i of a stream value, as `stream[i]` does.
 double value_stream_item(Value stream, uint64_t i);
-// The items at the positions of indices, which cost less where they follow each other.
+// Gets the items of a stream at `count` indices. Consecutive indices are faster.
 void value_stream_items(Value stream, const double *at, uint32_t count, double *to);
-// Position in a stream of an index x: floored, as a signed 64-bit integer, as unsigned (B9.3).
+// Returns the position in a stream for an index x: x rounded down to a signed 64-bit integer, converted to unsigned
+// (B9.3).
 uint64_t value_stream_position(double x);
 
 #endif

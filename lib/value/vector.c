@@ -7,7 +7,7 @@ Vector vector_new(Arena *arena) {
     return (Vector){.arena = arena};
 }
 
-// Room for `more` elements; false (and overflow) beyond the limit.
+// Makes room for `more` elements. Beyond VALUE_MAX_LEN it sets `overflow` and returns false.
 static bool vector_reserve(Vector *vector, uint32_t more) {
     if (vector->overflow || more > VALUE_MAX_LEN - vector->len) {
         vector->overflow = true;
@@ -51,7 +51,7 @@ static void append_elements(Vector *vector, Value part) {
     vector->len += part.len;
 }
 
-// The first part is kept aside, so that composing one value costs nothing and keeps a stream.
+// Stores the first part separately, so that composing a single value needs no copy and preserves a stream.
 void vector_add(Vector *vector, Value part) {
     vector->several = vector->any;
     vector->any = true;
