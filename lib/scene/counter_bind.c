@@ -1,8 +1,7 @@
-// counter_bind.c: `!counter`: a value that grows with time, kept in the state.
+// counter_bind.c: `!counter`, a value in the state that grows with time (spec counters.md).
 //
-// The value is a vector, as long as the longest of the vectors that it is computed from, and all is element by element
-// (spec counters.md).
-// Value and time are each stored only if finite, so that a bad frame is a lost one and no more.
+// The value is a vector as long as the longest vector it is computed from, and all operations are element by element.
+// Value and time are stored only if finite, so that an invalid frame does not affect later ones.
 #include "base/number.h"
 #include "scene/systems.h"
 
@@ -25,7 +24,7 @@ static bool any_true(Value v) {
     return false;
 }
 
-// What the state has, as far as a counter can go on from it; else null.
+// Returns the stored value if a counter can continue from it, else null.
 static Value usable_or_null(Value stored) {
     bool good = value_is_numeric(stored) && numbers_finite(value_numbers(&stored), stored.len, 1);
     return good ? stored : VALUE_NULL;

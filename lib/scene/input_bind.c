@@ -1,4 +1,4 @@
-// input_bind.c: see input_bind.h.
+// input_bind.c: reads `!pointer` and `!key` nodes and writes their input to the state (input_bind.h).
 #include "scene/input_bind.h"
 
 #include "value/format.h"
@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Names of keys besides those of one character.
+// Names of keys with more than one character.
 static const char long_names[] =
     "space apostrophe comma minus period slash semicolon equal left_bracket backslash right_bracket "
     "grave_accent escape enter tab backspace insert delete right left down up page_up page_down home end "
@@ -16,18 +16,18 @@ static const char long_names[] =
     "kp_3 kp_4 kp_5 kp_6 kp_7 kp_8 kp_9 kp_decimal kp_divide kp_multiply kp_subtract kp_add kp_enter kp_equal "
     "left_shift left_control left_alt left_super right_shift right_control right_alt right_super menu";
 static const char short_names[] = "abcdefghijklmnopqrstuvwxyz0123456789";
-enum { LONG_KEYS = INPUT_KEYS - (sizeof short_names - 1) }; // every key has its switch
+enum { LONG_KEYS = INPUT_KEYS - (sizeof short_names - 1) }; // every key has an InputSwitch
 
 static const char *const button_names[INPUT_BUTTONS] = {"left",     "middle",   "right",    "button_4",
                                                         "button_5", "button_6", "button_7", "button_8"};
-enum { USUAL_BUTTONS = 3 }; // written even before they are used
+enum { USUAL_BUTTONS = 3 }; // buttons that are written even before their first use
 
 int input_key_number(Str name) {
     if (name.len == 1) {
         const char *at = memchr(short_names, name.bytes[0], sizeof short_names - 1);
         return at ? LONG_KEYS + (int)(at - short_names) : INPUT_KEY_NONE;
     }
-    return str_word_number(name, long_names); // none: INPUT_KEY_NONE
+    return str_word_number(name, long_names); // INPUT_KEY_NONE if not found
 }
 
 static const InputSwitch NEVER_PRESSED = {.pushed = NAN, .released = NAN};
@@ -89,7 +89,7 @@ void input_release_all(Input *input) {
     input_report_pointer(input, NULL, 0);
 }
 
-// The key that a `!key` names, by a symbol or a string.
+// Returns the number of the key that a `!key` names with a symbol or a string.
 static int named_key(const SymbolTable *symbols, Value name) {
     const Symbol *symbol =
         name.kind == VALUE_NUMBERS && name.len == 1 ? symbol_of_number(symbols, name.as.number) : NULL;
@@ -103,9 +103,9 @@ static int named_key(const SymbolTable *symbols, Value name) {
 
 static void report_key(const Reader *reader, Value name) {
     Text out = text_new(reader->arena);
-    text_add_c(&out, name.len ? "there is no key called " : "it names no key");
+    text_add_c(&out, name.len ? "no such key: " : "no key name");
     if (name.len > 8)
-        text_add_format(&out, "by %u elements", name.len);
+        text_add_format(&out, "%u elements", name.len);
     else if (name.len)
         format_value(&out, reader->schema->symbols, name);
     text_add_c(&out, "; skipped");
@@ -155,7 +155,7 @@ void input_bind(Input *input, Schema *schema, Value tree, Arena *arena) {
     bindings->arena.escape = NULL;
 }
 
-// Turns what was reported into what the frame of this beat sees.
+// Updates a switch from the reports to what the frame of this beat sees.
 static void advance_switch(InputSwitch *item, double beat) {
     bool down = item->down || item->pushes > 0;
     if (item->pushes > 0)
@@ -179,7 +179,7 @@ struct InputChange {
     Value old_value;
 };
 
-// Writes a value under state;first;second, of which the words may be NULL. Null removes it.
+// Writes a value under prefix;first;second, where `first` and `second` may be NULL. A null value removes the entry.
 static void write_word(const Writer *writer, Value prefix, const Symbol *first, const Symbol *second, Value value) {
     Vector key = vector_new(writer->arena);
     vector_add(&key, prefix);

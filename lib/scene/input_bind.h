@@ -1,8 +1,8 @@
-// input_bind.h: `!pointer` and `!key` inside a `!window`: what the user's hands do, in the state dictionary.
+// input_bind.h: `!pointer` and `!key` inside a `!window`: the user's input in the state dictionary.
 //
-// The host reports what happens whenever it happens; the state is written between two frames, so that one frame sees
-// one thing throughout. What was pressed and let go again between two frames counts as pressed for one frame. Until the
-// host has reported something, nothing is written.
+// The host reports input at any time. The state is written between two frames, so that a frame sees consistent input. A
+// key that was pressed and released between two frames counts as pressed for one frame. Nothing is written before the
+// first report.
 #ifndef PETRI_SCENE_INPUT_BIND_H
 #define PETRI_SCENE_INPUT_BIND_H
 
@@ -11,42 +11,42 @@
 
 enum { INPUT_BUTTONS = 8, INPUT_KEYS = 105, INPUT_KEY_NONE = -1 };
 
-// Something that is pressed and let go.
+// A key or button.
 typedef struct InputSwitch {
     bool down;       // as reported
-    bool frame_down; // as the present frame sees it
-    bool toggled;    // changes with each push
-    uint32_t pushes; // not shown yet
-    double pushed;   // beat of the frame that saw the last push; nan: there was none
-    double released; // beat of the frame that saw the last release; nan: there was none
+    bool frame_down; // as the current frame sees it
+    bool toggled;    // inverted by each press
+    uint32_t pushes; // number of presses since the last frame
+    double pushed;   // beat of the frame that saw the last press; NaN: none yet
+    double released; // beat of the frame that saw the last release; NaN: none yet
 } InputSwitch;
 
-// A node of the last frame's tree: where its input goes.
+// Destination of the input of a node in the last frame's tree.
 typedef struct InputBinding {
-    Value state;
-    int key; // INPUT_KEY_NONE: a pointer
+    Value state; // state key
+    int key;     // INPUT_KEY_NONE: a pointer
 } InputBinding;
 
 typedef struct InputBindings {
-    Arena arena; // of the keys of the state, too
+    Arena arena; // holds the items and their state keys
     InputBinding *items;
     uint32_t count;
     uint32_t capacity;
 } InputBindings;
 
-// What has been reported and shown.
+// Reported input, and the input that the current frame sees.
 typedef struct InputState {
-    InputSwitch keys[INPUT_KEYS]; // by number of their names
+    InputSwitch keys[INPUT_KEYS]; // by input_key_number
     InputSwitch buttons[INPUT_BUTTONS];
-    bool has_reports; // the host has reported something
-    bool inside;
+    bool has_reports; // true after the first report
+    bool inside;      // the pointer is in the window
     double position[2];
 } InputState;
 
 typedef struct Input {
     InputBindings bindings;
     InputState state;
-    // Words of state keys
+    // Symbols of state keys
     const Symbol *button_words[INPUT_BUTTONS];
     const Symbol *pushed;
     const Symbol *released;
@@ -54,35 +54,35 @@ typedef struct Input {
     const Symbol *beat;
 } Input;
 
-// Puts them to before anything was reported or bound.
+// Initialises input without reports and bindings.
 void input_reset(InputState *input_state, InputBindings *bindings);
 void input_init(Input *input, SymbolTable *symbols);
 void input_free(Input *input);
 
-// The number of a key's name; INPUT_KEY_NONE if there is no such key.
+// Returns the number of a key by its name, or INPUT_KEY_NONE if there is no such key.
 int input_key_number(Str name);
-// Whether a node of the last frame's tree asks for the key.
+// Returns true if a `!key` of the last frame's tree uses the key.
 bool input_key_is_bound(const Input *input, int key);
 
-// What the host reports. A press while pressed changes nothing.
+// Report input of the host. Pressing a key that is already pressed changes nothing.
 void input_report_key(Input *input, int key, bool pressed);
 // `position` is NULL outside the window, else two finite numbers; bit i of `buttons` is button i.
 void input_report_pointer(Input *input, const double *position, uint32_t buttons);
-// Everything is let go and the pointer is outside.
+// Releases all keys and buttons, and moves the pointer out of the window.
 void input_release_all(Input *input);
 
-// Adds a binding; the key of the state is copied.
+// Adds a binding. Copies the state key.
 void input_add_binding(InputBindings *bindings, Value state, int key);
-// Takes the bindings from the windows of a frame's tree; `arena` is for messages, and its escape the one to use.
+// Reads the bindings from the windows of a frame's tree. `arena` is used for messages, and its escape also for errors.
 void input_bind(Input *input, Schema *schema, Value tree, Arena *arena);
-// What a write has changed, for when the frame is given up.
+// Changes of a write, to undo them if the frame is aborted.
 typedef struct InputChange InputChange;
 typedef struct InputUndo {
-    const InputChange *last; // in the write's arena
+    const InputChange *last; // in the arena of the write
     bool has_reports;
     InputState state;
 } InputUndo;
-// Writes the state before the frame of this beat is evaluated; `arena` is that of the frame.
+// Writes the input to the state before the frame of this beat is evaluated. `arena` is the frame's arena.
 void input_write(Input *input, State *state, Arena *arena, double beat, InputUndo *undo);
 void input_undo_write(Input *input, State *state, const InputUndo *undo);
 

@@ -1,4 +1,4 @@
-// mirror.c: see mirror.h (and spec physics.md section 2, steps 5 and 6).
+// mirror.c: implementation of mirror.h (spec physics.md section 2, steps 5 and 6).
 #include "scene/mirror.h"
 
 #include "base/heap.h"
@@ -98,7 +98,7 @@ void mirror_remove_vanished(const PhysicsTree *tree) {
             state_slot_set(tree->frame->state, mirror->last_slots[i], VALUE_NULL);
 }
 
-// Is the entry missing? *alike: if not, it has what the row has.
+// Returns true if the entry is missing. Otherwise clears *in_sync if the entry differs from the row.
 static bool is_missing(const PhysicsTree *tree, StateSlot slot, const double *row, bool *in_sync) {
     const State *state = tree->frame->state;
     Value v = state_slot_get(state, slot);
@@ -111,7 +111,7 @@ static bool is_missing(const PhysicsTree *tree, StateSlot slot, const double *ro
     return false;
 }
 
-// Has nobody written to an entry that was missing, or to one of a single number? Neither disturbs the lender.
+// Returns true if no missing entry and no entry of a single number was written, which the owner does not notice.
 static bool unreferenced_in_sync(const PhysicsTree *tree) {
     const Mirror *mirror = &tree->system->mirror;
     if (tree->dimensions > 1 && mirror->missing == 0)
@@ -158,8 +158,8 @@ static void copy_body(const PhysicsTree *tree, uint32_t body) {
             state_slot_set(tree->frame->state, slots[i], value_numbers_view(rows[i], n));
 }
 
-// The entry of what was a particle in the last frame and is an anchor now still borrows, whether a copy of the anchor's
-// is stored or not.
+// Detaches the entries of anchors, because one that was a particle in the last frame still references a row. Stores
+// copies if `store` is set.
 static void copy_anchors(const PhysicsTree *tree, bool store) {
     const Mirror *mirror = &tree->system->mirror;
     for (uint32_t i = 0; i < mirror->anchor_count; i++) {
@@ -169,8 +169,8 @@ static void copy_anchors(const PhysicsTree *tree, bool store) {
     }
 }
 
-// Lets an entry borrow a row, if that holds a finite result or what the state had; false if they are not alike in the
-// end.
+// Lets an entry reference a row that holds a finite result or the state's old value. Returns false if they are not in
+// sync afterwards.
 static bool lend_entry(const PhysicsTree *tree, StateSlot slot, const double *row, bool result) {
     Mirror *mirror = &tree->system->mirror;
     State *state = tree->frame->state;
@@ -180,7 +180,8 @@ static bool lend_entry(const PhysicsTree *tree, StateSlot slot, const double *ro
         mirror->missing++;
         return true;
     }
-    bool same_source = stored.len == 0 || tree->from_state; // else the run began with other numbers than are stored
+    bool same_source =
+        stored.len == 0 || tree->from_state; // else the run started with other values than the stored ones
     bool in_sync = same_source && (result || (stored.kind == VALUE_NUMBERS && stored.len == n));
     if (n > 1 && in_sync) {
         state_slot_reference(state, slot, mirror->owner, row, n);
@@ -206,7 +207,7 @@ static bool lend_bodies(PhysicsTree *tree, bool simulated) {
     return in_sync;
 }
 
-// Entries that still borrow from the description before get copies.
+// Gives copies to entries that still reference the previous description.
 static void close_last(PhysicsTree *tree, bool referenced) {
     Mirror *mirror = &tree->system->mirror;
     State *state = tree->frame->state;
@@ -214,7 +215,7 @@ static void close_last(PhysicsTree *tree, bool referenced) {
         if (!referenced || !physics_mark(tree, mirror->last_slots[i]))
             state_slot_detach(state, mirror->last_slots[i], mirror->owner);
     if (mirror->owner)
-        state_clear_modified(state, mirror->owner); // by the mirror itself
+        state_clear_modified(state, mirror->owner); // set by the mirror's own writes
     mirror->last_count = 0;
     physics_free_marks(tree);
 }
@@ -222,7 +223,7 @@ static void close_last(PhysicsTree *tree, bool referenced) {
 void mirror_store(PhysicsTree *tree, bool simulated) {
     Mirror *mirror = &tree->system->mirror;
     bool rebuilt = mirror->state == MIRROR_OPEN, can_lend = mirror_can_lend(tree), in_sync = can_lend;
-    // The recorded language cases leave out the anchors of a system without particles as long as no time passes.
+    // In the recorded conformance cases, anchors of a system without particles are not stored until time passes.
     bool anchors = simulated || tree->body_count > mirror->anchor_count;
     if (!can_lend && simulated) {
         for (uint32_t i = 0; i < tree->body_count; i++)

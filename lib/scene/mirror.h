@@ -1,42 +1,44 @@
-// mirror.h: who owns the positions and velocities of a `!physics` system.
+// mirror.h: synchronises the positions and velocities of a `!physics` system between engine and state.
 //
-// They are in two places. The engine has a row of numbers for each particle (physics/system.h), from which each frame
-// starts and into which its results go. The state has an entry for each position and for each velocity, which scripts
-// read, and which a host or another node may overwrite. The mirror keeps row and entry alike, without copying where
-// that can be had, and tells when the engine's description of the last frame can serve the next one.
+// They are stored in two places. The engine has a row of numbers for each particle (physics/system.h), from which each
+// frame starts and to which its results are written. The state has an entry for each position and each velocity, which
+// scripts read and which a host or another node may overwrite. The mirror keeps rows and entries in sync, if possible
+// without copying. It also decides whether the engine's description of the last frame can be used for the next one.
 //
-// Who owns the numbers:
-//   - An entry of two numbers or more *borrows* the engine's row: it points there (state.h, lenders), so a result is in
-//     the state as soon as it is in the row. Whoever else writes to such an entry gives it numbers of its own, and
-//     thereby *disturbs* the lender: the row is wrong from then on.
-//   - Everything else owns a *copy*: entries of one number, which a value holds itself; those of anchors, which are
-//     few and stand where their attributes say; all of a system with two particles for one key, where the later one
-//     wins; those of a system that is left out of a frame, or goes away.
-// Rows stay where they are until phys_begin, and readable until the phys_begin after that. So an entry that borrows
-// from the description before either borrows from the new one or gets a copy, before mirror_store ends.
+// Ownership of the numbers:
+//   - An entry of two or more numbers *references* the engine's row: it points to it (state.h, StateOwner), so a result
+//     is in the state as soon as it is in the row. If anything else writes to such an entry, the entry owns the new
+//     numbers. The owner is then *modified*: the row is out of date.
+//   - Every other entry owns a *copy*: entries of one number, which the value itself holds; entries of anchors, which
+//     are few and have the values of their attributes; all entries of a system in which two particles share a key,
+//     where the later one wins; and those of a system that is skipped in a frame or removed.
+// Rows have a fixed address until phys_begin, and are readable until the phys_begin after that. So before mirror_store
+// returns, each entry that references the previous description is changed to the new one or receives a copy.
 //
-// What may be stored: a result that is finite, and that does not equal what is stored (0 does not become -0). Both
-// rules hold for rows (PhysTime.keep_last_finite) as they do for copies (numbers_finite; state_slot_set), or a
-// borrowing entry would show what a copy must not hold. An entry that the state does not have yet is *missing*: the row
-// holds the attribute's number then, which is no result, so the entry borrows from the first finite result on. Missing
-// entries are counted, for somebody may write one between two frames without disturbing anyone.
+// A result may be stored if it is finite and does not equal the stored value (0 does not become -0). Both rules hold
+// for rows (PhysTime.keep_last_finite) as well as for copies (numbers_finite; state_slot_set). Otherwise a referencing
+// entry could show a value that a copy must not hold.
+//
+// An entry that the state does not have yet is *missing*. Its row holds the attribute's value, which is not a result,
+// so the entry references the row only from the first finite result on. Missing entries are counted, because writing
+// one between two frames does not modify the owner.
 //
 // States of a mirror:
 //
-//                mirror_open                          mirror_store: all is alike
+//                mirror_open                          mirror_store: all in sync
 //      STALE ─────────────────▶ OPEN ─────────────────────────────────────────────▶ CURRENT
 //       ▲ ▲                    │  ▲ │                                               │  ▲ │
-//       │ └────────────────────┘  └─┘ mirror_open: the update before broke off,     │  └─┘ mirror_reuse, mirror_store:
+//       │ └────────────────────┘  └─┘ mirror_open: the last update was aborted,     │  └─┘ mirror_reuse, mirror_store:
 //       │   mirror_store:             so entries get copies first                   │      the same particles
-//       │   memory, keys or numbers do not match                                    │
+//       │   out of memory, or keys or numbers do not match                          │
 //       └───────────────────────────────────────────────────────────────────────────┘
-//         mirror_reuse: disturbed, the run restarted, other particles, or an update that breaks off;
-//         a mistake in the tree, which is to be reported in each frame; the system left out of a frame
+//         mirror_reuse: owner modified, run restarted, other particles, or update aborted;
+//         a mistake in the tree, which must be reported in each frame; system skipped in a frame
 //
 //   STALE    The tree must be read from scratch, with positions and velocities from the state, which is always right.
-//   OPEN     A description was begun and not finished: some entries borrow from the one before.
-//   CURRENT  Rows and entries are alike, and so are the description and the last frame's tree: only what the next
-//            tree changes need be told to the engine, which for the same tree is nothing.
+//   OPEN     A description was begun and not finished: some entries reference the previous one.
+//   CURRENT  Rows and entries are in sync, and the description matches the last frame's tree. Only differences of the
+//            next tree must be passed to the engine: none if the tree is the same.
 #ifndef PETRI_SCENE_MIRROR_H
 #define PETRI_SCENE_MIRROR_H
 
@@ -45,56 +47,57 @@
 
 typedef enum MirrorState { MIRROR_STALE, MIRROR_OPEN, MIRROR_CURRENT } MirrorState;
 
-// All zeros is a mirror of no particles. Slots come in pairs, position and velocity, by particle handle.
+// A zeroed struct is a mirror without particles. Slots are in pairs, position and velocity, by particle handle.
 typedef struct Mirror {
     MirrorState state;
-    StateOwner owner; // 0: none yet, or no memory for one
+    StateOwner owner; // 0: none yet, or out of memory
     StateSlot *slots; // of the particles and anchors in the last tree
     uint32_t slot_count;
     uint32_t slot_capacity;
-    StateSlot *last_slots; // while OPEN: of the last tree that was read whole
+    StateSlot *last_slots; // while OPEN: slots of the last tree that was read completely
     uint32_t last_count;
     uint32_t last_capacity;
     uint32_t *anchors; // handles, ascending
     uint32_t anchor_count;
     uint32_t anchor_capacity;
-    uint32_t missing; // entries that the state does not have yet
-    double *ids;      // of all particles, for those who ask (scene_view_ids)
+    uint32_t missing; // number of entries that the state does not have yet
+    double *ids;      // ids of all particles, for scene_view_ids
     uint32_t id_capacity;
-    bool ids_cached; // they were looked at since the last tree was read whole
-    bool ids_single; // … and each is one number, which is there
+    bool ids_cached; // `ids` or `ids_single` are valid for the current tree
+    bool ids_single; // every id is a single number, stored in `ids`
 } Mirror;
 
 typedef struct PhysicsTree PhysicsTree;
 
 void mirror_free(Mirror *mirror);
-// Gives a new mirror the particles of an old one; false if memory is used up.
+// Copies the slots of saved particles to a new mirror. Returns false if out of memory.
 bool mirror_restore(Mirror *mirror, const StateSlot *slots, uint32_t count);
-// The system is left out of a frame, or goes away: its entries stay, with copies, and it has no particles.
+// Handles a system that is absent from a frame or removed: its entries remain as copies, and it has no particles.
 void mirror_leave(Mirror *mirror, State *state);
-// The run restarts: removes the entries.
+// Removes the entries, because the run restarts.
 void mirror_remove(Mirror *mirror, State *state);
 
-// Begins a description from scratch; what entries borrow stays readable.
+// Begins a description from scratch. Referenced rows remain readable.
 void mirror_open(PhysicsTree *tree);
-// Adds the particle or anchor that comes next; they count when all are there (slot_count). False if memory is used up.
+// Adds the next particle or anchor. physics_read_bodies sets slot_count when all are added. Returns false if out of
+// memory.
 bool mirror_add(PhysicsTree *tree, StateSlot position, StateSlot velocity, bool anchor);
-// The vector with which a particle begins the frame: the state's, if the run goes on and it has one of n numbers, else
-// the attribute's (*from_attribute). One number is copied to *single.
+// Returns the vector with which a particle starts the frame: that of the state if the run continues and it has n
+// numbers, else the attribute (and sets *from_attribute). A single number is copied to *single.
 PhysVector mirror_start(const PhysicsTree *tree, StateSlot slot, PhysVector attribute, double *single,
                         bool *from_attribute);
-// Removes the entries of particles that were in the last tree and are not in this one, except entries that a particle
-// of this tree also has: $(prefix;id;:velocity) may be the position of another particle.
+// Removes the entries of particles that are no longer in the tree, except keys that another particle uses:
+// $(prefix;id;:velocity) may be the position of another particle.
 void mirror_remove_vanished(const PhysicsTree *tree);
 
-// Can the description be brought up to date with this frame's tree? If so, it counts as STALE until mirror_store.
+// Returns true if the description can be updated to this frame's tree. If so, the mirror is STALE until mirror_store.
 bool mirror_reuse(PhysicsTree *tree);
-// Which numbers of a particle the engine has from frames before.
+// Returns which values of a particle the engine has from earlier frames.
 PhysPreserve mirror_preserve(const PhysicsTree *tree, uint32_t body);
 
-// Can entries borrow the rows of this tree? If not, results are copied.
+// Returns true if entries can reference the rows of this tree. If not, results are copied.
 bool mirror_can_lend(const PhysicsTree *tree);
-// Puts the frame's results into the state; `simulated`: there are some.
+// Stores the frame's results in the state. `simulated` is false if there are none.
 void mirror_store(PhysicsTree *tree, bool simulated);
 
 #endif

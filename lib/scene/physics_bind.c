@@ -1,4 +1,4 @@
-// physics_bind.c: one frame of a `!physics` system, between tree, state and engine (spec physics.md section 2).
+// physics_bind.c: updates a `!physics` system in a frame, with its tree, state and engine (spec physics.md section 2).
 #include "base/heap.h"
 #include "scene/systems.h"
 
@@ -18,15 +18,16 @@ static double scene_number(const State *state, StateSlot slot, double default_va
     return v.kind == VALUE_NUMBERS && v.len == 1 && isfinite(v.as.number) ? v.as.number : default_value;
 }
 
-// The system of a prefix that has not been updated in this frame, or NULL; *occurrence counts those that have.
+// Returns a system with this prefix that has not been updated in this frame, or NULL. Sets *occurrence to the number of
+// those that have.
 static PhysicsSystem *known_system(const Scene *scene, StateSlot start, uint32_t *occurrence, Arena *arena) {
-    PhysicsSystem *expected = scene->next_expected; // as in the frame before
+    PhysicsSystem *expected = scene->next_expected; // the order of the last frame
     *occurrence = 0;
     if (expected && expected->start == start && expected->occurrence == 0 &&
         expected->last_frame != scene->frame_number)
         return expected;
     for (PhysicsSystem *system = scene->systems; system; system = system->next) {
-        arena_charge(arena, 4); // they lie anywhere in memory
+        arena_charge(arena, 4); // systems are not contiguous in memory
         if (system->start != start)
             continue;
         if (system->last_frame != scene->frame_number)
@@ -59,14 +60,14 @@ static PhysicsSystem *new_system(Scene *scene, StateSlot start, uint32_t occurre
     return system;
 }
 
-// What was absent from the last frame has no last tree; its keys stay.
+// Drops the last tree of a system that was absent from the last frame. Its state entries remain.
 static void detach_if_absent(const Scene *scene, PhysicsSystem *system, State *state) {
     if (system->last_frame + 1 == scene->frame_number)
         return;
     mirror_leave(&system->mirror, state);
 }
 
-// The record of the system with this prefix, made if it is new; NULL if memory is used up.
+// Returns the system with this prefix, which is created if necessary. Returns NULL if out of memory.
 static PhysicsSystem *find_system(Scene *scene, Value prefix, const SceneFrame *frame) {
     StateSlot start = state_slot(frame->state, prefix);
     if (start == STATE_NO_SLOT)
@@ -85,7 +86,7 @@ bool scene_next_system(const Scene *scene, const void **cursor, SceneSystem *sav
     if (!system)
         return false;
     *cursor = system;
-    bool absent = system->last_frame != scene->frame_number; // then it has no last tree
+    bool absent = system->last_frame != scene->frame_number; // an absent system has no last tree
     *saved =
         (SceneSystem){system->start, system->occurrence, system->mirror.slots, absent ? 0 : system->mirror.slot_count};
     return true;
@@ -95,7 +96,7 @@ bool scene_restore_system(Scene *scene, const SceneSystem *saved, const SceneFra
     PhysicsSystem *system = new_system(scene, saved->prefix, saved->occurrence, frame);
     if (!system || !system->engine || !mirror_restore(&system->mirror, saved->slots, saved->slot_count))
         return false;
-    system->last_frame = scene->frame_number; // the next update is that of the frame after
+    system->last_frame = scene->frame_number; // as if updated in this frame
     return true;
 }
 
@@ -116,11 +117,11 @@ static bool read_settings(const Reader *reader, const SceneFrame *frame, SystemA
     if (settings->state.len == 0)
         reason = "no state prefix; the system is skipped";
     else if (!state_key_valid(settings->state))
-        reason = "state cannot be a key; the system is skipped";
+        reason = "state is not a valid key; the system is skipped";
     else if (!(settings->dimensions >= 1))
         reason = "dimensions must be at least 1; the system is skipped";
     else if (settings->dimensions > 1e9)
-        reason = "dimensions beyond 1000000000; the system is skipped";
+        reason = "dimensions must be at most 1000000000; the system is skipped";
     else if (!isfinite(settings->time))
         reason = "time is not finite; the system is skipped";
     else if (!(settings->resolution > 0) || !isfinite(settings->resolution))
@@ -130,7 +131,7 @@ static bool read_settings(const Reader *reader, const SceneFrame *frame, SystemA
     return !reason;
 }
 
-// Number of nodes below, up to a limit: decides whether vectors of so many dimensions can be held at all.
+// Returns the number of nodes below a node.
 static uint64_t count_nodes(Arena *arena, const Node *node) {
     uint64_t count = node_child_count(node);
     arena_charge(arena, 1 + count);
@@ -139,6 +140,7 @@ static uint64_t count_nodes(Arena *arena, const Node *node) {
     return count;
 }
 
+// Returns false and reports an error if the vectors of all nodes would need too much memory.
 static bool fits_in_memory(const Reader *reader, const SystemAttrs *settings) {
     enum { MAX_UNCOUNTED = 64, COPIES = 16 };
     if (settings->dimensions <= MAX_UNCOUNTED)
@@ -148,11 +150,11 @@ static bool fits_in_memory(const Reader *reader, const SystemAttrs *settings) {
     if (bytes <= (double)(UINT64_C(1) << 30))
         return true;
     reader_report(reader, "invalid-system", "",
-                  STR("too many dimensions for so many nodes (limit 1 GiB); the system is skipped"));
+                  STR("too many dimensions for this number of nodes (limit 1 GiB); the system is skipped"));
     return false;
 }
 
-// Step 6: simulates up to `settings->time`; returns the clock afterwards.
+// Step 6: simulates up to settings->time and returns the clock afterwards.
 static double simulate_system(PhysicsTree *tree, const Reader *reader, const SystemAttrs *settings, double last,
                               double clock, uint64_t *steps) {
     PhysTime time = {.last = last,
@@ -167,10 +169,9 @@ static double simulate_system(PhysicsTree *tree, const Reader *reader, const Sys
     *steps = result.steps;
     if (result.status == PHYS_NO_MEMORY)
         reader_report(reader, "physics-memory", "",
-                      STR("not enough memory for the system's particles; nothing is simulated"));
+                      STR("out of memory for the system's particles; nothing is simulated"));
     else if (result.status == PHYS_DROPPED_TIME)
-        reader_report(reader, "step-limit", "",
-                      STR("more steps in one frame than can be made (limit 1000000); the rest is dropped"));
+        reader_report(reader, "step-limit", "", STR("more than 1000000 steps in one frame; rest skipped"));
     else if (result.status == PHYS_STOPPED)
         tree->scene->stopped = budget_check(tree->scene->meter);
     tree->out_of_memory |= result.status == PHYS_NO_MEMORY;
@@ -228,7 +229,7 @@ static uint64_t update_system(Scene *scene, PhysicsSystem *system, const Reader 
         mirror_store(&tree, false);
     }
     if (!faultless)
-        system->mirror.state = MIRROR_STALE; // mistakes are reported in each frame
+        system->mirror.state = MIRROR_STALE; // so that errors are reported in each frame
     scene->exhausted |= tree.out_of_memory;
     physics_cache_tree(&tree);
     set_number(frame, system->last, settings->time);
@@ -236,7 +237,7 @@ static uint64_t update_system(Scene *scene, PhysicsSystem *system, const Reader 
     return steps;
 }
 
-// A system that is skipped in a frame is not absent: it keeps its list of particles.
+// Marks a skipped system as present, so that its list of particles is retained.
 static void retain_skipped(Scene *scene, Value prefix, const SceneFrame *frame) {
     uint32_t occurrence;
     StateSlot start = state_find(frame->state, prefix);
@@ -257,7 +258,7 @@ uint64_t physics_update(Scene *scene, const Node *node, const SceneFrame *frame)
     reader.dimensions = (uint32_t)settings.dimensions;
     PhysicsSystem *system = find_system(scene, settings.state, frame);
     if (!system || !system->engine) {
-        reader_report(&reader, "physics-memory", "", STR("not enough memory; the system is skipped"));
+        reader_report(&reader, "physics-memory", "", STR("out of memory; the system is skipped"));
         scene->exhausted = true;
         return 0;
     }

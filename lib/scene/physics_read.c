@@ -1,4 +1,4 @@
-// physics_read.c: a `!physics` tree to the engine's terms (spec physics.md sections 1, 3 and 4.2).
+// physics_read.c: reads a `!physics` tree into the engine (spec physics.md sections 1, 3 and 4.2).
 #include "base/heap.h"
 #include "maths/random.h"
 #include "physics/forces.h"
@@ -30,13 +30,13 @@ void physics_read_particle(const PhysicsTree *tree, const Node *node, bool ancho
     reader_fill(&reader, body);
 }
 
-// The system's own keys are prefix;:last and so on: a particle of that id fights with them.
+// Reports an id such as :last, whose state key the system itself uses.
 static void check_reserved(PhysicsTree *tree, const Reader *reader, Value id) {
     const Scene *scene = tree->scene;
     const Symbol *const reserved[] = {scene->key_last, scene->key_clock, scene->key_run, scene->key_iteration};
     for (size_t i = 0; i < sizeof reserved / sizeof reserved[0]; i++)
         if (id.len == 1 && id.kind == VALUE_NUMBERS && id.as.number == reserved[i]->number) {
-            reader_report(reader, "reserved-id", "", STR("the system keeps a value of its own under this id"));
+            reader_report(reader, "reserved-id", "", STR("reserved id: the system stores its own value under it"));
             tree->keys_collide = true;
         }
 }
@@ -44,7 +44,7 @@ static void check_reserved(PhysicsTree *tree, const Reader *reader, Value id) {
 void physics_cache_node(const PhysicsTree *tree, uint32_t body, const Node *node, bool has_program_lifetime) {
     PhysicsSystem *system = tree->system;
     if (tree->root->program_lifetime_children || !has_program_lifetime)
-        return; // the whole tree is known by its address, or the node does not last
+        return; // the whole tree is recognised by its address, or the node is freed after the frame
     if (!heap_reserve((void **)&system->nodes, &system->node_capacity, body, sizeof *system->nodes))
         return;
     while (system->node_count <= body)
@@ -52,10 +52,11 @@ void physics_cache_node(const PhysicsTree *tree, uint32_t body, const Node *node
     system->nodes[body] = node;
 }
 
-// Remembers a body under its slots. False if memory is used up.
+// Marks the slots of a body. Returns false if out of memory.
 static bool register_body(PhysicsTree *tree, bool anchor, StateSlot position, StateSlot velocity) {
     uint32_t body = tree->body_count, mark = 2 * (tree->scene->body_base + body);
-    tree->scene->body_count = body + 1; // at once: however the reading ends, its marks are old ones to the next tree
+    tree->scene->body_count =
+        body + 1; // set first, so that the marks are outdated for the next tree even if reading is aborted
     if (velocity == STATE_NO_SLOT || !mirror_add(tree, position, velocity, anchor) ||
         !physics_set_mark(tree, position, mark) ||
         (!physics_mark(tree, velocity) && !physics_set_mark(tree, velocity, mark + 1)))
@@ -65,23 +66,23 @@ static bool register_body(PhysicsTree *tree, bool anchor, StateSlot position, St
     return true;
 }
 
-// Adds a body; false if it has no usable id or one that was seen already (reported), or memory is used up.
+// Adds a body. Returns false if out of memory, or if its id is invalid or a duplicate, which it reports.
 static bool add_body(PhysicsTree *tree, const Node *node, Value id, bool anchor) {
     double numbers[PHYSICS_KEY_NUMBERS];
     Reader reader = reader_of(tree, node, anchor ? KIND_ANCHOR : KIND_PARTICLE);
     StateSlot slot = id.len ? state_slot(tree->frame->state, physics_key(tree, id, false, numbers)) : STATE_NO_SLOT;
     if (slot == STATE_NO_SLOT) {
-        if (!id.len || !state_key_valid(id)) // else memory is used up, which the state tells
+        if (!id.len || !state_key_valid(id)) // else out of memory, which the state reports
             reader_report(&reader, "missing-id", "",
                           id.len ? STR("this id cannot be a state key; ignored") : STR("no id; ignored"));
         return false;
     }
     if (physics_find_slot(tree, slot) != PHYSICS_NO_BODY) {
-        reader_report(&reader, "duplicate-id", "", STR("a particle with this id is there already; ignored"));
+        reader_report(&reader, "duplicate-id", "", STR("a particle with this id already exists; ignored"));
         return false;
     }
     check_reserved(tree, &reader, id);
-    tree->keys_collide |= physics_mark(tree, slot) != 0; // the velocity of another
+    tree->keys_collide |= physics_mark(tree, slot) != 0; // the key is the velocity of another particle
     StateSlot velocity = state_slot(tree->frame->state, physics_key(tree, id, true, numbers));
     if (register_body(tree, anchor, slot, velocity))
         return true;
@@ -89,7 +90,7 @@ static bool add_body(PhysicsTree *tree, const Node *node, Value id, bool anchor)
     return false;
 }
 
-// `known` is what the node is remembered by.
+// Reads a particle or anchor. `identity` is the node that physics_cache_node stores.
 __attribute__((noinline)) static void read_body(PhysicsTree *tree, const Node *node, const Node *identity, bool anchor,
                                                 uint32_t group) {
     BodyAttrs body;
@@ -138,7 +139,7 @@ static void read_group_bodies(PhysicsTree *tree, const Node *parent, uint32_t gr
             read_group_bodies(tree, child, phys_add_group(tree->engine, group));
             break;
         default:
-            break; // forces come in the second pass, when all particles are known
+            break; // forces are read by physics_read_forces, when all particles are known
         }
     }
 }
@@ -146,13 +147,13 @@ static void read_group_bodies(PhysicsTree *tree, const Node *parent, uint32_t gr
 void physics_read_bodies(PhysicsTree *tree) {
     physics_clear_marks(tree);
     tree->system->node_count = 0;
-    phys_expect_particles(tree->engine, node_child_count(tree->root) - tree->root->child_count); // those of runs
+    phys_expect_particles(tree->engine, node_child_count(tree->root) - tree->root->child_count); // those in batches
     read_group_bodies(tree, tree->root, 0);
     tree->scene->marked_system = tree->system;
     tree->system->mirror.slot_count = 2 * tree->body_count;
 }
 
-// The ends of a distance force; those of the force at this place in the last frame are tried first.
+// Finds the ends of a distance force. First tries those of the same force in the last frame.
 static bool find_ends(PhysicsTree *tree, Value from, Value to, Link *link, bool *has_first) {
     PhysicsSystem *system = tree->system;
     uint32_t number = tree->next_link++;
@@ -175,7 +176,7 @@ static bool find_ends(PhysicsTree *tree, Value from, Value to, Link *link, bool 
     return true;
 }
 
-// What links two particles has ids of them.
+// Sets the ends of a link from the ids. Returns false and reports an unknown id.
 static bool bind_ends(PhysicsTree *tree, const Reader *reader, const ForceAttrs *read, PhysForce *force) {
     Link link;
     bool first = false;
@@ -187,12 +188,12 @@ static bool bind_ends(PhysicsTree *tree, const Reader *reader, const ForceAttrs 
     Text text = text_new(reader->arena);
     text_add_format(&text, "%s=", first ? "to" : "from");
     format_value(&text, reader->schema->symbols, first ? read->to : read->from);
-    text_add_c(&text, " names no particle; ignored");
+    text_add_c(&text, ": no such particle; ignored");
     reader_report_attr(reader, "unknown-particle", first ? ATTR_TO : ATTR_FROM, text_str(&text));
     return false;
 }
 
-// The seed of a !random: prefix;run;iteration and a 0 for each !random before it (spec 4.2).
+// The seed of a !random is prefix;run;iteration and a 0 for each !random before it (spec 4.2).
 uint64_t physics_random_key(PhysicsTree *tree, uint32_t randoms_before) {
     if (!tree->random_key || randoms_before < tree->random_count) {
         Vector seed = vector_new(tree->frame->arena);
@@ -208,7 +209,7 @@ uint64_t physics_random_key(PhysicsTree *tree, uint32_t randoms_before) {
     return tree->random_key;
 }
 
-// Bounds: `fixed` gives both.
+// Resolves one bound; `fixed` sets both. Returns false if there is no bound.
 static bool resolve_bound(double fixed, double *bound) {
     *bound = isnan(fixed) ? *bound : fixed;
     bool given = !isnan(*bound);
@@ -216,7 +217,7 @@ static bool resolve_bound(double fixed, double *bound) {
     return given;
 }
 
-// Fills `force` from a force applier or barrier; false if it is to be ignored.
+// Fills `force` from a force applier or barrier. Returns false if it must be ignored.
 static bool read_force(PhysicsTree *tree, const Reader *reader, uint32_t randoms, PhysForce *force) {
     ForceAttrs read = tree->scene->force_defaults[schema_force(reader->kind)];
     reader_fill(reader, &read);
@@ -229,7 +230,7 @@ static bool read_force(PhysicsTree *tree, const Reader *reader, uint32_t randoms
     if (row.stage == STAGE_LINK)
         return bind_ends(tree, reader, &read, force);
     if (row.stage == STAGE_BARRIER && !force->vector2) {
-        reader_report_attr(reader, "bad-normal", ATTR_NORMAL, STR("normal is no direction; the barrier is ignored"));
+        reader_report_attr(reader, "bad-normal", ATTR_NORMAL, STR("normal is not a direction; the barrier is ignored"));
         return false;
     }
     return true;
@@ -242,7 +243,7 @@ static void report_unknown_kind(const Reader *reader) {
     reader_report(reader, "unknown-node", "", text_str(&out));
 }
 
-// One child of a group that is no particle and no group. Kept out of the recursion, whose frames must stay small.
+// Reads one force of a group. A separate function, because the stack frames of the recursion must be small.
 __attribute__((noinline)) static void read_applier(PhysicsTree *tree, const Node *node, NodeKind kind, uint32_t group,
                                                    uint32_t randoms) {
     Reader reader = reader_of(tree, node, kind);

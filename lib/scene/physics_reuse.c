@@ -1,13 +1,12 @@
-// physics_reuse.c: the next frame of a system whose tree is the last frame's, or has the same particles with other
-// numbers.
+// physics_reuse.c: updates a system whose tree has the same particles as in the last frame.
 //
-// What the engine holds need not be read again as long as the state has the same (mirror.h). Nodes that live as
-// long as their program (value/node.h) are the same if their address is. Others are gone through: one is the same
-// particle if its id and group are those of the particle that stood here in the last frame.
+// The engine's values are not read again if the state has the same ones (mirror.h). Nodes with program lifetime
+// (value/node.h) are unchanged if their address is the same. Other nodes are compared: a node is the same particle if
+// its id and group equal those of the particle at the same position in the last frame.
 #include "scene/systems.h"
 
-// Takes the numbers of the next particle. False if it is not the one that was here in the last frame. `known` is what
-// the node is remembered by.
+// Updates the next particle. Returns false if it is not the particle at this position in the last frame. `identity` is
+// the node that physics_cache_node stores.
 __attribute__((noinline)) static bool reuse_body(PhysicsTree *tree, const Node *node, const Node *identity, bool anchor,
                                                  uint32_t group) {
     PhysicsSystem *system = tree->system;
@@ -25,7 +24,8 @@ __attribute__((noinline)) static bool reuse_body(PhysicsTree *tree, const Node *
     PhysPreserve preserve = {false, false};
     if (!anchor) {
         preserve = mirror_preserve(tree, body);
-        read.numbers.position_from_attribute = read.numbers.velocity_from_attribute = true; // if not preserved
+        read.numbers.position_from_attribute = read.numbers.velocity_from_attribute =
+            true; // ignored for preserved values
     }
     phys_update_particle(tree->engine, body, &read.numbers, preserve);
     if (body < system->node_count)

@@ -1,8 +1,7 @@
-// physics_slots.c: ids, keys and slots of particles, without hashing where that can be had.
+// physics_slots.c: ids, keys and slots of particles, if possible without hashing.
 //
-// The scene marks the slots of the tree that was read last with the particles that they are of, in one array for all
-// systems: 2 * (base + handle) for a position, one more for a velocity. What is below 2 * base is left over from trees
-// before.
+// The scene marks the slots of the tree read last with their particles, in one array for all systems: 2 * (base +
+// handle) for a position, one more for a velocity. Smaller values than 2 * base are outdated marks of earlier trees.
 #include "base/heap.h"
 #include "scene/systems.h"
 
@@ -56,7 +55,7 @@ bool physics_set_mark(const PhysicsTree *tree, StateSlot slot, uint32_t mark) {
 }
 
 void physics_clear_marks(const PhysicsTree *tree) {
-    enum { MAX_BASE = 1 << 29 }; // leaves room for as many bodies
+    enum { MAX_BASE = 1 << 29 }; // so that base + handle does not overflow
     Scene *scene = tree->scene;
     scene->marked_system = NULL;
     scene->body_base += scene->body_count + 1;
@@ -74,7 +73,7 @@ int64_t physics_find_slot(const PhysicsTree *tree, StateSlot slot) {
 }
 
 void physics_free_marks(const PhysicsTree *tree) {
-    enum { MIN_FREED_CAPACITY = 1 << 16 }; // that are worth their memory
+    enum { MIN_FREED_CAPACITY = 1 << 16 }; // fewer marks are not worth freeing
     Scene *scene = tree->scene;
     if (!tree->root->program_lifetime_children || scene->body_capacity < MIN_FREED_CAPACITY)
         return;
@@ -84,7 +83,7 @@ void physics_free_marks(const PhysicsTree *tree) {
     scene->body_capacity = 0;
 }
 
-// Marks the slots of a tree that was not read in this frame, or not as the last one.
+// Marks the slots of a tree that was not the last one to be read.
 static void rebuild_marks(PhysicsTree *tree) {
     const PhysicsSystem *system = tree->system;
     if (tree->scene->marked_system == system)

@@ -1,4 +1,4 @@
-// scene.c: see scene.h.
+// scene.c: the list of systems and their update in a frame (scene.h).
 #include "scene/scene.h"
 
 #include "base/heap.h"
@@ -97,14 +97,14 @@ Input *scene_input(Scene *scene) {
     return &scene->input;
 }
 
-// The slots that a system holds besides its list.
+// Slots of a system other than those of its particles.
 enum { OWN_SLOTS = 5 };
 static void own_slots(PhysicsSystem *system, StateSlot *slots[OWN_SLOTS]) {
     StateSlot *const all[OWN_SLOTS] = {&system->start, &system->run, &system->iteration, &system->clock, &system->last};
     memcpy(slots, all, sizeof all);
 }
 
-// Drops slots of the state that nothing needs any more, once they are many: ids that come and go would fill it.
+// Removes unused slots of the state if they are many, because ids that come and go would fill it.
 static void compact_state(Scene *scene, const SceneFrame *frame) {
     enum { MIN_COMPACTED = 4096 };
     uint32_t count = state_slot_count(frame->state), held = 0;
@@ -112,11 +112,11 @@ static void compact_state(Scene *scene, const SceneFrame *frame) {
         return;
     for (PhysicsSystem *system = scene->systems; system; system = system->next) {
         if (system->mirror.state == MIRROR_OPEN)
-            return; // an update broke off: its lists are not in order
+            return; // an update was aborted, so the slots are not valid
         held += system->mirror.slot_count;
     }
     if (count / 2 < held)
-        return; // before time begins to pass, what is held has no value
+        return; // before the first step, slots of particles have no value
     uint8_t *used = arena_alloc_array(frame->arena, count, sizeof *used);
     StateSlot *moved = arena_alloc_array(frame->arena, count, sizeof *moved), *own[OWN_SLOTS];
     memset(used, 0, count);
@@ -139,8 +139,7 @@ static void compact_state(Scene *scene, const SceneFrame *frame) {
     }
 }
 
-// Gives the engines of systems back that the last frames have left out: what comes again begins with what the state
-// has, which is all that there was.
+// Frees systems that are absent from the last FRAMES frames. If they reappear, they start with the values in the state.
 static void free_absent(Scene *scene, const SceneFrame *frame) {
     enum { FRAMES = 8 };
     PhysicsSystem **link = &scene->systems;
@@ -161,7 +160,7 @@ static void free_absent(Scene *scene, const SceneFrame *frame) {
 }
 
 uint64_t scene_update(Scene *scene, Value tree, const SceneFrame *frame) {
-    enum { NODE_WORK = 50 }; // a look-up and some entries of the state
+    enum { NODE_WORK = 50 }; // cost of a lookup and some state entries
     uint64_t steps = 0;
     scene->frame_number++;
     scene->stopped = BUDGET_OK;
@@ -181,14 +180,14 @@ uint64_t scene_update(Scene *scene, Value tree, const SceneFrame *frame) {
         else
             counter_update(scene, item->as.node, frame);
         if (scene->exhausted || scene->stopped != BUDGET_OK)
-            return steps; // what comes to nothing ends here
+            return steps; // the frame will be aborted
     }
     input_bind(&scene->input, scene->schema, tree, frame->arena);
     return steps;
 }
 
 bool scene_view(Scene *scene, const State *state, size_t number, SceneView *view) {
-    bool further = scene->viewed && number >= scene->viewed_number; // hosts ask for one after the other
+    bool further = scene->viewed && number >= scene->viewed_number; // hosts usually ask for systems in order
     size_t at = further ? scene->viewed_number : 0;
     for (PhysicsSystem *system = further ? scene->viewed : scene->systems; system; system = system->next) {
         if (system->last_frame != scene->frame_number || !system->engine || !system->dimensions || at++ < number)
@@ -215,12 +214,12 @@ Value scene_view_id(Arena *arena, const State *state, const SceneView *view, uin
     return value_slice(arena, key, view->prefix.len, key.len - view->prefix.len);
 }
 
-// The number that is an id, or the quiet NaN, which no key has.
+// Returns the id if it is a single number, else NaN, which no key contains.
 static double single_id(const State *state, const SceneView *view, uint32_t particle) {
     return state_slot_last_number(state, view->slots[2 * (size_t)particle], view->prefix.len + 1);
 }
 
-// Room for the ids, which the host has asked for, is charged as what the script has is.
+// Reserves memory for the ids, which is charged to the script's budget. Returns false if out of memory.
 static bool reserve_ids(PhysicsSystem *system, uint32_t count) {
     Mirror *mirror = &system->mirror;
     if (count <= mirror->id_capacity)
