@@ -1,4 +1,5 @@
-// ranks.c: see ranks.h. Messages between two ranks arrive in the order in which they were sent, as MPI has it.
+// ranks.c: the callbacks of PetriRanks over MPI (ranks.h). MPI delivers messages between two ranks in the order of
+// sending.
 #include "ranks/ranks.h"
 
 #include "base/cpu.h"
@@ -15,7 +16,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-// A message on its way, which takes its numbers along.
+// A message that is being sent, with a copy of its numbers.
 typedef struct PendingSend {
     double *numbers;
     MPI_Request request;
@@ -27,20 +28,20 @@ typedef struct Ranks {
     PendingSend *pending;
     size_t count;
     size_t pending_capacity;
-    double *numbers; // of a message that comes
+    double *numbers; // buffer of a received message
     size_t numbers_capacity;
-    bool same_node; // all are on one machine
-    double *shared; // memory that all of them see
+    bool same_node; // all ranks are on one machine and can share memory
+    double *shared; // memory that all ranks share; NULL: none yet
     size_t shared_capacity;
-    int max_spins; // how often it is looked for what should be there soon before others may have the processor
+    int max_spins; // number of polls before a waiting rank yields its processor
 } Ranks;
 
-static Ranks ranks;                             // of the process, as MPI is
-static volatile sig_atomic_t waiting_cancelled; // a signal has come: nobody is waited for
+static Ranks ranks;                             // one per process, like MPI
+static volatile sig_atomic_t waiting_cancelled; // set by a signal: do not wait for other ranks
 
-static void pack_blocks(double *to, const double *numbers, size_t runs, size_t length, size_t stride) {
-    for (size_t k = 0; k < runs; k++)
-        memcpy(to + k * length, numbers + k * stride, length * sizeof *to);
+static void pack_blocks(double *to, const double *numbers, size_t count, size_t block_length, size_t stride) {
+    for (size_t k = 0; k < count; k++)
+        memcpy(to + k * block_length, numbers + k * stride, block_length * sizeof *to);
 }
 
 static double *reserve_numbers(size_t count) {
@@ -51,13 +52,14 @@ static double *reserve_numbers(size_t count) {
     return ranks.numbers;
 }
 
-static void unpack_blocks(double *numbers, size_t runs, size_t length, size_t stride) {
-    for (size_t k = 0; k < runs; k++)
-        memcpy(numbers + k * stride, ranks.numbers + k * length, length * sizeof *numbers);
+static void unpack_blocks(double *numbers, size_t count, size_t block_length, size_t stride) {
+    for (size_t k = 0; k < count; k++)
+        memcpy(numbers + k * stride, ranks.numbers + k * block_length, block_length * sizeof *numbers);
 }
 
-static void send_numbers(void *host, int to, const double *numbers, size_t runs, size_t length, size_t stride) {
-    (void)host;
+static void send_numbers(void *user_data, int to, const double *numbers, size_t count, size_t block_length,
+                         size_t stride) {
+    (void)user_data;
     if (waiting_cancelled)
         return;
     if (ranks.count == ranks.pending_capacity) {
@@ -65,16 +67,16 @@ static void send_numbers(void *host, int to, const double *numbers, size_t runs,
         ranks.pending = memory_realloc(ranks.pending, ranks.pending_capacity * sizeof *ranks.pending);
     }
     PendingSend *pending = &ranks.pending[ranks.count++];
-    pending->numbers = memory_realloc(NULL, runs * length * sizeof *numbers);
-    pack_blocks(pending->numbers, numbers, runs, length, stride);
-    MPI_Isend(pending->numbers, (int)(runs * length), MPI_DOUBLE, to, 0, MPI_COMM_WORLD, &pending->request);
+    pending->numbers = memory_realloc(NULL, count * block_length * sizeof *numbers);
+    pack_blocks(pending->numbers, numbers, count, block_length, stride);
+    MPI_Isend(pending->numbers, (int)(count * block_length), MPI_DOUBLE, to, 0, MPI_COMM_WORLD, &pending->request);
 }
 
 static void cancel_waiting(void) {
     waiting_cancelled = 1;
 }
 
-// Waits for the others, but not for ever. False if the request was given up.
+// Waits until the request is done. Returns false if waiting was cancelled.
 static bool wait_for(MPI_Request *request) {
     int done = 0, spins = 0;
     while (MPI_Test(request, &done, MPI_STATUS_IGNORE) == MPI_SUCCESS && !done && !waiting_cancelled)
@@ -85,15 +87,16 @@ static bool wait_for(MPI_Request *request) {
     return done;
 }
 
-static void receive_numbers(void *host, int from, double *numbers, size_t runs, size_t length, size_t stride) {
-    (void)host;
-    double *came = reserve_numbers(runs * length);
+static void receive_numbers(void *user_data, int from, double *numbers, size_t count, size_t block_length,
+                            size_t stride) {
+    (void)user_data;
+    double *received = reserve_numbers(count * block_length);
     MPI_Request request;
     if (waiting_cancelled == 0)
-        MPI_Irecv(came, (int)(runs * length), MPI_DOUBLE, from, 0, MPI_COMM_WORLD, &request);
+        MPI_Irecv(received, (int)(count * block_length), MPI_DOUBLE, from, 0, MPI_COMM_WORLD, &request);
     if (waiting_cancelled || !wait_for(&request))
-        memset(came, 0, runs * length * sizeof *came);
-    unpack_blocks(numbers, runs, length, stride);
+        memset(received, 0, count * block_length * sizeof *received);
+    unpack_blocks(numbers, count, block_length, stride);
 }
 
 static void wait_for_sends(void) {
@@ -104,23 +107,24 @@ static void wait_for_sends(void) {
     }
 }
 
-static void broadcast_numbers(void *host, int from, double *numbers, size_t runs, size_t length, size_t stride) {
-    (void)host;
+static void broadcast_numbers(void *user_data, int from, double *numbers, size_t count, size_t block_length,
+                              size_t stride) {
+    (void)user_data;
     wait_for_sends();
-    double *all = reserve_numbers(runs * length);
+    double *all = reserve_numbers(count * block_length);
     if (ranks.as_options.rank == from)
-        pack_blocks(all, numbers, runs, length, stride);
+        pack_blocks(all, numbers, count, block_length, stride);
     MPI_Request request;
     if (waiting_cancelled == 0)
-        MPI_Ibcast(all, (int)(runs * length), MPI_DOUBLE, from, MPI_COMM_WORLD, &request);
+        MPI_Ibcast(all, (int)(count * block_length), MPI_DOUBLE, from, MPI_COMM_WORLD, &request);
     if (waiting_cancelled || !wait_for(&request))
-        memset(all, 0, runs * length * sizeof *all);
+        memset(all, 0, count * block_length * sizeof *all);
     if (ranks.as_options.rank != from)
-        unpack_blocks(numbers, runs, length, stride);
+        unpack_blocks(numbers, count, block_length, stride);
 }
 
-static void allgather_numbers(void *host, double *numbers, const size_t *starts) {
-    (void)host;
+static void allgather_numbers(void *user_data, double *numbers, const size_t *starts) {
+    (void)user_data;
     wait_for_sends();
     int count = ranks.as_options.rank_count, *lengths = memory_realloc(NULL, 2 * (size_t)count * sizeof *lengths);
     for (int r = 0; r < count; r++) {
@@ -136,8 +140,8 @@ static void allgather_numbers(void *host, double *numbers, const size_t *starts)
     free(lengths);
 }
 
-static void reduce_max(void *host, double *numbers, size_t count) {
-    (void)host;
+static void reduce_max(void *user_data, double *numbers, size_t count) {
+    (void)user_data;
     wait_for_sends();
     MPI_Request request;
     if (waiting_cancelled == 0) {
@@ -149,7 +153,7 @@ static void reduce_max(void *host, double *numbers, size_t count) {
 static void *map_memory(const char *name, int flags, size_t bytes) {
     void *memory = MAP_FAILED;
     int file = shm_open(name, O_RDWR | flags, S_IRUSR | S_IWUSR);
-    // With room for all of it at once: else it would be missing later, where nobody can be told.
+    // Allocates all memory now, because a lack of memory later would end in a bus error.
     if (file >= 0 && (!(flags & O_CREAT) || posix_fallocate(file, 0, (off_t)bytes) == 0))
         memory = mmap(NULL, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
     if (file >= 0)
@@ -157,7 +161,8 @@ static void *map_memory(const char *name, int flags, size_t bytes) {
     return memory == MAP_FAILED ? NULL : memory;
 }
 
-// Rank 0 makes it; its name is gone as soon as all have it, so that nothing stays behind.
+// Maps memory that rank 0 creates. Its name is removed as soon as all ranks have mapped it, so that nothing is left
+// behind. Returns NULL on all ranks if one fails.
 static double *map_shared(size_t bytes) {
     static int count;
     char name[64];
@@ -165,7 +170,7 @@ static double *map_shared(size_t bytes) {
     broadcast_numbers(NULL, 0, &maker, 1, 1, 1);
     snprintf(name, sizeof name, "/petri-%.0f-%d", maker, ++count);
     double *memory = ranks.as_options.rank == 0 ? map_memory(name, O_CREAT | O_EXCL, bytes) : NULL;
-    reduce_max(NULL, &missing, 1); // it is there, or never will be
+    reduce_max(NULL, &missing, 1); // a barrier: rank 0 has created the memory or failed
     if (ranks.as_options.rank > 0)
         memory = map_memory(name, 0, bytes);
     missing = !memory;
@@ -177,12 +182,12 @@ static double *map_shared(size_t bytes) {
     return missing > 0 ? NULL : memory;
 }
 
-static double *alloc_shared(void *host, size_t count) {
-    (void)host;
+static double *alloc_shared(void *user_data, size_t count) {
+    (void)user_data;
     if (ranks.same_node && ranks.shared_capacity < count) {
         if (ranks.shared)
             munmap(ranks.shared, ranks.shared_capacity * sizeof *ranks.shared);
-        ranks.shared_capacity = count + count / 8; // halos come and go
+        ranks.shared_capacity = count + count / 8; // spare capacity, because the numbers vary between frames
         ranks.shared = map_shared(ranks.shared_capacity * sizeof *ranks.shared);
         ranks.same_node = ranks.shared;
     }
@@ -209,7 +214,7 @@ static bool receive_message(int *from, ByteBuffer *message) {
     return there;
 }
 
-// How many ranks are on this machine.
+// Returns the number of ranks on this machine.
 static int count_node_ranks(void) {
     MPI_Comm here;
     int count = 0;
@@ -219,14 +224,14 @@ static int count_node_ranks(void) {
     return count;
 }
 
-// All do the same, so what the others would write is there already.
+// Redirects the standard streams to /dev/null, because all ranks would print the same.
 static void silence_output(void) {
     int nothing = open("/dev/null", O_RDWR);
     for (int fd = STDIN_FILENO; nothing >= 0 && fd <= STDERR_FILENO; fd++)
         dup2(nothing, fd);
 }
 
-void ranks_begin(CommandContext *host) {
+void ranks_begin(CommandContext *context) {
     int thread_level = 0, level = cpu_detected.level, min_level = level;
     MPI_Init_thread(NULL, NULL, MPI_THREAD_SERIALIZED, &thread_level);
     PetriRanks *options = &ranks.as_options;
@@ -238,24 +243,26 @@ void ranks_begin(CommandContext *host) {
                             .alloc_shared = alloc_shared};
     MPI_Comm_rank(MPI_COMM_WORLD, &options->rank);
     MPI_Comm_size(MPI_COMM_WORLD, &options->rank_count);
-    // What is worth sharing depends on the processor: all go by the least one.
+    // Decisions that all ranks must take alike depend on the CPU level, so all use the lowest.
     MPI_Allreduce(&level, &min_level, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
-    host->cpu = cpu_name((CpuLevel)min_level);
-    host->ranks = options;
-    host->leave_ranks = cancel_waiting;
-    enum { MAX_SPINS = 1000 }; // some 100 microseconds
+    context->cpu = cpu_name((CpuLevel)min_level);
+    context->ranks = options;
+    context->leave_ranks = cancel_waiting;
+    enum { MAX_SPINS = 1000 }; // about 100 µs
     int node_ranks = count_node_ranks();
     ranks.max_spins = node_ranks <= cpu_count() ? MAX_SPINS : 0;
-    const char *no_shared_memory = getenv("PETRI_NO_SHARED_MEMORY"); // as if each were on a machine of its own
+    const char *no_shared_memory =
+        getenv("PETRI_NO_SHARED_MEMORY"); // for tests: as if each rank were on a separate machine
     ranks.same_node = node_ranks == options->rank_count && !(no_shared_memory && *no_shared_memory);
     ranks.channel = (MpiChannel){options->rank, options->rank_count, send_message, receive_message};
-    host->channel = &ranks.channel;
+    context->channel = &ranks.channel;
     if (options->rank > 0)
         silence_output();
 }
 
-// A process that ends without MPI_Finalize makes mpirun end all, with its status: those that wait for it, too. What
-// fails here mostly fails everywhere, and then rank 0 is to say so first; its end interrupts the sleep.
+// If a process ends without MPI_Finalize, mpirun ends all ranks with its status, including those that wait for it. Most
+// failures happen on all ranks, so the others sleep while rank 0 reports the error. The end of rank 0 interrupts the
+// sleep.
 void ranks_end(int status) {
     enum { GRACE_SECONDS = 5 };
     if (status != STATUS_DONE) {

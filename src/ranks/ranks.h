@@ -1,13 +1,14 @@
-// ranks.h: the processes that mpirun has started, as PetriOptions.ranks has them. The only part of petri that needs
-// MPI.
+// ranks.h: MPI ranks for PetriOptions.ranks. The only part of petri that needs MPI.
 #ifndef PETRI_SRC_RANKS_H
 #define PETRI_SRC_RANKS_H
 
 #include "cli/cli.h"
 
-// Joins the others. Only rank 0 is seen and heard from then on.
+// Initialises MPI and sets the ranks, the channel and the CPU level of the context. Afterwards only rank 0 uses its
+// standard streams.
 void ranks_begin(CommandContext *context);
-// Leaves them; if this process has failed they end, too, because they would wait for it.
+// Finalises MPI. If `status` is a failure, ends the process, whereupon mpirun ends all ranks, because they would wait
+// for it.
 void ranks_end(int status);
 
 #endif
