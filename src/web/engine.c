@@ -1,5 +1,6 @@
-// engine.c: petri.h for JavaScript: functions that take and give numbers and texts only (host.h). What of petri.h is
-// like that is exported as it is (meson.build); what has structs or callbacks is here.
+// engine.c: petri.h for JavaScript: functions whose arguments and results are only numbers and texts (host.h).
+// Functions of petri.h that already have this form are exported directly (meson.build); those with structs or callbacks
+// are wrapped here.
 #include "cli/particles.h"
 #include "petri-draw.h"
 #include "web/host.h"
@@ -29,7 +30,7 @@ static bool should_interrupt(void *user_data) {
     return host_should_interrupt();
 }
 
-// fps, memory in bytes, work of a call and stack in bytes: 0 is the default.
+// fps, memory in bytes, work per call and stack in bytes; 0: default.
 EXPORT(PetriSession *, web_open, double fps, double memory, double work, double stack) {
     PetriOptions options = petri_default_options();
     options.fps = fps > 0 ? fps : options.fps;
@@ -54,7 +55,7 @@ EXPORT(void, web_frame, const PetriSession *session) {
                frame.evaluation_seconds, frame.physics_seconds);
 }
 
-// Many short texts are one for JavaScript.
+// Collects short texts, because each call of JavaScript is slow.
 typedef struct TextBuffer {
     size_t used;
     char text[1 << 14];
@@ -76,9 +77,9 @@ static bool append_text(void *user_data, const char *text, size_t length) {
     return true;
 }
 
-// The particles of the last frame, as rows; the dimensions that their columns have. 0: as many as they need, after a
-// line with the columns' names. Gives that, 0 if memory is used up, or
-// UINT32_MAX if it was to end, of which nothing is left for the next call.
+// Writes the particles of the last frame as rows of a table with vectors of `dimensions` components. 0: as many as
+// needed, after a header. Returns the number of components, 0 if out of memory, or UINT32_MAX if interrupted; the
+// interrupt is then cleared.
 EXPORT(uint32_t, web_particles, PetriSession *session, uint32_t dimensions) {
     TextBuffer gathered = {.used = 0};
     uint32_t have = dimensions ? dimensions : particles_dimensions(session);
@@ -118,7 +119,7 @@ EXPORT(void, web_systems, PetriSession *session) {
     }
 }
 
-// The text is that of a value which is not all numbers.
+// `text` is only set for a value that is not all numbers.
 EXPORT(void, web_state, PetriSession *session) {
     PetriValue key, value;
     for (uint32_t at = 0; petri_state_next(session, &at, &key, &value);) {
@@ -149,7 +150,7 @@ EXPORT(PetriStatus, web_prompt, PetriSession *session, const char *text, size_t 
     return petri_prompt(session, text, length, write_text, NULL, &done);
 }
 
-// An expression: its text is written, the number that it is an entry, NaN if it is none.
+// Evaluates an expression. Its text is written; its number is passed as an entry, NaN if it is not a number.
 EXPORT(PetriStatus, web_evaluate, PetriSession *session, const char *text, size_t length) {
     PetriEvaluation result = {.number = __builtin_nan("")};
     PetriStatus status = petri_evaluate(session, text, length, &result, write_text, NULL);
@@ -167,7 +168,7 @@ static const uint32_t *find_image(void *user_data, const char *file, int *width,
     return host_image(file, width, height);
 }
 
-// NULL without WebGL 2.
+// Returns NULL without WebGL 2.
 EXPORT(PetriPainter *, web_painter, void) {
     const PetriCanvasBackend host = {.draw = draw_canvas, .image = find_image};
     PetriPainter *painter = petri_painter_open();
@@ -189,8 +190,8 @@ static PetriStatus send_display_list(PetriPicture *picture, bool ready) {
     return status;
 }
 
-// The picture of the last frame, which is kept for web_picture, and made for those of later frames; NULL: there is
-// none.
+// Renders the picture of the last frame, which web_picture and the pictures of later frames need. Returns NULL if there
+// is none.
 EXPORT(PetriPicture *, web_render_if_needed, PetriSession *session, PetriPainter *painter) {
     PetriPictureOptions options = petri_default_picture_options();
     PetriPicture *picture;
@@ -201,7 +202,7 @@ EXPORT(PetriPicture *, web_render_if_needed, PetriSession *session, PetriPainter
     return picture;
 }
 
-// What the automatic picture shows depends on the frames before.
+// Updates the view of the automatic picture, which depends on previous frames.
 EXPORT(void, web_follow_frame, PetriSession *session) {
     PetriPictureOptions options = petri_default_picture_options();
     petri_picture_follow(session, &options);
@@ -222,8 +223,8 @@ static PetriStatus render_picture(PetriSession *session, PetriPainter *painter, 
     return status;
 }
 
-// The picture of the last frame (NULL: not taken yet), as numbers that are there during the call; or if they are not
-// all of it and there is a painter, on the host's screen.
+// Passes the picture of the last frame (`followed`, or NULL to create it) to the host as numbers, valid during the
+// call. If it is not a pure display list and there is a painter, draws it on the host's screen instead.
 EXPORT(PetriStatus, web_picture, PetriSession *session, PetriPainter *painter, PetriPicture *followed, bool automatic) {
     PetriPictureOptions options = petri_default_picture_options();
     options.automatic = automatic ? PETRI_AUTO_ALWAYS : PETRI_AUTO_IF_NEEDED;
@@ -232,7 +233,7 @@ EXPORT(PetriStatus, web_picture, PetriSession *session, PetriPainter *painter, P
     bool ready = petri_picture_ready(session, &options);
     bool shown = status == PETRI_OK && painter && !petri_picture_is_display_list(picture) &&
                  render_picture(session, painter, picture, ready) == PETRI_OK;
-    if (status == PETRI_OK && !shown) // what of it takes no screen
+    if (status == PETRI_OK && !shown) // the part of it that needs no screen
         status = send_display_list(picture, ready);
     if (!followed)
         petri_picture_free(&picture);
@@ -257,7 +258,8 @@ EXPORT(void, web_help, const PetriSession *session) {
         host_help("node", kind.name, kind.area, "", "", kind.help);
         PetriNodeAttribute attribute;
         for (size_t k = 0; petri_node_attribute(i, k, &attribute); k++)
-            host_help("attribute", attribute.name, attribute.type, attribute.default_value, attribute.unit, attribute.help);
+            host_help("attribute", attribute.name, attribute.type, attribute.default_value, attribute.unit,
+                      attribute.help);
     }
     const char *name;
     for (size_t i = 0; session && (name = petri_visible_name(session, i)); i++)

@@ -196,12 +196,12 @@ start left.fl
 started
 cp left.fl good.fl
 echo '        !rect size=(' >>left.fl
-check "a mistake is told" soon shows 'cannot be loaded'
+check "a mistake is told" soon shows 'reload failed'
 check "with its place" soon shows 'left.fl:'
 check "the last good version is running" soon filled 12 24 1 38
 sed 's/30+48/350+48/' good.fl >left.fl
 check "the mended script is loaded" soon clear_of 1 24 1 38
-check "the message goes" soon hides 'cannot be loaded'
+check "the message goes" soon hides 'reload failed'
 check "the picture is another" soon filled 1 24 42 80
 type_keys q
 check "q quits" ended 0
@@ -226,7 +226,7 @@ echo '        !rect size=9 fil=true clor=1' >>warn.fl
 check "after a reload there are others" soon shows '3 warnings: w'
 cp warn.fl other.fl
 echo '        !rect size=(' >>warn.fl
-check "a mistake comes first" soon shows 'cannot be loaded'
+check "a mistake comes first" soon shows 'reload failed'
 check "without the mark" soon hides 'warnings: w'
 cp other.fl warn.fl
 check "the mended script has its own again" soon shows '3 warnings: w'

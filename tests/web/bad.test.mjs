@@ -105,7 +105,7 @@ test('where threads share no memory, stop ends the engine, and it goes on with a
     },
 }));
 
-const LOST = [['petri/engine.wasm', /the engine cannot be loaded: .* answers 404/], ['worker.js', /the engine cannot be started/]];
+const LOST = [['petri/engine.wasm', /cannot load the engine: .* returned 404/], ['worker.js', /cannot start the engine/]];
 for (const [file, message] of LOST)
     test(`a page that gets no ${file} says so, and has the text`, options, () => visited(world.server.url, {
         prepare: page => page.route(`**/${file}`, route => route.fulfill({ status: 404 })),

@@ -1,4 +1,4 @@
-// automatic.mjs: the automatic picture: particle systems by themselves, as lib/draw/automatic.c draws them.
+// automatic.mjs: the automatic picture of particle systems, as drawn by lib/draw/automatic.c.
 
 const MARGIN = 0.04, PANEL = 540, MIN_RADIUS = 2, LEAST_SEEN = 1.5, EYE = 4;
 const COS_YAW = 0.9004471023526769, SIN_YAW = 0.43496553411123023;
@@ -18,7 +18,7 @@ function shade({ charged }, value) {
     return value < 0.5 ? mix(SPEEDS[0], SPEEDS[1], value * 2) : mix(SPEEDS[1], SPEEDS[2], value * 2 - 1);
 }
 
-// Where a point is in a panel: x, y, depth away from the eye, scale.
+// Returns the position of a point in a panel: x, y, depth away from the eye, scale.
 function see(panel, p) {
     const { middle, half, dimensions } = panel.system;
     const x = (p[0] - middle[0]) / half, y = (p[1] - middle[1]) / half;
@@ -89,7 +89,7 @@ function drawLinks(context, panel) {
     }
 }
 
-// A line, with the side behind it shaded.
+// Draws a wall as a line, with shading on its outside.
 function drawWall(context, panel, { point, normal }) {
     const at = see(panel, point), far = panel.width + panel.height;
     let nx = normal[0], ny = panel.system.dimensions === 1 ? 0 : -normal[1];
@@ -109,7 +109,7 @@ function drawWall(context, panel, { point, normal }) {
     context.fill();
 }
 
-// In three dimensions a grid of lines on the part of the wall that is nearest to the middle.
+// Draws a 3-D wall as a grid of lines, around its point nearest to the centre.
 function drawGrid(context, panel, { point, normal: n }) {
     const { middle, half } = panel.system, away = n.reduce((sum, x, k) => sum + (middle[k] - point[k]) * x, 0);
     if (!(Math.abs(away) < 1.6 * half))
@@ -125,7 +125,7 @@ function drawGrid(context, panel, { point, normal: n }) {
         }
 }
 
-// Lines through the origin along the axes, as far as they are in the frame or near it.
+// Draws the axes through the origin, if they are in the frame or near it.
 function drawOrigin(context, panel) {
     const { middle, half, dimensions } = panel.system, solid = dimensions === 3;
     const length = solid ? half : 2 * (panel.width + panel.height) / panel.scale;
@@ -186,7 +186,7 @@ function readSystem(n, at) {
     return [{ dimensions, charged, middle, half, bodies, links, barriers, scale }, at];
 }
 
-// Draws the systems that begin at n[at]; returns what is behind them.
+// Draws the systems that begin at n[at] and returns the index after them.
 export function drawSystems(context, n, at, [scale, x0, y0]) {
     const count = n[at++], columns = Math.ceil(Math.sqrt(Math.max(count, 1))), rows = Math.ceil(Math.max(count, 1) / columns);
     const width = n[0] / columns, height = n[1] / rows, side = Math.min(width, height) / 2 * (1 - 2 * MARGIN);

@@ -1,11 +1,11 @@
-// drawing.d.ts: the types of drawing.mjs.
+// drawing.d.ts: types and documentation of drawing.mjs.
 
-/** The size of a picture in the script's units: what a canvas may have. */
+/** The size of a picture in the script's units, for the canvas. */
 export function pictureSize(numbers: Float64Array): { width: number; height: number };
 
 /**
- * Draws a picture (`Session.picture`), scaled to fit the canvas and centred. `image` gives the images that scripts name,
- * `background` a colour (null: none; else black). Returns what is left out, as words.
+ * Draws a display list (`Session.displayList`), scaled to fit the canvas and centred. `image` returns the images that
+ * scripts name; `background` is a colour (default: black; null: none). Returns descriptions of unsupported parts.
  */
 export function drawPicture(context: CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D, numbers: Float64Array,
     options?: { image?: (name: string) => CanvasImageSource | null | undefined; background?: string | null }): string[];

@@ -1,4 +1,4 @@
-// drawing.mjs: draws a picture that petri has written as numbers (petri-draw.h, petri_picture_display_list) on a Canvas 2D.
+// drawing.mjs: draws a display list of petri (petri-draw.h, petri_picture_display_list) on a Canvas 2D.
 import { drawFiltered, readFilter } from './filters.mjs';
 import { noisePixels } from './noise.mjs';
 import { drawSystems } from './automatic.mjs';
@@ -9,17 +9,17 @@ const CAPS = ['butt', 'round', 'square'];
 const SLANTS = ['normal', 'oblique', 'italic'];
 const STRETCHES = ['ultra-condensed', 'extra-condensed', 'condensed', 'semi-condensed', 'normal', 'semi-expanded', 'expanded',
     'extra-expanded', 'ultra-expanded'];
-// In the order of lib/schema/composite_list.h.
+// In the order of lib/schema/composite_list.h; null: nothing is drawn.
 const MODULATE = 0, COMPOSITES = ['multiply', 'clear', 'copy', null, 'source-over', 'destination-over', 'source-in',
     'destination-in', 'source-out', 'destination-out', 'source-atop', 'destination-atop', 'xor', 'lighter', 'multiply',
     'screen', 'overlay', 'darken', 'lighten', 'color-dodge', 'color-burn', 'hard-light', 'soft-light', 'difference',
     'exclusion', 'hue', 'saturation', 'color', 'luminosity'];
-// Canvas 2D does not keep these to the figure.
+// In Canvas 2D, these modes also affect pixels outside the path.
 const UNBOUNDED = new Set(['clear', 'copy', 'source-in', 'destination-in', 'source-out', 'destination-atop']);
 const PATH_ELEMENT_SIZES = [2, 2, 4, 6, 6, 6, 7, 0];
 const FONTS = { Helvetica: '"Liberation Sans"', Arial: '"Liberation Sans"', Menlo: '"DejaVu Sans Mono"' };
 
-// The product of two canvases, alpha and all, for which Canvas 2D has no word.
+// Multiplies two canvases, including alpha, which Canvas 2D cannot do.
 function multiply(context, { canvas }) {
     const { width, height } = canvas, image = context.getImageData(0, 0, width, height);
     const other = canvas.getContext('2d').getImageData(0, 0, width, height).data;
@@ -33,10 +33,10 @@ const byte = x => Math.round(255 * Math.min(Math.max(x, 0), 1));
 const color = (n, at, alpha = 1) =>
     `rgba(${byte(n[at])},${byte(n[at + 1])},${byte(n[at + 2])},${Math.min(Math.max(n[at + 3] * alpha, 0), 1)})`;
 
-// The width and height that a picture has in the script's units.
+// Returns the size of a picture in the script's units.
 export const pictureSize = numbers => ({ width: numbers[0], height: numbers[1] });
 
-// An arc of an ellipse from `from` to n[5], n[6], as SVG has it.
+// Adds an elliptical arc from the current point to n[5], n[6], as in SVG.
 function arcTo(path, [x0, y0], n, at) {
     const [rx, ry, turns, large, clockwise, x, y] = n.subarray(at, at + 7);
     const c = Math.cos(turns * TURN), s = Math.sin(turns * TURN), dx = (x - x0) / 2, dy = (y - y0) / 2;
@@ -50,7 +50,7 @@ function arcTo(path, [x0, y0], n, at) {
         turns * TURN, Math.atan2(-b - my, -a - mx), Math.atan2(b - my, a - mx), clockwise === 0);
 }
 
-// The path from n[at] to n[end], where it is written in pieces.
+// Adds the path elements in n[at] to n[end].
 function tracePath(path, n, at, end) {
     let here = [0, 0], first = here;
     while (at < end) {
@@ -98,7 +98,7 @@ class Painter {
         this.base = [scale, (width - scale * numbers[0]) / 2, (height - scale * numbers[1]) / 2];
         this.matrix = [1, 0, 0, 1, 0, 0];
         this.paint = '#000';
-        this.alpha = 1; // of the paint, for images
+        this.alpha = 1; // opacity of the paint, for images
         this.solid = true;
         this.line = { width: 1, join: 0, cap: 0, composite: 4, offset: 0, dashes: [] };
         this.filter = null;
@@ -126,7 +126,7 @@ class Painter {
         this.scale = scale * Math.sqrt(Math.abs(xx * yy - xy * yx));
     }
 
-    // Sets how the next figure is painted; false if it is not seen.
+    // Sets up the painting of the next path. Returns false if it is invisible.
     begin(fill, stroke) {
         const { context, line } = this, composite = COMPOSITES[line.composite];
         this.setMatrix();
@@ -155,7 +155,7 @@ class Painter {
         return path;
     }
 
-    // A path with all that is outside of it.
+    // Returns the path with its outside instead of its inside.
     inverse(path) {
         const inverse = new Path2D(path);
         inverse.addPath(this.everywhere());
@@ -179,7 +179,7 @@ class Painter {
     fillPath(context, path, rule) {
         if (!this.round || typeof context.fillStyle === 'string')
             return context.fill(path, rule);
-        // A gradient goes with the matrix in force: the path is the other way round what the gradient's matrix makes of it.
+        // The gradient follows the current transform, so the path is transformed by the inverse of the gradient's matrix.
         const moved = new Path2D();
         moved.addPath(path, this.round.inverse());
         context.save();
@@ -188,8 +188,8 @@ class Painter {
         context.restore();
     }
 
-    // Fill and stroke are one figure: drawn through a mask where something would shine through, act beyond it, or (`masked`)
-    // where the paint would follow another matrix than its own.
+    // Paints fill and stroke as one shape. A mask is used if overlaps would show, if the mode affects pixels outside the path, or if the
+    // paint has a different transform (`masked`).
     paintPath(fill, stroke, act, masked) {
         const composite = COMPOSITES[this.line.composite];
         if (!composite)
@@ -231,7 +231,7 @@ class Painter {
         context.restore();
     }
 
-    // What is drawn by itself on a canvas whose corner is at x, y of the one that is drawn on; its context.
+    // Draws on a separate canvas whose corner is at x, y of the current one, and returns its context.
     apart(width, height, x, y, act) {
         const { context, base, line, filter } = this, apart = this.beside({ width, height }, true);
         Object.assign(this, { context: apart, base: [base[0], base[1] - x, base[2] - y], line: { ...line, composite: 4 }, filter: null });
@@ -240,7 +240,7 @@ class Painter {
         return apart;
     }
 
-    // The commands up to one that `ends`, for what they paint with, which is kept for later.
+    // Reads the commands of a paint up to one that `ends`, and keeps the resulting paint for later.
     readUpTo(ends) {
         const keep = ({ paint, alpha, solid, round, line, filter }) => ({ paint, alpha, solid, round, line, filter });
         const before = keep(this);
@@ -260,7 +260,7 @@ class Painter {
     readSource() {
         const source = this.readUpTo(() => true);
         while (this.n[this.at] === 13)
-            this.command(this.n[this.at++]); // what is left out of it
+            this.command(this.n[this.at++]); // commands for unsupported parts
         return source;
     }
 
@@ -272,7 +272,7 @@ class Painter {
         Object.assign(this, { paint: before, alpha, solid, round });
     }
 
-    // Another canvas combined with what a context has, by a number of petri's words.
+    // Combines another canvas with that of a context. `composite` is the number of a mode.
     combine(context, other, composite) {
         if (COMPOSITES[composite])
             this.compositeOver(context, other, COMPOSITES[composite]);
@@ -290,7 +290,7 @@ class Painter {
         this.setMatrix();
         if (!(size * this.scale > 0.1))
             return;
-        const drawn = 100; // pixels; sizes below one are not drawn by everyone
+        const drawn = 100; // pixels; some browsers do not draw sizes below 1
         const font = `${SLANTS[slant]} ${Math.min(Math.max(weight, 1), 1000)} ${STRETCHES[width] ?? 'normal'} `
             + `${drawn}px ${families.join(',') || 'sans-serif'}`;
         this.paintPath(fill, stroke, (here, isFill) => {
@@ -320,7 +320,7 @@ class Painter {
             this.unsupported.add(`the image ${name}`);
     }
 
-    // What the numbers hold of a picture.
+    // Reads an image whose pixels are in the display list.
     pixels() {
         const [width, height] = this.take(2), context = this.beside({ width, height }), pixels = this.take(width * height);
         const data = new Uint8ClampedArray(4 * width * height);
@@ -348,7 +348,7 @@ class Painter {
             context.clip();
         }
         context.translate(fit > 1 ? x + (width - w) / 2 : x, fit > 1 ? y + (height - h) / 2 : y);
-        context.scale(w / image.width, h / image.height); // which may turn it over
+        context.scale(w / image.width, h / image.height); // negative sizes mirror the image
         context.drawImage(image, 0, 0);
         context.restore();
     }
@@ -377,7 +377,7 @@ class Painter {
         };
     }
 
-    // An image, or what is as much of it as alpha says: patterns know no other.
+    // Returns the image with an opacity, because patterns have none.
     faded(image, alpha) {
         if (alpha >= 1)
             return image;
@@ -387,7 +387,7 @@ class Painter {
         return context.canvas;
     }
 
-    // A paint that is made of pixels, those of what is drawn on: `make` draws it on a canvas of its own.
+    // Returns a paint made of pixels in the resolution of the canvas; `make` draws it on a separate canvas.
     imageOfPixels(alpha, make) {
         Object.assign(this, { solid: false, alpha, round: null });
         return () => {
@@ -430,7 +430,7 @@ class Painter {
         this.context.clip(outside ? this.inverse(path) : path, outside || evenOdd ? 'evenodd' : 'nonzero');
     }
 
-    // A canvas of its own, as large as what is drawn on.
+    // Returns the context of a new canvas, by default as large as the current one.
     beside({ width, height } = this.context.canvas, willReadFrequently = false) {
         const canvas = typeof OffscreenCanvas === 'undefined' ? document.createElement('canvas') : new OffscreenCanvas(width, height);
         return Object.assign(canvas, { width, height }).getContext('2d', { willReadFrequently });
@@ -485,7 +485,7 @@ class Painter {
     systems() {
         const { canvas } = this.context, [scale, x, y] = this.base, [width, height] = this.n;
         if (this.at === 3 && x <= 0 && y <= 0 && scale * width >= canvas.width && scale * height >= canvas.height)
-            this.background = null; // nothing of it would be seen, and it costs more than all discs
+            this.background = null; // the background would be invisible, and costs more than all discs
         this.at = drawSystems(this.context, this.n, this.at, this.base);
     }
 
@@ -497,14 +497,14 @@ class Painter {
         return color(given, 0);
     }
 
-    // Gradients are made where they are used, for they follow the matrix that is in force.
+    // Gradients are created when they are used, because they follow the current transform.
     linear() {
         const ends = this.take(4), stops = this.readStops();
         this.round = null;
         return () => this.addStops(this.context.createLinearGradient(...ends), stops);
     }
 
-    // Circles of the user's space are all that Canvas 2D has: others are filled in one of their own.
+    // Canvas 2D only has gradients on circles; for others, the shape is filled in a transformed space.
     radial() {
         const matrix = this.take(6), [xx, yx, xy, yy, x0, y0] = matrix, stops = this.readStops();
         const radius = Math.sqrt(Math.abs(xx * yy - xy * yx)), even = Math.hypot(xx - yy, xy + yx) < 1e-6 * radius;
@@ -537,7 +537,7 @@ class Painter {
         while (this.at < this.n.length)
             this.command(this.n[this.at++]);
         this.context.restore();
-        if (this.background) { // behind all, for colours combine with what is drawn only
+        if (this.background) { // drawn last but behind everything, so that it does not affect compositing
             this.context.save();
             Object.assign(this.context, { globalCompositeOperation: 'destination-over', fillStyle: this.background });
             this.context.setTransform(1, 0, 0, 1, 0, 0);
@@ -548,8 +548,8 @@ class Painter {
     }
 }
 
-// Draws on a CanvasRenderingContext2D, scaled to fit its canvas and centred; `image(name)` gives what a script names, as
-// drawImage takes it. Returns what is left out, as words.
+// Draws on a CanvasRenderingContext2D, scaled to fit its canvas and centred. `image(name)` returns an image of the script for drawImage.
+// Returns descriptions of unsupported parts.
 export function drawPicture(context, numbers, options = {}) {
     return new Painter(context, numbers, options).draw();
 }

@@ -1,11 +1,11 @@
-// filters.mjs: what is drawn through a filter on a Canvas 2D (lib/draw/filters.c): drawn on a sheet of its own, which is
-// then changed.
+// filters.mjs: drawing through a filter on a Canvas 2D (lib/draw/filters.c): the shape is drawn on a separate image, which is then
+// filtered.
 import { FloatImage } from './float_image.mjs';
 
-const MAX_SIGMA = 256, MAX_OFFSET = 2000; // of a blur and of a move, pixels
+const MAX_SIGMA = 256, MAX_OFFSET = 2000; // of a blur and of an offset, pixels
 const KINDS = ['blur', 'shadow', 'offset', 'dilate', 'erode', 'matrix', 'paint', 'blend', 'drawn'];
 
-// The filter at painter.at (petri-draw.h, PETRI_FILTER_…).
+// Reads the filter at painter.at (petri-draw.h, PETRI_FILTER_…).
 export function readFilter(painter) {
     const kind = KINDS[painter.take(1)[0]], filter = { kind };
     switch (kind) {
@@ -32,7 +32,7 @@ export function readFilter(painter) {
     return filter;
 }
 
-// What a filter asks for: how far its traces go, and whether it changes what is transparent.
+// Returns how far a filter extends a shape, and whether it changes transparent pixels.
 function needsOf(filter, matrix) {
     if (!filter.input)
         return { margin: 0, everywhere: filter.kind === 'paint' };
@@ -49,7 +49,7 @@ function needsOf(filter, matrix) {
 const inPixels = (radii, { a, b, c, d }) => [radii[0] * Math.hypot(a, b), radii[1] * Math.hypot(c, d)];
 const moved = ([dx, dy], { a, b, c, d }) => [a * dx + c * dy, b * dx + d * dy];
 
-// A new sheet. `host` has matrix, drawn, paintAll(paint) and blend(composite, below, above), which give sheets.
+// Returns a new image. `host` has matrix, drawn, paintAll(paint) and blend(composite, below, above), which return images.
 function applyFilter(filter, host) {
     if (filter.kind === 'drawn')
         return host.drawn.copy();
@@ -72,7 +72,7 @@ function applyFilter(filter, host) {
     }
 }
 
-// Where something is drawn; null: nowhere.
+// Returns the bounding box of the drawn pixels; null if there are none.
 function inkOf(context) {
     const { width, height } = context.canvas, pixels = new Uint32Array(context.getImageData(0, 0, width, height).data.buffer);
     let left = width, right = -1, top = -1, bottom = -1;
@@ -88,13 +88,13 @@ function inkOf(context) {
     return right < 0 ? null : { left, right, top, bottom };
 }
 
-// What the sheet covers of a canvas: what is drawn there and its traces.
+// Returns the area of a canvas that the filtered image covers.
 function boxOf({ width, height }, ink, edge) {
     const x = Math.max(ink.left - edge, 0), y = Math.max(ink.top - edge, 0);
     return [x, y, Math.min(ink.right + 1 + edge, width) - x, Math.min(ink.bottom + 1 + edge, height) - y];
 }
 
-// Draws what `act` draws through the painter's filter, and lays it over with the composite of the line, a word of Canvas 2D.
+// Draws what `act` draws through the painter's filter, and adds it with `composite`, a mode of Canvas 2D.
 export function drawFiltered(painter, act, composite) {
     const { filter, context } = painter;
     painter.setMatrix();

@@ -1,9 +1,9 @@
-// float_image.mjs: pixels as numbers from 0 to 1, multiplied by alpha, and what filters make of them (lib/draw/float_image.c, for
-// hosts that have Canvas 2D only).
+// float_image.mjs: images with premultiplied numbers from 0 to 1, and filters for them (lib/draw/float_image.c, for hosts that only have
+// Canvas 2D).
 
 const MAX_SIGMA = 256, MAX_EXACT_SIGMA = 8; // standard deviations of a blur, pixels
 
-// To the nearest whole number, ties to the even one.
+// Rounds to the nearest integer, ties to even.
 const nearest = x => (Math.abs(x % 1) === 0.5 ? 2 * Math.round(x / 2) : Math.round(x));
 
 export class FloatImage {
@@ -38,7 +38,7 @@ export class FloatImage {
         return new FloatImage(this.width, this.height, this.pixels.slice());
     }
 
-    // Changes all rows (axis 0) or all columns; `change` gives the four numbers of a line's pixel.
+    // Applies `change` to all rows (axis 0) or columns; it returns the four numbers of a pixel of the line.
     lines(axis, change) {
         const { width, height, pixels } = this, count = axis ? height : width, step = axis ? 4 * width : 4;
         const line = new Float32Array(4 * count);
@@ -59,7 +59,7 @@ export class FloatImage {
         return this;
     }
 
-    // Grows what is there, or shrinks it.
+    // Enlarges shapes, or shrinks them if `least`.
     spread(radii, least) {
         radii.forEach((radius, axis) => {
             const reach = Math.min(nearest(radius), axis ? this.height : this.width);
@@ -79,7 +79,7 @@ export class FloatImage {
         return out;
     }
 
-    // Gives all of it one colour, and leaves its alpha, times that of the colour.
+    // Sets one colour everywhere, and multiplies its alpha by that of the image.
     shade([red, green, blue, alpha]) {
         for (let i = 0; i < this.pixels.length; i += 4) {
             const there = this.pixels[i + 3] * alpha;
@@ -95,7 +95,7 @@ export class FloatImage {
         return this;
     }
 
-    // Four rows of five numbers, on colours that are not multiplied by alpha.
+    // Applies a matrix of four rows of five numbers to colours that are not premultiplied.
     recolour(matrix) {
         const plain = [0, 0, 0, 0, 1], out = [0, 0, 0, 0], { pixels } = this;
         for (let i = 0; i < pixels.length; i += 4) {
@@ -114,7 +114,7 @@ export class FloatImage {
         return this;
     }
 
-    // Factors of the product, of what is above, of this, and what is added.
+    // Combines two images: factors of the product, of `above`, of this image, and a constant.
     combine({ pixels: above }, [both, other, own, more]) {
         const { pixels } = this;
         for (let i = pixels.length - 1; i >= 0; i--) { // alpha first
@@ -125,7 +125,7 @@ export class FloatImage {
     }
 }
 
-// What neighbours give with their weights; there is nothing beyond the ends.
+// Computes the weighted sum of neighbouring pixels; pixels beyond the ends count as 0.
 function weigh(weights, from, count, at, to, i) {
     const reach = weights.length - 1;
     for (let k = 0; k < 4; k++)
@@ -135,8 +135,8 @@ function weigh(weights, from, count, at, to, i) {
             to[i + k] += weights[Math.abs(at - j)] * from[4 * j + k];
 }
 
-// A wide blur weighs cells of several pixels, and pixels lie between the middles of cells; both are blurs, too, of
-// (cell² − 1)/12 and twice that.
+// A wide blur is computed on cells of several pixels and interpolated between their centres. Both steps add to the variance: (cell² − 1)/12
+// and twice that.
 function blurOf(sigma) {
     const cell = sigma > MAX_EXACT_SIGMA ? Math.floor(sigma / 4) : 1;
     const narrow = Math.sqrt(sigma * sigma - (cell * cell - 1) / 4) / cell;
@@ -149,7 +149,7 @@ function blurOf(sigma) {
         const cells = Math.ceil(count / cell), from = cell > 1 ? new Float32Array(4 * cells) : line;
         for (let i = 0; cell > 1 && i < 4 * count; i++)
             from[4 * Math.floor((i >> 2) / cell) + i % 4] += line[i] / cell;
-        const margin = cell > 1 ? 1 : 0, weighed = new Float32Array(4 * (cells + 2 * margin)); // of cells from -1 on
+        const margin = cell > 1 ? 1 : 0, weighed = new Float32Array(4 * (cells + 2 * margin)); // for cells from -1 on
         for (let i = -margin; i < cells + margin; i++)
             weigh(weights, from, cells, i, weighed, 4 * (i + margin));
         if (cell === 1)
@@ -164,7 +164,7 @@ function blurOf(sigma) {
     };
 }
 
-// The greatest or least within reach: of more and more pixels, then of two such runs.
+// Returns a function that computes the maximum or minimum within reach, by doubling the length of runs.
 function spreadOf(reach, choose) {
     return (line, count) => {
         const all = count + 2 * reach, other = new Float32Array(4 * all), wanted = 2 * reach + 1;

@@ -1,8 +1,8 @@
-// noise.mjs: the noise of SVG's feTurbulence, and Perlin's improved one, as pixels (lib/draw/noise.c).
+// noise.mjs: the noise of SVG's feTurbulence, and Perlin's improved noise, as pixels (lib/draw/noise.c).
 
 const LATTICE = 256, CHANNELS = 4, FOLDED = 1, IMPROVED = 2;
 
-// The numbers of SVG: 1 to 2³¹ − 2.
+// Yields the random numbers of SVG, from 1 to 2³¹ − 2.
 function* numbersFrom(seed) {
     const MODULUS = 2147483647, FACTOR = 16807, MAX_VALUE = MODULUS - 1, whole = Math.trunc(seed);
     let number = whole <= 0 ? 1 - whole % MAX_VALUE : Math.min(whole, MAX_VALUE);
@@ -26,7 +26,7 @@ function makeLattice(seed) {
     return { slopes, order };
 }
 
-// So that a whole number of waves fits into a tile: the nearest such frequency; and how many, 0 where there are no tiles.
+// Returns the nearest frequency with a whole number of waves per tile, and that number; 0 without tiles.
 function fitTile(given, side, other) {
     const frequency = Math.abs(given);
     if (!(side > 0 && other > 0 && frequency > 0))
@@ -57,7 +57,7 @@ function smooth({ slopes, order }, channel, x, y) {
         mix(across, at(x.cell, y.next, x.part, y.part - 1), at(x.next, y.next, x.part - 1, y.part - 1)));
 }
 
-// Perlin's of 2002, in the plane z = channel: twelve directions along the edges' middles of a cube.
+// Perlin's noise of 2002 in the plane z = channel, with the directions to the twelve edge centres of a cube.
 function improved({ order }, channel, x, y) {
     const at = (i, j, dx, dy) => {
         const edge = order[(order[(order[i] + j) & (LATTICE - 1)] + channel) & (LATTICE - 1)] & 15;
@@ -69,7 +69,7 @@ function improved({ order }, channel, x, y) {
         mix(across, at(x.cell, y.next, x.part, y.part - 1), at(x.next, y.next, x.part - 1, y.part - 1)));
 }
 
-// The noise of numbers (petri-draw.h, PETRI_DRAW_NOISE) as ImageData; `toUnits` is a DOMMatrix, of pixels.
+// Computes noise (petri-draw.h, PETRI_DRAW_NOISE) as ImageData; `toUnits` is the DOMMatrix from pixels to units.
 export function noisePixels([fx, fy, tileX, tileY, seed, octaves, type, alpha], toUnits, width, height) {
     const lattice = makeLattice(seed), wave = type === IMPROVED ? improved : smooth, image = new ImageData(width, height);
     const [frequencyX, cellsX] = fitTile(fx, tileX, tileY), [frequencyY, cellsY] = fitTile(fy, tileY, tileX);
@@ -79,7 +79,7 @@ export function noisePixels([fx, fy, tileX, tileY, seed, octaves, type, alpha], 
             const u = column + 0.5, v = row + 0.5, x = (a * u + c * v + e) * frequencyX, y = (b * u + d * v + f) * frequencyY;
             sums.fill(0);
             for (let octave = 0, ratio = 1; octave < octaves && ratio < Infinity; octave++, ratio *= 2) {
-                if (!(Math.abs(x * ratio) < 1e15 && Math.abs(y * ratio) < 1e15)) // there are no parts left
+                if (!(Math.abs(x * ratio) < 1e15 && Math.abs(y * ratio) < 1e15)) // the coordinates have no fraction any more
                     break;
                 const placeX = placeOf(x * ratio, cellsX * ratio), placeY = placeOf(y * ratio, cellsY * ratio);
                 for (let channel = 0; channel < CHANNELS; channel++) {

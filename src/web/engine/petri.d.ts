@@ -1,15 +1,15 @@
-// petri.d.ts: the types of petri.mjs, and what each call does.
+// petri.d.ts: types and documentation of petri.mjs.
 
-/** Bytes, a compiled module, where to fetch engine.wasm, or the answer of a fetch. Nothing: beside petri.mjs. */
+/** Bytes, a compiled module, the URL of engine.wasm, or the response of a fetch. Default: engine.wasm next to petri.mjs. */
 export type EngineSource = BufferSource | WebAssembly.Module | Response | URL | string;
 
-/** Compiles the engine, which takes some ten milliseconds. */
+/** Compiles the engine, which takes about ten milliseconds. */
 export function loadEngine(source?: EngineSource): Promise<Engine>;
 
 export type Status = 'ok' | 'invalid' | 'limit' | 'memory' | 'missing' | 'interrupted';
 export const STATUS: Status[];
 
-/** What petri has to say of a script. Lines and columns count from 1, columns in characters. */
+/** A message about a script. Lines and columns count from 1, columns in characters. */
 export interface Diagnostic {
     level: 'error' | 'warning' | 'note';
     file: string | null;
@@ -18,11 +18,11 @@ export interface Diagnostic {
     endLine: number;
     endColumn: number;
     text: string;
-    /** The short name of the kind, such as "unbound-name". */
+    /** Identifier of the kind of message, such as "unbound-name". */
     code: string | null;
-    /** A second sentence that helps; "" for none. */
+    /** Advice; "" for none. */
     hint: string;
-    /** With place, source line and carets, as the command prints it. */
+    /** With position, source line and carets, as printed by the command. */
     rendered: string;
 }
 
@@ -32,32 +32,32 @@ export class PetriError extends Error {
 }
 
 export interface Options {
-    /** Frames a second, unless the script says so itself. Default 60. */
+    /** Frames per second, unless the script sets it. Default 60. */
     fps?: number;
-    /** Bytes that a script may use. Default 1 GiB. */
+    /** Memory limit of the script in bytes. Default 1 GiB. */
     memory?: number;
-    /** Work of one call in units of some ten nanoseconds; a frame that needs more is given up. Default 2^28. */
+    /** Work limit of a call in units of about ten nanoseconds; a frame that exceeds it is aborted. Default 2^28. */
     work?: number;
-    /** What scripts may read and import, by name. They reach nothing else. */
+    /** Files that scripts can read and import, by name. They have no other access. */
     files?: Record<string, string | Uint8Array>;
     onDiagnostic?: (diagnostic: Diagnostic) => void;
     /**
-     * Asked every ten microseconds or so of a call that may take long: true ends it, with the status "interrupted", and
-     * nothing has changed. Calls that only look at what is there are made to their end.
-     * It may look at a clock, or at a SharedArrayBuffer that another thread writes.
+     * Polled about every ten microseconds during calls that may take long. Return true to end the call with the status
+     * "interrupted"; nothing has changed then. Calls that only read values are not interrupted.
+     * It can check a clock, or a SharedArrayBuffer that another thread writes.
      */
     shouldInterrupt?: () => boolean;
 }
 
 export interface Engine {
     readonly version: string;
-    /** Why the engine cannot be used any more, after an exception within it; load another one then. */
+    /** The exception that made the engine unusable; load another engine then. */
     readonly broken?: Error;
     open(options?: Options): Session;
 }
 
 export interface Frame {
-    /** From 0; -1 before the first. */
+    /** From 0; -1 before the first frame. */
     number: number;
     time: number;
     beat: number;
@@ -69,7 +69,7 @@ export interface Frame {
     physicsSeconds: number;
 }
 
-/** A name that may be set from outside: `let NAME=NAME or DEFAULT -- LEAST..MOST|STEP comment`. */
+/** A name that can be set from outside: `let NAME=NAME or DEFAULT -- MIN..MAX|STEP comment`. */
 export interface Parameter {
     name: string;
     defaultValue: string;
@@ -78,7 +78,7 @@ export interface Parameter {
     /** NaN unless the value is one number. */
     number: number;
     defaultNumber: number;
-    /** The range; infinite without one. */
+    /** The range; infinite if there is none. */
     min: number;
     max: number;
     /** 0: none. */
@@ -89,7 +89,7 @@ export interface Parameter {
     column: number;
 }
 
-/** Numbers in the engine's memory: those of particle i begin at `data[i * stride]`. */
+/** Numbers in the engine's memory; those of particle i begin at `data[i * stride]`. */
 export interface Column {
     data: Float64Array;
     stride: number;
@@ -106,23 +106,23 @@ export interface System {
     radius: Column | null;
     mass: Column | null;
     charge: Column | null;
-    /** null if an id is no number. */
+    /** null if an id is not a number. */
     ids: Column | null;
 }
 
 export interface Token {
     kind: 'name' | 'keyword' | 'number' | 'string' | 'symbol' | 'node' | 'tag' | 'operator' | 'comment' | 'invalid'
         | 'newline' | 'indent' | 'dedent';
-    /** In bytes of UTF-8. */
+    /** Positions in bytes of UTF-8. */
     start: number;
     end: number;
 }
 
-/** A row of petri's tables; the attributes of a node follow it. */
+/** A row of petri's tables; a node is followed by its attributes. */
 export interface Help {
     kind: 'function' | 'node' | 'attribute' | 'name';
     name: string;
-    /** Of a function; the area of a node; the type of an attribute. */
+    /** The parameters of a function, the area of a node, or the type of an attribute. */
     parameters: string;
     defaultValue: string;
     unit: string;
@@ -131,90 +131,90 @@ export interface Help {
 
 export type Section = 'tree' | 'state' | 'log' | 'error' | 'hash';
 
-/** A picture that WebGL 2 has drawn. */
+/** A picture drawn with WebGL 2. */
 export interface RenderedImage {
     image: ImageBitmap;
     title: string;
     ready: boolean;
-    /** What is left out, as words. */
+    /** Descriptions of unsupported parts, which are omitted. */
     unsupported: string[];
     screen: true;
 }
 
-/** One script that runs. Calls that fail throw a PetriError; what they were to change is then as before. */
+/** A running script. Calls that fail throw a PetriError and change nothing. */
 export interface Session {
-    /** Loads a script; frames count from 0 again, the state is kept. */
+    /** Loads a script. Frames count from 0 again; the state is kept. */
     load(text: string | Uint8Array, name?: string): this;
-    /** Another text for the script that runs; frames, time and state go on. */
+    /** Replaces the text of the running script; frames, time and state continue. */
     reload(text: string | Uint8Array, name?: string): this;
-    /** What would be told of a text; nothing changes. */
+    /** Returns the diagnostics of a text without changing anything. */
     diagnose(text: string | Uint8Array, name?: string): Diagnostic[];
-    /** A value for a name, such as "SIZE=20", in scripts that are loaded from now on. */
+    /** Defines a name, as in "SIZE=20", for scripts loaded from now on. */
     define(definition: string): this;
-    /** Gives scripts a file; null takes it away. */
+    /** Adds a file for scripts; null removes it. */
     setFile(name: string, content: string | Uint8Array | null): void;
-    /** Makes the next frame. */
+    /** Computes the next frame. */
     step(): this;
     stepAt(time: number, beat: number): this;
-    /** Forgets the state and goes to before frame 0. */
+    /** Clears the state and restarts before frame 0. */
     clear(): void;
     readonly frame: Frame;
     readonly parameters: Parameter[];
-    /** The value as a script would write it; null: the default. */
+    /** Sets a parameter to a value, written as in a script; null: to its default. */
     setParameter(name: string, value: string | number | null): this;
-    /** A name for scripts that are loaded from now on, whose value may be another at any time. */
+    /** Sets a global for scripts loaded from now on. Its value can be changed at any time. */
     setGlobal(name: string, value: number | ArrayLike<number>): this;
-    /** Views that the next call which changes something makes invalid; copy what is to be kept. */
+    /** Columns are views, valid until the next call that changes something; copy them to keep them. */
     readonly systems: System[];
-    /** Printed keys; numbers, or the printed form of what is none. */
+    /** Printed keys with numbers, or with the printed value if it is not all numbers. */
     readonly state: Map<string, number[] | string>;
     /** The SHA-256 of the state: the same on every machine. */
     hash(): string;
     /**
-     * The particles of the last frame as comma-separated values, as `petri run --trajectory run.csv` writes them: the first
-     * call gives a header, too, and the dimensions that the columns have, for the calls in later frames.
+     * The particles of the last frame as comma-separated values, as written by `petri run --trajectory run.csv`. The first
+     * call includes a header and returns the number of dimensions, which must be passed in later frames.
      */
     table(dimensions?: number): { text: string; dimensions: number };
-    /** The last frame as `petri run --print` shows it. */
+    /** The last frame as printed by `petri run --print`. */
     print(...sections: Section[]): string;
-    /** What debug() said in the last frame. */
+    /** The output of debug() in the last frame. */
     log(): string;
     evaluate(expression: string): { text: string; number: number };
-    /** A line typed at the prompt; what it prints. Bindings and nodes stay. */
+    /** Evaluates a line typed at the prompt and returns its output. Bindings and nodes persist. */
     prompt(text: string): string;
-    /** Whether the last frame has anything to draw. */
+    /** True if the last frame has anything to draw. */
     readonly drawable: boolean;
-    /** What the last frame shows, as numbers for `drawPicture`; null if there is nothing to draw. */
+    /** The display list of the last frame for `drawPicture`; null if there is nothing to draw. */
     displayList(options?: { automatic?: boolean }): Picture | null;
     /**
-     * The same, but with all that takes WebGL 2 (three dimensions, effects, several canvases), as an image that is the
-     * caller's; numbers where they are all of it, or there is no WebGL 2.
+     * Like `displayList`, but content that needs WebGL 2 (3-D scenes, effects, several canvases) is rendered to an image,
+     * which the caller owns. Returns a display list if that is sufficient, or without WebGL 2.
      */
     render(options?: { automatic?: boolean }): Picture | RenderedImage | null;
-    /** Whether the pictures of the last frame depend on those before (`!feedback`, `!reference`, …). */
+    /** True if the pictures of the last frame depend on earlier ones (`!feedback`, `!reference`, …). */
     readonly needsHistory: boolean;
-    /** To be called after each step whose picture is not shown: makes it if later ones depend on it, and says whether they do. */
+    /** Call this after every step whose picture is not shown. Renders it if later ones depend on it, and returns whether they do. */
     renderIfNeeded(): boolean;
     tokens(text: string): Token[];
     help(): Help[];
     symbol(name: string): number;
     symbolName(number: number): string | null;
-    /** Where the pointer is in the picture, 0 to 1 from the top left; buttons as bits. */
+    /** Reports the pointer's position in the picture, 0 to 1 from the top left; buttons as bits. */
     pointer(inside: boolean, x?: number, y?: number, buttons?: number): this;
     key(name: string, pressed: boolean): this;
-    /** All that decides how the session goes on, for `rewind`. */
+    /** Stores the complete state of the session for `rewind`. */
     snapshot(): Snapshot;
     rewind(snapshot: Snapshot): this;
     close(): void;
 }
 
 export interface Picture {
-    /** As petri-draw.h describes them (petri_picture_display_list). */
+    /** The display list (petri-draw.h, petri_picture_display_list). */
     numbers: Float64Array;
     title: string;
-    /** false: particles are not yet where they will be seen. */
+    /** false: particles are not at their positions yet. */
     ready: boolean;
-    /** Of `render`: whether there is WebGL 2. */
+    /** Set by `render`: true if WebGL 2 is available. */
     screen?: boolean;
 }
 

@@ -1,5 +1,5 @@
-// petri.mjs: sessions of petri for JavaScript: load a script, step it, look at values. petri.d.ts has the types; what
-// holds for petri.h holds here.
+// petri.mjs: petri sessions for JavaScript: load a script, step it, read values. petri.d.ts has the types and documents the calls;
+// otherwise the contracts of petri.h apply.
 import { drawPicture } from './drawing.mjs';
 import { pixelContext, readPixels } from './pixels.mjs';
 import { compile, instantiate } from './wasm.mjs';
@@ -9,13 +9,13 @@ const LEVELS = ['error', 'warning', 'note'];
 const TOKENS = ['name', 'keyword', 'number', 'string', 'symbol', 'node', 'tag', 'operator', 'comment', 'invalid', 'newline',
     'indent', 'dedent'];
 const SECTIONS = { tree: 1, state: 2, log: 4, error: 8, hash: 16 };
-// Browsers give WebAssembly about a megabyte of stack besides what petri sees of it; with this much, 500 calls of one
-// function fit, and deeper recursion is told before theirs is used up.
+// Browsers provide about 1 MiB of stack in addition to the part that petri can measure. This limit allows 500 nested calls of a function,
+// and reports deeper recursion before the browser's stack overflows.
 const STACK = 1536 << 10;
 const MEMORY = 1 << 30;
 const CALL_WORK = 2 ** 28; // a second or two
 
-// Thrown when something of petri fails; `diagnostics` are what was told meanwhile.
+// Thrown when a call fails; `diagnostics` are the messages of that call.
 export class PetriError extends Error {
     constructor(status, diagnostics, what) {
         const first = diagnostics.find(told => told.level === 'error') ?? diagnostics[0];
@@ -26,16 +26,16 @@ export class PetriError extends Error {
     }
 }
 
-// Compiles the engine once; sessions are opened by it. `source`: see wasm.mjs.
+// Compiles the engine, which then opens sessions. `source`: see wasm.mjs.
 export async function loadEngine(source) {
     return new Engine(await compile(source));
 }
 
-// Sessions of one engine share its memory; one that has crashed takes the others with it.
+// The sessions of an engine share its memory; a crash makes all of them unusable.
 class Engine {
     constructor(module) {
         this.module = module;
-        this.session = null; // for which something runs
+        this.session = null; // the session of the current call
         const text = at => this.memory.text(at);
         const now = () => this.session;
         this.memory = instantiate(module, {
@@ -96,11 +96,11 @@ export class Session {
         this.onDiagnostic = onDiagnostic;
         this.shouldInterrupt = shouldInterrupt;
         this.image = image;
-        this.painter = null; // 0: there can be none
-        this.followed = null; // the picture that was made last, if others depend on it
+        this.painter = null; // 0: not available
+        this.followed = null; // the last rendered picture, if later ones depend on it
         this.unsupported = new Set();
         this.files = new Map();
-        this.kept = []; // addresses of files, until the session is closed
+        this.kept = []; // addresses of file contents, freed when the session is closed
         this.written = [];
         this.taken = [];
         this.told = [];
@@ -108,7 +108,7 @@ export class Session {
             this.setFile(name, content);
         this.handle = this.run(wasm => wasm.web_open(fps, memory, work, STACK));
         if (!this.handle)
-            throw new RangeError('no session can be opened: memory is used up, or the options make no sense');
+            throw new RangeError('cannot open a session: out of memory or invalid options');
     }
 
     close() {
@@ -121,7 +121,7 @@ export class Session {
         this.kept = [];
     }
 
-    // Gives scripts a file to read or import, text or bytes; null takes it away.
+    // Adds a file that scripts can read or import, from a text or bytes; null removes it.
     setFile(name, content) {
         if (content === null)
             this.files.delete(name);
@@ -129,8 +129,8 @@ export class Session {
             this.files.set(name, { bytes: typeof content === 'string' ? new TextEncoder().encode(content) : content, at: 0 });
     }
 
-    // Everything that enters the engine goes through here. An exception that comes out of it means that the engine is
-    // in the middle of something, for good. The host may end only what can tell that it was ended.
+    // Runs every call of the engine. An exception from it leaves the engine in an undefined state, so it is not used again. Only calls that
+    // can report an interruption may be interrupted.
     run(act, mayInterrupt = false) {
         if (this.engine.broken)
             throw this.engine.broken;
@@ -143,14 +143,14 @@ export class Session {
         try {
             return act(this.memory.wasm);
         } catch (error) {
-            this.engine.broken = new Error(`the engine has stopped: ${error.message}`, { cause: error });
+            this.engine.broken = new Error(`the engine crashed: ${error.message}`, { cause: error });
             throw this.engine.broken;
         } finally {
             this.engine.session = outer;
         }
     }
 
-    // The same for calls that return a status.
+    // Like run, for calls that return a status.
     check(what, act) {
         const status = STATUS[this.run(act, true)];
         if (status !== 'ok')
@@ -170,13 +170,13 @@ export class Session {
             this.memory.withText(encoded, (at, length) => wasm.petri_load_text(this.handle, called, at, length))));
     }
 
-    // The script has changed; frame numbers, time and state go on.
+    // Replaces the script; frame numbers, time and state continue.
     reload(text, name = 'script.fl') {
         this.setFile(name, text);
         return this.check('reload', this.with(name, (wasm, called) => wasm.petri_reload(this.handle, called)));
     }
 
-    // What would be told of a text; nothing is changed.
+    // Returns the diagnostics of a text without changing anything.
     diagnose(text, name = 'script.fl') {
         const status = STATUS[this.run(this.with(name, (wasm, called) =>
             this.memory.withText(text, (at, length) => wasm.petri_check_text(this.handle, called, at, length))), true)];
@@ -185,7 +185,7 @@ export class Session {
         return this.told;
     }
 
-    // A value for a name, such as 'SIZE=20', in scripts that are loaded from now on.
+    // Defines a name, as in 'SIZE=20', for scripts loaded from now on.
     define(definition) {
         return this.check('define', this.with(definition, (wasm, at) => wasm.petri_define(this.handle, at)));
     }
@@ -207,7 +207,7 @@ export class Session {
         return this.taken[0];
     }
 
-    // The text of the last frame; `sections` as `petri run --print` has them.
+    // The text of the last frame; sections as in `petri run --print`.
     print(...sections) {
         const bits = sections.reduce((sum, name) => sum | SECTIONS[name], 0);
         this.check('print', wasm => wasm.web_print(this.handle, bits));
@@ -219,8 +219,8 @@ export class Session {
         return this.written.join('');
     }
 
-    // The particles of the last frame as rows of a table, as `petri run --trajectory` has them; `dimensions` as an earlier
-    // call gave them, or 0 for a header, too.
+    // The particles of the last frame as rows of a table, as in `petri run --trajectory`. `dimensions` is the result of the first call, or
+    // 0 to include a header.
     table(dimensions = 0) {
         const has = this.run(wasm => wasm.web_particles(this.handle, dimensions), true);
         if (has <= 0)
@@ -238,7 +238,7 @@ export class Session {
         return this.taken;
     }
 
-    // As the script would write the value; null: the default.
+    // `value` as a script would write it; null: the default.
     setParameter(name, value) {
         const set = (wasm, at) => value === null
             ? wasm.petri_set_parameter(this.handle, at, 0)
@@ -246,8 +246,8 @@ export class Session {
         return this.check(`the parameter ${name}`, this.with(name, set));
     }
 
-    // The systems of the last frame. Columns are views of the engine's memory, valid until the next call that changes
-    // something: those of particle i begin at i * stride.
+    // The systems of the last frame. Columns are views of the engine's memory, valid until the next call that changes something. The
+    // numbers of particle i begin at i * stride.
     get systems() {
         this.run(wasm => wasm.web_systems(this.handle));
         return this.taken;
@@ -260,13 +260,13 @@ export class Session {
             : null;
     }
 
-    // The state dictionary: printed keys; numbers, or the printed form of what is none.
+    // The state: printed keys with numbers, or with the printed value if it is not all numbers.
     get state() {
         this.run(wasm => wasm.web_state(this.handle));
         return new Map(this.taken.map(entry => [entry.key, entry.value]));
     }
 
-    // A name that scripts loaded from now on see: a number or numbers, another value at any time.
+    // Sets a global for scripts loaded from now on: one or more numbers, which may be changed at any time.
     setGlobal(name, value) {
         const numbers = Float64Array.from(typeof value === 'number' ? [value] : value);
         return this.check(`the name ${name}`, this.with(name, (wasm, called) =>
@@ -274,7 +274,7 @@ export class Session {
                 wasm.web_set_global(this.handle, called, numbers.length ? at : 0, numbers.length))));
     }
 
-    // An expression in the last frame.
+    // Evaluates an expression in the last frame.
     evaluate(expression) {
         this.check('evaluate', this.with(expression, (wasm, at, length) => wasm.web_evaluate(this.handle, at, length)));
         if (this.told.some(told => told.level === 'error'))
@@ -282,25 +282,25 @@ export class Session {
         return { text: this.written.join(''), number: this.taken[0].value[0] };
     }
 
-    // A line typed at the prompt: what it prints.
+    // Evaluates a line typed at the prompt and returns its output.
     prompt(text) {
         this.check('prompt', this.with(text, (wasm, at, length) => wasm.web_prompt(this.handle, at, length)));
         return this.written.join('');
     }
 
-    // What the last frame shows, as numbers that drawing.mjs knows; null if there is nothing to draw.
+    // The display list of the last frame, for drawing.mjs; null if there is nothing to draw.
     displayList({ automatic = false } = {}) {
         this.run(wasm => wasm.web_picture(this.handle, 0, 0, automatic ? 1 : 0));
         return this.taken[0] ?? null;
     }
 
-    // Whether the pictures of the last frame depend on those before: then `renderIfNeeded` is to be called after each step.
+    // True if the pictures of the last frame depend on earlier ones; call `renderIfNeeded` after every step then.
     get needsHistory() {
         return !!this.run(wasm => wasm.petri_needs_history(this.handle));
     }
 
-    // Makes the pictures of the last frame, which nobody looks at, if later ones depend on them; whether they do.
-    // Also extends what the automatic picture shows by that frame.
+    // Renders the last frame, although it is not shown, if later pictures depend on it. Returns true if they do. Also updates the view of
+    // the automatic picture.
     renderIfNeeded() {
         this.run(wasm => wasm.web_follow_frame(this.handle));
         if (!this.needsHistory)
@@ -330,7 +330,7 @@ export class Session {
         this.painter = null;
     }
 
-    // The same with all that takes WebGL 2, as an image; as numbers where there is none, or no need of it.
+    // Like displayList, but renders content that needs WebGL 2 to an image, where available.
     render({ automatic = false } = {}) {
         this.openPainter();
         this.unsupported.clear();
@@ -348,7 +348,7 @@ export class Session {
         return true;
     }
 
-    // The pixels of an image, which stay until the next one is wanted.
+    // Returns the address of an image's pixels, valid until the next image is requested.
     imagePixels(name, width, height) {
         const image = this.image(name);
         this.memory.wasm.free(this.pixels ?? 0);
@@ -373,7 +373,7 @@ export class Session {
         return this.taken;
     }
 
-    // Rows of petri's tables: functions, nodes, each followed by its attributes, and names of the script.
+    // The rows of petri's tables: functions; nodes, each followed by its attributes; names of the script.
     help() {
         this.run(wasm => wasm.web_help(this.handle));
         return this.taken;
@@ -396,7 +396,7 @@ export class Session {
             wasm.petri_report_key(this.handle, at, pressed ? 1 : 0)));
     }
 
-    // All that decides how a session goes on. Free it before the session is closed.
+    // The complete state of the session. Free it before the session is closed.
     snapshot() {
         const at = this.run(wasm => wasm.petri_snapshot(this.handle));
         if (!at)
@@ -404,7 +404,7 @@ export class Session {
         return new Snapshot(this, at);
     }
 
-    // Pictures that depend on those before begin anew.
+    // Pictures that depend on earlier ones start again.
     rewind(snapshot) {
         this.closePainter();
         return this.check('rewind', wasm => wasm.petri_rewind(this.handle, snapshot.at));
@@ -415,7 +415,7 @@ export class Session {
         this.onDiagnostic?.(diagnostic);
     }
 
-    // The names in a folder are a file, too, for `glob`.
+    // For `glob`, a folder is a file with the names in it.
     listFolder(prefix, name) {
         const below = [...this.files.keys()].filter(file => file.startsWith(prefix) && !file.endsWith('/'));
         const names = new Set(below.map(file => file.slice(prefix.length).replace(/\/.*/, '/')));

@@ -1,8 +1,7 @@
-// pixels.mjs: canvases and images as the engine has pixels: alpha in the highest byte, then red, green, blue, multiplied by
-// alpha.
+// pixels.mjs: canvases and images in the engine's pixel format: alpha in the highest byte, then premultiplied red, green and blue.
 let canvas = null;
 
-// A Canvas 2D of that size whose pixels are to be read, the same one each time.
+// Returns a Canvas 2D of this size for reading pixels; all calls share one canvas.
 export function pixelContext(width, height) {
     canvas ??= new OffscreenCanvas(width, height);
     if (canvas.width !== width || canvas.height !== height)
@@ -10,7 +9,7 @@ export function pixelContext(width, height) {
     return canvas.getContext('2d', { willReadFrequently: true });
 }
 
-// Reads all of it into an array of 32-bit numbers.
+// Reads the whole canvas into an array of 32-bit numbers.
 export function readPixels(context, out) {
     const { width, height } = context.canvas, { data } = context.getImageData(0, 0, width, height);
     const pixels = new Uint32Array(data.buffer);
@@ -18,7 +17,7 @@ export function readPixels(context, out) {
         const p = pixels[i], alpha = p >>> 24;
         if (alpha === 255)
             out[i] = (p & 0xff00ff00) | (p & 255) << 16 | (p >> 16 & 255);
-        else // what was divided is multiplied again: the same bytes as before
+        else // the canvas divided by alpha; multiplying again restores the bytes
             out[i] = alpha && (alpha << 24 | Math.round((p & 255) * alpha / 255) << 16
                 | Math.round((p >> 8 & 255) * alpha / 255) << 8 | Math.round((p >> 16 & 255) * alpha / 255));
     }

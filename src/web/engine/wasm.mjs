@@ -1,15 +1,15 @@
-// wasm.mjs: loads engine.wasm, in pages, workers and Node.js, without what emscripten would put around it: the engine
-// needs no operating system but for a clock, and calls functions of JavaScript by the names of src/web/host.h.
+// wasm.mjs: loads engine.wasm in pages, workers and Node.js, without emscripten's runtime: the engine needs only a clock from the system,
+// and calls JavaScript through the functions of src/web/host.h.
 import { Screen } from './webgl.mjs';
 
 const encoder = new TextEncoder();
 const decoder = new TextDecoder();
 
-// What longjmp throws; the engine leaves a frame that is given up by it.
+// Thrown by longjmp, which the engine uses to abort a frame.
 const LEFT = Symbol('longjmp');
 const ENOSYS = 52, EBADF = 8;
 
-// bytes, a WebAssembly.Module, a URL or a Response; nothing: engine.wasm beside this file.
+// Compiles bytes, a WebAssembly.Module, a URL or a Response. Default: engine.wasm next to this file.
 export async function compile(source = new URL('./engine.wasm', import.meta.url)) {
     if (source instanceof WebAssembly.Module)
         return source;
@@ -24,13 +24,13 @@ export async function compile(source = new URL('./engine.wasm', import.meta.url)
     }
     if (typeof Response !== 'undefined' && source instanceof Response) {
         if (!source.ok)
-            throw new Error(`the engine cannot be loaded: ${source.url} answers ${source.status}`);
+            throw new Error(`cannot load the engine: ${source.url} returned ${source.status}`);
         source = await source.arrayBuffer();
     }
     return WebAssembly.compile(source);
 }
 
-// The exports of a new instance, with functions to get at its memory. `host` answers what the engine asks.
+// Returns the exports of a new instance and functions to access its memory. `host` implements the imports of host.h.
 export function instantiate(module, host) {
     let wasm;
     const bytes = () => new Uint8Array(wasm.memory.buffer);
@@ -40,7 +40,7 @@ export function instantiate(module, host) {
         const all = bytes();
         return decoder.decode(all.subarray(at, length === undefined ? all.indexOf(0, at) : at + length));
     };
-    // The functions that call setjmp have their calls made from here.
+    // Functions that use setjmp make their calls through this function.
     const invoke = (index, ...args) => {
         const stack = wasm.stackSave();
         try {
@@ -61,7 +61,7 @@ export function instantiate(module, host) {
             throw LEFT;
         },
         proc_exit: code => {
-            throw new Error(`the engine has ended with ${code}`);
+            throw new Error(`the engine exited with ${code}`);
         },
         clock_time_get: (...args) => {
             const now = BigInt(Math.round(performance.now() * 1e6));
@@ -80,7 +80,7 @@ export function instantiate(module, host) {
     const screen = new Screen(memory);
     const imports = {};
     for (const { module: from, name } of WebAssembly.Module.imports(module)) {
-        const none = from === 'env' ? () => -ENOSYS : () => EBADF; // there are no files
+        const none = from === 'env' ? () => -ENOSYS : () => EBADF; // there is no file system
         const given = from === 'petri' ? host[name] : name.startsWith('invoke_') ? invoke : system[name] ?? screen.functions[name];
         (imports[from] ??= {})[name] = given ?? none;
     }
@@ -90,12 +90,12 @@ export function instantiate(module, host) {
         ...memory,
         wasm,
         screen,
-        // Calls `use` with the address and length of a text, in memory for so long.
+        // Calls `use` with the address and length of a text, which is in memory only during the call.
         withText: (string, use) => {
             const encoded = typeof string === 'string' ? encoder.encode(string) : string;
             const at = wasm.malloc(encoded.length + 1);
             if (!at)
-                throw new RangeError('memory is used up');
+                throw new RangeError('out of memory');
             try {
                 bytes().set(encoded, at);
                 bytes()[at + encoded.length] = 0;
@@ -104,7 +104,7 @@ export function instantiate(module, host) {
                 wasm.free(at);
             }
         },
-        // Copies bytes to where they stay.
+        // Returns the address of a permanent copy of the bytes; 0 if out of memory.
         keep: array => {
             const at = wasm.malloc(array.length || 1);
             if (!at)

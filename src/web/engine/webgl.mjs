@@ -1,11 +1,11 @@
-// webgl.mjs: the functions of OpenGL ES 3 that the engine calls (lib/gl), by WebGL 2, which has objects where OpenGL has
-// numbers, and arrays where it has addresses.
+// webgl.mjs: implements the OpenGL ES 3 functions that the engine calls (lib/gl) with WebGL 2, which uses objects instead of numbers and
+// arrays instead of addresses.
 
 const SETTINGS = { alpha: true, antialias: false, depth: false, premultipliedAlpha: true, stencil: false };
 const EXTENSIONS = ['EXT_color_buffer_float', 'EXT_color_buffer_half_float', 'OES_texture_float_linear', 'EXT_float_blend'];
 const KINDS = ['Buffer', 'Framebuffer', 'Renderbuffer', 'Texture', 'VertexArray'];
 const UNSIGNED_BYTE = 0x1401, RED = 0x1903, INFO_LOG_LENGTH = 0x8B84, SAMPLES = 0x80A9;
-// Which of the arguments are objects.
+// The indices of arguments that are objects.
 const WITH_OBJECTS = {
     attachShader: [0, 1], bindBuffer: [1], bindBufferBase: [2], bindFramebuffer: [1], bindRenderbuffer: [1], bindTexture: [1],
     bindVertexArray: [0], compileShader: [0], framebufferRenderbuffer: [3], framebufferTexture2D: [3], linkProgram: [0],
@@ -15,7 +15,7 @@ const PLAIN = ['activeTexture', 'blendEquation', 'blendFunc', 'checkFramebufferS
     'cullFace', 'disable', 'drawArrays', 'drawElementsInstanced', 'enable', 'enableVertexAttribArray', 'getError',
     'renderbufferStorageMultisample', 'texParameteri', 'texStorage2D', 'vertexAttribDivisor', 'viewport'];
 
-// Makes the one context of an engine when it is first wanted. `memory`: functions of wasm.mjs.
+// Creates the engine's only context when it is first needed. `memory`: functions of wasm.mjs.
 export class Screen {
     constructor(memory) {
         this.memory = memory;
@@ -27,7 +27,7 @@ export class Screen {
         this.functions = this.makeFunctions();
     }
 
-    // Whether there is a context that works.
+    // True if there is a working context.
     get ready() {
         if (!this.canvas && typeof OffscreenCanvas !== 'undefined') {
             this.canvas = new OffscreenCanvas(1, 1);
@@ -42,7 +42,7 @@ export class Screen {
             Object.assign(this.canvas, { width, height });
     }
 
-    // What was drawn last, as an ImageBitmap.
+    // Returns the last drawing as an ImageBitmap.
     take() {
         return this.canvas.transferToImageBitmap();
     }
@@ -66,7 +66,7 @@ export class Screen {
         this.memory.bytes()[at + bytes.length] = 0;
     }
 
-    // The numbers of so many pixels.
+    // Returns a view of the numbers of width x height pixels.
     pixels(format, type, at, width, height) {
         const count = (format === RED ? 1 : 4) * width * height;
         return !at ? null : type === UNSIGNED_BYTE ? this.memory.bytes().subarray(at, at + count) : this.memory.floats(at, count);
@@ -117,7 +117,7 @@ export class Screen {
             put(`uniformMatrix${size}fv`, (at, count, turned, from) =>
                 this.gl[`uniformMatrix${size}fv`](location(at), !!turned, memory.floats(from, size * size * count)));
         put('bindAttribLocation', (program, at, name) => this.gl.bindAttribLocation(objects[program], at, memory.text(name)));
-        // Without the rest Chromium's SwiftShader copies what is drawn there next in place of what was.
+        // Without a flush, Chromium's SwiftShader copies later drawing instead of the current content.
         put('blitFramebuffer', (...args) => {
             this.gl.blitFramebuffer(...args);
             this.gl.flush();
