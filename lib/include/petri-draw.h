@@ -211,8 +211,8 @@ enum {
     // The picture of another node, only for a PetriCanvasBackend: x, y, width, height, fit (as PETRI_DRAW_IMAGE),
     // pixels.
     PETRI_DRAW_PIXELS,
-    // Paint, a repeated picture: matrix that maps the unit square to a tile, alpha, pixels, or 0, 0 and a text with a
-    // file name.
+    // Paint, a repeated picture: matrix from its pixels to current coordinates, alpha, pixels, or 0, 0 and a text with
+    // a file name.
     PETRI_DRAW_PATTERN,
     // Sets the filter for the drawings up to the next PETRI_DRAW_STROKE_STYLE: filter (`PETRI_FILTER_*`).
     PETRI_DRAW_FILTER,

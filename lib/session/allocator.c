@@ -1,4 +1,4 @@
-// allocator.c: memory from the host; see petri.h.
+// allocator.c: memory functions of the host (petri_set_allocator).
 #include "base/heap.h"
 #include "petri.h"
 

@@ -1,10 +1,10 @@
-// check.c: what can be said of a script without running it, and of the nodes at the top of its first frame.
+// check.c: petri_check, and a lint of the top-level nodes of the first frame.
 #include "session/session.h"
 
 #include <string.h>
 
-// Any node may stand at the top, and means nothing there; one that is nearly spelled like one that does is a mistake.
-// Empty if this is none.
+// Returns the kind of top-level node that is spelled most similarly, or an empty text if none is similar. Other nodes
+// at the top level are allowed and have no meaning.
 static Str nearest_top_kind(Str kind) {
     StrNearest nearest = {.wanted = kind, .limit = (int)kind.len < 6 ? (int)kind.len / 3 + 1 : 3};
     for (int i = 0; i < KIND_COUNT && nearest.limit > 0; i++)
@@ -14,7 +14,7 @@ static Str nearest_top_kind(Str kind) {
 }
 
 void session_lint_top_nodes(PetriSession *session) {
-    const Symbol *last = NULL; // a loop makes many of a kind
+    const Symbol *last = NULL; // skips repeated kinds, because a loop creates many
     for (uint32_t i = 0; session->frame.tree.kind == VALUE_MIXED && i < session->frame.tree.len; i++) {
         const Item *item = &session->frame.tree.as.items[i];
         if (item->type != ITEM_NODE || item->as.node->kind == last)
@@ -35,7 +35,7 @@ void session_lint_top_nodes(PetriSession *session) {
     }
 }
 
-// Reads all windows, as if they were to be drawn.
+// Reads all windows as for drawing, to report errors in drawing nodes.
 static void lint_windows(PetriSession *session, void *context) {
     const Node *window;
     (void)context;
@@ -43,13 +43,14 @@ static void lint_windows(PetriSession *session, void *context) {
         canvas_read(&session->schema, &session->frame.systems_arena, window);
 }
 
-// What the scratch session has to say. Its stages each see the whole script; people read it from top to bottom.
+// Diagnostics of the scratch session. They are collected to be sorted by position, because each stage of the check
+// processes the whole script.
 typedef struct CheckLog {
     PetriSession *scratch;
     Arena arena;
     PetriDiagnostic *items;
     size_t count;
-    bool incomplete; // something, for want of memory
+    bool incomplete; // diagnostics are missing because of too little memory
 } CheckLog;
 
 static const char *copy_text(CheckLog *log, const char *text) {
@@ -57,13 +58,13 @@ static const char *copy_text(CheckLog *log, const char *text) {
 }
 
 typedef struct CheckLogEntry {
-    CheckLog *heard;
+    CheckLog *log;
     const PetriDiagnostic *diagnostic;
 } CheckLogEntry;
 
 static void add_to_log(void *context) {
     const CheckLogEntry *entry = context;
-    CheckLog *log = entry->heard;
+    CheckLog *log = entry->log;
     size_t size = log->count * sizeof *log->items;
     log->items = arena_grow(&log->arena, log->items, size, size + sizeof *log->items);
     PetriDiagnostic *item = &log->items[log->count];
@@ -80,7 +81,7 @@ static void log_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     CheckLog *log = host;
     Arena *arena = &log->arena;
     if (diagnostic->code && strcmp(diagnostic->code, "unsupported-node") == 0)
-        return; // the script is right, petri shows less of it
+        return; // not a mistake in the script
     CheckLogEntry entry = {log, diagnostic};
     log->incomplete |= arena_protect(&arena, 1, add_to_log, &entry) != ARENA_OK;
 }
@@ -90,7 +91,7 @@ static bool comes_before(const PetriDiagnostic *a, const PetriDiagnostic *b) {
            (a->line < b->line || (a->line == b->line && a->column < b->column));
 }
 
-// In the order of the text, as far as they are of one file.
+// Reports the diagnostics, those of one file in order of position.
 static void report_in_order(PetriSession *session, CheckLog *log) {
     for (size_t i = 0; i < log->count; i++) {
         PetriDiagnostic item = log->items[i];
@@ -111,7 +112,7 @@ static void open_scratch(PetriSession *session, CheckLog *log) {
     options.user_data = log;
     log->scratch = petri_open(&options);
     if (log->scratch)
-        log->scratch->reach = session->reach; // whose lists outlive it
+        log->scratch->reach = session->reach; // shares lists that live longer
     if (log->scratch)
         session_copy_host_globals(session, log->scratch);
     if (log->scratch)
@@ -124,7 +125,7 @@ static void open_scratch(PetriSession *session, CheckLog *log) {
 static PetriStatus run_checks(PetriSession *scratch, const char *file, const char *text, size_t length) {
     scratch->loader.lint = scratch->schema.lint = true;
     PetriStatus status = text ? petri_load_text(scratch, file, text, length) : petri_load(scratch, file);
-    scratch->loader.lint = false; // modules, which the frame loads, are checked for themselves
+    scratch->loader.lint = false; // modules, which the frame loads, are checked separately
     if (status == PETRI_OK)
         status = petri_step(scratch);
     if (status == PETRI_OK)
@@ -132,7 +133,7 @@ static PetriStatus run_checks(PetriSession *scratch, const char *file, const cha
     return status;
 }
 
-// A file, or a text of this name.
+// Checks a file, or a text with this name if `text` is not NULL.
 static PetriStatus check_script(PetriSession *session, const char *file, const char *text, size_t length) {
     CheckLog log = {0};
     PetriStatus status = PETRI_OUT_OF_MEMORY;

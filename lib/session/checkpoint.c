@@ -1,9 +1,9 @@
-// checkpoint.c: see checkpoint.h; snapshots.
+// checkpoint.c: implementation of checkpoint.h, and snapshots.
 //
-// Everything is a row of 64-bit words: how many slots the dictionary has, key and value of each; how many systems there
-// are, and each with its slots; what the user's hands have done, if anything, and where that goes. A value is a word
-// with its length and kind, then its numbers; a mixed one has a word with type and length before each element, and
-// strings are padded. Slots keep their numbers, so that what comes after is the same in every respect.
+// A checkpoint is a sequence of 64-bit words: the number of slots of the dictionary, then the key and value of each;
+// the number of systems, then each with its slots; the input bindings, and the input state if there is one. A value
+// starts with a word for its length and kind. Numbers follow; in mixed values, each element has a word for type and
+// length, and strings are padded. Slots keep their numbers, so that a restored session behaves identically.
 #include "base/heap.h"
 #include "session/session.h"
 
@@ -42,7 +42,7 @@ static void write_item(CheckpointWriter *writer, Item item) {
         write_word(writer, (uint64_t)item.as.string->text.len << 2 | ITEM_STRING);
         write_bytes(writer, item.as.string->text.bytes, item.as.string->text.len);
     } else {
-        write_word(writer, ITEM_NUMBER); // the dictionary holds nothing else
+        write_word(writer, ITEM_NUMBER); // the dictionary contains no other types
         write_bytes(writer, &item.as.number, sizeof item.as.number);
     }
 }
@@ -134,7 +134,7 @@ static Item read_item(CheckpointReader *reader) {
     return item;
 }
 
-// A view of the checkpoint's memory where it can be.
+// Returns a value that refers to the checkpoint's memory if possible.
 static Value read_value(CheckpointReader *reader) {
     uint64_t word = read_word(reader);
     uint32_t len = (uint32_t)(word >> 2);
@@ -264,7 +264,7 @@ PetriSnapshot *petri_snapshot(PetriSession *session) {
         petri_snapshot_free(snapshot);
         return NULL;
     }
-    unsigned char *exact = heap_resize(snapshot->at.bytes, snapshot->at.size); // many are kept
+    unsigned char *exact = heap_resize(snapshot->at.bytes, snapshot->at.size); // hosts keep many snapshots
     snapshot->at.bytes = exact ? exact : snapshot->at.bytes;
     return snapshot;
 }

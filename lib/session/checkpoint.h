@@ -1,7 +1,7 @@
-// checkpoint.h: all that decides how a session goes on, besides its configuration: state, systems, input, clock.
+// checkpoint.h: copies of the state, systems, input and clock, which determine how a session continues.
 //
-// Undoing a frame, snapshots and state files have this in common. Going back is one act: whatever takes the place of
-// the present is made first, beside it, and only when all of it is there do both change places.
+// Rollback of frames, snapshots and state files share this code. Restoring is atomic: the new data is built completely
+// beside the current data, and then both are swapped.
 #ifndef PETRI_SESSION_CHECKPOINT_H
 #define PETRI_SESSION_CHECKPOINT_H
 
@@ -11,35 +11,34 @@
 
 typedef struct Checkpoint {
     Clock clock;
-    unsigned char *bytes; // state, systems and input (checkpoint.c)
+    unsigned char *bytes; // state, systems and input; format in checkpoint.c
     size_t size;
     size_t capacity;
 } Checkpoint;
 
-// What is to take the place of the session's own. Systems are restored into the scene, whose own are set aside.
+// Data that will replace the session's. Its systems are restored into the scene, whose systems are detached meanwhile.
 typedef struct Incoming {
     Arena arena; // temporaries
     State *state;
     Clock clock;
     InputState input_state;
     InputBindings bindings;
-    bool has_input; // else the session keeps its own
-    bool valid;     // there is nothing wrong with where it comes from
+    bool has_input; // false: the session keeps its input
+    bool valid;     // false: the source is invalid
 } Incoming;
 typedef void FillIncoming(PetriSession *session, Incoming *incoming, void *context);
 
-// Lets `fill` make what is incoming, within a protected call, and puts it in place. PETRI_OUT_OF_MEMORY or
-// PETRI_INVALID
-// (`good` is false) change nothing.
+// Calls `fill` within a protected call and then replaces the session's data. On failure nothing changes; returns
+// PETRI_INVALID if `fill` cleared incoming->valid.
 PetriStatus checkpoint_replace(PetriSession *session, FillIncoming *fill, void *context);
-// For `fill`: takes a system into the scene.
+// Restores a system into the scene. Called by `fill`.
 void checkpoint_restore_system(PetriSession *session, Incoming *incoming, const SceneSystem *system);
 
-// Copies the present into a checkpoint's memory, which is used again; false if memory is used up.
+// Copies the session's data into a checkpoint, whose memory is reused. Returns false if out of memory.
 bool checkpoint_save(Checkpoint *checkpoint, PetriSession *session);
-// Adds the entries of a checkpoint to an empty state; temporaries are in the arena.
+// Adds the state entries of a checkpoint to an empty state. Temporary data is allocated in the arena.
 void checkpoint_read_state(const Checkpoint *checkpoint, Arena *arena, State *state);
-// Goes back to it. PETRI_OUT_OF_MEMORY changes nothing.
+// Restores a checkpoint. On failure nothing changes.
 PetriStatus checkpoint_restore(PetriSession *session, const Checkpoint *checkpoint);
 
 #endif

@@ -1,4 +1,4 @@
-// clock.c: see clock.h.
+// clock.c: implementation of clock.h.
 #include "session/clock.h"
 
 #include <math.h>
@@ -42,16 +42,16 @@ static double wall_time(const Clock *clock) {
     return clock_monotonic() - clock->wall.origin;
 }
 
-// A session that fell behind further than this goes on from where it is; it does not hurry to make up for it.
+// Seconds. A session that is further behind continues from the current time instead of catching up.
 static const double MAX_LAG = 0.1;
-// Seconds, of more than three years: what a clock can be told.
+// Seconds (about three years). Limits the argument of nanosleep.
 static const double MAX_PAUSE = 1e8;
 
 static double lockstep_time(const Clock *clock) {
     return clock->base.time + (double)(clock->number - clock->base.number) / clock->rates.fps;
 }
 
-// The first frame has the time that it has in lockstep: 0, or where a restored state goes on.
+// Returns the time of the first frame, which is that of lockstep: 0, or that of a restored state.
 static double start_wall_clock(Clock *clock) {
     double time = lockstep_time(clock);
     clock->wall.running = true;
@@ -60,7 +60,7 @@ static double start_wall_clock(Clock *clock) {
     return time;
 }
 
-// In real time: sleeps until the frame is due and returns the time.
+// Sleeps until the frame is due and returns the time.
 static double wait_for_frame(Clock *clock) {
     WallClock *wall = &clock->wall;
     if (!wall->running)
@@ -100,7 +100,7 @@ double clock_seconds_until_due(const Clock *clock) {
     return clock->wall.running ? fmax(0, clock->wall.due - wall_time(clock)) : 0;
 }
 
-// The clock is put to where the next frame is due.
+// Sets the clock to the time at which the next frame is due.
 static void set_to_due(Clock *clock) {
     clock->wall.due = clock->time + 1 / clock->rates.fps;
     clock->wall.origin = clock_monotonic() - clock->wall.due;

@@ -1,4 +1,4 @@
-// config.c: a session's configuration as one shared thing (petri.h).
+// config.c: configurations of a session as shared, reference-counted objects (petri_config_get).
 #include "base/heap.h"
 #include "session/session.h"
 

@@ -1,4 +1,4 @@
-// diagnostics.c: see diagnostics.h.
+// diagnostics.c: implementation of diagnostics.h.
 #include "base/heap.h"
 #include "session/session.h"
 
@@ -15,7 +15,7 @@ static void clear_retained(Diagnostics *diagnostics) {
     diagnostics->retained_first = diagnostics->retained_count = 0;
 }
 
-// Copies a text to the end of a block.
+// Copies a text to *end and advances it. Returns the copy, or NULL for NULL.
 static const char *add_text(char **end, const char *text) {
     size_t size = text ? strlen(text) + 1 : 0;
     const char *copy = text ? memcpy(*end, text, size) : NULL;
@@ -27,7 +27,7 @@ static size_t text_size(const char *text) {
     return text ? strlen(text) + 1 : 0;
 }
 
-// One that there is no memory for is not kept.
+// Stores a copy of a diagnostic for petri_diagnostic, unless out of memory.
 static void retain_diagnostic(Diagnostics *diagnostics, const PetriDiagnostic *diagnostic) {
     PetriDiagnostic *copy =
         heap_alloc(sizeof *copy + text_size(diagnostic->file) + text_size(diagnostic->text) +
@@ -83,13 +83,13 @@ static bool has_hash(const void *owner, uint32_t entry, const void *key) {
     return ((const Diagnostics *)owner)->reported[entry] == *(const uint64_t *)key;
 }
 
-// Whether something was told before, or too much was.
+// Returns true if a diagnostic was reported before, or the maximum number has been reached.
 static bool is_reported(const Diagnostics *diagnostics, uint64_t hash) {
     return diagnostics->reported_count >= MAX_REPORTED ||
            hash_index_find(&diagnostics->reported_index, hash, has_hash, diagnostics, &hash) != HASH_INDEX_NONE;
 }
 
-// What cannot be remembered is told again.
+// Remembers a reported diagnostic. If out of memory, it may be reported again.
 static void store_hash(Diagnostics *diagnostics, uint64_t hash) {
     if (!heap_reserve((void **)&diagnostics->reported, &diagnostics->reported_capacity, diagnostics->reported_count,
                       sizeof hash))
@@ -137,7 +137,7 @@ static void report_diagnostic(PetriSession *session, void *context) {
     Str key = pending->key;
     uint64_t hash = hash_bytes(0, key.bytes, key.len);
     if (key.len && is_reported(diagnostics, hash))
-        return; // before anything is rendered: it may come in every frame
+        return; // before rendering, because it may occur in every frame
     ArenaMark mark = arena_mark(&session->text_arena);
     Text rendered = text_new(&session->text_arena);
     diag_format(&rendered, pending->diag, session->options.colour);
@@ -149,7 +149,7 @@ static void report_diagnostic(PetriSession *session, void *context) {
     if (!already_reported) {
         store_hash(diagnostics, hash);
         if (diagnostics->reported_count == MAX_REPORTED) {
-            Diag last = {.level = DIAG_NOTE, .text = STR("1000 diagnostics were given; no more are shown")};
+            Diag last = {.level = DIAG_NOTE, .text = STR("1000 diagnostics reported; further ones are not shown")};
             rendered.len = 0;
             diag_format(&rendered, &last, session->options.colour);
             send_diagnostic(session, &last, text_str(&rendered));
@@ -158,7 +158,7 @@ static void report_diagnostic(PetriSession *session, void *context) {
     arena_rewind(&session->text_arena, mark);
 }
 
-// Takes no memory, so that a host hears that there is none.
+// Reports a diagnostic without allocating, so that an out-of-memory error can be reported.
 static void report_without_memory(PetriSession *session, const Diag *diag) {
     static const char *const levels[] = {"error", "warning", "note"};
     char text[200], rendered[240];
@@ -169,7 +169,7 @@ static void report_without_memory(PetriSession *session, const Diag *diag) {
     diagnostics_forward(session, &plain);
 }
 
-// Within a protected call, one that cannot be made takes that call with it.
+// Within a protected call, running out of memory here aborts that call.
 void session_report_keyed(PetriSession *session, const Diag *diag, Str key) {
     PendingReport pending = {diag, key};
     if (session->text_arena.escape)

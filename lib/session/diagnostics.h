@@ -1,4 +1,4 @@
-// diagnostics.h: what the host is told, each thing once. Only diagnostics.c writes this part of a session.
+// diagnostics.h: reporting of diagnostics to the host, each once per load. Only diagnostics.c modifies this data.
 #ifndef PETRI_SESSION_DIAGNOSTICS_H
 #define PETRI_SESSION_DIAGNOSTICS_H
 
@@ -9,32 +9,32 @@
 enum { MAX_RETAINED = 100 };
 
 typedef struct Diagnostics {
-    PetriDiagnostic *retained[MAX_RETAINED]; // a ring of copies, each in a block of its own
-    uint32_t retained_first;                 // the oldest
+    PetriDiagnostic *retained[MAX_RETAINED]; // ring buffer of copies, each in one block with its texts
+    uint32_t retained_first;                 // index of the oldest
     uint32_t retained_count;
-    uint64_t *reported; // hashes of what was given already
+    uint64_t *reported; // hashes of the diagnostics reported since the last load
     uint32_t reported_count;
     uint32_t reported_capacity;
     HashIndex reported_index;
-    bool repeat;        // give again what was given before
-    uint64_t counts[3]; // by level, since the session was opened
+    bool repeat;        // report diagnostics again that were reported before
+    uint64_t counts[3]; // number reported since the session was opened, by level
 } Diagnostics;
 
 void diagnostics_free(Diagnostics *diagnostics);
-// A script is being loaded: each thing is told once per load.
+// Starts a load: forgets which diagnostics were reported before.
 void diagnostics_begin_load(Diagnostics *diagnostics);
-// Says whether what was given before is given again; returns what held so far.
+// Sets whether diagnostics are reported again. Returns the previous setting.
 bool diagnostics_repeat(Diagnostics *diagnostics, bool repeat);
-// Gives the diagnostic of another session to the host, as one of this.
+// Reports a diagnostic of another session to the host of this one.
 void diagnostics_forward(PetriSession *session, const PetriDiagnostic *diagnostic);
 
-// Gives a diagnostic to the host unless it was given before.
+// Reports a diagnostic to the host, unless it was reported since the last load.
 void session_report(PetriSession *session, const Diag *diag);
-// The same once for each key, whatever the text; an empty key stands for the text.
+// Like session_report, but compares the key instead of the text. An empty key means the text.
 void session_report_keyed(PetriSession *session, const Diag *diag, Str key);
-// A diagnostic without a place.
+// Reports a diagnostic without a position.
 void session_report_text(PetriSession *session, DiagLevel level, const char *code, Str text);
-// Hands over what a sink has collected.
+// Reports all diagnostics of a sink.
 void session_report_all(PetriSession *session, const DiagSink *sink);
 
 #endif

@@ -1,4 +1,4 @@
-// draw_access.c: see draw_access.h.
+// draw_access.c: implementation of draw_access.h.
 #include "session/session.h"
 
 #include <string.h>

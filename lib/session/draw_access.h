@@ -1,4 +1,4 @@
-// draw_access.h: what a room above the session takes of the last frame to draw it.
+// draw_access.h: the internal interface through which lib/draw reads the last frame.
 #ifndef PETRI_SESSION_DRAW_ACCESS_H
 #define PETRI_SESSION_DRAW_ACCESS_H
 
@@ -7,40 +7,41 @@
 #include "scene/scene.h"
 #include "session/diagnostics.h"
 
-// Borrowed until the session is used otherwise.
+// The last frame's data. Valid until the next call that uses the session.
 typedef struct DrawAccess {
-    int64_t number; // of the frame; -1: none has been made
+    int64_t number; // frame number; -1: no frame yet
     Value tree;
-    Schema *schema; // for reading its windows
-    Scene *scene;   // its systems: scene_view
+    Schema *schema; // reads the windows of `tree`
+    Scene *scene;   // particle systems (scene_view)
     const State *state;
-    Str directory;           // what relative file names start from
-    const FileAccess *reach; // of its files
-    size_t memory_limit;     // that a copy may have
-    Budget *meter;           // that making it is charged to
+    Str directory;           // folder that relative file names start from
+    const FileAccess *reach; // file access of the script
+    size_t memory_limit;     // bytes that a copy may hold
+    Budget *meter;           // charged for copying
 } DrawAccess;
 
+// Returns access to the last frame.
 DrawAccess session_draw_access(PetriSession *session);
 
-// The names of the frame that are numbers, `beat` and the like and what was defined; at most `room`, the names in the
-// arena. Returns how many there are.
+// Gets the names with numeric values, for shaders: names of the engine such as `beat`, then definitions, the last of
+// one name first. Stores at most `capacity` and returns how many. Names are allocated in the arena.
 uint32_t session_frame_numbers(PetriSession *session, Arena *arena, const char *names[], double numbers[],
                                uint32_t capacity);
 
-// Whether the source in which the fault lies is still there: a script may have been reloaded since.
+// Returns true if the source of a diagnostic still exists. It may have been freed by a reload.
 bool session_has_source(const PetriSession *session, const Diag *fault);
 
-// Memory that stays with the session, always of the same size, for the room that draws; zeros before frame 0. Within a
-// protected call.
+// Returns memory for lib/draw that lives as long as the session and is zeroed before frame 0. All calls must have the
+// same size. Called within a protected call.
 void *session_draw_memory(PetriSession *session, size_t size);
 
-// Calls `call`. If an arena of the session or `extra` (or NULL) runs out meanwhile, what it was doing is given up:
-// PETRI_OUT_OF_MEMORY, or PETRI_LIMIT_EXCEEDED if only a budget was used up. What it has begun must be reachable from
-// `context`.
+// Calls `call` so that it is aborted if an arena of the session, or `extra` (may be NULL), cannot allocate or is
+// interrupted. Returns PETRI_OUT_OF_MEMORY, PETRI_LIMIT_EXCEEDED or PETRI_INTERRUPTED then. Resources that the call
+// acquired must be reachable from `context`, so that the caller can free them.
 typedef void SessionCall(PetriSession *session, void *context);
 PetriStatus session_protect(PetriSession *session, Arena *extra, SessionCall *call, void *context);
-// Tells that a protected call for "the frame" or the like was given up for want of memory or work, and where; takes a
-// wish for an end as met. Returns the status.
+// Reports a diagnostic if a protected call was aborted for lack of memory or work, with `what` ("the frame") and the
+// position. Clears the interrupt if it was interrupted. Returns `status`.
 PetriStatus session_report_abort(PetriSession *session, PetriStatus status, const char *what);
 
 #endif

@@ -1,14 +1,15 @@
-// frame.c: one frame: evaluation, then systems. The only place where state goes round (spec language.md L16).
+// frame.c: computation of one frame: evaluation, then the systems (spec language.md L16).
 #include "session/session.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { TEMPO = 120, QUANTUM = 4 }; // without pragmas
+enum { TEMPO = 120, QUANTUM = 4 }; // defaults without pragmas
 
-// The value of a pragma: a number, or a string that reads as one (L12); tempo and fps must be above 0. Of several the
-// last counts, even if that is bad and means the default.
+// Returns the value of a pragma: a number, or a string that contains one (L12), or the default with a warning.
+// `positive` rejects numbers that are not above 0. If a pragma is repeated, the last one is used, even if it is
+// invalid.
 static double pragma_number(PetriSession *session, const Pragma *pragma, bool positive, double default_value) {
     Value v = pragma->value;
     double number = NAN;
@@ -46,7 +47,7 @@ void session_clear_frame(PetriSession *session) {
     session_free_retired(session);
 }
 
-// The same after a frame that needed too much: its blocks are given back, too.
+// Like session_clear_frame, but also releases the arenas' blocks, after a frame that exceeded a limit.
 static void session_drop_frame(PetriSession *session) {
     session_clear_frame(session);
     arena_free(&session->frame.arena);
@@ -67,7 +68,7 @@ ClockRates session_pragma_rates(PetriSession *session, const Program *program) {
     return rates;
 }
 
-// Before frame 0 at the session's rates.
+// Rewinds to before frame 0, at the current rates.
 static void rewind_clock(PetriSession *session) {
     clock_rewind(&session->clock);
     session->undo_of_frame = false;
@@ -137,7 +138,7 @@ double petri_resolution(const PetriSession *session) {
 void petri_reset(PetriSession *session) {
     if (!session)
         return;
-    session->rollback_pending = false; // what it would go back to is gone
+    session->rollback_pending = false; // the state to roll back to is discarded
     state_clear(session->state);
     scene_reset(session->scene);
     session_clear_frame(session);
@@ -176,7 +177,7 @@ void session_set_globals(const PetriSession *session, Vm *vm) {
         isnan(session->options.run_time) ? VALUE_NULL : value_number(session->options.run_time);
 }
 
-// One program, with the values so far as its parameters; its own follow them.
+// Runs one program. Its parameters are the values so far; its exports are appended to them.
 static Value run_program(PetriSession *session, const Program *program) {
     SessionFrame *frame = &session->frame;
     Value result = vm_run(&session->vm, program, frame->values, frame->values + frame->value_count);
@@ -209,7 +210,7 @@ void session_evaluate(PetriSession *session, const State *state) {
     frame->evaluated = true;
 }
 
-// Evaluates the frame in the state that it was made from, if that is known.
+// Evaluates the frame in the state from which it was computed, if that is known.
 static void preview(PetriSession *session, void *context) {
     State **before = context;
     diag_sink_free(&session->frame.log); // the evaluation writes it again
@@ -260,7 +261,7 @@ static void update_names(PetriSession *session, void *context) {
 PetriStatus session_update_names(PetriSession *session) {
     if (session->frame.names_current)
         return PETRI_OK;
-    DiagSink log = session->frame.log; // it has what debug() says already
+    DiagSink log = session->frame.log; // already contains the output of debug()
     session->frame.log = diag_sink_new(&session->frame.arena, 0);
     PetriStatus status = session_protect(session, NULL, update_names, NULL);
     diag_sink_free(&session->frame.log);
@@ -307,7 +308,7 @@ bool petri_clear_interrupt(PetriSession *session) {
     return session && atomic_exchange(&session->interrupt, false);
 }
 
-// Evaluates the next frame. What input has done to the state is taken back if the frame does not count.
+// Evaluates the next frame. If the frame is not counted, the input that was written to the state is removed.
 static PetriStatus evaluate_frame(PetriSession *session) {
     InputUndo undo = {.last = NULL};
     session_set_globals(session, &session->vm);
@@ -318,7 +319,7 @@ static PetriStatus evaluate_frame(PetriSession *session) {
     if (!counts)
         input_undo_write(scene_input(session->scene), session->state, &undo);
     if (status != PETRI_OK)
-        state_clear_exhausted(session->state); // this is told now, and must not end the next frame, too
+        state_clear_exhausted(session->state); // reported now; must not end the next frame as well
     if (status != PETRI_OK)
         session_drop_frame(session);
     return status;
@@ -327,7 +328,7 @@ static PetriStatus evaluate_frame(PetriSession *session) {
 // Updates the systems of an evaluated frame.
 static PetriStatus update_frame(PetriSession *session) {
     SessionFrame *frame = &session->frame;
-    session->spent = session->meter.work; // evaluation and systems have one budget
+    session->spent = session->meter.work; // evaluation and systems share one budget
     PetriStatus status = session_protect(session, NULL, update_systems, NULL);
     bool exhausted = scene_clear_exhausted(session->scene);
     exhausted |= state_clear_exhausted(session->state);
@@ -345,7 +346,7 @@ static PetriStatus update_frame(PetriSession *session) {
     return status;
 }
 
-// The next frame, at the host's time and beat or, if `at` is NULL, at the session's.
+// Computes the next frame at the given time and beat, or at the clock's if `at` is NULL.
 static PetriStatus step_session(PetriSession *session, const ClockBase *at) {
     if (!session || !session->config.program || session->call_depth > 0)
         return PETRI_INVALID;

@@ -1,18 +1,18 @@
-// functions.c: built-in functions of the host's own (petri_add_function).
+// functions.c: functions of the host (petri_add_function).
 #include "session/session.h"
 
 #include <stdio.h>
 #include <string.h>
 
 typedef struct HostFunction {
-    Builtin row; // first: the row of a call leads here
+    Builtin row; // first member, so that a call's row can be cast to HostFunction
     PetriFunctionCall *call;
     void *user_data;
 } HostFunction;
 
 struct PetriCall {
     BuiltinContext *context;
-    double *numbers; // for the result
+    double *numbers; // numbers of the result, allocated by the host function
     char error[200];
 };
 
@@ -29,7 +29,7 @@ void petri_call_error(PetriCall *call, const char *text) {
                  STR_ARGS(str_truncate(str_from(text), sizeof call->error - 1)));
 }
 
-// Nothing may leave through the host's function: what takes memory is done before and after it.
+// Calls a host function. Memory is only allocated before and after it, because an escape must not unwind through it.
 static Value call_host(BuiltinContext *context, const Value *args, uint32_t count) {
     const HostFunction *function = (const HostFunction *)(const void *)context->called;
     PetriCall call = {.context = context};
@@ -41,11 +41,11 @@ static Value call_host(BuiltinContext *context, const Value *args, uint32_t coun
     if (call.error[0])
         return builtin_error(context, function->row.name, "%s", call.error);
     if (!session_import_value(context->arena, result, &imported))
-        return builtin_error(context, function->row.name, "the host's function gave no value");
+        return builtin_error(context, function->row.name, "the host function returned an invalid value");
     return result.numbers && result.numbers == call.numbers ? imported : value_copy(context->arena, imported);
 }
 
-// Reads "x, y=0, ..." into a row; false if it is none.
+// Parses parameters such as "x, y=0, ..." into a row. Returns false if they are not valid.
 static bool parse_parameters(Builtin *row) {
     enum { MAX_PARAMETERS = 8 };
     const char *at = row->parameters;
@@ -56,7 +56,7 @@ static bool parse_parameters(Builtin *row) {
         if (!row->variadic && (!session_is_name((Str){at, name}) || row->fixed > MAX_PARAMETERS))
             return false;
         if (!row->variadic && name == whole && ++row->required < row->fixed)
-            return false; // after one with a default
+            return false; // follows a parameter with a default
         at += whole;
         if (*at && (at[1] != ' ' || !at[2]))
             return false;

@@ -1,16 +1,16 @@
-// host_state.c: the state dictionary, and the names that the host gives values to, as petri.h has them.
+// host_state.c: the host's access to the state dictionary and to global names.
 #include "base/number.h"
 #include "session/session.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-// --- the state
+// --- the state dictionary
 
-// One request. What is looked up with numbers only needs no memory, and so no protected call.
+// A request. Looking up a key of numbers allocates nothing and therefore needs no protected call.
 typedef struct StateRequest {
     PetriValue key;
-    PetriValue value; // to be stored
+    PetriValue value; // value to store
     Value imported;
     StateSlot slot;
     PetriStatus status;
@@ -38,7 +38,7 @@ PetriValue petri_state_get(PetriSession *session, PetriValue key) {
                                          : session_export_value(state_slot_at(session->state, request.slot, &room));
 }
 
-// Numbers that are finite, and strings.
+// Returns true if a value consists of finite numbers and strings.
 static bool is_storable(Value v) {
     for (uint32_t i = 0; i < v.len; i++) {
         Item item = value_at(&v, i);
@@ -85,7 +85,7 @@ bool petri_state_next(PetriSession *session, uint32_t *cursor, PetriValue *key, 
     return true;
 }
 
-// --- names
+// --- global names
 
 typedef struct GlobalRequest {
     Str name;
@@ -100,7 +100,7 @@ static HostGlobal *find_host_global(PetriSession *session, const Symbol *name) {
     return NULL;
 }
 
-// A name with an arena for its values, which is the session's from then on.
+// Adds a name with two arenas for its values. Freed with the session.
 static HostGlobal *add_host_global(PetriSession *session, const Symbol *name) {
     HostGlobals *global = &session->host_globals;
     HostGlobal *added = arena_alloc(&session->arena, sizeof *added);

@@ -1,4 +1,4 @@
-// input.c: what the host reports of the user's hands; see petri.h.
+// input.c: pointer and key input reported by the host.
 #include "session/session.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-// load.c: files to programs: the script, its modules and includes (spec language.md L13, L14).
+// load.c: loading of scripts, modules and includes (spec language.md L13, L14).
 #include "base/file.h"
 #include "base/heap.h"
 #include "session/session.h"
@@ -41,7 +41,7 @@ static void report_and_free(PetriSession *session, DiagSink *sink) {
     diag_sink_free(sink);
 }
 
-// True if this is the first %include of the path in the unit.
+// Adds a path to the unit's included files. Returns false if it is already included.
 static bool add_include(Unit *unit, Str path) {
     for (uint32_t i = 0; i < unit->included_count; i++)
         if (str_equal(unit->included[i], path))
@@ -59,7 +59,7 @@ static const Ast *parse_source(PetriSession *session, Unit *unit, Arena *arena, 
     return ast;
 }
 
-// Where a script that is loaded once more comes to its limit of work does not depend on what is known already.
+// Charges the work of parsing although the tree is cached, so that reloading reaches the work limit at the same point.
 static const Ast *charge_cached_parse(PetriSession *session, const Ast *ast, uint64_t work) {
     arena_charge(&session->arena, work);
     return ast;
@@ -84,7 +84,8 @@ static const Ast *cache_parsed(PetriSession *session, Unit *cache, const Source 
     return ast;
 }
 
-// False with a reason (borrowed) if the file cannot be read; *ast is NULL if it does not parse.
+// Reads and parses an included file. Returns false with a borrowed reason if it cannot be read. *ast is NULL if it has
+// syntax errors.
 static bool read_include(PetriSession *session, Unit *unit, Str path, Str canonical, const Source **source,
                          const Ast **ast, const char **problem) {
     const char *file = str_to_c(&unit->arena, path);
@@ -112,7 +113,7 @@ static const Ast *host_include(void *host, Str path, const Source **source, Str 
     const char *problem;
     const Ast *ast;
     if (str_equal(canonical, unit->path) || !add_include(unit, canonical)) {
-        *reason = STR("this file is included already");
+        *reason = STR("already included");
         return NULL;
     }
     if (!read_include(session, unit, path, canonical, source, &ast, &problem)) {
@@ -120,18 +121,18 @@ static const Ast *host_include(void *host, Str path, const Source **source, Str 
         return NULL;
     }
     if (!ast) {
-        *reason = STR("it does not parse");
+        *reason = STR("it has syntax errors");
         return NULL;
     }
-    // Pragmas of an included file count for nothing (L12).
+    // Pragmas of an included file are ignored (L12).
     uint32_t skip = 0;
     while (skip < ast->count && ast->children[skip]->kind == AST_PRAGMA)
         skip++;
     return ast_new(&unit->scratch, AST_SUITE, ast->span, NULL, ast->children + skip, ast->count - skip);
 }
 
-// Memory and work that evaluating one expression ahead may take, and the work of all in a load: what is beyond is done
-// in the frames.
+// Limits of folding: memory (bytes) and work units of one expression, and work units of a load. Expressions that exceed
+// one are evaluated in each frame instead.
 #define STATIC_BUDGET ((size_t)1 << 29)
 enum { STATIC_WORK = 3 << 24, MAX_STATIC_WORK = 1 << 26 };
 
@@ -147,7 +148,7 @@ static void evaluate_static(PetriSession *session, void *context) {
         vm_run_static(&session->static_vm, &session->loader.compiling->arena, evaluation->code, &evaluation->value);
 }
 
-// What does not fit is left for the frames.
+// Folds an expression. Returns false if it exceeds a limit; frames then evaluate it.
 static bool host_evaluate(void *host, const Code *code, Value *value) {
     PetriSession *session = host;
     Arena *arena = &session->loader.compiling->arena;
@@ -170,7 +171,7 @@ static bool host_evaluate(void *host, const Code *code, Value *value) {
     return done;
 }
 
-// In the order of the text, as far as they are of one file: a name is known to be unused only at the end.
+// Sorts diagnostics of the same file by position: a name is known to be unused only at the end of its scope.
 static void sort_by_place(DiagSink *sink) {
     for (uint32_t i = 1; i < sink->count; i++) {
         Diag diag = sink->items[i];
@@ -182,7 +183,7 @@ static void sort_by_place(DiagSink *sink) {
     }
 }
 
-// Where the files of a host come from that gives them; else NULL.
+// Returns the file access if the host provides the files (PetriOptions.read_file), else NULL.
 static const FileAccess *host_files(const PetriSession *session) {
     return session->reach.read_file ? &session->reach : NULL;
 }
@@ -217,7 +218,7 @@ static void compile_unit(PetriSession *session, Unit *unit, const Ast *ast, bool
     if (ast)
         unit->program = unit_compile(session, unit, ast, module, module ? (Names){0} : host_names);
     else
-        unit->error = STR("it does not parse");
+        unit->error = STR("it has syntax errors");
     arena_free(&unit->scratch);
     if (unit->program && !module && !session_check_definitions(session, unit))
         unit->program = NULL;
@@ -236,7 +237,7 @@ Unit *unit_parse(PetriSession *session, Str name, Str text) {
     return unit;
 }
 
-// From here on the script's own folder is within its reach.
+// Allows the script to use its own folder.
 static void set_script_folder(PetriSession *session, Unit *unit, Str name) {
     unit->folder = file_access_folder(&unit->arena, path_directory(name));
     session->reach.script_folder = unit->folder;
@@ -251,7 +252,7 @@ Unit *unit_load_text(PetriSession *session, Str name, Str text) {
     return unit;
 }
 
-// A text is kept as a tree only if it is needed more than once.
+// Caches the syntax tree of a script. Called only when the script is compiled a second time.
 static void make_parse_cache(PetriSession *session, Unit *unit) {
     unit->parse_cache = unit_new(session);
     Unit *cache = unit->parse_cache;
@@ -269,7 +270,7 @@ Unit *unit_reload(PetriSession *session, Unit *unit) {
     reloaded->version = str_copy(&reloaded->arena, unit->version);
     bool parsed = unit->parse_cache && unit->parse_cache->ast;
     if (!parsed) {
-        unit_free(unit->parse_cache); // memory was used up when it was parsed
+        unit_free(unit->parse_cache); // incomplete, because parsing ran out of memory
         unit->parse_cache = NULL;
         make_parse_cache(session, unit);
     }
@@ -285,10 +286,10 @@ Unit *unit_reload(PetriSession *session, Unit *unit) {
 
 Unit *unit_load_file(PetriSession *session, const char *file, bool module, bool regular) {
     Unit *unit = unit_new(session);
-    if (module) { // on the list at once, so that an escape while loading does not lose it
+    if (module) { // listed at once, so that an escape during loading does not leak it
         unit->next = session->loader.modules;
         session->loader.modules = unit;
-        unit->retired = true; // until it is whole
+        unit->retired = true; // until it is complete
     } else {
         session->loader.pending = unit;
         set_script_folder(session, unit, str_from(file));
@@ -296,7 +297,7 @@ Unit *unit_load_file(PetriSession *session, const char *file, bool module, bool 
     Str text;
     const char *problem;
     unit->path = file_canonical(&unit->arena, &session->reach, file);
-    const FileAccess *reach = module ? &session->reach : host_files(session); // the script itself is the host's choice
+    const FileAccess *reach = module ? &session->reach : host_files(session); // the host chose the script itself
     if (file_read(&unit->arena, reach, file, regular, MAX_SOURCE_BYTES, &text, &unit->version, &problem))
         load_text(session, unit, str_from(file), text, module);
     else
@@ -315,7 +316,7 @@ static void add_to_chain(PetriSession *session, Unit *unit) {
     *first = unit;
 }
 
-// The cached module at a canonical path, if its file has not changed since.
+// Returns the cached module of a canonical path, or NULL if there is none or its file has changed.
 static Unit *cached_module(PetriSession *session, Str path, Str version) {
     for (Unit *unit = *chain_of(session, path); unit; unit = unit->same_hash) {
         if (unit->retired || !str_equal(unit->path, path))
@@ -360,7 +361,7 @@ const char *petri_source_file(PetriSession *session, size_t number) {
         return NULL;
     for (Unit *unit = session->config.program; unit;
          unit = unit == session->config.program ? session->loader.modules : unit->next) {
-        if (unit->retired || !unit->version.len) // a text, or a file that could not be read
+        if (unit->retired || !unit->version.len) // not from a file, or the file could not be read
             continue;
         if (number <= unit->included_count)
             return (number == 0 ? unit->path : unit->included[number - 1]).bytes;

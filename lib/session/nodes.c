@@ -1,4 +1,4 @@
-// nodes.c: the kinds of nodes and their attributes, for help and completion.
+// nodes.c: descriptions of node kinds and their attributes, for help and completion.
 #include "session/session.h"
 
 bool petri_node_kind(size_t number, PetriNodeKind *out) {

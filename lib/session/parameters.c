@@ -1,11 +1,11 @@
-// parameters.c: what definitions (-D) mean to the script that is loaded, and its parameters, for a host (petri.h).
+// parameters.c: parameters of the loaded script, and checks of the definitions (-D) that set them.
 #include "base/number.h"
 #include "session/session.h"
 #include "value/format.h"
 
 #include <math.h>
 
-// The modules that a program imports at its top level, and those that they do, each once.
+// Modules that a program imports at its top level, directly or indirectly, each once.
 enum { MAX_MODULES = 64 };
 typedef struct ModuleList {
     const Program *items[MAX_MODULES];
@@ -19,7 +19,7 @@ static bool has_module(const ModuleList *list, const Program *module) {
     return false;
 }
 
-// Within a protected call; no deeper than the list is long.
+// Called within a protected call. The depth of recursion is at most MAX_MODULES.
 static void collect_modules(PetriSession *session, const Program *program, ModuleList *list) {
     for (uint32_t i = 0; i < program->import_count; i++) {
         Str reason;
@@ -40,7 +40,7 @@ static const Parameter *find_in_modules(const ModuleList *list, const Symbol *na
     return NULL;
 }
 
-// An element that is a number, not a symbol or something else.
+// Returns true for a number that is not a symbol.
 static bool is_plain_number(const PetriSession *session, Item item) {
     return item.type == ITEM_NUMBER && !symbol_of_number(&session->symbols, item.as.number);
 }
@@ -52,7 +52,7 @@ static bool all_numbers(const PetriSession *session, Value v) {
     return all;
 }
 
-// The one number that a value is, else nan.
+// Returns the number if the value is a single number, else NaN.
 static double one_number(const PetriSession *session, Value v) {
     return v.len == 1 && all_numbers(session, v) ? value_at(&v, 0).as.number : NAN;
 }
@@ -61,7 +61,7 @@ static bool is_within(const Parameter *parameter, double x) {
     return x >= parameter->min && x <= parameter->max;
 }
 
-// `LEAST..MOST` as the comment has it.
+// Returns the range as `MIN..MAX`, without missing ends.
 static Str range_text(Arena *arena, const Parameter *parameter) {
     char min[NUMBER_TEXT] = "", max[NUMBER_TEXT] = "";
     size_t before = isinf(parameter->min) ? 0 : number_format(parameter->min, min);
@@ -69,7 +69,7 @@ static Str range_text(Arena *arena, const Parameter *parameter) {
     return str_format(arena, "%.*s..%.*s", (int)before, min, (int)after, max);
 }
 
-// One definition being looked at.
+// A definition that is checked.
 typedef struct Check {
     PetriSession *session;
     Unit *unit;
@@ -85,7 +85,7 @@ static Origin origin_of(const Parameter *parameter) {
     return (Origin){parameter->source, parameter->span};
 }
 
-// `'12x' is not a number`: where the default is made of numbers, nothing else will do.
+// Reports an error and returns false if the default consists of numbers and the definition does not.
 static bool check_numbers(const Check *check, const Parameter *parameter) {
     Value v = check->define->value;
     Arena *arena = &check->unit->arena;
@@ -99,7 +99,7 @@ static bool check_numbers(const Check *check, const Parameter *parameter) {
     report_definition(check, DIAG_ERROR, "bad-definition", origin_of(parameter),
                       str_format(arena, "%.*s is not a number, and '%.*s' takes numbers: its default is %.*s",
                                  STR_ARGS(wrong), STR_ARGS(parameter->name->name), STR_ARGS(parameter->default_text)),
-                      is_truth ? STR("here true is written 1 and false 0") : (Str){0});
+                      is_truth ? STR("write 1 for true and 0 for false") : (Str){0});
     return false;
 }
 
@@ -118,16 +118,17 @@ static void check_range(const Check *check, const Parameter *parameter) {
     }
 }
 
-// A value that is false, such as 0, is to `or` as good as none.
+// Returns false if the value is false, such as 0, so that `or` uses the default; then warns unless the default is
+// false.
 static bool check_truth(const Check *check, const Parameter *parameter) {
     Arena *arena = &check->unit->arena;
     if (value_true(check->define->value))
         return true;
     if (parameter->is_static && !value_true(parameter->value))
-        return false; // nothing is lost
+        return false;
     Str printed = format_text(arena, &check->session->symbols, check->define->value);
     report_definition(check, DIAG_WARNING, "unused-definition", origin_of(parameter),
-                      str_format(arena, "%.*s=%.*s has no effect: %.*s is false, so that `or` takes the default %.*s",
+                      str_format(arena, "%.*s=%.*s has no effect: %.*s is false, so `or` uses the default %.*s",
                                  STR_ARGS(parameter->name->name), STR_ARGS(printed), STR_ARGS(printed),
                                  STR_ARGS(parameter->default_text)),
                       (Str){0});
@@ -142,10 +143,10 @@ static bool check_parameter(const Check *check, const Parameter *parameter) {
     return true;
 }
 
-// The parameter whose name is nearest to one that is not there, or NULL.
+// Returns the parameter with the most similar name, or NULL if none is similar.
 static const Parameter *nearest_parameter(const Program *program, Str name) {
     const Parameter *found = NULL;
-    int limit = name.len < 2 ? 1 : name.len < 4 ? 2 : 3; // names of one letter are near to all others
+    int limit = name.len < 2 ? 1 : name.len < 4 ? 2 : 3; // any two names of one letter are similar
     StrNearest nearest = {name, limit, {0}};
     for (uint32_t i = 0; i < program->parameter_count; i++)
         if (str_try_nearest(&nearest, program->parameters[i].name->name))
@@ -153,7 +154,7 @@ static const Parameter *nearest_parameter(const Program *program, Str name) {
     return found;
 }
 
-// A text followed by the names of all parameters.
+// Appends the names of all parameters to a text.
 static Str with_parameters(Arena *arena, const Program *program, Str before) {
     Text text = text_new(arena);
     uint32_t count = program->parameter_count;
@@ -172,8 +173,7 @@ static void report_unused(const Check *check) {
     const Program *program = check->unit->program;
     Str name = check->define->name->name, script = check->unit->source->name;
     const Parameter *nearest = nearest_parameter(program, name);
-    Str text = str_format(arena, "the definition of '%.*s' has no effect: %.*s never reads it", STR_ARGS(name),
-                          STR_ARGS(script));
+    Str text = str_format(arena, "unused definition '%.*s': %.*s does not read it", STR_ARGS(name), STR_ARGS(script));
     if (nearest)
         report_definition(check, DIAG_WARNING, "unknown-parameter", origin_of(nearest), text,
                           str_format(arena, "did you mean '%.*s'?", STR_ARGS(nearest->name->name)));
@@ -182,20 +182,20 @@ static void report_unused(const Check *check) {
                           (Str){0});
 }
 
-// A definition that nothing has read.
+// Reports a definition that the script does not read, with the reason.
 static void check_unused(const Check *check) {
     Arena *arena = &check->unit->arena;
     Str name = check->define->name->name, hint = {0};
     const char *reason = NULL;
     Origin at = {0};
     if (engine_name_exists(name)) {
-        reason = "petri itself gives this name its value";
+        reason = "petri sets this name itself";
     } else if (check->use->bound.source) {
-        reason = "the script gives the name its own value here";
+        reason = "the script binds this name itself";
         at = check->use->bound;
         if (check->use->by_let)
-            hint = str_format(arena, "with `let %.*s=%.*s or …` it would take the definition", STR_ARGS(name),
-                              STR_ARGS(name));
+            hint =
+                str_format(arena, "write `let %.*s=%.*s or …` to use the definition", STR_ARGS(name), STR_ARGS(name));
     } else {
         ModuleList modules = {.count = 0};
         collect_modules(check->session, check->unit->program, &modules);
@@ -204,14 +204,14 @@ static void check_unused(const Check *check) {
             report_unused(check);
             return;
         }
-        reason = "modules see no definitions";
+        reason = "modules do not see definitions";
         at = origin_of(parameter);
     }
     report_definition(check, DIAG_WARNING, "unused-definition", at,
-                      str_format(arena, "the definition of '%.*s' has no effect: %s", STR_ARGS(name), reason), hint);
+                      str_format(arena, "unused definition '%.*s': %s", STR_ARGS(name), reason), hint);
 }
 
-// The definition of a name that counts, the last, or NULL.
+// Returns the last definition of a name, or NULL.
 static const Define *find_define(const PetriSession *session, const Symbol *name) {
     for (uint32_t i = session->config.define_count; i > 0; i--)
         if (session->config.defines[i - 1].name == name)
@@ -223,14 +223,14 @@ static bool check_definition(const Check *check) {
     const Parameter *parameter = program_find_parameter(check->unit->program, check->define->name);
     if (parameter)
         return check_parameter(check, parameter);
-    if (!check->use->read && !check->session->loader.lint) // a check has definitions for some of many scripts
+    if (!check->use->read && !check->session->loader.lint) // petri check defines names for many scripts at once
         check_unused(check);
     return true;
 }
 
 bool session_check_definitions(PetriSession *session, Unit *unit) {
     bool good = true, outer = diagnostics_repeat(&session->diagnostics, true);
-    // What is set by hand is told each time, what was told at the load is not.
+    // When recompiling, only new definitions are checked, and reported even if the same text was reported before.
     uint32_t first = session->recompiling ? session->reported_defines : 0;
     diagnostics_repeat(&session->diagnostics, outer || session->recompiling);
     for (uint32_t i = first; i < session->config.define_count && !unit->empty; i++)
@@ -244,7 +244,7 @@ bool session_check_definitions(PetriSession *session, Unit *unit) {
     return good;
 }
 
-// A piece of a script as text of one line, without anything that a terminal would act on.
+// Returns a part of a script as one line, without control characters.
 static const char *to_one_line(Arena *arena, Str source) {
     Text text = text_new(arena);
     for (size_t at = 0; at < source.len;) {
@@ -322,7 +322,7 @@ bool petri_parameter(PetriSession *session, size_t number, PetriParameter *param
     if (!session->config.program)
         return false;
     PetriStatus status = session_protect(session, NULL, find_parameter, &request);
-    return session_report_abort(session, status, "the answer") == PETRI_OK && request.found;
+    return session_report_abort(session, status, "the query") == PETRI_OK && request.found;
 }
 
 typedef struct Setting {
@@ -331,7 +331,7 @@ typedef struct Setting {
     PetriStatus status;
 } Setting;
 
-// Replaces the definitions of a name.
+// Replaces all definitions of a name by one, or removes them.
 static void redefine(PetriSession *session, void *context) {
     Setting *setting = context;
     Config *config = &session->config;

@@ -1,4 +1,4 @@
-// print.c: frames as text (spec cli.md 3.3).
+// print.c: output of frames and compiled code as text (spec cli.md 3.3).
 #include "base/number.h"
 #include "session/session.h"
 #include "syntax/parse.h"
@@ -26,15 +26,15 @@ static void print_tree(TextSink *out, PetriSession *session) {
             text_sink_add_tree(out, &session->symbols, tree.as.items[i].as.node);
 }
 
-// Whether the key of one slot comes after that of another.
+// Returns true if the key of one slot is ordered after that of another.
 static bool comes_after(const PetriSession *session, StateSlot one, StateSlot other) {
     double rooms[2][STATE_KEY_BUFFER];
     return format_key_compare(&session->symbols, state_slot_key_in(session->state, one, rooms[0]),
                               state_slot_key_in(session->state, other, rooms[1])) > 0;
 }
 
-// Merge sort: stable, and unlike qsort it can be given what the order needs. Particles that are numbered stand in order
-// already, so that halves often do.
+// Sorts slots by key with a merge sort, which is stable and, unlike qsort, can pass the session to the comparison.
+// Particles with ascending ids are already in order, so merging is often skipped.
 static void sort_slots(const PetriSession *session, StateSlot *slots, StateSlot *scratch, uint32_t count) {
     if (count < 2)
         return;
@@ -70,7 +70,7 @@ static void print_state(TextSink *out, PetriSession *session) {
     }
 }
 
-// The state goes to the host if that is asked for, and into the hash if that is.
+// Writes the state to the host, to the hash, or to both, depending on the sections.
 static void print_and_hash_state(TextSink *out, PetriSession *session, unsigned sections, Sha256 *hash) {
     text_sink_flush(out);
     out->hash = sections & PETRI_PRINT_HASH ? hash : NULL;
@@ -89,7 +89,7 @@ static void print_hash(TextSink *out, Sha256 *hash) {
     text_sink_end_line(out);
 }
 
-// Each text on its line.
+// Writes each text on a line, with its position if `places` is true.
 static void print_lines(TextSink *out, const DiagSink *sink, const char *mark, bool places) {
     for (uint32_t i = 0; i < sink->count && !out->stopped; i++) {
         text_add_c(&out->text, mark);
@@ -98,10 +98,10 @@ static void print_lines(TextSink *out, const DiagSink *sink, const char *mark, b
     }
 }
 
-// One of the texts of a session on its way.
+// A text that is written to the host.
 typedef struct Printing {
     void (*print)(TextSink *out, PetriSession *session, unsigned what);
-    unsigned selection;
+    unsigned selection; // sections, or PetriDump
     PetriWriteCallback *write;
     void *user_data;
     PetriStatus status;
@@ -157,7 +157,7 @@ static void print_code(TextSink *out, PetriSession *session, unsigned what) {
     const Unit *unit = session->config.program;
     if (what == PETRI_DUMP_CODE) {
         program_print(&out->text, &session->symbols, unit->program);
-    } else { // the tree was dropped when the program was compiled
+    } else { // the syntax tree was freed after compilation
         DiagSink discarded = diag_sink_new(out->text.arena, 0);
         const Ast *ast = parse_program(out->text.arena, &session->symbols, unit->source, &discarded);
         ast_print(&out->text, &session->symbols, unit->source, ast);

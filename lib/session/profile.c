@@ -1,4 +1,4 @@
-// profile.c: where the time of the frames went, as text.
+// profile.c: petri_profile: time per source line as text.
 #include "vm/profile.h"
 
 #include "session/session.h"
@@ -8,12 +8,12 @@
 typedef struct Row {
     double seconds;
     double times;
-    const Source *source; // NULL: `what` tells
+    const Source *source; // NULL: the row has the label `what`
     uint32_t line;
     const char *what;
 } Row;
 
-// The longest first; as in the text where they are the same.
+// Orders by time, longest first, then by line.
 static int compare_rows(const void *left, const void *right) {
     const Row *a = left, *b = right;
     if (a->seconds != b->seconds)

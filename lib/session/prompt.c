@@ -1,10 +1,9 @@
-// prompt.c: text typed by a person: what it means in the present frame, and which of it stays (petri.h).
+// prompt.c: evaluation of text that a user types at the prompt (petri_prompt, petri_evaluate).
 //
-// Each statement is a program of its own whose parameters are the names in sight (prompt.h). Names of the script have
-// the values that the script gave them in the frame, before its systems were updated (session_evaluate). Names bound at
-// the prompt have the values that their statements have in the state after the frame, as if they were typed again
-// (session_update_names). Neither depends on how the session came to the frame. Expressions are evaluated in an arena
-// of their own and leave nothing behind.
+// Each statement is a separate program whose parameters are the visible names (prompt.h). Names of the script have
+// their values of the last frame, before its systems were updated (session_evaluate). Names bound at the prompt are
+// evaluated in the state after the frame, as if they were typed again (session_update_names). Both are independent of
+// how the session reached the frame. Expressions are evaluated in a separate arena and retain nothing.
 #include "base/heap.h"
 #include "session/session.h"
 #include "syntax/parse.h"
@@ -15,21 +14,22 @@
 
 enum { MAX_LINES = 10000 };
 
-// One statement at work. What is known after an escape is here, not in locals.
+// Execution of one statement. Results that are needed after an escape are stored here, because local variables are
+// lost.
 typedef struct Job {
     Str text;
     Unit *unit;
-    const Ast *ast; // of the statement
+    const Ast *ast; // syntax tree of the statement
     const Program *program;
-    Arena *arena; // for its value
+    Arena *arena; // arena of its value
     Value value;
     Value *exports;
     double seconds;
-    DiagSink log; // what debug() said
+    DiagSink log; // output of debug()
     TextSink out;
     bool binds;
     bool adds_nodes;
-    // If it stays: what the frame and the prompt have then
+    // If it is retained: new contents of the frame and the prompt
     PromptList *list;
     Value *values;
     Value tree;
@@ -38,7 +38,7 @@ typedef struct Job {
 
 // --- lists
 
-// Room for so many statements, with the names before and those of a program.
+// Allocates a list for `count` statements, with the given names and the exports of a program.
 static PromptList *make_list(Names before, uint32_t count, const Program *program) {
     uint32_t old = before.count, more = program ? program->export_count : 0;
     PromptList *list = heap_alloc(sizeof *list + count * sizeof *list->statements + (old + more) * sizeof(Symbol *));
@@ -96,7 +96,7 @@ void prompt_list_compile(PetriSession *session, const PromptList *list, const Pr
         arena_exhausted(&session->arena);
 }
 
-// --- one text
+// --- execution of a text
 
 static void probe_text(PetriSession *session, void *context) {
     Job *job = context;
@@ -116,7 +116,7 @@ PetriCompleteness petri_prompt_check(PetriSession *session, const char *text, si
     return status == PETRI_OK ? (PetriCompleteness)job.value.as.number : PETRI_COMPLETE;
 }
 
-// Compiles and runs a statement in the names in sight.
+// Compiles and runs a statement with the visible names.
 static void run_program(PetriSession *session, void *context) {
     Job *job = context;
     session_set_globals(session, &session->static_vm);
@@ -131,7 +131,7 @@ static void run_program(PetriSession *session, void *context) {
     session->vm.arena = session->vm.builtins.arena = &session->frame.arena;
 }
 
-// `most` lines of debug() are taken out of the frame's.
+// Runs a statement. Collects up to max_lines lines of its debug() output separately from those of the frame.
 static PetriStatus run_statement(PetriSession *session, Job *job, uint32_t max_lines) {
     DiagSink log = session->frame.log;
     session->frame.log = diag_sink_new(&session->prompt.arena, max_lines);
@@ -146,7 +146,7 @@ static void parse_text(PetriSession *session, void *context) {
     job->unit = unit_parse(session, STR("prompt"), job->text);
 }
 
-// Parses the text into a unit; the names in sight have values from then on.
+// Parses the text into a unit and makes sure that the visible names have values.
 static PetriStatus begin_job(PetriSession *session, const char *text, size_t length, Job *job) {
     job->text = (Str){text, length == PETRI_NUL_TERMINATED ? strlen(text) : length};
     if (session->call_depth > 0)
@@ -182,7 +182,7 @@ static void write_value(PetriSession *session, TextSink *out, Value v) {
     text_sink_flush(out);
 }
 
-// What a statement has said.
+// Writes the debug() output of a statement.
 static void write_log(PetriSession *session, void *context) {
     Job *job = context;
     TextSink *out = &job->out;
@@ -200,7 +200,7 @@ static bool binds(const Ast *ast) {
            (ast->kind == AST_FUNC && ast->name);
 }
 
-// Does a statement begin with a node, or is it a loop, condition or template around one?
+// Returns true if a statement starts with a node, or is a loop, condition or template around one.
 static bool makes_nodes(const Ast *ast) {
     switch (ast->kind) {
     case AST_NODE:
@@ -233,7 +233,7 @@ static const char *statement_text(PetriSession *session, const Job *job) {
         .bytes;
 }
 
-// Makes what the prompt and the frame have if the statement stays.
+// Prepares the new contents of the prompt and the frame for a statement that will be retained.
 static void prepare_statement(PetriSession *session, Job *job) {
     const SessionFrame *frame = &session->frame;
     uint32_t count = job->program->export_count, before = frame->value_count;
@@ -313,12 +313,12 @@ static bool reject_pragmas(PetriSession *session, const Unit *unit) {
     session_report(session, &(Diag){.level = DIAG_ERROR,
                                     .source = unit->source,
                                     .span = ast->children[0]->span,
-                                    .text = STR("pragmas count at the beginning of a script only"),
+                                    .text = STR("pragmas are allowed only at the start of a script"),
                                     .code = "syntax"});
     return true;
 }
 
-// The statement of a number, as a suite of its own.
+// Wraps the current statement in a suite.
 static void wrap_statement(PetriSession *session, void *context) {
     Job *job = context;
     const Ast *statement = job->ast;
@@ -349,7 +349,7 @@ PetriStatus petri_prompt(PetriSession *session, const char *text, size_t length,
     return status;
 }
 
-// An expression: one statement that is not kept.
+// Returns true if the text is a single expression; else reports an error.
 static bool is_expression(PetriSession *session, const Unit *unit) {
     const Ast *ast = unit->ast;
     if (ast->count == 1 && ast->children[0]->kind != AST_PRAGMA && !binds(ast->children[0]))
@@ -357,7 +357,7 @@ static bool is_expression(PetriSession *session, const Unit *unit) {
     session_report(session, &(Diag){.level = DIAG_ERROR,
                                     .source = unit->source,
                                     .span = {0, (uint32_t)unit->source->text.len},
-                                    .text = STR("this must be one expression"),
+                                    .text = STR("must be a single expression"),
                                     .code = "syntax"});
     return false;
 }
@@ -380,7 +380,7 @@ PetriStatus petri_evaluate(PetriSession *session, const char *text, size_t lengt
     if (status == PETRI_OK) {
         job.ast = job.unit->ast;
         arena_reset(&session->prompt.arena);
-        status = run_statement(session, &job, 0); // what debug() says here is not the frame's
+        status = run_statement(session, &job, 0); // discards the output of debug()
         diag_sink_free(&job.log);
     }
     if (status == PETRI_OK) {
@@ -423,7 +423,7 @@ uint32_t petri_prompt_clear(PetriSession *session, bool bindings) {
         prompt_list_free(dropped.list);
         return 0;
     }
-    session_clear_frame(session); // its tree may lie in what goes
+    session_clear_frame(session); // its tree may refer to removed statements
     session_set_prompts(session, dropped.list);
     session_change_config(session, false);
     return dropped_count;

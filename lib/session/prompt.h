@@ -1,39 +1,39 @@
-// prompt.h: the statements of the prompt. A list never changes: configurations share it, and another takes its place.
+// prompt.h: statements retained by the prompt, in immutable lists that configurations share.
 #ifndef PETRI_SESSION_PROMPT_H
 #define PETRI_SESSION_PROMPT_H
 
 #include "session/unit.h"
 
-// A statement typed at the prompt that is evaluated in each frame. Its parameters are the names in sight of it: the
-// exports of the script and of the statements before it.
+// A statement of the prompt that is evaluated in each frame. Its parameters are the names visible to it: those set by
+// the host, and the exports of the script and of earlier statements.
 typedef struct PromptStatement {
-    Unit *unit; // a reference
+    Unit *unit; // counted reference
     const char *text;
     const Ast *ast;
     const Program *program;
-    bool adds_nodes; // its value is nodes for the tree
+    bool adds_nodes; // its value is added to the tree
 } PromptStatement;
 
 typedef struct PromptList {
     uint32_t references;
     uint32_t count;
-    Names names; // what the host gives the script, exports of the script, then of each statement
+    Names names; // names set by the host, exports of the script, then exports of each statement
     PromptStatement statements[];
 } PromptList;
 
 typedef struct Prompt {
-    Arena arena; // of one expression
+    Arena arena; // data of one expression
 } Prompt;
 
-// The list of a script without statements; without names for NULL. NULL if memory is used up. `given` begins with the
-// script's parameters.
+// Returns a list without statements for a script, which may be NULL. `host_names` starts with the script's parameters.
+// Returns NULL if out of memory.
 PromptList *prompt_list_new(Names host_names, const Program *script);
-// A list with one statement more, or NULL.
+// Returns a copy of a list with one more statement, or NULL if out of memory.
 PromptList *prompt_list_add(const PromptList *list, const PromptStatement *statement);
-// Gives a reference back; NULL is fine.
+// Releases a reference and frees the list with the last. NULL is ignored.
 void prompt_list_free(PromptList *list);
-// Compiles the statements of a list anew for another script, without those that add nodes or without all bindings if
-// they are not wanted. Within a protected call; *made has what is made so far, to be freed if that call is given up.
+// Compiles the chosen statements of a list again for another script: all, only bindings, or none. Called within a
+// protected call. If the call is aborted, the caller frees the partial list in *result.
 typedef enum PromptChoice { PROMPT_ALL, PROMPT_BINDINGS, PROMPT_NONE } PromptChoice;
 void prompt_list_compile(PetriSession *session, const PromptList *list, const Program *script, PromptChoice choice,
                          PromptList **result);

@@ -1,16 +1,16 @@
-// save.c: the state dictionary on disk.
+// save.c: state files (petri_save, petri_restore).
 //
-// A text of ours, one fact a line, so that a person can read it and a diff shows what changed:
+// A state file is line-based text, so that users can read and compare it:
 //
 //     petri-state 1
 //     frame 99
 //     $(:cells;0) = 12.5;-3                 every entry of the dictionary
-//     system 0 $(:cells)                    each system, with its occurrence among those of one prefix,
-//     particle $(:cells;0)                  and the position keys of its last frame's tree, in order
+//     system 0 $(:cells)                    each system: its index among systems with the same prefix,
+//     particle $(:cells;0)                  then the position key of each particle, in order
 //     end 1f0e6c9d7a5b4832                  hash of all bytes before this line
 //
-// Values are written in the language's printed form, which reads back as the same doubles. The hash at the end tells a
-// file that was cut short or edited from a good one; a bad one is never overwritten.
+// Values are in the language's printed form, which reads back as the same doubles. The hash detects files that were
+// truncated or edited.
 #include "ast/literal.h"
 #include "base/file.h"
 #include "base/number.h"
@@ -22,7 +22,7 @@
 #include <string.h>
 
 #define HEADER "petri-state 1\n"
-// As many can be read back, whatever is added in a lifetime.
+// Highest frame number that can be restored: low enough that it cannot overflow later.
 #define MAX_FRAMES INT64_C(100000000000000000)
 #define MAX_STATE_BYTES ((size_t)8 << 30)
 
@@ -92,7 +92,7 @@ PetriStatus petri_save(PetriSession *session, const char *file) {
     return status == PETRI_OK && !saving.done ? PETRI_INVALID : status;
 }
 
-// A file being read back.
+// A state file that is being read.
 typedef struct Restore {
     PetriSession *session;
     Arena *arena;
@@ -100,7 +100,7 @@ typedef struct Restore {
     State *state; // the new dictionary
     Incoming *incoming;
     int64_t frame;
-    uint32_t omitted; // values that are not finite, which states had before 0.2.0
+    uint32_t omitted; // number of values that are not finite (possible before 0.2.0)
 } Restore;
 
 static bool consume_prefix(Restore *restore, Str prefix) {
@@ -110,7 +110,8 @@ static bool consume_prefix(Restore *restore, Str prefix) {
     return true;
 }
 
-// End of the element that starts at the rest: a quoted string, or all up to ";", ")" or the line's end.
+// Returns the length of the first element: a quoted string, or everything up to ";", ")", a space or the line's end.
+// Returns 0 if a string is not terminated.
 static size_t element_length(Str rest) {
     size_t at = 0;
     char quote = rest.len && (rest.bytes[0] == '\'' || rest.bytes[0] == '"') ? rest.bytes[0] : 0;
@@ -198,7 +199,7 @@ static bool read_integer(Restore *restore, int64_t *x) {
     return len > 0;
 }
 
-// The velocity's slot beside a position's.
+// Returns the slot of the velocity that belongs to a position.
 static StateSlot velocity_slot(Restore *restore, StateSlot position) {
     Vector key = vector_new(restore->arena);
     vector_add(&key, state_slot_key(restore->state, position));
@@ -208,7 +209,7 @@ static StateSlot velocity_slot(Restore *restore, StateSlot position) {
 
 static bool read_system(Restore *restore) {
     int64_t occurrence;
-    uint32_t capacity = 0; // even, so that there is room for both
+    uint32_t capacity = 0; // even, so that position and velocity both fit
     SceneSystem system = {0};
     if (!read_integer(restore, &occurrence) || !consume_prefix(restore, STR(" ")) ||
         !read_key(restore, &system.prefix) || !consume_prefix(restore, STR("\n")))
@@ -229,7 +230,7 @@ static bool read_system(Restore *restore) {
     return true;
 }
 
-// Splits off the last line and compares its hash with that of everything before.
+// Removes the last line and returns true if its hash matches the text before it.
 static bool hash_matches(Str *text) {
     enum { END = sizeof "end 0123456789abcdef\n" - 1 };
     if (text->len < END)
@@ -256,14 +257,14 @@ static bool read_body(Restore *restore) {
     return restore->rest.len == 0;
 }
 
-// NULL if it was taken, else why not.
+// Returns NULL on success, else the reason.
 static const char *restore_text(Restore *restore) {
     if (!str_starts_with(restore->rest, STR("petri-state ")))
-        return "it is no state file of petri";
+        return "not a petri state file";
     if (!str_starts_with(restore->rest, STR(HEADER)))
-        return "it was written by another version of petri";
+        return "written by another version of petri";
     bool good = utf8_find_error(restore->rest) == restore->rest.len && hash_matches(&restore->rest);
-    return good && read_body(restore) ? NULL : "it is cut short or damaged";
+    return good && read_body(restore) ? NULL : "file is truncated or corrupt";
 }
 
 static void read_state_file(PetriSession *session, Incoming *incoming, void *context) {
@@ -272,15 +273,15 @@ static void read_state_file(PetriSession *session, Incoming *incoming, void *con
     Restore restore = {.session = session, .arena = arena, .state = incoming->state, .incoming = incoming};
     if (file_read(arena, NULL, file, true, MAX_STATE_BYTES, &restore.rest, NULL, &reason))
         reason = restore_text(&restore);
-    if (state_clear_exhausted(incoming->state)) // what looks like a damaged file
+    if (state_clear_exhausted(incoming->state)) // otherwise reported as a corrupt file
         arena_exhausted(arena);
     incoming->valid = !reason;
     if (restore.omitted && !reason)
-        session_report_text(session, DIAG_WARNING, "state-file",
-                            str_format(&session->text_arena, "%u of the values in '%s' are not finite and are left out",
-                                       restore.omitted, file));
+        session_report_text(
+            session, DIAG_WARNING, "state-file",
+            str_format(&session->text_arena, "values in '%s' are not finite: %u ignored", file, restore.omitted));
     if (reason)
-        report_state_error(session, "cannot take the state from", file, reason);
+        report_state_error(session, "cannot load the state from", file, reason);
     else
         clock_resume(&incoming->clock, restore.frame);
 }

@@ -1,4 +1,4 @@
-// session.c: opening, protected calls, definitions, loading; see petri.h.
+// session.c: opening and closing sessions, protected calls, definitions and loading.
 #include "session/session.h"
 
 #include "ast/literal.h"
@@ -11,7 +11,7 @@
 #include <string.h>
 
 enum { MAX_LINES = 100000 };
-// Of memory that a session may hold besides what the host allows: its own parts, which no script can make much larger.
+// Bytes that a session may hold besides PetriOptions.memory_limit, for its own data. Scripts can hardly increase it.
 #define OWN_BYTES ((size_t)64 << 20)
 
 void petri_options_init(PetriOptions *options, size_t size) {
@@ -25,8 +25,8 @@ void petri_options_init(PetriOptions *options, size_t size) {
     memcpy(options, &usual, size < sizeof usual ? size : sizeof usual);
 }
 
-// The options of a host, who may have been compiled with an earlier petri.h, whose struct was shorter. False if they
-// were not initialised, if they are those of a later petri.h, or make no sense.
+// Reads the options of a host, which may have been compiled with an older petri.h and a shorter struct. Returns false
+// if they were not initialised, are those of a newer petri.h, or are not valid.
 static bool read_options(PetriOptions *options, const PetriOptions *given) {
     if (!given || given->size < offsetof(PetriOptions, cpu) || given->size > sizeof *options)
         return false;
@@ -46,7 +46,7 @@ static void report_scene(void *host, DiagLevel level, const char *code, const Or
         diag.span = origin->span;
     }
     diag_report(&session->frame.errors, &diag);
-    // A loop may make a thousand nodes at one place: that is one thing to say.
+    // A loop may create a thousand nodes at one position; report the position once.
     Str where = diag.source ? str_format(arena, "%.*s %u", STR_ARGS(diag.source->path), diag.span.start) : node;
     session_report_keyed(session, &diag, str_format(arena, "%s %.*s %.*s", code, STR_ARGS(where), STR_ARGS(key)));
 }
@@ -58,7 +58,7 @@ static void report_vm(void *host, const Diag *diag) {
     session_report(session, diag);
 }
 
-// What is wrong with an expression that is evaluated ahead is told when it is really reached.
+// An error in an expression that is folded at load time is reported when a frame evaluates it.
 static void ignore_diagnostic(void *host, const Diag *diag) {
     (void)host;
     (void)diag;
@@ -71,7 +71,7 @@ static void log_vm(void *host, Str text) {
 
 _Static_assert((int)PETRI_NEIGHBOURS_NEVER == (int)PHYS_NEIGHBOURS_NEVER &&
                    (int)PETRI_NEIGHBOURS_ALWAYS == (int)PHYS_NEIGHBOURS_ALWAYS,
-               "the public choices are those of the engine");
+               "the public values match those of the engine");
 
 static PhysOptions physics_options(const PetriOptions *options) {
     PhysOptions physics = {.threads = options->threads,
@@ -138,12 +138,12 @@ PetriStatus session_report_abort(PetriSession *session, PetriStatus status, cons
     bool work = status == PETRI_LIMIT_EXCEEDED && session->last_outcome == ARENA_WORK_LIMIT;
     char text[120];
     if (status == PETRI_OUT_OF_MEMORY)
-        snprintf(text, sizeof text, "not enough memory for %s; it is given up", what);
+        snprintf(text, sizeof text, "out of memory: %s was aborted", what);
     else if (work)
-        snprintf(text, sizeof text, "%s takes more than its %" PRIu64 " units of work; it is given up", what,
+        snprintf(text, sizeof text, "%s exceeded its limit of %" PRIu64 " work units and was aborted", what,
                  session->options.work_limit);
     else
-        snprintf(text, sizeof text, "%s needs more than its %zu MiB of memory; it is given up", what,
+        snprintf(text, sizeof text, "%s exceeded its memory limit of %zu MiB and was aborted", what,
                  session->options.memory_limit >> 20);
     Diag diag = {.level = DIAG_ERROR, .text = str_from(text), .code = work ? "work-limit" : "memory-limit"};
     Origin place = session->vm.at                 ? *session->vm.at
@@ -154,21 +154,21 @@ PetriStatus session_report_abort(PetriSession *session, PetriStatus status, cons
         diag.span = place.span;
     }
     size_t limit = session->meter.memory_limit;
-    session->meter.memory_limit = SIZE_MAX; // to tell that memory is used up takes some
+    session->meter.memory_limit = SIZE_MAX; // the report itself needs memory
     session_report(session, &diag);
     session->meter.memory_limit = limit;
     return status;
 }
 
 bool session_rollback(PetriSession *session) {
-    session->rollback_pending = false; // it takes protected calls
+    session->rollback_pending = false; // protected calls try to roll back otherwise
     session->uninterruptible = true;
     session->rollback_pending = checkpoint_restore(session, &session->undo) != PETRI_OK;
     session->uninterruptible = false;
     return !session->rollback_pending;
 }
 
-// What a session consists of. An arena stands for whatever cannot be had.
+// Creates the components of a session. If one cannot be allocated, the arena escapes.
 static void init_components(PetriSession *session, void *context) {
     (void)context;
     const PetriOptions *options = &session->options;
@@ -187,14 +187,14 @@ static void init_components(PetriSession *session, void *context) {
     file_access_add(&session->arena, &session->reach, FILE_ACCESS_READ, (const char *const[]){".", NULL});
     file_access_add(&session->arena, &session->reach, FILE_ACCESS_READ, options->read_folders);
     file_access_add(&session->arena, &session->reach, FILE_ACCESS_WRITE, options->write_folders);
-    session->options.read_folders = session->options.write_folders = NULL; // they are the host's
+    session->options.read_folders = session->options.write_folders = NULL; // the host's memory
     session->vm.builtins.noise = session->static_vm.builtins.noise = session->noise;
     session->config.prompts = prompt_list_new((Names){0}, NULL);
     if (!session->state || !session->files || !session->noise || !session->config.prompts ||
         (options->profile && !session->vm.profile))
         arena_exhausted(&session->arena);
     PhysOptions physics = physics_options(options);
-    session->options.cpu = NULL; // it is the host's
+    session->options.cpu = NULL; // the host's memory
     session->options.ranks = NULL;
     scene_set_physics(session->scene, &physics);
 }
@@ -274,7 +274,7 @@ void petri_close(PetriSession **handle) {
     heap_free(session);
 }
 
-// One part of a -D value (L16.3).
+// Adds one element of a -D value (spec language.md L16.3).
 static void add_define_element(PetriSession *session, Vector *vector, Str part) {
     double x;
     const Symbol *symbol = part.len > 1 && part.bytes[0] == ':'
@@ -353,12 +353,12 @@ PetriStatus session_define(PetriSession *session, Str name, Str value) {
 typedef enum LoadPurpose { LOAD_RESTART, LOAD_CONTINUE } LoadPurpose;
 
 typedef struct Load {
-    const char *file; // or, if NULL, a text
-    bool regular;     // the file must be no pipe: it was read before
-    Str name;         // of either
+    const char *file; // NULL: load `text`
+    bool regular;     // the file must not be a pipe, because it was read before
+    Str name;         // name for messages
     Str text;
-    Unit *reload_of; // or the script that is there, once more
-    // What has come of it
+    Unit *reload_of; // compile this script again; else NULL
+    // Results
     Unit *unit;
     ClockRates rates;
     PromptList *prompts;
@@ -381,9 +381,9 @@ static void make_unit(PetriSession *session, void *context) {
     prompt_list_compile(session, session->config.prompts, unit->program, PROMPT_ALL, &load->prompts);
 }
 
-// Puts a unit in the place of the loaded script.
+// Replaces the loaded script.
 static void install_script(PetriSession *session, const Load *load, LoadPurpose purpose) {
-    session_clear_frame(session); // its tree may lie in the old unit
+    session_clear_frame(session); // its tree may refer to the old unit
     if (!session->config.program || !str_equal(session->config.program->folder, load->unit->folder))
         session_clear_files(session);
     unit_free(session->config.program);
@@ -428,7 +428,7 @@ PetriStatus petri_load_text(PetriSession *session, const char *name, const char 
     return load_script(session, &(Load){.name = str_from(name), .text = content}, LOAD_RESTART);
 }
 
-// The text is the same, so what was told of it stays told.
+// Compiles the loaded script again. The text is the same, so diagnostics about it are not repeated.
 static PetriStatus recompile_script(PetriSession *session) {
     Unit *unit = session->config.program;
     if (!unit)
@@ -472,11 +472,11 @@ int petri_version_number(void) {
 
 const char *petri_status_text(PetriStatus status) {
     static const char *const texts[] = {
-        [PETRI_OK] = "all is well",
-        [PETRI_INVALID] = "what was given is wrong",
-        [PETRI_LIMIT_EXCEEDED] = "a limit was reached",
-        [PETRI_OUT_OF_MEMORY] = "memory is used up",
-        [PETRI_UNSUPPORTED] = "this build lacks a library",
+        [PETRI_OK] = "success",
+        [PETRI_INVALID] = "invalid argument",
+        [PETRI_LIMIT_EXCEEDED] = "limit exceeded",
+        [PETRI_OUT_OF_MEMORY] = "out of memory",
+        [PETRI_UNSUPPORTED] = "not supported by this build",
         [PETRI_INTERRUPTED] = "interrupted",
     };
     return (unsigned)status < sizeof texts / sizeof texts[0] ? texts[status] : "unknown status";

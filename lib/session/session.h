@@ -1,7 +1,7 @@
-// session.h: what the session's files share; the public face is petri.h.
+// session.h: internal declarations of the session; petri.h is its public interface.
 //
-// Each part of a session has a file of its own that writes it: config.c, load.c, clock.c, frame.c, prompt.c,
-// diagnostics.c, checkpoint.c. Every public function that allocates does so within session_protect.
+// Each part of a session is written by one file: config.c, load.c, clock.c, frame.c, prompt.c, diagnostics.c,
+// checkpoint.c. Every public function that allocates does so within session_protect.
 #ifndef PETRI_SESSION_SESSION_H
 #define PETRI_SESSION_SESSION_H
 
@@ -19,33 +19,33 @@
 #include "session/unit.h"
 #include "vm/vm.h"
 
-// The present configuration. Whoever changes it calls session_change_config.
+// The current configuration. Every change is followed by a call of session_change_config.
 typedef struct Config {
     Unit *program;         // the loaded script, or NULL
     PromptList *prompts;   // never NULL
-    const Define *defines; // replaced as a whole: configurations share it
+    const Define *defines; // immutable, because configurations share it
     uint32_t define_count;
     ClockRates pragma_rates;
-    double resolution; // 0: as systems say
+    double resolution; // seconds; 0: each system's own
 } Config;
 
-// A name that the host gives values to. One that cannot be copied leaves the one before.
+// A name that the host sets (petri_set_global). If a new value cannot be copied, the old one stays.
 typedef struct HostGlobal {
     const Symbol *name;
     Value value;
-    Value next;      // while it is copied
+    Value next;      // new value while it is copied
     Arena arenas[2]; // `value` is in arenas[turn]
     bool turn;
 } HostGlobal;
 
-// In the order in which they were given first, which is that of the parameters of scripts loaded since then.
+// In the order in which they were first set, which is also the order of the parameters of scripts loaded since then.
 typedef struct HostGlobals {
     const Symbol *const *names;
     HostGlobal *const *items;
     uint32_t count;
 } HostGlobals;
 
-// The host's own built-ins, which live as long as the session. The array is replaced, never changed.
+// Functions of the host (petri_add_function), which live as long as the session. The array is replaced, never modified.
 typedef struct HostFunctions {
     const Builtin *const *rows;
     uint32_t count;
@@ -59,89 +59,91 @@ struct PetriConfig {
 };
 
 struct PetriSnapshot {
-    PetriConfig *config; // a reference
+    PetriConfig *config; // counted reference
     Checkpoint at;
 };
 
 struct PetriSession {
     PetriOptions options;
     Arena arena;      // session lifetime: symbols, definitions
-    Arena text_arena; // texts given to the host, reset by most uses
-    Arena view_arena; // … about systems: until the next petri_particle_id, petri_system_force
-    Arena key_arena;  // … that is looked up or stored, which may be one that was given: during the call
+    Arena text_arena; // texts returned to the host; reset by most functions that return one
+    Arena view_arena; // data about systems, until the next petri_particle_id or petri_system_force
+    Arena key_arena;  // values received from the host, during the call
     SymbolTable symbols;
     State *state;
     Scene *scene;
     FileCache *files;
-    FileAccess reach; // of the loaded script, or the one that is being loaded
+    FileAccess reach; // access rights of the loaded script, or of the one that is being loaded
     NoiseCache *noise;
     Schema schema;
-    void *draw_memory; // what the room that draws keeps (draw_access.h)
+    void *draw_memory; // data of lib/draw (session_draw_memory); NULL: none yet
     size_t draw_memory_size;
     Vm vm;
-    Vm static_vm; // evaluates ahead while a program is compiled
+    Vm static_vm; // folds constant expressions at load time
     atomic_bool interrupt;
-    uint64_t spent;            // of the work that the next protected call may do
-    Budget meter;              // of all that is done and held for the script
-    uint32_t call_depth;       // protected ones under way, one within the other
-    bool uninterruptible;      // what is being done must not be interrupted
-    ArenaOutcome last_outcome; // how the last one ended that was given up
+    uint64_t spent;            // work units already charged to the next protected call
+    Budget meter;              // work and memory of the script
+    uint32_t call_depth;       // nesting depth of protected calls
+    bool uninterruptible;      // the current operation must not be interrupted
+    ArenaOutcome last_outcome; // reason for which the last protected call was aborted
 
     HostGlobals host_globals;
     HostFunctions functions;
     Config config;
-    PetriConfig *shared_config; // the same, once somebody has asked for it
-    uint64_t config_revision;   // of the present configuration
-    uint64_t last_revision;     // given so far
-    uint32_t reported_defines;  // of these it was told what the script does with them
-    bool recompiling;           // the same text is being compiled once more, for other definitions
+    PetriConfig *shared_config; // `config` for petri_config_get, or NULL until it is called
+    uint64_t config_revision;   // revision of `config`
+    uint64_t last_revision;     // highest revision used so far
+    uint32_t reported_defines;  // number of definitions that were checked and reported for the loaded script
+    bool recompiling;           // the loaded text is being compiled again for changed definitions
     Loader loader;
     Clock clock;
     SessionFrame frame;
     Prompt prompt;
     Diagnostics diagnostics;
-    Checkpoint undo;       // before the frame that is being made, or was made last
-    bool undo_of_frame;    // `undo` is what the present frame was made from
-    bool rollback_pending; // that frame was given up, but there was no memory yet for going back
+    Checkpoint undo;       // state before the frame that is being computed, or was computed last
+    bool undo_of_frame;    // `undo` is the state from which the current frame was computed
+    bool rollback_pending; // the frame was aborted, but there was not enough memory yet to roll it back
 };
 
-// An arena that is charged to the session.
+// Initialises an arena that is charged to the session.
 void session_arena(PetriSession *session, Arena *arena, const char *name, size_t budget);
 
-// Goes back to before a frame that was given up, if that has not been possible so far; false if it still is not.
+// Rolls back an aborted frame. Returns false if out of memory; rollback_pending is then set, to try again later.
 bool session_rollback(PetriSession *session);
 
-// Is a text a name of the language (L2.4)?
+// Returns true if the text is a valid name (spec language.md L2.4).
 bool session_is_name(Str text);
-// A value as a host sees it: valid as long as what `v` points to and `v` itself.
+// Returns the public form of a value. Valid as long as `v` itself and the data that it points to.
 PetriValue session_export_value(const Value *v);
-// A host's value, with elements in the arena and the texts and numbers of the host; false if it is none.
+// Converts a public value. Elements are copied to the arena; numbers and texts still refer to the host's memory.
+// Returns false if it is not a valid value.
 bool session_import_value(Arena *arena, PetriValue host_value, Value *value);
 
-// Gives another session the names that this one has, and frees them.
+// Copies the names that the host set to another session.
 void session_copy_host_globals(const PetriSession *session, PetriSession *to);
+// Frees the memory of their values.
 void session_free_host_globals(PetriSession *session);
 
-// Defines a name; the text is that of its value. Within a protected call.
+// Defines a name; `value` is text as in petri_define. Called within a protected call.
 PetriStatus session_define(PetriSession *session, Str name, Str value);
-// Tells of definitions that a script does not take; false if one cannot be, and the script must not run.
+// Reports definitions that a script does not use. Returns false if one is an error, so that the script must not run.
 bool session_check_definitions(PetriSession *session, Unit *unit);
 
-// Says that the configuration has changed; `frame_stays`: what the last frame computed is still right.
+// Records that the configuration has changed. `frame_valid`: the results of the last frame are still valid.
 void session_change_config(PetriSession *session, bool frame_valid);
-// Puts a list, whose reference is given, in the place of the present one.
+// Replaces the list of prompt statements. Takes over the caller's reference.
 void session_set_prompts(PetriSession *session, PromptList *list);
 
-// Takes rates from a program's pragmas and goes to before frame 0.
+// Sets the rates of a new script and rewinds to before frame 0.
 void session_start(PetriSession *session, const ClockRates *rates);
-// Takes rates from the pragmas, where they differ from those of the script before.
+// Sets those rates whose pragma differs from that of the script before.
 void session_apply_rates(PetriSession *session, const ClockRates *rates);
-// What a program's pragmas say. Within a protected call.
+// Returns the rates of a program's pragmas, or the defaults. Called within a protected call.
 ClockRates session_pragma_rates(PetriSession *session, const Program *program);
-// The values of the engine's names in the present frame; before the first, those that never change.
+// Sets the engine's names (`time`, `beat` ...) for the current frame; before the first, only constant ones are valid.
 void session_set_globals(const PetriSession *session, Vm *vm);
-// Warns of nodes at the top of the frame that are nearly spelled like those that drive or show something. Within a
-// protected call.
+// Warns about nodes at the top level of the frame that have no meaning but are spelled similarly to one that has.
+// Called within a protected call.
 void session_lint_top_nodes(PetriSession *session);
 
 #endif

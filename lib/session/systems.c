@@ -1,8 +1,8 @@
-// systems.c: the particle systems of the last frame, as petri.h shows them.
+// systems.c: public access to the particle systems of the last frame.
 #include "session/session.h"
 #include "value/format.h"
 
-// One of the three requests. `found` is false until everything is there.
+// A query about a system. `found` is set when the result is complete.
 typedef struct Request {
     size_t system;
     uint32_t number;
@@ -14,10 +14,10 @@ static bool run_request(PetriSession *session, SessionCall *call, size_t system,
     Request request = {system, number, out, false};
     arena_reset(&session->view_arena);
     PetriStatus status = session_protect(session, NULL, call, &request);
-    return session_report_abort(session, status, "the answer") == PETRI_OK && request.found;
+    return session_report_abort(session, status, "the query") == PETRI_OK && request.found;
 }
 
-// The printed prefix, made once a frame.
+// Returns the prefix in printed form, which is created once per frame.
 static const char *system_name(PetriSession *session, size_t number, Value prefix) {
     SessionFrame *frame = &session->frame;
     Arena *arena = &frame->systems_arena;

@@ -1,10 +1,10 @@
-// text_sink.c: see text_sink.h.
+// text_sink.c: implementation of text_sink.h.
 #include "session/session.h"
 
 #include <stdio.h>
 
 enum { FLUSH_SIZE = 64 << 10 };
-#define MAX_BYTES ((size_t)512 << 20) // of the trees of one text
+#define MAX_BYTES ((size_t)512 << 20) // maximum size of the trees in one text
 
 void text_sink_flush(TextSink *out) {
     if (out->hash)
@@ -40,7 +40,7 @@ PetriStatus text_sink_finish(PetriSession *session, const TextSink *out) {
     if (!out->truncated_at)
         return out->stopped ? PETRI_INVALID : PETRI_OK;
     char text[80];
-    snprintf(text, sizeof text, "the text of the tree is longer than %zu MiB; it is cut here", MAX_BYTES >> 20);
+    snprintf(text, sizeof text, "the text of the tree exceeds %zu MiB: truncated here", MAX_BYTES >> 20);
     Origin place = node_origin(out->truncated_at, NULL);
     session_report(session, &(Diag){.level = DIAG_ERROR,
                                     .source = place.source,

@@ -1,4 +1,4 @@
-// text_sink.h: text on its way to the host, handed over in pieces as it comes.
+// text_sink.h: text output to a callback of the host, in parts.
 #ifndef PETRI_SESSION_TEXT_SINK_H
 #define PETRI_SESSION_TEXT_SINK_H
 
@@ -7,22 +7,24 @@
 #include "value/format.h"
 
 typedef struct TextSink {
-    Text text;
-    PetriWriteCallback *write; // NULL: to nobody
+    Text text;                 // text not flushed yet
+    PetriWriteCallback *write; // NULL: discard
     void *user_data;
-    bool stopped;             // the host takes no more, or it is enough
-    const Node *truncated_at; // the tree that it was enough of, or NULL
-    size_t written;           // bytes
-    Sha256 *hash;             // takes the text as well, or NULL
-    bool muted;               // from the host
+    bool stopped;             // the host stopped the output, or it was truncated
+    const Node *truncated_at; // the tree that was truncated, or NULL
+    size_t written;           // bytes flushed so far
+    Sha256 *hash;             // also receives the text; NULL: none
+    bool muted;               // the host does not receive the text
 } TextSink;
 
+// Passes the text to the host and the hash.
 void text_sink_flush(TextSink *out);
+// Ends a line; flushes if enough text has accumulated.
 void text_sink_end_line(TextSink *out);
-// Nodes that are shared come wherever they are, so the text of a small tree may have no end worth waiting for: it is
-// cut.
+// Adds a tree as text. Shared nodes are written each time they occur, so even a small tree may result in a huge text;
+// it is truncated at 512 MiB.
 void text_sink_add_tree(TextSink *out, const SymbolTable *symbols, const Node *node);
-// What came of it, after the last flush: tells of a text that was cut.
+// Returns the status after the last flush, and reports a truncated text.
 PetriStatus text_sink_finish(PetriSession *session, const TextSink *out);
 
 #endif

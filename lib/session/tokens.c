@@ -1,4 +1,4 @@
-// tokens.c: what editors ask for (petri.h).
+// tokens.c: tokens and bindings of a text, for editors (petri_tokenise, petri_bindings).
 #include "syntax/tokens.h"
 
 #include "session/session.h"
@@ -8,7 +8,7 @@
 
 typedef struct Reading {
     Str text;
-    PetriTokenCallback *token_callback; // one of them
+    PetriTokenCallback *token_callback; // NULL: report bindings instead
     PetriBindingCallback *binding_callback;
     void *user_data;
 } Reading;

@@ -1,4 +1,4 @@
-// tree.c: the tree of the last frame, as petri.h shows it.
+// tree.c: public access to the tree of the last frame.
 #include "session/session.h"
 #include "value/node_batch.h"
 
@@ -13,7 +13,7 @@ static void expand_batches(PetriSession *session, void *context) {
     session->frame.tree = value_expand_batches(&session->frame.systems_arena, session->frame.tree);
 }
 
-// Whoever goes through the tree wants nodes, one by one.
+// Expands node batches first, because the public interface has single nodes only.
 PetriValue petri_tree(const PetriSession *session) {
     if (!session)
         return (PetriValue){0};

@@ -1,4 +1,4 @@
-// unit.h: source files and what was made of them. Only load.c writes units and the loader.
+// unit.h: source files and their compiled programs. Only load.c modifies units and the loader.
 #ifndef PETRI_SESSION_UNIT_H
 #define PETRI_SESSION_UNIT_H
 
@@ -6,31 +6,31 @@
 #include "petri.h"
 #include "program/program.h"
 
-// A source file with what was made of it, in one arena. Modules are kept by path until the file changes.
+// A source file with its compiled program, in one arena. Modules are cached by path until their file changes.
 typedef struct Unit Unit;
 typedef struct Parsed Parsed;
 struct Unit {
     Unit *next;
-    Unit *same_hash; // the next module of a chain
-    Arena arena;     // to be used through unit_arena
-    Arena scratch;   // while it is compiled: syntax tree, expressions
+    Unit *same_hash; // next module with the same hash of its path
+    Arena arena;     // use it through unit_arena
+    Arena scratch;   // data of the compilation: syntax tree, expressions
     Str path;        // canonical; NUL-terminated
-    Str folder;      // canonical, of a script; what it may read and write lies there
-    Str version;     // changes when the file does: modification time, size, inode
+    Str folder;      // of a script: its canonical folder, which it may read and write
+    Str version;     // changes with the file: modification time, size, inode; empty: not from a file
     const Source *source;
-    const Ast *ast;         // of what is compiled again and again: what was typed at the prompt, `trees`
-    uint64_t work;          // that parsing it took
-    Parsed *parsed;         // of `trees`: files that are included
-    Unit *parse_cache;      // a reference to what was parsed before of the same text and what it includes, or NULL
-    bool empty;             // there is no statement in it
+    const Ast *ast;         // syntax tree, if it is compiled repeatedly (prompt statements, parse caches); else NULL
+    uint64_t work;          // work units of parsing
+    Parsed *parsed;         // of a parse cache: list of its included files
+    Unit *parse_cache;      // counted reference to the syntax trees of the same text and its includes, or NULL
+    bool empty;             // contains no statements
     const Program *program; // NULL: could not be loaded
-    Str error;              // … for this reason
-    uint32_t references;    // freed with the last
-    Str *included;          // canonical paths that an %include has taken; NUL-terminated
+    Str error;              // reason for which it could not be loaded
+    uint32_t references;    // reference count
+    Str *included;          // canonical paths of included files; NUL-terminated
     uint32_t included_count;
-    DiagSink parse_sink; // of the parse that is under way
-    DiagSink sink;       // of the compilation
-    bool retired;        // not finished, or replaced; freed when no frame can refer to it any more
+    DiagSink parse_sink; // diagnostics of the current parse
+    DiagSink sink;       // diagnostics of the compilation
+    bool retired;        // incomplete or replaced; freed as soon as no frame can refer to it
 };
 
 // An included file with its syntax tree.
@@ -39,47 +39,49 @@ struct Parsed {
     const Source *source;
     const Ast *ast;
     uint64_t work;
-    Str version; // of the file, as a unit has it
+    Str version; // version of the file, as in Unit
 };
 
 enum { MODULE_CHAINS = 1024 };
 typedef struct Loader {
-    Unit *modules;                // list
-    Unit *by_path[MODULE_CHAINS]; // the same, by hash of their paths
-    uint64_t generation;          // counts the units that frames came to depend on (session_use_unit)
-    Unit *pending;                // the script or text being loaded, for when its memory runs out
-    Unit *compiling;              // whose compiler calls back
-    bool lint;                    // petri_check is at work
-    uint64_t static_work;         // work of evaluating ahead in this load
+    Unit *modules;                // list of imported modules
+    Unit *by_path[MODULE_CHAINS]; // hash table of modules by path
+    uint64_t generation;          // number of units that frames have used so far (session_use_unit)
+    Unit *pending;                // script or text being loaded, to be freed if the load is aborted
+    Unit *compiling;              // unit whose compiler calls the host functions; NULL: none
+    bool lint;                    // report likely mistakes, for petri_check
+    uint64_t static_work;         // work units of folding in this load
 } Loader;
 
-// The names that a program is given values for.
+// Names of values that a program receives as parameters.
 typedef struct Names {
     const Symbol *const *items;
     uint32_t count;
 } Names;
 
-// The unit's arena, whose escape is from now on that of the protected call at work.
+// Returns the unit's arena, after setting its escape to that of the current protected call.
 Arena *unit_arena(const PetriSession *session, Unit *unit);
-// Loads a unit within a protected call: reads, parses and compiles. It is returned even if that failed (program is
-// NULL). A file that must be `regular` is no pipe, which may keep one waiting.
+// Reads, parses and compiles a file. Returns a unit even on failure; its program is NULL then. `regular` rejects pipes,
+// which could block. Called within a protected call.
 Unit *unit_load_file(PetriSession *session, const char *file, bool module, bool regular);
+// Like unit_load_file, for a script in memory.
 Unit *unit_load_text(PetriSession *session, Str name, Str text);
-// The same text once more, because definitions have changed. It is parsed once: the first time that this is called.
+// Compiles the text of a unit again for changed definitions. Only the first call parses the text.
 Unit *unit_reload(PetriSession *session, Unit *unit);
-// A unit of a text that is parsed but not compiled; `ast` is NULL if it does not parse.
+// Parses a text without compiling it. The unit's `ast` is NULL if the text has syntax errors.
 Unit *unit_parse(PetriSession *session, Str name, Str text);
-// Compiles a tree of the unit as a program with the given parameters.
+// Compiles a syntax tree of the unit to a program with the given parameters.
 const Program *unit_compile(PetriSession *session, Unit *unit, const Ast *ast, bool module, Names params);
-// Gives a reference back; NULL is fine.
+// Releases a reference and frees the unit with the last. NULL is ignored.
 void unit_free(Unit *unit);
-// To be told of each unit that frames come to depend on: what lies in it may lie where that of a freed one did.
+// Must be called for each unit that frames start to use. Changes the generation, because data of the unit may have the
+// same addresses as data of a freed unit. Returns the unit.
 Unit *session_use_unit(PetriSession *session, Unit *unit);
-// For the machine: the module at a path. Within a protected call.
+// Returns the module at a path, for the VM, or NULL with a reason. Called within a protected call.
 const Program *session_module(void *host, Str path, Str *reason);
-// Forgets what was read, for the next script may not read it.
+// Clears all cached files and modules, because the next script may not be allowed to read them.
 void session_clear_files(PetriSession *session);
-// Frees modules that were replaced.
+// Frees retired modules.
 void session_free_retired(PetriSession *session);
 
 #endif

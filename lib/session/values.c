@@ -1,14 +1,15 @@
-// values.c: values of the language as petri.h shows and takes them.
+// values.c: conversion between internal and public values.
 #include "session/session.h"
 #include "value/format.h"
 
 #include <math.h>
 #include <string.h>
 
-// A host sees elements where they lie, so both sides lay them out alike.
-_Static_assert(sizeof(PetriItem) == sizeof(Item) && offsetof(PetriItem, as) == offsetof(Item, as), "same elements");
+// Public values refer to internal elements without a copy, so both must have the same layout.
+_Static_assert(sizeof(PetriItem) == sizeof(Item) && offsetof(PetriItem, as) == offsetof(Item, as),
+               "same layout of elements");
 _Static_assert(sizeof(PetriString) == sizeof(String) && offsetof(PetriString, length) == offsetof(String, text.len),
-               "same strings");
+               "same layout of strings");
 _Static_assert((int)PETRI_NUMBER == (int)ITEM_NUMBER && (int)PETRI_STRING == (int)ITEM_STRING &&
                    (int)PETRI_NODE == (int)ITEM_NODE && (int)PETRI_FUNCTION == (int)ITEM_FUNCTION,
                "same types");

@@ -53,11 +53,11 @@ check "help tells of --parameters" has out "--parameters"
 
 # What a script does not take is told, with the place, and does not fail the run.
 petri run --frames 1 -D FIXED=8 cells.fl
-check "-D of a name that the script binds is a warning" has err "cells.fl:3:5: warning: the definition of 'FIXED' has no effect"
+check "-D of a name that the script binds is a warning" has err "cells.fl:3:5: warning: unused definition 'FIXED'"
 check "… with a hint" has err 'with `let FIXED=FIXED or'
 check "… and no failure" status_is 0
 petri run --frames 1 -D CELS=8 cells.fl
-check "-D of a name that is not read is a warning" has err "cells.fl:1:5: warning: the definition of 'CELS' has no effect"
+check "-D of a name that is not read is a warning" has err "cells.fl:1:5: warning: unused definition 'CELS'"
 check "… with the nearest parameter" has err "did you mean 'CELLS'?"
 petri run --frames 1 -D WIDE=8 cells.fl
 check "-D of a module's parameter is a warning there" has err "cells_module.fl:1:5: warning: the definition of 'WIDE'"

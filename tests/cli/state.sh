@@ -44,7 +44,7 @@ for damage in cut edited version other empty; do
     cp bad.state before.state
     petri run world.fl --frames 2 --print state --state bad.state
     check "a state file that is bad ($damage) makes the run fail" status_is 1
-    check "… is told in one error ($damage)" count_is err "error: cannot take the state from 'bad.state'" 1
+    check "… is told in one error ($damage)" count_is err "error: cannot load the state from 'bad.state'" 1
     check "… is left alone ($damage)" cmp -s bad.state before.state
     check "… and the run starts fresh ($damage)" has out "@0 time=0"
 done

@@ -71,12 +71,12 @@ check "nested imports are told" has err "imports nested too deeply"
 # The limits can be set.
 echo '!a x=len(i for i in ..(1000+frame))' >loop.fl
 runs $limit run --frames 1 --work 500 loop.fl
-check "--work lowers the limit" has err "the frame takes more than its 500 units of work"
+check "--work lowers the limit" has err "the frame exceeded its limit of 500 work units"
 runs $limit run --frames 1 --work 1G in_quadratic.fl
-check "--work raises it" has err "more than its 1073741824 units of work"
+check "--work raises it" has err "its limit of 1073741824 work units"
 echo '!a x=len((..2e7)+frame)' >power.fl
 runs $limit run --frames 1 --memory 100M power.fl
-check "--memory lowers the limit" has err "the frame needs more than its 100 MiB of memory"
+check "--memory lowers the limit" has err "the frame exceeded its memory limit of 100 MiB"
 runs $limit run --frames 1 --memory none loop.fl
 check "--memory none is refused" status_is 2
 finish

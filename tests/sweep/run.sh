@@ -1,5 +1,5 @@
 #!/bin/sh
-# run.sh: `petri sweep` as its user sees it: which runs there are, the table whatever happens on the way, plans, pictures.
+# run.sh: tests of `petri sweep`: the runs of a sweep, the table after interruptions and crashes, shards, plans, plots.
 # usage: tests/sweep/run.sh PATH-OF-PETRI draws|none yaml|none
 # shellcheck disable=SC2016 # dollars are for petri
 set -u
@@ -15,22 +15,22 @@ sweep() {
 }
 out_is() { [ "$(cat out)" = "$1" ]; }
 same() { cmp "$1" "$2"; }
-# refused WHAT TEXT ARGS...: a wrong command line, with this text in its message.
+# refused NAME TEXT ARGS...: checks that the command line is rejected with a message that contains TEXT.
 refused() {
     check_name=$1 text=$2
     shift 2
     sweep "$@"
     check "$check_name" status_is 2
-    check "$check_name: it says why" has err "$text"
+    check "$check_name: the message gives the reason" has err "$text"
 }
 
-# --- which runs there are
+# --- the runs
 
 cat >sum.fl <<'END'
 let A=A or 1 B=B or 2 SEED=SEED or 1 V=V or (1;2)
 END
 sweep sum.fl -D 'A=1;5..20|5' -D B=2 --frames 3 --metric total=A+B
-check "a list with a range, and a constant" out_is 'run,A,B,frame,total,error
+check "lists may contain ranges; a single value is a constant" out_is 'run,A,B,frame,total,error
 1,1,2,2,3,
 2,5,2,2,7,
 3,10,2,2,12,
@@ -45,17 +45,17 @@ check "steps are decimal, seeds change fastest" out_is 'run,A,SEED,frame,a,s,err
 5,0.3,1,0,0.3,1,
 6,0.3,2,0,0.3,2,'
 sweep sum.fl -D 'V=(3;4)' --frames 1 --metric length=len\(V\) --metric 'text="a,b"' --metric 'nothing=null'
-check "a vector is in parentheses; cells are quoted where they must be" out_is "run,V,frame,length,text,nothing,error
+check "parentheses make a vector; cells are quoted if necessary" out_is "run,V,frame,length,text,nothing,error
 1,3;4,0,2,\"'a,b'\",,"
 sweep sum.fl -D 'V=(3;4);(5;6;7)' --frames 1 --metric length=len\(V\)
-check "so are vectors in a list" [ "$(tail -n 2 out)" = '1,3;4,0,2,
+check "a list may contain vectors in parentheses" [ "$(tail -n 2 out)" = '1,3;4,0,2,
 2,5;6;7,0,3,' ]
 sweep sum.fl -D A=1..3 -D B=1..3 --where 'A < B' --frames 1 --metric total=A+B
-check "--where" [ "$(tail -n 3 out)" = '1,1,2,0,3,
+check "--where selects combinations" [ "$(tail -n 3 out)" = '1,1,2,0,3,
 2,1,3,0,4,
 3,2,3,0,5,' ]
 sweep sum.fl -D A=1..2 --frames 8 --every 3 --until 'frame >= A*4' --metric total=A+frame
-check "--every and --until" out_is 'run,A,frame,total,error
+check "--every adds rows and --until ends runs" out_is 'run,A,frame,total,error
 1,1,0,1,
 1,1,3,4,
 1,1,4,5,
@@ -64,30 +64,30 @@ check "--every and --until" out_is 'run,A,frame,total,error
 2,2,6,8,
 2,2,7,9,'
 sweep sum.fl -D A=1..9 -D B=10..20\|1 --sample latin:11 --frames 1 --metric b=B
-check "a sample: as many runs as it says" lines_are out 12
-check "each of eleven steps once" [ "$(cut -d, -f5 out | tail -n 11 | sort -n | uniq | wc -l)" -eq 11 ]
+check "--sample latin:N makes N runs" lines_are out 12
+check "a Latin sample uses each of eleven steps once" [ "$(cut -d, -f5 out | tail -n 11 | sort -n | uniq | wc -l)" -eq 11 ]
 slices=$(tail -n 11 out | cut -d, -f2 | awk '{ print int(($1 - 1) / 8 * 11) }' | sort -n | uniq | wc -l)
-check "and each slice of a range" [ "$slices" -eq 11 ]
+check "a Latin sample uses each slice of a range once" [ "$slices" -eq 11 ]
 cp out first
 sweep sum.fl -D A=1..9 -D B=10..20\|1 --sample latin:11 --frames 1 --metric b=B --jobs 3
-check "the same again, whatever the number of processes" same out first
+check "a sample does not depend on the number of processes" same out first
 sweep sum.fl -D A=1..9 -D B=10..20\|1 --sample latin:11:7 --frames 1 --metric b=B
-check "another seed, another sample" [ "$(cmp -s out first; echo $?)" -eq 1 ]
+check "another seed makes another sample" [ "$(cmp -s out first; echo $?)" -eq 1 ]
 
 # --- summary and plots
 
 sweep sum.fl -D A=1..2 --seeds 4 --frames 1 --metric x=A*SEED*SEED --summary means.csv -o t.csv
-check "mean, deviation, quartiles" [ "$(cat means.csv)" = 'A,metric,runs,mean,deviation,least,quartile1,median,quartile3,most
+check "--summary writes mean, deviation and quartiles" [ "$(cat means.csv)" = 'A,metric,runs,mean,deviation,least,quartile1,median,quartile3,most
 1,x,4,7.5,6.5574385243,1,3.25,6.5,10.75,16
 2,x,4,15,13.1148770486,2,6.5,13,21.5,32' ]
 sweep sum.fl -D A=1..2 --frames 9 --until 'frame == A' --summary means.csv -o t.csv
-check "when it ended, where nothing else is measured" has means.csv '2,frame,1,2,,2,2,2,2,2'
+check "without metrics, --summary summarises the last frame" has means.csv '2,frame,1,2,,2,2,2,2,2'
 if [ "$2" = draws ]; then
     sweep sum.fl -D A=1..5 -D 'B=1;2' --frames 3 --metric x=A*B --plot plot.png -o t.csv
-    check "a plot" [ "$(head -c 4 plot.png | tail -c 3)" = PNG ]
-    check "of which nothing is amiss" [ "$(wc -l <err)" -eq 1 ]
+    check "--plot writes a PNG file" [ "$(head -c 4 plot.png | tail -c 3)" = PNG ]
+    check "--plot prints no diagnostics" [ "$(wc -l <err)" -eq 1 ]
     sweep sum.fl -D A=1 --frames 3 --metric x=null --every 1 --plot empty.png -o t.csv
-    check "and of nothing at all" [ -s empty.png ]
+    check "--plot accepts metrics without values" [ -s empty.png ]
 fi
 
 # --- in HDF5
@@ -97,11 +97,11 @@ if [ -x "$(dirname "$petri")/petri-hdf5" ]; then
         sweep sum.fl -D A=1..3 -D 'V=(3;4);(5;6;7)' --frames 2 --every 1 --metric 'half=A/2' --metric 'text="a,b"' \
             --metric 'part=A/3 if A > 1 else null' --jobs $jobs -o t$jobs.h5
     done
-    check "a table in HDF5" status_is 0
-    check "the same bytes, whatever the number of processes" same t1.h5 t3.h5
-    check "nothing else stays of it" [ "$(echo t1.h5*)" = "t1.h5 t1.h5.runs" ]
+    check "-o FILE.h5 writes a table in HDF5" status_is 0
+    check "the HDF5 table does not depend on the number of processes" same t1.h5 t3.h5
+    check "no other files remain beside the HDF5 table" [ "$(echo t1.h5*)" = "t1.h5 t1.h5.runs" ]
     sweep sum.fl -D A=1 --frames 1 --metric a=A -o absent/t.h5
-    check "what cannot be written is told before the runs" eval 'status_is 1 && count_is err "cannot write absent/t.h5: No such file" 1'
+    check "an unwritable table is reported before the runs" eval 'status_is 1 && count_is err "cannot write absent/t.h5: No such file" 1'
     if /usr/bin/python3 -I -c 'import h5py' 2>err; then
         sweep sum.fl -D A=1..3 -D 'V=(3;4);(5;6;7)' --frames 2 --every 1 --metric 'half=A/2' --metric 'text="a,b"' \
             --metric 'part=A/3 if A > 1 else null' -o t.csv
@@ -120,11 +120,11 @@ for record, line in zip(table, lines):
             assert (str(value) if kind == "i" else value.decode()) == text, (name, text)
 print("".join(table.dtype[name].kind for name in table.dtype.names))
 END
-        check "numbers and texts are those of the CSV" out_is iiSifSfS
+        check "the HDF5 table has the numbers and texts of the CSV table" out_is iiSifSfS
     fi
 fi
 
-# --- the table, whatever happens on the way
+# --- the table after interruptions and crashes
 
 cat >dish.fl <<'END'
 let DROPS=DROPS or 20 -- 1..100 how many
@@ -136,26 +136,26 @@ let DROPS=DROPS or 20 -- 1..100 how many
     !collision strength=100
 END
 far='far=sum(hypot($(:drops;i)) for i in ..DROPS)'
-# cells ARGS...: the words of the sweep that is interrupted.
+# cells ARGS...: runs the sweep that the tests interrupt.
 before=
 cells() { $before "$petri" sweep dish.fl -D DROPS=10..30\|5 --seeds 12 --frames 500 --every 250 --metric "$far" --quiet "$@"; }
 cells --jobs 1 -o whole.csv
-check "60 runs with three rows each" lines_are whole.csv 181
-check "nothing else stays" [ "$(echo whole.csv*)" = "whole.csv whole.csv.runs" ]
+check "60 runs have three rows each" lines_are whole.csv 181
+check "no journal remains beside the table" [ "$(echo whole.csv*)" = "whole.csv whole.csv.runs" ]
 cells --jobs 3 >out
-check "the order is that of the runs" same whole.csv out
+check "rows are in the order of the runs" same whole.csv out
 line=$(sed -n 47p whole.csv.runs)
 value=$(awk -F, '$1 == 47 && $4 == 499 { print $5 }' whole.csv)
 sh -c "$line --print log" >out 2>err
-check "a line of the commands runs" status_is 0
+check "a line of FILE.runs is a valid command" status_is 0
 sh -c "$line --print state" 2>err | awk '/^@499 /{ on = 1 } on' >state
 again=$(awk '/^\$\(:drops;[0-9]+\) = / { split($3, p, ";"); sum += sqrt(p[1]*p[1] + p[2]*p[2]) } END { printf "%.9g", sum }' state)
-check "and makes the run again: $value" [ "$again" = "$(printf '%.9g' "$value")" ]
+check "a line of FILE.runs repeats the run: $value" [ "$again" = "$(printf '%.9g' "$value")" ]
 
-# runs_of FILE: how many runs its journal has.
+# runs_of FILE: prints the number of results in a journal.
 runs_of() { cat "$1" 2>/dev/null | grep -c '^run '; }
-# kill_at COUNT [SIGNAL]: the sweep, killed as soon as it has made this many runs. On a busy machine it may have made all
-# before that is seen: then once more.
+# kill_at COUNT [SIGNAL]: kills the sweep as soon as it has done COUNT runs. Tries again if it has finished before, as it
+# may on a busy machine.
 kill_at() {
     for try in 1 2 3 4 5 6 7 8 9; do
         (before=exec && cells --jobs 2 -o killed.csv 2>err) &
@@ -170,45 +170,45 @@ kill_at() {
 }
 for count in 1 5 6 13 20; do
     kill_at $count
-    check "killed after $count runs: what is done is kept" [ "$(runs_of killed.csv.part)" -ge $count ]
-    check "no table is there" [ ! -e killed.csv ]
+    check "killed after $count runs: the journal has these runs" [ "$(runs_of killed.csv.part)" -ge $count ]
+    check "killed after $count runs: no table is written" [ ! -e killed.csv ]
 done
-printf 'run 59 100 5' >>killed.csv.part # cut in the middle
+printf 'run 59 100 5' >>killed.csv.part # an incomplete result
 cells -o killed.csv
-check "then the table is the same to the last byte" same whole.csv killed.csv
-check "and so are the commands" same whole.csv.runs killed.csv.runs
-check "the journal is gone" [ ! -e killed.csv.part ]
+check "a resumed sweep writes the same table to the last byte" same whole.csv killed.csv
+check "a resumed sweep writes the same commands" same whole.csv.runs killed.csv.runs
+check "the journal is removed" [ ! -e killed.csv.part ]
 
 kill_at 5
 sweep dish.fl -D DROPS=10..30\|5 --seeds 12 --frames 501 --every 250 --metric "$far" -o killed.csv
-check "another sweep does not go on with it" status_is 2
-check "but tells what to do" has err 'remove it to begin anew'
+check "another sweep does not resume from the journal" status_is 2
+check "a journal of another sweep is reported" has err 'remove it to start over'
 rm killed.csv.part
 kill_at 3 -TERM
-check "a signal ends it" status_is 143
-check "and it says what to do" has err 'the same command goes on with what is missing'
+check "SIGTERM ends the sweep" status_is 143
+check "a stopped sweep says how to resume" has err 'run the same command to resume'
 cat >slow.fl <<'END'
 let N=N or 1 BIG=sum(i*i for i in ..100000*N+0*frame)
 END
 "$petri" sweep slow.fl -D N='1;1;1;1;1;1' --frames 600 --metric x=BIG --jobs 1 -o slow.csv 2>err &
 child=$!
 while kill -0 $child && [ ! -s slow.csv.part ]; do :; done
-kill -STOP $child # from now on it holds what it has
+kill -STOP $child # it still holds the lock
 sweep slow.fl -D N='1;1;1;1;1;1' --frames 600 --metric x=BIG --jobs 1 -o slow.csv
-check "no two work on one table" status_is 1
-check "as it says" has err 'another petri is at work on slow.csv.part'
+check "two processes cannot use one journal" status_is 1
+check "a journal in use is reported" has err 'slow.csv.part is in use by another petri process'
 kill -9 $child
 wait $child 2>/dev/null
 
-# A process of the crew is ended from outside, as the system does that is short of memory: the run is made again.
-crew() { pgrep -P "$1" | head -n 1; }
+# A worker is killed from outside, as the system does if memory is short: its run is executed again.
+worker() { pgrep -P "$1" | head -n 1; }
 kill_one() {
     for try in 1 2 3 4 5 6 7 8 9; do
         rm -f slow.csv*
         "$petri" sweep slow.fl -D N='1;1;1;1;1;1' --frames 30 --metric x=BIG --jobs 1 --quiet -o slow.csv 2>err &
         child=$!
         while kill -0 $child && [ "$(runs_of slow.csv.part)" -lt 1 ]; do :; done
-        kill "$1" "$(crew $child)" 2>/dev/null
+        kill "$1" "$(worker $child)" 2>/dev/null
         left=$((6 - $(runs_of slow.csv.part)))
         wait $child
         status=$?
@@ -217,33 +217,33 @@ kill_one() {
 }
 if command -v pgrep >/dev/null; then
     kill_one -KILL
-    check "a killed process is no failure" status_is 0
-    check "its run is made again" [ "$(grep -c ',29,333328333350000,$' slow.csv)" -eq 6 ]
+    check "a killed worker is not a failure" status_is 0
+    check "the run of a killed worker is executed again" [ "$(grep -c ',29,333328333350000,$' slow.csv)" -eq 6 ]
     kill_one -ABRT
-    check "a crash is a row" [ "$(grep -c '^[2-6],1,0,,crashed: signal 6' slow.csv)" -eq 1 ]
-    check "of one run" [ "$(grep -c ',29,333328333350000,$' slow.csv)" -eq 5 ]
+    check "a crashed run is a row of the table" [ "$(grep -c '^[2-6],1,0,,crashed: signal 6' slow.csv)" -eq 1 ]
+    check "a crash affects one run only" [ "$(grep -c ',29,333328333350000,$' slow.csv)" -eq 5 ]
 fi
 sweep slow.fl -D 'N=1;100;2' --frames 2 --metric x=N --work 5M
-check "so is a limit, with its message" [ "$(cut -c 1-62 out | sed -n '3p;4p')" = '2,100,0,,slow.fl:1:22: the frame takes more than its 5242880 u
+check "an exceeded limit is a row with its message" [ "$(cut -c 1-62 out | sed -n '3p;4p')" = '2,100,0,,slow.fl:1:22: the frame exceeded its limit of 5242880
 3,2,1,2,' ]
-check "and the run ends well" status_is 0
-check "it says that one failed" has err '1 of 3 runs failed'
+check "a sweep with a failed run exits with 0" status_is 0
+check "the number of failed runs is reported" has err '1 of 3 runs failed'
 
-# --- in parts
+# --- shards
 
 for part in 2 1 3; do
-    check "nothing is written before all parts are there" [ ! -e parts.csv ]
+    check "no table is written before shard $part/3 has run" [ ! -e parts.csv ]
     cells --jobs 1 --shard $part/3 -o parts.csv 2>err
 done
-check "the last part writes the table" same whole.csv parts.csv
-check "no journal stays" [ "$(echo parts.csv*)" = "parts.csv parts.csv.runs" ]
+check "the last shard writes the table" same whole.csv parts.csv
+check "no journals remain after all shards" [ "$(echo parts.csv*)" = "parts.csv parts.csv.runs" ]
 mkdir bare
 cp "$petri" bare
 (petri=$work/bare/petri && OMPI_COMM_WORLD_RANK=1 OMPI_COMM_WORLD_SIZE=2 cells -o parts2.csv 2>err)
-check "without MPI, mpirun gives each process a part" exists parts2.csv.part-2-of-2
+check "without MPI, each process of mpirun is a shard" exists parts2.csv.part-2-of-2
 cells -o parts2.csv
-check "without, what is there is used" same whole.csv parts2.csv
-check "and goes" [ "$(echo parts2.csv*)" = "parts2.csv parts2.csv.runs" ]
+check "a sweep without shards uses the journal of a shard" same whole.csv parts2.csv
+check "the journal of the shard is removed" [ "$(echo parts2.csv*)" = "parts2.csv parts2.csv.runs" ]
 
 # --- plans
 
@@ -262,7 +262,7 @@ metric:
     sum(V)
 END
     sweep --plan plans/sum.yaml
-    check "a plan" out_is 'run,A,V,frame,total,error
+    check "--plan reads script and options" out_is 'run,A,V,frame,total,error
 1,1,3;4,1,8,
 2,1,5;6,1,12,
 3,2,3;4,1,9,
@@ -270,42 +270,42 @@ END
 5,3,3;4,1,10,
 6,3,5;6,1,14,'
     sweep --plan plans/sum.yaml -D A=7 --frames 5
-    check "the command line counts more" [ "$(sed -n 2p out)" = '1,7,3;4,4,14,' ]
+    check "the command line overrides the plan" [ "$(sed -n 2p out)" = '1,7,3;4,4,14,' ]
     printf 'script: sum.fl\nfrmes: 2\n' >wrong.yaml
-    refused "a wrong line of a plan" "wrong.yaml:2:1: 'frmes' is no option of petri sweep, did you mean frames" --plan wrong.yaml
+    refused "an unknown option in a plan is rejected" "wrong.yaml:2:1: not an option of petri sweep: 'frmes'; did you mean frames" --plan wrong.yaml
     printf 'script: sum.fl\nframes: x\n' >wrong.yaml
-    refused "a wrong value" "option '--frames' expects an integer" --plan wrong.yaml
+    refused "an invalid value in a plan is rejected" "option '--frames' expects an integer" --plan wrong.yaml
     printf 'a: [1\n' >wrong.yaml
-    refused "no YAML" 'wrong.yaml:2:1: this is no YAML' --plan wrong.yaml
-    refused "a plan that is not there" 'cannot read nope.yaml: No such file' --plan nope.yaml
+    refused "a plan that is not YAML is rejected" 'wrong.yaml:2:1: not valid YAML' --plan wrong.yaml
+    refused "a missing plan is rejected" 'cannot read nope.yaml: No such file' --plan nope.yaml
     sweep --plan "$root/samples/dish.yaml" --frames 2 -D DROPS=5 --summary means.csv
-    check "the sample" [ "$(cut -d, -f1-4 out | tail -n 1)" = '3,5,0.5,1' ]
+    check "the sample plan runs" [ "$(cut -d, -f1-4 out | tail -n 1)" = '3,5,0.5,1' ]
 else
-    refused "no plan without libyaml" 'built without libyaml' --plan sum.yaml
+    refused "plans need libyaml" 'built without libyaml' --plan sum.yaml
 fi
 
-# --- what is wrong
+# --- errors
 
-refused "no script" 'no script was given'
-refused "no metric" 'nothing is measured' sum.fl
-refused "a range that ends before it begins" 'ends before it begins' sum.fl -D A=3..1 --metric a=A
-refused "a range without a step" "'1..9|0' is not a range" sum.fl -D 'A=1..9|0' --metric a=A
-refused "a range without an end" "'1..' is not a range" sum.fl -D A=1.. --metric a=A
-refused "NetCDF" 'ends in .csv or .h5' sum.fl -D A=1..3 --metric a=A -o table.nc
-refused "a value that is missing" 'a value is missing' sum.fl -D 'A=1;;2' --metric a=A
-refused "a name that is a column" 'has a column of this name' sum.fl -D A=1 --metric A=1
-refused "no expression" "option '--metric' expects an expression, not '1+'" sum.fl --metric 'a=1+'
-refused "no expression of names" "option '--where' expects" sum.fl -D A=1 --where 'X > 1' --metric a=A
-check "… which is shown as it was written" has err '    X > 1'
-refused "no combination" "no run is left: 'A > 5' never holds" sum.fl -D A=1 --where 'A > 5' --metric a=A
-refused "no such sample" 'latin:COUNT' sum.fl -D A=1..2 --sample grid --metric a=A
-refused "too many runs" 'runs are too many' sum.fl -D A=1..10000 -D B=1..10000 --metric a=A
-refused "no such part" 'expects I/N' sum.fl --shard 3/2 --metric a=A -o t.csv
-refused "a value that the script does not take" "'x' is not a number" sum.fl -D A=x --metric a=A
+refused "a missing script is rejected" 'no script given'
+refused "a sweep without metrics is rejected" 'nothing to measure' sum.fl
+refused "an empty range is rejected" 'empty range 3..1' sum.fl -D A=3..1 --metric a=A
+refused "a range with step 0 is rejected" "not a range: '1..9|0'" sum.fl -D 'A=1..9|0' --metric a=A
+refused "a range without an end is rejected" "not a range: '1..'" sum.fl -D A=1.. --metric a=A
+refused "NetCDF is rejected" 'ends in .csv or .h5' sum.fl -D A=1..3 --metric a=A -o table.nc
+refused "an empty value is rejected" 'empty value' sum.fl -D 'A=1;;2' --metric a=A
+refused "a metric named like a column is rejected" 'already has a column with this name' sum.fl -D A=1 --metric A=1
+refused "a metric that is not an expression is rejected" "option '--metric' expects an expression, not '1+'" sum.fl --metric 'a=1+'
+refused "a condition with an unbound name is rejected" "option '--where' expects" sum.fl -D A=1 --where 'X > 1' --metric a=A
+check "the diagnostic shows the condition as written" has err '    X > 1'
+refused "a condition that is never true is rejected" "no runs: 'A > 5' is never true" sum.fl -D A=1 --where 'A > 5' --metric a=A
+refused "an unknown kind of sample is rejected" 'latin:COUNT' sum.fl -D A=1..2 --sample grid --metric a=A
+refused "too many runs are rejected" 'too many runs' sum.fl -D A=1..10000 -D B=1..10000 --metric a=A
+refused "an invalid shard is rejected" 'expects I/N' sum.fl --shard 3/2 --metric a=A -o t.csv
+refused "a value of the wrong type is rejected" "'x' is not a number" sum.fl -D A=x --metric a=A
 sweep gone.fl --metric a=1
-check "no such script" status_is 1
-check "one message" has err "cannot read 'gone.fl'"
+check "a missing script file is an error" status_is 1
+check "a missing script file is reported" has err "cannot read 'gone.fl'"
 sweep sum.fl -D C=1..2 --metric a=A --frames 1
-check "a name that nobody reads is told, once" count_is err "the definition of 'C' has no effect" 1
+check "an unused definition is reported once" count_is err "unused definition 'C'" 1
 
 finish

@@ -72,7 +72,7 @@ static void test_faults(void **state) {
                 "warning t.fl:1:19 total: too few arguments: 0 given to total(x, y=0) [bad-call]\n"
                 "warning t.fl:1:29 total: too many arguments: 3 given to total(x, y=0) [bad-call]\n"
                 "warning t.fl:1:46 total: unknown argument 'q' for total(x, y=0) [bad-call]\n"
-                "warning t.fl:1:62 twice: the host's function gave no value [bad-call]\n");
+                "warning t.fl:1:62 twice: the host function returned an invalid value [bad-call]\n");
     assert_text("null", player_tree(player), "!a\n!b\n");
     PetriDiagnostic first;
     assert_true(petri_diagnostic(player->session, 0, &first));

@@ -12,7 +12,7 @@ static void test_work(void **state) {
         PETRI_OK);
     assert_int_equal(petri_step(player->session), PETRI_LIMIT_EXCEEDED);
     assert_non_null(strstr(player_diagnostics(player),
-                           "the frame takes more than its 134217728 units of work; it is given up [work-limit]"));
+                           "the frame exceeded its limit of 134217728 work units and was aborted [work-limit]"));
     assert_text("state", player_state(player), "");
     player_run(player, "!a v=1\n", 1);
     assert_text("goes on", player_tree(player), "!a v=1\n");
@@ -32,7 +32,7 @@ static void test_memory(void **state) {
     assert_text("before", player_state(player), "$:c = 0\n$(:c;:time) = 0\n");
     assert_int_equal(petri_step(player->session), PETRI_LIMIT_EXCEEDED);
     assert_text("told", player_diagnostics(player),
-                "error t.fl:2:10 the frame needs more than its 1 MiB of memory; it is given up [memory-limit]\n");
+                "error t.fl:2:10 the frame exceeded its memory limit of 1 MiB and was aborted [memory-limit]\n");
     assert_text("unchanged", player_state(player), "$:c = 0\n$(:c;:time) = 0\n");
     assert_text("no tree", player_tree(player), "");
     assert_int_equal(petri_frame(player->session).number, 1);

@@ -104,11 +104,11 @@ static void test_values(void **state) {
         const char *definition, *tree, *told;
     } rows[] = {
         {"X=1", "!a v=3;2\n",
-         "warning the definition of 'X' has no effect: t.fl never reads it; "
+         "warning unused definition 'X': t.fl does not read it; "
          "its parameter is N [unread-definition]\n"},
         {"N=4", "!a v=4;2\n", ""},
         {"N=0", "!a v=3;2\n",
-         "warning t.fl:1:5 N=0 has no effect: 0 is false, so that `or` takes the default 3 "
+         "warning t.fl:1:5 N=0 has no effect: 0 is false, so `or` uses the default 3 "
          "[unused-definition]\n"},
         {"N=5;1", "!a v=5;1;2\n", ""},
         {"N=11", "!a v=11;2\n", "warning t.fl:1:5 N=11 is outside the range 1..10 [out-of-range]\n"},
@@ -132,16 +132,15 @@ static void test_unused(void **state) {
         const char *definition, *script, *told;
     } rows[] = {
         {"CELLS=5", "!b\nlet CELLS=200\n!a v=CELLS\n",
-         "warning t.fl:2:5 the definition of 'CELLS' has no effect: the script gives the name its own value here "
+         "warning t.fl:2:5 unused definition 'CELLS': the script binds this name itself "
          "[unused-definition]\n"},
         {"CELLS=5", "for CELLS in ..2\n    !a v=CELLS\n",
-         "warning t.fl:1:5 the definition of 'CELLS' has no effect: the script gives the name its own value here "
+         "warning t.fl:1:5 unused definition 'CELLS': the script binds this name itself "
          "[unused-definition]\n"},
         {"CELL=5", "let CELLS=CELLS or 2\n!a v=CELLS\n",
-         "warning t.fl:1:5 the definition of 'CELL' has no effect: t.fl never reads it [unknown-parameter]\n"},
-        {"fps=5", "!a v=fps\n",
-         "warning the definition of 'fps' has no effect: petri itself gives this name its value [unused-definition]\n"},
-        {"FOO=5", "!a\n", "warning the definition of 'FOO' has no effect: t.fl never reads it [unread-definition]\n"},
+         "warning t.fl:1:5 unused definition 'CELL': t.fl does not read it [unknown-parameter]\n"},
+        {"fps=5", "!a v=fps\n", "warning unused definition 'fps': petri sets this name itself [unused-definition]\n"},
+        {"FOO=5", "!a\n", "warning unused definition 'FOO': t.fl does not read it [unread-definition]\n"},
         // Read, be it only at one place, before the script has its own.
         {"CELLS=5", "!a v=CELLS\nlet CELLS=200\n!a v=CELLS\n", ""},
         {"CELLS=5", "let CELLS=CELLS*2\n!a v=CELLS\n", ""},
@@ -179,15 +178,15 @@ static void test_rendered(void **state) {
     assert_int_equal(petri_load_text(player->session, "t.fl", "let CELLS=CELLS or 2 DISH=3\n", PETRI_NUL_TERMINATED),
                      PETRI_OK);
     assert_text("rendered", player_diagnostics(player),
-                "t.fl:1:5: warning: the definition of 'CELS' has no effect: t.fl never reads it [unknown-parameter]\n"
+                "t.fl:1:5: warning: unused definition 'CELS': t.fl does not read it [unknown-parameter]\n"
                 "    let CELLS=CELLS or 2 DISH=3\n"
                 "        ^~~~~\n"
                 "    did you mean 'CELLS'?\n"
-                "t.fl:1:22: warning: the definition of 'DISH' has no effect: the script gives the name its own value "
-                "here [unused-definition]\n"
+                "t.fl:1:22: warning: unused definition 'DISH': the script binds this name itself "
+                "[unused-definition]\n"
                 "    let CELLS=CELLS or 2 DISH=3\n"
                 "                         ^~~~\n"
-                "    with `let DISH=DISH or …` it would take the definition\n");
+                "    write `let DISH=DISH or …` to use the definition\n");
 }
 
 // Where the default is made of numbers, so must be the definition.
@@ -298,7 +297,7 @@ static void test_files(void **state) {
     assert_int_equal(petri_define(player->session, "SIZE=4"), PETRI_OK);
     assert_int_equal(petri_load(player->session, folder_file(&folder, "main.fl")), PETRI_OK);
     const char *told = player_diagnostics(player);
-    assert_non_null(strstr(told, "m.fl:2:5 the definition of 'SIZE' has no effect: modules see no definitions"));
+    assert_non_null(strstr(told, "m.fl:2:5 unused definition 'SIZE': modules do not see definitions"));
     assert_null(strstr(told, "PART"));
     assert_text("files", list(player),
                 "PART 8 (7) 8/7 -inf..inf|0 'in a part' 1:5 defined\n"

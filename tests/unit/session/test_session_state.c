@@ -42,7 +42,7 @@ static const char *report_text(Player *player) {
 
 static void test_files(void **state) {
     static const char damaged[] =
-        "error cannot take the state from 's.state': it is cut short or damaged [state-file]\n";
+        "error cannot load the state from 's.state': file is truncated or corrupt [state-file]\n";
     static const StateRow rows[] = {
         {"frame 9\n$(:n) = 7\n$(:n;:time) = 0\n", PETRI_OK, "$:n = 17\n", ""},
         {"frame 9\n$(:t) = 'caf\xc3\xa9'\n", PETRI_OK, "$:t = 'caf\xc3\xa9'\n", ""},
@@ -52,9 +52,9 @@ static void test_files(void **state) {
         {"frame 9\n$(:\xa0\xa0) = 1\n", PETRI_INVALID, "", damaged},
         // Nothing that is not finite reaches the state; what depends on it starts anew.
         {"frame 9\n$(:n) = inf\n$(:n;:time) = 0\n", PETRI_OK, "$:n = 0\n",
-         "warning 1 of the values in 's.state' are not finite and are left out [state-file]\n"},
+         "warning values in 's.state' are not finite: 1 ignored [state-file]\n"},
         {"frame 9\n$(:n) = 1\n$(:n;:time) = nan\n$(:s;:clock) = -inf\n$(:x) = 1;nan\n", PETRI_OK, "$:n = 1\n",
-         "warning 3 of the values in 's.state' are not finite and are left out [state-file]\n"},
+         "warning values in 's.state' are not finite: 3 ignored [state-file]\n"},
         // Numbers of frames that no int and no double can count.
         {"frame 2147483647\n", PETRI_OK, "$(:n;:time) = 35791394.13333333\n", ""},
         {"frame 4503599627370496\n", PETRI_OK, "$(:n;:time) = 75059993789508.28\n", ""},
