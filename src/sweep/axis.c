@@ -1,4 +1,4 @@
-// axis.c: the values of a name: `1;5;20`, `1..10|0.5`, both mixed, and vectors in parentheses: `(1;2);(3;4)`.
+// axis.c: parsing the values of a name: `1;5;20`, `1..10|0.5`, both mixed, or vectors in parentheses: `(1;2);(3;4)`.
 #include "petri.h"
 #include "sweep/sweep.h"
 
@@ -8,7 +8,7 @@
 
 enum { MAX_VALUES = 1000000 };
 
-// How long the item at the beginning of a list is: a semicolon ends it, unless it is in parentheses.
+// Returns the length of the first item of a list. A semicolon outside parentheses ends it.
 static size_t item_length(const char *text) {
     int depth = 0;
     size_t length = 0;
@@ -28,25 +28,26 @@ typedef struct Range {
     double step; // 0: not given
 } Range;
 
-// `LEAST..MOST` or `LEAST..MOST|STEP`; false if the item is something else.
+// Parses `MIN..MAX` or `MIN..MAX|STEP`. Returns false if the item is something else.
 static bool read_range(const char *item, Range *range) {
     const char *dots = strstr(item, "..");
     const char *bar = !dots ? NULL : strchr(dots, '|');
     if (!dots || !read_number(item, (size_t)(dots - item), &range->min))
         return false;
-    const char *most = dots + 2;
+    const char *max = dots + 2;
     range->step = 0;
-    return read_number(most, !bar ? strlen(most) : (size_t)(bar - most), &range->max) &&
+    return read_number(max, !bar ? strlen(max) : (size_t)(bar - max), &range->max) &&
            (!bar || (read_number(bar + 1, strlen(bar + 1), &range->step) && range->step > 0));
 }
 
-// Twelve digits: 0.3, where adding 0.1 three times gives 0.30000000000000004.
+// Adds the values of a range, rounded to twelve digits, so that 0..1|0.1 has 0.3 and not 0.30000000000000004.
 static bool add_range(Axis *axis, const Range *range) {
     double step = range->step > 0 ? range->step : 1;
     double count = floor((range->max - range->min) / step + 1e-9) + 1;
     if (!(count >= 1 && count <= MAX_VALUES)) {
-        message(count < 1 ? "-D %s: the range %.12g..%.12g ends before it begins"
-                          : "-D %s: the range %.12g..%.12g has more than a million values; '|STEP' makes it coarser",
+        message(count < 1
+                    ? "-D %s: empty range %.12g..%.12g"
+                    : "-D %s: the range %.12g..%.12g has more than a million values; use a larger step with '|STEP'",
                 axis->name, range->min, range->max);
         return false;
     }
@@ -62,7 +63,7 @@ static bool add_item(Axis *axis, const char *item, bool alone) {
     size_t length = strlen(item);
     Range range;
     if (length == 0 && !alone) {
-        message("-D %s: a value is missing; a list is 1;5;20", axis->name);
+        message("-D %s: empty value; write a list as 1;5;20", axis->name);
         return false;
     }
     if (item[0] == '(' && item[length - 1] == ')') {
@@ -71,11 +72,10 @@ static bool add_item(Axis *axis, const char *item, bool alone) {
         return true;
     }
     const char *dots = strstr(item, "..");
-    double least = 0;
+    double min = 0;
     if (!read_range(item, &range)) {
-        if (dots && read_number(item, (size_t)(dots - item), &least)) {
-            message("-D %s: '%s' is not a range; 1..10 is one, and 1..10|0.5 has a step, which is above 0", axis->name,
-                    item);
+        if (dots && read_number(item, (size_t)(dots - item), &min)) {
+            message("-D %s: not a range: '%s'; write 1..10, or 1..10|0.5 with a positive step", axis->name, item);
             return false;
         }
         texts_add(&axis->values, item);

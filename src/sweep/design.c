@@ -1,4 +1,4 @@
-// design.c: which runs there are: all combinations of values or a sample of them, each with all seeds.
+// design.c: the runs of a sweep: all combinations of values or a sample of them, each with all seeds.
 #include "base/hash_index.h"
 #include "petri.h"
 #include "sweep/sweep.h"
@@ -33,7 +33,7 @@ void design_free(Design *design) {
     free(design->value_indices);
 }
 
-// Of a name that is given twice the last counts, as with `petri run`; so the command line changes what a plan says.
+// Reads an axis. A later definition of a name replaces an earlier one, so the command line overrides a plan.
 static bool read_axis(Design *design, const char *text) {
     Axis axis;
     bool good = axis_read(&axis, text);
@@ -54,7 +54,7 @@ static bool read_axes(Design *design, const Options *options) {
     if (options->seeds == 0)
         return true;
     if (find_axis(design, "SEED")) {
-        message("both --seeds and -D SEED were given: --seeds N stands for -D SEED=1..N");
+        message("cannot use both --seeds and -D SEED: --seeds N means -D SEED=1..N");
         return false;
     }
     char seeds[48];
@@ -63,10 +63,10 @@ static bool read_axes(Design *design, const Options *options) {
     return read_axis(design, seeds);
 }
 
-// Makes room for the runs; false after a message if there are too many.
+// Allocates the runs. Returns false, after a message, if there are too many.
 static bool alloc_runs(Design *design, double runs) {
     if (runs > MAX_RUNS) {
-        message("%.0f runs are too many: at most %d; --sample latin:N takes some of them", runs, MAX_RUNS);
+        message("too many runs: %.0f, at most %d; select some with --sample latin:N", runs, MAX_RUNS);
         return false;
     }
     design->run_count = (size_t)runs;
@@ -74,7 +74,7 @@ static bool alloc_runs(Design *design, double runs) {
     return true;
 }
 
-// The first name changes most slowly.
+// Makes all combinations of values. The first name changes most slowly.
 static bool make_grid(Design *design) {
     double runs = 1;
     for (size_t i = 0; i < design->axis_count; i++)
@@ -97,7 +97,7 @@ typedef struct Sample {
     uint64_t seed;
 } Sample;
 
-// `latin:COUNT` or `latin:COUNT:SEED`.
+// Parses `latin:COUNT` or `latin:COUNT:SEED`. Returns false after a message.
 static bool read_sample(const char *text, Sample *sample) {
     char *end = NULL;
     long count = strncmp(text, "latin:", 6) == 0 ? strtol(text + 6, &end, 10) : 0;
@@ -122,7 +122,8 @@ static uint64_t next_random(Random *random) {
     return hash_mix(random->key + ++random->count * UINT64_C(0x9e3779b97f4a7c15));
 }
 
-// A Latin hypercube: of `count` slices of an axis each sample has another, and a random place in it.
+// Samples an axis of a Latin hypercube: each of `count` samples has a different slice of the axis and a random position
+// in it.
 static void sample_axis(Design *design, size_t number, const Sample *sample, size_t seeds) {
     Axis *axis = &design->axes[number];
     Random random = {.key = hash_bytes(sample->seed, axis->name, strlen(axis->name))};
@@ -162,7 +163,7 @@ static bool make_sample(Design *design, const char *text) {
     return true;
 }
 
-// --- what --where leaves out
+// --- runs excluded by --where
 
 typedef struct ConditionDiagnostics {
     bool any;
@@ -176,7 +177,7 @@ static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
         fputs(diagnostic->rendered, stderr);
 }
 
-// The expression with each name as it is in a run: `(A < B) where A=(1) B=(2)`.
+// Evaluates the condition with the values of a run: `(A < B) where A=(1) B=(2)`.
 static bool evaluate_condition(PetriSession *session, const Design *design, size_t run, const char *where,
                                PetriEvaluation *result) {
     SCOPED_BYTE_BUFFER text = {0};
@@ -188,7 +189,7 @@ static bool evaluate_condition(PetriSession *session, const Design *design, size
     return petri_evaluate(session, text.data, text.length, result, NULL, NULL) == PETRI_OK;
 }
 
-// Tells what is wrong with it, as it was written.
+// Evaluates the condition as the user wrote it, so that diagnostics show the user's text.
 static void report_condition_error(PetriSession *session, const Design *design, size_t run, const char *where) {
     PetriEvaluation result;
     for (size_t i = 0; i < design->axis_count; i++) {
@@ -223,11 +224,8 @@ static bool filter_runs(Design *design, const char *where, const CommandContext 
     }
     petri_close(&session);
     design->run_count = left;
-    if (!good || left == 0) {
-        message(good ? "no run is left: '%s' never holds"
-                     : "option '--where' expects an expression of the names, not '%s'",
-                where);
-    }
+    if (!good || left == 0)
+        message(good ? "no runs: '%s' is never true" : "option '--where' expects an expression, not '%s'", where);
     return good && left > 0;
 }
 

@@ -14,7 +14,7 @@
 #include <string.h>
 #include <unistd.h>
 
-static void add_head(const Integrator *sweep, ByteBuffer *text) {
+static void add_head(const Sweep *sweep, ByteBuffer *text) {
     byte_buffer_format(text, "petri sweep 1 %s\n", sweep->identity);
 }
 
@@ -22,8 +22,8 @@ static uint64_t checksum(size_t run, int64_t frames, const char *rows, size_t le
     return hash_bytes((uint64_t)run * 31 + (uint64_t)frames, rows, length);
 }
 
-// Takes the run at *at, and on to the next; false if it is not whole.
-static bool read_run(Integrator *sweep, const ByteBuffer *text, size_t *at) {
+// Reads the result at *at and advances *at. Returns false if it is incomplete or damaged.
+static bool read_run(Sweep *sweep, const ByteBuffer *text, size_t *at) {
     Str line;
     size_t next = *at, run = 0, length = 0;
     int64_t frames = 0;
@@ -38,8 +38,8 @@ static bool read_run(Integrator *sweep, const ByteBuffer *text, size_t *at) {
     return true;
 }
 
-// Takes the runs of a journal. Returns how many of its bytes are good, 0 if it is of another sweep.
-static size_t read_runs(Integrator *sweep, const ByteBuffer *text) {
+// Reads the results of a journal. Returns the length of its valid part; 0 if it belongs to another sweep.
+static size_t read_runs(Sweep *sweep, const ByteBuffer *text) {
     SCOPED_BYTE_BUFFER head = {0};
     add_head(sweep, &head);
     size_t at = head.length;
@@ -59,8 +59,8 @@ static int lock_journal(const Journal *journal) {
     return fcntl(journal->file, F_SETLK, &whole);
 }
 
-// Goes on with what is there: cuts off what is not whole.
-static int resume_journal(Journal *journal, Integrator *sweep) {
+// Reads the existing results and truncates an incomplete one at the end. Returns STATUS_DONE or the exit status.
+static int resume_journal(Journal *journal, Sweep *sweep) {
     SCOPED_BYTE_BUFFER text = {0}, head = {0};
     byte_buffer_add(&text, "", 0);
     add_head(sweep, &head);
@@ -71,7 +71,7 @@ static int resume_journal(Journal *journal, Integrator *sweep) {
     size_t good = read_runs(sweep, &text);
     bool fresh = good == 0 && is_prefix(&text, &head);
     if (good == 0 && !fresh) {
-        message("%s is of another sweep: script, values or options have changed since; remove it to begin anew",
+        message("%s belongs to another sweep: script, values or options have changed; remove it to start over",
                 journal->path);
         return STATUS_USAGE;
     }
@@ -83,7 +83,7 @@ static int resume_journal(Journal *journal, Integrator *sweep) {
     return STATUS_DONE;
 }
 
-int journal_open(Journal *journal, Integrator *sweep, const char *output) {
+int journal_open(Journal *journal, Sweep *sweep, const char *output) {
     SCOPED_BYTE_BUFFER path = {0};
     byte_buffer_format(&path, "%s.part", output);
     if (sweep->shards > 1)
@@ -96,7 +96,7 @@ int journal_open(Journal *journal, Integrator *sweep, const char *output) {
         return STATUS_FAILED;
     }
     if (lock_journal(journal) != 0) {
-        message("another petri is at work on %s", journal->path);
+        message("%s is in use by another petri process", journal->path);
         return STATUS_FAILED;
     }
     int status = resume_journal(journal, sweep);
@@ -119,22 +119,22 @@ bool journal_add(Journal *journal, size_t run, const Result *result) {
     return true;
 }
 
-typedef void Visit(Integrator *sweep, const char *path, const ByteBuffer *text);
+typedef void Visit(Sweep *sweep, const char *path, const ByteBuffer *text);
 
-static void read_journal(Integrator *sweep, const char *path, const ByteBuffer *text) {
+static void read_journal(Sweep *sweep, const char *path, const ByteBuffer *text) {
     (void)path;
     read_runs(sweep, text);
 }
 
-static void remove_journal(Integrator *sweep, const char *path, const ByteBuffer *text) {
+static void remove_journal(Sweep *sweep, const char *path, const ByteBuffer *text) {
     SCOPED_BYTE_BUFFER head = {0};
     add_head(sweep, &head);
     if (text->length >= head.length && memcmp(text->data, head.data, head.length) == 0)
         unlink(path);
 }
 
-// Visits the other journals beside the table. Not our own: to close a file gives its lock up.
-static void visit_journals(const Journal *journal, Integrator *sweep, Visit *call) {
+// Calls `call` for the journals of other shards. Skips the own one, because closing any descriptor releases its lock.
+static void visit_journals(const Journal *journal, Sweep *sweep, Visit *call) {
     SCOPED_BYTE_BUFFER folder = {0}, prefix = {0};
     size_t name = path_directory(str_from(journal->output)).len;
     byte_buffer_format(&folder, "%.*s", name == 0 ? 1 : (int)name, name == 0 ? "." : journal->output);
@@ -153,11 +153,11 @@ static void visit_journals(const Journal *journal, Integrator *sweep, Visit *cal
         closedir(entries);
 }
 
-void journal_merge(const Journal *journal, Integrator *sweep) {
+void journal_merge(const Journal *journal, Sweep *sweep) {
     visit_journals(journal, sweep, read_journal);
 }
 
-void journal_remove(const Journal *journal, Integrator *sweep) {
+void journal_remove(const Journal *journal, Sweep *sweep) {
     visit_journals(journal, sweep, remove_journal);
     unlink(journal->path);
 }

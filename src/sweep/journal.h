@@ -1,28 +1,28 @@
-// journal.h: what is done, in a file beside the table to come, so that the same command goes on where one was ended.
+// journal.h: the journal of finished runs, with which the same command resumes an interrupted sweep.
 //
-// OUT.part, or OUT.part-2-of-4 of the second of four shards: a line that identifies the sweep, and then each run as it
-// was done. A run that was cut is not there. The table is made from all such files beside it that are of the same
-// sweep.
+// The journal is a file beside the table: OUT.part, or OUT.part-2-of-4 for the second of four shards. It has a line
+// that identifies the sweep, followed by the results in the order in which runs finished. An incomplete result at the
+// end is ignored. The table is made from all journals of the same sweep.
 #ifndef PETRI_SRC_JOURNAL_H
 #define PETRI_SRC_JOURNAL_H
 
 #include "sweep/sweep.h"
 
 typedef struct Journal {
-    char *path; // NULL: there is none
+    char *path; // NULL: no journal
     int file;
-    const char *output; // the table to come
+    const char *output; // path of the table
 } Journal;
 
-// Opens the journal beside the table `output`, and takes what is done from it and from those of others. STATUS_DONE, or
-// the status to exit with after a message.
-int journal_open(Journal *journal, Integrator *sweep, const char *output);
-// False after a message.
+// Opens the journal beside the table `output`, and reads its results and those of other shards' journals. Returns
+// STATUS_DONE, or the exit status after a message.
+int journal_open(Journal *journal, Sweep *sweep, const char *output);
+// Appends a result. Returns false after a message.
 bool journal_add(Journal *journal, size_t run, const Result *result);
-// Takes what others have done meanwhile.
-void journal_merge(const Journal *journal, Integrator *sweep);
-// Removes all journals of the sweep: the table is there.
-void journal_remove(const Journal *journal, Integrator *sweep);
+// Reads the results that other shards have added meanwhile.
+void journal_merge(const Journal *journal, Sweep *sweep);
+// Removes all journals of the sweep, after the table was written.
+void journal_remove(const Journal *journal, Sweep *sweep);
 void journal_close(Journal *journal);
 
 #endif

@@ -22,12 +22,12 @@ static void on_diagnostic(void *user_data, const PetriDiagnostic *diagnostic) {
         measure->on_diagnostic(measure->context, diagnostic->level, diagnostic->rendered);
 }
 
-bool measure_open(Measure *measure, const Integrator *sweep,
-                  void (*tell)(void *context, PetriLevel level, const char *rendered), void *context) {
-    *measure = (Measure){.sweep = sweep, .on_diagnostic = tell, .context = context, .silent = true};
+bool measure_open(Measure *measure, const Sweep *sweep,
+                  void (*report)(void *context, PetriLevel level, const char *rendered), void *context) {
+    *measure = (Measure){.sweep = sweep, .on_diagnostic = report, .context = context, .silent = true};
     if (options_open(sweep->options, sweep->host, on_diagnostic, measure, &measure->session) != OPTIONS_READ)
         return false;
-    // Without a script, if it cannot be loaded, or not without definitions: each run will tell.
+    // May fail, for example if the script needs definitions. Each run then loads the script and reports errors.
     petri_load(measure->session, sweep->options->script);
     measure->base = petri_config_get(measure->session);
     if (!measure->base)
@@ -43,7 +43,7 @@ void measure_close(Measure *measure) {
     byte_buffer_free(&measure->error);
 }
 
-// Everything of the run before is forgotten, and the script stands for other values.
+// Resets the session and applies the definitions of a run.
 static PetriStatus begin_run(Measure *measure, size_t run) {
     const Design *design = &measure->sweep->design;
     petri_config_apply(measure->session, measure->base);
@@ -55,7 +55,7 @@ static PetriStatus begin_run(Measure *measure, size_t run) {
         byte_buffer_format(&definition, "%s=%s", design->axes[i].name, design_value(design, run, i));
         status = petri_define(measure->session, definition.data);
         if (status == PETRI_INVALID)
-            byte_buffer_format(&measure->error, "'%s' is no NAME=VALUE", definition.data);
+            byte_buffer_format(&measure->error, "not NAME=VALUE: '%s'", definition.data);
     }
     if (status != PETRI_OK)
         return status;
@@ -63,7 +63,7 @@ static PetriStatus begin_run(Measure *measure, size_t run) {
                                                   : script_load(measure->session, measure->sweep->options->script);
 }
 
-// A cell of the table has no tabs and no lines.
+// Appends a cell. Replaces control characters, because tabs and line feeds separate cells and rows.
 static void add_cell(ByteBuffer *rows, const char *text, size_t length) {
     size_t at = rows->length;
     byte_buffer_add(rows, text, length);
@@ -100,7 +100,7 @@ static PetriStatus add_row(Measure *measure) {
 static void add_failure(Measure *measure, PetriStatus status) {
     const char *reason = measure->error.length > 0       ? measure->error.data
                          : status == PETRI_OUT_OF_MEMORY ? "out of memory"
-                                                         : "given up";
+                                                         : "aborted";
     add_frame_number(measure);
     for (size_t i = 0; i <= measure->sweep->metric_count; i++)
         byte_buffer_format(&measure->rows, "\t");
@@ -135,24 +135,25 @@ void measure_run(Measure *measure, size_t run) {
     byte_buffer_add(&measure->rows, "", 0);
 }
 
-// Whether it is one. What a session without memory or time has said of it counts in each run.
+// Returns true if the text is a valid expression. Also returns true if limits stopped its evaluation, since runs report
+// that. Else returns false after a message.
 static bool try_expression(Measure *measure, const char *option, const char *expression) {
     PetriEvaluation result = {0};
     uint64_t errors = petri_diagnostic_count(measure->session, PETRI_ERROR);
     PetriStatus status = petri_evaluate(measure->session, expression, PETRI_NUL_TERMINATED, &result, NULL, NULL);
-    bool given_up = status == PETRI_OUT_OF_MEMORY || status == PETRI_LIMIT_EXCEEDED || status == PETRI_INTERRUPTED;
-    if (given_up || (status != PETRI_INVALID && petri_diagnostic_count(measure->session, PETRI_ERROR) == errors))
+    bool aborted = status == PETRI_OUT_OF_MEMORY || status == PETRI_LIMIT_EXCEEDED || status == PETRI_INTERRUPTED;
+    if (aborted || (status != PETRI_INVALID && petri_diagnostic_count(measure->session, PETRI_ERROR) == errors))
         return true;
     message("option '--%s' expects an expression, not '%s'", option, expression);
     return false;
 }
 
 int measure_dry_run(Measure *measure) {
-    const Integrator *sweep = measure->sweep;
+    const Sweep *sweep = measure->sweep;
     if (begin_run(measure, 0) != PETRI_OK)
         return measure->invalid_definition ? STATUS_USAGE : STATUS_FAILED;
     if (petri_step(measure->session) != PETRI_OK)
-        return STATUS_DONE; // a run that fails is a row
+        return STATUS_DONE; // a failed run is a row of the table
     bool good = !sweep->options->until || try_expression(measure, "until", sweep->options->until);
     for (size_t i = 0; i < sweep->metric_count; i++)
         good = try_expression(measure, "metric", sweep->metrics[i].expression) && good;

@@ -1,5 +1,5 @@
-// measure.h: one run after the other in one session: the script is loaded once, and each run gives its names other
-// values.
+// measure.h: execution of runs, one after the other in one session. The script is loaded once; each run sets other
+// definitions.
 #ifndef PETRI_SRC_MEASURE_H
 #define PETRI_SRC_MEASURE_H
 
@@ -7,27 +7,28 @@
 #include "sweep/sweep.h"
 
 typedef struct Measure {
-    const Integrator *sweep;
+    const Sweep *sweep;
     PetriSession *session;
-    PetriConfig *base; // the script without definitions
-    bool silent;
-    bool invalid_definition; // the script cannot take a value
-    int64_t frames;          // of the run that was made last
-    ByteBuffer rows;         // … and what was measured
-    ByteBuffer error;        // the last that the script was told of in it
+    PetriConfig *base;       // configuration without definitions
+    bool silent;             // true: diagnostics are not reported
+    bool invalid_definition; // true if the script rejected a value
+    int64_t frames;          // number of frames of the last run
+    ByteBuffer rows;         // measurements of the last run, in the format of Result.rows
+    ByteBuffer error;        // last error of the last run; empty: none
     void (*on_diagnostic)(void *context, PetriLevel level, const char *rendered);
     void *context;
 } Measure;
 
-// False after a message. `tell` is called with each diagnostic of a run.
-bool measure_open(Measure *measure, const Integrator *sweep,
-                  void (*tell)(void *context, PetriLevel level, const char *rendered), void *context);
+// Opens a session for the runs. `report` is called with each diagnostic of a run. Returns false after a message.
+bool measure_open(Measure *measure, const Sweep *sweep,
+                  void (*report)(void *context, PetriLevel level, const char *rendered), void *context);
 void measure_close(Measure *measure);
+// Executes a run. Sets `frames` and `rows`.
 void measure_run(Measure *measure, size_t run);
-// Makes the first frame of the first run, so that what is wrong with script, names and expressions is known before work
-// begins. STATUS_DONE, or the status to exit with after a message.
+// Computes the first frame of the first run, to find errors in the script, names and expressions early. Returns
+// STATUS_DONE, or the exit status after a message.
 int measure_dry_run(Measure *measure);
-// Adds all files that the script is made of to the hash.
+// Adds all files that the script consists of to the hash.
 void measure_hash_sources(Measure *measure, Sha256 *hash);
 
 #endif

@@ -1,4 +1,4 @@
-// plan.c: the file of --plan: the words of a command line as YAML, where they get long.
+// plan.c: the file of --plan: script and options of a long command line, as YAML.
 #include "base/source.h"
 #include "cli/script.h"
 #include "sweep/plot_support.h"
@@ -25,28 +25,28 @@ static bool report_error(const Plan *plan, yaml_mark_t mark, const char *what, c
     return false;
 }
 
-// A value, or the values of a list, as -D takes them.
+// Appends a value, or a list of values in the form of -D.
 static bool add_values(const Plan *plan, ByteBuffer *word, const yaml_node_t *value) {
     if (text_of(value)) {
         byte_buffer_add_text(word, text_of(value));
         return true;
     }
     if (value->type != YAML_SEQUENCE_NODE)
-        return report_error(plan, value->start_mark, "this must be a value or a list of values", "");
+        return report_error(plan, value->start_mark, "expected a value or a list of values", "");
     for (yaml_node_item_t *item = value->data.sequence.items.start; item < value->data.sequence.items.top; item++) {
         const char *text = text_of(yaml_document_get_node(plan->document, *item));
         if (!text)
-            return report_error(plan, value->start_mark, "this list must hold values; a vector is 1;2", "");
+            return report_error(plan, value->start_mark, "expected a list of values; write a vector as 1;2", "");
         bool vector = strchr(text, ';') && text[0] != '(';
         byte_buffer_format(word, vector ? "%s(%s)" : "%s%s", item == value->data.sequence.items.start ? "" : ";", text);
     }
     return true;
 }
 
-// `define:` and `metric:` hold names.
+// Adds the options of `define:` or `metric:`, which contain lines `NAME: VALUE`.
 static bool add_names(const Plan *plan, const char *option, const yaml_node_t *names) {
     if (names->type != YAML_MAPPING_NODE)
-        return report_error(plan, names->start_mark, "below this there must be lines `NAME: VALUE`: ", option);
+        return report_error(plan, names->start_mark, "expected lines `NAME: VALUE` below: ", option);
     for (yaml_node_pair_t *pair = names->data.mapping.pairs.start; pair < names->data.mapping.pairs.top; pair++) {
         const yaml_node_t *key = yaml_document_get_node(plan->document, pair->key);
         SCOPED_BYTE_BUFFER word = {0};
@@ -58,7 +58,7 @@ static bool add_names(const Plan *plan, const char *option, const yaml_node_t *n
     return true;
 }
 
-// Relative to the plan's folder.
+// Adds the script, whose path is relative to the plan's folder.
 static void add_script(const Plan *plan, const char *script) {
     SCOPED_BYTE_BUFFER word = {0};
     byte_buffer_format(&word, "%.*s%s", script[0] == '/' ? 0 : (int)path_directory(str_from(plan->path)).len,
@@ -71,11 +71,11 @@ static bool add_option(const Plan *plan, const OptionSpec *spec, const yaml_node
     if (strcmp(spec->name, "define") == 0 || strcmp(spec->name, "metric") == 0)
         return add_names(plan, spec->name, value);
     if (!text)
-        return report_error(plan, value->start_mark, "this must be one value: ", spec->name);
+        return report_error(plan, value->start_mark, "expected one value: ", spec->name);
     if (!spec->value && strcmp(text, "false") == 0)
         return true;
     if (!spec->value && strcmp(text, "true") != 0)
-        return report_error(plan, value->start_mark, "this must be true or false: ", spec->name);
+        return report_error(plan, value->start_mark, "expected true or false: ", spec->name);
     SCOPED_BYTE_BUFFER word = {0};
     byte_buffer_format(&word, !spec->value ? "--%s" : "--%s=%s", spec->name, text);
     texts_add(plan->words, word.data);
@@ -98,15 +98,15 @@ static bool add_entry(const Plan *plan, const yaml_node_t *key, const yaml_node_
     }
     nearest_offer(&nearest, "script");
     SCOPED_BYTE_BUFFER what = {0};
-    byte_buffer_format(&what, "'%s' is no option of petri sweep%s", name,
-                       !nearest.found.bytes ? "; 'petri help sweep' lists them" : ", did you mean ");
+    byte_buffer_format(&what, "not an option of petri sweep: '%s'%s", name,
+                       !nearest.found.bytes ? "; run 'petri help sweep' for a list" : "; did you mean ");
     return report_error(plan, key->start_mark, what.data, !nearest.found.bytes ? "" : nearest.found.bytes);
 }
 
 static bool add_entries(const Plan *plan) {
     const yaml_node_t *root = yaml_document_get_root_node(plan->document);
     if (!root || root->type != YAML_MAPPING_NODE) {
-        message("%s: a plan holds lines such as `script: dish.fl` and `frames: 100`", plan->path);
+        message("%s: not a plan; write lines such as `script: dish.fl` and `frames: 100`", plan->path);
         return false;
     }
     for (yaml_node_pair_t *pair = root->data.mapping.pairs.start; pair < root->data.mapping.pairs.top; pair++)
@@ -135,7 +135,7 @@ bool plan_read(const char *path, TextList *words) {
         good = add_entries(&plan);
         yaml_document_delete(&document);
     } else {
-        report_error(&plan, parser.problem_mark, "this is no YAML: ", !parser.problem ? "" : parser.problem);
+        report_error(&plan, parser.problem_mark, "not valid YAML: ", !parser.problem ? "" : parser.problem);
     }
     yaml_parser_delete(&parser);
     return good;
@@ -145,7 +145,7 @@ bool plan_read(const char *path, TextList *words) {
 
 bool plan_read(const char *path, TextList *words) {
     (void)words;
-    message("cannot read %s: this petri was built without libyaml", path);
+    message("cannot read %s: petri was built without libyaml", path);
     return false;
 }
 

@@ -1,5 +1,5 @@
-// plot_grid.c: the plots of a sweep: a column for each name that takes several values and, with --every, for the frame;
-// a row for each metric. A script draws them, by the same means as all pictures.
+// plot_grid.c: the plots of a sweep, drawn by a generated script. The grid has a row for each metric, and a column for
+// each name with several values and, with --every, for the frame.
 #include "petri-draw.h"
 #include "sweep/plot_support.h"
 #include "sweep/table.h"
@@ -27,7 +27,7 @@ typedef struct Plot {
     Scale y;
 } Plot;
 
-static const size_t FRAMES = SIZE_MAX; // in place of the number of a name
+static const size_t FRAMES = SIZE_MAX; // used instead of an axis index
 
 static void extend_scale(Scale *scale, double x) {
     scale->min = x < scale->min ? x : scale->min;
@@ -40,18 +40,18 @@ static void pad_scale(Scale *scale) {
     scale->max += margin;
 }
 
-// The value as a number, or where it stands in the list if they are not all numbers.
-static double axis_number(const Axis *axis, uint32_t place) {
+// Returns a value of an axis as a number, or its index if the values are not all numbers.
+static double axis_number(const Axis *axis, uint32_t index) {
     double x = 0;
     for (size_t i = 0; i < axis->values.count; i++)
         if (!petri_parse_number(axis->values.items[i], &x))
-            return place;
-    petri_parse_number(axis->values.items[place], &x);
+            return index;
+    petri_parse_number(axis->values.items[index], &x);
     return x;
 }
 
-// All rows over the frame; over a name the last row of each run, which is the last that has a number.
-static Plot collect_points(const Integrator *sweep, size_t axis, size_t metric) {
+// Collects the points of a plot. Over the frame: all rows. Over a name: of each run the last row that has a number.
+static Plot collect_points(const Sweep *sweep, size_t axis, size_t metric) {
     const Design *design = &sweep->design;
     Plot plot = {.x = {INFINITY, -INFINITY}, .y = {INFINITY, -INFINITY}};
     size_t capacity = 0;
@@ -86,7 +86,7 @@ static double scale_position(const Scale *scale, double x, double length) {
     return scale->max > scale->min ? (x - scale->min) / (scale->max - scale->min) * length : length / 2;
 }
 
-// 1, 2 or 5 times a power of ten, so that there are some four of them.
+// Returns 1, 2 or 5 times a power of ten, which gives about four ticks.
 static double tick_step(const Scale *scale) {
     double rough = (scale->max - scale->min) / 4, power = pow(10, floor(log10(rough)));
     double times = rough / power;
@@ -137,7 +137,7 @@ static int compare_points(const void *a, const void *b) {
     return p->x != q->x ? (p->x > q->x) - (p->x < q->x) : (p->y > q->y) - (p->y < q->y);
 }
 
-// The mean of the points of each place, in their place; returns how many those are.
+// Replaces points with the same x by their mean. Returns the number of means.
 static size_t average_points(Plot *plot) {
     size_t means = 0;
     qsort(plot->points, plot->count, sizeof *plot->points, compare_points);
@@ -168,7 +168,7 @@ static void add_plot(ByteBuffer *out, Plot *plot) {
     }
 }
 
-static size_t find_columns(const Integrator *sweep, size_t *columns) {
+static size_t find_columns(const Sweep *sweep, size_t *columns) {
     size_t count = 0;
     for (size_t i = 0; i < sweep->design.axis_count - sweep->design.seeded; i++)
         if (sweep->design.axes[i].values.count > 1)
@@ -178,8 +178,8 @@ static size_t find_columns(const Integrator *sweep, size_t *columns) {
     return count;
 }
 
-// The script that draws the matrix.
-static void write_script(const Integrator *sweep, ByteBuffer *out) {
+// Writes the script that draws the grid.
+static void write_script(const Sweep *sweep, ByteBuffer *out) {
     size_t *columns = memory_calloc((sweep->design.axis_count + 1) * sizeof *columns);
     size_t across = find_columns(sweep, columns), down = row_numbers(sweep);
     byte_buffer_format(out, "!window size=%zu;%zu\n    !canvas\n        !font size=11 family=\"DejaVu Sans\"\n",
@@ -205,7 +205,7 @@ static void on_diagnostic(void *user_data, const PetriDiagnostic *diagnostic) {
     fputs(diagnostic->rendered, stderr);
 }
 
-bool plot_grid_draw(const Integrator *sweep, const char *path) {
+bool plot_grid_draw(const Sweep *sweep, const char *path) {
     SCOPED_BYTE_BUFFER script = {0};
     write_script(sweep, &script);
     PetriOptions wanted = petri_default_options();
@@ -225,6 +225,6 @@ bool plot_grid_draw(const Integrator *sweep, const char *path) {
     petri_painter_close(&painter);
     petri_close(&session);
     if (status != PETRI_OK)
-        message("%s was not drawn", path);
+        message("cannot draw %s", path);
     return status == PETRI_OK;
 }

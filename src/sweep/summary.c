@@ -1,4 +1,4 @@
-// summary.c: mean, deviation and quantiles of each metric over the runs that differ in SEED alone.
+// summary.c: mean, deviation and quantiles of each metric over runs that differ only in SEED.
 #include "sweep/table.h"
 
 #include <inttypes.h>
@@ -7,7 +7,7 @@
 #include <string.h>
 
 typedef struct Number {
-    int64_t frame; // -1 where each run has one row
+    int64_t frame; // -1: each run has one row
     double x;
 } Number;
 
@@ -30,14 +30,14 @@ static int compare_numbers(const void *a, const void *b) {
     return x->frame != y->frame ? (x->frame > y->frame) - (x->frame < y->frame) : (x->x > y->x) - (x->x < y->x);
 }
 
-// Between two values of a sorted list as far as the part is between their places.
+// Returns a quantile (fraction from 0 to 1) by linear interpolation.
 static double quantile(const Number *sorted, size_t count, double fraction) {
     double position = fraction * (double)(count - 1), below = floor(position);
     size_t i = (size_t)below, next = i + 1 < count ? i + 1 : i;
     return sorted[i].x + (position - below) * (sorted[next].x - sorted[i].x);
 }
 
-// The values of one metric in one frame, sorted.
+// Appends the statistics of one metric in one frame. The values are sorted.
 static void add_statistics(ByteBuffer *out, const Number *sorted, size_t count) {
     double sum = 0, squares = 0;
     for (size_t i = 0; i < count; i++)
@@ -66,7 +66,7 @@ static void add_values(const Design *design, size_t run, ByteBuffer *out) {
     }
 }
 
-static void add_metric(const Integrator *sweep, size_t first, size_t end, size_t metric, ByteBuffer *out) {
+static void add_metric(const Sweep *sweep, size_t first, size_t end, size_t metric, ByteBuffer *out) {
     NumberList list = {0};
     bool each_frame = sweep->options->row_every > 0;
     Row row;
@@ -91,7 +91,7 @@ static void add_metric(const Integrator *sweep, size_t first, size_t end, size_t
     free(list.items);
 }
 
-void summary_make(const Integrator *sweep, ByteBuffer *out) {
+void summary_make(const Sweep *sweep, ByteBuffer *out) {
     const Design *design = &sweep->design;
     for (size_t i = 0; i < design->axis_count - design->seeded; i++) {
         csv_add(out, str_from(design->axes[i].name));

@@ -1,4 +1,4 @@
-// sweep.c: `petri sweep`: runs a script with many values and measures what comes of them.
+// sweep.c: `petri sweep`, which runs a script over many parameter values and measures the results.
 #include "sweep/sweep.h"
 
 #include "base/file.h"
@@ -21,11 +21,11 @@
 #include <string.h>
 #include <unistd.h>
 
-bool sweep_owns_run(const Integrator *sweep, size_t run) {
+bool sweep_owns_run(const Sweep *sweep, size_t run) {
     return run % sweep->shards == sweep->shard;
 }
 
-void sweep_store_result(Integrator *sweep, size_t run, int64_t frames, const char *rows, size_t length) {
+void sweep_store_result(Sweep *sweep, size_t run, int64_t frames, const char *rows, size_t length) {
     Result *result = &sweep->results[run];
     if (!result->rows) {
         result->rows = memory_strndup(rows, length);
@@ -33,13 +33,13 @@ void sweep_store_result(Integrator *sweep, size_t run, int64_t frames, const cha
     }
 }
 
-// Its last row tells.
+// A run has failed if its last row has an error.
 bool sweep_is_failed(const Result *result) {
     size_t length = strlen(result->rows);
     return length > 1 && result->rows[length - 2] != '\t';
 }
 
-void sweep_report(Integrator *sweep, PetriLevel level, const char *rendered) {
+void sweep_report(Sweep *sweep, PetriLevel level, const char *rendered) {
     enum { MAX_REPORTED = 100 };
     bool wanted = level == PETRI_ERROR || sweep->options->verbosity > LOG_QUIET;
     if (wanted && sweep->reported.count < MAX_REPORTED && !texts_contain(&sweep->reported, rendered)) {
@@ -52,9 +52,9 @@ static void report_diagnostic(void *context, PetriLevel level, const char *rende
     sweep_report(context, level, rendered);
 }
 
-// --- what is asked for
+// --- options
 
-static bool is_column(const Integrator *sweep, const char *name, size_t metrics) {
+static bool is_column(const Sweep *sweep, const char *name, size_t metrics) {
     bool taken = strcmp(name, "run") == 0 || strcmp(name, "frame") == 0 || strcmp(name, "error") == 0;
     for (size_t i = 0; i < sweep->design.axis_count; i++)
         taken = taken || strcmp(name, sweep->design.axes[i].name) == 0;
@@ -63,7 +63,7 @@ static bool is_column(const Integrator *sweep, const char *name, size_t metrics)
     return taken;
 }
 
-static bool read_metrics(Integrator *sweep) {
+static bool read_metrics(Sweep *sweep) {
     const TextList *texts = &sweep->options->metrics;
     sweep->metrics = memory_calloc((texts->count + 1) * sizeof *sweep->metrics);
     for (; sweep->metric_count < texts->count; sweep->metric_count++) {
@@ -72,21 +72,20 @@ static bool read_metrics(Integrator *sweep) {
         size_t name = strcspn(text, "=");
         *metric = (Metric){memory_strndup(text, name), text + name + 1};
         if (is_column(sweep, metric->name, sweep->metric_count)) {
-            message("--metric %s: the table has a column of this name already", metric->name);
+            message("--metric %s: the table already has a column with this name", metric->name);
             sweep->metric_count++;
             return false;
         }
     }
     if (sweep->metric_count == 0 && !sweep->options->until) {
-        message(
-            "nothing is measured: --metric NAME='EXPR' does, such as --metric speed='hypot($(:cells;0;:velocity))'");
+        message("nothing to measure; add --metric NAME='EXPR', such as --metric speed='hypot($(:cells;0;:velocity))'");
         return false;
     }
     return true;
 }
 
-// `2/4`; without --shard, what mpirun says, where petri has no MPI to deal runs out.
-static bool read_shard(Integrator *sweep) {
+// Parses --shard, such as `2/4`. Without it, uses the rank of mpirun if petri was built without MPI.
+static bool read_shard(Sweep *sweep) {
     const char *text = sweep->options->shard;
     int shard = 1, shards = 1, rank = 0, count = 0;
     char trailing = '\0';
@@ -103,14 +102,14 @@ static bool read_shard(Integrator *sweep) {
     sweep->shard = (size_t)shard - 1;
     sweep->shards = (size_t)shards;
     if (shards > 1 && !sweep->options->output) {
-        message("a shard needs a table to be a part of: -o FILE.csv");
+        message("option '--shard' needs a table; add -o FILE.csv");
         return false;
     }
     return true;
 }
 
-// The options that a single run takes as well, without those that do not change what comes of it.
-static bool read_shared_options(Integrator *sweep, const Command *command) {
+// Collects the options that apply to single runs and change their results.
+static bool read_shared_options(Sweep *sweep, const Command *command) {
     static const char *const free_ones[] = {"color", "quiet", "threads", "neighbours", NULL};
     Options again = *sweep->options;
     Args args = {.command = command, .options = &again, .argc = again.argc, .argv = again.argv};
@@ -131,7 +130,7 @@ static bool read_shared_options(Integrator *sweep, const Command *command) {
     return true;
 }
 
-static bool check_plot(const Integrator *sweep) {
+static bool check_plot(const Sweep *sweep) {
     const char *plot = sweep->options->plot;
     if (!plot || sweep->host->plot_support->plot_fits(plot))
         return true;
@@ -139,11 +138,12 @@ static bool check_plot(const Integrator *sweep) {
     return false;
 }
 
-static bool check_output(const Integrator *sweep) {
+static bool check_output(const Sweep *sweep) {
     const char *output = sweep->options->output;
     if (!output || script_suffix(output, ".nc .nc4 .cdf") < 0)
         return true;
-    message("option '--output' expects a file name that ends in .csv or .h5, not '%s': NetCDF is not written", output);
+    message("option '--output' expects a file name that ends in .csv or .h5, not '%s'; NetCDF is not supported",
+            output);
     return false;
 }
 
@@ -151,8 +151,8 @@ static void add_text(Sha256 *hash, const char *text) {
     sha256_add(hash, !text ? "" : text, !text ? 1 : strlen(text) + 1);
 }
 
-// All that the table depends on. Runs are told by their values, so a name that is left out is another sweep.
-static void compute_identity(Integrator *sweep, Measure *measure) {
+// Hashes everything that the table depends on: petri's version, source files, options, metrics and all values.
+static void compute_identity(Sweep *sweep, Measure *measure) {
     const Design *design = &sweep->design;
     Sha256 hash = sha256_new();
     add_text(&hash, petri_version());
@@ -171,8 +171,8 @@ static void compute_identity(Integrator *sweep, Measure *measure) {
     sha256_end(&hash, sweep->identity);
 }
 
-// Finds what is wrong with the script before work begins. Processes of the crew have sessions of their own.
-static int dry_run(Integrator *sweep) {
+// Finds errors of the script before the runs start, in a session that is then closed: workers have their own.
+static int dry_run(Sweep *sweep) {
     Measure measure;
     if (!measure_open(&measure, sweep, report_diagnostic, sweep))
         return STATUS_FAILED;
@@ -183,7 +183,7 @@ static int dry_run(Integrator *sweep) {
     return status;
 }
 
-// --- what comes of it
+// --- output
 
 static bool write_file(const char *path, const ByteBuffer *text) {
     const char *problem = file_replace(path, (Str){text->data, text->length}, 0);
@@ -192,7 +192,7 @@ static bool write_file(const char *path, const ByteBuffer *text) {
     return !problem;
 }
 
-static bool write_table(const Integrator *sweep) {
+static bool write_table(const Sweep *sweep) {
     SCOPED_BYTE_BUFFER table = {0}, commands = {0}, path = {0};
     const char *output = sweep->options->output;
     table_make(sweep, &table);
@@ -209,7 +209,7 @@ static bool write_table(const Integrator *sweep) {
            (hdf5_has_suffix(output) ? hdf5_table(output, table.data, table.length) : write_file(output, &table));
 }
 
-static bool write_all(const Integrator *sweep) {
+static bool write_all(const Sweep *sweep) {
     SCOPED_BYTE_BUFFER summary = {0};
     bool good = true;
     if (sweep->options->summary) {
@@ -220,34 +220,34 @@ static bool write_all(const Integrator *sweep) {
     return write_table(sweep) && good;
 }
 
-static size_t count_done(const Integrator *sweep, bool ours) {
+static size_t count_done(const Sweep *sweep, bool ours) {
     size_t count = 0;
     for (size_t run = 0; run < sweep->design.run_count; run++)
         count += sweep->results[run].rows && (!ours || sweep_owns_run(sweep, run));
     return count;
 }
 
-static void print_report(const Integrator *sweep, double seconds, size_t made) {
+static void print_report(const Sweep *sweep, double seconds, size_t made) {
     size_t failed = 0, runs = sweep->design.run_count;
     for (size_t run = 0; run < runs; run++)
         failed += sweep_is_failed(&sweep->results[run]);
     if (failed > 0)
-        message("%zu of %zu runs failed; the column 'error' tells why", failed, runs);
+        message("%zu of %zu runs failed; see the column 'error'", failed, runs);
     if (sweep->options->verbosity > LOG_QUIET && sweep->options->output) {
-        message("%zu run%s in %s, %zu of them in %.1f s now (%.1f runs/s)", runs, runs == 1 ? "" : "s",
+        message("%zu run%s in %s, %zu of them done now in %.1f s (%.1f runs/s)", runs, runs == 1 ? "" : "s",
                 sweep->options->output, made, seconds, seconds > 0 ? (double)made / seconds : 0);
     }
 }
 
-// The one that makes the last run writes the table, for all shards.
-static int finish_sweep(Integrator *sweep, Journal *journal, double start, size_t made) {
+// Writes the table if all runs of all shards are done, so the shard that finishes last writes it.
+static int finish_sweep(Sweep *sweep, Journal *journal, double start, size_t made) {
     size_t done = count_done(sweep, false);
     if (done < sweep->design.run_count && journal->path) {
         journal_merge(journal, sweep);
         done = count_done(sweep, false);
     }
     if (done < sweep->design.run_count) {
-        message("%zu of %zu runs are done; the shard that ends last writes %s", done, sweep->design.run_count,
+        message("%zu of %zu runs are done; the last shard to finish writes %s", done, sweep->design.run_count,
                 sweep->options->output);
         return STATUS_DONE;
     }
@@ -259,35 +259,35 @@ static int finish_sweep(Integrator *sweep, Journal *journal, double start, size_
     return STATUS_DONE;
 }
 
-static int64_t jobs_of(const Integrator *sweep) {
+static int64_t jobs_of(const Sweep *sweep) {
     long processors = sysconf(_SC_NPROCESSORS_ONLN);
-    // Of those that mpirun has started, one for each processor.
+    // mpirun starts one process per processor, so each then executes one run at a time.
     bool alone = !sweep->host->channel && (sweep->shards == 1 || sweep->options->shard);
     return sweep->options->jobs > 0 ? sweep->options->jobs : alone && processors > 1 ? processors : 1;
 }
 
-static int make_runs(Integrator *sweep, Journal *journal) {
+static int make_runs(Sweep *sweep, Journal *journal) {
     double start = clock_seconds();
     size_t before = count_done(sweep, true);
     if (before > 0 && sweep->options->verbosity > LOG_QUIET)
-        message("%zu runs were done before", before);
+        message("%zu runs are already done", before);
     int status = worker_pool_run(sweep, journal, jobs_of(sweep));
     if (status == STATUS_DONE)
         return finish_sweep(sweep, journal, start, count_done(sweep, true) - before);
     if (status > STATUS_SIGNAL) {
-        message(!journal->path ? "stopped; with -o FILE.csv, what is done would be kept"
-                               : "stopped; the same command goes on with what is missing");
+        message(!journal->path ? "stopped; to keep finished runs, use -o FILE.csv"
+                               : "stopped; run the same command to resume");
     }
     return status;
 }
 
-// Before the work begins: a table that nothing is sent to is dropped.
+// Checks early that petri-hdf5 can write the table. It discards a table without data.
 static bool can_write(const char *output) {
     Hdf5 writer;
     return !output || !hdf5_has_suffix(output) || (hdf5_start(&writer, "table", output, NULL) && hdf5_end(&writer));
 }
 
-static int run_sweep(Integrator *sweep) {
+static int run_sweep(Sweep *sweep) {
     Journal journal = {.file = -1};
     int status = dry_run(sweep);
     if (status != STATUS_DONE)
@@ -306,7 +306,7 @@ static int run_sweep(Integrator *sweep) {
     return status;
 }
 
-static void free_sweep(Integrator *sweep) {
+static void free_sweep(Sweep *sweep) {
     for (size_t i = 0; i < sweep->metric_count; i++)
         free(sweep->metrics[i].name);
     for (size_t run = 0; sweep->results && run < sweep->design.run_count; run++)
@@ -318,7 +318,7 @@ static void free_sweep(Integrator *sweep) {
     design_free(&sweep->design);
 }
 
-// The same words without `--plan FILE`, with those of the plan before them.
+// Runs the command with the plan's arguments followed by those of the command line without `--plan FILE`.
 static int run_plan(const CommandContext *host, const Options *options) {
     TextList words = {0};
     int status = STATUS_USAGE;
@@ -335,7 +335,7 @@ static int run_plan(const CommandContext *host, const Options *options) {
     return status;
 }
 
-// Becomes petri-pictures, with the same words.
+// Replaces the process by petri-pictures with the same arguments. Returns the exit status if that fails.
 static int exec_pictures(const CommandContext *host, const Options *options) {
     TextList words = {0};
     texts_add(&words, host->invoked_as);
@@ -353,12 +353,12 @@ static int sweep_run(const CommandContext *host, Options *options) {
     if (options->plan)
         return run_plan(host, options);
     if (!options->script) {
-        message("no script was given; usage: petri sweep [options] SCRIPT.fl");
+        message("no script given; usage: petri sweep [options] SCRIPT.fl");
         return STATUS_USAGE;
     }
     options->threads = options->threads > 0 ? options->threads : 1;
     options->output = options->output && strcmp(options->output, "-") == 0 ? NULL : options->output;
-    Integrator sweep = {.host = host, .options = options};
+    Sweep sweep = {.host = host, .options = options};
     bool good = design_make(&sweep.design, options, host) && read_metrics(&sweep) && read_shard(&sweep) &&
                 check_plot(&sweep) && check_output(&sweep) && read_shared_options(&sweep, &SWEEP_COMMAND);
     int status = good ? run_sweep(&sweep) : STATUS_USAGE;
@@ -369,26 +369,23 @@ static int sweep_run(const CommandContext *host, Options *options) {
 const Command SWEEP_COMMAND = {
     .name = "sweep",
     .operands = "SCRIPT.fl",
-    .summary = "run a script with many values and tabulate what comes of it",
+    .summary = "run a script over many parameter values",
     .details =
-        "Runs a script once for each combination of values and seeds, several runs at a time, and writes one table: "
-        "run,\n"
-        "values, frame, metrics, error. Without --every it has one row a run, of its last frame. A metric is an\n"
-        "expression that sees the names of the script's top level and, with $, the state after the frame.\n"
+        "Runs a script for each combination of values and seeds, several runs in parallel, and writes one table with\n"
+        "columns run, values, frame, metrics, error. Without --every it has one row per run, for the last frame. A\n"
+        "metric is an expression that can use the script's top-level names and, with $, the state after the frame.\n"
         "\n"
-        "-D NAME=1..10 stands for 1, 2 ... 10, both ends included, 0..1|0.05 has a step, 1;5;20 is a list, and all\n"
-        "this may be mixed: 1;5..20|5. A vector is one value in parentheses: (1;2), or a list of them: (1;2);(3;4).\n"
-        "The first name changes most slowly; SEED, which --seeds counts from 1, most quickly.\n"
+        "-D NAME=1..10 means 1, 2 ... 10; 0..1|0.05 is a range with a step; 1;5;20 is a list. Mix them: 1;5..20|5.\n"
+        "Write a vector in parentheses, (1;2), and a list of vectors as (1;2);(3;4). The first name changes most\n"
+        "slowly; SEED, which --seeds counts from 1, most quickly.\n"
         "\n"
-        "A run that fails is a row with its message. With -o FILE, what is done is kept in FILE.part: after Ctrl-C or\n"
-        "kill -9 the same command goes on, and the table is the same to the last byte. FILE.runs then has a line for\n"
-        "each run: the command that makes it again. A table whose name ends in .h5 is in HDF5, as its set `table`.\n"
+        "A failed run is a row with an error message. With -o FILE, finished runs are stored in FILE.part: after\n"
+        "Ctrl-C or kill -9, run the same command to resume; the table is then the same to the last byte. FILE.runs\n"
+        "lists the command of each run. If FILE ends in .h5, the table is the HDF5 data set `table`.\n"
         "\n"
-        "A plan is YAML: `script: dish.fl`, options by their names, and `define:` and `metric:` with lines NAME: "
-        "VALUE\n"
-        "below them; the command line adds to it. On many machines mpirun has the runs dealt out; with --shard I/N "
-        "each\n"
-        "makes one part of them in a folder that they share, and the one that ends last writes the table.",
+        "A plan is YAML: `script: dish.fl`, options by name, and `define:` and `metric:` with lines NAME: VALUE below\n"
+        "them; the command line overrides it. On several machines, use mpirun, which distributes the runs, or start\n"
+        "each shard with --shard I/N in a shared folder; the last shard to finish writes the table.",
     .examples =
         "  petri sweep dish.fl -D DROPS=20..200|20 -D SPEED='0.1;0.5;1' --frames 300 -o dish.csv \\\n"
         "      --metric spread='mean(hypot($(:drops;i)) for i in ..DROPS)'\n"
@@ -396,7 +393,7 @@ const Command SWEEP_COMMAND = {
         "  mpirun -n 16 petri sweep --plan dish.yaml -o dish.csv\n"
         "  sbatch --array=1-8 --wrap 'petri sweep --plan dish.yaml -o dish.csv --shard $SLURM_ARRAY_TASK_ID/8'\n"
         "  parallel petri sweep --plan dish.yaml -o dish.csv --jobs 1 --shard {}/4 ::: 1 2 3 4\n",
-    .no_stdin = "petri sweep takes a file: its processes each load the script",
+    .no_stdin = "cannot read the script from standard input: each process loads it; use a file",
     .options = FOR_SWEEP,
     .run = sweep_run,
 };

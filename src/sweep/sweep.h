@@ -1,4 +1,4 @@
-// sweep.h: what the parts of `petri sweep` share: the runs that are asked for and what has come of each.
+// sweep.h: internal declarations of `petri sweep`: the runs of a sweep and their results.
 #ifndef PETRI_SRC_SWEEP_H
 #define PETRI_SRC_SWEEP_H
 
@@ -7,21 +7,21 @@
 #include "cli/options.h"
 #include "cli/progress.h"
 
-// A name of -D with the values that it takes, as `petri run -D` takes each.
+// A name of -D and its values, each in the form that `petri run -D` accepts.
 typedef struct Axis {
     char *name;
     TextList values;
-    bool continuous; // a range without a step: --sample takes any number between its ends
+    bool continuous; // true for a range without a step: --sample picks any number in it
     double min;
     double max;
 } Axis;
 
-// All runs: which value each axis has in each.
+// The runs of a sweep and the values of the axes in each run.
 typedef struct Design {
-    Axis *axes; // with --seeds the last one is SEED
+    Axis *axes;
     size_t axis_count;
-    bool seeded;
-    uint32_t *value_indices; // run after run, of each axis the number of its value
+    bool seeded;             // true with --seeds: the last axis is SEED
+    uint32_t *value_indices; // by run and axis: index into the values of the axis
     size_t run_count;
 } Design;
 
@@ -30,41 +30,41 @@ typedef struct Metric {
     const char *expression;
 } Metric;
 
-// What came of a run: lines `FRAME TAB value of each metric TAB … TAB error`.
+// The result of a run.
 typedef struct Result {
-    char *rows;     // NULL: it is not done yet
-    int64_t frames; // that it made
-    bool killed;    // once, by a signal from outside: it is tried again
+    char *rows;     // lines of tab-separated cells: frame, value of each metric, error; NULL: not done yet
+    int64_t frames; // number of computed frames
+    bool killed;    // true if its process was killed from outside; it is run once more
 } Result;
 
-typedef struct Integrator {
+typedef struct Sweep {
     const CommandContext *host;
     const Options *options;
     Design design;
     Metric *metrics;
     size_t metric_count;
-    ByteBuffer shared;                // options of all runs, as words for a shell
-    char identity[SHA256_DIGITS + 1]; // another for each other script, design and measurement
-    Result *results;                  // of each run
-    size_t shard;                     // from 0: the runs whose number leaves this remainder are made here
+    ByteBuffer shared;                // options that apply to every run, quoted for a shell
+    char identity[SHA256_DIGITS + 1]; // hash of everything that the table depends on
+    Result *results;                  // by run
+    size_t shard;                     // from 0: this process does runs with run % shards == shard
     size_t shards;
-    TextList reported; // diagnostics that were shown: each is once
-} Integrator;
+    TextList reported; // diagnostics already shown, each of which is shown once
+} Sweep;
 
-// Finds out the design from the options. False after a message; to be freed in any case.
+// Makes the design from the options. Returns false after a message. The caller frees it with design_free in any case.
 bool design_make(Design *design, const Options *options, const CommandContext *context);
 void design_free(Design *design);
 const char *design_value(const Design *design, size_t run, size_t axis);
-// Reads `NAME=VALUES`; false after a message.
+// Parses `NAME=VALUES`. Returns false after a message.
 bool axis_read(Axis *axis, const char *text);
-// A value as an expression of the language.
+// Appends a value as an expression of the language.
 void axis_add_literal(ByteBuffer *out, const char *value);
 
-// Whether this process is to make the run.
-bool sweep_owns_run(const Integrator *sweep, size_t run);
-void sweep_store_result(Integrator *sweep, size_t run, int64_t frames, const char *rows, size_t length);
+// Returns true if the run belongs to the shard of this process.
+bool sweep_owns_run(const Sweep *sweep, size_t run);
+void sweep_store_result(Sweep *sweep, size_t run, int64_t frames, const char *rows, size_t length);
 bool sweep_is_failed(const Result *result);
-// Shows a diagnostic if it was not shown before and is wanted.
-void sweep_report(Integrator *sweep, PetriLevel level, const char *rendered);
+// Shows a diagnostic, unless it was shown before or --quiet hides it.
+void sweep_report(Sweep *sweep, PetriLevel level, const char *rendered);
 
 #endif

@@ -1,4 +1,4 @@
-// table.c: the table of all runs, and the command lines that make them again.
+// table.c: the table of all runs, and the command lines that repeat them.
 #include "sweep/table.h"
 
 #include "cli/script.h"
@@ -31,15 +31,15 @@ Str row_cell(const Row *row, size_t number) {
     }
 }
 
-size_t row_numbers(const Integrator *sweep) {
+size_t row_numbers(const Sweep *sweep) {
     return sweep->metric_count + (sweep->options->until && sweep->options->row_every == 0);
 }
 
-const char *row_number_name(const Integrator *sweep, size_t number) {
+const char *row_number_name(const Sweep *sweep, size_t number) {
     return number < sweep->metric_count ? sweep->metrics[number].name : "frame";
 }
 
-double row_number(const Integrator *sweep, const Row *row, size_t number) {
+double row_number(const Sweep *sweep, const Row *row, size_t number) {
     if (row_cell(row, sweep->metric_count).len > 0)
         return NAN; // an error
     if (number == sweep->metric_count)
@@ -64,7 +64,7 @@ void csv_add(ByteBuffer *out, Str cell) {
     byte_buffer_add(out, "\"", 1);
 }
 
-static void add_run(const Integrator *sweep, size_t run, ByteBuffer *out) {
+static void add_run(const Sweep *sweep, size_t run, ByteBuffer *out) {
     const Design *design = &sweep->design;
     SCOPED_BYTE_BUFFER head = {0};
     byte_buffer_format(&head, "%zu,", run + 1);
@@ -84,7 +84,7 @@ static void add_run(const Integrator *sweep, size_t run, ByteBuffer *out) {
     }
 }
 
-void table_make(const Integrator *sweep, ByteBuffer *out) {
+void table_make(const Sweep *sweep, ByteBuffer *out) {
     byte_buffer_format(out, "run,");
     for (size_t i = 0; i < sweep->design.axis_count; i++) {
         csv_add(out, str_from(sweep->design.axes[i].name));
@@ -100,7 +100,7 @@ void table_make(const Integrator *sweep, ByteBuffer *out) {
         add_run(sweep, run, out);
 }
 
-void table_commands(const Integrator *sweep, ByteBuffer *out) {
+void table_commands(const Sweep *sweep, ByteBuffer *out) {
     const Design *design = &sweep->design;
     SCOPED_BYTE_BUFFER head = {0};
     shell_add_program(&head, sweep->host->invoked_as);
@@ -115,7 +115,7 @@ void table_commands(const Integrator *sweep, ByteBuffer *out) {
             byte_buffer_format(out, " -D ");
             shell_add_word(out, word.data);
         }
-        // A run that was given up fails in the frame after those that it made.
+        // A failed run fails in the frame after its computed frames.
         const Result *result = &sweep->results[run];
         byte_buffer_format(out, " --frames %" PRId64 "\n", result->frames + sweep_is_failed(result));
     }

@@ -1,31 +1,31 @@
-// table.h: what all runs have come to: the table, the command lines, the summary, the plots.
+// table.h: access to results, and the output made from them: the table, the command lines and the summary.
 #ifndef PETRI_SRC_SWEEP_TABLE_H
 #define PETRI_SRC_SWEEP_TABLE_H
 
 #include "sweep/sweep.h"
 
-// A row of a result: its frame and the cells behind that.
+// A row of a result: its frame and the text of the other cells, each after a tab.
 typedef struct Row {
     int64_t frame;
     Str cells;
 } Row;
-// The row at *at, and on to the next; false behind the last. Begin with *at = rows of a result.
+// Reads the row at *at and advances *at; start with *at = Result.rows. Returns false after the last row.
 bool row_next(const char **at, Row *row);
-// The cell of a metric (or, behind the last, the error); empty if there is none.
+// Returns the cell of a metric, or with number == metric_count the error. Empty if there is none.
 Str row_cell(const Row *row, size_t number);
-// The one number that a metric came to, else NaN. Where there are no metrics, the frame is number 0.
-double row_number(const Integrator *sweep, const Row *row, size_t number);
-// How many numbers a row has, and what they are called: the metrics, or the frame that --until was looking for.
-size_t row_numbers(const Integrator *sweep);
-const char *row_number_name(const Integrator *sweep, size_t number);
+// Returns the value of a metric if it is one finite number, else NaN. Number metric_count is the frame.
+double row_number(const Sweep *sweep, const Row *row, size_t number);
+// Returns how many numbers a row has: one per metric, and the frame if --until was given without --every.
+size_t row_numbers(const Sweep *sweep);
+const char *row_number_name(const Sweep *sweep, size_t number);
 
-// A cell of a CSV file, quoted where RFC 4180 has it.
+// Appends a cell of a CSV file, quoted if RFC 4180 requires it.
 void csv_add(ByteBuffer *out, Str cell);
 
-void table_make(const Integrator *sweep, ByteBuffer *out);
-// A line for each run, which makes it again.
-void table_commands(const Integrator *sweep, ByteBuffer *out);
-// Mean, deviation and quantiles of each metric over the runs that differ in SEED alone.
-void summary_make(const Integrator *sweep, ByteBuffer *out);
+void table_make(const Sweep *sweep, ByteBuffer *out);
+// Appends one line per run: the command that repeats it.
+void table_commands(const Sweep *sweep, ByteBuffer *out);
+// Appends mean, deviation and quantiles of each metric over runs that differ only in SEED.
+void summary_make(const Sweep *sweep, ByteBuffer *out);
 
 #endif

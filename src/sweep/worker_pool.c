@@ -1,9 +1,8 @@
-// worker_pool.c: see worker_pool.h. Each hand is a process that was forked before it had a session; it reads the
-// numbers of runs from a pipe and writes what came of them to another. It has its next run when it ends one, so that it
-// never waits.
+// worker_pool.c: pre-forked workers that execute sweep runs. A worker reads run numbers from one pipe and writes
+// results to another; it is given the next run in advance, so that it does not wait.
 //
-// Under mpirun each process has a crew. That of rank 0 deals runs to the others, too: each of them sends a letter for
-// each run that it wishes for, and then one for each that it has made, which stands for the next wish.
+// Over MPI, each rank has such a pool, and rank 0 assigns runs: a rank sends one request per free slot; each result
+// counts as the next request.
 #include "sweep/worker_pool.h"
 
 #include <errno.h>
@@ -23,48 +22,48 @@
 #include "cli/mpi_channel.h"
 #include "sweep/measure.h"
 
-enum { RUNS_PER_WORKER = 2, REDRAW = 200, MESSAGE_POLL_MS = 2 }; // runs that a hand has; milliseconds, of the last two
+enum { RUNS_PER_WORKER = 2, REDRAW = 200, MESSAGE_POLL_MS = 2 }; // REDRAW: milliseconds between progress updates
 
 typedef struct PoolWorker {
     pid_t pid;
-    int run_pipe;                      // numbers of runs go here
-    int result_pipe;                   // News comes from here
-    int64_t assigned[RUNS_PER_WORKER]; // runs that it has, the one that it makes first
-    int count;
+    int run_pipe;                      // run numbers are written here
+    int result_pipe;                   // results are read from here, each after a ResultHeader
+    int64_t assigned[RUNS_PER_WORKER]; // assigned runs, the current one first
+    int count;                         // number of assigned runs
 } PoolWorker;
 
-// What comes before the rows and the diagnostics of a run.
+// Precedes the rows and the diagnostics of a run.
 typedef struct ResultHeader {
     int64_t run;
     int64_t frames;
-    uint64_t rows; // bytes
-    uint64_t diagnostics;
+    uint64_t rows;        // bytes
+    uint64_t diagnostics; // bytes
 } ResultHeader;
 
 typedef struct WorkerPool {
-    Integrator *sweep;
+    Sweep *sweep;
     Journal *journal;
     PoolWorker *workers;
     int64_t jobs;
-    size_t next;       // no run before it is to be dealt out, but for these
-    int64_t *returned; // runs to be dealt out first: of hands that are gone, or from rank 0
+    size_t next;       // first run that has not been assigned yet, apart from those in `returned`
+    int64_t *returned; // runs to assign first: those of workers that have ended, or those received from rank 0
     size_t returned_count;
-    const MpiChannel *channel; // NULL: there are no other processes
-    bool ended;                // rank 0 has said so
-    int64_t wanted;            // runs to be made, and how many are
-    int64_t done;
+    const MpiChannel *channel; // NULL: no other ranks
+    bool ended;                // true if rank 0 has announced the end
+    int64_t wanted;            // number of runs to execute
+    int64_t done;              // number of executed runs
     Progress progress;
 } WorkerPool;
 
-static const int64_t END_OF_RUNS = -1; // in place of a run
+static const int64_t END_OF_RUNS = -1; // sent instead of a run number
 
-static volatile sig_atomic_t stopped; // a signal handler can reach nothing else
+static volatile sig_atomic_t stopped; // number of the signal that stops the sweep; 0: none
 
 static void on_signal(int number) {
     stopped = number;
 }
 
-// False at the end, or if the other side is gone.
+// Reads exactly `length` bytes. Returns false if the pipe ends before.
 static bool read_all(int fd, void *data, size_t length) {
     for (char *at = data; length > 0;) {
         ssize_t count = read(fd, at, length);
@@ -76,9 +75,9 @@ static bool read_all(int fd, void *data, size_t length) {
     return true;
 }
 
-// --- in a process of the crew
+// --- in a worker process
 
-// Diagnostics go to the parent as they are, a byte for the level before each and NUL behind.
+// Stores a diagnostic for the parent: a letter for the level, the text, NUL. Ignores further ones after 64 KiB.
 static void add_diagnostic(void *context, PetriLevel level, const char *rendered) {
     enum { MAX_DIAGNOSTIC_BYTES = 1 << 16 };
     ByteBuffer *diagnostics = context;
@@ -88,7 +87,7 @@ static void add_diagnostic(void *context, PetriLevel level, const char *rendered
     }
 }
 
-static int worker_loop(const Integrator *sweep, int requests, int results) {
+static int worker_loop(const Sweep *sweep, int requests, int results) {
     Measure measure;
     ByteBuffer diagnostics = {0};
     if (!measure_open(&measure, sweep, add_diagnostic, &diagnostics))
@@ -108,7 +107,7 @@ static int worker_loop(const Integrator *sweep, int requests, int results) {
     return STATUS_DONE;
 }
 
-// Ctrl-C is sent to all processes of a terminal: it is for the parent, with which this one ends.
+// Turns a forked process into a worker. Ignores signals of the terminal, which the parent handles, and ends with it.
 static void become_worker(const WorkerPool *pool, int requests, int results, pid_t parent) {
     static const int ignored[] = {SIGINT, SIGTERM, SIGHUP};
     for (size_t i = 0; i < sizeof ignored / sizeof ignored[0]; i++)
@@ -116,7 +115,7 @@ static void become_worker(const WorkerPool *pool, int requests, int results, pid
 #ifdef __linux__
     prctl(PR_SET_PDEATHSIG, SIGKILL);
 #endif
-    for (int64_t i = 0; i < pool->jobs; i++) { // else those do not see the parent's end
+    for (int64_t i = 0; i < pool->jobs; i++) { // else other workers would not notice the parent's end
         if (pool->workers[i].pid > 0) {
             close(pool->workers[i].run_pipe);
             close(pool->workers[i].result_pipe);
@@ -155,7 +154,7 @@ static bool is_remote(const WorkerPool *pool) {
     return pool->channel && pool->channel->rank > 0;
 }
 
-// The next run to be made, or -1.
+// Returns the next run to assign, or -1.
 static int64_t next_run(WorkerPool *pool) {
     if (pool->returned_count > 0)
         return pool->returned[--pool->returned_count];
@@ -165,22 +164,23 @@ static int64_t next_run(WorkerPool *pool) {
     return -1;
 }
 
-// The hands take turns, so that none has two runs while another has none. One that is gone is noticed later.
+// Assigns runs in turn, so that no worker has two runs while another has none.
 static void assign_runs(WorkerPool *pool) {
-    for (int most = 1; most <= RUNS_PER_WORKER; most++) {
+    for (int max = 1; max <= RUNS_PER_WORKER; max++) {
         for (int64_t i = 0; i < pool->jobs; i++) {
             PoolWorker *worker = &pool->workers[i];
-            int64_t run = worker->count < most && worker->pid > 0 ? next_run(pool) : -1;
+            int64_t run = worker->count < max && worker->pid > 0 ? next_run(pool) : -1;
             if (run >= 0) {
                 worker->assigned[worker->count++] = run;
                 if (!file_write(worker->run_pipe, (const char *)&run, sizeof run))
-                    kill(worker->pid, SIGKILL); // it would wait for ever for orders, and this process for it
+                    kill(worker->pid, SIGKILL); // its pipe is broken; reap_worker then returns its runs
             }
         }
     }
 }
 
-// What has come of a run: the rows, then what was told.
+// Stores a result, or sends it to rank 0. `bytes` has the rows followed by the diagnostics. Returns false after a
+// message.
 static bool store_result(WorkerPool *pool, const ResultHeader *head, const char *bytes) {
     size_t length = (size_t)(head->rows + head->diagnostics), run = (size_t)head->run;
     pool->done++;
@@ -214,7 +214,7 @@ static bool read_result(WorkerPool *pool, PoolWorker *worker, bool *gone) {
     return store_result(pool, &head, bytes);
 }
 
-// Rank 0 takes wishes and what was made, the others runs.
+// Receives MPI messages: on rank 0 requests and results, on other ranks assigned runs.
 static bool receive_messages(WorkerPool *pool) {
     SCOPED_BYTE_BUFFER packet = {0};
     bool good = true;
@@ -237,8 +237,8 @@ static bool receive_messages(WorkerPool *pool) {
     return good;
 }
 
-// What ended the process is the row of the run that it made. Only SIGKILL comes from outside, such as a machine that is
-// short of memory: then the run has a second chance.
+// Handles the end of a worker. The cause becomes the row of its current run. After SIGKILL, which comes from outside,
+// for example if the machine is out of memory, the run is executed once more. Returns false after a message.
 static bool reap_worker(WorkerPool *pool, PoolWorker *worker) {
     int status = 0;
     while (waitpid(worker->pid, &status, 0) < 0 && errno == EINTR) {
@@ -265,7 +265,7 @@ static bool reap_worker(WorkerPool *pool, PoolWorker *worker) {
     return !result || store_result(pool, &(ResultHeader){worker->assigned[0], 0, row.length, 0}, row.data);
 }
 
-// Takes what the hands have to tell, or waits for it. False if there is no going on.
+// Waits for results and messages and handles them. Returns false, after a message, if the sweep cannot continue.
 static bool poll_workers(WorkerPool *pool) {
     struct pollfd *waits = memory_calloc((size_t)pool->jobs * sizeof *waits);
     bool good = true;
@@ -286,18 +286,19 @@ static bool poll_workers(WorkerPool *pool) {
     return good && receive_messages(pool);
 }
 
-// The first letters, and the last.
+// Requests runs from rank 0, one for each slot.
 static void request_runs(const WorkerPool *pool) {
     for (int64_t i = 0; is_remote(pool) && i < pool->jobs * RUNS_PER_WORKER; i++)
         pool->channel->send(0, "", 1);
 }
 
+// Tells the other ranks that all runs are done.
 static void announce_end(const WorkerPool *pool) {
     for (int rank = 1; pool->channel && pool->channel->rank == 0 && rank < pool->channel->count; rank++)
         pool->channel->send(rank, &END_OF_RUNS, sizeof END_OF_RUNS);
 }
 
-static int64_t count_wanted(const Integrator *sweep) {
+static int64_t count_wanted(const Sweep *sweep) {
     int64_t count = 0;
     for (size_t run = 0; run < sweep->design.run_count; run++)
         count += sweep_owns_run(sweep, run) && !sweep->results[run].rows;
@@ -311,7 +312,7 @@ static void catch_signals(void) {
     signal_catch(SIGHUP, on_signal, 0);
 }
 
-static void stop_worker(WorkerPool *pool) {
+static void stop_workers(WorkerPool *pool) {
     for (int64_t i = 0; i < pool->jobs; i++) {
         PoolWorker *worker = &pool->workers[i];
         if (worker->pid > 0) {
@@ -327,7 +328,7 @@ static bool has_work(const WorkerPool *pool) {
     return is_remote(pool) ? !pool->ended : pool->done < pool->wanted;
 }
 
-int worker_pool_run(Integrator *sweep, Journal *journal, int64_t jobs) {
+int worker_pool_run(Sweep *sweep, Journal *journal, int64_t jobs) {
     WorkerPool pool = {
         .sweep = sweep, .journal = journal, .wanted = count_wanted(sweep), .channel = sweep->host->channel};
     pool.jobs = jobs < pool.wanted || is_remote(&pool) ? jobs : pool.wanted;
@@ -349,7 +350,7 @@ int worker_pool_run(Integrator *sweep, Journal *journal, int64_t jobs) {
     if (good && done)
         announce_end(&pool);
     progress_erase(&pool.progress);
-    stop_worker(&pool);
+    stop_workers(&pool);
     free(pool.workers);
     free(pool.returned);
     return !good ? STATUS_FAILED : done ? STATUS_DONE : STATUS_SIGNAL + (int)stopped;
