@@ -1,4 +1,4 @@
-// drawn.h: scripts as texts, drawn frame after frame by one painter, with what was told of them.
+// drawn.h: draws scripts given as text, frame after frame with one painter, and collects their diagnostics.
 #ifndef PETRI_TESTS_DRAWN_H
 #define PETRI_TESTS_DRAWN_H
 
@@ -14,9 +14,9 @@ typedef struct Drawn {
     PetriPainter *painter;
     int width;
     int height;
-    uint32_t *pixels;    // of the frame that was drawn last: rows from the top
-    char reported[TOLD]; // diagnostics, a line each: LINE [CODE] TEXT
-    unsigned column;     // of the last one
+    uint32_t *pixels;    // of the last frame: rows from the top
+    char reported[TOLD]; // diagnostics, one per line: LINE [CODE] TEXT
+    unsigned column;     // column of the last diagnostic
 } Drawn;
 
 static inline void drawn_on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
@@ -47,7 +47,7 @@ static inline void drawn_close(Drawn *drawn) {
     *drawn = (Drawn){0};
 }
 
-// Draws so many frames, with so much memory (0: as usual); the last one is seen.
+// Draws `frames` frames and keeps the last one. `memory` is the limit in bytes; 0: default.
 static inline void drawn_open_with(Drawn *drawn, const char *script, int frames, size_t memory) {
     PetriOptions options = petri_default_options();
     options.memory_limit = memory > 0 ? memory : options.memory_limit;
@@ -66,12 +66,12 @@ static inline void drawn_open(Drawn *drawn, const char *script, int frames) {
     drawn_open_with(drawn, script, frames, 0);
 }
 
-// One channel: 0 red, 1 green, 2 blue, 3 alpha.
+// Returns one channel of a pixel: 0 red, 1 green, 2 blue, 3 alpha.
 static inline int drawn_byte(const Drawn *drawn, int x, int y, int channel) {
     return drawn->pixels[y * drawn->width + x] >> (channel == 3 ? 24 : 16 - 8 * channel) & 255;
 }
 
-// Whether programs can be run here; says why not.
+// Returns true if shaders can run on this machine; otherwise prints why not.
 static inline bool drawn_can_run(void) {
     Drawn drawn;
     drawn_open(&drawn, "!window size=2;2\n    !vignette\n        !canvas\n", 1);

@@ -1,4 +1,4 @@
-// model.c: see model.h: reading, sampling, combining; noise.
+// model.c: reading of attributes, sampling, compositing, and noise; see model.h.
 #include "model.h"
 
 #include <math.h>
@@ -7,7 +7,7 @@
 
 static const double TURN = 6.283185307179586;
 
-// What stands behind ` name=`.
+// Returns the text after ` name=`.
 static const char *find_attr(const char *attrs, const char *name) {
     size_t length = strlen(name);
     for (const char *at = attrs; (at = strstr(at, name)) != NULL; at++)
@@ -132,7 +132,7 @@ void model_target(Pic *pic, int w, int h) {
     memset(pic->at, 0, sizeof pic->at);
 }
 
-// Noise (7.9): its hashes are those of floats, whose rounding counts.
+// Noise (7.9). Its hash uses floats, so their rounding matters.
 static float perm(float t) {
     t -= 289 * floorf(t / 289);
     return t * (34 * t + 133);
@@ -192,7 +192,7 @@ static double noise(float h, const double p[3], bool plane) {
     return lattice(h, q) + lattice(h, moved);
 }
 
-// builtins.md B9.2 of no element, or of one number as it is.
+// builtins.md B9.2, of no element or of one number.
 static float seed_of(const char *attrs) {
     uint64_t h = UINT64_C(0xe220a8397b1dcdaf), bits;
     if (model_has(attrs, "seed")) {

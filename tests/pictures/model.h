@@ -1,5 +1,5 @@
-// model.h: an independent model of lib/spec/pictures.md, sections 1, 3, 6 and 7, written from the page's text: pixel by
-// pixel, in doubles. The pictures of petri's programs are compared with it.
+// model.h: an independent model of lib/spec/pictures.md, sections 1, 3, 6 and 7, written from the page: pixel by pixel,
+// in doubles. Tests compare petri's effects with it.
 #ifndef PETRI_TESTS_MODEL_H
 #define PETRI_TESTS_MODEL_H
 
@@ -10,7 +10,7 @@
 enum { MAX_SIDE = 48, MAX_INPUTS = 3 };
 
 typedef struct Px {
-    double c[4]; // r, g, b multiplied by a
+    double c[4]; // r, g, b premultiplied by a
 } Px;
 
 typedef struct Pic {
@@ -19,7 +19,7 @@ typedef struct Pic {
     Px at[MAX_SIDE * MAX_SIDE]; // rows from the bottom
 } Pic;
 
-// What is beyond the edges: a colour, or the picture again, or its last pixel.
+// What a picture is beyond its edges: a colour, the picture again, or its edge pixels.
 typedef struct Edges {
     double border[4];
     bool repeat[2];
@@ -27,7 +27,7 @@ typedef struct Edges {
     bool nearest;
 } Edges;
 
-// A node whose picture is to be made.
+// A node whose picture the model computes.
 typedef struct Work {
     const char *kind;
     const char *attrs; // as in the script
@@ -35,28 +35,29 @@ typedef struct Work {
     int n;
     int w;
     int h;
-    Pic last;     // the node's picture of the frame before
-    bool past;    // … there was one
-    double beats; // since then
+    Pic last;     // the node's picture in the previous frame
+    bool past;    // true if there was one
+    double beats; // beats since the previous frame
 } Work;
 
-// Attributes: number k of one, which is repeated if it is alone; whether it is there; whether it is this word.
+// Attributes: the k-th number, where a single number is repeated; whether the attribute exists; whether it is this
+// word.
 double model_number(const char *attrs, const char *name, int k, double fallback);
 bool model_has(const char *attrs, const char *name);
 bool model_word(const char *attrs, const char *name, const char *word);
 
-// 1: colours and samples.
+// Section 1: colours and sampling.
 double model_lin(double e);
 double model_enc(double c);
 double model_lum(const double c[3]);
 Px model_sample(const Pic *pic, const Edges *edges, double u, double v);
-// 3: the sampler of a node, the inputs combined, a pass's target.
+// Section 3: the sampler of a node, the combined inputs, the target of a pass.
 Edges model_edges(const char *attrs, bool clamped);
 Px model_merge(const Work *work, const Edges *edges, double u, double v);
 void model_target(Pic *pic, int w, int h);
-// 7: the picture of the node.
+// Section 7: the picture of the node.
 void model_effect(const Work *work, Pic *out);
-// 7.9
+// Section 7.9: noise.
 void model_noise(const Work *work, Pic *out);
 
 #endif

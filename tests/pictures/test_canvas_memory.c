@@ -1,12 +1,12 @@
-// test_canvas_memory.c: each allocation of a drawing fails in turn, also while something is drawn on a surface of its
-// own. What Cairo made for it is given back.
+// test_canvas_memory.c: lets each allocation of a drawing fail in turn, also while it draws to an offscreen surface,
+// and checks that all Cairo objects are freed.
 #include "drawn.h"
 #include "heap.h"
 
 #include <cairo.h>
 #include <unistd.h>
 
-// Contexts of Cairo that are there, counted by --wrap.
+// Number of existing Cairo contexts, counted with --wrap.
 static int contexts;
 
 cairo_t *__real_cairo_create(cairo_surface_t *target);
@@ -44,7 +44,7 @@ static const char script[] = "!window size=40;40\n"
                              "            !blur radius=1\n"
                              "            !rect size=20;20 fill=true color=3\n";
 
-// One drawing by a new painter; whether it was drawn.
+// Draws once with a new painter. Returns true if that succeeded.
 static PetriStatus draw_failing(PetriPicture *picture, uint32_t *pixels, long fail_at, bool all) {
     heap_fail(fail_at, all);
     PetriPainter *painter = petri_painter_open();
@@ -57,7 +57,7 @@ static PetriStatus draw_failing(PetriPicture *picture, uint32_t *pixels, long fa
     return status;
 }
 
-static void test_each_allocation(void **state) {
+static void test_each_failed_allocation_frees_all(void **state) {
     (void)state;
     static uint32_t wanted[1600], pixels[1600];
     Drawn drawn;
@@ -89,6 +89,6 @@ static void test_each_allocation(void **state) {
 int main(int argc, char **argv) {
     if (argc < 2 || chdir(argv[1]) != 0)
         return 2;
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_each_allocation)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_each_failed_allocation_frees_all)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

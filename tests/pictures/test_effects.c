@@ -1,10 +1,10 @@
-// test_effects.c: the pictures of programs and effects against the model (model.h), each pixel within 2 bytes.
+// test_effects.c: compares the pictures of effects with the model (model.h), each pixel within 2 of 255.
 #include "drawn.h"
 #include "model.h"
 
 enum { WIDTH = 30, HEIGHT = 20 };
 
-// The inputs are programs of their own; in C and in GLSL the same formulas. The third has another size.
+// The inputs are shaders; C and GLSL use the same formulas. The third input has another size.
 static const int sizes[MAX_INPUTS][2] = {{WIDTH, HEIGHT}, {WIDTH, HEIGHT}, {11, 7}};
 static const char *const formulas[MAX_INPUTS] = {
     ("    float a = p.x < 0.5 ? 1.0 : 1.0 - 0.6 * p.y;\n"
@@ -42,7 +42,7 @@ static void make_input(int input, double beat, Pic *pic) {
 typedef struct Case {
     const char *kind;
     const char *attrs;
-    int inputs; // how many of them, the first ones
+    int inputs; // number of inputs
     int frames; // 0: one
 } Case;
 
@@ -58,7 +58,7 @@ static void write_script(const Case *of, char *out, size_t size) {
                        sizes[i][0], sizes[i][1], formulas[i]);
 }
 
-// How far the drawn pixels are from the model's.
+// Returns the largest difference between the drawn pixels and the model's.
 static int distance(const Drawn *drawn, const Pic *wanted, int *at_x, int *at_y) {
     int worst = 0;
     for (int y = 0; y < HEIGHT; y++)
@@ -190,7 +190,7 @@ static void test_feedback(void **state) {
     check_cases(cases, COUNT_OF(cases));
 }
 
-static void test_places(void **state) {
+static void test_transform_vignette_kaleid(void **state) {
     (void)state;
     static const Case cases[] = {
         {"transform", "", 1, 0},
@@ -241,8 +241,8 @@ static void test_flare(void **state) {
     check_cases(cases, COUNT_OF(cases));
 }
 
-// pictures.md 4.4: exact.
-static void test_numbers(void **state) {
+// pictures.md 4.4: exact values.
+static void test_exact_numbers_of_spec(void **state) {
     (void)state;
     Drawn drawn;
     drawn_open(&drawn,
@@ -260,9 +260,14 @@ static void test_numbers(void **state) {
 
 int main(void) {
     static const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_numbers), cmocka_unit_test(test_combining), cmocka_unit_test(test_adjust),
-        cmocka_unit_test(test_blurs),   cmocka_unit_test(test_feedback),  cmocka_unit_test(test_places),
-        cmocka_unit_test(test_noise),   cmocka_unit_test(test_flare),
+        cmocka_unit_test(test_exact_numbers_of_spec),
+        cmocka_unit_test(test_combining),
+        cmocka_unit_test(test_adjust),
+        cmocka_unit_test(test_blurs),
+        cmocka_unit_test(test_feedback),
+        cmocka_unit_test(test_transform_vignette_kaleid),
+        cmocka_unit_test(test_noise),
+        cmocka_unit_test(test_flare),
     };
     enum { SKIP = 77 };
     return drawn_can_run() ? cmocka_run_group_tests(tests, NULL, NULL) : SKIP;

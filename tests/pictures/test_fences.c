@@ -1,6 +1,7 @@
-// test_fences.c: Mesa's llvmpipe frees no fence that one of its threads still signals (lib/gl/context.c says why it
-// would). Its threads are made slow where they signal, and the one that draws is a little slow, too, so that it comes
-// when they are at it. What this program defines Mesa's library calls in place of the C library's.
+// test_fence_is_not_freed_while_signalled.c: checks that Mesa's llvmpipe does not free a fence while one of its threads
+// signals it (lib/gl/context.c explains the problem). To provoke that, its threads are slowed down while they signal,
+// and the drawing thread a little as well. Mesa's library calls the functions defined here instead of those of the C
+// library.
 #define _GNU_SOURCE // dlvsym, gettid
 #include "drawn.h"
 
@@ -12,11 +13,11 @@
 #include <sys/types.h>
 #include <unistd.h>
 
-#define SEEN __attribute__((visibility("default"))) // by libraries
+#define SEEN __attribute__((visibility("default"))) // visible to libraries
 
 enum { THREADS = 64, ONE_IN = 3, SLOW_US = 3000, DRAWING_US = 1500 };
 
-static _Atomic(uintptr_t) signalled[THREADS]; // the conditions that are being signalled; 0: none
+static _Atomic(uintptr_t) signalled[THREADS]; // conditions that are being signalled; 0: none
 static atomic_int slowed;
 
 extern void __libc_free(void *memory);
@@ -37,7 +38,7 @@ SEEN void free(void *memory) {
     __libc_free(memory);
 }
 
-// The C library has an older one, too, for programs of long ago.
+// The C library also has an older version for old programs, so the newest one is looked up.
 static int real(const char *name, pthread_cond_t *condition) {
     void *found = dlvsym(RTLD_NEXT, name, "GLIBC_2.3.2");
     int (*function)(pthread_cond_t *) = NULL;
@@ -69,7 +70,7 @@ SEEN int pthread_cond_signal(pthread_cond_t *condition) {
     return result;
 }
 
-static void test_fences(void **state) {
+static void test_fence_is_not_freed_while_signalled(void **state) {
     (void)state;
     enum { TIMES = 12, FRAMES = 3 };
 #define PROGRAM(size, text)                                                                                            \
@@ -93,7 +94,7 @@ static void test_fences(void **state) {
 }
 
 int main(void) {
-    static const struct CMUnitTest tests[] = {cmocka_unit_test(test_fences)};
+    static const struct CMUnitTest tests[] = {cmocka_unit_test(test_fence_is_not_freed_while_signalled)};
     enum { SKIP = 77 };
     return drawn_can_run() ? cmocka_run_group_tests(tests, NULL, NULL) : SKIP;
 }

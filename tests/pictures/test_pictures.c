@@ -1,11 +1,11 @@
-// test_pictures.c: draws each script of tests/pictures and compares it with the picture beside it.
+// test_pictures.c: draws each script of tests/pictures and compares it with the stored picture beside it.
 // usage: test_pictures FOLDER [--update | --write FOLDER]
 //
-// A script may say, in comments at its top, `-- tolerance N`: how far each colour of each pixel may be from the stored
-// one (of 255; 2 if not said, which is what rounding may differ between versions of Cairo; more where there is text,
-// since versions of FreeType and fonts differ) and `-- frames N`: how many frames are made (1 if not said).
-// What needs OpenGL is skipped where none starts. --update stores what is drawn; --write stores it elsewhere. The
-// folder that has a gallery.fl must have all nodes.
+// Scripts may have these comments at their top. `-- tolerance N` allows each channel of each pixel to differ by N of
+// 255. The default of 2 allows for rounding in versions of Cairo; text needs more, because versions of FreeType and
+// fonts differ. `-- frames N` is the number of frames to draw (default: 1).
+// Scripts that need OpenGL are skipped where it is not available. --update stores the drawn pictures; --write stores
+// them elsewhere. The scripts of the folder with gallery.fl must use all nodes.
 #include "petri-draw.h"
 
 #include <cairo.h>
@@ -18,7 +18,7 @@
 
 enum { MAX_SCRIPTS = 200, MAX_SEEN = 4000, AUTO_SIZE = 160, USUAL_TOLERANCE = 2 };
 
-// Which attributes of which nodes occur: lines `kind attribute`.
+// The nodes and attributes that occur: lines `kind attribute`.
 static char *seen[MAX_SEEN];
 static size_t seen_count;
 
@@ -55,7 +55,7 @@ static bool collect_bytes(void *host, const char *text, size_t length) {
     return true;
 }
 
-// Reads `!kind … name=value …` lines of a printed tree. A value that looks like an attribute does no harm here.
+// Reads `!kind … name=value …` lines of a printed tree. Values that look like an attribute are harmless here.
 static void note_tree(PetriSession *session) {
     Notes notes = {0};
     petri_print(session, PETRI_PRINT_TREE, collect_bytes, &notes);
@@ -75,7 +75,7 @@ static void note_tree(PetriSession *session) {
     free(notes.text);
 }
 
-static bool without_gpu; // the script needs OpenGL, and there is none
+static bool without_gpu; // the script needs OpenGL, which is not available
 static size_t skipped;
 
 static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
@@ -120,7 +120,7 @@ static PetriPicture *make_picture(PetriSession *session, PetriPainter *painter, 
     return picture;
 }
 
-// Compares two files; the number of pixels that differ by more than is tolerated, or -1 if their sizes differ.
+// Compares two files. Returns the number of pixels that differ by more than the tolerance, or -1 if the sizes differ.
 static long compare_surfaces(cairo_surface_t *stored, cairo_surface_t *drawn, int tolerance, int *worst) {
     int width = cairo_image_surface_get_width(drawn), height = cairo_image_surface_get_height(drawn);
     if (cairo_surface_status(stored) != CAIRO_STATUS_SUCCESS || cairo_surface_status(drawn) != CAIRO_STATUS_SUCCESS ||
@@ -128,7 +128,7 @@ static long compare_surfaces(cairo_surface_t *stored, cairo_surface_t *drawn, in
         return -1;
     const unsigned char *one = cairo_image_surface_get_data(stored), *two = cairo_image_surface_get_data(drawn);
     int stride = cairo_image_surface_get_stride(stored);
-    // The fourth byte of a pixel means nothing if there is no transparency.
+    // The fourth byte of a pixel is undefined in images without transparency.
     int channels = cairo_image_surface_get_format(stored) == CAIRO_FORMAT_RGB24 ? 3 : 4;
     long count = 0;
     for (int y = 0; y < height; y++)
@@ -144,7 +144,7 @@ static long compare_surfaces(cairo_surface_t *stored, cairo_surface_t *drawn, in
     return count;
 }
 
-// The pixels that are drawn for a window are those of the file; transparent ones lose some digits in files.
+// Checks that drawn pixels equal those of the file. Transparent pixels lose some precision in files.
 static bool same_as_drawn(PetriPicture *picture, PetriPainter *painter, cairo_surface_t *saved) {
     int width, height;
     petri_picture_size(picture, &width, &height);
@@ -178,11 +178,11 @@ static bool check_picture(PetriPicture *picture, PetriPainter *painter, const ch
         unlink(beside);
     }
     if (!saved)
-        printf("FAIL %s: it cannot be drawn\n", name);
+        printf("FAIL %s: cannot be drawn\n", name);
     else if (count < 0)
-        printf("FAIL %s: there is no stored picture of this size\n", name);
+        printf("FAIL %s: no stored picture of this size\n", name);
     else if (count > 0)
-        printf("FAIL %s: %ld pixels differ by up to %d of 255, %d are tolerated\n", name, count, worst, tolerance);
+        printf("FAIL %s: %ld pixels differ by up to %d of 255, %d is tolerated\n", name, count, worst, tolerance);
     else if (!same)
         printf("FAIL %s: the pixels and the file differ\n", name);
     return saved && count == 0 && same;
@@ -212,10 +212,10 @@ static bool check_script(const char *folder, const char *name, const char *write
     else if (picture)
         good = check_picture(picture, painter, name, file, wanted.tolerance);
     else
-        printf("FAIL %s: there is no picture\n", name);
+        printf("FAIL %s: no picture\n", name);
     if (picture)
         petri_picture_report(session, picture);
-    // Nothing here is wrong: each diagnostic is a failure.
+    // All scripts are valid, so each diagnostic is a failure.
     good = good && petri_diagnostic_count(session, PETRI_ERROR) + petri_diagnostic_count(session, PETRI_WARNING) == 0;
     petri_picture_free(&picture);
     petri_painter_close(&painter);
@@ -223,7 +223,7 @@ static bool check_script(const char *folder, const char *name, const char *write
     return good || without_gpu;
 }
 
-// What all programs have in common is read by the same code: once is enough.
+// Attributes of all effect nodes are read by the same code, so one node is enough.
 static bool in_common(const char *attribute) {
     static const char *const names[] = {
         "size",    "id",     "hidden",     "composite",         "blend",  "alpha",   "colorbits", "border", "repeat",
@@ -236,9 +236,9 @@ static bool in_common(const char *attribute) {
     return false;
 }
 
-// Each node and attribute that draws must be in some script.
+// Checks that each node and attribute that affects drawing occurs in some script.
 static int check_complete(void) {
-    // What does not draw is tested elsewhere: tests/cli (record), tests of the window (pointer, key).
+    // Nodes that do not draw are tested elsewhere: tests/cli (record), tests of the window (pointer, key).
     static const char *const others[] = {"record", "pointer", "key"};
     int missing = 0;
     PetriNodeKind kind;
@@ -260,7 +260,7 @@ static int check_complete(void) {
     return missing;
 }
 
-// Attributes of scenes are read by the same code for all their nodes: once is enough.
+// Attributes of all nodes of scenes are read by the same code, so one node is enough.
 static int check_scenes(void) {
     int missing = 0;
     PetriNodeKind kind, other;
@@ -269,7 +269,7 @@ static int check_scenes(void) {
         if (strcmp(kind.area, "canvas3d") != 0)
             continue;
         for (size_t k = 0; petri_node_attribute(i, k, &attribute); k++) {
-            bool found = strcmp(attribute.name, "hidden") == 0; // as of any picture
+            bool found = strcmp(attribute.name, "hidden") == 0; // common to all pictures
             for (size_t o = 0; !found && petri_node_kind(o, &other); o++)
                 found = strcmp(other.area, "canvas3d") == 0 && was_seen(other.name, attribute.name);
             if (!found)

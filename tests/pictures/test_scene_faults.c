@@ -1,9 +1,9 @@
-// test_scene_faults.c: what is wrong in a scene is told once for each place, and the rest is drawn.
+// test_scene_faults.c: checks that each problem in a scene is reported once per position, and that the rest is drawn.
 #include "drawn.h"
 
 #include <unistd.h>
 
-// A red ball in the middle of the picture, which is to be seen whatever else is there.
+// A red ball in the centre of the picture, which must be visible in all cases.
 #define BALL                                                                                                           \
     "!window size=64;64\n"                                                                                             \
     "    !canvas3d id=:me viewpoint=0;0;4 near=0.1 far=9\n"                                                            \
@@ -19,8 +19,8 @@ static const char *const files[][2] = {
 
 typedef struct Row {
     const char *name;
-    const char *script;   // after BALL
-    const char *reported; // NULL: that a file cannot be read
+    const char *script;   // appended to BALL
+    const char *reported; // NULL: any report that a file cannot be read
 } Row;
 
 static const Row rows[] = {
@@ -33,25 +33,25 @@ static const Row rows[] = {
      "6 [cannot-read] !model: hole.obj:4: a face refers to a vertex that does not exist\n"
      "7 [cannot-read] !model: cut.stl:5: vertex needs three numbers, and a loop needs three vertices\n"
      "8 [cannot-read] !model: cannot read 'empty.stl': no triangles\n"},
-    {"models of bad numbers",
+    {"models with bad numbers",
      "        !model vertices=0;0;0;1;0;0;0;1;0 faces=0;1;3 color=1\n        !model vertices=0;0;0 color=1\n"
      "        !model vertices=1;2 faces=0;1;2 color=1\n",
      "5 [bad-model] !model: faces refers to a vertex that does not exist\n"
      "6 [bad-model] !model: vertices without faces must be at most 2000, and not all in one plane\n"
      "7 [bad-model] !model: vertices and faces are three numbers each, uv is two for each vertex\n"},
-    {"textures that are not there", "        !box position=-1.5;0;0 color=0;1;0 color_id=:none emissive_id=''\n", ""},
-    {"textures in circles",
+    {"missing textures", "        !box position=-1.5;0;0 color=0;1;0 color_id=:none emissive_id=''\n", ""},
+    {"textures that refer to each other",
      "        !camera id=:a secondary=true size=32;32\n        !camera id=:b secondary=true size=32;32\n"
      "        !box position=-1.5;0;0 color=1 color_id=:me\n        !box position=-1.5;1;0 color=1 color_id=:a\n"
      "        !box position=1.5;0;0 color=1 color_id=:b emissive_id=:a transparency_id=:me\n",
      ""},
-    {"cameras beyond all sizes",
+    {"cameras of invalid size",
      "        !camera id=:a secondary=true size=100000;4\n        !camera id=:b secondary=true size=0;4\n",
      "5 [bad-size] !camera: a picture can have 1 to 16384 pixels in width and height\n"
      "6 [bad-size] !camera: a picture can have 1 to 16384 pixels in width and height\n"},
-    {"a scene beyond all sizes", "    !canvas3d size=4;100000\n        !light color=1\n",
+    {"a scene of invalid size", "    !canvas3d size=4;100000\n        !light color=1\n",
      "5 [bad-size] !canvas3d: a picture can have 1 to 16384 pixels in width and height\n"},
-    {"nan and infinity in places",
+    {"nan and infinity in transforms",
      "        !group translate=0/0 rotate=1/0 shear_x=0/0\n            !box position=3;0;0 size=0/0 rotation=1/0\n",
      "5 [bad-attribute] !group: translate should be one number or three, not nan\n"
      "5 [bad-attribute] !group: rotate should be numbers, not inf\n"
@@ -65,7 +65,7 @@ static const Row rows[] = {
      "6 [bad-attribute] !light: direction should be one number or three, not inf\n"
      "6 [bad-attribute] !light: radius should be number, not nan\n"
      "6 [bad-attribute] !light: falloff should be one number or four, not nan\n"},
-    {"numbers beyond what the GPU has",
+    {"numbers out of range for the GPU",
      "        !transform scale=1e300 translate=1e300 rotate_x=1e300 shear_y=1e300 matrix=1e200\n"
      "            !sphere size=1e300 position=1e300 color=1e300 emissive=-1e300 translucency=1e300\n"
      "        !sphere position=1.5;0;0 size=1e-300 color=1 translucency=1e-300\n"
@@ -81,11 +81,10 @@ static const Row rows[] = {
      "        !box position=1.5;0;0 color=1 color_id=:hurt\n    !image id=:hurt filename='damaged.png' hidden=true\n"
      "    !image filename='none.png' hidden=true\n",
      NULL},
-    {"nodes that nobody knows", "        !sphere3 color=1\n            !sphere color=0;1;0\n        !rect size=1\n",
-     "5 ["},
+    {"unknown nodes", "        !sphere3 color=1\n            !sphere color=0;1;0\n        !rect size=1\n", "5 ["},
 };
 
-static void test_rows(void **state) {
+static void test_each_problem_is_reported_once(void **state) {
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         char script[4000];
@@ -96,7 +95,7 @@ static void test_rows(void **state) {
             snprintf(drawn.reported, sizeof drawn.reported, "%s",
                      strstr(drawn.reported, "[cannot-read]") ? "" : "nothing");
         size_t length = rows[i].reported ? strlen(rows[i].reported) : 0;
-        if (length > 0 && rows[i].reported[length - 1] != '\n') // how it begins
+        if (length > 0 && rows[i].reported[length - 1] != '\n') // compare only the start
             drawn.reported[length] = 0;
         assert_text(rows[i].name, drawn.reported, rows[i].reported ? rows[i].reported : "");
         assert_claim(rows[i].name, drawn_byte(&drawn, 32, 32, 0) > 200);
@@ -127,6 +126,7 @@ static int teardown(void **state) {
 int main(void) {
     if (!drawn_can_run())
         return 77;
-    const struct CMUnitTest tests[] = {cmocka_unit_test_setup_teardown(test_rows, setup, teardown)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(test_each_problem_is_reported_once, setup, teardown)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,9 +1,9 @@
-// test_scene_places.c: where things are in a picture that Flitter made: the six spheres of spec canvas3d.md 10.5.
+// test_scene_places.c: checks positions in a picture that Flitter made: the six spheres of spec canvas3d.md 10.5.
 //
-// The page gives their middles and colours, not the script. They lie on a level circle, evenly and in the order of
-// their hues, so that four numbers of the camera are left: its distance and height in radii of the circle, its angle
-// from the first sphere, and its field of view. Least squares put these at 3.0854, 0.5623, 10 degrees and a sixth of a
-// turn, and its focus into the circle's centre; all twelve numbers of the page must follow from them.
+// The page gives their centres and colours, but not the script. The spheres are evenly spaced on a level circle,
+// ordered by hue. So four parameters of the camera are unknown: its distance and height in radii of the circle, its
+// angle from the first sphere, and its field of view. Least squares give 3.0854, 0.5623, 10 degrees and a sixth of a
+// turn, with the focus in the circle's centre. All twelve numbers of the page must follow from these.
 #include "drawn.h"
 
 #include <math.h>
@@ -17,7 +17,7 @@ static const char script[] =
 typedef struct Place {
     const char *name;
     int x, y;
-    int bright[3]; // which channels are
+    int bright[3]; // expected bright channels
 } Place;
 
 static const Place places[] = {{"red", 1093, 675, {1, 0, 0}},   {"yellow", 1518, 576, {1, 1, 0}},
@@ -31,7 +31,7 @@ static bool is_of(const Drawn *drawn, int x, int y, const int bright[3]) {
     return true;
 }
 
-static void test_places(void **state) {
+static void test_spheres_are_where_flitter_draws_them(void **state) {
     (void)state;
     Drawn drawn;
     drawn_open(&drawn, script, 1);
@@ -54,6 +54,6 @@ static void test_places(void **state) {
 int main(void) {
     if (!drawn_can_run())
         return 77;
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_places)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_spheres_are_where_flitter_draws_them)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

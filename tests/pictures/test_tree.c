@@ -1,9 +1,9 @@
-// test_tree.c: the tree of pictures: what knows what, what a program is told, and what happens where something is wrong
-// (spec pictures.md 2, 3, 8).
+// test_tree.c: tests the tree of pictures: references between nodes, uniforms of shaders, and errors (spec pictures.md
+// 2, 3, 8).
 #include "drawn.h"
 
 #define SIZE "!window size=4;4\n"
-// A program without inputs whose `main` is this.
+// An effect node without inputs whose `main` has this body.
 #define PROGRAM(attrs, more, main)                                                                                     \
     "!shader " attrs " fragment=\"\"\"${HEADER}\nin vec2 coord;\nout vec4 color;\n" more "void main() { " main         \
     " }\n\"\"\"\n"
@@ -14,7 +14,7 @@ static int at(const Drawn *drawn, int channel) {
     return drawn_byte(drawn, 1, 1, channel);
 }
 
-// Draws so many frames: this colour, nothing told.
+// Draws `frames` frames, and checks that the colour matches and nothing is reported.
 static void check_color(const char *row, const char *script, int frames, int red, int green, int blue) {
     Drawn drawn;
     drawn_open(&drawn, script, frames);
@@ -27,42 +27,44 @@ static void check_color(const char *row, const char *script, int frames, int red
     drawn_close(&drawn);
 }
 
-// Draws two frames: each thing is told once, and this colour is seen.
-static void check_reported(const char *row, const char *script, const char *told, int red, int green, int blue) {
+// Draws two frames, and checks that each problem is reported once and that the colour matches.
+static void check_reported(const char *row, const char *script, const char *reported, int red, int green, int blue) {
     Drawn drawn;
     drawn_open(&drawn, script, 2);
-    assert_text(row, drawn.reported, told);
+    assert_text(row, drawn.reported, reported);
     assert_int_equal(at(&drawn, 0), red);
     assert_int_equal(at(&drawn, 1), green);
     assert_int_equal(at(&drawn, 2), blue);
     drawn_close(&drawn);
 }
 
-static void test_known(void **state) {
+static void test_ids_refer_to_pictures(void **state) {
     (void)state;
-    check_color("hidden",
+    check_color("refers to a hidden picture",
                 SIZE "    !vignette inset=0 hidden=true\n        " RED "    !vignette inset=0\n        " GREEN
                      "    !vignette inset=0 hidden=true\n        " RED,
                 1, 0, 255, 0);
-    check_color("earlier", SIZE "    !vignette inset=0 hidden=true id=:a;1\n        " RED "    !reference id='a1'\n", 1,
-                255, 0, 0);
+    check_color("refers to an earlier picture",
+                SIZE "    !vignette inset=0 hidden=true id=:a;1\n        " RED "    !reference id='a1'\n", 1, 255, 0,
+                0);
     static const char later[] = SIZE "    !reference id='a'\n    " PROGRAM(
         "id='a' hidden=true", "uniform float frame;\n", "color = vec4(frame == 0.0, frame == 1.0, frame == 2.0, 1.0);");
-    check_color("later: nothing in the first frame", later, 1, 0, 0, 0);
-    check_color("later: that of the frame before", later, 2, 255, 0, 0);
-    check_color("later: and so on", later, 3, 0, 255, 0);
-    check_color("of two with one id the later",
+    check_color("refers to a later picture: nothing in the first frame", later, 1, 0, 0, 0);
+    check_color("refers to a later picture: that of the previous frame", later, 2, 255, 0, 0);
+    check_color("refers to a later picture: again in the third frame", later, 3, 0, 255, 0);
+    check_color("refers to the later of two with the same id",
                 SIZE "    !vignette inset=0 hidden=true id=:a\n        " RED
                      "    !vignette inset=0 hidden=true id=:a\n        " GREEN "    !reference id=:a\n",
                 1, 0, 255, 0);
-    check_color("of an earlier offscreen",
+    check_color("refers to an earlier offscreen",
                 "!offscreen size=2;2 id=:o\n    !vignette inset=0\n        " RED SIZE "    !reference id=:o\n", 1, 255,
                 0, 0);
-    check_color("of itself: grows by each frame",
+    check_color("refers to itself: grows in each frame",
                 SIZE "    !shader composite=:add id=:self\n        !reference id=:self\n        " PROGRAM(
                     "", "", "color = vec4(0.2, 0.0, 0.0, 0.2);"),
                 3, 203, 0, 0); // enc(0.6)
-    check_color("nobody", SIZE "    !reference id=:nobody\n    !vignette inset=0\n        " RED, 2, 255, 0, 0);
+    check_color("refers to an unknown id", SIZE "    !reference id=:missing\n    !vignette inset=0\n        " RED, 2,
+                255, 0, 0);
 }
 
 // Adds its colour in each frame.
@@ -72,31 +74,32 @@ static void test_known(void **state) {
 #define FIRST ADDING("#one", "0.1, 0.0, 0.0")
 #define SECOND ADDING("#two", "0.0, 0.2, 0.0")
 
-static void test_identity(void **state) {
+static void test_nodes_continue_between_frames(void **state) {
     (void)state;
-    check_color("goes on", SIZE "    " ADDING("", "0.2, 0.0, 0.0"), 3, 203, 0, 0);
-    // Two of the same kind take turns in their place: their ids or tags tell them apart, and the larger of
-    // both sums shows whether each went on.
-    check_color("with an id",
+    check_color("continues", SIZE "    " ADDING("", "0.2, 0.0, 0.0"), 3, 203, 0, 0);
+    // Two nodes of the same kind alternate in order, but ids or tags identify them. The larger of both sums shows
+    // whether each node continued.
+    check_color("continues by its id",
                 SIZE "    !shader composite=:lighten\n"
                      "        for i in ((0;1) if frame % 2 else (1;0))\n"
                      "            " PROGRAM("id=i tint=i", "uniform sampler2D last;\nuniform float tint;\n",
                                             "color = texture(last, coord) + 0.1 * vec4(1.0 - tint, 2.0 * tint, 0.0, "
                                             "1.0);"),
                 3, 149, 203, 0); // enc(0.3), enc(0.6)
-    check_color("with a tag",
+    check_color("continues by its tag",
                 SIZE "    !shader composite=:lighten\n        if frame % 2\n            " FIRST "            " SECOND
                      "        else\n            " SECOND "            " FIRST,
                 3, 149, 203, 0);
-    // One that was away for a frame begins anew.
-    check_color("away", SIZE "    if frame != 2\n        " ADDING("", "0.2, 0.0, 0.0") "    !canvas\n", 4, 124, 0, 0);
-    // One of another kind before it does not matter.
-    check_color("another kind before",
+    // A node that was missing in a frame starts from scratch.
+    check_color("restarts after a missing frame",
+                SIZE "    if frame != 2\n        " ADDING("", "0.2, 0.0, 0.0") "    !canvas\n", 4, 124, 0, 0);
+    // A node of another kind before it does not matter.
+    check_color("continues after a node of another kind",
                 SIZE "    if frame % 2\n        !vignette\n            !canvas\n    " ADDING("", "0.2, 0.0, 0.0"), 3,
                 203, 0, 0);
 }
 
-static void test_passes(void **state) {
+static void test_passes_see_first_and_last(void **state) {
     (void)state;
     check_color("last, first, pass, passes",
                 SIZE "    " PROGRAM("passes=3", "uniform sampler2D last, first;\nuniform int pass, passes;\n",
@@ -104,7 +107,7 @@ static void test_passes(void **state) {
                                     "texture(first, coord);\n"
                                     "if (pass == 2) color.b = color.b == 9.0 ? 1.0 : 0.0;"),
                 1, 203, 0, 255); // enc(0.6), 3 passes of 3
-    check_color("first is nothing in pass 0; last is of the frame before",
+    check_color("in pass 0, first is empty and last is the previous frame",
                 SIZE "    " PROGRAM("", "uniform sampler2D last, first;\n",
                                     "color = vec4(texture(first, coord).a, texture(last, coord).g + 0.2, 0.0, 1.0);"),
                 3, 0, 203, 0);
@@ -115,11 +118,11 @@ static void test_passes(void **state) {
                                                   "color = pass == 0 ? vec4(size / 10.0, float(downsample) / 10.0, 1.0)"
                                                   " : texture(last, coord) * float(downsample);"),
                 1, 170, 124, 149); // 4 / 10, 2 / 10, 3 / 10
-    check_color("the usual program in several passes", SIZE "    !shader alpha=0.5 downsample_passes=0;1\n        " RED,
-                1, 188, 0, 0);
+    check_color("the default shader runs in several passes",
+                SIZE "    !shader alpha=0.5 downsample_passes=0;1\n        " RED, 1, 188, 0, 0);
 }
 
-static void test_uniforms(void **state) {
+static void test_uniforms_have_values(void **state) {
     (void)state;
     check_color("numbers",
                 SIZE
@@ -130,11 +133,11 @@ static void test_uniforms(void **state) {
                 SIZE "    " PROGRAM("list=0.2;0;0;0;0.4;0 same=0;0.2;0.6", "uniform vec3 list[2], same[2];\n",
                                     "color = vec4(list[0] + list[1] + same[1], 1.0);"),
                 1, 124, 203, 203);
-    check_color("what does not fit, what nobody knows, alpha",
-                SIZE "    " PROGRAM("alpha=0.2 two=1;1", "uniform vec3 two;\nuniform float nobody, alpha;\n",
-                                    "color = vec4(two.x, nobody, alpha, 1.0);"),
+    check_color("mismatched and unknown uniforms are 0, alpha is set",
+                SIZE "    " PROGRAM("alpha=0.2 two=1;1", "uniform vec3 two;\nuniform float unknown, alpha;\n",
+                                    "color = vec4(two.x, unknown, alpha, 1.0);"),
                 1, 0, 0, 124);
-    check_color("the frame",
+    check_color("values of the frame",
                 "%pragma tempo 60\n%pragma fps 10\n" SIZE "    " PROGRAM(
                     "", "uniform float time, beat, tempo, fps, delta;\n",
                     "color = vec4(time, beat, tempo == 60.0 && fps == 10.0 && abs(delta - 0.1) < 1e-6, 1.0);"),
@@ -151,7 +154,7 @@ static void test_uniforms(void **state) {
     drawn_close(&drawn);
 }
 
-static void test_bad_programs(void **state) {
+static void test_shader_errors_are_at_their_lines(void **state) {
     (void)state;
     check_color("#version 330",
                 SIZE "    !shader fragment=\"\"\"\n#version 330\nout vec4 color;\nvoid main() { color = vec4(0.2, 0.0, "
@@ -159,52 +162,54 @@ static void test_bad_programs(void **state) {
                 1, 124, 0, 0);
     check_reported("templates", SIZE "    !shader fragment=\"${HEADER} ${more}\"\n    !vignette inset=0\n        " RED,
                    "2 [bad-shader] !shader: only the template ${HEADER} is supported\n", 255, 0, 0);
-    // The compiler's words come from the driver; the line is the script's, where the text stands there.
+    // The message comes from the driver. The line is that of the script if the text is written there.
     static const struct {
         const char *row;
         const char *script;
-        const char *told; // how that begins
+        const char *reported; // start of the report
     } bad[] = {
-        {"a literal",
+        {"shader is a literal",
          "    !shader alpha=1 fragment=\"\"\"${HEADER}\nout vec4 color;\n\nvoid main() { wrong = 1.0; }\n\"\"\"\n",
          "7:15 [bad-shader] !shader: "},
-        {"indented",
+        {"shader is indented",
          "    !shader fragment=\"\"\"\n\n    #version 330\n    out vec4 color;\n    void main() {\n"
          "        color = wrong;\n    }\n\"\"\"\n",
          "9:17 [bad-shader] !shader: "},
-        {"named elsewhere",
+        {"shader is bound to a name",
          "    let text=\"${HEADER} out vec4 c; void main() { c = wrong; }\"\n    !blur fragment=text\n",
          "4:55 [bad-shader] !blur: "},
-        {"of vertices", "    !shader vertex=\"\"\"${HEADER}\nvoid main() { gl_Position = wrong; }\"\"\"\n",
+        {"vertex shader", "    !shader vertex=\"\"\"${HEADER}\nvoid main() { gl_Position = wrong; }\"\"\"\n",
          "5:29 [bad-shader] !shader: "},
-        {"made", "    !shader fragment=concat('${HEADER}';\"\"\"\n\"\"\";'void main() { wrong(); }')\n",
+        {"shader is computed", "    !shader fragment=concat('${HEADER}';\"\"\"\n\"\"\";'void main() { wrong(); }')\n",
          "4:13 [bad-shader] !shader: line 2 of its shader: "},
-        {"read", "    !shader fragment=read('bad.glsl')\n", "4:13 [bad-shader] !shader: bad.glsl:3: "},
+        {"shader is read from a file", "    !shader fragment=read('bad.glsl')\n",
+         "4:13 [bad-shader] !shader: bad.glsl:3: "},
     };
     FILE *file = fopen("bad.glsl", "w");
     fputs("${HEADER}\nout vec4 c;\nvoid main() { c = wrong; }\n", file);
     fclose(file);
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         Drawn drawn;
-        char script[1000], told[100];
+        char script[1000], start[100];
         snprintf(script, sizeof script, SIZE "    !canvas\n        !rect size=9;9 fill=true color=1;0;0\n%s",
                  bad[i].script);
         drawn_open(&drawn, script, 2);
         assert_claim(bad[i].row, at(&drawn, 0) == 255);
         unsigned line = (unsigned)strtoul(drawn.reported, NULL, 10);
-        snprintf(told, sizeof told, "%u:%u%s", line, drawn.column, strchr(drawn.reported, ' '));
-        told[strlen(bad[i].told)] = 0;
-        assert_text(bad[i].row, told, bad[i].told);
-        assert_claim(bad[i].row, strchr(drawn.reported, '\n') == drawn.reported + strlen(drawn.reported) - 1); // once
+        snprintf(start, sizeof start, "%u:%u%s", line, drawn.column, strchr(drawn.reported, ' '));
+        start[strlen(bad[i].reported)] = 0;
+        assert_text(bad[i].row, start, bad[i].reported);
+        assert_claim(bad[i].row,
+                     strchr(drawn.reported, '\n') == drawn.reported + strlen(drawn.reported) - 1); // one line
         drawn_close(&drawn);
     }
     remove("bad.glsl");
 }
 
-static void test_bad_input(void **state) {
+static void test_bad_input_is_reported_once(void **state) {
     (void)state;
     static char deep[20000];
-    check_reported("beyond all sizes",
+    check_reported("sizes out of range",
                    SIZE "    !blur size=100000;4\n        " RED "    !vignette inset=0\n        " RED,
                    "2 [bad-size] !blur: a picture can have 1 to 16384 pixels in width and height\n", 255, 0, 0);
     check_reported("nan",
@@ -217,12 +222,12 @@ static void test_bad_input(void **state) {
                    "5 [bad-attribute] !vignette: inset should be number, not nan\n",
                    255, 0, 0);
     check_reported(
-        "unknown word to combine",
+        "unknown composite mode",
         SIZE "    !blur composite=:nonsense\n        " RED "        " RED "    !vignette inset=0\n        " GREEN,
         "2 [bad-attribute] !blur: composite should be :over, :dest_over, :lighten, :darken, :add, :difference "
         "or :multiply, not :nonsense\n",
         0, 255, 0);
-    check_reported("ids in a circle",
+    check_reported("ids that refer to each other",
                    SIZE "    !blur id=:a\n        !reference id=:b\n    !blur id=:b\n        !reference id=:a\n"
                         "        " RED,
                    "", 255, 0, 0);
@@ -231,18 +236,19 @@ static void test_bad_input(void **state) {
         end += snprintf(deep + end, sizeof deep - (size_t)end, "%*s!vignette inset=0\n", i + 1, "");
     snprintf(deep + end, sizeof deep - (size_t)end, "%*s!canvas\n%*s!rect size=9;9 fill=true color=1;0;0\n", 99, "",
              100, "");
-    check_reported("98 deep", deep, "", 255, 0, 0);
+    check_reported("98 levels are drawn", deep, "", 255, 0, 0);
     end = snprintf(deep, sizeof deep, SIZE " !canvas\n  !rect size=9;9 fill=true color=0;1;0\n");
     for (int i = 0; i < 100; i++)
         end += snprintf(deep + end, sizeof deep - (size_t)end, "%*s!vignette inset=0\n", i + 1, "");
     snprintf(deep + end, sizeof deep - (size_t)end, "%*s!canvas\n%*s!rect size=9;9 fill=true color=1;0;0\n", 101, "",
              102, "");
-    check_reported("100 deep", deep,
+    check_reported("100 levels are reported", deep,
                    "0 [too-deep] pictures are nested more than 100 deep; the innermost are left out\n", 0, 255, 0);
 }
 
-// Where no OpenGL starts, what is inside of programs is seen as it is. The last test: nothing starts after it.
-static void test_without(void **state) {
+// Without OpenGL, the children of effects are drawn without the effect. This must be the last test, because OpenGL
+// cannot be opened after it.
+static void test_without_gpu_children_are_drawn(void **state) {
     (void)state;
     setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/dev/null", 1);
     setenv("EGL_PLATFORM", "nonsense", 1);
@@ -255,14 +261,14 @@ static void test_without(void **state) {
     drawn_close(&drawn);
 }
 
-// What nodes hold on the GPU counts for --memory; what is too much is left out, and the rest is there, in each frame.
-static void test_memory(void **state) {
+// GPU memory of nodes counts for --memory. Pictures that exceed it are left out, and the rest is drawn in each frame.
+static void test_memory_limit_is_reported_once(void **state) {
     (void)state;
     static const char *const nodes[] = {
         "    !blur size=2000;2000 radius=1\n        !canvas\n            !rect size=2000 fill=true color=1;0;0\n",
         "    !canvas3d size=1500;1500 samples=4\n        !light color=1\n        !sphere size=500 color=1;0;0\n",
     };
-    static const char *const told[] = {
+    static const char *const reports[] = {
         "5 [memory-limit] !blur: a picture of 2000 x 2000 pixels exceeds the memory limit (--memory); "
         "it is left out\n",
         "5 [memory-limit] !canvas3d: a picture of 1500 x 1500 pixels exceeds the memory limit "
@@ -273,7 +279,7 @@ static void test_memory(void **state) {
         Drawn drawn;
         snprintf(script, sizeof script, SIZE "    !vignette inset=0\n        " GREEN "%s", nodes[i]);
         drawn_open_with(&drawn, script, 3, 60 << 20);
-        assert_text("memory", drawn.reported, told[i]);
+        assert_text("memory limit", drawn.reported, reports[i]);
         assert_int_equal(at(&drawn, 1), 255);
         assert_int_equal(at(&drawn, 0), 0);
         drawn_close(&drawn);
@@ -287,11 +293,12 @@ static void test_memory(void **state) {
 int main(int argc, char **argv) {
     (void)argv;
     static const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_known),     cmocka_unit_test(test_memory),   cmocka_unit_test(test_identity),
-        cmocka_unit_test(test_passes),    cmocka_unit_test(test_uniforms), cmocka_unit_test(test_bad_programs),
-        cmocka_unit_test(test_bad_input),
+        cmocka_unit_test(test_ids_refer_to_pictures),         cmocka_unit_test(test_memory_limit_is_reported_once),
+        cmocka_unit_test(test_nodes_continue_between_frames), cmocka_unit_test(test_passes_see_first_and_last),
+        cmocka_unit_test(test_uniforms_have_values),          cmocka_unit_test(test_shader_errors_are_at_their_lines),
+        cmocka_unit_test(test_bad_input_is_reported_once),
     };
-    static const struct CMUnitTest without[] = {cmocka_unit_test(test_without)};
+    static const struct CMUnitTest without[] = {cmocka_unit_test(test_without_gpu_children_are_drawn)};
     enum { SKIP = 77 };
     if (argc > 1)
         return cmocka_run_group_tests(without, NULL, NULL);

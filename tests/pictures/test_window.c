@@ -1,5 +1,5 @@
-// test_window.c: pictures on a window of OpenGL ES: what is there is what files have, and nothing is read back. The
-// window is one in memory.
+// test_window.c: checks that pictures on a window of OpenGL ES equal those in files, without downloads from the GPU.
+// The window is an offscreen surface.
 #include "drawn.h"
 
 #include <epoxy/egl.h>
@@ -45,7 +45,7 @@ static void use_window(bool on) {
     assert_true(eglMakeCurrent(egl.display, surface, surface, on ? egl.context : EGL_NO_CONTEXT));
 }
 
-// Rows from the top, as files have them.
+// Reads the window's rows from the top, as files have them.
 static void read_window(uint32_t *pixels) {
     unsigned char row[WIDTH * 4];
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -58,7 +58,7 @@ static void read_window(uint32_t *pixels) {
     assert_int_equal(glGetError(), GL_NO_ERROR);
 }
 
-// How far apart two pictures are, in any channel.
+// Returns the largest difference of two pictures in any channel.
 static int distance(const uint32_t *one, const uint32_t *other) {
     int most = 0;
     for (int i = 0; i < WIDTH * HEIGHT; i++)
@@ -81,7 +81,7 @@ static const PetriLabel label = {.text = "on top",
                                  .foreground = {1, 1, 1, 1},
                                  .accent = {1, 0, 0, 1}};
 
-// Shows frames with one painter, with another one draws their pixels and lays the label over: so far they are apart.
+// Presents frames with one painter, draws their pixels and labels with another one, and returns the largest difference.
 static int present_script(const char *script, int frames, size_t labels) {
     uint32_t seen[WIDTH * HEIGHT], wanted[WIDTH * HEIGHT];
     Drawn drawn;
@@ -125,7 +125,7 @@ static int present_script(const char *script, int frames, size_t labels) {
     "            for i in ..60\n"                                                                                      \
     "                !rect point=2.5*i;i size=20;30 color=hsv(i/60;1;i/40) fill=true\n"
 
-static void test_same_bytes(void **state) {
+static void test_window_equals_file(void **state) {
     (void)state;
     assert_int_equal(present_script("!window size=150;90\n" LIGHTS, 1, 0), 0);
     assert_int_equal(present_script("!window size=150;90 colorbits=32\n" LIGHTS, 1, 0), 0);
@@ -136,8 +136,8 @@ static void test_same_bytes(void **state) {
                      0);
 }
 
-// Pixels of Cairo are drawn at the window's size.
-static void test_canvases(void **state) {
+// Canvases are drawn by Cairo at the window's size.
+static void test_canvas_is_drawn_at_window_size(void **state) {
     (void)state;
     assert_int_equal(
         present_script("!window size=70;70\n    !canvas\n        !ellipse point=35;35 radius=30 color=1;0.5;0.2 "
@@ -151,14 +151,14 @@ static void test_canvases(void **state) {
         0);
 }
 
-// Cairo mixes pixels by 128ths.
-static void test_other_sizes(void **state) {
+// Cairo interpolates between pixels in steps of 1/128.
+static void test_picture_is_scaled_to_window(void **state) {
     (void)state;
     assert_in_range(present_script("!window size=300;100\n" LIGHTS, 1, 0), 0, 2);
     assert_in_range(present_script("!window size=67;83\n" LIGHTS, 1, 0), 0, 2);
 }
 
-static void test_labels(void **state) {
+static void test_labels_are_drawn_over_picture(void **state) {
     (void)state;
     assert_in_range(present_script("!window size=150;90\n" LIGHTS, 1, 1), 0, 2);
     assert_in_range(
@@ -180,11 +180,12 @@ static void test_without_picture(void **state) {
     for (int i = 0; i < WIDTH * HEIGHT; i++)
         assert_int_equal(seen[i], 0xff000000u);
     use_window(false);
-    assert_int_equal(petri_painter_present(painter, NULL, NULL, 0, 1, WIDTH, HEIGHT), PETRI_INVALID); // not current
+    assert_int_equal(petri_painter_present(painter, NULL, NULL, 0, 1, WIDTH, HEIGHT),
+                     PETRI_INVALID); // no context is current
     petri_painter_close(&painter);
 }
 
-static void test_too_late(void **state) {
+static void test_gl_must_be_adopted_first(void **state) {
     (void)state;
     Drawn drawn;
     drawn_open(&drawn, "!window size=2;2\n    !vignette\n        !canvas\n", 1);
@@ -200,8 +201,12 @@ static void test_too_late(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_same_bytes), cmocka_unit_test(test_canvases),        cmocka_unit_test(test_other_sizes),
-        cmocka_unit_test(test_labels),     cmocka_unit_test(test_without_picture), cmocka_unit_test(test_too_late),
+        cmocka_unit_test(test_window_equals_file),
+        cmocka_unit_test(test_canvas_is_drawn_at_window_size),
+        cmocka_unit_test(test_picture_is_scaled_to_window),
+        cmocka_unit_test(test_labels_are_drawn_over_picture),
+        cmocka_unit_test(test_without_picture),
+        cmocka_unit_test(test_gl_must_be_adopted_first),
     };
     enum { SKIPPED = 77 };
     if (!drawn_can_run())

@@ -1,4 +1,4 @@
-// turbulence.h: lib/spec/canvas.md 5.5: the noise of SVG's feTurbulence, as Filter Effects 1 describes it.
+// turbulence.h: model of lib/spec/canvas.md 5.5: the noise of SVG's feTurbulence, as described in Filter Effects 1.
 #ifndef PETRI_TESTS_TURBULENCE_H
 #define PETRI_TESTS_TURBULENCE_H
 
@@ -42,7 +42,7 @@ static inline void turbulence_init(Turbulence *t, long seed) {
     }
 }
 
-// `wrap`: cells of a tile in this octave; 0: none.
+// `wrap`: cells of a tile in this octave; 0: does not repeat.
 static inline double turbulence_noise(const Turbulence *t, int channel, double x, double y, const int wrap[2]) {
     double at[2] = {x + 4096, y + 4096}, r0[2], r1[2];
     int b0[2], b1[2];

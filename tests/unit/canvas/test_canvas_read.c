@@ -1,4 +1,5 @@
-// Reading nodes into a drawing: types, words, reports. What the nodes look like is tested by tests/pictures.
+// test_canvas_read.c: tests translating nodes to a drawing: types, words, reports. tests/pictures checks how nodes
+// look.
 #include "canvas/read.h"
 #include "nodes.h"
 #include "schema.h"
@@ -12,7 +13,7 @@ static Value numbers(Fixture *f, uint32_t count, const double *x) {
 }
 #define NUMBERS(f, ...) numbers(f, sizeof((double[]){__VA_ARGS__}) / sizeof(double), (const double[]){__VA_ARGS__})
 
-// A canvas that holds one node with one attribute, read; NULL if the node was left out.
+// Reads a canvas that contains one node with one attribute. Returns NULL if the node was left out.
 static const DrawNode *read_one(Fixture *f, const char *kind, const char *attribute, Value v) {
     const Node *inner =
         node_set_attrs(&f->arena, node_new(&f->arena, name(f, kind)), &(Attr){name(f, attribute), v}, 1);
@@ -24,7 +25,7 @@ static const DrawNode *read_one(Fixture *f, const char *kind, const char *attrib
     return read->children[0]->child_count ? read->children[0]->children[0] : NULL;
 }
 
-static void test_types(void **state) {
+static void test_attributes_have_types(void **state) {
     (void)state;
     Fixture f;
     begin(&f);
@@ -51,7 +52,7 @@ static void test_types(void **state) {
     end(&f);
 }
 
-static void test_reports(void **state) {
+static void test_bad_attributes_are_reported(void **state) {
     (void)state;
     Fixture f;
     begin(&f);
@@ -59,8 +60,8 @@ static void test_reports(void **state) {
         const char *kind, *attribute;
         uint32_t count;
         double x[4];
-        bool kept; // the node
-        const char *told;
+        bool kept; // true if the node was read
+        const char *reported;
     } rows[] = {
         {"ellipse",
          "radius",
@@ -101,15 +102,15 @@ static void test_reports(void **state) {
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         const DrawNode *node = read_one(&f, rows[i].kind, rows[i].attribute, numbers(&f, rows[i].count, rows[i].x));
-        assert_text(rows[i].told, f.reported, rows[i].told);
+        assert_text(rows[i].reported, f.reported, rows[i].reported);
         assert_int_equal(node != NULL, rows[i].kept);
         assert_true(!node || node->attr_count == 0);
     }
     end(&f);
 }
 
-// Colours of bytes are told when asked for; those of light beyond white are not.
-static void test_lint(void **state) {
+// The lint reports colours in bytes, up to 255. Colours of bright light are not reported.
+static void test_lint_reports_byte_colours(void **state) {
     (void)state;
     Fixture f;
     begin(&f);
@@ -127,7 +128,7 @@ static void test_lint(void **state) {
     end(&f);
 }
 
-// What Flitter draws and petri does not is no misspelling of what petri draws.
+// Nodes that Flitter draws and petri does not are not taken for misspelled nodes of petri.
 static void test_unsupported_nodes(void **state) {
     (void)state;
     Fixture f;
@@ -142,9 +143,9 @@ static void test_unsupported_nodes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_types),
-        cmocka_unit_test(test_reports),
-        cmocka_unit_test(test_lint),
+        cmocka_unit_test(test_attributes_have_types),
+        cmocka_unit_test(test_bad_attributes_are_reported),
+        cmocka_unit_test(test_lint_reports_byte_colours),
         cmocka_unit_test(test_unsupported_nodes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

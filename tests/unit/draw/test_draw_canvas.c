@@ -1,5 +1,5 @@
-// Numbers of canvases on single pixels, from the formulas of spec canvas.md: how colours combine, linear light,
-// gradients, where text stands.
+// test_draw_canvas.c: compares single pixels of canvases with the formulas of spec canvas.md: composite modes, linear
+// light, gradients, positions of text.
 #include "petri-draw.h"
 #include "player.h"
 
@@ -7,9 +7,9 @@
 
 enum { SIDE = 8 };
 
-typedef double Colour[4]; // multiplied by alpha
+typedef double Colour[4]; // premultiplied
 
-// Draws a script's first frame; false if this build cannot draw.
+// Draws the first frame of a script. Returns false if this build cannot draw.
 static bool draw_script(Player *player, const char *script, uint32_t *pixels, int width, int height) {
     assert_int_equal(petri_load_text(player->session, "t.fl", script, PETRI_NUL_TERMINATED), PETRI_OK);
     assert_int_equal(petri_step(player->session), PETRI_OK);
@@ -32,7 +32,7 @@ static void assert_near(const char *what, uint32_t pixel, const Colour wanted, i
     }
 }
 
-// B(s, d) of a channel; sa and da the alphas.
+// Returns B(s, d) of a channel; sa and da are the alphas.
 static double combine_channel(const char *mode, double s, double sa, double d, double da) {
     double c = sa > 0 ? s / sa : 0, b = da > 0 ? d / da : 0, mixed;
     if (!strcmp(mode, "clear"))
@@ -86,17 +86,17 @@ static double combine_channel(const char *mode, double s, double sa, double d, d
     return s * (1 - da) + d * (1 - sa) + sa * da * mixed;
 }
 
-static void test_modes(void **state) {
+static void test_blend_modes_match_formulas(void **state) {
     static const char *const modes[] = {
         "clear",    "source",  "dest",       "over",      "dest_over",   "in",         "dest_in", "out",
         "dest_out", "atop",    "dest_atop",  "xor",       "add",         "modulate",   "screen",  "multiply",
         "darken",   "lighten", "difference", "exclusion", "color_dodge", "color_burn", "overlay", "hard_light"};
-    static const Colour s = {1, 0.6, 0.2, 0.6}, d = {0.2, 0.4, 0.8, 0.8}; // not multiplied
+    static const Colour s = {1, 0.6, 0.2, 0.6}, d = {0.2, 0.4, 0.8, 0.8}; // not premultiplied
     Player *player = *state;
     uint32_t pixels[SIDE * SIDE];
     char script[1000];
     for (size_t i = 0; i < sizeof modes / sizeof modes[0]; i++) {
-        // The figure covers the left half, three quarters of column 4 and nothing of the right.
+        // The shape covers the left half, three quarters of column 4 and nothing on the right.
         snprintf(script, sizeof script,
                  "!offscreen size=8\n    !canvas\n        !rect size=8 fill=true color=0.2;0.4;0.8;0.8\n"
                  "        !rect size=4.75;8 fill=true color=1;0.6;0.2;0.6 composite=:%s\n",
@@ -112,13 +112,13 @@ static void test_modes(void **state) {
             outside[k] = dest;
         }
         assert_near(modes[i], pixels[SIDE + 2], inside, 2);
-        if (strcmp(modes[i], "add") != 0) // Cairo cuts off what is beyond 1 after the edge, which is on the safe side
+        if (strcmp(modes[i], "add") != 0) // Cairo clamps after applying the coverage, which only makes pixels darker
             assert_near(modes[i], pixels[SIDE + 4], edge, 3);
         assert_near(modes[i], pixels[SIDE + 6], outside, 1);
     }
 }
 
-// The same for a stroke, which is kept to itself by another way.
+// Like test_blend_modes_match_formulas for strokes, which are restricted to their shape by other code.
 static void test_stroke_modes(void **state) {
     static const char *const modes[] = {"in", "out", "dest_in", "dest_atop", "modulate"};
     Player *player = *state;
@@ -143,8 +143,8 @@ static double srgb_encode(double c) {
     return c <= 0.0031308 ? 12.92 * c : 1.055 * pow(c, 1 / 2.4) - 0.055;
 }
 
-// Each draw adds whole bytes of linear light: 0.01 three, 0.006 two (1.4).
-static void test_linear(void **state) {
+// Each draw adds whole bytes of linear light: 0.01 adds three, 0.006 adds two (1.4 rounded up).
+static void test_linear_light_adds_whole_bytes(void **state) {
     Player *player = *state;
     uint32_t pixels[SIDE * SIDE];
     if (!draw_script(player,
@@ -156,17 +156,17 @@ static void test_linear(void **state) {
                 (Colour){srgb_encode(60.0 / 255), srgb_encode(40.0 / 255), srgb_encode(60.0 / 255), 1}, 1);
 }
 
-static void test_paint(void **state) {
+static void test_paint_gives_expected_pixel(void **state) {
     Player *player = *state;
     uint32_t pixels[SIDE * SIDE];
     static const struct {
         const char *name;
-        const char *nodes; // in a canvas
-        Colour wanted;     // of the pixel at 4;4, whose middle is at 4.5;4.5
+        const char *nodes; // inside a canvas
+        Colour wanted;     // pixel at 4;4, whose centre is at 4.5;4.5
     } rows[] = {
-        {"black at first", "        !rect size=8 fill=true\n", {0, 0, 0, 1}},
+        {"default colour is black", "        !rect size=8 fill=true\n", {0, 0, 0, 1}},
         {"0.3 is 76.5 of 255", "        !rect size=8 fill=true color=0.3\n", {0.3, 0.3, 0.3, 1}},
-        {"one figure",
+        {"fill and stroke are one shape",
          "        !rect point=2;2 size=4 fill=true stroke=true stroke_width=8 color=1;0;0;0.5\n",
          {0.5, 0, 0, 0.5}},
         {"negative size", "        !rect point=8;8 size=-8;-8 fill=true color=0;1;0\n", {0, 1, 0, 1}},
@@ -189,7 +189,9 @@ static void test_paint(void **state) {
          "        !blend ratio=0.25\n            !color color=1;0;0\n            !color color=0;0;1\n"
          "        !rect size=8 fill=true\n",
          {0.75, 0, 0.25, 1}},
-        {"whole turn", "        !arc point=4;4 radius=4 sweep=1\n        !fill color=1\n", {0, 0, 0, 0}},
+        {"arc of a whole turn is empty",
+         "        !arc point=4;4 radius=4 sweep=1\n        !fill color=1\n",
+         {0, 0, 0, 0}},
         {"sweep before end",
          "        !arc point=4;4 radius=9 start=0 sweep=0.25 end=0.1\n        !line_to point=4;4\n        !fill "
          "color=1\n",
@@ -204,8 +206,8 @@ static void test_paint(void **state) {
     }
 }
 
-// Where the ink is (8.1); DejaVu Sans here, whose letters the tests need anyway, is measured by its symmetry.
-static void test_ink(void **state) {
+// Positions of ink (8.1). DejaVu Sans, which the tests need anyway, is measured by its symmetry.
+static void test_text_ink_is_at_point(void **state) {
     enum { WIDTH = 1280, HEIGHT = 720 };
     static uint32_t pixels[WIDTH * HEIGHT];
     Player *player = *state;
@@ -234,8 +236,9 @@ static void test_ink(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_modes), PLAYER_TEST(test_stroke_modes), PLAYER_TEST(test_linear),
-        PLAYER_TEST(test_paint), PLAYER_TEST(test_ink),
+        PLAYER_TEST(test_blend_modes_match_formulas),    PLAYER_TEST(test_stroke_modes),
+        PLAYER_TEST(test_linear_light_adds_whole_bytes), PLAYER_TEST(test_paint_gives_expected_pixel),
+        PLAYER_TEST(test_text_ink_is_at_point),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,13 +1,14 @@
-// test_draw_framing.c: the frame of the automatic picture shows all that matters, and only grows; its scale.
+// test_draw_framing.c: tests the view of the automatic picture, which shows all relevant bodies and only grows, and its
+// scale bar.
 #include "check.h"
 #include "draw/automatic.h"
 
 #include <math.h>
 
-enum { MOST = 64 };
+enum { MAX_BODIES = 64 };
 
 typedef struct Scene {
-    AutoBody bodies[MOST];
+    AutoBody bodies[MAX_BODIES];
     AutoSystem system;
     AutoFrame frame;
 } Scene;
@@ -33,7 +34,7 @@ static bool shows(const Scene *scene, double x, double y) {
            fabs(y - scene->frame.middle[1]) <= scene->frame.half;
 }
 
-static void test_shows_all(void **state) {
+static void test_view_shows_all_bodies(void **state) {
     (void)state;
     Scene scene;
     scene_begin(&scene, 2);
@@ -45,7 +46,7 @@ static void test_shows_all(void **state) {
     assert_true(scene.frame.half < 150);
 }
 
-static void test_only_grows(void **state) {
+static void test_view_only_grows(void **state) {
     (void)state;
     Scene scene;
     scene_begin(&scene, 2);
@@ -53,7 +54,7 @@ static void test_only_grows(void **state) {
     add_body(&scene, 10, 0, 1);
     choose_frame(&scene);
     AutoFrame first = scene.frame;
-    for (int i = 0; i < 50; i++) { // wobbles, and shrinks to half
+    for (int i = 0; i < 50; i++) { // moves to and fro, and shrinks to half
         scene.bodies[0].position[0] = -10 + i * 0.1 + sin(i) * 0.3;
         scene.bodies[1].position[1] = cos(i);
         choose_frame(&scene);
@@ -69,8 +70,8 @@ static void test_only_grows(void **state) {
     assert_memory_equal(&scene.frame, &grown, sizeof grown);
 }
 
-// A body by itself is not followed: it is seen to move from the origin.
-static void test_lone(void **state) {
+// The view does not follow a single body, so that its motion from the origin is visible.
+static void test_view_does_not_follow_lone_body(void **state) {
     (void)state;
     Scene scene;
     scene_begin(&scene, 2);
@@ -87,13 +88,13 @@ static void test_lone(void **state) {
     scene.bodies[0].position[0] = 1200;
     choose_frame(&scene);
     assert_true(shows(&scene, 1200, 60) && shows(&scene, 0, 0));
-    scene_begin(&scene, 2); // at rest, it does not fill the picture
+    scene_begin(&scene, 2); // at rest, it does not fill the view
     add_body(&scene, 0, 0, 10);
     choose_frame(&scene);
     assert_true(scene.frame.half >= 80);
 }
 
-static void test_scale(void **state) {
+static void test_scale_bar_has_round_length(void **state) {
     (void)state;
     static const struct { double half, length; } rows[] = {{1, 0.2}, {12, 5}, {160, 50}, {1e9, 2e8}, {3e-7, 1e-7}};
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
@@ -110,8 +111,8 @@ static void test_scale(void **state) {
     }
 }
 
-// One that flies away does not make the others too small to see.
-static void test_forgets_the_lost(void **state) {
+// A body that flies away does not make the others too small to see.
+static void test_view_ignores_distant_body(void **state) {
     (void)state;
     Scene scene;
     scene_begin(&scene, 2);
@@ -123,10 +124,10 @@ static void test_forgets_the_lost(void **state) {
     assert_true(shows(&scene, 5, 4));
 }
 
-static void test_degenerate(void **state) {
+static void test_view_of_degenerate_systems(void **state) {
     (void)state;
     Scene scene;
-    scene_begin(&scene, 3); // the first frame that has bodies chooses
+    scene_begin(&scene, 3); // the view is chosen by the first frame with bodies
     choose_frame(&scene);
     assert_true(scene.frame.half == 0);
     scene_begin(&scene, 3);
@@ -147,8 +148,9 @@ static void test_degenerate(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_shows_all), cmocka_unit_test(test_only_grows),       cmocka_unit_test(test_lone),
-        cmocka_unit_test(test_scale),     cmocka_unit_test(test_forgets_the_lost), cmocka_unit_test(test_degenerate),
+        cmocka_unit_test(test_view_shows_all_bodies),          cmocka_unit_test(test_view_only_grows),
+        cmocka_unit_test(test_view_does_not_follow_lone_body), cmocka_unit_test(test_scale_bar_has_round_length),
+        cmocka_unit_test(test_view_ignores_distant_body),      cmocka_unit_test(test_view_of_degenerate_systems),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-// petri_picture: copies of frames that are drawn later, and what there is to draw.
+// test_draw_pictures.c: tests petri_picture: copies of frames that are drawn later, and the choice of their content.
 #include "petri-draw.h"
 #include "player.h"
 
@@ -16,7 +16,7 @@ static PetriPicture *make_picture(Player *player, PetriPictureOptions options, P
     return picture;
 }
 
-// The column of the only red pixel of the first row; -2 if this build cannot draw.
+// Returns the column of the only red pixel in the first row; -2 if this build cannot draw.
 static int red_column(PetriPicture *picture) {
     uint32_t pixels[8 * 4];
     PetriPainter *painter = petri_painter_open();
@@ -34,7 +34,7 @@ static int red_column(PetriPicture *picture) {
     return column;
 }
 
-// Of this process; 0 where the system has no list of them.
+// Returns the number of threads of this process; 0 where the system does not list them.
 static int thread_count(void) {
     DIR *threads = opendir("/proc/self/task");
     int count = 0;
@@ -45,7 +45,7 @@ static int thread_count(void) {
     return count;
 }
 
-// What looks for fonts goes on by itself, and a process may end before it.
+// Pango searches for fonts in a background thread, and a process may exit before it ends.
 static void test_no_fonts_without_text(void **state) {
     Player *player = *state;
     player_run(player, DISC, 1);
@@ -53,13 +53,14 @@ static void test_no_fonts_without_text(void **state) {
     int before = thread_count();
     uint32_t pixels[8 * 4];
     PetriPainter *painter = petri_painter_open();
-    (void)petri_picture_draw(picture, painter, pixels, 8, 4, 8 * sizeof *pixels); // missing, in builds that cannot
+    (void)petri_picture_draw(picture, painter, pixels, 8, 4,
+                             8 * sizeof *pixels); // unsupported in builds that cannot draw
     assert_int_equal(thread_count(), before);
     petri_painter_close(&painter);
     petri_picture_free(&picture);
 }
 
-static void test_independent(void **state) {
+static void test_picture_outlives_session(void **state) {
     Player *player = *state;
     int width, height;
     player_run(player, DISC, 2);
@@ -81,7 +82,7 @@ static void test_independent(void **state) {
         assert_true(petri_picture_record(second, painter, 0, &record));
         assert_string_equal(record.file, "a.png");
         assert_false(petri_picture_record(second, painter, 1, &record));
-        assert_false(petri_picture_record(fifth, painter, 0, &record)); // another was made last
+        assert_false(petri_picture_record(fifth, painter, 0, &record)); // another picture was rendered last
     }
     petri_painter_close(&painter);
     petri_picture_size(second, &width, &height);
@@ -105,7 +106,7 @@ static void check_size(Player *player, PetriPictureOptions options, int width, i
     petri_picture_free(&picture);
 }
 
-static void test_sizes(void **state) {
+static void test_sizes_and_options_are_checked(void **state) {
     Player *player = *state;
     PetriPictureOptions options = petri_default_picture_options();
     player_run(player, DISC, 1);
@@ -129,7 +130,7 @@ static void test_sizes(void **state) {
     coarse.detail = 1.5;
     make_picture(player, coarse, PETRI_INVALID);
     options = petri_default_picture_options();
-    options.size++; // of a later petri-draw.h
+    options.size++; // a later version of petri-draw.h
     make_picture(player, options, PETRI_INVALID);
     player_run(player, "!window\n    !canvas\n", 1);
     check_size(player, petri_default_picture_options(), 512, 512);
@@ -137,8 +138,8 @@ static void test_sizes(void **state) {
     check_size(player, petri_default_picture_options(), 512, 512);
 }
 
-// Which of several things is drawn.
-static void test_choice(void **state) {
+// Chooses between windows, canvases and particles.
+static void test_choice_of_content(void **state) {
     Player *player = *state;
     PetriPictureOptions options = petri_default_picture_options();
     make_picture(player, options, PETRI_INVALID);
@@ -179,8 +180,8 @@ static bool reject_bytes(void *host, const char *text, size_t length) {
     return false;
 }
 
-// The bytes of a file, without a file.
-static void test_bytes(void **state) {
+// Encodes a file to memory.
+static void test_encode_to_memory(void **state) {
     Player *player = *state;
     player_run(player, DISC, 1);
     PetriPicture *picture = make_picture(player, petri_default_picture_options(), PETRI_OK);
@@ -201,7 +202,7 @@ static void test_bytes(void **state) {
     petri_painter_close(&painter);
 }
 
-static void test_misuse(void **state) {
+static void test_misuse_is_rejected(void **state) {
     Player *player = *state;
     uint32_t pixels[16];
     player_run(player, DISC, 1);
@@ -218,8 +219,8 @@ static void test_misuse(void **state) {
     petri_painter_close(&painter);
 }
 
-// Frames that cannot show particles yet: 0 and 1 of a window whose systems have not simulated before.
-static void test_ready(void **state) {
+// Frames that cannot show particles yet are frames 0 and 1 of windows whose systems have not simulated before.
+static void test_ready_once_particles_can_be_shown(void **state) {
     Player *player = *state;
     PetriPictureOptions own = petri_default_picture_options(), automatic = own;
     automatic.automatic = PETRI_AUTO_ALWAYS;
@@ -248,17 +249,17 @@ static void test_ready(void **state) {
             assert_true(petri_picture_ready(player->session, &automatic));
         }
     }
-    player_run(player, rows[1].system, 1); // no canvas: the picture is the automatic one
+    player_run(player, rows[1].system, 1); // no canvas, so the picture is the automatic one
     assert_true(petri_picture_ready(player->session, &own));
     snprintf(script, sizeof script, "%s%s", rows[1].system, window);
     player_run(player, script, 5);
-    player_run(player, script, 1); // loaded again: frame 0, with a state
+    player_run(player, script, 1); // reloaded: frame 0, with a state
     assert_int_equal(petri_frame(player->session).number, 0);
     assert_true(petri_picture_ready(player->session, &own));
 }
 
-// A panel with one line of text, in the middle of blue pixels: only what is in it changes, and nothing becomes clear.
-static void test_labels(void **state) {
+// Draws a panel with one line of text over blue pixels. Only pixels in the panel change, and none becomes transparent.
+static void test_label_changes_only_its_panel(void **state) {
     enum { WIDTH = 100, HEIGHT = 60 };
     (void)state;
     static uint32_t pixels[HEIGHT][WIDTH];
@@ -295,15 +296,15 @@ static void test_labels(void **state) {
     assert_true(letter_pixels > 10);
 }
 
-// Images come from the host that gives files, not from the disk.
+// Images are read by the host's callback, not from the disk.
 static const char *provide_image(void *host, const char *name, size_t *length) {
     (void)host;
-    static const char bytes[] = "these are no pixels";
+    static const char bytes[] = "not an image";
     *length = sizeof bytes - 1;
     return strcmp(name, "images/a.png") == 0 ? bytes : NULL;
 }
 
-static void test_images_of_the_host(void **state) {
+static void test_images_come_from_host(void **state) {
     Player *player = *state;
     uint32_t pixels[8 * 4];
     PetriOptions options = player_options(player);
@@ -317,16 +318,16 @@ static void test_images_of_the_host(void **state) {
     PetriPainter *painter = petri_painter_open();
     PetriStatus status = petri_picture_draw(picture, painter, pixels, 8, 4, 8 * sizeof *pixels);
     petri_picture_report(player->session, picture);
-    const char *told = player_diagnostics(player);
+    const char *reported = player_diagnostics(player);
     if (status != PETRI_UNSUPPORTED) {
-        assert_non_null(strstr(told, "cannot read 'images/./a.png': neither PNG nor JPEG"));
-        assert_non_null(strstr(told, "cannot read '/etc/passwd': No such file"));
+        assert_non_null(strstr(reported, "cannot read 'images/./a.png': neither PNG nor JPEG"));
+        assert_non_null(strstr(reported, "cannot read '/etc/passwd': No such file"));
     }
     petri_painter_close(&painter);
     petri_picture_free(&picture);
 }
 
-// The kinds that a picture is written in, as letters; what belongs to them is left out.
+// Returns the kinds of a picture's commands as letters, without their operands.
 static const char *kinds_of(PetriPicture *picture) {
     static const int sizes[] = {6, 4, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0};
     static char letters[256];
@@ -364,8 +365,8 @@ static void check_kinds(Player *player, const char *script, const char *wanted) 
     petri_picture_free(&picture);
 }
 
-// For hosts that draw by themselves: all that a canvas shows, whatever this build can draw.
-static void test_numbers(void **state) {
+// Tests display lists for hosts that draw by themselves; they contain all of a canvas, whatever this build can draw.
+static void test_display_list_has_whole_canvas(void **state) {
     Player *player = *state;
     const double *n;
     size_t count;
@@ -378,7 +379,7 @@ static void test_numbers(void **state) {
         "        !image filename='a.png' size=2\n",
         "jabeicefkjabeilabegmabehk");
     check_kinds(player, "!window size=8;4\n    !bloom radius=2\n        !canvas\n    !canvas3d\n", "nn");
-    // Effects that make too much of paths: told once, from there on lines are as they were.
+    // If effects create too many elements, that is reported once, and later lines are drawn without the effect.
     check_kinds(player,
                 "!window size=8;4\n    !canvas\n        !group\n            !jitter length=0.00004 deviation=1\n"
                 "            for i in ..25\n                !line points=0;0;4;i stroke=true\n",
@@ -388,9 +389,9 @@ static void test_numbers(void **state) {
     PetriPicture *picture = make_picture(player, petri_default_picture_options(), PETRI_OK);
     assert_int_equal(petri_picture_display_list(picture, &n, &count), PETRI_OK);
     static const double body[] = {1, 3, 4, 0, 2,
-                                  1, 0, 0, 0}; // count, place, radius, shade, anchor; no links, no barriers
+                                  1, 0, 0, 0}; // count, position, radius, shade, anchor; no links, no barriers
     assert_true(n[2] == PETRI_DRAW_PARTICLES && n[3] == 1 && n[4] == 2 && n[5] == 1);
-    assert_true(n[19] > 3); // lines of the scale
+    assert_true(n[19] > 3); // lines of the scale bar
     assert_int_equal(count, 20 + 4 * (size_t)n[19]);
     assert_memory_equal(n + 10, body, sizeof body);
     assert_int_equal(petri_picture_display_list(picture, NULL, &count), PETRI_INVALID);
@@ -405,7 +406,7 @@ static void check_whole(Player *player, const char *script, bool whole) {
     petri_picture_free(&picture);
 }
 
-static void test_whole(void **state) {
+static void test_is_display_list_without_effects(void **state) {
     Player *player = *state;
     check_whole(player, "!window\n    !canvas\n", true);
     check_whole(player, "!window\n    !canvas\n    !canvas\n", false);
@@ -415,7 +416,8 @@ static void test_whole(void **state) {
     assert_false(petri_picture_is_display_list(NULL));
 }
 
-// Fills the left half, or the whole of what is taller than it is wide; green for each command there is.
+// A backend that fills the left half, or all of a picture that is taller than wide, in a green that depends on the
+// number of commands.
 static bool fill_black(void *host, const double *numbers, size_t count, int width, int height, uint32_t *pixels) {
     ++*(int *)host;
     assert_int_equal(numbers[0], width);
@@ -432,8 +434,8 @@ static const uint32_t *provide_pixels(void *host, const char *file, int *width, 
     return strcmp(file, "a.png") == 0 ? pixels : NULL;
 }
 
-// A host draws canvases where Cairo does not; petri makes pictures of them.
-static void test_host(void **state) {
+// Without Cairo, a host's backend draws canvases, and petri composes them to pictures.
+static void test_host_backend_draws_canvases(void **state) {
     Player *player = *state;
     PetriPainter *painter = petri_painter_open();
     int calls = 0;
@@ -464,17 +466,17 @@ static void test_host(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_no_fonts_without_text),
-        PLAYER_TEST(test_independent),
-        PLAYER_TEST(test_sizes),
-        PLAYER_TEST(test_choice),
-        PLAYER_TEST(test_bytes),
-        PLAYER_TEST(test_misuse),
-        PLAYER_TEST(test_ready),
-        PLAYER_TEST(test_labels),
-        PLAYER_TEST(test_images_of_the_host),
-        PLAYER_TEST(test_numbers),
-        PLAYER_TEST(test_whole),
-        PLAYER_TEST(test_host),
+        PLAYER_TEST(test_picture_outlives_session),
+        PLAYER_TEST(test_sizes_and_options_are_checked),
+        PLAYER_TEST(test_choice_of_content),
+        PLAYER_TEST(test_encode_to_memory),
+        PLAYER_TEST(test_misuse_is_rejected),
+        PLAYER_TEST(test_ready_once_particles_can_be_shown),
+        PLAYER_TEST(test_label_changes_only_its_panel),
+        PLAYER_TEST(test_images_come_from_host),
+        PLAYER_TEST(test_display_list_has_whole_canvas),
+        PLAYER_TEST(test_is_display_list_without_effects),
+        PLAYER_TEST(test_host_backend_draws_canvases),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
-// test_gl_light.c: pixels of scenes against a model of spec canvas3d.md 5 that is written from the page alone.
+// test_gl_light.c: compares pixels of scenes with a model of spec canvas3d.md 5, which is written from the page alone.
 //
-// The surface is a wall at z = 0, or the nearest point of a sphere; its script and its model come from one record.
+// The surface is a wall at z = 0, or the nearest point of a sphere. Script and model are created from the same record.
 #include "check.h"
 #include "petri-draw.h"
 #include "petri.h"
@@ -12,8 +12,8 @@ enum { SIZE = 32, TOLERANCE = 2, LIGHTS_MAX = 3 };
 typedef struct Light {
     enum { NONE, AMBIENT, DIRECTIONAL, SPOT, POINT, LINE } kind;
     double color[3];
-    double position[3];  // of a line: start
-    double direction[3]; // of a line: end; of a spot: focus
+    double position[3];  // of a line: its start
+    double direction[3]; // of a line: its end; of a spot: its focus
     double radius;
     double outer;
     double inner;
@@ -29,7 +29,7 @@ typedef struct Case {
     double ior;
     double ao;
     double transparency;
-    double translucency; // the wall is 1 thick
+    double translucency; // the wall has thickness 1
     bool orthographic;
     bool monochrome;
     double tint[3];
@@ -163,8 +163,7 @@ static void add_light(Point *at, const Light *light) {
     }
 }
 
-// Light that goes in at the wall's back comes through: canvas3d.md 5.6 where the back is the same all over. Changes the
-// opacity.
+// Adds the light that enters at the wall's back (canvas3d.md 5.6), where the back is uniform. Changes the opacity.
 static void come_through(Point *at, const Case *c, double *opacity) {
     const Light *light = &c->lights[0];
     double T = pow(0.5, 1 / c->translucency), towards[3], zero[3] = {0};
@@ -178,7 +177,7 @@ static void come_through(Point *at, const Case *c, double *opacity) {
     *opacity *= 1 - pow(T, 5);
 }
 
-// The colour that point p of a surface with a normal shows to a camera at 0;0;4 that looks along -z.
+// Computes the colour of point p of a surface with normal N, seen by a camera at 0;0;4 that looks along -z.
 static void model(const Case *c, const double p[3], const double N[3], double out[3]) {
     double eye[3] = {0, 0, 4};
     Point at = {.c = c, .p = {p[0], p[1], p[2]}, .N = {N[0], N[1], N[2]}, .V = {0, 0, 1}, .D = 4 - p[2]};
@@ -262,7 +261,7 @@ static void write_script(char *out, const Case *c, const char *surface) {
             c->ior, c->ao, c->transparency, c->translucency);
 }
 
-static bool missing; // OpenGL
+static bool missing; // OpenGL is not available
 
 static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     (void)host;
@@ -271,7 +270,7 @@ static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
         printf("%s", diagnostic->rendered);
 }
 
-// False if there is no OpenGL.
+// Returns false if OpenGL is not available.
 static bool draw_script(const char *script, uint32_t pixels[SIZE * SIZE]) {
     PetriOptions options = petri_default_options();
     options.on_diagnostic = on_diagnostic;
@@ -296,13 +295,13 @@ static bool draw_script(const char *script, uint32_t pixels[SIZE * SIZE]) {
     { 0, 0, 1, 0 }
 #define USUAL .roughness = 1, .ior = 1.5, .ao = 1, .tint = WHITE, .fog_curve = 1
 static const Case cases[] = {
-    {.name = "one of the page",
+    {.name = "example of the spec",
      .color = WHITE,
      USUAL,
      .orthographic = true,
      .lights = {{DIRECTIONAL, WHITE, .direction = {0, 0, -1}, .falloff = SQUARE}}},
     {.name = "ambient", .color = {1, 0.5, 0.1}, USUAL, .lights = {{AMBIENT, {0.5, 0.6, 0.7}, .falloff = SQUARE}}},
-    {.name = "directional, negative too",
+    {.name = "directional, also negative",
      .color = {0.9, 0.5, 0.3},
      .roughness = 0.4,
      .ior = 1.8,
@@ -376,7 +375,7 @@ static const Case cases[] = {
      .lights = {{POINT, {3, 3, 3}, .position = {0.5, 0.5, 2}, .falloff = SQUARE}}},
 };
 
-// Walls that a light shines at from behind: without perspective each point is as thick as the others.
+// Walls lit from behind. In an orthographic view each point is equally thick.
 static const Case through[] = {
     {.name = "translucency",
      .color = {0.9, 0.6, 0.3},
@@ -414,7 +413,7 @@ static int worst_of(const double wanted[3], uint32_t pixel, int worst) {
     return worst;
 }
 
-// The wall: each pixel.
+// Checks each pixel of the wall.
 static void check_wall(const Case *c) {
     static uint32_t pixels[SIZE * SIZE];
     char script[4000];
@@ -433,7 +432,8 @@ static void check_wall(const Case *c) {
         fail_msg("%s: a pixel of the wall is off by %d", c->name, worst);
 }
 
-// Where the ray through a pixel meets the sphere of radius 2 about the origin; false near its edge and beyond.
+// Finds where the ray through a pixel meets the sphere of radius 2 around the origin. Returns false near its edge and
+// outside.
 static bool hit_sphere(bool orthographic, int x, int y, double p[3]) {
     double reach = orthographic ? 2 : 1, X = ((x + 0.5) / SIZE * 2 - 1) * reach, Y = (1 - (y + 0.5) / SIZE * 2) * reach;
     double ray[3] = {orthographic ? 0 : X, orthographic ? 0 : Y, -1},
@@ -445,8 +445,8 @@ static bool hit_sphere(bool orthographic, int x, int y, double p[3]) {
     return true;
 }
 
-// A sphere of many segments. 516 segments are drawn as they are, 512 with as few as look the same; of transparent
-// spheres the outline is drawn.
+// Draws a sphere of many segments. With 516 segments all are used, with 512 as few as look the same. Transparent
+// spheres are drawn as discs.
 static void check_sphere(const Case *c, bool orthographic, int segments, int tolerance) {
     static uint32_t pixels[SIZE * SIZE];
     char script[4000];
@@ -474,7 +474,7 @@ static void check_sphere(const Case *c, bool orthographic, int segments, int tol
                  worst);
 }
 
-static void test_walls(void **state) {
+static void test_walls_match_model(void **state) {
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases && !missing; i++)
         check_wall(&cases[i]);
@@ -484,7 +484,7 @@ static void test_walls(void **state) {
         skip();
 }
 
-static void test_spheres(void **state) {
+static void test_spheres_match_model(void **state) {
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases && !missing; i++)
         for (int orthographic = 0; orthographic < 2; orthographic++)
@@ -493,8 +493,8 @@ static void test_spheres(void **state) {
         skip();
 }
 
-// Canvas3d.md 10.5: 0.97 of linear light, byte 252.
-static void test_number(void **state) {
+// Canvas3d.md 10.5: 0.97 of linear light is byte 252.
+static void test_example_of_spec(void **state) {
     (void)state;
     double N[3] = {0, 0, 1}, p[3] = {0}, wanted[3];
     model(&cases[0], p, N, wanted);
@@ -508,7 +508,8 @@ static void test_number(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_walls), cmocka_unit_test(test_spheres),
-                                       cmocka_unit_test(test_number)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_walls_match_model),
+                                       cmocka_unit_test(test_spheres_match_model),
+                                       cmocka_unit_test(test_example_of_spec)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

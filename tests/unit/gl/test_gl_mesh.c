@@ -1,4 +1,4 @@
-// test_gl_mesh.c: the triangles of models (spec canvas3d.md 6 to 8), without OpenGL.
+// test_gl_mesh.c: tests the triangles of models (spec canvas3d.md 6 to 8), without OpenGL.
 #include "check.h"
 #include "gl/scene_mesh.h"
 
@@ -22,7 +22,8 @@ static const MeshVertex *corner(const Mesh *mesh, uint32_t index) {
     return &mesh->vertices[mesh->indices[index]];
 }
 
-// Six times the volume between the origin and a triangle: above 0 if it is seen from outside of a convex body.
+// Returns six times the volume between the origin and a triangle. It is positive if the triangle faces away from the
+// origin.
 static double volume(const Mesh *mesh, uint32_t triangle) {
     const float *a = corner(mesh, 3 * triangle)->position, *b = corner(mesh, 3 * triangle + 1)->position,
                 *c = corner(mesh, 3 * triangle + 2)->position;
@@ -30,8 +31,8 @@ static double volume(const Mesh *mesh, uint32_t triangle) {
            a[2] * ((double)b[0] * c[1] - (double)b[1] * c[0]);
 }
 
-// Closed bodies around the origin: every triangle is turned outwards (`sign` 1), and normals are of length 1 and
-// outward.
+// Checks a closed body around the origin: every triangle faces outwards (`sign` 1), and normals have length 1 and point
+// outwards. Returns six times the volume.
 static double check_body(const Mesh *mesh, double sign) {
     double sum = 0;
     assert_int_equal(mesh->index_count % 3, 0);
@@ -47,10 +48,10 @@ static double check_body(const Mesh *mesh, double sign) {
     return sum;
 }
 
-// Where the body has a vertex at this place with this normal and place in the texture.
+// Returns true if the body has a vertex with this position, normal and texture coordinates.
 static bool has_vertex(const Mesh *mesh, const float wanted[8]) {
     for (uint32_t i = 0; i < mesh->vertex_count; i++) {
-        const float *v = mesh->vertices[i].position; // position, normal, uv follow each other
+        const float *v = mesh->vertices[i].position; // position, normal and uv are contiguous
         bool same = true;
         for (int k = 0; k < 8; k++)
             same &= fabsf(v[k] - wanted[k]) < 1e-6f;
@@ -93,17 +94,17 @@ static void test_sphere(void **state) {
         assert_true(size < 4.18880 && (n < 16 || size > 4.15));
         for (uint32_t k = 0; k < mesh.vertex_count; k++)
             assert_memory_equal(mesh.vertices[k].position, mesh.vertices[k].normal, 12);
-        // The pole of the second side, and the equator's end of the third.
+        // The pole of the second side, and the end of the equator in the third one.
         assert_true(has_vertex(&mesh, (const float[]){0, 0, 1, 0, 0, 1, 1.5f / 4, 1}));
         assert_true(has_vertex(&mesh, (const float[]){0, -1, 0, 0, -1, 0, 0.75f, 0.5f}));
     }
     Mesh mesh = mesh_sphere(*state, 8);
-    float h = sqrtf(0.5f); // row 1 of 2, middle between columns 0 and 1 of side 0
+    float h = sqrtf(0.5f); // row 1 of 2, halfway between columns 0 and 1 of side 0
     assert_true(has_vertex(&mesh, (const float[]){h, 0, h, h, 0, h, 0, 0.75f}));
     assert_true(has_vertex(&mesh, (const float[]){0, h, -h, 0, h, -h, 0.25f, 0.25f}));
 }
 
-static void test_round(void **state) {
+static void test_cylinder_and_cone(void **state) {
     double pi = 3.14159265358979;
     for (uint32_t n = 3; n < 100; n += 13) {
         double area = n / 2.0 * sin(2 * pi / n);
@@ -128,14 +129,14 @@ static void test_flat_and_invert(void **state) {
     mesh_flat(*state, &mesh);
     assert_int_equal(mesh.vertex_count, mesh.index_count);
     check_body(&mesh, 1);
-    for (uint32_t i = 0; i < mesh.index_count; i += 3) // one normal a triangle
+    for (uint32_t i = 0; i < mesh.index_count; i += 3) // one normal per triangle
         assert_memory_equal(corner(&mesh, i)->normal, corner(&mesh, i + 2)->normal, 12);
     mesh_invert(&mesh);
     check_body(&mesh, -1);
 }
 
 static void test_snap(void **state) {
-    // Right angles: joined at more than a quarter, corners then point along the diagonals.
+    // Edges of right angles are joined above a quarter turn; corner normals then point along the diagonals.
     Mesh mesh = mesh_box(*state, false);
     mesh_snap(*state, &mesh, 0.26);
     float d = 1 / sqrtf(3);
@@ -147,7 +148,7 @@ static void test_snap(void **state) {
     mesh_snap(*state, &mesh, 0.24);
     assert_true(has_vertex(&mesh, (const float[]){.5f, .5f, .5f, 0, 0, 1, 5 / 6.f, 1}));
     check_body(&mesh, 1);
-    // The rim of a cylinder of 64 is split from its caps, its side is not.
+    // The rim of a cylinder of 64 segments is split from its caps, but its side is not.
     mesh = mesh_cylinder(*state, 64);
     mesh_snap(*state, &mesh, 0.05);
     assert_true(has_vertex(&mesh, (const float[]){0, 1, .5f, 0, 1, 0, .25f, .75f}));
@@ -170,7 +171,7 @@ static void test_remap(void **state) {
             low = fminf(low, corner(&mesh, i + k)->uv[0]);
             high = fmaxf(high, corner(&mesh, i + k)->uv[0]);
         }
-        assert_true(fabsf(corner(&mesh, i)->position[2]) > 0.9f || high - low <= 0.26f); // no triangle across the seam
+        assert_true(fabsf(corner(&mesh, i)->position[2]) > 0.9f || high - low <= 0.26f); // no triangle crosses the seam
     }
 }
 
@@ -179,7 +180,7 @@ static bool from_file(Arena *arena, const char *text, Mesh *mesh) {
     return mesh_from_file(arena, str_copy(arena, str_from(text)), mesh, &fault);
 }
 
-// What is wrong with a file, and in which line; 0: in none in particular.
+// Checks that a file is rejected with this problem at this line; 0: no line.
 static void check_bad(Arena *arena, const char *text, uint32_t line, const char *problem) {
     Mesh mesh;
     MeshError fault = {0};
@@ -198,7 +199,7 @@ static void test_obj(void **state) {
     assert_int_equal(mesh.index_count, 6);
     assert_int_equal(mesh.vertex_count, 4);
     assert_true(has_vertex(&mesh, (const float[]){1, 1, 0, 0, 0, 1, 1, 1}));
-    // Numbers from the end, no normals, no texture.
+    // Indices from the end, without normals and texture coordinates.
     assert_true(from_file(*state, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n", &mesh));
     assert_true(has_vertex(&mesh, (const float[]){1, 0, 0, 0, 0, 1, 0, 0}));
     assert_true(from_file(*state, "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 1 0 0\nf 1//1 2//1 3//-1", &mesh));
@@ -212,17 +213,17 @@ static void test_obj(void **state) {
         {"v 0 0 0\n", 0, "no triangles"},
         {"# a\n\nv 0 0\n", 3, "v needs three numbers"},
         {"v 0 0 x\n", 1, "v needs three numbers"},
-        {"v nan 0 0\nf 1 1 1\n", 1, "v is followed"},
-        {"v 1e300 0 0\nf 1 1 1\n", 1, "v is followed"},
+        {"v nan 0 0\nf 1 1 1\n", 1, "v needs three numbers"},
+        {"v 1e300 0 0\nf 1 1 1\n", 1, "v needs three numbers"},
         {"v 0 0 0\nvt\nf 1 1 1\n", 2, "vt needs one or two numbers"},
         {"v 0 0 0\r\nvn 1\r\nf 1 1 1\n", 2, "vn needs three numbers"},
-        {"f 1 2 3\n", 1, "a vertex that is not there"},
-        {"v 0 0 0\nf 1 1\n", 2, "three corners or more"},
-        {"v 0 0 0\nf 1 1 2\n", 2, "a vertex that is not there"},
-        {"v 0 0 0\nf 1 1 0\n", 2, "a vertex that is not there"},
-        {"v 0 0 0\nf 1 1 -2\n", 2, "a vertex that is not there"},
-        {"v 0 0 0\nf 1/1 1/1 1/1\n", 2, "vt, that is not there"},
-        {"v 0 0 0\nf 1//1 1//1 1//1\n", 2, "vn, that is not there"},
+        {"f 1 2 3\n", 1, "a vertex that does not exist"},
+        {"v 0 0 0\nf 1 1\n", 2, "at least three corners"},
+        {"v 0 0 0\nf 1 1 2\n", 2, "a vertex that does not exist"},
+        {"v 0 0 0\nf 1 1 0\n", 2, "a vertex that does not exist"},
+        {"v 0 0 0\nf 1 1 -2\n", 2, "a vertex that does not exist"},
+        {"v 0 0 0\nf 1/1 1/1 1/1\n", 2, "(vt) that do not exist"},
+        {"v 0 0 0\nf 1//1 1//1 1//1\n", 2, "(vn) that does not exist"},
         {"v 0 0 0\nf 1 1 99999999999999999999\n", 2, "not there"},
         {"v 0 0 0\nf 1 1 1/1/1/1\n", 2, "not there"},
         {"v 0 0 0\nf a b c\n", 2, "a corner of a face is written"},
@@ -243,7 +244,7 @@ static void test_stl(void **state) {
     check_bad(*state, "solid x\nendsolid x\n", 0, "no triangles");
     check_bad(*state, "solid x\nvertex 0 0 0\nendloop\n", 3, "a loop needs three vertices");
     check_bad(*state, "solid x\nvertex 0 0 0\n", 2, "ends within a loop");
-    check_bad(*state, "solid\n\nvertex 0 0 inf\nendloop\n", 3, "vertex is followed by three numbers");
+    check_bad(*state, "solid\n\nvertex 0 0 inf\nendloop\n", 3, "vertex needs three numbers");
     char binary[84 + 50] = "binary";
     binary[80] = 1;
     float corners[9] = {0, 0, 0, 0, 2, 0, 0, 0, 2};
@@ -251,7 +252,7 @@ static void test_stl(void **state) {
     MeshError problem;
     assert_true(mesh_from_file(*state, (Str){binary, sizeof binary}, &mesh, &problem));
     assert_true(has_vertex(&mesh, (const float[]){0, 2, 0, 1, 0, 0, 0, 0}));
-    for (size_t cut = 1; cut < sizeof binary; cut++) // any part of it is no model, and does no harm
+    for (size_t cut = 1; cut < sizeof binary; cut++) // no truncated file is accepted
         assert_false(mesh_from_file(*state, (Str){binary, sizeof binary - cut}, &mesh, &problem));
     binary[80] = (char)0xff, binary[83] = (char)0xff;
     assert_false(mesh_from_file(*state, (Str){binary, sizeof binary}, &mesh, &problem));
@@ -272,7 +273,7 @@ static void test_lists(void **state) {
     assert_false(mesh_from_lists(*state, vertices, 9, faces, 3, uv, 5, &mesh, &problem));
 }
 
-// A hull is closed and convex, and has all points within; those inside are no corners.
+// Checks that a hull is closed and convex and contains all points, and that its corners are on the outside.
 static void check_hull(Arena *arena, const char *row, const double *points, uint32_t count, double volume,
                        uint32_t triangles) {
     uint32_t numbers = 0;
@@ -312,7 +313,7 @@ static void test_hull(void **state) {
     }
     check_hull(*state, "a pyramid", pyramid, 7, 1 / 6.0, 4);
     check_hull(*state, "a cube", cube, 27, 8, 0);
-    check_hull(*state, "a ball", ball, MANY, -1, 2 * MANY - 4); // Euler
+    check_hull(*state, "a ball", ball, MANY, -1, 2 * MANY - 4); // by Euler's formula
     uint32_t numbers;
     assert_null(mesh_hull(*state, wall, MANY, &numbers));
     assert_null(mesh_hull(*state, pyramid, 3, &numbers));
@@ -324,7 +325,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_box, setup, teardown),
         cmocka_unit_test_setup_teardown(test_sphere, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_round, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_cylinder_and_cone, setup, teardown),
         cmocka_unit_test_setup_teardown(test_flat_and_invert, setup, teardown),
         cmocka_unit_test_setup_teardown(test_snap, setup, teardown),
         cmocka_unit_test_setup_teardown(test_remap, setup, teardown),

@@ -1,4 +1,5 @@
-// test_gl_order.c: what is read of a scene and what a camera sees of it: limits, which balls are drawn as discs and
+// test_gl_order.c: tests reading of scenes and draw_order without OpenGL: limits, which spheres are drawn as discs, and
+// the positions of the discs.
 // where those are; without OpenGL.
 #include "check.h"
 #include "gl/draw_order.h"
@@ -8,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-// Three balls of radius 10 in a row before a camera that looks at them from the side; and what a case changes.
+// Three balls of radius 10 in a row, seen from the side. Cases modify the stage.
 enum { WIDTH = 400, MAX_INSTANCES = 60 };
 typedef struct Stage {
     Arena arena;
@@ -22,7 +23,7 @@ typedef struct Stage {
     SceneTextures textures;
     GraphicsState3D graphics_state;
     Eye eye;
-    bool deep; // discs are compared with depths
+    bool deep; // discs are compared with depth
 } Stage;
 
 static void set_stage(Stage *stage) {
@@ -56,7 +57,7 @@ static void set_stage(Stage *stage) {
                            .instance_count = 3};
 }
 
-// How many of the stage's balls are discs.
+// Returns how many of the stage's balls are drawn as discs.
 static uint32_t count_discs(Stage *stage) {
     const SceneBox box = {{-1, -1, -1}, {1, 1, 1}, 2048};
     Matrix view = matrix_view(&stage->eye), projection = matrix_projection(&stage->eye);
@@ -73,30 +74,30 @@ static uint32_t count_discs(Stage *stage) {
     return count;
 }
 
-static void test_choice(void **state) {
+static void test_which_spheres_become_discs(void **state) {
     (void)state;
     Stage stage;
     set_stage(&stage);
     assert_int_equal(count_discs(&stage), 3);
     assert_false(stage.deep);
-    set_stage(&stage); // what is opaque leaves its depth
+    set_stage(&stage); // opaque balls write depth
     stage.instances[1].material = &stage.opaque;
     assert_int_equal(count_discs(&stage), 0);
-    set_stage(&stage); // which many are compared with
+    set_stage(&stage); // many discs are compared with depth
     stage.group.instance_count = stage.scene.instance_count = MAX_INSTANCES;
     stage.instances[1].material = &stage.opaque;
     assert_int_equal(count_discs(&stage), MAX_INSTANCES - 1);
     assert_true(stage.deep);
-    set_stage(&stage); // what is translucent, too, and needs its backs
+    set_stage(&stage); // translucent balls write depth, and need their backs
     stage.material.surface.translucency = 1;
     assert_int_equal(count_discs(&stage), 0);
-    set_stage(&stage); // without sorting all leave it
+    set_stage(&stage); // without sorting all write depth
     stage.group.state.depth_sort = false;
     assert_int_equal(count_discs(&stage), 0);
-    set_stage(&stage); // the far sides are seen, too
+    set_stage(&stage); // the far sides are visible as well
     stage.group.state.face_cull = false;
     assert_int_equal(count_discs(&stage), 0);
-    set_stage(&stage); // only they
+    set_stage(&stage); // only the far sides are visible
     stage.group.state.cull_face = FACE_FRONT;
     assert_int_equal(count_discs(&stage), 0);
     set_stage(&stage);
@@ -105,19 +106,19 @@ static void test_choice(void **state) {
     set_stage(&stage);
     stage.model.invert = true;
     assert_int_equal(count_discs(&stage), 0);
-    set_stage(&stage); // its corners are seen
+    set_stage(&stage); // its corners are visible
     stage.model.segments = 12;
     assert_int_equal(count_discs(&stage), 0);
     set_stage(&stage); // an ellipsoid
     stage.instances[0].matrix.m[0] = 12;
     assert_int_equal(count_discs(&stage), 2);
-    set_stage(&stage); // mirrored: its inside is seen
+    set_stage(&stage); // mirrored: its inside is visible
     stage.instances[0].matrix.m[0] = -10;
     assert_int_equal(count_discs(&stage), 2);
     set_stage(&stage); // sheared
     stage.instances[0].matrix.m[4] = 3;
     assert_int_equal(count_discs(&stage), 2);
-    set_stage(&stage); // cut off by what is too near
+    set_stage(&stage); // clipped by the near plane
     stage.eye.near = 300;
     assert_true(count_discs(&stage) < 3);
     set_stage(&stage);
@@ -125,9 +126,9 @@ static void test_choice(void **state) {
     assert_true(count_discs(&stage) < 3);
 }
 
-// What is transparent is drawn farthest first, what is equally far in the order in which models first appeared; what is
-// opaque before, by model, nearest first.
-static void test_sorting(void **state) {
+// Opaque instances are drawn first, by model and nearest first. Then transparent ones follow, farthest first; at equal
+// depth in the order in which models first appeared.
+static void test_transparent_instances_are_sorted(void **state) {
     (void)state;
     static const struct {
         double z;
@@ -135,7 +136,7 @@ static void test_sorting(void **state) {
         uint32_t model;
     } rows[] = {{0, false, 0}, {0, false, 1}, {0, false, 0}, {-20, false, 1},
                 {5, true, 1},  {-5, true, 0}, {-9, true, 1}, {-3, true, 0}};
-    static const uint32_t wanted[] = {7, 5, 4, 6, 3, 0, 2, 1}; // from the page
+    static const uint32_t wanted[] = {7, 5, 4, 6, 3, 0, 2, 1}; // given by the specification
     enum { ROWS = sizeof rows / sizeof *rows };
     SceneModel models[2] = {{.kind = KIND_BOX}, {.kind = KIND_CONE}};
     const SceneBox boxes[2] = {{{-1, -1, -1}, {1, 1, 1}, 12}, {{-1, -1, -1}, {1, 1, 1}, 128}};
@@ -164,7 +165,7 @@ static double apart(const double a[3], const double b[3]) {
     return sqrt(vector_dot(d, d));
 }
 
-// A ray from the camera through the disc's rim touches the ball: Pythagoras.
+// A ray from the camera through the disc's rim touches the ball, which is checked with Pythagoras.
 static void check_rim(Stage *stage, const Matrix *place) {
     SphereImpostor disc;
     Matrix view = matrix_view(&stage->eye);
@@ -180,14 +181,14 @@ static void check_rim(Stage *stage, const Matrix *place) {
         assert_true(fabs(apart(rim, disc.middle) - disc.radius) < 1e-9 * disc.radius);
         assert_true(fabs(vector_dot(outwards, towards)) < 1e-8 * away * disc.radius);
         matrix_direction(&disc.place, (double[3]){0, 0, 1},
-                         normal); // corners go counter-clockwise as the camera sees them
+                         normal); // corners are counter-clockwise as seen by the camera
         turned += vector_dot(normal, towards) > 0;
     }
     assert_int_equal((int)turned, 16);
     assert_true(fabs(disc.near - (stage->graphics_state.orthographic ? 0 : disc.radius / away)) < 1e-12);
 }
 
-static void test_rim(void **state) {
+static void test_disc_rim_touches_sphere(void **state) {
     (void)state;
     Stage stage;
     set_stage(&stage);
@@ -201,8 +202,8 @@ static void test_rim(void **state) {
     arena_free(&stage.arena);
 }
 
-// The corners of the disc are those of a polygon of so many, all turned the same way round.
-static void test_mesh(void **state) {
+// The corners of the disc form a regular polygon, and all triangles have the same orientation.
+static void test_disc_mesh_is_regular(void **state) {
     (void)state;
     Arena arena;
     arena_init(&arena, "test", SIZE_MAX);
@@ -223,7 +224,7 @@ static void test_mesh(void **state) {
     arena_free(&arena);
 }
 
-// A scene with so many nodes of a kind, all the same one; what is told.
+// Reads a scene with `count` references to the same node, and collects the diagnostics.
 static Scene *read_many(Arena *arena, DiagSink *faults, NodeKind kind, AttrValue *attr, uint32_t count) {
     DrawNode *node = arena_alloc(arena, sizeof *node), *top = arena_alloc(arena, sizeof *top);
     const DrawNode **children = arena_alloc_array(arena, count, sizeof *children);
@@ -234,14 +235,14 @@ static Scene *read_many(Arena *arena, DiagSink *faults, NodeKind kind, AttrValue
     return scene_read(arena, top, WIDTH, WIDTH, 16, NULL, faults);
 }
 
-// Beyond the limits the rest is drawn, and it is told once.
-static void test_limits(void **state) {
+// Instances beyond the limits are left out, which is reported once.
+static void test_limits_are_reported_once(void **state) {
     (void)state;
     static const struct {
         NodeKind kind;
         AttrName name;
         uint32_t count;
-        uint32_t most;
+        uint32_t max;
         const char *code;
     } rows[] = {
         {KIND_SPHERE, ATTR_SIZE, 1000000, SCENE_MAX_INSTANCES, "too-many-models"},
@@ -261,10 +262,10 @@ static void test_limits(void **state) {
         uint32_t count = rows[i].kind == KIND_SPHERE  ? scene->instance_count
                          : rows[i].kind == KIND_LIGHT ? scene->light_count
                                                       : scene->camera_count;
-        assert_int_equal(count, rows[i].most);
+        assert_int_equal(count, rows[i].max);
         assert_int_equal(faults.count, 1);
         assert_string_equal(faults.items[0].code, rows[i].code);
-        if (rows[i].kind == KIND_SPHERE) { // too many triangles, if all are near
+        if (rows[i].kind == KIND_SPHERE) { // too many triangles if all are near
             const SceneBox box = {{-1, -1, -1}, {1, 1, 1}, 2048};
             Eye eye = scene_eye(scene, &scene->cameras[0]);
             Matrix view = matrix_view(&eye), projection = matrix_projection(&eye);
@@ -278,8 +279,9 @@ static void test_limits(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_choice), cmocka_unit_test(test_sorting),
-                                       cmocka_unit_test(test_rim), cmocka_unit_test(test_mesh),
-                                       cmocka_unit_test(test_limits)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_which_spheres_become_discs), cmocka_unit_test(test_transparent_instances_are_sorted),
+        cmocka_unit_test(test_disc_rim_touches_sphere), cmocka_unit_test(test_disc_mesh_is_regular),
+        cmocka_unit_test(test_limits_are_reported_once)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
