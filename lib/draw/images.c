@@ -71,7 +71,7 @@ static cairo_surface_t *read_png(Str bytes, const char **problem) {
     uint32_t width = bytes.len > 24 ? big_endian(bytes.bytes + 16) : 0;
     uint32_t height = bytes.len > 24 ? big_endian(bytes.bytes + 20) : 0;
     if (width > MAX_SIDE || height > MAX_SIDE || (uint64_t)width * height > MAX_PIXELS) {
-        *problem = "it is too large";
+        *problem = "too large";
         return NULL;
     }
     cairo_surface_t *surface = cairo_image_surface_create_from_png_stream(read_bytes, &bytes);

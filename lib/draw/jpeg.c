@@ -59,7 +59,7 @@ cairo_surface_t *draw_read_jpeg(Str bytes, const char **problem) {
         jpeg.out_color_space = JCS_RGB;
         if (jpeg.image_width > MAX_SIDE || jpeg.image_height > MAX_SIDE ||
             (uint64_t)jpeg.image_width * jpeg.image_height > MAX_PIXELS) {
-            *problem = "it is too large";
+            *problem = "too large";
         } else {
             jpeg_start_decompress(&jpeg);
             surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)jpeg.output_width, (int)jpeg.output_height);

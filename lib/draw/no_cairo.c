@@ -155,8 +155,8 @@ Texture *draw_picture_image(PetriPainter *painter, const CanvasPicture *picture,
         backend->image ? backend->image(backend->user_data, str_to_c(&painter->arena, name->as.text), &width, &height)
                        : NULL;
     if (!pixels || width < 1 || height < 1) {
-        draw_report(faults, &node->origin, DIAG_WARNING, "cannot-read",
-                    "!image: cannot read '%s': there is no such picture", name->as.text.bytes);
+        draw_report(faults, &node->origin, DIAG_WARNING, "cannot-read", "!image: cannot read '%s': no such picture",
+                    name->as.text.bytes);
         return NULL;
     }
     return draw_sized_image(painter, node, pixels, width, height, (size_t)width * sizeof *pixels, true, faults);
