@@ -21,9 +21,9 @@ test(LINKS, options, () => opened('', {
         await page.waitForFunction(() => document.body.dataset.checked === '0');
         const link = await packLink({ text: SQUARE.replace('64;32', '32;32'), name: 'a.fl', frame: 3, hash: 'f'.repeat(64) });
         const bad = [
-            [link.slice(0, -9), /cut off/], [`#${'A'.repeat(150000)}`, /too long/], ['#%%%', /damaged/],
+            [link.slice(0, -9), /copied completely/], [`#${'A'.repeat(150000)}`, /too long/], ['#%%%', /damaged/],
             [await packed({ v: 2, text: [] }), /newer petri/], [await packed({ v: 1, t: ' '.repeat(5 << 20) }), /more than 4 MiB/],
-            [await packed({ v: 1, t: 5 }), /none of petri's/], [await packed(null), /none of petri's/],
+            [await packed({ v: 1, t: 5 }), /not a petri link/], [await packed(null), /not a petri link/],
         ];
         for (const [hash, message] of bad) {
             await page.evaluate(at => (location.hash = at), hash);
@@ -31,7 +31,7 @@ test(LINKS, options, () => opened('', {
             assert.equal(await text(page), SQUARE);
             assert.ok(await page.evaluate(() => document.getElementById('message').classList.contains('error')));
         }
-        for (const [hash, size, message] of [[bad[0][0], '64;32', /cut off/], [link, '32;32', /Frame 3: the state is not that/]]) {
+        for (const [hash, size, message] of [[bad[0][0], '64;32', /copied completely/], [link, '32;32', /Frame 3: the state differs from the link/]]) {
             await page.goto('about:blank');
             await page.goto(world.server.url + hash);
             await page.waitForFunction(() => document.body.dataset.ready);
@@ -57,7 +57,7 @@ test('what was written is kept when a link is opened, and when another script is
         await page.waitForFunction(() => document.body.dataset.ready);
         assert.match(await text(page), /^-- changed\n!window/);
         await page.focus('#samples');
-        const own = page.locator('#samples optgroup[label="Written here"] option');
+        const own = page.locator('#samples optgroup[label="Recent scripts"] option');
         assert.equal(await own.count(), 2);
         await page.selectOption('#samples', await own.nth(1).getAttribute('value'));
         await page.waitForFunction(() => document.querySelector('.cm-line').textContent === '-- mine');
@@ -94,7 +94,7 @@ test('where threads share no memory, stop ends the engine, and it goes on with a
         await page.click('#run');
         await page.waitForSelector('.busy');
         await page.click('#stop');
-        await said(page, /^Stopped. What the frame was at is given up/);
+        await said(page, /^Stopped. Press Run to restart/);
         assert.match(await text(page), /fib/);
         await page.evaluate(() => delete document.body.dataset.checked);
         await typed(page, SQUARE);
@@ -125,11 +125,11 @@ test('a browser without SIMD shows the script and says why it does not run', opt
     },
     ready: () => document.getElementById('message').textContent,
     use: async page => {
-        await said(page, /no WebAssembly with SIMD/);
+        await said(page, /petri needs WebAssembly SIMD/);
         assert.match(await text(page), /^-- A dish/);
         await typed(page, SQUARE);
         await page.click('#run');
-        await said(page, /no WebAssembly with SIMD/);
+        await said(page, /petri needs WebAssembly SIMD/);
         const [download] = await Promise.all([page.waitForEvent('download'), page.click('#save')]);
         assert.equal(download.suggestedFilename(), 'dish.fl');
         await page.click('#link');

@@ -95,7 +95,7 @@ test('a page commands it and hears of it', options, () => embedded(
             document.addEventListener(type, event => heard.push([type, event.detail]));
     </script>`, async page => {
         await page.waitForFunction(() => globalThis.heard.some(([type]) => type === 'petri-error'));
-        assert.match(await page.textContent(within('#message')), /cannot read nothing\.fl: the server answers 404/);
+        assert.match(await page.textContent(within('#message')), /cannot read nothing\.fl: the server returned 404/);
         const done = await page.evaluate(async script => {
             const dish = document.createElement('petri-dish');
             dish.setAttribute('files', 'm.fl');
@@ -141,7 +141,7 @@ test('who can change the script is told what petri warns of, others are not', op
 
 test('what is not drawn without WebGL 2 is told below the picture', options, () => embedded(
     '<petri-dish><pre>!window size=64;32\n    !bloom radius=2\n        !canvas\n</pre></petri-dish>', async page => {
-        assert.equal(await page.textContent(within('#message')), 'Not drawn in the browser, which has no WebGL 2: bloom.');
+        assert.equal(await page.textContent(within('#message')), 'Not supported in this browser (no WebGL 2): bloom.');
     }, {
         prepare: page => page.route('**/worker.js', async route => {
             const response = await route.fetch();

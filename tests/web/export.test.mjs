@@ -96,7 +96,7 @@ test('a browser without WebCodecs is told to make no films, and goes on', option
         await page.fill('#saving-to', '9');
         await page.click('#saving-go');
         await page.waitForFunction(() => document.getElementById('export-status').textContent);
-        assert.match(await page.textContent('#message'), /this browser cannot make films: it has no WebCodecs/);
+        assert.match(await page.textContent('#message'), /cannot make videos: this browser has no WebCodecs/);
         await page.keyboard.press('Escape');
         await atFrame(page, 2);
         await page.click('#step');

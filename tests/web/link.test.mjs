@@ -16,7 +16,7 @@ test('links of petri open in the page, with the same state', ways, async () => {
             use: async page => {
                 await atFrame(page, frame);
                 await page.waitForFunction(() => document.getElementById('message').textContent !== '');
-                assert.match(await page.textContent('#message'), /the same state .* to the last bit/);
+                assert.match(await page.textContent('#message'), /the state matches the link exactly/);
                 assert.equal(await page.inputValue('#parameter-DROPS'), words.length ? '9' : '220');
             },
         });
@@ -35,7 +35,7 @@ test('links of the page open in petri, with what was changed on the way', ways, 
         await page.click('#link');
         await page.waitForFunction(hash => location.hash !== hash, before);
         const { status, stderr } = spawnSync(petri, ['open', await page.evaluate(() => location.href)], { encoding: 'utf8' });
-        assert.match(stderr, /frame 8 has the same state as where the link was made/);
+        assert.match(stderr, /frame 8: state matches the link exactly/);
         assert.equal(status, 0);
     },
 }));

@@ -109,7 +109,7 @@ test('the search finds, by keys alone, and pages show their examples', ways, () 
     await page.fill('#find', 'petri_open');
     await page.waitForFunction(() => document.querySelector('#found a')?.textContent.endsWith('petri_open'));
     await page.fill('#find', 'xyzzyx');
-    await page.waitForFunction(() => document.getElementById('found').textContent === 'Nothing was found.');
+    await page.waitForFunction(() => document.getElementById('found').textContent === 'No results.');
 }));
 
 test('a reader changes an example, and sees what comes of it', ways, () => visit('language.html', async page => {

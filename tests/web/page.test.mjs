@@ -137,7 +137,7 @@ test('without WebGL 2 the page says so and draws the rest', options, () => opene
             + '            !rect size=64;32 color=1;0.5;0 fill=true\n');
         await page.keyboard.press('Control+Enter');
         await page.waitForFunction(() => document.getElementById('picture').width === 64);
-        assert.equal(await page.textContent('#message'), 'Not drawn in the browser, which has no WebGL 2: bloom.');
+        assert.equal(await page.textContent('#message'), 'Not supported in this browser (no WebGL 2): bloom.');
         const at = await page.evaluate(() => [...document.getElementById('picture').getContext('2d').getImageData(30, 10, 1, 1).data]);
         assert.deepEqual(at, [255, 128, 0, 255]);
     },
@@ -150,7 +150,7 @@ test('without WebGL 2 particles are seen flat where a script draws them in three
             + '!window size=64;32\n    !canvas3d\n        !sphere position=$(:world;0);0\n');
         await page.keyboard.press('Control+Enter');
         await page.waitForFunction(() => document.getElementById('message').textContent.includes('canvas3d'));
-        assert.equal(await page.textContent('#message'), 'Not drawn in the browser, which has no WebGL 2: canvas3d, sphere.');
+        assert.equal(await page.textContent('#message'), 'Not supported in this browser (no WebGL 2): canvas3d, sphere.');
         await page.click('#step');
         await page.waitForFunction(() => {
             const { width, height } = document.getElementById('picture');
@@ -200,7 +200,7 @@ test('a slider changes a parameter, and a link brings all of it back', options, 
         await other.goto(world.server.url + hash);
         await other.waitForFunction(() => document.body.dataset.ready);
         assert.equal(await frameOf(other), 7);
-        assert.match(await other.textContent('#message'), /the same state .* to the last bit/);
+        assert.match(await other.textContent('#message'), /the state matches the link exactly/);
         assert.equal((await pixels(other)).sum, changed);
         assert.equal(await other.inputValue(`#parameter-${name}`), value);
         assert.equal(await other.textContent('#problems'), '');
@@ -215,14 +215,14 @@ test('links that are none are told, and change nothing', options, async () => {
     await assert.rejects(readLink(link.slice(0, -9)), /cut off/);
     await assert.rejects(readLink('#!!'), /damaged/);
     await assert.rejects(readLink(`#${'A'.repeat(200000)}`), /too long/);
-    await assert.rejects(readLink(await packLink({ text: 7 })), /none of petri's/);
+    await assert.rejects(readLink(await packLink({ text: 7 })), /not a petri link/);
     await assert.rejects(packLink({ text: Array.from({ length: 90000 }, (_, i) => Math.sin(i)).join(' ') }), /too long for a link/);
     await opened(await packLink({ text: DISH, name: 'dish.fl', frame: 3, hash: 'f'.repeat(64) }), {
         use: async page => {
             assert.match(await page.textContent('#message'), /not that where the link was made/);
             await page.evaluate(() => (location.hash = '#AAAA'));
             await page.waitForSelector('#message.error');
-            await page.waitForFunction(() => /damaged|none of petri/.test(document.getElementById('message').textContent));
+            await page.waitForFunction(() => /damaged|not a petri link/.test(document.getElementById('message').textContent));
             assert.ok((await page.textContent('.cm-content')).length > 100);
         },
     });
@@ -320,7 +320,7 @@ test('what takes long is stopped, and goes on from the frame before', options, (
         await page.click('#run');
         await page.waitForFunction(() => document.querySelector('.busy'));
         await page.click('#stop');
-        await page.waitForFunction(() => document.getElementById('message').textContent === 'Stopped; the frame before is still there.');
+        await page.waitForFunction(() => document.getElementById('message').textContent === 'Stopped. The previous frame is shown.');
         await atFrame(page, 8);
         const { sum } = await pixels(page);
         await page.click('#back');

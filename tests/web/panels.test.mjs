@@ -56,7 +56,7 @@ test('watched expressions are plotted, for frames before, too', options, () => o
         assert.ok(await inked() > 100, `${await inked()}`);
         await page.fill('#watch-line', "'word'");
         await page.press('#watch-line', 'Enter');
-        await said("round(frame*10) = 20 in frame 2, 'word' is no number: 'word'");
+        await said("round(frame*10) = 20 in frame 2, 'word' is not a number: 'word'");
         await page.click('#watched li:nth-child(2) button');
         await page.click('#watched li:nth-child(1) button');
         await said('');

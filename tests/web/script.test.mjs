@@ -93,7 +93,7 @@ test('the link that is copied has script, changes, frame and hash, and asks nobo
             await atFrame(page, 1);
             page.on('request', request => asked.push(request.url()));
             await page.click('#link');
-            await page.waitForFunction(() => /^The link is copied/.test(document.getElementById('message').textContent));
+            await page.waitForFunction(() => /^Link copied/.test(document.getElementById('message').textContent));
             const copied = await page.evaluate(() => navigator.clipboard.readText());
             assert.equal(copied, page.url());
             const { text, frame, hash, changes } = await readLink(new URL(copied).hash);

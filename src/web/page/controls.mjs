@@ -1,4 +1,4 @@
-// controls.mjs: the buttons under a picture, the time line and the parameters, in the page and in <petri-dish> alike.
+// controls.mjs: the buttons, time line and parameters below a picture, in the page and in <petri-dish>.
 import { Parameters } from './parameters.mjs';
 
 export const CONTROLS = `
@@ -6,8 +6,8 @@ export const CONTROLS = `
   <button id="run" title="Run or pause">Run</button>
   <button id="back" title="Back one frame" aria-label="Back one frame">◀</button>
   <button id="step" title="Forward one frame" aria-label="Forward one frame">▶</button>
-  <button id="reset" title="Start anew">Reset</button>
-  <button id="stop" title="End what takes too long">Stop</button>
+  <button id="reset" title="Reset to frame 0">Reset</button>
+  <button id="stop" title="Stop the current computation">Stop</button>
   <label>Speed <select id="speed">
     <option>0.25</option><option>0.5</option><option selected>1</option><option>2</option><option>4</option>
   </select></label>
@@ -17,7 +17,7 @@ export const CONTROLS = `
 <div id="parameters" part="parameters" aria-label="Parameters" role="group"></div>`;
 
 export class Controls {
-    // root: what has the elements; ready: loads what is to run, false if that failed.
+    // root: contains the elements; ready: loads the script, returns false if that failed.
     constructor(root, dish, ready) {
         this.root = root;
         this.dish = dish;

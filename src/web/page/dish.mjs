@@ -1,15 +1,15 @@
-// dish.mjs: a script on a canvas: loads, runs, goes back. The page and <petri-dish> are made of it.
+// dish.mjs: a script on a canvas, which can be loaded, run and moved to a frame. Used by the page and by <petri-dish>.
 import { Remote } from './engine.mjs';
 import { addImage, paint, sizeOf } from './paint.mjs';
 import { NO_ENGINE, hasEngine } from './feature_check.mjs';
 
-const MAX_STEPS = 8; // frames between two pictures: a script that is slower falls behind
-const SLOW = 500; // ms: what takes longer, a person may want to stop
-const FIRST_SEEN = 2; // before, particles are not where they will be seen
+const MAX_STEPS = 8; // frames between two pictures; slower scripts lag behind
+const SLOW = 500; // ms after which the user is offered to stop
+const FIRST_SEEN = 2; // first frame in which particles are at their positions
 
 export class Dish {
-    // host: what is called: shown(answer, left out), failed(error, what was told), changed() when it runs or
-    // not any more; and, where they are, loaded() and slow(whether).
+    // host: callbacks: shown(answer, unsupported), failed(error, diagnostics), changed() when it starts or stops running; optional:
+    // loaded() and slow(boolean).
     constructor(canvas, host, { source, worker }) {
         Object.assign(this, {
             canvas, host, running: false, loaded: null, name: null, frame: -1, lastFrame: -1, fps: 60, speed: 1, behind: 0, last: 0, turn: 0,
@@ -26,7 +26,7 @@ export class Dish {
         return this.remote?.ask(act, message) ?? Promise.reject(new Error(NO_ENGINE));
     }
 
-    // Asks the engine; null after a failure, which the host is told of.
+    // Sends a request to the engine. Returns null after a failure, which is reported to the host.
     async attempt(act, message) {
         const slow = setTimeout(() => this.host.slow?.(true), SLOW);
         try {
@@ -97,7 +97,7 @@ export class Dish {
         return true;
     }
 
-    // Loads, and goes to a frame. True; false after a failure; or the hash of the state if it is another one.
+    // Loads a script and goes to a frame. Returns true; false after a failure; or the hash of the state if it differs.
     async open(text, name, { changes = [], frame = 0, hash = null } = {}) {
         if (!await this.load(text, name, changes) || !await this.showAnswer('seek', { frame: frame || (hash ? 0 : FIRST_SEEN) }))
             return false;
@@ -119,8 +119,8 @@ export class Dish {
         this.host.changed();
     }
 
-    // At display rate: as many frames as the time since the last one is worth, when the engine is free. What was paused and
-    // run again while a frame was made has another turn: the one before must not go on beside it.
+    // Runs at display rate, computing as many frames as have become due while the engine was busy. Pausing and running again starts a new
+    // turn; ticks of the previous turn then end.
     async tick(now, turn) {
         if (!this.running || turn !== this.turn)
             return;
@@ -138,7 +138,7 @@ export class Dish {
         await this.showAnswer('step', { count: 1 });
     }
 
-    // One question at a time: while a drag goes on, only where it has come to counts.
+    // Sends one request at a time; while dragging, only the latest position is requested.
     async seek(frame) {
         this.running = false;
         const waits = this.wanted !== null;
@@ -158,7 +158,7 @@ export class Dish {
             this.show(answer);
     }
 
-    // Ends what the engine is at. True if it could be ended alone; else the engine has gone with it.
+    // Stops the engine's current call. Returns true if it could be interrupted; otherwise the engine is restarted.
     async stop() {
         const busy = this.remote?.busy;
         this.pause();
@@ -175,9 +175,9 @@ export class Dish {
         this.remote?.end();
     }
 
-    // --- what it is given
+    // --- files and input
 
-    // A script reads what is given, and nothing else.
+    // Scripts can only read the files that are added.
     async addFile(name, bytes) {
         this.files.set(name, bytes);
         await addImage(this.images, name, bytes);
@@ -187,7 +187,7 @@ export class Dish {
         return this.attempt('files', { files: Object.fromEntries(this.files) });
     }
 
-    // The pointer and keys go to the script while the picture has the focus.
+    // Sends pointer and keys to the script while the picture has the focus.
     listen() {
         const { canvas } = this;
         canvas.onpointermove = canvas.onpointerdown = canvas.onpointerup = event => this.point(event, true);
@@ -208,7 +208,7 @@ export class Dish {
         });
     }
 
-    // Tab, and what is pressed with Control or Alt, stay the browser's; keys that scroll are the script's.
+    // Tab and keys with Control or Alt are left to the browser; keys that scroll go to the script.
     press(event) {
         const name = keyName(event);
         if (this.loaded === null || !name || event.ctrlKey || event.metaKey || event.altKey)
@@ -225,7 +225,7 @@ export class Dish {
     }
 }
 
-// As petri has it, of what a browser calls it.
+// petri's names of keys, by the browser's names.
 const KEYS = {
     ' ': 'space', ArrowLeft: 'left', ArrowRight: 'right', ArrowUp: 'up', ArrowDown: 'down', Enter: 'enter', Escape: 'escape',
     Backspace: 'backspace', Insert: 'insert', Delete: 'delete', PageUp: 'page_up', PageDown: 'page_down', Home: 'home', End: 'end',
@@ -239,11 +239,11 @@ function keyName({ key, code }) {
     return /^([a-z0-9]|F\d+)$/i.test(key) ? key.toLowerCase() : KEYS[key] ?? null;
 }
 
-// What to say of an error.
-export const errorText = error => error.type === 'stopped' ? 'Stopped; the frame before is still there.'
-    : error.type === 'ended' ? 'Stopped. What the frame was at is given up; Run starts anew.'
-        : error.type === 'broken' ? `${error.message}. Run starts anew.` : error.message.split('\n')[0];
+// Returns the text for the user about an error.
+export const errorText = error => error.type === 'stopped' ? 'Stopped. The previous frame is shown.'
+    : error.type === 'ended' ? 'Stopped. Press Run to restart.'
+        : error.type === 'broken' ? `${error.message}. Press Run to restart.` : error.message.split('\n')[0];
 
-// What to say of what a picture leaves out.
+// Returns the text for the user about unsupported parts of a picture.
 export const unsupportedText = ({ picture }, left) =>
-    `Not drawn in the browser${picture.screen ? '' : ', which has no WebGL 2'}: ${left.join(', ')}.`;
+    `Not supported in this browser${picture.screen ? '' : ' (no WebGL 2)'}: ${left.join(', ')}.`;

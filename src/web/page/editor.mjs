@@ -1,4 +1,4 @@
-// editor.mjs: CodeMirror for scripts: colours, problems under the very words, completion and help from petri's tables.
+// editor.mjs: CodeMirror for scripts: colours, underlined problems, completion and help from petri's tables.
 import { autocompletion, closeBrackets, closeBracketsKeymap, completionKeymap } from '@codemirror/autocomplete';
 import { defaultKeymap, history, historyKeymap, indentWithTab } from '@codemirror/commands';
 import { HighlightStyle, StreamLanguage, bracketMatching, indentUnit, syntaxHighlighting } from '@codemirror/language';
@@ -36,7 +36,7 @@ const flitter = StreamLanguage.define({
     languageData: { commentTokens: { line: '--' } },
 });
 
-// Told apart on white and on black alike: custom properties would not reach into CodeMirror's sheet otherwise.
+// Colours for light and dark themes. Custom properties do not work in CodeMirror's style sheet.
 const colours = HighlightStyle.define([
     { tag: tags.comment, color: 'light-dark(#5a636e, #98a1ad)', fontStyle: 'italic' },
     { tag: tags.keyword, color: 'light-dark(#8a1c7c, #e59be0)' },
@@ -58,7 +58,7 @@ const theme = EditorView.theme({
     '.cm-help': { padding: '.3em .6em', maxWidth: '40em' },
 });
 
-// Columns are characters; CodeMirror counts UTF-16 units.
+// petri's columns count characters, CodeMirror's UTF-16 units.
 function offset(state, line, column) {
     if (line < 1 || line > state.doc.lines)
         return state.doc.length;
@@ -115,7 +115,7 @@ export class Editor {
         this.view.focus();
     }
 
-    // Of petri's tables, what fits; of the node on this line its attributes first, and then what the script itself names.
+    // Completes from petri's tables: first attributes of the node on this line, then other rows and names of the script.
     complete(context) {
         const word = context.matchBefore(/[!]?[\p{L}_][\p{L}\p{N}_]*$|!$/u);
         if (!word || (word.from === word.to && !context.explicit))
@@ -164,7 +164,7 @@ export class Editor {
 
 const TYPES = { node: 'class', function: 'function', attribute: 'property' };
 
-// Rows of attributes follow that of their node: each with its name.
+// Adds the name of the node to the rows of its attributes.
 function owned(rows) {
     let node = null;
     return rows.map(row => {
@@ -174,7 +174,7 @@ function owned(rows) {
     });
 }
 
-// The node whose attributes are written at a place: the last on its line before it.
+// Returns the node to which attributes at a position belong: the last one before it on the line.
 function nodeAt(state, at) {
     const { from, text } = state.doc.lineAt(at);
     return [...text.slice(0, at - from).matchAll(/!([\p{L}_][\p{L}\p{N}_]*)/gu)].at(-1)?.[1] ?? null;

@@ -1,5 +1,5 @@
-// embed.mjs: <petri-dish>, a script in any page: src/manual/playground.md lists its attributes and events. Its engine starts when
-// the element comes into view, and is that of the folder where this file is.
+// embed.mjs: <petri-dish>, a script in any page. src/manual/playground.md lists its attributes and events. The engine is loaded from this
+// file's folder when the element comes into view.
 import { loadEngine } from '../engine/petri.mjs';
 import { CONTROLS, Controls } from './controls.mjs';
 import { Dish, errorText, unsupportedText } from './dish.mjs';
@@ -10,9 +10,9 @@ import { packLink } from './link.mjs';
 let compiled = null;
 const engine = () => (compiled ??= loadEngine(new URL('petri/engine.wasm', import.meta.url)).then(({ module }) => module));
 
-const MAX_PROBLEMS = 4; // that are told below a picture
+const MAX_PROBLEMS = 4; // shown below a picture
 
-// Element names and their attributes, most of all `on…`, stay out of this.
+// A constant, so that attributes of the element are never inserted as HTML.
 const TEMPLATE = `<style>${style}</style>
 <div id="frame" part="frame"><canvas id="picture" part="picture" tabindex="0" width="300" height="150"></canvas>
 <button id="start" aria-label="Run">▶</button></div>
@@ -28,7 +28,7 @@ class PetriDish extends HTMLElement {
             this.attachShadow({ mode: 'open' }).innerHTML = TEMPLATE;
         this.get = id => this.shadowRoot.getElementById(id);
         this.arrange();
-        // What is written between the tags may come after the element.
+        // The element's content may be parsed after the element itself.
         this.seen = new IntersectionObserver(entries => this.look(entries.at(-1).isIntersecting), { rootMargin: '300px' });
         if (document.readyState === 'loading')
             document.addEventListener('DOMContentLoaded', () => this.seen?.observe(this), { once: true });
@@ -43,7 +43,7 @@ class PetriDish extends HTMLElement {
         this.dish = null;
     }
 
-    // What nobody sees does not run.
+    // Pauses the script while it is out of view.
     look(inView) {
         if (!this.dish && inView)
             this.begin();
@@ -77,7 +77,7 @@ class PetriDish extends HTMLElement {
         this.dispatchEvent(new CustomEvent(type, { detail, bubbles: true }));
     }
 
-    // Starts the engine and shows the first picture; a second call does nothing.
+    // Starts the engine and shows the first picture; further calls have no effect.
     async begin() {
         if (this.dish || !this.isConnected)
             return;
@@ -109,13 +109,13 @@ class PetriDish extends HTMLElement {
         this.tell('petri-ready', { frame: dish.frame });
     }
 
-    // The script: of `src`, with the files beside it that `files` names, or what is written between the tags.
+    // Reads the script from `src`, with the files named by `files` in the same folder, or from the element's content.
     async read() {
         const from = this.getAttribute('src'), url = new URL(from ?? '', document.baseURI);
         const fetched = async (name, place = new URL(name, url)) => {
             const answer = await fetch(place);
             if (!answer.ok)
-                throw new Error(`cannot read ${name}: the server answers ${answer.status}`);
+                throw new Error(`cannot read ${name}: the server returned ${answer.status}`);
             return new Uint8Array(await answer.arrayBuffer());
         };
         for (const name of (this.getAttribute('files') ?? '').split(/\s+/).filter(Boolean))
@@ -171,7 +171,7 @@ class PetriDish extends HTMLElement {
         return this.dish?.running ?? false;
     }
 
-    // Who can change the script is told what petri warns of.
+    // Warnings are only shown if the user can edit the script.
     shown(answer, left) {
         const problems = this.hasAttribute('editor') ? answer.told.filter(({ level }) => level !== 'note') : [];
         if (problems.length)
@@ -194,7 +194,7 @@ class PetriDish extends HTMLElement {
         this.get('start').hidden = this.dish?.running || this.hasAttribute('controls') || this.dish?.frame > 2;
     }
 
-    // The page with the script, as it is now, in its address.
+    // Opens the page with a link to the current script.
     async linkOut(event) {
         event.preventDefault();
         const answer = this.dish.loaded === this.text ? await this.dish.attempt('hash') : null;
@@ -204,7 +204,7 @@ class PetriDish extends HTMLElement {
     }
 }
 
-// Without the lines around a script in HTML, nor what all of its lines are indented by.
+// Returns a script in HTML without surrounding lines and common indentation.
 function plain(text) {
     const lines = text.replace(/^\s*\n/, '').trimEnd().split('\n');
     const indent = Math.min(...lines.filter(line => line.trim()).map(line => line.match(/^ */)[0].length));

@@ -1,8 +1,8 @@
-// engine.mjs: the worker as the page sees it: questions and answers, and what to do when it does not come back.
+// engine.mjs: the page's side of the worker: requests, answers, and restarting a worker that does not respond.
 
-const PATIENCE = 3000; // ms: frames that hear nothing for so long are ended with the engine
+const PATIENCE = 3000; // ms: a request that takes longer to stop is ended together with the engine
 
-// Workers must come from where the page comes from; a page elsewhere has one that imports the other.
+// A worker must have the page's origin; on other origins, a local worker imports the script.
 function makeWorker(url) {
     if (url.origin === location.origin)
         return new Worker(url, { type: 'module' });
@@ -11,20 +11,20 @@ function makeWorker(url) {
     return new Worker(own, { type: 'module' });
 }
 
-// `broken` comes when it has failed, which may be before anyone asks it something.
+// `broken` resolves when the worker fails, which may be before the first request.
 export function startWorker() {
     const worker = makeWorker(new URL('./worker.js', import.meta.url));
     worker.broken = new Promise(resolve => {
-        worker.onerror = event => resolve(event.message || 'the engine cannot be started');
+        worker.onerror = event => resolve(event.message || 'cannot start the engine');
     });
     return worker;
 }
 
 export class Remote {
-    // source: what `loadEngine` takes, or a promise of it; worker: one that has been started already.
+    // source: the argument of `loadEngine`, or a promise of it; worker: a worker that is already started.
     constructor(source, worker) {
         this.source = source;
-        // Which question is to be given up: threads share memory on pages that are isolated from others only.
+        // The last request to interrupt. Shared memory needs a cross-origin isolated page.
         this.flag = globalThis.crossOriginIsolated ? new Int32Array(new SharedArrayBuffer(4)) : null;
         this.number = 0;
         this.start(worker);
@@ -43,14 +43,14 @@ export class Remote {
             else
                 resolve(data);
         };
-        // One that never came would not come the next time, either.
+        // If the worker has never started, starting another one would fail as well.
         let begun = false;
         worker.broken.then(message => {
             worker.dead = message;
             this.fail(message, begun ? 'broken' : 'failed');
         });
         this.ready = Promise.resolve(this.source).then(source => this.ask('open', { source, flag: this.flag }));
-        this.ready.then(() => (begun = true), () => {}); // who waits for it hears of it
+        this.ready.then(() => (begun = true), () => {}); // errors are handled by users of `ready`
         return this.ready;
     }
 
@@ -64,7 +64,7 @@ export class Remote {
         return this.waiting.size > 0;
     }
 
-    // What is asked while the engine is on its way waits for it.
+    // Sends a request. Requests wait until the engine is loaded.
     ask(act, message = {}) {
         const id = ++this.number, { worker } = this;
         if (worker.dead)
@@ -79,7 +79,7 @@ export class Remote {
         });
     }
 
-    // Ends what the engine is at, and all that waits. True if it is as it was before; else it must be ended.
+    // Interrupts all pending requests. Returns true if the engine has stopped; otherwise it must be ended.
     async stop() {
         if (!this.flag)
             return !this.busy;
@@ -91,7 +91,7 @@ export class Remote {
         return !goesOn();
     }
 
-    // Ends the engine for good.
+    // Ends the engine permanently.
     end() {
         this.worker.terminate();
         this.fail('stopped', 'ended');

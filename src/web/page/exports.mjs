@@ -1,10 +1,10 @@
-// exports.mjs: the frames of a script as a film or a table, made in the worker from whatever frame on.
+// exports.mjs: exports frames of a script as a video or table, in the worker.
 import { Film } from './film.mjs';
 import { paint, sizeOf } from './paint.mjs';
 
-const REPORT_INTERVAL = 10; // frames
+const REPORT_INTERVAL = 10; // frames between progress messages
 
-// Goes through frames; `see` is called after each.
+// Steps through frames and calls `see` after each.
 async function each(player, { from, to, shouldInterrupt, tell }, see) {
     for (let frame = from; frame <= to; frame++) {
         if (shouldInterrupt())
@@ -31,7 +31,7 @@ export async function makeFilm(player, images, show, range) {
     return film.end();
 }
 
-// As `petri run --trajectory run.csv` writes it.
+// A table as written by `petri run --trajectory run.csv`.
 export async function makeTable(player, range) {
     const parts = [];
     let columns = 0;

@@ -1,7 +1,7 @@
-// feature_check.mjs: whether the browser has what the engine takes.
+// feature_check.mjs: checks that the browser supports WebAssembly SIMD.
 
-// A function that uses SIMD.
+// A module with a function that uses SIMD.
 export const hasEngine = () => typeof WebAssembly !== 'undefined' && WebAssembly.validate(new Uint8Array([
     0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11]));
 
-export const NO_ENGINE = 'This browser has no WebAssembly with SIMD, which petri takes: one of 2021 or later has.';
+export const NO_ENGINE = 'petri needs WebAssembly SIMD (browsers since 2021).';

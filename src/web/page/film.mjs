@@ -1,10 +1,10 @@
-// film.mjs: pictures as a film, one of its frames for each of the script's, however long they take to make.
+// film.mjs: encodes pictures as a video with one picture per frame of the script, however long rendering takes.
 import { packFilm } from './webm.mjs';
 
 const CODECS = [['vp09.00.51.08', 'V_VP9'], ['vp8', 'V_VP8']];
-const BITS = 0.2; // for a pixel of a frame
+const BITS = 0.2; // per pixel and frame
 const KEY_EVERY = 60; // frames
-const MAX_WAITING = 4; // frames that the encoder has been given and has not made
+const MAX_WAITING = 4; // frames queued in the encoder
 
 async function chooseCodec(settings) {
     for (const [codec, name] of globalThis.VideoEncoder ? CODECS : []) {
@@ -12,7 +12,7 @@ async function chooseCodec(settings) {
         if (supported)
             return [codec, name];
     }
-    throw new Error('this browser cannot make films: it has no WebCodecs with VP9 or VP8');
+    throw new Error('cannot make videos: this browser has no WebCodecs with VP9 or VP8');
 }
 
 export class Film {
@@ -34,7 +34,7 @@ export class Film {
         return film;
     }
 
-    // What is on the canvas is the next frame.
+    // Adds the content of the canvas as the next frame.
     async add() {
         const microseconds = count => Math.round(count * 1e6 / this.fps);
         const frame = new VideoFrame(this.canvas, { timestamp: microseconds(this.count), duration: microseconds(1) });

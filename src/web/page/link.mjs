@@ -1,9 +1,9 @@
-// link.mjs: a script in a link: `#` and, compressed (deflate-raw, base64url), JSON: v version, t text, n its file's name, c
-// changes of parameters as [after which frame, name, value], f frame, h the hash of the state there.
+// link.mjs: scripts in links: `#` and compressed JSON (deflate-raw, base64url). v: version, t: text, n: file name, c: parameter changes as
+// [last frame before it, name, value], f: frame, h: hash of its state.
 
 const VERSION = 1;
-const MAX_LENGTH = 100000; // characters: what browsers and mail still pass on
-const MAX_TEXT = 4 << 20; // of what it unpacks to
+const MAX_LENGTH = 100000; // characters; longer links are truncated by some browsers and mail programs
+const MAX_TEXT = 4 << 20; // limit of the uncompressed text
 
 async function through(stream, bytes, most = Infinity) {
     const reader = new Blob([bytes]).stream().pipeThrough(stream).getReader(), parts = [];
@@ -30,14 +30,14 @@ export async function packLink({ text, name, changes = [], frame, hash }) {
         binary += String.fromCharCode(byte);
     const link = '#' + btoa(binary).replaceAll('+', '-').replaceAll('/', '_').replace(/=+$/, '');
     if (link.length > MAX_LENGTH)
-        throw new Error(`the script is too long for a link: ${link.length} characters, ${MAX_LENGTH} at the most; save it as a file`);
+        throw new Error(`the script is too long for a link: ${link.length} characters, at most ${MAX_LENGTH}; save it as a file`);
     return link;
 }
 
 const isChange = change => Array.isArray(change) && change.length === 3 && Number.isInteger(change[0])
     && typeof change[1] === 'string' && typeof change[2] === 'string';
 
-// What packLink was given. Says why, in words for people, where there is none.
+// Returns the argument of packLink. Throws an error with a message for the user if the link is invalid.
 export async function readLink(link) {
     const packed = link.replace(/^#/, '').replaceAll('-', '+').replaceAll('_', '/');
     let json;
@@ -49,13 +49,13 @@ export async function readLink(link) {
         json = JSON.parse(new TextDecoder('utf-8', { fatal: true }).decode(text));
     } catch (error) {
         throw new Error(error.message.startsWith('the link') ? error.message
-            : 'the link is damaged: was it cut off when it was copied?', { cause: error });
+            : 'the link is damaged; check that it was copied completely', { cause: error });
     }
     if (json?.v > VERSION)
-        throw new Error('the link was made by a newer petri, which this one does not understand');
+        throw new Error('the link is from a newer petri; reload the page to update it');
     const { t: text, n: name = 'script.fl', c: changes = [], f: frame = 0, h: hash = null } = json ?? {};
     if (typeof text !== 'string' || typeof name !== 'string' || !Array.isArray(changes) || !changes.every(isChange)
         || !Number.isInteger(frame) || frame < -1 || frame > 1e6 || !(hash === null || typeof hash === 'string'))
-        throw new Error('the link is none of petri\'s');
+        throw new Error('not a petri link');
     return { text, name, changes, frame, hash };
 }

@@ -1,4 +1,4 @@
-// main.mjs: the page: an editor beside a dish, and what the buttons do.
+// main.mjs: the page: an editor beside a dish, and the actions of the buttons.
 import { CONTROLS, Controls } from './controls.mjs';
 import { Dish, errorText, unsupportedText } from './dish.mjs';
 import { Editor } from './editor.mjs';
@@ -22,7 +22,7 @@ function say(text, bad = false) {
     $('message').classList.toggle('error', bad);
 }
 
-// --- what the dish tells
+// --- callbacks of the dish
 
 const host = {
     loaded() {
@@ -52,7 +52,7 @@ const host = {
     },
 };
 
-// The panels follow, but not every frame.
+// Updates the panels, but not in every frame.
 let looking = 0;
 function look() {
     looking ||= setTimeout(() => {
@@ -62,7 +62,7 @@ function look() {
     }, dish.running ? 200 : 0);
 }
 
-// Loads the text of the editor if it is another one than runs.
+// Loads the editor's text unless it is the running script.
 async function ready({ always = false } = {}) {
     const { text } = editor;
     if (!always && dish.loaded === text)
@@ -71,7 +71,7 @@ async function ready({ always = false } = {}) {
     return dish.load(text, name);
 }
 
-// --- the text
+// --- the editor's text
 
 const keeper = new ScriptSaver();
 let checking = 0, opening = false;
@@ -79,7 +79,7 @@ function changed(text) {
     if (!opening) {
         keeper.keep(name, text);
         if (location.hash)
-            history.replaceState(null, '', location.pathname + location.search); // it is no longer what the link brought
+            history.replaceState(null, '', location.pathname + location.search); // the text is no longer that of the link
     }
     clearTimeout(checking);
     checking = setTimeout(async () => {
@@ -101,8 +101,8 @@ async function openText(text, called, wanted = {}) {
     opening = false;
     const opened = await dish.open(text, name, wanted);
     if (opened && wanted.hash)
-        say(opened === true ? `Frame ${wanted.frame}: the same state as where the link was made, to the last bit.`
-            : `Frame ${wanted.frame}: the state is not that where the link was made. It was made by another version of petri, perhaps.`,
+        say(opened === true ? `Frame ${wanted.frame}: the state matches the link exactly.`
+            : `Frame ${wanted.frame}: the state differs from the link. The link may be from another version of petri.`,
         opened !== true);
 }
 
@@ -116,10 +116,10 @@ async function copyLink() {
         return;
     history.replaceState(null, '', link);
     const copied = await navigator.clipboard?.writeText(location.href).then(() => true, () => false);
-    say(copied ? 'The link is copied; nothing has left this machine.' : 'The link is in the address bar.');
+    say(copied ? 'Link copied. Nothing was uploaded.' : 'The link is in the address bar.');
 }
 
-// Why there is nothing to open; '' if it is open now.
+// Opens the script of the page's link. Returns '' or the reason why there is nothing to open.
 async function openLink() {
     if (location.hash.length < 2)
         return 'no link';
@@ -135,7 +135,7 @@ async function openLink() {
 
 const stem = () => name.replace(/\.fl$/, '');
 
-// Scripts, and what they read. The one to run is that which no other names: the script that is open, or the first.
+// Adds scripts and files that they read. Runs the script that no other script refers to, or restarts the current one if it uses the files.
 async function takeFiles(files) {
     for (const file of files)
         await dish.addFile(file.name, new Uint8Array(await file.arrayBuffer()));
@@ -151,7 +151,7 @@ async function takeFiles(files) {
         await dish.open(editor.text, name);
 }
 
-// Samples, and what was written here before.
+// Fills the menu with samples and recent scripts.
 function fillMenu() {
     const group = (label, options) => {
         const made = Object.assign(document.createElement('optgroup'), { label });
@@ -159,9 +159,9 @@ function fillMenu() {
         return options.length ? [made] : [];
     };
     const menu = $('samples'), { value } = menu;
-    menu.replaceChildren(new Option('choose …', ''),
+    menu.replaceChildren(new Option('choose…', ''),
         ...group('Samples', Object.keys(samples).map(sample => new Option(sample.replace(/\.fl$/, ''), sample))),
-        ...group('Written here', savedScripts().map(({ name: own, when }) =>
+        ...group('Recent scripts', savedScripts().map(({ name: own, when }) =>
             new Option(`${own}, ${new Date(when).toLocaleString()}`, when))));
     menu.value = value;
 }

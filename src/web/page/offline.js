@@ -1,5 +1,5 @@
-// offline.js: the page works without a network after the first visit: what is fetched is kept, and asked for anew when
-// there is a network.
+// offline.js: service worker that lets the page work offline after the first visit. Files are cached, and fetched again when there is a
+// network.
 const KEPT = 'petri';
 
 self.addEventListener('install', event => {

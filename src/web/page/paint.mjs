@@ -1,14 +1,14 @@
-// paint.mjs: what the worker gives as a picture, on a canvas: of the page, or of a film's frame.
+// paint.mjs: paints a picture from the worker on a canvas, of the page or of a video frame.
 import { drawPicture, pictureSize } from '../engine/drawing.mjs';
 
 export const sizeOf = ({ image, numbers }) => image ?? pictureSize(numbers);
 
-// Draws what WebGL 2 has made, or draws by itself. Returns what is left out, as words.
+// Paints an image made with WebGL 2, or draws a display list. Returns descriptions of unsupported parts.
 export function paint(context, { image, numbers, unsupported }, images) {
     if (!image)
         return drawPicture(context, numbers, { image: name => imageOf(images, name) });
     const { width, height } = context.canvas;
-    context.clearRect(0, 0, width, height); // nothing of the picture before is seen through it
+    context.clearRect(0, 0, width, height); // the picture may be transparent
     context.drawImage(image, 0, 0, width, height);
     image.close();
     return unsupported;
@@ -17,7 +17,7 @@ export function paint(context, { image, numbers, unsupported }, images) {
 const IMAGE = /\.(png|jpe?g|gif|webp)$/i;
 const baseName = name => name.replace(/^.*\//, '');
 
-// Images that scripts may name, by the name without its folder.
+// Images that scripts can name, by file name without folders.
 export const imageOf = (images, name) => images.get(baseName(name));
 
 export async function addImage(images, name, bytes) {

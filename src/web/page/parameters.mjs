@@ -8,7 +8,7 @@ export class Parameters {
         this.rows = new Map();
     }
 
-    // Rows are made anew when the script has other parameters; else only values that nobody is changing.
+    // Creates the rows again if the script's parameters are different; otherwise updates values, except the one being edited.
     show(parameters) {
         const settable = parameters.filter(parameter => parameter.settable);
         const signature = JSON.stringify(settable.map(({ name, min, max, step, comment, defaultValue }) =>

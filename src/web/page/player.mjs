@@ -1,11 +1,11 @@
-// player.mjs: a script that is run, gone back in and changed: a session with keyframes, in the worker.
+// player.mjs: a running script with keyframes for going back, and parameter changes; used in the worker.
 
 const EVERY = 20; // frames between keyframes
-const MAX_KEYFRAMES = 64; // besides those where something was changed
+const MAX_KEYFRAMES = 64; // besides those of parameter changes
 const MAX_BYTES = 256 << 20;
 
 export class Player {
-    // options: of the sessions, but for files; watches: what looks at each frame.
+    // options: of sessions, except files; watches: notified of every frame.
     constructor(engine, options, watches) {
         this.engine = engine;
         this.watches = watches;
@@ -14,7 +14,7 @@ export class Player {
         this.session = null;
     }
 
-    // Opens a session of its own for a script; frame -1. Throws what `load` throws; the one that runs then goes on.
+    // Opens a new session for a script, before frame 0. Throws as `load` does; the current session then stays.
     load(text, name, changes = []) {
         const session = this.engine.open({ ...this.options, files: this.files });
         try {
@@ -31,7 +31,7 @@ export class Player {
         Object.assign(this, { session, text, name, changes, keyframes: [], every: EVERY, frame: -1, lastFrame: -1, torn: false });
     }
 
-    // Drops keyframes behind a frame.
+    // Drops keyframes after a frame.
     forget(frame) {
         const keep = this.keyframes?.filter(key => key.frame <= frame) ?? [];
         this.keyframes?.filter(key => key.frame > frame).forEach(key => key.snapshot.free());
@@ -39,7 +39,7 @@ export class Player {
     }
 
     step() {
-        this.torn = true; // until the frame is made, there is nothing to see
+        this.torn = true; // the session has no valid frame until this one is complete
         this.session.step();
         this.needsHistory = this.session.renderIfNeeded();
         this.torn = false;
@@ -77,11 +77,11 @@ export class Player {
         this.keyframes = this.keyframes.filter(key => !dropped.includes(key));
     }
 
-    // Goes to a frame, from the keyframe before it; the frame's tree is there then. At most `most` steps at once: false if
-    // it is not there yet.
+    // Goes to a frame, by way of the keyframe before it, so that the frame's tree is computed. Makes at most `most` steps and returns false
+    // if the frame is not reached yet.
     seek(frame, most = Infinity) {
         if (frame < this.frame || (frame === this.frame && this.torn)) {
-            // Pictures that depend on those before are made from the first again.
+            // Pictures that depend on earlier ones are rendered again from the first.
             const key = this.needsHistory ? null : this.keyframes.findLast(other => other.frame < frame);
             const end = this.lastFrame;
             if (key) {
@@ -100,7 +100,7 @@ export class Player {
         return this.frame >= frame;
     }
 
-    // Another value for a parameter from the next frame on. What came after is forgotten.
+    // Changes a parameter from the next frame on and drops later keyframes.
     set(name, value) {
         this.session.setParameter(name, value);
         this.changes = this.changes.filter(([frame, other]) => frame < this.frame || (frame === this.frame && other !== name));

@@ -1,4 +1,4 @@
-// plot.mjs: watched expressions over frames.
+// plot.mjs: plots watched expressions over frames.
 
 const COLOURS = ['#2f81f7', '#e5534b', '#3fb950', '#d29922', '#a371f7', '#39c5cf'];
 const DASHES = [[], [6, 3], [2, 2], [8, 2, 2, 2]];
@@ -6,7 +6,7 @@ const LEFT = 56, RIGHT = 8, TOP = 8, BOTTOM = 20;
 
 const short = x => Math.abs(x) >= 1e5 || (x !== 0 && Math.abs(x) < 1e-3) ? x.toExponential(1) : String(Number(x.toPrecision(4)));
 
-// A round step that makes some five of a range.
+// Returns a round step that divides a range into about five parts.
 function stepOf(range) {
     const power = 10 ** Math.floor(Math.log10(range / 5)), share = range / 5 / power;
     return power * (share > 5 ? 10 : share > 2 ? 5 : share > 1 ? 2 : 1);
@@ -34,7 +34,7 @@ export class Plot {
             const item = document.createElement('li'), button = document.createElement('button');
             item.style.setProperty('--colour', COLOURS[i % COLOURS.length]);
             button.textContent = '×';
-            button.setAttribute('aria-label', `Watch ${text} no more`);
+            button.setAttribute('aria-label', `Stop watching ${text}`);
             button.onclick = () => this.watch(this.texts.filter(other => other !== text));
             item.append(text, ' ', button);
             return item;
@@ -43,7 +43,7 @@ export class Plot {
         await this.refresh();
     }
 
-    // Asks for the values and draws them, one question at a time.
+    // Requests the values and draws them, one request at a time.
     async refresh() {
         if (!this.seen || this.asking || this.dish.loaded === null)
             return;
@@ -57,7 +57,7 @@ export class Plot {
         this.tell(answer.frame);
     }
 
-    // For those who do not see the lines.
+    // Describes the last values in words, for screen readers.
     tell(frame) {
         const shown = line => frame in line && !Number.isNaN(line[frame]) ? short(line[frame]) : 'none';
         this.said.textContent = this.series.map(({ text, error, lines }) =>

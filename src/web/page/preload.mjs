@@ -1,4 +1,4 @@
-// preload.mjs: what takes longest, begun before the page has its editor: the engine, and the worker that it goes to.
+// preload.mjs: starts loading the engine and its worker before the page's editor, because they take longest.
 import { startWorker } from './engine.mjs';
 import { hasEngine } from './feature_check.mjs';
 
@@ -6,6 +6,6 @@ const url = new URL('petri/engine.wasm', location.href).href;
 if (hasEngine())
     globalThis.petriStart = {
         worker: startWorker(),
-        // A server that does not know the type of the file is no reason not to go on.
+        // Continue even if the server does not know the MIME type of the file.
         source: WebAssembly.compileStreaming(fetch(url)).catch(() => url),
     };

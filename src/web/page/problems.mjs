@@ -1,4 +1,4 @@
-// problems.mjs: what petri has told of the script: under the very words, and as a list.
+// problems.mjs: the problems of the script, underlined in the editor and as a list.
 
 const MAX_SHOWN = 50;
 

@@ -1,4 +1,4 @@
-// prompt.mjs: a line for expressions and definitions, as `petri repl` has, and what was printed.
+// prompt.mjs: a prompt for expressions and definitions, as in `petri repl`, with its output.
 
 const LINES = 200;
 

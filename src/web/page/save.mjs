@@ -1,7 +1,7 @@
-// save.mjs: what is saved as a file: the script, and by a dialog the picture, a film, the particles or the state.
+// save.mjs: saves files: the script, and by a dialog the picture, a video, the particles or the state.
 
 const SUFFIXES = { picture: 'png', film: 'webm', particles: 'csv', state: 'csv' };
-const SECONDS = 5; // of a film, unless more frames are there
+const SECONDS = 5; // default length of a video, unless there are more frames
 
 export function saveAs(name, blob) {
     const link = document.createElement('a');
@@ -12,7 +12,7 @@ export function saveAs(name, blob) {
 }
 
 export class SaveDialog {
-    // stem: gives what the names of files begin with.
+    // stem: returns the start of file names.
     constructor(root, dish, stem) {
         const $ = this.get = id => root.getElementById(id);
         Object.assign(this, { dish, stem, dialog: $('saving') });
@@ -55,7 +55,7 @@ export class SaveDialog {
         }
         const at = dish.frame, [from, to] = [Number($('saving-from').value), Number($('saving-to').value)];
         if (to < from) {
-            $('export-status').textContent = `There is no frame from ${from} to ${to}.`;
+            $('export-status').textContent = `Frames ${from} to ${to} do not exist.`;
             return;
         }
         const progress = $('saving-progress');
@@ -73,6 +73,6 @@ export class SaveDialog {
         if (dish.loaded !== null)
             await dish.seek(at);
         if (!answer)
-            $('export-status').textContent = 'It could not be saved; the message under the picture says why.';
+            $('export-status').textContent = 'Export failed; see the message under the picture.';
     }
 }

@@ -1,9 +1,9 @@
-// saved_scripts.mjs: what was written here, in the browser's storage: the last few scripts, each as it was left.
+// saved_scripts.mjs: the last few edited scripts, in the browser's storage.
 
 const PLACE = 'petri.scripts';
 const MAX_SCRIPTS = 12;
 
-// The newest first: { name, text, when }.
+// Returns the scripts, newest first: { name, text, when }.
 export function savedScripts() {
     try {
         return JSON.parse(localStorage.getItem(PLACE)) ?? [];
@@ -13,7 +13,7 @@ export function savedScripts() {
 }
 
 export class ScriptSaver {
-    // What is written from here on is another script.
+    // Begins a new entry for the next text.
     begin() {
         this.when = null;
     }
@@ -22,13 +22,13 @@ export class ScriptSaver {
         const others = savedScripts().filter(({ when, text: same }) => when !== this.when && same !== text);
         this.when ??= Date.now();
         const scripts = [{ name, text, when: this.when }, ...others];
-        // Browsers have room for some millions of letters: older scripts make way. Private windows keep nothing.
+        // Storage is limited to some millions of characters, so older scripts are dropped. Private windows may store nothing.
         for (let count = Math.min(MAX_SCRIPTS, scripts.length); count > 0; count--)
             try {
                 localStorage.setItem(PLACE, JSON.stringify(scripts.slice(0, count)));
                 return;
             } catch {
-                // with one less, then
+                // retry with one script less
             }
     }
 }

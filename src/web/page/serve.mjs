@@ -1,4 +1,4 @@
-// serve.mjs FOLDER [PORT]: serves a folder on 127.0.0.1; port 0, the default, is any that is free.
+// serve.mjs FOLDER [PORT]: serves a folder on 127.0.0.1. Port 0, the default: any free port.
 import { createReadStream, statSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { extname, join, normalize } from 'node:path';
@@ -7,13 +7,13 @@ import { fileURLToPath } from 'node:url';
 const TYPES = { '.html': 'text/html; charset=utf-8', '.js': 'text/javascript', '.mjs': 'text/javascript', '.css': 'text/css',
     '.json': 'application/json', '.wasm': 'application/wasm' };
 
-// The page runs scripts of strangers: it gets nothing from elsewhere and sends nothing there.
+// The page runs untrusted scripts, so it may not load from or send to other sites.
 const HEADERS = {
     'Content-Security-Policy': "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; "
         + "img-src 'self' data: blob:; connect-src 'self'; object-src 'none'; base-uri 'none'",
-    // The stop button's flag is memory that threads share, which browsers give to pages that nobody else can look into.
+    // The stop button needs shared memory, which browsers only allow on cross-origin isolated pages.
     'Cross-Origin-Opener-Policy': 'same-origin', 'Cross-Origin-Embedder-Policy': 'require-corp',
-    // <petri-dish> works in pages from elsewhere.
+    // Allow <petri-dish> in pages of other sites.
     'Cross-Origin-Resource-Policy': 'cross-origin', 'Access-Control-Allow-Origin': '*',
     'X-Content-Type-Options': 'nosniff', 'Cache-Control': 'no-cache',
 };
@@ -23,7 +23,7 @@ export function serve(folder, port = 0) {
         const path = normalize(decodeURIComponent(new URL(request.url, 'http://x').pathname));
         const file = join(folder, path.endsWith('/') ? `${path}index.html` : path);
         if (!statSync(file, { throwIfNoEntry: false })?.isFile()) {
-            response.writeHead(404, { 'Content-Type': 'text/plain' }).end('there is no such file\n');
+            response.writeHead(404, { 'Content-Type': 'text/plain' }).end('no such file\n');
             return;
         }
         response.writeHead(200, { ...HEADERS, 'Content-Type': TYPES[extname(file)] ?? 'application/octet-stream' });

@@ -1,4 +1,4 @@
-// table.mjs: the state as a table, of which the worker gives what is seen.
+// table.mjs: the state as a table; the worker sends only the visible rows.
 
 const ROWS = 100;
 
@@ -18,7 +18,7 @@ export class Table {
             head.querySelector('button').onclick = () => this.sort(head.dataset.by);
     }
 
-    // A click on a head sorts, another the other way round, a third as the state has it.
+    // A click on a head sorts in ascending order, a second click in descending order, a third restores the state's order.
     sort(by) {
         [this.by, this.down] = this.by !== by ? [by, false] : this.down ? [null, false] : [by, true];
         for (const head of this.heads)
@@ -32,7 +32,7 @@ export class Table {
         this.refresh();
     }
 
-    // One question at a time.
+    // Sends one request at a time.
     async refresh() {
         if (!this.seen || this.asking || this.dish.loaded === null)
             return;

@@ -1,9 +1,9 @@
-// tables.mjs: the state, and watched expressions, as the worker has them for the page.
+// tables.mjs: the state and watched expressions, in the worker.
 
-const COMPONENTS = 4; // of a vector that is watched
-const REFILL = 1000; // ms that frames before are made once more for, when something new is watched
+const COMPONENTS = 4; // maximum of a watched vector
+const REFILL = 1000; // maximum ms for computing earlier frames again when an expression is added
 
-// The state as rows, sorted and filtered here: the page gets those that it shows.
+// The state as rows. They are sorted and filtered here, and the page gets only the visible ones.
 export class StateTable {
     constructor() {
         this.made = null;
@@ -34,7 +34,7 @@ export class StateTable {
 
 const order = new Intl.Collator('en', { numeric: true });
 
-// Expressions whose values are kept for each frame.
+// Expressions whose values are recorded in each frame.
 export class Watches {
     constructor(told) {
         this.told = told;
@@ -49,14 +49,14 @@ export class Watches {
         this.all.forEach(watch => watch.values.splice(frame + 1));
     }
 
-    // The values in the frame that there is.
+    // Records the values in the current frame.
     see({ session, frame }) {
         for (const watch of this.all) {
             const before = this.told.length;
             try {
                 const { text, number } = session.evaluate(watch.text);
                 watch.values[frame] = Number.isNaN(number) ? text.split(';').slice(0, COMPONENTS).map(Number) : [number];
-                watch.error = watch.values[frame].some(Number.isNaN) && text !== 'null' ? `${watch.text} is no number: ${text}` : null;
+                watch.error = watch.values[frame].some(Number.isNaN) && text !== 'null' ? `${watch.text} is not a number: ${text}` : null;
             } catch (error) {
                 watch.error = error.message.split('\n')[0];
             }
@@ -64,7 +64,7 @@ export class Watches {
         }
     }
 
-    // Makes the frames before once more, as far as that goes fast.
+    // Computes earlier frames again to record their values, within REFILL.
     refill(player, shouldInterrupt) {
         const at = player.frame, end = performance.now() + REFILL;
         for (let frame = 0; frame <= player.lastFrame && performance.now() < end && !shouldInterrupt(); frame++)
@@ -72,7 +72,7 @@ export class Watches {
         player.seek(at);
     }
 
-    // For each component of each expression as many numbers as there are frames; NaN where it is not known.
+    // Returns, for each component of each expression, one number per frame; NaN if unknown.
     series(most) {
         return this.all.map(({ text, values, error }) => {
             const width = values.reduce((widest, value) => Math.max(widest, value?.length ?? 0), 1);

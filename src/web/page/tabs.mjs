@@ -1,7 +1,7 @@
-// tabs.mjs: panels of which one is seen: its tab takes the focus, arrow keys go to others.
+// tabs.mjs: panels of which one is visible. The selected tab has the focus; arrow keys select another tab.
 
 export class Tabs {
-    // change: called with the id of the panel that is seen.
+    // change: called with the id of the visible panel.
     constructor(list, change) {
         this.tabs = [...list.querySelectorAll('[role=tab]')];
         this.change = change;

@@ -1,6 +1,6 @@
-// webm.mjs: the container that films come in: EBML elements, each an id, a length and what is in it.
+// webm.mjs: writes WebM files: EBML elements, each with an id, a length and content.
 
-const TICKS = 1e6; // nanoseconds in a tick of time stamps: those of clusters are whole milliseconds
+const TICKS = 1e6; // nanoseconds per tick of time stamps; those of clusters are whole milliseconds
 const encoder = new TextEncoder();
 
 const join = parts => {
@@ -13,7 +13,7 @@ const join = parts => {
     return all;
 };
 
-// A whole number, in as few bytes as hold it or in `least`.
+// Encodes an integer in as few bytes as possible, but at least `least`.
 function whole(value, least = 1) {
     const bytes = [];
     for (let left = value; left > 0 || bytes.length < least; left = Math.floor(left / 256))
@@ -29,13 +29,13 @@ function real(value) {
 
 const content = part => typeof part === 'number' ? whole(part) : typeof part === 'string' ? encoder.encode(part) : part;
 
-// The length is written in eight bytes, the first of which says so.
+// The length always takes eight bytes; the first one marks this.
 function element(id, ...parts) {
     const inside = join(parts.map(content));
     return join([whole(id), Uint8Array.of(1), whole(inside.length, 7), inside]);
 }
 
-// Where one may begin to play: places count from the begin of the segment, wherever they are written.
+// The index of key frames. Positions are relative to the start of the segment.
 const cues = (clusters, before) => {
     let at = before;
     return element(0x1C53BB6B, ...clusters.map(({ time, bytes }) => {
@@ -45,7 +45,7 @@ const cues = (clusters, before) => {
     }));
 };
 
-// codec: 'V_VP9' or 'V_VP8'; chunks: { data, time in milliseconds, key }, the first of them a key frame.
+// codec: 'V_VP9' or 'V_VP8'; chunks: { data, time in milliseconds, key }, beginning with a key frame.
 export function packFilm({ codec, width, height, fps, chunks }) {
     const head = element(0x1A45DFA3, element(0x4286, 1), element(0x42F7, 1), element(0x42F2, 4), element(0x42F3, 8),
         element(0x4282, 'webm'), element(0x4287, 4), element(0x4285, 2));

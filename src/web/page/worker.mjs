@@ -1,14 +1,14 @@
-// worker.mjs: the engine's thread. Messages come one at a time and each is answered, so that the page knows when it is free.
+// worker.mjs: the engine's thread. It answers every message, one at a time, so that the page knows when it is free.
 import { loadEngine } from '../engine/petri.mjs';
 import { makeFilm, makeState, makeTable } from './exports.mjs';
 import { addImage, imageOf } from './paint.mjs';
 import { Player } from './player.mjs';
 import { StateTable, Watches } from './tables.mjs';
 
-const SEEK_STEPS = 50; // frames between looks at what the page wants
+const SEEK_STEPS = 50; // frames between checks for new requests
 let engine, player, checker, told = [], flag = null, current = 0;
 
-// The page writes which question is to be given up, and all before it.
+// The page sets the flag to the last request to interrupt; all earlier ones are interrupted as well.
 const shouldInterrupt = () => flag !== null && Atomics.load(flag, 0) >= current;
 const images = new Map();
 const tell = diagnostic => told.push(diagnostic);
@@ -17,7 +17,7 @@ const watches = new Watches(told), stateTable = new StateTable();
 
 const picture = automatic => player.frame >= 0 ? player.session.render({ automatic }) : null;
 
-// What the page shows after a frame.
+// Returns the data that the page shows after a frame.
 function shown(extra = {}) {
     const { session } = player;
     return {
@@ -53,10 +53,10 @@ const acts = {
         watches.forget(-1);
         player.automatic = false;
         player.step();
-        // Particles are not where they will be seen before frame 2.
+        // Before frame 2, particles are not at their positions.
         return shown({ loaded: true });
     },
-    // The same script with another text, while it goes on; what was before is not gone back to.
+    // Replaces the text of the running script. Frames before this one are no longer available.
     reload({ text, name }) {
         player.session.reload(text, name);
         Object.assign(player, { text, name });
@@ -74,12 +74,12 @@ const acts = {
             await new Promise(resolve => setTimeout(resolve));
         return shown();
     },
-    // Where it is, after a frame that was given up.
+    // Shows the current frame again after an aborted one.
     shown() {
         player.seek(player.frame);
         return shown();
     },
-    // The particles themselves, for what the page cannot draw.
+    // Draws the particles if the page cannot draw the script's picture.
     automatic() {
         player.automatic = true;
         return shown();
@@ -102,7 +102,7 @@ const acts = {
         return { type: 'done' };
     },
     series: () => ({ type: 'series', series: watches.series(player.lastFrame), frame: player.frame }),
-    // Files to be saved, of frames from one to another.
+    // Exports a range of frames to a file.
     async save({ id, kind, from, to }) {
         const range = { from, to, shouldInterrupt, tell: (done, of) => postMessage({ type: 'progress', id, done, of }) };
         return {

@@ -1,5 +1,5 @@
-// build.mjs ROOT OUTPUT TABLES: the manual as a site, in OUTPUT/manual, of the texts that are in the tree. OUTPUT has the engine
-// (petri/) and <petri-dish>; TABLES is what `petri-manual tables.json` writes.
+// build.mjs ROOT OUTPUT TABLES: builds the manual in OUTPUT/manual from the texts of the tree. OUTPUT contains the engine (petri/) and
+// <petri-dish>; TABLES is the output of `petri-manual tables.json`.
 import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -21,7 +21,7 @@ const site = {
 };
 site.text = new Text(site);
 
-// Modules that the scripts of a text import or include: fences with a name.
+// Modules that the scripts of a text import or include: code blocks with a name.
 const modulesOf = markdown => Object.fromEntries([...markdown.matchAll(/^```flitter (\S+\.fl)\n(.*?)^```/gms)]
     .map(([, name, text]) => [name, text])
     .filter(([name]) => markdown.includes(`"${name}"`)));
@@ -68,12 +68,12 @@ ${body}</main>
 </html>
 `;
 
-// What the search looks through: pages, and sections [page, title, id, text].
+// The search index: pages, and sections [page, title, id, text].
 const index = { pages: [], sections: [] };
 const words = text => text.replaceAll(/<\/?(span|code|a|em|strong)\b[^>]*>/g, '').replaceAll(/<[^>]*>/g, ' ')
     .replaceAll('&lt;', '<').replaceAll('&gt;', '>').replaceAll('&quot;', '"').replaceAll('&amp;', '&').replaceAll(/\s+/g, ' ').trim();
 
-// Sections take the text up to the next heading; a page is found by its own title, too, whatever its headings are.
+// A section contains the text up to the next heading. A page is always found by its title.
 function addToIndex(page, body, sections) {
     const number = index.pages.push([`${page.name}.html`, page.title]) - 1;
     index.sections.push([number, page.title, 'text', page.about]);
@@ -100,7 +100,7 @@ for (const page of PAGES) {
 
 const cards = GROUPS.map(([title, pages]) => `<h2>${title}</h2>\n<ul class="cards">\n${pages.map(({ name, title: its, about }) =>
     `<li><a href="${name}.html">${escape(its)}</a><br>${escape(about)}</li>`).join('\n')}\n</ul>\n`).join('');
-writeFileSync(join(output, 'index.html'), html('index', 'The manual', `<h1>The manual of petri</h1>
+writeFileSync(join(output, 'index.html'), html('index', 'The manual', `<h1>The petri manual</h1>
 <p>petri ${escape(site.tables.title)}. It gives the same bits on each machine; the dish below is computed on yours, and so is each
 example of these pages: change a number, or move a slider.</p>
 <petri-dish src="dish.fl" controls label="A dish of drops, and a spoon that stirs them">${

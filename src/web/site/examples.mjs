@@ -1,11 +1,11 @@
-// examples.mjs: examples of the texts, which run on the pages: as <petri-dish> where they have a picture, else as text with
-// what comes of it (try.mjs). What comes of them is found out here, by the same engine.
+// examples.mjs: examples of the manual that run on its pages: as <petri-dish> if they draw something, else as text with the result
+// (try.mjs). The results are computed here with the same engine.
 import { copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync } from 'node:fs';
 import { basename, dirname, join } from 'node:path';
 import { drawPicture } from '../engine/drawing.mjs';
 import { escape } from './text.mjs';
 
-// A context of Canvas 2D that draws nothing, and what else of a browser drawing takes.
+// A Canvas 2D context that draws nothing, and other browser objects that drawing needs.
 const nothing = new Proxy(function () {}, {
     get: (_, name) => name === 'canvas' ? { width: 1, height: 1 } : name === Symbol.toPrimitive ? () => 0 : nothing,
     apply: () => nothing, construct: () => nothing, set: () => true,
@@ -21,12 +21,12 @@ export class Examples {
             .map(name => [name.slice(0, -3), readFileSync(join(folder, name), 'utf8')]));
     }
 
-    // Names of a page's own modules.
+    // File names of the page's modules.
     begin(files) {
         this.files = files;
     }
 
-    // `dish` if the script draws what a browser can draw, `text` if it loads, `none` otherwise.
+    // Returns `dish` if the script draws something that browsers support, `text` if it only loads, else `none`.
     kindOf(text, files = this.files) {
         const session = this.engine.open({ files });
         try {
@@ -36,7 +36,7 @@ export class Examples {
             if (!session.drawable)
                 return session.told?.some(({ level }) => level === 'error') ? 'none' : 'text';
             const picture = session.displayList();
-            // Nodes by their names are drawn by WebGL, which is not here; other things are drawn nowhere.
+            // Unsupported nodes are drawn with WebGL, which is not available here; other unsupported parts are not drawn at all.
             const left = picture ? drawPicture(nothing, picture.numbers, { image: name => name in files ? nothing : null }) : [' '];
             return left.every(what => /^\w+$/.test(what)) ? 'dish' : 'text';
         } catch {
@@ -69,7 +69,7 @@ export class Examples {
         return `<pre tabindex="0" class="script"><code>${this.coloured(text)}</code></pre>\n`;
     }
 
-    // A dish with its text to be changed; without scripts of the browser's, the text.
+    // A dish with an editable script; without JavaScript, only the script is shown.
     dish(text, label, env, files = []) {
         this.all.push({ page: env.page, kind: 'dish', text, files: {} });
         const given = files.length ? ` files="${escape(files.join(' '))}"` : '';
@@ -93,7 +93,7 @@ export class Examples {
         if (kind === 'flitter-eval')
             return this.evaluations(content, env);
         if (kind === 'tree' || kind === 'state')
-            return ''; // stands below its script already
+            return ''; // already shown below its script
         if (kind !== 'flitter')
             return this.plain(content);
         if (name.endsWith('.png'))
@@ -106,21 +106,21 @@ export class Examples {
         return this.kindOf(content) === 'dish' ? this.dish(content, label, env) : this.code(content);
     }
 
-    // Lines `EXPRESSION => RESULT`.
+    // A block with lines `EXPRESSION => RESULT`.
     evaluations(content, env) {
         const lines = content.trimEnd().split('\n').map(line => line.split(/ => (?!.* => )/));
         const texts = lines.map(([text]) => `${text.trimEnd()}\n`), results = lines.map(([, result = '']) => `${result}\n`);
         return this.try('eval', 0, texts.join(''), results.join(''), env);
     }
 
-    // Images and models beside a script that it names.
+    // Images and models that a script names, next to the script.
     beside(file, text) {
         const folder = dirname(join(this.root, file));
         const names = new Set([...text.matchAll(/(["'])(\w[\w/]*\.(?:png|jpg|obj|stl))\1/g)].map(([, , name]) => name));
         return [...names].filter(name => existsSync(join(folder, name))).map(name => [name, join(folder, name)]);
     }
 
-    // The script behind a picture, to be run below it.
+    // The script of a picture, shown as a dish below it.
     behind(file, env) {
         const text = readFileSync(join(this.root, file), 'utf8'), files = this.beside(file, text);
         if (this.kindOf(text, Object.fromEntries(files.map(([name, from]) => [name, readFileSync(from)]))) !== 'dish')
@@ -133,7 +133,7 @@ export class Examples {
         return `<details><summary>Run ${basename(file)}</summary>\n${dish}</details>\n`;
     }
 
-    // What stands below the heading of a node of physics.
+    // The dish below the heading of a physics node.
     under(title, env) {
         const name = title.match(/^!(\w+)$/)?.[1];
         return env.page === 'physics' && this.nodes.has(name)

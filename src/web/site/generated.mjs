@@ -1,4 +1,4 @@
-// generated.mjs: what is made of petri's tables (petri-manual tables.json), of its headers and of the samples.
+// generated.mjs: pages generated from petri's tables (petri-manual tables.json), its headers and the samples.
 import { copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { slug } from './pages.mjs';
@@ -14,11 +14,11 @@ const table = (heads, rows) => `<div class="table" tabindex="0" role="region" ar
     cells('th', heads)}${rows.map(row => cells('td', row)).join('')}</table></div>\n`;
 const code = text => text ? `<code>${escape(text)}</code>` : '';
 
-// Paragraphs as `petri help` has them: words in quotes are typed.
+// Paragraphs in the format of `petri help`: words in quotes become code.
 const paragraphs = text => text.trim().split('\n\n').map(part =>
     `<p>${escape(part.replaceAll('\n', ' ')).replace(/(?<![\w])'([^']+)'/g, '<code>$1</code>')}</p>\n`).join('');
 
-// An option as it is typed.
+// Returns an option as it is typed.
 const written = ({ letter, name, value }) => `${letter ? `-${letter}, ` : ''}--${name}${value ? ` ${value}` : ''}`;
 
 export const GENERATED = {
@@ -66,7 +66,7 @@ export const GENERATED = {
             + table(['command', ''], prompt.map(({ name, operands, help }) => [code(`${name} ${operands}`.trim()), escape(help)]));
     },
 
-    // Comments that begin a line are text, what stands between them is shown as it is.
+    // Comments at the start of a line become text; the declarations between them are shown as code.
     headers({ root, text: { md } }, env) {
         return ['petri.h', 'petri-draw.h'].map(name => {
             const [, ...lines] = readFileSync(join(root, 'lib/include', name), 'utf8').split('\n');
@@ -100,7 +100,7 @@ export const GENERATED = {
         }).join('');
     },
 
-    // The scenes of the tests, with what petri draws of them.
+    // The scenes of the tests, with petri's pictures of them.
     scenes({ root, examples, text }, env) {
         const folder = 'tests/pictures/scenes';
         const names = readdirSync(join(root, folder)).filter(name => name.endsWith('.png')).map(name => name.slice(0, -4));
@@ -109,7 +109,7 @@ export const GENERATED = {
                 examples.behind(`${folder}/${name}.fl`, env)}`).join('');
     },
 
-    // Each sample that draws, with the modules that it reads; the picture stands in where nothing runs.
+    // All samples with pictures, and the modules they read. The picture is shown where the sample cannot run.
     gallery({ root, output, examples, text }, env) {
         const folder = join(root, 'samples'), names = readdirSync(folder).filter(name => name.endsWith('.fl'));
         const modules = readdirSync(join(folder, 'lib'));

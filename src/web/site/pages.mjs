@@ -71,5 +71,5 @@ export function cut(text, from, to) {
     return lines.slice(from ? at(from) : 0, to ? at(to) : undefined).join('\n');
 }
 
-// What a heading is linked by, as tests/docs/pages.sh and nodes.sh have it.
+// Returns the id of a heading, as in tests/docs/pages.sh and nodes.sh.
 export const slug = text => text.toLowerCase().replace(/[^\p{L}\p{N} _-]/gu, '').replaceAll(' ', '-');

@@ -1,11 +1,11 @@
-// site.js: search, theme and what works without a network. No module, so that a page opened from a file has it, too.
+// site.js: search, theme and offline use. Not a module, so that it works on a page opened from a file.
 'use strict';
 {
     const $ = id => document.getElementById(id), find = $('find'), found = $('found');
     const THEME = 'petri.theme';
     let asked = null;
 
-    // The index is fetched once somebody searches: a script, since pages opened from a file may fetch nothing else.
+    // The index is loaded with the first search. It is a script, because pages opened from a file cannot fetch.
     const index = () => (asked ??= new Promise((resolve, reject) => {
         const script = Object.assign(document.createElement('script'), { src: 'index.js' });
         script.onload = () => resolve(globalThis.PETRI_INDEX);
@@ -13,7 +13,7 @@
         document.head.append(script);
     }));
 
-    // How well a section fits the words; 0: one of them is nowhere in it.
+    // Returns how well a section matches the words; 0: a word is missing.
     function worth([, title, , text], words) {
         const name = title.toLowerCase().replace(/[!`]|\(.*/g, ''), all = `${title} ${text}`.toLowerCase();
         let sum = 0;
@@ -26,7 +26,7 @@
         return sum;
     }
 
-    // The text around the first of the words.
+    // Returns the text around the first match.
     function around(text, words) {
         const places = words.map(word => text.toLowerCase().indexOf(word)).filter(place => place >= 0);
         const at = Math.max(0, Math.min(...places, text.length) - 60);
@@ -53,10 +53,10 @@
             item.append(link, small);
             return item;
         }));
-        found.replaceChildren(best.length ? list : 'Nothing was found.');
+        found.replaceChildren(best.length ? list : 'No results.');
     }
 
-    find.oninput = () => search().catch(() => found.replaceChildren('The index of the search cannot be read.'));
+    find.oninput = () => search().catch(() => found.replaceChildren('Cannot load the search index.'));
     find.form.onsubmit = event => {
         event.preventDefault();
         found.querySelector('a')?.click();
@@ -90,7 +90,7 @@
         try {
             localStorage.setItem(THEME, dark ? 'light' : 'dark');
         } catch {
-            // it is not kept then
+            // without storage, the theme is not remembered
         }
     };
 

@@ -1,4 +1,4 @@
-// text.mjs: Markdown to HTML: headings with names, links between pages, pictures copied, examples that run.
+// text.mjs: converts Markdown to HTML: headings with ids, links between pages, copied pictures, examples that run.
 import { copyFileSync, existsSync, mkdirSync, readFileSync } from 'node:fs';
 import { dirname, join, normalize } from 'node:path';
 import MarkdownIt from 'markdown-it';
@@ -6,7 +6,7 @@ import { PAGES, cut, slug } from './pages.mjs';
 
 export const escape = text => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('>', '&gt;').replaceAll('"', '&quot;');
 
-// A name that nothing on the page has yet.
+// Returns an id that is not used on the page yet.
 export function freeName(id, { names }) {
     let name = id || 'section';
     for (let n = 1; names.has(name); n++)
@@ -15,7 +15,7 @@ export function freeName(id, { names }) {
     return name;
 }
 
-// Where each heading of each file is: `FILE#SLUG` (and `FILE#` for its beginning) to the page.
+// Maps each heading of each file, `FILE#SLUG` (`FILE#` for its start), to the page's address.
 export function placesOf(root) {
     const places = new Map(), md = new MarkdownIt();
     for (const { name, parts = [] } of PAGES)
@@ -29,7 +29,7 @@ export function placesOf(root) {
     return places;
 }
 
-// Width and height of a PNG or GIF.
+// Returns width and height of a PNG or GIF.
 function sizeOf(bytes) {
     return bytes[0] === 0x89 ? [bytes.readUInt32BE(16), bytes.readUInt32BE(20)] : [bytes.readUInt16LE(6), bytes.readUInt16LE(8)];
 }
@@ -63,7 +63,7 @@ export class Text {
         rules.table_open = () => '<div class="table" tabindex="0" role="region" aria-label="Table"><table>\n';
         rules.table_close = (tokens, i, _, env) => `</table></div>\n${own.behind(env)}`;
         rules.paragraph_close = (tokens, i, _, env) => tokens[i].hidden ? '' : `</p>\n${own.behind(env)}`;
-        // A header without words is no header.
+        // A header cell without text becomes a normal cell.
         rules.th_open = (tokens, i) => tokens[i + 1].content.trim() ? '<th>' : '<td>';
         rules.th_close = (tokens, i) => tokens[i - 1].content.trim() ? '</th>' : '</td>';
         rules.fence = (tokens, i, _, env) => own.site.examples.fence(tokens[i], tokens[i + 1], env);
@@ -74,7 +74,7 @@ export class Text {
         return (inline.children ?? []).map(child => child.type === 'image' ? '' : child.content).join('').trim();
     }
 
-    // What a link becomes here; null for what is no part of the manual.
+    // Returns the address of a link in the manual; null if the target is not part of the manual.
     target(href, env) {
         if (/^[a-z]+:/.test(href))
             return href;
@@ -100,13 +100,13 @@ export class Text {
         return `<img src="pictures/${name}" alt="${escape(alt)}" width="${width}" height="${height}" loading="lazy">`;
     }
 
-    // The HTML of a part; env collects sections for the search.
+    // Converts a part to HTML; env collects sections for the search.
     render(markdown, env) {
         Object.assign(env, { open: [], behind: [] });
         return this.md.render(markdown, env);
     }
 
-    // What runs the scripts that pictures of this paragraph or table lead to.
+    // Adds the scripts of the pictures in this paragraph or table.
     behind(env) {
         return env.behind.splice(0).map(script => this.site.examples.behind(script, env)).join('');
     }

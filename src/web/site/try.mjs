@@ -1,12 +1,12 @@
-// try.mjs: examples that give text: a reader changes the script, and sees what comes of it. The engine is fetched when the
-// first is changed.
+// try.mjs: examples with text results: the reader can change the script and sees the new result. The engine is loaded when the first
+// example is changed.
 import { loadEngine } from '../engine/petri.mjs';
 
-const LIMITS = { work: 2 ** 22, memory: 256 << 20 }; // of a frame: some hundredths of a second, for the page waits for it
-const PAUSE = 250; // ms after the last letter
+const LIMITS = { work: 2 ** 22, memory: 256 << 20 }; // per frame: takes some hundredths of a second, as the page waits for it
+const PAUSE = 250; // ms after the last key
 let engine = null;
 
-// What comes of a text, as the manual shows it.
+// Returns the result of a text in the format of the manual.
 export function outcome(from, { kind, frame, text, files }) {
     const session = from.open({ ...LIMITS, files });
     try {
