@@ -1,7 +1,7 @@
-// lexer.re: characters to tokens (spec language.md L2). re2c turns this file into C.
+// lexer.re: the scanner, from characters to tokens (spec language.md L2). re2c converts this file to C.
 //
-// The scanner knows no context. Where context matters the parser's driver (lib/syntax/parse.c) decides: whether a word
-// is a keyword, whether %pragma and %include stand where they may, and what a newline means.
+// The scanner does not know the context. The parser's driver (lib/syntax/parse.c) decides whether a word is a keyword,
+// whether %pragma and %include are allowed, and what a newline means.
 #include "ast/token.h"
 
 #include "base/unicode.h"
@@ -20,7 +20,8 @@ Lexer lexer_new(const Source *source) {
     return lexer;
 }
 
-// Offset after the name that starts at `at`, or `at` if none does. Apostrophes may only end a name.
+// Returns the offset after the name that starts at `at`, or `at` if there is none. Apostrophes are allowed only at the
+// end of a name.
 static uint32_t name_end(const Source *source, uint32_t at) {
     size_t end = at;
     for (size_t next = end; next < source->text.len; end = next) {
@@ -60,7 +61,7 @@ static Token bad_character(Lexer *lexer, uint32_t start) {
     return token_to(lexer, start, (uint32_t)end, GR_UNDEF);
 }
 
-// A word, or with a sigil in front (`:` `!` `#`) a symbol, node or tag.
+// Scans a word, or a symbol, node or tag, which start with `:`, `!` or `#`.
 static Token word(Lexer *lexer, uint32_t start) {
     const char *text = lexer->source->text.bytes;
     char sigil = text[start];

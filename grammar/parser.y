@@ -1,10 +1,10 @@
-// parser.y: tokens to syntax tree (spec language.md L3). bison turns this file into C.
+// parser.y: the grammar, from tokens to syntax tree (spec language.md L3). bison converts this file to C.
 //
-// No word is reserved: the driver asks before each word whether the parser's present state has an action on that
-// keyword, and passes a name if it has none. That question is asked of the plain LALR(1) state directly after a shift
-// (hence no default reductions and no LAC): its sets of tokens are those of the table of keywords in L2.12.
+// No word is reserved. Before each word, the driver calls gr_accepts to check whether the current parser state has an
+// action for the keyword. If not, it passes a name. The check uses the plain LALR(1) state directly after a shift, so
+// default reductions and LAC must be off. The tokens that the states accept are those of the keyword table in L2.12.
 //
-// Parse stacks hold only pointers into the program's arena: nothing needs a destructor.
+// Parse stacks contain only pointers into the program's arena, so no destructors are needed.
 %code requires {
 #include "ast/ast.h"
 #include "ast/parse_context.h"
@@ -28,7 +28,7 @@
 
 %code provides {
 #include <stdbool.h>
-// Can the parser shift or reduce on this token in the state it is in?
+// Returns true if the parser can shift or reduce on this token in its current state.
 bool gr_accepts(const gr_pstate *parser, int token);
 }
 
@@ -50,12 +50,12 @@ bool gr_accepts(const gr_pstate *parser, int token);
 
 static void gr_error(const Span *span, ParseContext *context, const char *text);
 
-// The node itself, unless the tree has become too high.
+// Returns the node, or reports an overflow and returns a small node if the tree is too high.
 static Ast *check_height(ParseContext *context, Ast *ast) {
     if (ast->height <= AST_MAX_HEIGHT)
         return ast;
     gr_error(&ast->span, context, NULL);
-    return ast_literal(context->arena, ast->span, VALUE_NULL); // any shallow tree: the program has failed
+    return ast_literal(context->arena, ast->span, VALUE_NULL); // any small tree; parsing has failed
 }
 
 static Ast *new_ast(ParseContext *context, AstKind kind, Span span, Ast *a, Ast *b, Ast *c, uint32_t count) {
@@ -70,25 +70,25 @@ static Ast *new_ast(ParseContext *context, AstKind kind, Span span, Ast *a, Ast 
 #define LIST() ast_list_new(context->arena)
 #define LIST1(item) ast_list_add(LIST(), item)
 
-// A named node with up to one child.
+// Creates a node with a name and at most one child.
 static Ast *new_named_ast(ParseContext *context, AstKind kind, Span span, const Ast *name, Ast *child) {
     Ast *children[] = {child};
     return check_height(context,
                          ast_new(context->arena, kind, span, name ? name->name : NULL, children, child ? 1 : 0));
 }
 
-// FUNC with its parameters and body.
+// Creates a FUNC node with parameters and body.
 static Ast *new_function_ast(ParseContext *context, Span span, const Ast *name, AstList *params, Span params_span, Ast *body) {
     Ast *children[] = {NODE_OF(AST_PARAMS, params_span, NULL, params), body};
     return check_height(context, ast_new(context->arena, AST_FUNC, span, name ? name->name : NULL, children, 2));
 }
 
-// A list with one item stands for itself.
+// Returns the only item of a list, or a node that contains all items.
 static Ast *one_or_list(ParseContext *context, AstKind kind, Span span, AstList *list) {
     return list->count == 1 ? list->items[0] : NODE_OF(kind, span, NULL, list);
 }
 
-// `subject` followed by tags and attributes; `list` starts with the subject.
+// Returns a list of `first` followed by `rest`.
 static AstList *prepend_item(ParseContext *context, Ast *first, const AstList *rest) {
     return ast_list_add_all(LIST1(first), rest);
 }
@@ -107,7 +107,7 @@ static AstList *prepend_item(ParseContext *context, Ast *first, const AstList *r
 %nterm <list> pragmas items bindings lets params params_opt for_clauses name_list attrs decorations compose wbinds
 %nterm <list> args args_opt named_args elifs
 
-// A name after the bindings of a `where` goes on with them (L3.1).
+// A name after the bindings of a `where` continues them (L3.1).
 %precedence WHERE_END
 %precedence NAME
 
@@ -139,7 +139,7 @@ items:
   ;
 
 suite: NEWLINE INDENT items DEDENT { $$ = NODE_OF(AST_SUITE, @items, NULL, $items); };
-// The suite of an `if` is its own rule, so that `else` is a keyword after it and nowhere else (L2.12, K2).
+// The suite of an `if` is a separate rule, so that `else` is a keyword only after it (L2.12, K2).
 if_suite: NEWLINE INDENT items DEDENT { $$ = NODE_OF(AST_SUITE, @items, NULL, $items); };
 
 item:
@@ -202,7 +202,7 @@ statement:
   | "%include" comp NEWLINE { $$ = UNARY(AST_INCLUDE, @comp, $comp); }
   ;
 
-// `parent <<`, with the rest of the statement on the same line or the next.
+// `parent <<`. The rest of the statement is on the same line or the next.
 lead:
     decorated "<<"
   | decorated "<<" NEWLINE
@@ -214,7 +214,7 @@ attrs:
   | attrs attr { $$ = ast_list_add($1, $2); }
   ;
 
-// Several clauses nest, the first being the outer loop: the list alternates names and sources.
+// Several clauses form nested loops, the first being the outermost. The list alternates names and sources.
 for_statement: "for" for_clauses suite {
         $$ = $suite;
         for (uint32_t i = $for_clauses->count; i > 0; i -= 2)
@@ -378,7 +378,7 @@ static int yyreport_syntax_error(const yypcontext_t *at, ParseContext *context) 
     return 0;
 }
 
-// Notes where the program is nested too deeply. bison calls this only when its stack is full.
+// Records where the program is nested too deeply. bison calls this only if its stack is full.
 static void gr_error(const Span *span, ParseContext *context, const char *text) {
     (void)text;
     if (!context->overflow)

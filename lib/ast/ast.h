@@ -1,7 +1,7 @@
-// ast.h: the syntax tree, as the parser builds it and the program compiler reads it.
+// ast.h: the syntax tree, which the parser builds and the compiler reads.
 //
-// Nodes are immutable once built, live in the program's arena and know their place in the source. ast_list.h says for
-// each kind what its children are.
+// Nodes are immutable once built, are in the program's arena and store their location in the source. ast_list.h lists
+// the children of each kind.
 #ifndef PETRI_AST_AST_H
 #define PETRI_AST_AST_H
 
@@ -17,18 +17,18 @@ typedef enum AstKind {
 typedef struct Ast Ast;
 struct Ast {
     AstKind kind;
-    uint32_t count;  // children
-    uint32_t height; // 1 + the greatest height of a child
+    uint32_t count;  // number of children
+    uint32_t height; // 1 + maximum height of the children
     Span span;
-    const Symbol *name; // of the kinds that have one, else NULL
+    const Symbol *name; // NULL for kinds without a name
     Value value;        // of LITERAL
     Ast *const *children;
 };
 
-// Deeper trees are refused, so that walking one never exhausts the stack.
+// Higher trees are rejected, so that recursion cannot overflow the stack.
 enum { AST_MAX_HEIGHT = 2000 };
 
-// Children under construction.
+// A growing list of nodes, from which the children of a node are made.
 typedef struct AstList {
     Arena *arena;
     Ast **items;
@@ -37,7 +37,7 @@ typedef struct AstList {
 } AstList;
 
 AstList *ast_list_new(Arena *arena);
-// Appends and returns the list.
+// Both append and return the list.
 AstList *ast_list_add(AstList *list, Ast *item);
 AstList *ast_list_add_all(AstList *list, const AstList *more);
 
@@ -46,7 +46,7 @@ Ast *ast_from_list(Arena *arena, AstKind kind, Span span, const Symbol *name, co
 Ast *ast_literal(Arena *arena, Span span, Value value);
 
 const char *ast_kind_name(AstKind kind);
-// The tree as indented text with line numbers, for --dump=ast.
+// Appends the tree as indented text with line numbers, for --dump=ast.
 void ast_print(Text *out, const SymbolTable *symbols, const Source *source, const Ast *ast);
 
 #endif

@@ -1,13 +1,14 @@
 // ast_list.h: the kinds of syntax tree nodes, one row each.
 //
-// AST(KIND, "name in --dump=ast", children). `names` is a NAMES node, `?` marks a child that may be NULL, `…` repeats.
+// AST(KIND, "name in --dump=ast"), followed by the children. `names` is a NAMES node. `?` marks a child that may be NULL.
+// `…` means zero or more. `name` before a semicolon is the field, not a child.
 // clang-format off
 AST(LITERAL,    "literal")      // value: a number, string or symbol
-AST(NODE,       "node")         // name: the kind of a fresh node
+AST(NODE,       "node")         // name: kind of the new node
 AST(NAME,       "name")         // name
 AST(NAMES,      "names")        // NAME…
 AST(COMPOSE,    "compose")      // part…
-AST(SUITE,      "suite")        // statement…, LET, FUNC and IMPORT among them
+AST(SUITE,      "suite")        // statement…, including LET, FUNC and IMPORT
 AST(LET,        "let")          // BINDING…
 AST(LET_STABLE, "let-stable")   // BINDING…
 AST(BINDING,    "binding")      // names, value

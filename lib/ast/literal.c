@@ -38,14 +38,14 @@ const char *literal_number(Str token, double *x) {
     for (size_t i = 0; i < token.len; i++)
         if (token.bytes[i] == '_' &&
             !(i > 0 && is_digit(token.bytes[i - 1]) && i + 1 < token.len && is_digit(token.bytes[i + 1])))
-            return "an underscore in a number must stand between two digits";
+            return "an underscore in a number must be between two digits";
     *x = number_parse(token);
     if (suffix)
-        *x = *x * suffix->factor; // a rounded operation of its own
+        *x = *x * suffix->factor; // rounded separately from the digits
     return NULL;
 }
 
-// Value of digits up to the next colon or the end.
+// Returns the text up to the next colon or the end, and removes it and the colon from *rest.
 static Str next_part(Str *rest) {
     const char *colon = rest->len ? memchr(rest->bytes, ':', rest->len) : NULL;
     Str part = {rest->bytes, colon ? (size_t)(colon - rest->bytes) : rest->len};
@@ -63,7 +63,7 @@ double literal_timecode(Str token) {
     return (seconds + 60 * minutes) + 3600 * hours;
 }
 
-// \x, \u and \U: exactly `digits` hexadecimal digits.
+// Decodes \x, \u and \U escapes, which have exactly `digits` hexadecimal digits. Returns NULL or an error message.
 static const char *hex_escape(Text *out, Str body, size_t *at, int digits) {
     uint32_t code_point = 0;
     for (int i = 0; i < digits; i++) {
@@ -74,7 +74,7 @@ static const char *hex_escape(Text *out, Str body, size_t *at, int digits) {
         ++*at;
     }
     if (code_point > 0x10ffff || (code_point >= 0xd800 && code_point <= 0xdfff))
-        return "the escape names no Unicode character";
+        return "the escape is not a valid Unicode code point";
     text_add_code_point(out, code_point);
     return NULL;
 }
@@ -102,7 +102,7 @@ static const char *parse_escape(Text *out, Str body, size_t *at) {
     else if (c == 'N' && *at < body.len && body.bytes[*at] == '{')
         return "\\N{…} escapes are not supported: use \\u or \\U";
     else
-        text_add_format(out, "\\%c", c); // a backslash before any other character stays
+        text_add_format(out, "\\%c", c); // before any other character the backslash is kept
     return NULL;
 }
 
@@ -128,7 +128,7 @@ const char *literal_string(Arena *arena, Str token, Str *text) {
     return NULL;
 }
 
-// Length of a run of digits and underscores that starts with a digit.
+// Returns the length of the digits and underscores at an offset, or 0 if they do not start with a digit.
 static size_t skip_digits(Str text, size_t at) {
     size_t start = at;
     while (at < text.len && (is_digit(text.bytes[at]) || (at > start && text.bytes[at] == '_')))
@@ -171,7 +171,7 @@ bool literal_parse_number(Str text, double *x) {
     return true;
 }
 
-// One or two digits with a value below 60.
+// Returns true for one or two digits with a value below 60.
 static bool is_sixtieth(Str part) {
     return (part.len == 1 && is_digit(part.bytes[0])) ||
            (part.len == 2 && part.bytes[0] >= '0' && part.bytes[0] <= '5' && is_digit(part.bytes[1]));

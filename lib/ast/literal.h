@@ -5,16 +5,16 @@
 #include "base/arena.h"
 #include "base/str.h"
 
-// Value of a number token: digits with underscores, fraction, exponent and suffix. NULL on success, else the complaint.
+// Parses a number token: digits with underscores, fraction, exponent and suffix. Returns NULL or an error message.
 const char *literal_number(Str token, double *x);
-// Value of a timecode token `[h:]m:s[.f]`.
+// Returns the seconds of a timecode token `[h:]m:s[.f]`.
 double literal_timecode(Str token);
-// The text of a string token with its quotes: escapes resolved. NULL on success, else the complaint.
+// Decodes a string token: removes its quotes and resolves escapes. Returns NULL or an error message.
 const char *literal_string(Arena *arena, Str token, Str *text);
-// Reads a whole text as a number in the sense of L16.3: optional sign and surrounding spaces, digits with underscores,
-// inf, nan, suffix. False if it is none.
+// Parses a whole text as a number according to L16.3: optional sign, digits with underscores, inf, nan, suffix, and
+// surrounding spaces. Returns false if it is not a number.
 bool literal_parse_number(Str text, double *x);
-// Reads a whole text as a timecode. False if it is none.
+// Parses a whole text as a timecode. Returns false if it is not a timecode.
 bool literal_parse_timecode(Str text, double *x);
 
 #endif

@@ -1,5 +1,5 @@
-// parse_context.h: what the grammar's actions share with the parser's driver (syntax/parse.c): they note what they come
-// upon, the driver tells it.
+// parse_context.h: data shared by the grammar's actions and the parser's driver (syntax/parse.c). The actions record
+// errors here and the driver reports them.
 #ifndef PETRI_AST_PARSE_CONTEXT_H
 #define PETRI_AST_PARSE_CONTEXT_H
 
@@ -11,33 +11,33 @@ enum { PARSE_ALTERNATIVES = 4 };
 
 // A token that cannot continue the program.
 typedef struct Unexpected {
-    const char *found; // its name; NULL: none was met
+    const char *found; // name of the token; NULL: no error
     Span span;
-    const char *expected[PARSE_ALTERNATIVES]; // by name
-    int expected_count;                       // 0: none or too many
-    bool value_expected;                      // a value is one of them
+    const char *expected[PARSE_ALTERNATIVES]; // names of tokens that could follow
+    int expected_count;                       // 0: none, or more than PARSE_ALTERNATIVES
+    bool value_expected;                      // a value could follow
 } Unexpected;
 
-// Takes each token as the grammar sees it: a word that is a keyword where it stands has its kind.
+// Called with each token as the grammar sees it. A word that is a keyword in its context has the keyword's kind.
 typedef void ParseTokenCallback(void *user_data, const Token *token);
 
 typedef struct ParseContext {
-    Arena *arena; // the program's
+    Arena *arena; // holds the program
     SymbolTable *symbols;
     const Source *source;
     DiagSink *diags;
     Ast *program;        // the result
     bool failed;         // an error was reported
-    uint32_t error_line; // of the last error
-    bool too_deep;       // … that of nesting; reported once, and parsing stops
-    bool reported;       // the lexer or the layout has explained the present error already
-    // Noted by the grammar while it takes one token.
+    uint32_t error_line; // line of the last error
+    bool too_deep;       // a nesting limit was exceeded; it is reported once and parsing stops
+    bool reported;       // the scanner or the layout has already reported the current error
+    // Set by the grammar while it processes a token.
     Unexpected unexpected;
-    bool overflow; // the tree has become too high, or the parser's stack is full
-    Span overflow_at;
-    bool error_tolerant;          // for editors: as much as there is is read
-    ParseTokenCallback *on_token; // NULL: nobody wants the tokens
-    void *user_data;
+    bool overflow;                // the tree is too high, or the parser's stack is full
+    Span overflow_at;             // location of the overflow
+    bool error_tolerant;          // for editors: parse as much as possible despite errors
+    ParseTokenCallback *on_token; // NULL: not called
+    void *user_data;              // passed to on_token
 } ParseContext;
 
 #endif

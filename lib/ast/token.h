@@ -1,4 +1,4 @@
-// token.h: what the scanner yields, and the scanner's interface (grammar/lexer.re).
+// token.h: tokens, and the interface of the scanner (grammar/lexer.re).
 #ifndef PETRI_AST_TOKEN_H
 #define PETRI_AST_TOKEN_H
 
@@ -7,10 +7,10 @@
 
 typedef struct Token {
     int kind;    // a token of grammar/parser.y
-    int keyword; // for a name spelled like a keyword: that keyword, else 0
+    int keyword; // keyword that a NAME is spelled like; 0: none
     Span span;
-    const char *error; // of the layout: what is wrong, besides the token or, if that is GR_UNDEF, with it
-    bool fatal;        // … and a limit was reached: parsing stops
+    const char *error; // error found by the layout; concerns the token itself if its kind is GR_UNDEF; NULL: none
+    bool fatal;        // a limit was exceeded, so parsing stops
 } Token;
 
 typedef struct Lexer {
@@ -18,10 +18,10 @@ typedef struct Lexer {
     uint32_t at; // offset of the next character
 } Lexer;
 
-// Starts a scan: refuses nothing, skips the hashbang.
+// Returns a scanner at the start of the text, after a hashbang line.
 Lexer lexer_new(const Source *source);
-// The next token. White space, comments and line continuations are skipped; newlines are tokens (NEWLINE, spanning
-// blank and comment lines and the indentation of the next line); at the end of the text END, again and again.
+// Returns the next token. Skips white space, comments and line continuations. A NEWLINE token spans blank and comment
+// lines and the indentation of the next line. At the end of the text, every call returns END.
 Token lexer_next(Lexer *lexer);
 
 #endif

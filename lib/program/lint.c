@@ -153,7 +153,7 @@ void lint_arith(Compiler *compiler, const Ast *ast, const Expr *expr) {
     for (uint32_t i = 0; lint_enabled(compiler) && i < expr->count; i++)
         if (expr->children[i]->kind == EXPR_CONST && has_text(expr->children[i]->as.value)) {
             add_warning_with_hint(compiler, ast->span, "string-arithmetic", STR("arithmetic on a text is null"),
-                                  STR("a text of several parts is written with semicolons: 'x=';x"));
+                                  STR("join strings and values with semicolons: 'x=';x"));
             return;
         }
 }

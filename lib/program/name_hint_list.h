@@ -2,32 +2,32 @@
 //
 // HINT("NAME NAME", "hint"): spaces part the names.
 // clang-format off
-#define TYPE "values have no types: let x=5"
+#define TYPE "remove the type: let x=5"
 #define COLOUR "a colour is r;g;b, each from 0 to 1: "
 
 HINT("range", "the numbers from 0 to 9 are ..10, those from 2 to 9 are 2..10")
 HINT("None nil NULL Null nullptr undefined", "did you mean 'null'?")
 HINT("True TRUE", "did you mean 'true'?")
 HINT("False FALSE", "did you mean 'false'?")
-HINT("print println printf echo puts console", "to see a value write debug(value)")
-HINT("return", "the last line of a function is its value: leave return away")
-HINT("while", "there is no while: for i in ..10 repeats, if tests, and a !counter goes on from frame to frame")
+HINT("print println printf echo puts console", "write debug(value) to print a value")
+HINT("return", "remove return; the last line of a function is its value")
+HINT("while", "use for i in ..10 to repeat, if to test, or a !counter to count from frame to frame")
 HINT("break", "a loop has no break: choose with if what it makes")
 HINT("continue", "a loop has no continue: choose with if what it makes")
 HINT("pass", "a block that does nothing is left out, with the line above it")
 HINT("end", "a block ends where its indentation does")
 HINT("elseif elsif", "write elif TEST")
 HINT("const var local", "to name a value write let x=5")
-HINT("def function fn", "a function is written func f(x), with its value below, indented")
+HINT("def function fn", "write func f(x) with its value indented below")
 HINT("lambda", "a function of its own is written func(x) x*2")
 HINT("int", TYPE "; whole numbers are floor(x)")
 HINT("float double bool auto", TYPE)
-HINT("str string format", "a text of several parts is written with semicolons: 'x=';x")
+HINT("str string format", "join strings and values with semicolons: 'x=';x")
 HINT("PI Pi M_PI", "did you mean 'pi'? sin, cos and tan take turns, not radians")
 HINT("TAU", "did you mean 'tau'? sin, cos and tan take turns, not radians")
 HINT("radians degrees", "angles are in turns: 90deg is 0.25")
 HINT("random rand randint", "random numbers are uniform(:name), from 0 to 1: uniform(:name)[0] is the first")
-HINT("pow", "a power is written x**2")
+HINT("pow", "write x**2 for a power")
 HINT("fabs", "did you mean 'abs'?")
 HINT("atan atan2", "the angle of a direction, in turns, is angle(x;y)")
 HINT("mod fmod", "the remainder is x % y")

@@ -7,8 +7,8 @@ typedef struct ScopeEntry ScopeEntry;
 struct ScopeEntry {
     ScopeEntry *outer;
     const Symbol *name;
-    uint32_t at;
-    const Ast *function; // what it is bound to, if that is a function
+    uint32_t at;         // start of the name in the text
+    const Ast *function; // function that the name is bound to; NULL: another value
 };
 
 typedef struct Walker {
@@ -17,7 +17,7 @@ typedef struct Walker {
     BindingCallback *callback;
     void *user_data;
     ScopeEntry *scope;
-    uint32_t end; // of the innermost suite or expression that bindings hold in
+    uint32_t end; // end of the innermost suite or expression with a scope
     uint32_t depth;
 } Walker;
 
@@ -29,7 +29,7 @@ static ScopeEntry *push_entry(Walker *walker, const Symbol *name, uint32_t at, c
     return walker->scope = entry;
 }
 
-// A name that is visible from `from` to the end of what is around it. Its span may hold more behind it.
+// Reports a name at offset `at` that is visible from `start` to the end of the enclosing scope.
 static void report_binding(Walker *walker, NameKind kind, const Symbol *name, uint32_t at, uint32_t start,
                            Span value_span, bool is_sole) {
     BindingInfo info = {.kind = kind,
@@ -67,7 +67,7 @@ static void walk_binding(Walker *walker, const Ast *binding) {
     bind_names(walker, NAME_LET, binding->children[0], binding->span.end, binding->children[1]);
 }
 
-// Where the name of a FUNC stands: behind the word, blanks and lines that go on.
+// Returns the start of a FUNC's name, which follows the word func, blanks and continued lines.
 static uint32_t function_name_start(const Walker *walker, const Ast *ast) {
     const char *text = walker->source->text.bytes;
     uint32_t at = ast->span.start + 4;
@@ -101,7 +101,7 @@ static void walk_function(Walker *walker, const Ast *ast) {
     walker->scope = self ? self : outer;
 }
 
-// The children of an AST from `first` on, in a scope of their own that ends with it.
+// Walks the children from `first` in a new scope that ends with the node.
 static void walk_scope(Walker *walker, const Ast *ast, uint32_t first) {
     ScopeEntry *outer = walker->scope;
     uint32_t end = walker->end;
@@ -140,7 +140,7 @@ static void walk_where(Walker *walker, const Ast *ast) {
     walker->scope = outer;
 }
 
-// The names of arguments are those of the parameters.
+// Argument names refer to the parameters of the called function.
 static void walk_call(Walker *walker, const Ast *ast) {
     const Ast *callee = ast->children[0];
     const ScopeEntry *entry = callee->kind == AST_NAME ? find_entry(walker, callee->name) : NULL;

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-// Signatures of texts that are not UTF-8, the longer first.
+// Signatures of encodings other than UTF-8, the longer ones first.
 static const struct {
     Str bytes;
     const char *encoding;
@@ -14,7 +14,7 @@ static const struct {
     {{"\xfe\xff", 2}, "UTF-16"},
 };
 
-// Without a signature: every second of the first bytes is NUL.
+// Returns true if every second of the first bytes is NUL, as in UTF-16 without a signature.
 static bool alternates(Str text) {
     enum { MAX_SNIFFED = 32, MIN_LENGTH = 4 };
     size_t count[2] = {0}, len = text.len < MAX_SNIFFED ? text.len & ~(size_t)1 : MAX_SNIFFED;
@@ -30,8 +30,8 @@ const char *content_sniff_encoding(const Source *source) {
     return alternates(source->text) ? "UTF-16" : NULL;
 }
 
-// Is the text meant as a script, whatever is in it? What comes neither from a file nor from a stream such as `<stdin>`
-// is the host's, and was typed at a prompt.
+// Returns true if the text is certainly meant to be a script. A text that is neither a file nor a stream such as
+// `<stdin>` comes from the host, for example from a prompt.
 static bool claims_to_be_script(const Source *source) {
     Str first = source_locate(source, 0).text, petri = STR("petri");
     bool read = str_starts_with(source->path, STR("/")) || str_starts_with(source->name, STR("<"));
@@ -49,14 +49,14 @@ static bool is_blank(const Source *source, uint32_t line) {
 }
 
 typedef struct Tally {
-    uint32_t lines; // that hold something, up to the last one in error
+    uint32_t lines; // number of lines that are not empty, up to the last error
     uint32_t bad;
 } Tally;
 
 static Tally count_lines(const Source *source, const DiagSink *diags) {
     Tally tally = {0};
     uint32_t last = 0;
-    for (uint32_t i = 0; i < diags->count; i++) { // in the order of the text
+    for (uint32_t i = 0; i < diags->count; i++) { // in text order
         uint32_t line = source_line(source, diags->items[i].span.start);
         tally.bad += line > last;
         last = line > last ? line : last;
@@ -87,9 +87,8 @@ void content_sniff_report(const Source *source, DiagSink *diags) {
         return;
     Diag first = diags->items[0];
     Str what = diag_text(&first);
-    first.text = str_format(
-        diags->arena, "this does not look like a Flitter script: %u of %s%u lines are wrong, the first with: %.*s",
-        tally.bad, diags->dropped ? "the first " : "", tally.lines, STR_ARGS(what));
+    first.text = str_format(diags->arena, "not a Flitter script? %u of %s%u lines are invalid; first: %.*s", tally.bad,
+                            diags->dropped ? "the first " : "", tally.lines, STR_ARGS(what));
     first.hint = (Str){0};
     first.code = "not-a-script";
     replace_diagnostics(diags, &first);

@@ -11,7 +11,7 @@ void layout_init(Layout *layout, const Source *source) {
     layout->indent_pending = layout->indent_mismatch = false;
 }
 
-// Spaces plus eight times tabs after the last line end of a newline token: a sum, not tab stops.
+// Returns the indentation after a newline token: spaces plus eight per tab, without tab stops.
 static uint32_t indentation(const Source *source, Span newline) {
     uint32_t indent = 0;
     for (uint32_t at = newline.end; at > newline.start && source->text.bytes[at - 1] != '\n'; at--)
@@ -23,7 +23,7 @@ static Token fatal_token(Span span, const char *error) {
     return (Token){.kind = GR_UNDEF, .span = span, .error = error, .fatal = true};
 }
 
-// What is still due for the newline in layout->line; a token of kind GR_EMPTY if nothing is.
+// Returns the next pending token for the newline in layout->line, or a token of kind GR_EMPTY.
 static Token newline_token(Layout *layout) {
     Span here = {layout->line.end, layout->line.end};
     LayoutLevel *top = &layout->levels[layout->level_count - 1];
@@ -31,7 +31,7 @@ static Token newline_token(Layout *layout) {
         bool silent = top->rejected;
         top = &layout->levels[--layout->level_count - 1];
         if (layout->indent > top->indent) {
-            // Between two levels: taken as the outer one, so that what follows still parses.
+            // Between two levels: treated as the outer one, so that the following lines still parse.
             layout->indent = top->indent;
             layout->indent_mismatch = true;
         }

@@ -1,4 +1,4 @@
-// parse.c: the parser's driver: decides what words are keywords, builds literals, phrases errors; see parse.h.
+// parse.c: the parser's driver (parse.h). It decides which words are keywords, builds literals and reports errors.
 #include "syntax/parse.h"
 
 #include "ast/literal.h"
@@ -9,9 +9,9 @@
 
 #include <string.h>
 
-enum { MAX_EXPECTED = 3 }; // more alternatives than this say nothing
+enum { MAX_EXPECTED = 3 }; // more alternatives are not listed in messages
 
-// What is wrong with a line is told once.
+// Reports an error, but only the first one of a line.
 static void report_error(ParseContext *context, Span span, const char *code, Str text, Str hint) {
     uint32_t line = source_line(context->source, span.start);
     bool follows = context->failed && line == context->error_line;
@@ -25,14 +25,14 @@ static void report_error(ParseContext *context, Span span, const char *code, Str
             .level = DIAG_ERROR, .source = context->source, .span = span, .text = text, .hint = hint, .code = code});
 }
 
-// The same of a token that cannot stand where it is: the hint is the given one unless a better is known.
+// Reports an unexpected token. A hint for other languages' syntax (syntax_hints.h) takes precedence over `hint`.
 static void report_token(ParseContext *context, Span span, Str text, Str hint) {
     bool is_recorded = context->diags->count < context->diags->limit;
     Str specific_hint = is_recorded ? syntax_hint_find(context->diags->arena, context->source, span) : (Str){0};
     report_error(context, span, "syntax", text, specific_hint.len ? specific_hint : hint);
 }
 
-// Ends parsing.
+// Reports that the program is nested too deeply, which ends parsing.
 static void report_overflow(ParseContext *context) {
     if (!context->too_deep)
         report_error(context, context->overflow_at, "too-deep",
@@ -44,7 +44,7 @@ static Str token_text(const ParseContext *context, Span span) {
     return (Str){context->source->text.bytes + span.start, span.end - span.start};
 }
 
-// Words like "end of line" describe a token; everything else is quoted.
+// Appends the name of a token, in quotes unless it is a description such as "end of line".
 static void add_token_name(Text *out, const char *name) {
     static const char *const described[] = {
         "name",        "number",      "time code",         "string", "symbol", "node", "tag", "end of file",
@@ -56,22 +56,23 @@ static void add_token_name(Text *out, const char *name) {
     text_add_format(out, quote ? "'%s'" : "%s", name);
 }
 
-// A second sentence for common slips.
+// Returns a hint for a common mistake, or an empty text.
 static Str syntax_hint(const char *found, bool needs_block) {
     if (needs_block)
-        return STR("the line above needs an indented block under it");
+        return STR("add an indented block below the line above");
     if (strcmp(found, "'='") == 0)
         return STR("to compare write ==, to name a value write let NAME=…");
     if (strcmp(found, "indentation") == 0)
-        return STR("only the line under a statement that takes a block is indented");
+        return STR("the statement above cannot have an indented block");
     if (strcmp(found, "'['") == 0)
-        return STR("vectors are written with semicolons: 1;2;3");
+        return STR("separate vector elements with semicolons: 1;2;3");
     if (strcmp(found, "else") == 0 || strcmp(found, "elif") == 0)
         return STR("it must follow the block of an if, at the same indentation");
     return (Str){0};
 }
 
-// In a list of names the tables cannot tell what it is a list for; the word that its line begins with can.
+// After a list of names the parser tables expect all tokens that can follow any such list. Returns the one that fits
+// the first word of the line, or NULL.
 static const char *after_names(const ParseContext *context, Span span, const char *const *expected, int count) {
     static const struct {
         const char *word;
@@ -106,7 +107,7 @@ static void report_unexpected(ParseContext *context, const Unexpected *unexpecte
     text_add_c(&text, "unexpected ");
     bool layout = strncmp(found, "end of", 6) == 0 || strcmp(found, "indentation") == 0;
     if (found[0] != '\'' && !layout && word.len > 0 && word.len <= 40 && !memchr(word.bytes, '\n', word.len)) {
-        // A name, literal or keyword: show it as it was written.
+        // A name, literal or keyword is shown as written.
         bool described = strcmp(found, "name") == 0 || strcmp(found, "node") == 0 || strcmp(found, "symbol") == 0 ||
                          strcmp(found, "tag") == 0 || strcmp(found, "number") == 0 || strcmp(found, "string") == 0 ||
                          strcmp(found, "time code") == 0;
@@ -127,18 +128,19 @@ static void report_unexpected(ParseContext *context, const Unexpected *unexpecte
     report_token(context, span, text_str(&text), syntax_hint(found, needs_block));
 }
 
-// A character at which no token starts.
+// Reports a character that cannot start a token.
 static void report_character(ParseContext *context, Span span) {
     Str text = token_text(context, span);
     size_t at = 0;
     int32_t c = utf8_next(text, &at);
     if (c == '\'' || c == '"')
         report_error(context, span, "syntax", STR("unterminated string"),
-                     STR("a string ends on its line; one in ''' or \"\"\" may span lines"));
+                     STR("close the string on its line, or use ''' or \"\"\" for several lines"));
     else if (c == '\\')
         report_error(context, span, "syntax", STR("a backslash outside a string must end its line"), (Str){0});
     else if (c == 0xfeff)
-        report_error(context, span, "syntax", STR("a byte-order mark (U+FEFF) can only begin a file"), (Str){0});
+        report_error(context, span, "syntax", STR("a byte-order mark (U+FEFF) is allowed only at the start of a file"),
+                     (Str){0});
     else if (c < 0x20 || c == 0x7f)
         report_error(context, span, "syntax", str_format(context->arena, "control character U+%04X", (unsigned)c),
                      STR("is this a text file?"));
@@ -147,11 +149,11 @@ static void report_character(ParseContext *context, Span span) {
                      c == '!' ? STR("to negate write not") : (Str){0});
     else
         report_token(context, span,
-                     str_format(context->arena, "no token starts with '%.*s' (U+%04X)", STR_ARGS(text), (unsigned)c),
+                     str_format(context->arena, "unexpected character '%.*s' (U+%04X)", STR_ARGS(text), (unsigned)c),
                      (Str){0});
 }
 
-// Are some lines indented with tabs and some with spaces?
+// Returns true if the text is indented with both tabs and spaces.
 static bool mixes_tabs(Str text) {
     bool tabs = false, spaces = false, leading = true;
     for (size_t i = 0; i < text.len; i++) {
@@ -166,12 +168,12 @@ static bool mixes_tabs(Str text) {
 static void report_layout(ParseContext *context, const Token *token) {
     report_error(context, token->span, "syntax", str_from(token->error),
                  !token->fatal && mixes_tabs(context->source->text)
-                     ? STR("a tab counts as eight spaces: do not mix the two")
+                     ? STR("do not mix tabs and spaces: a tab counts as eight spaces")
                      : (Str){0});
     context->too_deep |= token->fatal;
 }
 
-// The tree of a literal token, or NULL after a complaint.
+// Returns the node of a literal token. Reports an error and returns NULL if the literal is invalid.
 static Ast *literal_ast(ParseContext *context, const Token *token) {
     Str text = token_text(context, token->span), string;
     double x = 0;
@@ -209,7 +211,7 @@ static Ast *named_token(ParseContext *context, const Token *token, AstKind kind,
     return ast_new(context->arena, kind, token->span, name, NULL, 0);
 }
 
-// The semantic value of a token; may turn it into GR_UNDEF.
+// Returns the semantic value of a token. Changes the kind of an invalid literal to GR_UNDEF.
 static GR_STYPE token_value(ParseContext *context, Token *token) {
     GR_STYPE result = {0};
     switch (token->kind) {
@@ -236,14 +238,14 @@ static GR_STYPE token_value(ParseContext *context, Token *token) {
     return result;
 }
 
-// Cuts the token down to its first `len` bytes as another kind; scanning goes on after them.
+// Shortens a token to its first `len` bytes and changes its kind. Scanning continues after these bytes.
 static void resize_token(Layout *layout, Token *token, int kind, uint32_t len) {
     token->kind = kind;
     token->span.end = token->span.start + len;
     layout_resume(layout, token->span.end);
 }
 
-// Context decides what a word or a directive is (L2.2, L2.12).
+// Decides by context whether a word or a directive is a keyword (L2.2, L2.12).
 static void resolve_keyword(const ParseContext *context, Layout *layout, const gr_pstate *parser, Token *token) {
     Str text = token_text(context, token->span);
     if ((token->kind == PRAGMA || token->kind == INCLUDE) && !gr_accepts(parser, token->kind)) {
@@ -251,7 +253,7 @@ static void resolve_keyword(const ParseContext *context, Layout *layout, const g
     } else if (token->kind == NAME && token->keyword && gr_accepts(parser, token->keyword)) {
         token->kind = token->keyword;
     } else if (token->kind == NAME && !gr_accepts(parser, NAME)) {
-        // Where only `in` or `from` can follow, they are taken as a bare prefix of the text (K11).
+        // Where only `in` or `from` can follow, they are recognised as a prefix of a word (K11).
         if (gr_accepts(parser, IN) && !gr_accepts(parser, AND) && str_starts_with(text, STR("in")))
             resize_token(layout, token, IN, 2);
         else if (gr_accepts(parser, FROM) && str_starts_with(text, STR("from")))
@@ -269,7 +271,7 @@ static void add_paren_hint(ParseContext *context, const Layout *layout, const To
                        open.column);
 }
 
-// Pushes one token; tells whether the parser wants more, is done, or has given up.
+// Passes a token to the parser. Returns YYPUSH_MORE, 0 at the end, or 1 if the parser could not recover.
 static int push_token(ParseContext *context, Layout *layout, gr_pstate *parser, Token *token) {
     if (token->error)
         report_layout(context, token);
@@ -297,7 +299,7 @@ static void notify_token(const ParseContext *context, const Token *token) {
         context->on_token(context->user_data, token);
 }
 
-// Skips the rest of the line after an error from which the grammar could not recover.
+// Skips the rest of the line after an error from which the grammar cannot recover.
 static int skip_line(const ParseContext *context, Layout *layout) {
     Token token;
     do {
@@ -317,21 +319,21 @@ static bool check_text(ParseContext *context) {
         diag_report(context->diags, &(Diag){.level = DIAG_ERROR, .text = text, .code = "encoding"});
     } else if (bad < source->text.len) {
         report_error(context, (Span){(uint32_t)bad, (uint32_t)bad + 1}, "encoding", STR("the file is not valid UTF-8"),
-                     str_format(context->arena, "the byte 0x%02X cannot stand here: save the file as UTF-8",
+                     str_format(context->arena, "save the file as UTF-8; byte 0x%02X is invalid",
                                 (unsigned char)source->text.bytes[bad]));
     }
     return !context->failed;
 }
 
-// A text at work; the parser lies on the heap.
+// A parse in progress. `parser` is on the heap.
 typedef struct Parsing {
     ParseContext *context;
     Layout *layout;
     gr_pstate *parser;
-    ParseCompleteness completeness; // what probe has found
+    ParseCompleteness completeness; // result of probe_completeness
 } Parsing;
 
-// Runs a parse and frees the parser, also if memory is used up meanwhile.
+// Runs a parse and frees the parser, even if an arena escapes.
 static void run_with_parser(Parsing *parsing, void (*call)(void *parsing)) {
     ParseContext *context = parsing->context;
     Arena *arenas[] = {context->arena, context->symbols->arena, context->diags->arena};
@@ -345,7 +347,8 @@ static void run_with_parser(Parsing *parsing, void (*call)(void *parsing)) {
         arena_escape(context->arena, end);
 }
 
-// A statement that breaks off ends with its line, so that the next one and the block around it are not lost.
+// In tolerant mode, ends an incomplete statement at the end of its line, so that the next statement and the enclosing
+// block are not lost.
 static int close_statement(const Parsing *parsing, int before, const Token *token) {
     bool begins = before == NEWLINE || before == DEDENT || token->kind == DEDENT || token->kind == END;
     if (!parsing->context->error_tolerant || !begins || token->kind == INDENT || token->kind == NEWLINE ||
@@ -355,7 +358,7 @@ static int close_statement(const Parsing *parsing, int before, const Token *toke
     return push_token(parsing->context, parsing->layout, parsing->parser, &end);
 }
 
-// After an error with nothing to go back to, as in the first line: looks for more with a fresh parser.
+// Continues with a new parser after an error from which the grammar cannot recover, as in the first line.
 static void restart_parser(Parsing *parsing) {
     gr_pstate_delete(parsing->parser);
     parsing->parser = gr_pstate_new();
@@ -382,19 +385,20 @@ static void parse_tokens(void *context) {
     }
 }
 
-// Does a statement that begins with this token like to have lines indented below it?
+// Returns true if a statement that starts with this token often has an indented block.
 static bool accepts_children(int kind) {
     return kind == NODE || kind == '@';
 }
 
-// Is what no token starts with the third quote of a string that goes on? The first two were taken for an empty string.
+// Returns true if an invalid token is the third quote of an unfinished long string. The scanner reads the first two
+// quotes as an empty string.
 static bool opens_string(Str text, Span span) {
     uint32_t start = span.start < 2 ? 0 : span.start - 2;
     Str string = {text.bytes + start, text.len - start};
     return str_starts_with(string, STR("'''")) || str_starts_with(string, STR("\"\"\""));
 }
 
-// What is needed after a line end that is the text's.
+// Returns the completeness after the text's last newline.
 static ParseCompleteness completeness_after_line(const Layout *layout, const gr_pstate *parser, int first) {
     if (layout->level_count > 1)
         return PARSE_EXTENDABLE;
@@ -405,7 +409,7 @@ static ParseCompleteness completeness_after_line(const Layout *layout, const gr_
 
 static ParseCompleteness probe_completeness(ParseContext *context, Layout *layout, gr_pstate *parser) {
     Str text = context->source->text;
-    int first = NEWLINE; // the token with which the last statement at the top begins
+    int first = NEWLINE; // first token of the last top-level statement
     bool begins = true;
     for (;;) {
         Token token = layout_next(layout);

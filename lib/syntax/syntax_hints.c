@@ -14,9 +14,10 @@ static const struct {
 #include "syntax/syntax_hint_list.h"
 };
 
-enum { MAX_CONTEXT = 300 }; // characters of a line that are looked at on either side
+enum { MAX_CONTEXT = 300 }; // bytes of the line that are matched on either side
 
-// A pattern that begins with a plain character, which most do, is quickly seen not to match.
+// Returns true if a pattern certainly does not match. A quick test of the first character, for patterns that start with
+// a plain one.
 static bool cannot_match(const char *pattern, const char *text) {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyz:=,&#-<>`!";
     return pattern[0] == '^' && pattern[1] && strchr(plain, pattern[1]) &&
@@ -36,7 +37,8 @@ static bool matches_pattern(const char *pattern, const char *text) {
     return found;
 }
 
-// A colour of hexadecimal digits: `#ff8800`, or `0xff8800`, of which the 0 was taken for a number of its own.
+// Returns a hint for a hexadecimal colour such as `#ff8800` or `0xff8800`; the scanner reads the 0 of the latter as a
+// number.
 static Str hex_colour(Arena *arena, const char *before, const char *after) {
     Text out = text_new(arena);
     Str left = str_trim(str_from(before));

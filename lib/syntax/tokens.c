@@ -7,12 +7,12 @@
 
 typedef struct TokenReader {
     Str text;
-    uint32_t at; // what is before it was given
+    uint32_t at; // end of the last reported token
     TokenCallback *callback;
     void *user_data;
 } TokenReader;
 
-// Between tokens are blanks, line ends, continuations and comments.
+// Reports the comments between the last token and `end`. There are also blanks, newlines and continuations.
 static void emit_comments(TokenReader *reader, uint32_t end) {
     const char *text = reader->text.bytes;
     while (reader->at < end) {

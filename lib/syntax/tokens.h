@@ -1,10 +1,10 @@
-// tokens.h: a text as editors see it: tokens of a few kinds, comments among them.
+// tokens.h: tokens of a text for editors, classified into a few kinds and including comments.
 #ifndef PETRI_SYNTAX_TOKENS_H
 #define PETRI_SYNTAX_TOKENS_H
 
 #include "syntax/parse.h"
 
-// As PetriTokenKind of petri.h.
+// Must match PetriTokenKind of petri.h.
 typedef enum TokenKind {
     TOKEN_NAME,
     TOKEN_KEYWORD,
@@ -22,7 +22,7 @@ typedef enum TokenKind {
 } TokenKind;
 
 typedef void TokenCallback(void *user_data, TokenKind kind, Span span);
-// Gives the tokens in order; returns what parse_tolerant does.
+// Calls `callback` for each token in order. Returns the result of parse_tolerant.
 const Ast *tokens_read(Arena *arena, SymbolTable *symbols, const Source *source, TokenCallback *callback,
                        void *user_data);
 

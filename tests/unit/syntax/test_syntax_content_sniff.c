@@ -45,7 +45,7 @@ static void test_binary(void **state) {
 static void test_other_texts(void **state) {
     World *world = *state;
     Str table = STR("root:x:0\nbin:y:1\n\nmail:z:2\n");
-    const char *sum = "1: this does not look like a Flitter script: 3 of 3 lines are wrong, the first with: "
+    const char *sum = "1: not a Flitter script? 3 of 3 lines are invalid; first: "
                       "unexpected symbol :x\n";
     assert_text("a table", reports_of(world, "passwd", "/etc/passwd", table), sum);
     assert_text("a stream", reports_of(world, "<stdin>", "<stdin>", table), sum);

@@ -1,4 +1,4 @@
-// test_syntax_errors.c: what syntax errors say: place, text and `| hint` (cli.md 3.5).
+// test_syntax_errors.c: texts of syntax errors: location, message and `| hint` (cli.md 3.5).
 #include "parsing.h"
 
 static void check_complaints(World *world, const char *const (*rows)[2], size_t count) {
@@ -11,25 +11,25 @@ static void test_slips(void **state) {
         {"let x 5", "1:7: unexpected number 5, expected '='"},
         {"if x = 3\n    !a", "1:6: unexpected '=' | to compare write ==, to name a value write let NAME=…"},
         {"if x\n!a",
-         "2:1: unexpected node !a, expected an indented block | the line above needs an indented block under it"},
+         "2:1: unexpected node !a, expected an indented block | add an indented block below the line above"},
         {"!a\n  !b\n    !c\n !d", "4:2: this line's indentation matches none of the lines above"},
-        {"!a\n        !b\n\t  !c\n     !d", "4:6: this line's indentation matches none of the lines above | a tab "
-                                            "counts as eight spaces: do not mix the two"},
+        {"!a\n        !b\n\t  !c\n     !d", "4:6: this line's indentation matches none of the lines above | do not "
+                                            "mix tabs and spaces: a tab counts as eight spaces"},
         {"foo(1, 2", "1:9: unexpected end of file | the parenthesis opened at line 1, column 4 is not closed"},
         {"foo(1, 2\n!b\n!c", "2:1: unexpected node !b | the parenthesis opened at line 1, column 4 is not closed"},
         {"(1;2\n", "1:5: unexpected end of file | the parenthesis opened at line 1, column 1 is not closed"},
-        {"[1;2;3]", "1:1: unexpected '[' | vectors are written with semicolons: 1;2;3"},
+        {"[1;2;3]", "1:1: unexpected '[' | separate vector elements with semicolons: 1;2;3"},
         {"1;2;",
-         "1:5: unexpected end of line, expected an expression | a statement ends with its line; a vector may not "
-         "end in a semicolon"},
+         "1:5: unexpected end of line, expected an expression | remove the semicolon; a statement ends with its "
+         "line"},
         {"!a x=", "1:6: unexpected end of line, expected an expression"},
         {"!a x=3,", "1:7: unexpected ',', expected end of line or '<<'"},
-        {"'abc", "1:1: unterminated string | a string ends on its line; one in ''' or \"\"\" may span lines"},
-        {"\"abc", "1:1: unterminated string | a string ends on its line; one in ''' or \"\"\" may span lines"},
-        {"'''abc", "1:3: unterminated string | a string ends on its line; one in ''' or \"\"\" may span lines"},
+        {"'abc", "1:1: unterminated string | close the string on its line, or use ''' or \"\"\" for several lines"},
+        {"\"abc", "1:1: unterminated string | close the string on its line, or use ''' or \"\"\" for several lines"},
+        {"'''abc", "1:3: unterminated string | close the string on its line, or use ''' or \"\"\" for several lines"},
         {"'\\x4'", "1:1: a \\x, \\u or \\U escape needs exactly 2, 4 or 8 hexadecimal digits"},
-        {"1__0", "1:1: an underscore in a number must stand between two digits"},
-        {"1_", "1:1: an underscore in a number must stand between two digits"},
+        {"1__0", "1:1: an underscore in a number must be between two digits"},
+        {"1_", "1:1: an underscore in a number must be between two digits"},
         {"2**-1", "1:4: unexpected '-'"},
         {"a<b<c", "1:4: unexpected '<'"},
         {"!", "1:1: '!' must be directly followed by a name | to negate write not"},
@@ -46,7 +46,7 @@ static void test_slips(void **state) {
         {"func f(\n", "1:8: unexpected end of file, expected name or ')' | the parenthesis opened at line 1, column 7 "
                       "is not closed"},
         {"func f()\n!a",
-         "2:1: unexpected node !a, expected an indented block | the line above needs an indented block under it"},
+         "2:1: unexpected node !a, expected an indented block | add an indented block below the line above"},
         {"let stable=1", "1:11: unexpected '=', expected name | to compare write ==, to name a value write let NAME=…"},
         {"let", "1:4: unexpected end of line, expected name or 'stable'"},
         {"let x=1 2", "1:9: unexpected number 2"},
@@ -54,16 +54,15 @@ static void test_slips(void **state) {
         {"%pragma fps x", "1:13: unexpected name x"},
         {"x\n%pragma fps 3", "2:1: unexpected '%'"},
         {"%include", "1:9: unexpected end of line, expected an expression"},
-        {"!a & !b", "1:4: no token starts with '&' (U+0026) | write A and B"},
-        {"a² ", "1:2: no token starts with '²' (U+00B2)"},
-        {"a ? b", "1:3: no token starts with '?' (U+003F) | a choice is written A if TEST else B"},
+        {"!a & !b", "1:4: unexpected character '&' (U+0026) | write A and B"},
+        {"a² ", "1:2: unexpected character '²' (U+00B2)"},
+        {"a ? b", "1:3: unexpected character '?' (U+003F) | write A if TEST else B"},
         {"!a \\ ", "1:4: a backslash outside a string must end its line"},
         {"\x01", "1:1: control character U+0001 | is this a text file?"},
         {"f(x=1, 2)", "1:8: unexpected number 2, expected name"},
         {"1 or func(x) x", "1:15: unexpected end of line, expected '='"},
         {"!a <<", "1:6: unexpected end of file, expected an expression"},
-        {"!a << \n    !b",
-         "2:5: unexpected indentation | only the line under a statement that takes a block is indented"},
+        {"!a << \n    !b", "2:5: unexpected indentation | the statement above cannot have an indented block"},
         {"x if y if z", "1:8: unexpected 'if'"},
         {"@f #t", "1:4: unexpected tag #t, expected name or end of line"},
         {"let a;=3", "1:7: unexpected '=', expected name | to compare write ==, to name a value write let NAME=…"},
@@ -77,18 +76,18 @@ static void test_slips(void **state) {
         {"x\n    y\n  z", "3:3: this line's indentation matches none of the lines above"},
         {"!a\n\ufeff"
          "!b",
-         "2:1: a byte-order mark (U+FEFF) can only begin a file"},
-        {"\ufeff!a )", "1:4: unexpected ')', expected end of line or '<<'"}, // there it is left out
-        {"!a\n\t!b\n    !c\n", "3:5: this line's indentation matches none of the lines above | a tab counts as eight "
-                               "spaces: do not mix the two"},
+         "2:1: a byte-order mark (U+FEFF) is allowed only at the start of a file"},
+        {"\ufeff!a )", "1:4: unexpected ')', expected end of line or '<<'"}, // at the start it is ignored
+        {"!a\n\t!b\n    !c\n", "3:5: this line's indentation matches none of the lines above | do not mix tabs "
+                               "and spaces: a tab counts as eight spaces"},
         {"if x\n    !a (\nelse\n    !b )\n!c",
          "4:5: unexpected node !b | the parenthesis opened at line 2, column 8 is not closed"},
-        {"for x of y\n    !a\n!b\n", "1:7: unexpected name of, expected 'in' | a loop is written for i in ..10"},
+        {"for x of y\n    !a\n!b\n", "1:7: unexpected name of, expected 'in' | write a loop as for i in ..10"},
     };
     check_complaints(*state, rows, COUNT_OF(rows));
 }
 
-// Each mistake is told, and nothing that follows from it.
+// Each mistake is reported once, without follow-up errors.
 static void test_several_errors(void **state) {
     static const char *const rows[][2] = {
         {"v[\n1]", "1:3: unexpected end of line, expected an expression\n"
@@ -96,7 +95,7 @@ static void test_several_errors(void **state) {
         {"!a\n!b x==1\n!c (2\n!d\n!e 'q\n!f",
          "2:5: unexpected '==', expected '='\n"
          "4:1: unexpected node !d | the parenthesis opened at line 3, column 4 is not closed\n"
-         "5:4: unterminated string | a string ends on its line; one in ''' or \"\"\" may span lines"},
+         "5:4: unterminated string | close the string on its line, or use ''' or \"\"\" for several lines"},
         {"!a\n    !b\n  !c\n!d x==1\n", "3:3: this line's indentation matches none of the lines above\n"
                                         "4:5: unexpected '==', expected '='"},
         {"!a +\n!b *\n!c\n!d ]\n", "1:5: unexpected end of line, expected an expression\n"
@@ -107,44 +106,41 @@ static void test_several_errors(void **state) {
                                                                "5:4: unexpected number 5"},
         {"!a ! b\n!c 'x\n!d 1__0\n!e @\n",
          "1:4: '!' must be directly followed by a name | to negate write not\n"
-         "2:4: unterminated string | a string ends on its line; one in ''' or \"\"\" may span lines\n"
-         "3:4: an underscore in a number must stand between two digits\n"
+         "2:4: unterminated string | close the string on its line, or use ''' or \"\"\" for several lines\n"
+         "3:4: an underscore in a number must be between two digits\n"
          "4:4: unexpected '@'"},
     };
     check_complaints(*state, rows, COUNT_OF(rows));
 }
 
-// Ill-formed UTF-8 is one complaint, whatever else is in the file.
+// Ill-formed UTF-8 gives a single error, whatever else is in the file.
 static void test_encoding(void **state) {
     World *world = *state;
     static const struct {
         Str text;
         const char *wanted;
     } rows[] = {
-        {{"!a\n!b \xff\n!c )", 12},
-         "2:4: the file is not valid UTF-8 | the byte 0xFF cannot stand here: save the file as UTF-8"},
-        {{"\xc0\x80", 2}, "1:1: the file is not valid UTF-8 | the byte 0xC0 cannot stand here: save the file as UTF-8"},
-        {{"'\xed\xa0\x80'", 5},
-         "1:2: the file is not valid UTF-8 | the byte 0xED cannot stand here: save the file as UTF-8"},
-        {{"-- \xe2\x82", 5},
-         "1:4: the file is not valid UTF-8 | the byte 0xE2 cannot stand here: save the file as UTF-8"},
+        {{"!a\n!b \xff\n!c )", 12}, "2:4: the file is not valid UTF-8 | save the file as UTF-8; byte 0xFF is invalid"},
+        {{"\xc0\x80", 2}, "1:1: the file is not valid UTF-8 | save the file as UTF-8; byte 0xC0 is invalid"},
+        {{"'\xed\xa0\x80'", 5}, "1:2: the file is not valid UTF-8 | save the file as UTF-8; byte 0xED is invalid"},
+        {{"-- \xe2\x82", 5}, "1:4: the file is not valid UTF-8 | save the file as UTF-8; byte 0xE2 is invalid"},
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++)
         assert_text(rows[i].wanted, complaints(world, rows[i].text), rows[i].wanted);
 }
 
-// Two names whose symbols are the same number cannot be told apart: a load error (language.md L4.3).
+// Two symbols with the same number are a load error (language.md L4.3).
 static void test_symbol_collision(void **state) {
     World *world = *state;
-    // The number of :b is given to a by hand: real collisions are one in 2^52.
+    // Sets the number of a to that of :b, because the probability of a real collision is 2^-52.
     Symbol *a = (Symbol *)(uintptr_t)symbol_intern(&world->symbols, STR("a"));
     a->number = symbol_number(STR("b"));
     assert_text("collision", complaints(world, STR("!x y=:a\n!x y=:b\n")),
                 "2:6: this symbol has the same value as another symbol: rename one");
-    assert_text("names are no symbols", complaints(world, STR("!b b=b #b\n")), "");
+    assert_text("names are not symbols", complaints(world, STR("!b b=b #b\n")), "");
 }
 
-// At most fifty are kept, and a file of nothing but mistakes ends.
+// At most 50 errors are stored, and a file full of mistakes is parsed to its end.
 static void test_many_errors(void **state) {
     World *world = *state;
     Text text = text_new(&world->arena);
@@ -157,7 +153,7 @@ static void test_many_errors(void **state) {
     diag_sink_free(&parsed.diags);
 }
 
-// No text whatever may crash the parser: mutations of a program that uses everything.
+// Random mutations of a program that uses all constructs never crash the parser.
 static void test_mutations(void **state) {
     World *world = *state;
     static const char program[] =
@@ -175,7 +171,7 @@ static void test_mutations(void **state) {
             size_t at = next_bits(&seed) % (sizeof program - 1), from = next_bits(&seed) % (sizeof program - 1);
             text[at] = next_bits(&seed) % 3 ? program[from] : (char)(next_bits(&seed) % 127 + 1);
         }
-        // Symbols must outlive the mark: a table of its own each time.
+        // Each mutation has its own symbol table, because symbols must not outlive the mark.
         SymbolTable symbols = symbol_table_new(&world->arena);
         DiagSink diags = diag_sink_new(&world->arena, 50);
         const Source *source = source_new(&world->arena, STR("t"), STR("t"), (Str){text, sizeof program - 1});
