@@ -1,7 +1,7 @@
-// cases.h: tables of small scripts with what they must lead to, worked out by hand.
+// cases.h: tables of small scripts with expected results that were calculated by hand.
 //
-// At one frame a second the first step is the one of frame 1, and it has length 1: a resting particle of mass 1 then
-// has a velocity equal to the force on it. Numbers in the tables are such that nothing is rounded.
+// At one frame per second, the first step is made in frame 1 and has length 1. A resting particle of mass 1 then has a
+// velocity equal to the force on it. The numbers are chosen so that nothing is rounded.
 #ifndef PETRI_TESTS_PHYSICS_CASES_H
 #define PETRI_TESTS_PHYSICS_CASES_H
 
@@ -9,13 +9,12 @@
 
 typedef struct Case {
     const char *title;
-    const char *script; // at one frame a second
+    const char *script; // run at one frame per second
     int frame;
-    // What the state holds then: NAME=NUMBERS for the position of the particle `:NAME` of the system `:s`, NAME'=… for
-    // its velocity, :NAME=… for another key of the system, $=… for that of the prefix itself, =none for a key that is
-    // not there.
+    // Expected state in that frame: NAME=NUMBERS is the position of the particle `:NAME` of the system `:s`, NAME'=…
+    // its velocity, :NAME=… another key of the system, $=… the key of the prefix itself. =none: no such key.
     const char *wanted;
-    const char *reported; // the kinds of all diagnostics up to then; NULL: none
+    const char *reported; // codes of all diagnostics up to that frame; NULL: none
 } Case;
 
 static inline void case_key(const char *name, size_t len, char key[64]) {

@@ -1,8 +1,8 @@
-// test_determinism.c: the same bits from every build: whole states, hashed, against constants.
+// test_determinism.c: hashes of whole states, which must be the same for every build.
 //
-// A hash is FNV-1a of what `petri run --print state` prints for the last frame, every digit of it, so that one bit of
-// one coordinate changes it. The constants are the same for gcc and clang, -O0 and -O3, any C library and any number of
-// threads. When a change of the specification changes them, run the program: it prints what it finds.
+// A hash is the FNV-1a of the text that `petri run --print state` prints for the last frame, so one bit of one
+// coordinate changes it. The constants are the same for gcc and clang, -O0 and -O3, any C library and any number of
+// threads. If a change of the specification changes them, run the program: it prints the new ones.
 #include "world.h"
 
 static uint64_t hash_of(const char *text) {
@@ -26,7 +26,7 @@ static const char dish[] = "let CELLS=40 RADIUS=500 BEATS=10\n"
                            " !drag strength=1e-3\n"
                            " !random strength=200\n";
 
-// Groups in groups with all kinds of forces and powers.
+// Nested groups with all kinds of forces and powers.
 static const char groups[] =
     "!physics state=:all dimensions=2 resolution=1/120 speed_of_light=40 run=3\n"
     " !constant acceleration=0;-1 force=0.1;0 ease=0.2\n"
@@ -86,7 +86,7 @@ static const char barriers[] = "!physics state=:box dimensions=2 resolution=1/24
                                " !barrier position=0;9 normal=0;-2 min=1.5 strength=40 power=1.5 ease=0.3\n"
                                " !barrier position=0;0 normal=1;1 max=9 strength=5\n";
 
-// Systems that read each other's state, with counters, particles that come and go and runs.
+// Systems that read each other's state, with counters, changing particles and runs.
 static const char feedback[] = "let P=$(:lead;:a) or (0;0) T=$:turn or 0\n"
                                "!counter state=:turn rate=0.7\n"
                                "!physics state=:lead dimensions=2 run=time/0.7\n"
@@ -99,7 +99,7 @@ static const char feedback[] = "let P=$(:lead;:a) or (0;0) T=$:turn or 0\n"
                                "  !distance from=i to=:bait max=0.5 strength=8 power=1.5\n"
                                " !collision strength=50\n !drag strength=0.2\n";
 
-// Enough particles that work which can be shared will be.
+// Enough particles for several threads.
 static const char crowd[] =
     "!physics state=:crowd dimensions=2 resolution=1/30\n"
     " for i in ..700\n"
@@ -127,12 +127,11 @@ static const struct {
     {"crowd", crowd, 12, UINT64_C(0x386fbe18f17bc205)},
 };
 
-// How the work can be done; the hash must not depend on it. Levels of processors come here as further rows, with
-// whatever option of petri.h chooses them.
+// Ways of computing the scenes; the hash must not depend on them.
 static const struct {
     const char *name;
     int threads;
-    const char *cpu; // NULL: the best; a level that this processor lacks is the best one below it
+    const char *cpu; // NULL: the best; a level that this processor lacks is replaced by the best one below it
     PetriNeighbours neighbours;
 } ways[] = {
     {"1 thread", 1, NULL, PETRI_NEIGHBOURS_AUTO},
@@ -152,7 +151,7 @@ static const struct {
     {"AVX2, neighbour lists always", 1, "avx2", PETRI_NEIGHBOURS_ALWAYS},
 };
 
-// A hash of the state after some frames, computed in one of the ways.
+// Returns the hash of the state after some frames, computed in one of the ways.
 static uint64_t run_script(const char *script, int frames, size_t way) {
     World world;
     PetriOptions options = petri_default_options();
@@ -161,7 +160,7 @@ static uint64_t run_script(const char *script, int frames, size_t way) {
     options.neighbours = ways[way].neighbours;
     world_open_with(&world, options, script);
     world_to(&world, frames);
-    EXPECT_TOLD(&world, "");
+    EXPECT_REPORTED(&world, "");
     uint64_t hash = hash_of(world_text(&world));
     world_close(&world);
     return hash;
@@ -193,8 +192,8 @@ static void test_ways(void **state) {
                 fail_msg("%s: not the same with %s", scenes[i].name, ways[k].name);
 }
 
-// What no grid can sort: one that is larger than the world, all at one point, nowhere near each other, half of them
-// nowhere at all, large ones among small ones. (The same with 10^6 particles: CONTRIBUTING.md, bad input.)
+// Particles that a grid cannot sort: one larger than the world, all at one point, extremely far apart, half of them not
+// finite, large ones among small ones. (With 10^6 particles: CONTRIBUTING.md, bad input.)
 static void test_bad_input(void **state) {
     (void)state;
     static const char *const places[] = {
@@ -219,7 +218,7 @@ static void test_bad_input(void **state) {
     }
 }
 
-// Two sessions at a time, frame by frame, do not disturb each other; nor does printing in between.
+// Two sessions that run alternately do not affect each other. Neither does printing in between.
 static void test_sessions_side_by_side(void **state) {
     (void)state;
     World worlds[COUNT_OF(scenes)];
@@ -238,7 +237,7 @@ static void test_sessions_side_by_side(void **state) {
     }
 }
 
-// The hash does its work: the last digit of one number of a scene changes it.
+// The hash is sensitive: the last digit of one number of a scene changes it.
 static void test_sensitive(void **state) {
     (void)state;
     World world;

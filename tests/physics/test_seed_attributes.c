@@ -1,20 +1,20 @@
-// test_seed_attributes.c: every attribute of every node inside `!physics`: its default, one number for a vector, wrong
-// shapes, nan, null, and its ease. The same scene is run with the attribute in different forms and the states compared.
+// test_seed_attributes.c: every attribute of every node inside `!physics`: default, one number for a vector, wrong
+// shapes, nan, null and ease. Runs a scene with the attribute in different forms and compares the states.
 #include "world.h"
 
-// Bodies for which every attribute matters: they overlap, move, and are charged. The node under test comes behind them.
+// Bodies for which every attribute matters: they overlap, move, and are charged. The node under test comes after them.
 static const char bodies[] = " !particle id=:a position=0;0 velocity=1;2 radius=1 mass=2 charge=3\n"
                              " !particle id=:b position=1;0.5 velocity=-1;0.5 radius=0.75 charge=-2\n"
                              " !anchor id=:c position=0.5;1 radius=0.5 mass=3 charge=1\n";
 
-// The state after frame 4 of the scene with a node in it; told what there was to tell. To be freed.
+// Returns the state after frame 4 of the scene with a node in it, and checks the diagnostics. The caller frees it.
 static char *state_with(const char *node, const char *attribute, const char *codes) {
     World world;
     char *script = text_of(P2 "%s %s %s\n", bodies, node, attribute);
     world_open(&world, 16, script);
     world_to(&world, 4);
     check_reported(&world, codes, script, __FILE__, __LINE__);
-    // The message says where and what.
+    // The message names the node and the attribute.
     for (int i = 0; i < world.reported_count; i++) {
         char kind[32];
         snprintf(kind, sizeof kind, "%.*s", (int)strcspn(node, " "), node);
@@ -31,7 +31,8 @@ static char *state_with(const char *node, const char *attribute, const char *cod
     return text;
 }
 
-// `attribute` in the form `value` makes the same (or not the same) scene as in the form `other`; empty: not given.
+// Checks that `attribute` with `value` results in the same state as with `other` (or not, if `same` is false). Empty:
+// no attribute.
 static void compare_states(const char *node, const char *attribute, const char *value, const char *other, bool same,
                            const char *codes) {
     char *first = text_of("%s%s%s", *value ? attribute : "", *value ? "=" : "", value);
@@ -51,8 +52,8 @@ static void compare_states(const char *node, const char *attribute, const char *
 typedef struct Row {
     const char *node;
     const char *attribute;
-    const char *fallback; // "": not given
-    const char *other;    // a value that makes a difference
+    const char *fallback; // "": no attribute
+    const char *other;    // value that changes the result
 } Row;
 
 static const Row floats[] = {
@@ -100,7 +101,7 @@ static const Row floats[] = {
     {"!barrier position=-3;0 normal=1;1", "max", "", "0.5"},
 };
 
-// Particles and anchors, among forces that ask for everything.
+// Particles and anchors, with forces that use all attributes.
 static const Row body_floats[] = {
     {"!particle id=:p position=1;1 radius=1 charge=1 force=5;5", "mass", "1", "3"},
     {"!particle id=:p position=1;1 force=5;5", "radius", "0", "1"},
@@ -111,13 +112,13 @@ static const Row body_floats[] = {
     {"!anchor id=:p position=1;1 radius=1", "charge", "0", "-1"},
 };
 
-// Forms that a one-number attribute must not have, and what counts as not given.
+// Forms that are invalid for an attribute of one number, and forms that count as missing.
 static void check_float(const Row *row) {
     static const char *const wrong[] = {"1;2", "\"3\"", ":x;1", "!node", "nan", "uniform(:x)[..3]"};
     if (*row->fallback)
         compare_states(row->node, row->attribute, row->fallback, "", true, "");
     compare_states(row->node, row->attribute, "null", "", true, "");
-    compare_states(row->node, row->attribute, "uniform(:x)", "", true, ""); // a stream is null
+    compare_states(row->node, row->attribute, "uniform(:x)", "", true, ""); // a stream counts as null
     compare_states(row->node, row->attribute, row->other, "", false, "");
     for (size_t i = 0; i < COUNT_OF(wrong); i++)
         compare_states(row->node, row->attribute, wrong[i], "", true, "bad-attribute");
@@ -132,7 +133,7 @@ static void test_floats(void **state) {
 static void test_body_floats(void **state) {
     (void)state;
     for (size_t i = 0; i < COUNT_OF(body_floats); i++) {
-        // The forces stand in front, so that the node under test still ends the script.
+        // The forces come first, so that the node under test is still the last of the script.
         Row row = body_floats[i];
         char *node = text_of("!collision\n !gravity\n !electrostatic\n !drag\n !constant force=1;1\n %s", row.node);
         char *found[4];
@@ -153,7 +154,7 @@ static void test_body_floats(void **state) {
             world_open(&world, 16, script);
             world_to(&world, 4);
             assert_string_equal(world_state(&world), found[0]);
-            EXPECT_TOLD(&world, "bad-attribute");
+            EXPECT_REPORTED(&world, "bad-attribute");
             assert_non_null(strstr(world.reported[0].text, row.attribute));
             assert_non_null(strstr(world.reported[0].text, "id=:p"));
             world_close(&world);
@@ -165,7 +166,7 @@ static void test_body_floats(void **state) {
     }
 }
 
-// Vectors: the default, one number for both components, and a value of two.
+// Vectors: the default, one number for both components, and a value of two numbers.
 static const Row vectors[] = {
     {"!constant acceleration=1;0", "force", "0", "2;-1"},
     {"!constant force=1;0", "acceleration", "0", "2;-1"},
@@ -193,8 +194,8 @@ static void test_vectors(void **state) {
     }
 }
 
-// Each force has 0, 1/4, 2/4, 3/4 and then all of its strength at the steps that begin at clock 0, 1, 2, 3, 4, 5 if it
-// is eased in over 4. The particles are new in each frame, so that their velocity is what one step gives them.
+// If a force is eased in over 4, it has 0, 1/4, 2/4, 3/4 and then all of its strength in the steps that begin at clock
+// 0, 1, 2, 3, 4, 5. The particles are new in each frame, so their velocity is the result of one step.
 static void test_ease_is_linear(void **state) {
     (void)state;
     static const char *const nodes[] = {

@@ -1,7 +1,7 @@
-// test_seed_barriers.c: bounces and soft boundaries, worked out by hand, through scripts.
+// test_seed_barriers.c: reflections and soft boundaries in scripts, with results calculated by hand.
 #include "cases.h"
 
-// A bead at 2 with velocity -4: after one step it is at -2, half a step behind the contact.
+// A bead at 2 with velocity -4: after one step it is at -2, half a step after the contact.
 #define BEAD(attributes, barrier) P1 " !particle id=:a position=2 velocity=-4 " attributes "\n !barrier " barrier "\n"
 
 static void test_bounce(void **state) {
@@ -20,8 +20,8 @@ static void test_bounce(void **state) {
         {"the outer edge bounces", P1 " !particle id=:a position=3 velocity=-4 radius=1\n !barrier normal=1\n", 1,
          "a'=4 a=3", 0},
         {"not reached", P1 " !particle id=:a position=4 velocity=-4\n !barrier normal=1\n", 1, "a'=-4 a=0", 0},
-        {"whatever the mass", BEAD("mass=8", "normal=1 restitution=0.5"), 1, "a'=2 a=1", 0},
-        {"without mass too", BEAD("mass=0", "normal=1 restitution=0.5"), 1, "a'=2 a=1", 0},
+        {"independent of the mass", BEAD("mass=8", "normal=1 restitution=0.5"), 1, "a'=2 a=1", 0},
+        {"mass 0 bounces", BEAD("mass=0", "normal=1 restitution=0.5"), 1, "a'=2 a=1", 0},
         {"anchors stay behind it", P1 " !anchor id=:a position=-3\n !barrier normal=1\n", 1, "a=-3 a'=0", 0},
         {"a line: reflected in the normal", P2 " !particle id=:a position=0;2 velocity=8;-4\n !barrier normal=0;2\n", 1,
          "a'=8;4 a=8;2", 0},
@@ -38,13 +38,13 @@ static void test_bounce(void **state) {
          1, "a'=4;4 a=2;2", 0},
         {"found behind it, moving away: put on the surface",
          P1 " !particle id=:a position=-9 velocity=1 radius=2\n !barrier normal=1\n", 1, "a'=1 a=2", 0},
-        {"constrained for ever",
+        {"constrained permanently",
          P1 " !particle id=:a position=1\n !constant force=-1\n !barrier normal=1 restitution=0\n", 50, "a=0", 0},
     };
     CHECK_CASES(cases);
 }
 
-// At 4 from a wall.
+// A particle at distance 4 from a wall.
 #define SOFT(attributes) P1 " !particle id=:a position=4\n !barrier normal=1 " attributes "\n"
 
 static void test_soft(void **state) {
@@ -75,7 +75,7 @@ static void test_soft(void **state) {
         {"five dimensions", P5 " !particle id=:a position=7;4;5;1;2\n !barrier normal=0;0;0;0;1 min=6\n", 1,
          "a'=0;0;0;0;4", 0},
         {"anchors do not feel it", P1 " !anchor id=:a position=4\n !barrier normal=1 min=6\n", 1, "a=4 a'=0", 0},
-        {"the hard bounce is there all the same",
+        {"with a hard bounce",
          P1 " !particle id=:a position=2 velocity=-4.5\n"
             " !barrier normal=1 min=4 strength=0.25\n",
          1, "a'=4.5 a=2.25", 0},
@@ -85,16 +85,15 @@ static void test_soft(void **state) {
     CHECK_CASES(cases);
 }
 
-// What the step's acceleration adds before the contact does not come back: w' is taken at the contact (section 4.4).
+// The velocity w' is that at the contact, without the acceleration after it (section 4.4).
 static void test_bounce_under_force(void **state) {
     (void)state;
     static const Case cases[] = {
-        // v = -2 - 2 = -4, p = 2 - 4 = -2, half a step too far; at the contact v = -4 + 1 = -3, reflected 3, then half
-        // a
-        // step of the same force: 3 - 1 = 2.
+        // v = -2 - 2 = -4, p = 2 - 4 = -2, half a step too far. At the contact v = -4 + 1 = -3, reflected 3, then half
+        // a step of the same force: 3 - 1 = 2.
         {"elastic", P1 " !particle id=:a position=2 velocity=-2\n !constant force=-2\n !barrier normal=1\n", 1,
          "a'=2 a=1", 0},
-        // The same with half of it: 1.5, less 1 in half a step: 0.5, p = 0.25.
+        // With restitution 1/2: reflected 1.5, then 1.5 - 1 = 0.5, p = 0.25.
         {"half",
          P1 " !particle id=:a position=2 velocity=-2\n !constant force=-2\n !barrier normal=1 restitution=0.5\n", 1,
          "a'=0.5 a=0.25", 0},
@@ -116,14 +115,14 @@ static void test_normals(void **state) {
     world_open(&world, 1, P2 " !particle id=:a position=2;0 velocity=-4;0\n !barrier normal=1;2;3\n");
     world_to(&world, 1);
     EXPECT(&world, ":s;:a", -2, 0);
-    assert_int_equal(world_heard(&world, "bad-attribute"), 1);
+    assert_int_equal(world_count_reported(&world, "bad-attribute"), 1);
     world_close(&world);
-    // One number is repeated: a diagonal wall.
+    // One number is used for all components: a diagonal wall.
     world_open(&world, 1, P2 " !particle id=:a position=2;0 velocity=-4;0\n !barrier normal=1\n");
     world_to(&world, 1);
     EXPECT_NEAR(&world, ":s;:a", 1e-14, 0, 2);
     EXPECT_NEAR(&world, ":s;:a;:velocity", 1e-14, 0, 4);
-    EXPECT_TOLD(&world, "");
+    EXPECT_REPORTED(&world, "");
     world_close(&world);
 }
 

@@ -1,4 +1,4 @@
-// test_seed_bodies.c: what the attributes of particles and anchors mean, through scripts.
+// test_seed_bodies.c: attributes of particles and anchors in scripts.
 #include "cases.h"
 
 static void test_particles(void **state) {
@@ -9,7 +9,7 @@ static void test_particles(void **state) {
         {"one number for all dimensions", P3 " !particle id=:a position=1 velocity=2 force=3\n", 1, "a=6;6;6 a'=5;5;5",
          0},
         {"the position counts at the first step only", P1 " !particle id=:a position=10*frame\n", 3, "a=10", 0},
-        {"the velocity too", P1 " !particle id=:a velocity=frame\n", 3, "a'=1 a=3", 0},
+        {"the velocity counts at the first step only", P1 " !particle id=:a velocity=frame\n", 3, "a'=1 a=3", 0},
         {"the force at any time", P1 " !particle id=:a force=(frame if frame < 3 else null)\n", 4, "a'=3 a=10", 0},
         {"ease ramps the force up", P1 " !particle id=:a force=8 ease=4\n", 3, "a'=6", 0},
         {"ease has ended", P1 " !particle id=:a force=8 ease=4\n", 6, "a'=28", 0},
@@ -18,7 +18,7 @@ static void test_particles(void **state) {
         {"ease does not touch other forces", P1 " !particle id=:a force=8 ease=4\n !constant force=1\n", 1, "a'=1", 0},
         {"force over mass", P1 " !particle id=:a force=8 mass=4\n", 1, "a'=2", 0},
         {"mass 1 by default", P1 " !particle id=:a force=8\n", 1, "a'=8", 0},
-        {"no mass: goes on as it does", P1 " !particle id=:a force=8 mass=0 velocity=2\n !constant force=3\n", 3,
+        {"no mass: keeps its velocity", P1 " !particle id=:a force=8 mass=0 velocity=2\n !constant force=3\n", 3,
          "a'=2 a=6", 0},
         {"no mass: stays where it is", P1 " !particle id=:a position=5 mass=0\n !constant acceleration=3\n", 3,
          "a'=0 a=5", 0},
@@ -28,7 +28,7 @@ static void test_particles(void **state) {
          P1 " !particle id=:a mass=0 radius=1\n !particle id=:b radius=1 position=1.5\n"
             " !collision\n",
          1, "a'=0 b'=0.5", 0},
-        {"no mass: a charge all the same",
+        {"no mass: its charge repels others",
          P1 " !particle id=:a mass=0 charge=4\n !particle id=:b charge=1 position=2\n"
             " !electrostatic\n",
          1, "a'=0 b'=1", 0},
@@ -78,7 +78,7 @@ static void test_anchors(void **state) {
     CHECK_CASES(cases);
 }
 
-// The initial position may change until the first step is made: a paused clock makes none.
+// The initial position may change until the first step, which a paused clock delays.
 static void test_first_step(void **state) {
     (void)state;
     static const Case cases[] = {
@@ -96,7 +96,7 @@ static void test_first_step(void **state) {
     CHECK_CASES(cases);
 }
 
-// Ids of all kinds; the keys that particles have in the state.
+// Ids of all kinds, and the state keys of their particles.
 static void test_ids(void **state) {
     (void)state;
     World world;
@@ -121,7 +121,7 @@ static void test_ids(void **state) {
         EXPECT(&world, key, i == 6 ? 0 : (double)(i + 1));
     }
     EXPECT(&world, ":s;1;'t';:clock", 1);
-    EXPECT_TOLD(&world, "");
+    EXPECT_REPORTED(&world, "");
     world_close(&world);
 }
 

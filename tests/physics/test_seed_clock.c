@@ -1,4 +1,4 @@
-// test_seed_clock.c: `time`, `resolution`, `run`, `speed_of_light` and the simulation clock, through scripts.
+// test_seed_clock.c: `time`, `resolution`, `run`, `speed_of_light` and the simulation clock in scripts.
 #include "cases.h"
 
 #include <math.h>
@@ -36,7 +36,7 @@ static void test_resolution(void **state) {
     CHECK_CASES(cases);
 }
 
-// The seed's example: resolution 1/60 at 30 frames a second makes two steps a frame.
+// The seed's example: resolution 1/60 at 30 frames per second makes two steps per frame.
 static void test_two_steps(void **state) {
     (void)state;
     for (int k = 1; k <= 6; k++) {
@@ -57,8 +57,8 @@ static void test_two_steps(void **state) {
     world_close(&world);
 }
 
-// In real time a frame makes one step of `resolution` (a second one only after hundreds of good frames): the clock
-// falls behind, and the particles are where they should be by the clock.
+// In real time, a frame makes one step of `resolution` (a second one only after hundreds of good frames). The clock
+// falls behind, and the particles follow the clock.
 static void test_real_time(void **state) {
     (void)state;
     World world;
@@ -69,13 +69,13 @@ static void test_real_time(void **state) {
     for (int frame = 1; frame <= 8; frame++) {
         world_to(&world, frame);
         assert_int_equal(petri_frame(world.session).physics_steps, 1);
-        // A frame after one that came late may be shorter than a step; it is never longer.
+        // The step after a late frame may be shorter than `resolution` but not longer.
         double clock = world_number(&world, ":s;:clock");
         assert_true(clock > 0 && clock <= frame / 1024.0);
         EXPECT_NEAR(&world, ":s;:a;:velocity", 1e-12, 1 + 2 * clock);
         assert_true(world_number(&world, ":s;:last") - world_number(&world, ":s") >= frame * 0.004);
     }
-    EXPECT_TOLD(&world, "");
+    EXPECT_REPORTED(&world, "");
     world_close(&world);
 }
 
@@ -85,12 +85,14 @@ static void test_odd_clocks(void **state) {
     (void)state;
     static const Case cases[] = {
         {"paused", CLOCK("frame if frame < 3 else 2"), 6, ":last=2 :clock=2 :iteration=6 a'=5 a=8", 0},
-        {"goes on", CLOCK("frame if frame < 3 else frame-4 if frame > 6 else 2"), 8, ":last=4 :clock=4 a'=9 a=24", 0},
+        {"continues after a pause", CLOCK("frame if frame < 3 else frame-4 if frame > 6 else 2"), 8,
+         ":last=4 :clock=4 a'=9 a=24", 0},
         {"backwards: no step, the clock stands", CLOCK("10-frame"), 5, "$=10 :last=5 :clock=0 :iteration=5 a=none", 0},
-        {"back, then on from there", CLOCK("(0;1;2;-8;-7)[frame]"), 4, ":last=-7 :clock=3 a'=7 a=15", 0},
-        {"nan: that frame is left out", CLOCK("(0;1;2;nan;4)[frame]"), 3, ":last=2 :clock=2 :iteration=2 a=8",
+        {"backwards, then continues", CLOCK("(0;1;2;-8;-7)[frame]"), 4, ":last=-7 :clock=3 a'=7 a=15", 0},
+        {"nan: that frame is skipped", CLOCK("(0;1;2;nan;4)[frame]"), 3, ":last=2 :clock=2 :iteration=2 a=8",
          "invalid-system"},
-        {"nan: then on", CLOCK("(0;1;2;nan;4)[frame]"), 4, ":last=4 :clock=4 :iteration=3 a'=9 a=24", "invalid-system"},
+        {"nan: continues in the next frame", CLOCK("(0;1;2;nan;4)[frame]"), 4,
+         ":last=4 :clock=4 :iteration=3 a'=9 a=24", "invalid-system"},
         {"infinite", CLOCK("(0;1;2;inf;3)[frame]"), 4, ":last=3 :clock=3", "invalid-system"},
         {"nan from the start", CLOCK("nan"), 3, "$=none :run=none a=none", "invalid-system"},
         {"a clock that starts below 0", CLOCK("frame-5"), 2, "$=-5 :last=-3 :clock=2", 0},
@@ -104,19 +106,20 @@ static void test_run(void **state) {
         {"floored", SYSTEM("run=-2.5"), 2, ":run=-3 :clock=2", 0},
         {"0 by default", SYSTEM(""), 2, ":run=0", 0},
         {"the same floor: the same run", SYSTEM("run=3+0.1*frame"), 4, ":run=3 :clock=4 :iteration=4", 0},
-        // The frame in which it changes makes its own step, from the attributes.
+        // The frame in which `run` changes makes a step that starts from the attributes.
         {"starts again", SYSTEM("run=(frame >= 3)"), 3, "$=3 :run=1 :clock=1 :iteration=0 :last=3 a'=3 a=3", 0},
-        {"goes on from there", SYSTEM("run=(frame >= 3)"), 5, "$=3 :run=1 :clock=3 :iteration=2 :last=5 a'=7 a=15", 0},
+        {"continues after the restart", SYSTEM("run=(frame >= 3)"), 5,
+         "$=3 :run=1 :clock=3 :iteration=2 :last=5 a'=7 a=15", 0},
         {"run=time/interval", SYSTEM("run=time/4"), 7, "$=4 :run=1 :clock=4 :iteration=3 a'=9", 0},
         {"run=time/interval", SYSTEM("run=time/4"), 8, "$=8 :run=2 :clock=1 :iteration=0 a'=3 a=3", 0},
-        {"back to an old number is a change too", SYSTEM("run=(frame == 2)"), 3,
+        {"back to an old number is also a change", SYSTEM("run=(frame == 2)"), 3,
          "$=3 :run=0 :clock=1 :iteration=0 a'=3", 0},
         {"ease begins again",
          "!physics state=:s dimensions=1 run=(frame >= 3)\n !particle id=:a\n !constant force=2 ease=4\n", 4, "a'=0.5",
          0},
         {"a position that has changed since",
          "!physics state=:s dimensions=1 run=(frame >= 3)\n !particle id=:a position=frame\n", 4, "a=3", 0},
-        {"abandoned: who is gone is gone",
+        {"abandoned: entries of removed particles are removed",
          "!physics state=:s dimensions=1 time=(frame if frame < 3 else 2) run=(frame >= 3)\n"
          " !particle id=:a\n !anchor id=:b\n",
          3, "a=none a'=none b=0", 0},
@@ -147,7 +150,7 @@ static void test_speed_of_light(void **state) {
     CHECK_CASES(cases);
 }
 
-// `ease` runs on the simulation's clock.
+// `ease` uses the simulation clock.
 static void test_ease_runs_on_the_clock(void **state) {
     (void)state;
     static const Case cases[] = {

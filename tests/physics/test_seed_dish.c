@@ -1,12 +1,12 @@
-// test_seed_dish.c: the seed's example, a dish of charged cells, does what the seed says of it.
+// test_seed_dish.c: the seed's example, a dish of charged cells, behaves as the seed describes.
 #include "world.h"
 
 enum { CELLS = 60 };
 
 #define RADIUS 300.0
 
-// The example, with parts that can be left out. Sizes and charges are also anchors of a system of their own, so that
-// they can be read.
+// Returns the example script, whose forces are optional. Sizes and charges are also stored as anchors of a second
+// system, so that the test can read them.
 static char *dish(const char *pragma, const char *electrostatic, const char *collision, const char *random,
                   const char *drag) {
     return text_of("%slet CELLS=60 RADIUS=300\n"
@@ -60,7 +60,7 @@ static double fastest(const Cells *cells) {
     return max;
 }
 
-// How far cells overlap, added up, and the sum of the charge products of those that touch.
+// Computes the sum of all overlaps, and the sum of the charge products of touching cells.
 static void contacts(const Cells *cells, double *overlap, double *products) {
     *overlap = *products = 0;
     for (int i = 0; i < CELLS; i++)
@@ -77,13 +77,13 @@ static void run_dish(const char *electrostatic, const char *collision, const cha
     char *script = dish("", electrostatic, collision, random, DRAG);
     world_open(&world, 60, script);
     world_to(&world, frames);
-    EXPECT_TOLD(&world, "");
+    EXPECT_REPORTED(&world, "");
     read_cells(&world, cells);
     world_close(&world);
     free(script);
 }
 
-// Nobody leaves the dish by more than the rubber gives way.
+// No cell leaves the dish by more than the elastic links allow.
 static void test_constrained(void **state) {
     (void)state;
     World world;
@@ -100,7 +100,7 @@ static void test_constrained(void **state) {
     free(script);
 }
 
-// Cells clump, those that touch having opposite charges more often than not.
+// Cells clump, and most touching pairs have opposite charges.
 static void test_clumps(void **state) {
     (void)state;
     Cells before, after, without;
@@ -115,7 +115,7 @@ static void test_clumps(void **state) {
     assert_true(products[1] < products[2] - 10 && products[1] < products[0] - 5);
 }
 
-// The collision force is what keeps them from overlapping.
+// The collision force prevents overlaps.
 static void test_no_overlap(void **state) {
     (void)state;
     Cells with, without;
@@ -128,7 +128,7 @@ static void test_no_overlap(void **state) {
     assert_true(overlap[0] / CELLS < 1); // on average; radii are 10 to 20
 }
 
-// Without the random force all comes to rest, with it it does not.
+// All cells come to rest without the random force, but not with it.
 static void test_equilibrium(void **state) {
     (void)state;
     Cells still, moved;
@@ -138,7 +138,7 @@ static void test_equilibrium(void **state) {
     assert_true(fastest(&moved) > 5);
 }
 
-// Eased in over ten beats, overlapping cells move apart gently.
+// With collisions eased in over ten beats, overlapping cells move apart slowly.
 static void test_eased_in(void **state) {
     (void)state;
     double max[2] = {0, 0};
@@ -158,7 +158,7 @@ static void test_eased_in(void **state) {
     assert_true(max[0] < max[1] / 2);
 }
 
-// The beat is the clock: twice the tempo, twice the speed; the resolution fits, so that a frame is one step.
+// The clock is the beat: twice the tempo gives twice the speed. The resolution matches, so a frame is one step.
 static void test_tempo(void **state) {
     (void)state;
     static const struct {
@@ -175,7 +175,7 @@ static void test_tempo(void **state) {
         world_open(&world, rows[i].fps, script);
         for (int frame = 1; frame <= 30; frame++) {
             world_to(&world, frame);
-            assert_int_equal(petri_frame(world.session).physics_steps, 2); // one of the dish, one of the facts
+            assert_int_equal(petri_frame(world.session).physics_steps, 2); // one step of each system
         }
         EXPECT_NEAR(&world, ":s;:clock", 1e-12, rows[i].beats);
         world_close(&world);

@@ -1,4 +1,4 @@
-// test_seed_groups.c: groups: whom a force acts on, who sees whom, through scripts.
+// test_seed_groups.c: groups in scripts: which particles a force acts on, and which pairs interact.
 #include "cases.h"
 
 static void test_reach(void **state) {
@@ -18,19 +18,19 @@ static void test_reach(void **state) {
             "  !particle id=:b radius=1 charge=1 velocity=1\n  !field direction=1\n  !drag strength=0.5\n"
             "  !buoyancy density=2\n",
          1, "a'=1 b'=2.5", 0},
-        {"barriers too",
+        {"a barrier in a group",
          P1 " !particle id=:a position=2 velocity=-4\n !group\n  !particle id=:b position=2 velocity=-4\n"
             "  !barrier normal=1\n",
          1, "a'=-4 b'=4", 0},
-        {"soft ones too",
+        {"a soft barrier in a group",
          P1 " !particle id=:a position=2\n !group\n  !particle id=:b position=2\n"
             "  !group\n   !particle id=:c position=2\n  !barrier normal=1 min=3\n",
          1, "a'=0 b'=1 c'=1", 0},
-        {"attributes of a group mean nothing",
+        {"attributes of a group are ignored",
          P1 " !group strength=5 force=3 mass=2\n  !particle id=:a\n"
             "  !constant force=1\n",
          1, "a'=1", 0},
-        {"a link may join any two",
+        {"a link may join particles of any groups",
          P1 " !group\n  !particle id=:a\n !group\n  !particle id=:b position=4\n"
             " !group\n  !distance from=:a to=:b fixed=2\n",
          1, "a'=2 b'=-2", 0},
@@ -43,8 +43,8 @@ static void test_reach(void **state) {
     CHECK_CASES(cases);
 }
 
-// A tree of groups with one particle each at a power of two, and a force that depends on whom it comes from: gravity of
-// strength 1 on masses 1, so that each partner shows by the place it pulls towards.
+// A tree of groups with one particle each at a power of two. Gravity of strength 1 between masses 1 depends on the
+// distance, so the force on a particle shows which partners it has.
 //
 //   top a=0 | A: b=16 | A.B: c=64 | C: d=256
 static const double places[] = {0, 16, 64, 256};
@@ -68,7 +68,7 @@ static void check_sight(const char *script, const unsigned partners[4]) {
         snprintf(key, sizeof key, ":s;:%c;:velocity", "abcd"[i]);
         EXPECT_NEAR(&world, key, 1e-18, pull(i, partners[i]));
     }
-    EXPECT_TOLD(&world, "");
+    EXPECT_REPORTED(&world, "");
     world_close(&world);
 }
 
@@ -78,16 +78,16 @@ static void test_sight(void **state) {
 #define TREE(top, a, b, c)                                                                                             \
     P1 " !particle id=:a position=0\n" top " !group\n  !particle id=:b position=16\n" a                                \
        "  !group\n   !particle id=:c position=64\n" b " !group\n  !particle id=:d position=256\n" c
-    // At the top: all see their ancestors and descendants; d and the two of A are in sibling groups.
+    // At the top: all interact with their ancestors and descendants; d and the two of A are in sibling groups.
     check_sight(TREE(" !gravity\n", "", "", ""), (const unsigned[]){B | C | D, A | C, A | B, A});
-    // In A: pairs of A and its sub-groups. The top's particle is not one of the force's.
+    // In A: pairs of A and its sub-groups, without the top's particle.
     check_sight(TREE("", "  !gravity\n", "", ""), (const unsigned[]){0, C, B, 0});
-    // In A.B and in C: nobody else is there.
+    // In A.B and in C: there are no partners.
     check_sight(TREE("", "", "   !gravity\n", ""), (const unsigned[]){0, 0, 0, 0});
     check_sight(TREE("", "", "", "  !gravity\n"), (const unsigned[]){0, 0, 0, 0});
 }
 
-// Sibling groups pass through each other under each pair force; a force in their parent sees the parent's particles.
+// Pair forces do not act between sibling groups, but do act between a group and its parent's particles.
 static void test_siblings(void **state) {
     (void)state;
     static const char *const forces[] = {"!collision", "!gravity", "!electrostatic", "!adhesion overlap=1"};
@@ -108,7 +108,7 @@ static void test_siblings(void **state) {
     }
 }
 
-// Ids are unique over all groups: the first one in document order counts. Two kinds of node, two texts, each told once.
+// Ids are unique over all groups: the first one in document order counts. Each kind of node is reported once.
 static void test_ids_across_groups(void **state) {
     (void)state;
     static const Case cases[] = {

@@ -1,10 +1,9 @@
-// test_seed_hostile.c: input that no sane script gives: bounded, told once, and nothing that is not finite in the
-// state.
+// test_seed_hostile.c: hostile input: bounded time, errors reported once, and only finite numbers in the state.
 #include "cases.h"
 
-// Runs a script for some frames: none of them may fail, nothing that is not finite may be stored, and no more than
-// `told` things may be said.
-static void check_survives(const char *script, int64_t frame, int told) {
+// Runs a script for some frames. Checks that none fails, that all stored numbers are finite, and that at most
+// `max_reported` diagnostics are reported.
+static void check_survives(const char *script, int64_t frame, int max_reported) {
     World world;
     world_open(&world, 60, script);
     for (int64_t at = 0; at <= frame; at++) {
@@ -12,7 +11,7 @@ static void check_survives(const char *script, int64_t frame, int told) {
         if (strstr(world_state(&world), "nan") || strstr(world_state(&world), "inf"))
             fail_msg("%s\n%s", script, world_state(&world));
     }
-    if (world.reported_count > told) {
+    if (world.reported_count > max_reported) {
         print_error("%.400s\n", script);
         world_print_reported(&world);
         fail();
@@ -23,7 +22,7 @@ static void check_survives(const char *script, int64_t frame, int told) {
 static const char *const odd_numbers[] = {"nan",   "inf",    "-inf",   "-1",     "0", "-0",
                                           "1e308", "-1e308", "5e-324", "1e-200", ":x"};
 
-// Every number of every node, odd. (A nan is told, and a normal that is no direction.)
+// Extreme values for every number of every node. (NaN and an invalid normal are reported.)
 static void test_odd_numbers(void **state) {
     (void)state;
     static const char *const nodes[][2] = {
@@ -65,7 +64,7 @@ static void test_odd_numbers(void **state) {
         for (size_t i = 0; i < COUNT_OF(attributes); i++) {
             char *script = text_of("!physics state=:s dimensions=2 %s=%s\n !particle id=:a velocity=1 force=1\n",
                                    attributes[i], odd_numbers[k]);
-            // A nan as dimensions is told twice: as what it is, and that nothing can be done.
+            // NaN as dimensions is reported twice: as a bad attribute and as an invalid system.
             check_survives(script, 4, 2);
             free(script);
         }
@@ -90,15 +89,15 @@ static void test_dimensions(void **state) {
         {"inf", "!physics state=:s dimensions=inf\n !particle id=:a\n", 2, "$=none", "invalid-system"},
     };
     CHECK_CASES(cases);
-    // Nothing is there that would need 1e9 numbers: either way, but at most one message.
+    // An empty system needs no vectors of 1e9 numbers: it may run or be skipped, with at most one message.
     check_survives("!physics state=:s dimensions=1e9\n", 2, 1);
-    // A thousand dimensions are no trouble.
+    // A thousand dimensions work.
     World world;
     world_open(&world, 1,
                "!physics state=:s dimensions=1000\n !particle id=:a velocity=..1000 radius=1\n"
                " !particle id=:b position=1 radius=20\n !collision\n !gravity\n !drag\n !barrier normal=1\n");
     world_to(&world, 2);
-    EXPECT_TOLD(&world, "");
+    EXPECT_REPORTED(&world, "");
     const char *value = world_find(&world, ":s;:a");
     int elements = 1;
     for (; *value != '\n'; value++)
@@ -107,7 +106,7 @@ static void test_dimensions(void **state) {
     world_close(&world);
 }
 
-// A resolution so small that a frame has no end: a million steps, then the frame ends, and it is told once.
+// With an extremely small resolution, a frame ends after a million steps, which is reported once.
 static void test_endless_steps(void **state) {
     (void)state;
     World world;
@@ -119,20 +118,20 @@ static void test_endless_steps(void **state) {
         EXPECT_NEAR(&world, ":s;:a", 1e-15, frame * 1e-6);
         EXPECT(&world, ":s;:last", frame);
     }
-    EXPECT_TOLD(&world, "step-limit");
+    EXPECT_REPORTED(&world, "step-limit");
     world_close(&world);
-    // Steps so small that time does not move: none is made.
+    // If steps are too small to change the time, none is made.
     world_open(&world, 1,
                "!physics state=:s dimensions=1 time=5+time resolution=5e-324\n !particle id=:a velocity=1\n");
     world_to(&world, 4);
     assert_int_equal(petri_frame(world.session).physics_steps, 0);
     EXPECT(&world, ":s;:clock", 0);
     EXPECT(&world, ":s;:last", 9);
-    EXPECT_TOLD(&world, "step-limit");
+    EXPECT_REPORTED(&world, "step-limit");
     world_close(&world);
 }
 
-// Clocks stay finite: a step that would carry one beyond all numbers is not made.
+// Clocks stay finite: a step after which one would be infinite is not made.
 static void test_clock_overflow(void **state) {
     (void)state;
     World world;
@@ -143,11 +142,11 @@ static void test_clock_overflow(void **state) {
     EXPECT(&world, ":s;:clock", 1e308);
     EXPECT(&world, ":s;:last", 1.7e308);
     EXPECT(&world, ":s;:a", 0);
-    EXPECT_TOLD(&world, "step-limit");
+    EXPECT_REPORTED(&world, "step-limit");
     world_close(&world);
 }
 
-// Time that jumps: as many steps as are allowed, the rest is dropped, and the next frame is an ordinary one.
+// If time jumps, the allowed number of steps is made and the rest skipped. The next frame is normal.
 static void test_jumps(void **state) {
     (void)state;
     World world;
@@ -161,7 +160,7 @@ static void test_jumps(void **state) {
     world_to(&world, 4);
     assert_int_equal(petri_frame(world.session).physics_steps, 1);
     EXPECT(&world, ":s;:a", 1000003);
-    EXPECT_TOLD(&world, "step-limit");
+    EXPECT_REPORTED(&world, "step-limit");
     world_close(&world);
     static const Case cases[] = {
         {"in one step", "!physics state=:s dimensions=1 time=frame*1e9 resolution=1e9\n !particle id=:a velocity=1\n",
@@ -177,7 +176,7 @@ static void test_many_forces(void **state) {
     (void)state;
     static const struct {
         const char *node;
-        double force; // of one of them, on :a
+        double force; // of one of them, on `:a`
     } rows[] = {
         {"!distance from=:a to=:b max=3", 1},
         {"!distance from=:b to=:a fixed=5", -1},
@@ -201,13 +200,13 @@ static void test_many_forces(void **state) {
         if (strstr(rows[i].node, "gravity") || strstr(rows[i].node, "electro"))
             force = copysign(1 / (4.5 * 4.5), force); // the radii overlap
         EXPECT_NEAR(&world, ":s;:a;:velocity", 1e-6 * fabs(force * 1e5), force * 1e5);
-        EXPECT_TOLD(&world, "");
+        EXPECT_REPORTED(&world, "");
         world_close(&world);
         free(script);
     }
 }
 
-// Forces that lead round in circles, from a particle to itself, and against each other.
+// Links in a cycle, from a particle to itself, and in both directions.
 static void test_cycles(void **state) {
     (void)state;
     static const Case cases[] = {
@@ -224,7 +223,7 @@ static void test_cycles(void **state) {
     CHECK_CASES(cases);
 }
 
-// Particles at one place: there is no direction, hence no force between them; others see them all.
+// Coincident particles have no direction and so no force between them. They still act on others.
 static void test_same_place(void **state) {
     (void)state;
     for (int n = 1; n <= 5; n += 2) {
@@ -248,11 +247,11 @@ static void test_same_place(void **state) {
             for (int k = 0; k < n; k++)
                 NEAR(v[k], 3, 0);
         }
-        EXPECT_TOLD(&world, "");
+        EXPECT_REPORTED(&world, "");
         world_close(&world);
         free(script);
     }
-    // So close that the inverse of the distance overflows.
+    // Particles so close that the inverse of the distance overflows.
     check_survives(
         P2 " !particle id=:a charge=1 radius=1\n !particle id=:b position=5e-324;0 charge=1 radius=1\n !collision\n"
            " !gravity\n !electrostatic\n !adhesion\n !distance from=:a to=:b fixed=3\n",
@@ -262,7 +261,7 @@ static void test_same_place(void **state) {
         5, 0);
 }
 
-// Groups `depth` deep, made by wrapping; a particle at the bottom feels what the top declares.
+// Returns a script with nested groups. Forces at the top act on a particle in the innermost group.
 static char *nested(int wraps, int rounds) {
     size_t size = 4096 + (size_t)rounds * 32;
     char *lets = malloc(size);
@@ -287,10 +286,10 @@ static void test_deep_groups(void **state) {
     world_to(&world, 1);
     EXPECT(&world, ":s;:deep;:velocity", 0.5);
     EXPECT(&world, ":s;:top;:velocity", 1.5);
-    EXPECT_TOLD(&world, "");
+    EXPECT_REPORTED(&world, "");
     world_close(&world);
     free(script);
-    // 1e6 are more than a tree may have: refused with one message, and the rest goes on.
+    // A depth of 1e6 exceeds the limit for trees: it is rejected with one message, and the rest of the script works.
     script = nested(400, 2500);
     world_open(&world, 1, script);
     world_to(&world, 1);
@@ -306,7 +305,7 @@ static void test_many_groups(void **state) {
     world_open(&world, 1, P1 " for i in ..1000000\n  !group\n !particle id=:a\n !constant force=1\n");
     world_to(&world, 1);
     EXPECT(&world, ":s;:a;:velocity", 1);
-    EXPECT_TOLD(&world, "");
+    EXPECT_REPORTED(&world, "");
     world_close(&world);
 }
 
@@ -322,7 +321,7 @@ static void test_long_keys(void **state) {
         World world;
         world_open(&world, 1, scripts[i]);
         world_to(&world, 1);
-        // In the first case the two are pushed apart.
+        // In the first script the two are pushed apart.
         if (i > 0)
             EXPECT(&world, ":s;:a", 1);
         assert_true(world.reported_count <= 1);

@@ -1,13 +1,13 @@
-// test_seed_invariance.c: what must not matter: how steps are grouped into frames, where the origin is, which axis is
-// which.
+// test_seed_invariance.c: invariance of results: frame rate, translation, permutation of axes, embedding in more
+// dimensions.
 #include "world.h"
 
-// All forces but those that prefer a direction; those come from `extra`.
+// All forces except those with a preferred direction, which are in `extra`.
 static const char forces[] = " !collision strength=40\n !gravity strength=0.5\n !electrostatic strength=0.3 ease=0.5\n"
                              " !adhesion strength=3\n !distance from=0 to=1 fixed=1.5 strength=10\n"
                              " !distance from=2 to=3 max=0.5 power=1.5 strength=4\n";
 
-// The numbers of all keys of eight particles, into one array; returns how many.
+// Reads the numbers of all keys of eight particles into one array, and returns how many.
 static int read_all(World *world, double *numbers) {
     int count = 0;
     for (int i = 0; i < 8; i++) {
@@ -22,8 +22,8 @@ static int read_all(World *world, double *numbers) {
     return count;
 }
 
-// 60 frames a second at 1/60, 30, 20, 10 and 5 frames a second at 1/60: the same steps, but for the last bits of the
-// deltas.
+// 60, 30, 20, 10 and 5 frames per second with resolution 1/60 make the same steps, except for the last bits of their
+// lengths.
 static void test_frame_rates(void **state) {
     (void)state;
     static const int dimensions[] = {1, 2, 3, 5};
@@ -52,7 +52,7 @@ static void test_frame_rates(void **state) {
     }
 }
 
-// Where frames are whole multiples of steps that are powers of two, nothing is rounded and the bits are the same.
+// If steps are powers of two and frames are multiples of them, nothing is rounded and the bits are the same.
 static void test_exact_frame_rates(void **state) {
     (void)state;
     char *script = text_of("!physics state=:s dimensions=2 resolution=1/64\n"
@@ -73,7 +73,7 @@ static void test_exact_frame_rates(void **state) {
     free(script);
 }
 
-// A scene in which every position goes through `place` and every direction through `turn`.
+// Returns a scene in which every position is transformed by `place` and every direction by `turn`.
 static char *scene(int n, const char *place, const char *turn) {
     return text_of("func turn(v)\n %s\nfunc place(v)\n %s\n"
                    "!physics state=:s dimensions=%d resolution=1/120\n"
@@ -100,7 +100,7 @@ static void compare_states(int n, const char *place, const char *turn, const int
         world_open(&world, 60, scripts[i]);
         world_to(&world, 45);
         assert_int_equal(read_all(&world, numbers[i]), 16 * n);
-        EXPECT_TOLD(&world, "");
+        EXPECT_REPORTED(&world, "");
         world_close(&world);
         free(scripts[i]);
     }
@@ -127,8 +127,8 @@ static void test_permuted(void **state) {
     compare_states(5, "v[4;2;0;1;3]", "v[4;2;0;1;3]", (const int[]){4, 2, 0, 1, 3}, none);
 }
 
-// The same in more dimensions: a scene whose last components are all zero moves as it does without them. (Not drag and
-// buoyancy, whose formulas know the number of dimensions.)
+// A scene with additional components that are all zero moves as without them. (Except drag and buoyancy, whose formulas
+// depend on the number of dimensions.)
 static void test_embedded(void **state) {
     (void)state;
     double numbers[2][80];

@@ -1,9 +1,9 @@
-// test_seed_laws.c: laws of nature, through scripts, in several dimensions where that makes sense.
+// test_seed_laws.c: physical laws in scripts, in several dimensions where possible.
 #include "world.h"
 
 #define TAU 6.283185307179586
 
-// Numbers of a particle `:s;ID` and its velocity.
+// Reads position and velocity of a particle `:s;ID`.
 static int read_body(World *world, const char *id, double *position, double *velocity) {
     char key[64];
     snprintf(key, sizeof key, ":s;%s", id);
@@ -51,7 +51,7 @@ static void check_momentum(int n, const char *force) {
             else
                 NEAR(sum[k], first[k], 1e-13 * size);
     }
-    EXPECT_TOLD(&world, "");
+    EXPECT_REPORTED(&world, "");
     world_close(&world);
     free(script);
 }
@@ -93,7 +93,7 @@ static void test_spring_period(void **state) {
     }
 }
 
-// The velocity comes first: after m steps of d it has fallen g d² m (m + 1) / 2, whatever its mass.
+// The velocity is updated first: after m steps of d, any mass has fallen g d² m (m + 1) / 2.
 static void test_free_fall(void **state) {
     (void)state;
     World world;
@@ -105,11 +105,11 @@ static void test_free_fall(void **state) {
     EXPECT_NEAR(&world, ":s;:a", 1e-10, 7, 100 - fallen);
     EXPECT_NEAR(&world, ":s;:b", 1e-10, 7, 100 - fallen);
     EXPECT_NEAR(&world, ":s;:a;:velocity", 1e-11, 2, -19.62);
-    NEAR(fallen, 9.81 * 2, 0.2); // g t² / 2, but for the size of the steps
+    NEAR(fallen, 9.81 * 2, 0.2); // g t² / 2, except for the step size
     world_close(&world);
 }
 
-// Drag equals weight at S v² r^(n-1) = m g; from above and from below.
+// Drag equals weight at S v² r^(n-1) = m g, which is reached from higher and from lower speeds.
 static void test_terminal_velocity(void **state) {
     (void)state;
     for (int n = 1; n <= 5; n++) {
@@ -131,8 +131,8 @@ static void test_terminal_velocity(void **state) {
     }
 }
 
-// Kepler: period tau sqrt(r³ / GM), energy and angular momentum kept; a circle and an ellipse, in two and three
-// dimensions.
+// Kepler's laws: period tau sqrt(r³ / GM), constant energy and angular momentum; a circle and an ellipse, in two and
+// three dimensions.
 static void test_orbit(void **state) {
     (void)state;
     static const char *const cases[][3] = {
@@ -153,11 +153,11 @@ static void test_orbit(void **state) {
             product = 0;
             for (int k = 0; k < n; k++)
                 product += p[k] * v[k];
-            // Twice the area that is swept in a unit of time: exact for this scheme but for rounding.
+            // Twice the area swept per unit of time, which this scheme conserves up to rounding.
             NEAR(sqrt(radius * radius * square(n, v) - product * product), i == 2 ? 1.2 : 1, 1e-10);
             if (i != 2) {
                 NEAR(radius, 1, 2e-3);
-                NEAR(v[i == 0 || i == 1 ? 1 : 0], 1, 2e-3); // back where it was
+                NEAR(v[i == 0 || i == 1 ? 1 : 0], 1, 2e-3); // back at the start
             }
         }
         world_close(&world);
@@ -181,7 +181,7 @@ static void test_two_stars(void **state) {
     world_close(&world);
 }
 
-// Dropped from h on a floor of restitution e a ball comes back to e² h; the flight after the bounce tells.
+// A ball that is dropped from h on a floor of restitution e returns to e² h, as its flight after the bounce shows.
 static void test_bounce_height(void **state) {
     (void)state;
     static const double restitutions[] = {1, 0.9, 0.7, 0.5, 0.25};
@@ -194,7 +194,7 @@ static void test_bounce_height(void **state) {
             World world;
             double top = 0, p[WORLD_MAX_NUMBERS], v[WORLD_MAX_NUMBERS];
             world_open(&world, 400, script);
-            // It falls 4 in sqrt(0.8) s, and rises again for e times that.
+            // It falls 4 in sqrt(0.8) s, and then rises for e times that time.
             for (int frame = 360; frame < 360 + 400; frame += 2) {
                 world_to(&world, frame);
                 read_body(&world, ":a", p, v);
@@ -207,7 +207,7 @@ static void test_bounce_height(void **state) {
     }
 }
 
-// In a fluid whose density the script makes fall with height a bubble comes to rest where m = density r^n.
+// In a fluid whose density decreases with height, a bubble comes to rest where m = density r^n.
 static void test_buoyant_equilibrium(void **state) {
     (void)state;
     World world;
@@ -218,7 +218,7 @@ static void test_buoyant_equilibrium(void **state) {
     EXPECT_NEAR(&world, ":s;:a", 0.05, 0, 2);
     EXPECT_NEAR(&world, ":s;:a;:velocity", 0.05, 0, 0);
     world_close(&world);
-    // As dense as the fluid it stays wherever it is, in any number of dimensions.
+    // A body as dense as the fluid does not move, in any number of dimensions.
     for (int n = 1; n <= 5; n++) {
         char *script = text_of("!physics state=:s dimensions=%d\n !particle id=:a mass=3*2**%d radius=2\n"
                                " !buoyancy density=3\n",
@@ -249,7 +249,7 @@ static void test_field(void **state) {
     world_close(&world);
 }
 
-// However strong, drag never turns a particle round, with respect to the medium; it ends at rest in it.
+// Drag of any strength never reverses a particle's velocity relative to the medium. The particle comes to rest in it.
 static void test_drag_never_reverses(void **state) {
     (void)state;
     static const char *const strengths[] = {"1e-3", "0.1", "1", "100", "1e9", "1e300", "inf"};
@@ -264,7 +264,7 @@ static void test_drag_never_reverses(void **state) {
             double p[WORLD_MAX_NUMBERS], v[WORLD_MAX_NUMBERS];
             world_to(&world, frame);
             read_body(&world, ":a", p, v);
-            // v - flow stays along (6; -2; -4), shorter and shorter.
+            // v - flow stays parallel to (6; -2; -4) and decreases.
             double along = (v[0] - 1) / 6;
             assert_true(along >= -1e-15 && along <= last);
             NEAR(v[1] + 1, -2 * along, 1e-14);
@@ -278,7 +278,7 @@ static void test_drag_never_reverses(void **state) {
     }
 }
 
-// Eased in over E, a constant force gives the velocity t² / 2E, then t − E / 2.
+// A constant force that is eased in over E gives the velocity t² / 2E, then t − E / 2.
 static void test_ease(void **state) {
     (void)state;
     World world;
@@ -295,7 +295,7 @@ static void test_ease(void **state) {
     world_close(&world);
 }
 
-// Two balls that collide on a line exchange their velocities; the stronger the force the less they overlap.
+// Two balls that collide on a line exchange their velocities. A stronger force reduces their overlap.
 static void test_collision(void **state) {
     (void)state;
     double nearest[3] = {9, 9, 9};
@@ -314,7 +314,7 @@ static void test_collision(void **state) {
         }
         EXPECT_NEAR(&world, ":s;:a;:velocity", 1e-3, -0.5);
         EXPECT_NEAR(&world, ":s;:b;:velocity", 1e-3, 1);
-        // Half of the relative energy goes into the spring: s x² / 2 = (m/2) v² / 2.
+        // At the largest overlap the spring stores the relative energy: s x² / 2 = (m/2) v² / 2.
         NEAR(1 - nearest[i], 1.5 / sqrt(2.0 * strengths[i]), 1e-2);
         world_close(&world);
         free(script);
@@ -322,7 +322,7 @@ static void test_collision(void **state) {
     assert_true(nearest[0] < nearest[1] && nearest[1] < nearest[2]);
 }
 
-// A stiff spring explodes in steps of a frame; with a small enough resolution it swings.
+// A stiff spring diverges with one step per frame, and oscillates with a sufficiently small resolution.
 static void test_resolution_tames(void **state) {
     (void)state;
     for (int fine = 0; fine < 2; fine++) {
@@ -342,7 +342,7 @@ static void test_resolution_tames(void **state) {
     }
 }
 
-// Gravity within the radii is constant, so two that fall through each other stay slow; points do not.
+// Gravity within the radii is constant, so two bodies that pass through each other stay slow, unlike points.
 static void test_radii_tame_gravity(void **state) {
     (void)state;
     double max[2] = {0, 0};
@@ -359,12 +359,12 @@ static void test_radii_tame_gravity(void **state) {
         world_close(&world);
         free(script);
     }
-    // From 2 to 1/2 apart the potential falls by 3/2, then by 4 · 1/2: v² = 3.5 at the most.
+    // From distance 2 to 1/2 the potential falls by 3/2, then by 4 · 1/2: v² is at most 3.5.
     NEAR(max[0], sqrt(3.5), 0.05);
     assert_true(max[1] > 3 * max[0]);
 }
 
-// Without drag the energy of bouncing goes on; drag takes it out.
+// Without drag the energy of bouncing is conserved; drag removes it.
 static void test_drag_takes_energy(void **state) {
     (void)state;
     double energy[2] = {0, 0};

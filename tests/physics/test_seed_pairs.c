@@ -1,7 +1,7 @@
-// test_seed_pairs.c: forces between particles, worked out by hand from the seed's formulas, through scripts.
+// test_seed_pairs.c: forces between particles in scripts, with results calculated by hand from the seed's formulas.
 #include "cases.h"
 
-// Two particles on a line in one dimension: masses 1, and what is given.
+// Two particles of mass 1 in one dimension, with the given attributes.
 #define PAIR(a, b, rest) P1 " !particle id=:a " a "\n !particle id=:b " b "\n " rest "\n"
 
 static void test_collision(void **state) {
@@ -13,7 +13,7 @@ static void test_collision(void **state) {
          "a'=-1 b'=1", 0},
         {"strength and power are 1", PAIR("radius=1", "radius=1 position=1.5", "!collision"), 1, "a'=-0.5 b'=0.5", 0},
         {"over mass", PAIR("radius=1 mass=2", "radius=1 position=1.5", "!collision"), 1, "a'=-0.25 b'=0.5", 0},
-        {"touching is no overlap", PAIR("radius=1", "radius=0.5 position=1.5", "!collision"), 1, "a'=0 b'=0", 0},
+        {"touching is not an overlap", PAIR("radius=1", "radius=0.5 position=1.5", "!collision"), 1, "a'=0 b'=0", 0},
         {"no radius", PAIR("", "radius=2 position=1.5", "!collision"), 1, "a'=0 b'=0", 0},
         {"an anchor pushes and stays",
          P1 " !particle id=:a radius=1\n !anchor id=:b radius=1 position=1.5\n !collision\n", 1, "a'=-0.5 b=1.5 b'=0",
@@ -50,7 +50,7 @@ static void test_gravity(void **state) {
         {"too far", PAIR("mass=2", "mass=3 position=2", "!gravity strength=4 max_distance=1.5"), 1, "a'=0 b'=0", 0},
         {"as far as max_distance is too far", PAIR("mass=2", "mass=3 position=2", "!gravity max_distance=2"), 1, "a'=0",
          0},
-        {"max_distance 0 is no limit", PAIR("mass=2", "mass=2 position=2", "!gravity max_distance=0"), 1, "a'=0.5", 0},
+        {"max_distance 0: no limit", PAIR("mass=2", "mass=2 position=2", "!gravity max_distance=0"), 1, "a'=0.5", 0},
         {"an anchor without mass does not attract",
          P1 " !particle id=:a\n !anchor id=:b mass=0 position=1\n"
             " !distance from=:a to=:b max=0.5\n !gravity\n",
@@ -68,8 +68,8 @@ static void test_electrostatic(void **state) {
     (void)state;
     static const Case cases[] = {
         {"equal signs repel", PAIR("charge=2", "charge=3 position=2", "!electrostatic strength=4"), 1, "a'=-6 b'=6", 0},
-        {"both negative too", PAIR("charge=-2", "charge=-3 position=2", "!electrostatic strength=4"), 1, "a'=-6 b'=6",
-         0},
+        {"two negative charges repel", PAIR("charge=-2", "charge=-3 position=2", "!electrostatic strength=4"), 1,
+         "a'=-6 b'=6", 0},
         {"opposite signs attract", PAIR("charge=-2", "charge=3 position=2", "!electrostatic strength=4"), 1,
          "a'=6 b'=-6", 0},
         {"over mass", PAIR("charge=2 mass=4", "charge=3 position=2", "!electrostatic strength=4"), 1, "a'=-1.5 b'=6",
@@ -123,7 +123,7 @@ static void test_adhesion(void **state) {
     CHECK_CASES(cases);
 }
 
-// At distance 4.
+// A link between two particles at distance 4.
 #define LINK(attributes) P1 " !particle id=:a\n !particle id=:b position=4\n !distance from=:a to=:b " attributes "\n"
 
 static void test_distance(void **state) {
@@ -136,7 +136,7 @@ static void test_distance(void **state) {
         {"fixed: apart", LINK("fixed=6"), 1, "a'=-2 b'=2", 0},
         {"fixed: together", LINK("fixed=2"), 1, "a'=2 b'=-2", 0},
         {"power 2", LINK("max=2 power=2"), 1, "a'=4 b'=-4", 0},
-        {"power 2 below min restores too (left open by the seed)", LINK("min=6 power=2"), 1, "a'=-4 b'=4", 0},
+        {"power 2 below min also restores (left open by the seed)", LINK("min=6 power=2"), 1, "a'=-4 b'=4", 0},
         {"power 3", LINK("min=6 power=3"), 1, "a'=-8 b'=8", 0},
         {"power 1/2", LINK("max=0 power=0.5"), 1, "a'=2 b'=-2", 0},
         {"power 0", LINK("max=1 power=0"), 1, "a'=1 b'=-1", 0},
@@ -185,7 +185,7 @@ static void test_distance(void **state) {
     CHECK_CASES(cases);
 }
 
-// A pair that is not on an axis: along the line between the two.
+// The force of a pair that is not on an axis acts along the line between the two.
 static void test_direction(void **state) {
     (void)state;
     static const char *const forces[] = {"!distance from=:a to=:b max=4", "!gravity strength=25",

@@ -1,10 +1,10 @@
-// test_seed_reports.c: what is wrong with a system is told once, with the node, its id and what was found.
+// test_seed_reports.c: diagnostics of systems: each error is reported once, with the node, its id and the value.
 #include "world.h"
 
 typedef struct Report {
     const char *script;
     const char *code;
-    const char *parts[4]; // that the message must contain
+    const char *parts[4]; // texts that the message must contain
 } Report;
 
 static void check_report(const Report *row) {
@@ -47,7 +47,7 @@ static void test_shapes(void **state) {
     check_reports(rows, COUNT_OF(rows));
 }
 
-// A wrong value that is another one in each frame is the same thing wrong: told once.
+// An attribute with a different invalid value in each frame is reported once.
 static void test_changing_values(void **state) {
     (void)state;
     static const Report rows[] = {
@@ -77,18 +77,18 @@ static void test_names(void **state) {
         {P1 " !physics state=:t dimensions=1\n", "unknown-node", {"!physics"}},
     };
     check_reports(rows, COUNT_OF(rows));
-    // What is far from every name is told without a guess.
+    // A name that resembles no known one is reported without a suggestion.
     World world;
     world_open(&world, 1, P1 " !particle id=:a zzzzzzzz=1\n !qqqqqqqqqqqq\n");
     world_to(&world, 2);
-    EXPECT_TOLD(&world, "unknown-attribute unknown-node");
+    EXPECT_REPORTED(&world, "unknown-attribute unknown-node");
     for (int i = 0; i < 2; i++)
         assert_null(strstr(world.reported[i].text, "did you mean"));
     world_close(&world);
-    // What stands outside of systems is not their business.
+    // Nodes outside of systems are not reported.
     world_open(&world, 1, "!particle raduis=1\n!canvas size=1\n!window\n !physics\n");
     world_to(&world, 2);
-    EXPECT_TOLD(&world, "");
+    EXPECT_REPORTED(&world, "");
     world_close(&world);
 }
 
@@ -108,16 +108,16 @@ static void test_ids(void **state) {
         {P1 " !particle id=:b\n !distance from=:velocity to=:b max=1\n", "unknown-particle", {":velocity"}},
     };
     check_reports(rows, COUNT_OF(rows));
-    // Told or not, the others go on.
+    // The other particles are simulated.
     World world;
     world_open(&world, 1, P1 " !particle velocity=1\n !particle id=:a velocity=2\n !particle id=:a velocity=3\n");
     world_to(&world, 2);
     EXPECT(&world, ":s;:a", 4);
-    EXPECT_TOLD(&world, "missing-id duplicate-id");
+    EXPECT_REPORTED(&world, "missing-id duplicate-id");
     world_close(&world);
 }
 
-// The names of the system's own keys are no good as ids: told, and simulated all the same.
+// Ids that equal keys of the system are reported, but their particles are simulated.
 static void test_reserved_ids(void **state) {
     (void)state;
     static const char *const names[] = {":last", ":clock", ":run", ":iteration"};
@@ -129,7 +129,7 @@ static void test_reserved_ids(void **state) {
                                    kind, names[i]);
             const Report row = {script, "reserved-id", {kind, names[i]}};
             check_report(&row);
-            // In one dimension the system's own number would be taken for the position.
+            // Two dimensions, because in one the system's own number would be read as the position.
             World world;
             char key[64];
             world_open(&world, 1, script);
@@ -141,12 +141,12 @@ static void test_reserved_ids(void **state) {
             free(script);
         }
     }
-    // Longer ids that only begin or end like them, and other names, are fine.
+    // Longer ids that only begin or end with such a name, and other names, are valid.
     World world;
     world_open(&world, 1,
                P1 " !particle id=:last;1\n !particle id=1;:clock\n !particle id=:time\n !anchor id=\"run\"\n");
     world_to(&world, 2);
-    EXPECT_TOLD(&world, "");
+    EXPECT_REPORTED(&world, "");
     world_close(&world);
 }
 
@@ -172,7 +172,7 @@ static void test_systems(void **state) {
         {P1 P1 P1, "duplicate-prefix", {":s"}},
     };
     check_reports(rows, COUNT_OF(rows));
-    // A skipped system changes nothing.
+    // A skipped system does not change the state.
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         if (strcmp(rows[i].code, "invalid-system") != 0)
             continue;
@@ -184,7 +184,7 @@ static void test_systems(void **state) {
     }
 }
 
-// Wrong kinds of dimensions: the system is skipped. The shape may be told besides.
+// A system with invalid dimensions is skipped. The attribute may also be reported.
 static void test_malformed_dimensions(void **state) {
     (void)state;
     static const char *const forms[] = {"\"2\"", "1;2", "nan", "!node", ":two;1"};
@@ -194,9 +194,9 @@ static void test_malformed_dimensions(void **state) {
         world_open(&world, 1, script);
         world_to(&world, 3);
         assert_string_equal(world_state(&world), "");
-        assert_int_equal(world_heard(&world, "invalid-system"), 1);
-        assert_true(world_heard(&world, "bad-attribute") <= 1);
-        assert_int_equal(world.reported_count, 1 + world_heard(&world, "bad-attribute"));
+        assert_int_equal(world_count_reported(&world, "invalid-system"), 1);
+        assert_true(world_count_reported(&world, "bad-attribute") <= 1);
+        assert_int_equal(world.reported_count, 1 + world_count_reported(&world, "bad-attribute"));
         world_close(&world);
         free(script);
     }
@@ -213,7 +213,7 @@ static void test_barriers(void **state) {
     check_reports(rows, COUNT_OF(rows));
 }
 
-// A script in order says nothing.
+// A valid script reports nothing.
 static void test_silence(void **state) {
     (void)state;
     World world;
@@ -237,7 +237,7 @@ static void test_silence(void **state) {
         "  !barrier position=-9 normal=1 restitution=1 minimum=1 min=1 maximum=2 max=2 power=1 strength=1 ease=1\n"
         "  !barrier position=-9 normal=1 fixed=1\n");
     world_to(&world, 10);
-    EXPECT_TOLD(&world, "");
+    EXPECT_REPORTED(&world, "");
     world_close(&world);
 }
 

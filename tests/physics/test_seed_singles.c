@@ -1,4 +1,4 @@
-// test_seed_singles.c: forces on single particles, worked out by hand from the seed's formulas, through scripts.
+// test_seed_singles.c: forces on single particles in scripts, with results calculated by hand from the seed's formulas.
 #include "cases.h"
 
 static void test_constant(void **state) {
@@ -67,9 +67,8 @@ static void test_drag(void **state) {
         {"the flow takes along what rests", P1 " !particle id=:a radius=1\n !drag strength=0.25 flow=2\n", 1, "a'=1",
          0},
         {"no radius, no drag", P1 " !particle id=:a velocity=2\n !drag strength=0.25\n", 1, "a'=2", 0},
-        {"limited: stops at the most", P2 " !particle id=:a radius=1 velocity=3;4\n !drag strength=1e9\n", 1, "a'=0;0",
-         0},
-        {"limited: moves with the medium at the most",
+        {"limited: at most stops", P2 " !particle id=:a radius=1 velocity=3;4\n !drag strength=1e9\n", 1, "a'=0;0", 0},
+        {"limited: at most moves with the medium",
          P2 " !particle id=:a radius=1 velocity=3;4 mass=8\n"
             " !drag strength=1e9 flow=1;-1\n",
          3, "a'=1;-1", 0},
@@ -101,8 +100,8 @@ static void test_buoyancy(void **state) {
     CHECK_CASES(cases);
 }
 
-// The forces of `!random` are those of normal(prefix;run;iteration), which the script can ask for itself: the anchors
-// stand where the velocities ought to be.
+// The forces of `!random` equal normal(prefix;run;iteration), which the script can also evaluate: the anchors are at
+// the expected velocities.
 static void test_random(void **state) {
     (void)state;
     World world;
@@ -129,11 +128,11 @@ static void test_random(void **state) {
             EXPECT(&world, key, wanted[0], wanted[1]);
         }
     }
-    EXPECT_TOLD(&world, "");
+    EXPECT_REPORTED(&world, "");
     world_close(&world);
 }
 
-// A second `!random` has a seed of its own; that of a group counts those above it (up to where the group begins).
+// A second `!random` has a different seed. That of a group counts the ones before the group in the enclosing groups.
 static void test_random_seeds(void **state) {
     (void)state;
     World world;
@@ -160,7 +159,7 @@ static void test_random_seeds(void **state) {
     world_close(&world);
 }
 
-// Each step of a frame has its own variates: items go on from where the step before stopped.
+// Each step of a frame has its own variates: items continue after those of the previous step.
 static void test_random_steps(void **state) {
     (void)state;
     World world;
@@ -178,7 +177,7 @@ static void test_random_steps(void **state) {
     world_close(&world);
 }
 
-// Mean 0, variance 1, and the fourth moment of a normal distribution, 3.
+// The variates have mean 0, variance 1, and the fourth moment of a normal distribution, 3.
 static void test_random_is_normal(void **state) {
     (void)state;
     enum { COUNT = 4000 };
@@ -189,7 +188,7 @@ static void test_random_is_normal(void **state) {
     for (int i = 0; i < COUNT; i++) {
         char key[64];
         double v[WORLD_MAX_NUMBERS];
-        // Searching 8000 lines for each key would be slow, and the lines come in order.
+        // The lines are in order, so they are not searched for each of 8000 keys.
         static const char *at;
         at = i ? at : world_state(&world);
         snprintf(key, sizeof key, "\n$(:s;%d;:velocity) = ", i);
@@ -201,7 +200,7 @@ static void test_random_is_normal(void **state) {
         for (int power = 1; power <= 4; power++)
             sums[power] += pow(v[0], power) + pow(v[1], power);
     }
-    NEAR(sums[0] / COUNT, 0, 0.1); // components do not depend on each other
+    NEAR(sums[0] / COUNT, 0, 0.1); // components are independent
     NEAR(sums[1] / (2 * COUNT), 0, 0.05);
     NEAR(sums[2] / (2 * COUNT), 1, 0.06);
     NEAR(sums[3] / (2 * COUNT), 0, 0.2);

@@ -1,5 +1,5 @@
-// test_seed_state.c: several systems and counters, particles and systems that come and go, scripts that feed the state
-// back, results that are not finite.
+// test_seed_state.c: several systems and counters, particles and systems that appear and disappear, feedback from the
+// state, results that are not finite.
 #include "cases.h"
 
 static void test_several_systems(void **state) {
@@ -18,11 +18,11 @@ static void test_several_systems(void **state) {
     EXPECT(&world, "7;'x';:a", 3, 6, 9);
     EXPECT(&world, "7;'x';:run", 5);
     EXPECT_ABSENT(&world, ":inner"); // only top-level nodes are systems
-    EXPECT_TOLD(&world, "");
+    EXPECT_REPORTED(&world, "");
     world_close(&world);
 }
 
-// All keys begin with the prefix, and there are no others.
+// All keys begin with the prefix.
 static void test_all_keys(void **state) {
     (void)state;
     World world;
@@ -39,7 +39,7 @@ static void test_all_keys(void **state) {
     world_close(&world);
 }
 
-// Two systems with one prefix take turns on the same keys: told once, and each makes an iteration.
+// Two systems with the same prefix use the same keys in turn. This is reported once, and each makes an iteration.
 static void test_shared_prefix(void **state) {
     (void)state;
     World world;
@@ -50,11 +50,11 @@ static void test_shared_prefix(void **state) {
     EXPECT(&world, ":s;:iteration", 7);
     EXPECT(&world, ":s;:clock", 3);
     EXPECT(&world, ":s;:c", 3);
-    EXPECT_TOLD(&world, "duplicate-prefix");
+    EXPECT_REPORTED(&world, "duplicate-prefix");
     world_close(&world);
 }
 
-// Counters of their own rates; one drives a system. What the script reads is one frame old.
+// Counters with different rates, one of which is the time of a system. The script reads values of the frame before.
 static void test_counters(void **state) {
     (void)state;
     World world;
@@ -72,7 +72,7 @@ static void test_counters(void **state) {
         EXPECT(&world, ":turn", 2.0 * frame);
         EXPECT(&world, ":slow;1", 10 + 0.5 * frame);
         EXPECT(&world, ":low", frame < 2 ? -frame : -2);
-        if (frame == 0) // new, so it is `initial`, one number
+        if (frame == 0) // new, so its value is `initial`, one number
             EXPECT(&world, ":pair", 0);
         else
             EXPECT(&world, ":pair", frame, -2.0 * frame);
@@ -81,11 +81,11 @@ static void test_counters(void **state) {
         if (frame > 1)
             EXPECT(&world, ":s;:a", 2.0 * (frame - 1));
     }
-    EXPECT_TOLD(&world, "");
+    EXPECT_REPORTED(&world, "");
     world_close(&world);
 }
 
-// A force that the script computes from the position it reads: a spring. With unit steps it has a period of 6.
+// A spring force that the script computes from the position in the state. With unit steps it has a period of 6.
 static void test_feedback(void **state) {
     (void)state;
     static const double positions[] = {0, -8, -8, 0, 8, 8};
@@ -98,7 +98,7 @@ static void test_feedback(void **state) {
     world_close(&world);
 }
 
-// The clock, read back, is that of the frame before; a chase of one system's particle by another's anchor.
+// A script reads the clock of the frame before. An anchor of one system follows a particle of another.
 static void test_feedback_between_systems(void **state) {
     (void)state;
     World world;
@@ -115,7 +115,7 @@ static void test_feedback_between_systems(void **state) {
 static void test_come_and_go(void **state) {
     (void)state;
     static const Case cases[] = {
-        {"gone: its keys too", P1 " if frame < 3\n  !particle id=:a velocity=1\n !particle id=:b velocity=1\n", 3,
+        {"removed with its keys", P1 " if frame < 3\n  !particle id=:a velocity=1\n !particle id=:b velocity=1\n", 3,
          "a=none a'=none b=3", 0},
         {"back: from its attributes", P1 " if frame != 3\n  !particle id=:a position=10 velocity=1\n", 5, "a=12", 0},
         {"an anchor goes", P1 " if frame < 3\n  !anchor id=:a\n !particle id=:b\n", 3, "a=none a'=none", 0},
@@ -130,10 +130,10 @@ static void test_come_and_go(void **state) {
          P1 " if frame < 3\n  !particle id=:a velocity=1\n else\n"
             "  !anchor id=:a position=9 velocity=4\n",
          3, "a=9 a'=0", 0},
-        {"a system that pauses goes on and catches up",
+        {"a paused system continues and catches up",
          "if frame < 3 or frame > 5\n !physics state=:s dimensions=1\n  !particle id=:a velocity=1\n", 5,
          "a=2 :last=2 :iteration=2", 0},
-        {"a system that pauses goes on and catches up",
+        {"a paused system continues and catches up",
          "if frame < 3 or frame > 5\n !physics state=:s dimensions=1\n  !particle id=:a velocity=1\n", 6,
          "a=6 :last=6 :clock=6 :iteration=3", 0},
         {"a frame that is skipped keeps the particles",
@@ -150,7 +150,7 @@ static void test_come_and_go(void **state) {
     CHECK_CASES(cases);
 }
 
-// What is not finite stays inside the particle: it is not written, and it affects nobody.
+// Values that are not finite are not stored, and do not affect other particles.
 static void test_not_finite(void **state) {
     (void)state;
     static const Case cases[] = {
@@ -159,7 +159,7 @@ static void test_not_finite(void **state) {
         {"nan in a vector", P2 " !particle id=:a position=1;nan velocity=1\n", 2, "a=none a'=1;1", 0},
         {"force: as it was", P2 " !particle id=:a velocity=1;2 force=inf;0\n", 2, "a=2;4 a'=1;2", 0},
         {"an anchor", P1 " !anchor id=:a position=inf\n !particle id=:b\n", 2, "a=none a'=0 b=0", 0},
-        {"nobody is affected",
+        {"others are not affected",
          P1 " !particle id=:a position=inf radius=9 charge=1\n"
             " !particle id=:b position=1 radius=9 charge=1\n !particle id=:c position=3 radius=0.5 mass=4\n"
             " !gravity\n !collision\n !electrostatic\n !adhesion\n !distance from=:a to=:b max=1\n",
@@ -167,7 +167,7 @@ static void test_not_finite(void **state) {
         {"an overflow in the run", P1 " !particle id=:a velocity=1e308\n", 3, "a=1e308 a'=1e308", 0},
     };
     CHECK_CASES(cases);
-    // With and without the particle that is not there: the same.
+    // Others move the same with and without a particle that is not finite.
     World with, without;
 #define REST                                                                                                           \
     " !particle id=:b position=1 radius=9 charge=1\n !particle id=:c position=3 radius=0.5 mass=4\n"                   \
@@ -182,7 +182,7 @@ static void test_not_finite(void **state) {
     world_close(&without);
 }
 
-// A script that is loaded again begins at frame 0 with the state as it was: time has gone back.
+// A script that is loaded again starts at frame 0 with the old state, so time goes back.
 static void test_reload(void **state) {
     (void)state;
     World world;

@@ -1,5 +1,4 @@
-// world.h: runs a script from a string and looks at the state as it prints; all that these tests know of petri is
-// petri.h.
+// world.h: helpers that run a script from a string and read its printed state. The tests use only petri.h.
 #ifndef PETRI_TESTS_PHYSICS_WORLD_H
 #define PETRI_TESTS_PHYSICS_WORLD_H
 
@@ -27,35 +26,35 @@
 
 enum { WORLD_MAX_REPORTED = 32, WORLD_MAX_NUMBERS = 64 };
 
-typedef struct Told {
+typedef struct Reported {
     PetriLevel level;
     char code[32];
     char text[256];
-} Told;
+} Reported;
 
 typedef struct World {
     PetriSession *session;
-    char *text; // the printed state, or NULL if it has not been printed since the last step
+    char *text; // printed state; NULL: not printed since the last step
     size_t len;
-    Told reported[WORLD_MAX_REPORTED];
-    int reported_count; // also counts those beyond WORLD_MAX_REPORTED
+    Reported reported[WORLD_MAX_REPORTED];
+    int reported_count; // includes diagnostics beyond WORLD_MAX_REPORTED
 } World;
 
-static inline void world_hear(void *host, const PetriDiagnostic *diagnostic) {
-    World *world = host;
+static inline void world_on_diagnostic(void *user_data, const PetriDiagnostic *diagnostic) {
+    World *world = user_data;
     if (world->reported_count < WORLD_MAX_REPORTED) {
-        Told *told = &world->reported[world->reported_count];
-        told->level = diagnostic->level;
-        snprintf(told->code, sizeof told->code, "%s", diagnostic->code ? diagnostic->code : "-");
-        snprintf(told->text, sizeof told->text, "%s", diagnostic->text);
+        Reported *reported = &world->reported[world->reported_count];
+        reported->level = diagnostic->level;
+        snprintf(reported->code, sizeof reported->code, "%s", diagnostic->code ? diagnostic->code : "-");
+        snprintf(reported->text, sizeof reported->text, "%s", diagnostic->text);
     }
     world->reported_count++;
 }
 
-// A session at `fps` frames a second, in lockstep unless `options` says otherwise. The world must not be moved.
+// Opens a session with `options` and loads a script. The world must not be moved in memory.
 static inline void world_open_with(World *world, PetriOptions options, const char *script) {
     *world = (World){0};
-    options.on_diagnostic = world_hear;
+    options.on_diagnostic = world_on_diagnostic;
     options.user_data = world;
     world->session = petri_open(&options);
     assert_non_null(world->session);
@@ -77,7 +76,7 @@ static inline void world_close(World *world) {
     world->text = NULL;
 }
 
-// A text from a format, to be freed.
+// Returns a formatted text. The caller frees it.
 __attribute__((format(printf, 1, 2))) static inline char *text_of(const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
@@ -91,7 +90,7 @@ __attribute__((format(printf, 1, 2))) static inline char *text_of(const char *fo
     return text;
 }
 
-// Makes frames until the last one has this number.
+// Steps until the last frame has this number.
 static inline void world_to(World *world, int64_t frame) {
     while (petri_frame(world->session).number < frame)
         assert_int_equal(petri_step(world->session), PETRI_OK);
@@ -99,8 +98,8 @@ static inline void world_to(World *world, int64_t frame) {
     world->text = NULL;
 }
 
-static inline bool world_append_text(void *host, const char *text, size_t len) {
-    World *world = host;
+static inline bool world_append_text(void *user_data, const char *text, size_t len) {
+    World *world = user_data;
     char *grown = realloc(world->text, world->len + len + 1);
     if (!grown)
         return false;
@@ -111,7 +110,7 @@ static inline bool world_append_text(void *host, const char *text, size_t len) {
     return true;
 }
 
-// The frame's header and the state. The state's lines are those behind the first line feed.
+// Returns the frame's header and the state. The state begins after the first newline.
 static inline const char *world_text(World *world) {
     if (!world->text) {
         world->len = 0;
@@ -124,7 +123,7 @@ static inline const char *world_state(World *world) {
     return strchr(world_text(world), '\n') + 1;
 }
 
-// The printed value of a key, as in ":s;:a;:velocity"; NULL if the state does not have it.
+// Returns the printed value of a key such as ":s;:a;:velocity", or NULL if the state does not have it.
 static inline const char *world_find(World *world, const char *key) {
     char line[160];
     for (int several = 0; several < 2; several++) {
@@ -136,7 +135,7 @@ static inline const char *world_find(World *world, const char *key) {
     return NULL;
 }
 
-// The numbers of a text such as "1;-2.5", up to what is no number; returns how many.
+// Reads the numbers of a text such as "1;-2.5" and returns how many.
 static inline int read_numbers(const char *text, double *numbers, const char **end) {
     int count = 0;
     char *next = (char *)text;
@@ -152,7 +151,7 @@ static inline int read_numbers(const char *text, double *numbers, const char **e
     return count;
 }
 
-// The numbers under a key; -1 if there is none.
+// Reads the numbers of a key. Returns how many, or -1 if there is no such key.
 static inline int world_numbers(World *world, const char *key, double *numbers) {
     const char *value = world_find(world, key);
     return value ? read_numbers(value, numbers, NULL) : -1;
@@ -166,8 +165,8 @@ static inline double world_number(World *world, const char *key) {
     return numbers[0];
 }
 
-// How many diagnostics of this kind were given.
-static inline int world_heard(const World *world, const char *code) {
+// Returns the number of diagnostics with this code.
+static inline int world_count_reported(const World *world, const char *code) {
     int count = 0;
     for (int i = 0; i < world->reported_count && i < WORLD_MAX_REPORTED; i++)
         count += strcmp(world->reported[i].code, code) == 0;
@@ -176,10 +175,10 @@ static inline int world_heard(const World *world, const char *code) {
 
 static inline void world_print_reported(const World *world) {
     for (int i = 0; i < world->reported_count && i < WORLD_MAX_REPORTED; i++)
-        print_error("  told: [%s] %s\n", world->reported[i].code, world->reported[i].text);
+        print_error("  reported: [%s] %s\n", world->reported[i].code, world->reported[i].text);
 }
 
-// Numbers that are equal, or within a tolerance; a nan is never wanted.
+// Checks that the numbers of a key are equal to the wanted ones, or within a tolerance. NaN never matches.
 static inline void check_numbers(World *world, const char *key, double tolerance, int count, const double *wanted,
                                  const char *file, int line) {
     double found[WORLD_MAX_NUMBERS];
@@ -204,13 +203,13 @@ static inline void check_numbers(World *world, const char *key, double tolerance
     (int)(sizeof((double[]){__VA_ARGS__}) / sizeof(double)), (double[]) {                                              \
         __VA_ARGS__                                                                                                    \
     }
-// `key` holds these numbers, to the last bit (but zeros of either sign are equal) or within a tolerance.
+// Checks that `key` holds these numbers to the last bit (zeros of either sign are equal), or within a tolerance.
 #define EXPECT(world, key, ...) check_numbers(world, key, 0, NUMBERS(__VA_ARGS__), __FILE__, __LINE__)
 #define EXPECT_NEAR(world, key, tolerance, ...)                                                                        \
     check_numbers(world, key, tolerance, NUMBERS(__VA_ARGS__), __FILE__, __LINE__)
 #define EXPECT_ABSENT(world, key) assert_null(world_find(world, key))
 
-// One number against another.
+// Checks one number against another.
 static inline void check_near(double found, double wanted, double tolerance, const char *file, int line) {
     if (found == wanted || fabs(found - wanted) <= tolerance)
         return;
@@ -220,7 +219,7 @@ static inline void check_near(double found, double wanted, double tolerance, con
 
 #define NEAR(found, wanted, tolerance) check_near(found, wanted, tolerance, __FILE__, __LINE__)
 
-// Exactly these diagnostics, by kind, in any order: "bad-attribute bad-attribute", or "" for none.
+// Checks that exactly these diagnostics were reported, in any order: "bad-attribute bad-attribute", or "" for none.
 static inline void check_reported(const World *world, const char *codes, const char *title, const char *file,
                                   int line) {
     int wanted = 0;
@@ -232,7 +231,7 @@ static inline void check_reported(const World *world, const char *codes, const c
         snprintf(code, sizeof code, "%.*s", (int)len, at);
         for (const char *other = codes; *other; other += strcspn(other, " "), other += strspn(other, " "))
             same += strcspn(other, " ") == len && strncmp(other, code, len) == 0;
-        all = all && world_heard(world, code) == same;
+        all = all && world_count_reported(world, code) == same;
         wanted++;
         at += len;
     }
@@ -243,6 +242,6 @@ static inline void check_reported(const World *world, const char *codes, const c
     _fail(file, line);
 }
 
-#define EXPECT_TOLD(world, codes) check_reported(world, codes, "", __FILE__, __LINE__)
+#define EXPECT_REPORTED(world, codes) check_reported(world, codes, "", __FILE__, __LINE__)
 
 #endif
