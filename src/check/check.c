@@ -1,4 +1,4 @@
-// check.c: `petri check`: what is wrong with scripts, without running them.
+// check.c: the command `petri check`, which reports errors in scripts without running them.
 #include "check/report.h"
 #include "cli/options.h"
 #include "cli/script.h"
@@ -10,13 +10,13 @@
 
 typedef struct Check {
     Options *options;
-    bool shown_last;
+    bool shown_last; // the last error or warning was shown, so its notes are shown as well
     Report report;
 } Check;
 
 static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     Check *check = host;
-    // Notes belong to the diagnostic before them.
+    // A note is shown if the diagnostic it belongs to was shown.
     if (diagnostic->level != PETRI_NOTE)
         check->shown_last = diagnostic->level == PETRI_ERROR || check->options->verbosity != LOG_QUIET;
     if (check->shown_last && check->report.form != REPORT_TEXT)
@@ -48,23 +48,20 @@ static int check_run(const CommandContext *host, Options *options) {
     if (options->scripts.count > 0)
         return check_all(&(Check){.options = options, .report = {.form = (ReportForm)options->report}}, host);
     if (!options->unreadable)
-        message("no script found: there is no file named *.fl");
+        message("no script found: no file is named *.fl");
     return STATUS_FAILED;
 }
 
 const Command CHECK_COMMAND = {
     .name = "check",
     .operands = "PATH...",
-    .summary = "tell what is wrong with scripts without running them",
-    .details =
-        "Reads scripts, or each file named *.fl in a folder and the folders in it, and reports what is wrong with\n"
-        "them, and what is hardly meant: names that are unbound or unused, wrong numbers of arguments, unknown "
-        "pragmas,\n"
-        "branches that are never reached, misspelled nodes and attributes. To see the latter it makes the first\n"
-        "frame, of which nothing is printed, drawn or stored. The exit status is 1 if there was an error.",
+    .summary = "check scripts for errors without running them",
+    .details = "Checks scripts, or all *.fl files below a folder: unbound or unused names, wrong argument counts,\n"
+               "unknown pragmas, unreachable branches, misspelled nodes and attributes. Evaluates the first frame\n"
+               "without drawing, printing or storing anything. Exits with 1 if there are errors.",
     .examples = "  petri check dish.fl\n"
-                "  petri check --werror .                          all scripts here, for CI\n"
-                "  petri check --format=sarif . >petri.sarif       … as code hosts read it\n",
+                "  petri check --werror .                          all scripts in this folder, for CI\n"
+                "  petri check --format=sarif . >petri.sarif       a report for code hosting sites\n",
     .missing_operand = "nothing to check",
     .options = FOR_CHECK,
     .accepts_many = true,

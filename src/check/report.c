@@ -4,12 +4,12 @@
 #include "cli/json.h"
 #include "cli/output.h"
 
-// Text and hint as one: they are two sentences of one remark.
+// Adds text and hint as one message.
 static void add_message_text(const PetriDiagnostic *diagnostic, ByteBuffer *out) {
     byte_buffer_format(out, "%s%s%s", diagnostic->text, diagnostic->hint[0] != '\0' ? "; " : "", diagnostic->hint);
 }
 
-// `FILE:LINE:COLUMN: level: text [code]`.
+// Adds a line `FILE:LINE:COLUMN: level: text [code]`.
 static void add_gcc(Report *report, const PetriDiagnostic *diagnostic, const char *message_text) {
     ByteBuffer *out = &report->text;
     if (diagnostic->file)

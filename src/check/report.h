@@ -1,4 +1,4 @@
-// report.h: diagnostics for programs that read them.
+// report.h: diagnostics in machine-readable formats.
 #ifndef PETRI_SRC_CHECK_REPORT_H
 #define PETRI_SRC_CHECK_REPORT_H
 
@@ -11,11 +11,11 @@ typedef struct Report {
     ReportForm form;
     ByteBuffer text;
     size_t count;
-    TextList codes; // that have come, for the rules of SARIF
+    TextList codes; // codes of all diagnostics so far; SARIF lists them as rules
 } Report;
 
 void report_add(Report *report, const PetriDiagnostic *diagnostic);
-// Writes all to standard output and frees the report; returns the exit status.
+// Writes the report to standard output and frees it. Returns `status`, or STATUS_FAILED after a write error.
 int report_end(Report *report, int status);
 
 #endif

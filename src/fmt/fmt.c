@@ -1,4 +1,4 @@
-// fmt.c: `petri fmt`: one layout for all scripts.
+// fmt.c: the command `petri fmt`, which formats scripts.
 #include "base/file.h"
 #include "base/source.h"
 #include "cli/options.h"
@@ -18,8 +18,8 @@ static const size_t MAX_BYTES = (size_t)256 << 20;
 typedef struct Formatting {
     PetriSession *session;
     bool only_checks;
-    size_t changed; // or would be
-    size_t failed;
+    size_t changed; // scripts that were changed, or would be with --check
+    size_t failed;  // scripts that could not be formatted
 } Formatting;
 
 static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
@@ -33,11 +33,11 @@ static bool read_script(const char *name, ByteBuffer *text) {
     bool read =
         script_is_stdin(name) ? byte_buffer_read(text, STDIN_FILENO, MAX_BYTES) : byte_buffer_read_file(text, name);
     if (!read || text->length > MAX_BYTES)
-        message("cannot read %s: %s", script_display_name(name), read ? "it is too large" : strerror(errno));
+        message("cannot read %s: %s", script_display_name(name), read ? "too large" : strerror(errno));
     return read && text->length <= MAX_BYTES;
 }
 
-// The text as petri reads it: lines end in LF, and no byte-order mark begins it.
+// Returns the text with LF line ends and without a byte-order mark. Modifies the buffer.
 static Str normalise_text(ByteBuffer *text) {
     static const char mark[] = "\xef\xbb\xbf";
     size_t skipped = strncmp(text->data, mark, strlen(mark)) == 0 ? strlen(mark) : 0;
@@ -50,13 +50,13 @@ static bool format_text(Formatting *formatting, const char *name, const ByteBuff
     byte_buffer_add(&copy, original->data, original->length);
     Str text = normalise_text(&copy);
     const char *shown = script_display_name(name);
-    // What is wrong with the script is told by the load.
+    // petri_load_text reports errors in the script.
     if (petri_load_text(formatting->session, shown, text.bytes, text.len) != PETRI_OK)
         return false;
     bool done = layout_text(formatting->session, text, out);
-    Str laid = {out->data, out->length};
-    if (!done || (!str_equal(laid, text) && !layout_same(formatting->session, shown, text, laid))) {
-        message("%s is left as it is: laid out it would not be the same program; please tell petri's authors", shown);
+    Str formatted = {out->data, out->length};
+    if (!done || (!str_equal(formatted, text) && !layout_same(formatting->session, shown, text, formatted))) {
+        message("cannot format %s: its compiled code would change; please report this bug of petri", shown);
         return false;
     }
     return true;
@@ -71,7 +71,7 @@ static bool write_script(const char *name, const ByteBuffer *out) {
     return true;
 }
 
-// What came from standard input goes to standard output, whether it changes or not.
+// Writes a formatted script from standard input to standard output, even if it has not changed.
 static int write_stdout(const ByteBuffer *out) {
     return output_text(out->data, out->length, STATUS_DONE);
 }
@@ -82,14 +82,14 @@ static void format_script(Formatting *formatting, const char *name) {
     if (!read_script(name, &text) || !format_text(formatting, name, &text, &out)) {
         formatting->failed++;
         if (script_is_stdin(name) && !formatting->only_checks)
-            write_stdout(&text); // for editors that take whatever comes
+            write_stdout(&text); // editors may replace the script by whatever is written
         return;
     }
     bool changed = text.length != out.length || memcmp(text.data, out.data, out.length) != 0;
     formatting->changed += changed;
     if (formatting->only_checks) {
         if (changed)
-            message("%s is not laid out by petri fmt", script_display_name(name));
+            message("%s is not formatted", script_display_name(name));
     } else if (script_is_stdin(name)) {
         formatting->failed += write_stdout(&out) == STATUS_DONE ? 0 : 1;
     } else if (changed) {
@@ -101,7 +101,7 @@ static int fmt_run(const CommandContext *host, Options *options) {
     Formatting formatting = {.only_checks = options->only_checks};
     if (options->scripts.count == 0) {
         if (!options->unreadable)
-            message("no script found: there is no file named *.fl");
+            message("no script found: no file is named *.fl");
         return STATUS_FAILED;
     }
     options->unsimplified = true;
@@ -114,9 +114,8 @@ static int fmt_run(const CommandContext *host, Options *options) {
     petri_close(&formatting.session);
     size_t count = options->scripts.count;
     if (count > 1 || !script_is_stdin(options->scripts.items[0].path)) {
-        message("%zu file%s: %zu %s, %zu left as %s", count, count == 1 ? "" : "s", formatting.changed,
-                formatting.only_checks ? "to be laid out" : "laid out", count - formatting.changed,
-                count - formatting.changed == 1 ? "it is" : "they are");
+        message("%zu file%s: %zu %s, %zu unchanged", count, count == 1 ? "" : "s", formatting.changed,
+                formatting.only_checks ? "to format" : "formatted", count - formatting.changed);
     }
     bool good = formatting.failed == 0 && !options->unreadable && !(formatting.only_checks && formatting.changed > 0);
     return good ? STATUS_DONE : STATUS_FAILED;
@@ -125,17 +124,14 @@ static int fmt_run(const CommandContext *host, Options *options) {
 const Command FMT_COMMAND = {
     .name = "fmt",
     .operands = "PATH...",
-    .summary = "give scripts the one layout that all have",
-    .details =
-        "Lays scripts out, or each file named *.fl in a folder and the folders in it: four spaces for each level,\n"
-        "spaces that show what binds more, none around the = of a name, comments behind code in one column. Lines\n"
-        "stay as they are broken, comments stay where they are, and the program stays the same: petri compares the\n"
-        "code before it replaces a file. With - it reads standard input and writes standard output. A script that\n"
-        "has errors is left as it is.",
-    .examples =
-        "  petri fmt dish.fl\n"
-        "  petri fmt --check .                             exit with 1 if something is to be laid out, for CI\n",
-    .missing_operand = "nothing to lay out",
+    .summary = "format scripts",
+    .details = "Formats scripts in place, or all *.fl files below a folder: four spaces per level, spacing by\n"
+               "precedence, aligned comments. Line breaks and comments are kept. A file is replaced only if its\n"
+               "compiled code is unchanged; scripts with errors are not changed. With - it reads standard input and\n"
+               "writes standard output.",
+    .examples = "  petri fmt dish.fl\n"
+                "  petri fmt --check .                             exit with 1 if any script is unformatted, for CI\n",
+    .missing_operand = "no script or folder given",
     .options = FOR_FMT,
     .accepts_many = true,
     .run = fmt_run,

@@ -8,19 +8,19 @@
 
 enum { INDENT = 4, MAX_LEVELS = 2100 };
 
-// A line that is written, but for the comment behind its code.
+// A line of the result. The comment after its code is written later, when its column is known.
 typedef struct Line {
-    size_t start; // in `text`
+    size_t start; // start and end of the code in Writer.text
     size_t end;
-    const Word *comment; // NULL: none
-    uint32_t width;      // in characters
+    const Word *comment; // comment after the code; NULL: none
+    uint32_t width;      // width of the code in characters
 } Line;
 
-// A word under which later lines may be aligned: the first in a bracket, or behind the first `=` of a statement.
+// A word with which later lines can be aligned: the first word in a bracket, or after the first `=` of a statement.
 typedef struct Anchor {
     const Word *word; // NULL: none yet
-    uint32_t indent;  // of its line in `text`
-    uint32_t column;  // of the word there
+    uint32_t indent;  // indent of the line with the opening bracket, in the result
+    uint32_t column;  // column of the word in the result
 } Anchor;
 
 typedef struct Writer {
@@ -29,12 +29,12 @@ typedef struct Writer {
     Line *lines;
     size_t line_count;
     size_t line_capacity;
-    size_t next;                  // the first word of the statement behind the comment at work
-    uint32_t indent;              // of the line at work
-    uint32_t level;               // of the statement at work
-    uint32_t indents[MAX_LEVELS]; // of each level, as it is in the text
-    uint32_t depth;               // open brackets
-    Anchor anchors[MAX_LEVELS];   // of the statement, and of each of them
+    size_t next;                  // index of the first word of the statement after the current comment
+    uint32_t indent;              // indent of the current line
+    uint32_t level;               // level of the current statement
+    uint32_t indents[MAX_LEVELS]; // by level: indent in the original text
+    uint32_t depth;               // number of open brackets
+    Anchor anchors[MAX_LEVELS];   // by depth: anchors of the statement and of each open bracket
 } Writer;
 
 static Line *current_line(Writer *writer) {
@@ -47,7 +47,7 @@ static void end_line(Writer *writer) {
     current_line(writer)->end = writer->text.length;
     Str code = {writer->text.data + current_line(writer)->start, writer->text.length - current_line(writer)->start};
     for (size_t i = code.len; i > 0; i--) {
-        if (code.bytes[i - 1] == '\n') { // in a string
+        if (code.bytes[i - 1] == '\n') { // newline in a string: only its last line counts
             code = (Str){code.bytes + i, code.len - i};
             break;
         }
@@ -67,8 +67,8 @@ static void begin_line(Writer *writer, uint32_t indent) {
     byte_buffer_format(&writer->text, "%*s", (int)indent, "");
 }
 
-// The level of a comment that has a line of its own: that of the statement behind it or, if it is further to the right,
-// of a block that ends before it.
+// Returns the level of a comment on its own line: that of the next statement or, if the comment is indented further,
+// that of a block that ends before it.
 static uint32_t comment_level(Writer *writer, size_t at) {
     const Words *words = writer->words;
     const Word *comment = &words->items[at];
@@ -85,7 +85,7 @@ static uint32_t comment_level(Writer *writer, size_t at) {
     return found;
 }
 
-// Of a line that goes on with a statement.
+// Returns the indent of a line that continues a statement.
 static uint32_t continued_indent(const Writer *writer, const Word *word) {
     const Anchor *anchor = &writer->anchors[writer->depth];
     if (anchor->word && word->role != ROLE_CLOSE && word->indent == word_column(writer->words, anchor->word))
@@ -110,7 +110,7 @@ static uint32_t indent_of(Writer *writer, size_t at) {
 static bool space_between(const Words *words, size_t at) {
     const Word *before = &words->items[at - 1], *word = &words->items[at];
     if (word_is(before, "-") && word_is(word, "-"))
-        return true; // two dashes begin a comment
+        return true; // two dashes would start a comment
     if (before->role == ROLE_OPEN || before->role == ROLE_PREFIX || before->role == ROLE_UNSPACED ||
         word->role == ROLE_CLOSE || word->role == ROLE_UNSPACED || word->role == ROLE_COMMA)
         return false;
@@ -118,11 +118,11 @@ static bool space_between(const Words *words, size_t at) {
         return !(word->role == ROLE_OPEN && word_is(before, "func"));
     if (before->role == ROLE_SUM || word->role == ROLE_SUM)
         return !word_is_unspaced(words, before->role == ROLE_SUM ? at - 1 : at);
-    // A bracket behind an operand calls or picks.
+    // A bracket after an operand is a call or an index.
     return word->role != ROLE_OPEN || before->ends_parameters;
 }
 
-// Notes the word that was just begun, and brackets.
+// Updates anchors and bracket depth for a word that is about to be written.
 static void track_brackets(Writer *writer, size_t at) {
     const Word *word = &writer->words->items[at], *before = at == 0 || word->breaks > 0 ? NULL : word - 1;
     Anchor *anchor = &writer->anchors[writer->depth];
@@ -139,8 +139,8 @@ static void track_brackets(Writer *writer, size_t at) {
 }
 
 static void add_empty_lines(Writer *writer, const Word *word, uint32_t indent) {
-    uint32_t most = indent == 0 ? 2 : 1, empty = word->breaks - 1;
-    for (uint32_t i = 0; writer->line_count > 0 && i < empty && i < most; i++)
+    uint32_t max_empty = indent == 0 ? 2 : 1, empty = word->breaks - 1;
+    for (uint32_t i = 0; writer->line_count > 0 && i < empty && i < max_empty; i++)
         begin_line(writer, 0);
 }
 
@@ -164,8 +164,8 @@ static void add_word(Writer *writer, size_t at) {
     byte_buffer_add(&writer->text, word->text.bytes, word->text.len);
 }
 
-// Where the comments behind lines that follow each other begin: in the column that they all have, if the code leaves it
-// to them.
+// Returns the column for the comments after code on consecutive lines. Keeps their column if it is the same for all and
+// the code leaves room.
 static uint32_t comment_column(const Writer *writer, size_t at) {
     uint32_t max_width = 0, column = word_column(writer->words, writer->lines[at].comment);
     for (size_t i = at; i < writer->line_count && writer->lines[i].comment; i++) {
@@ -210,7 +210,7 @@ bool layout_text(PetriSession *session, Str text, ByteBuffer *out) {
     return read;
 }
 
-// The code without the numbers of lines, which stand second.
+// Adds the compiled code of a text. Removes the first two columns, which include line numbers.
 static bool read_code(PetriSession *session, const char *name, Str text, ByteBuffer *code) {
     SCOPED_BYTE_BUFFER dump = {0};
     if (petri_load_text(session, name, text.bytes, text.len) != PETRI_OK ||

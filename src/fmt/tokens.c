@@ -6,20 +6,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_DEPTH = 2100 }; // brackets within each other; the language allows fewer
+enum { MAX_DEPTH = 2100 }; // nested brackets; the language allows fewer
 
-// What reads the tokens one by one.
+// State of the function that receives the tokens.
 typedef struct Reader {
     Words *words;
-    size_t end;  // of the token before
-    size_t last; // 1 + the place of the last word that is no comment; 0: none
-    uint32_t level;
-    bool begins;
-    // Of each bracket that is open, and 0 for the statement itself:
-    uint32_t depth;
-    size_t segments[MAX_DEPTH];
-    bool functions[MAX_DEPTH]; // the parameters of an inline function
-    bool binds;                // the statement is one of bindings, whose `=` is no attribute's
+    size_t end;     // end of the previous token
+    size_t last;    // 1 + index of the last word that is not a comment; 0: none
+    uint32_t level; // block level
+    bool begins;    // the next word starts a statement
+    uint32_t depth; // number of open brackets
+    // By depth; index 0 is the statement outside brackets.
+    size_t segments[MAX_DEPTH]; // current segment
+    bool functions[MAX_DEPTH];  // the bracket holds the parameters of an inline function
+    bool binds;                 // the statement binds names, so its `=` are not those of attributes
 } Reader;
 
 uint32_t word_column(const Words *words, const Word *word) {
@@ -41,7 +41,7 @@ static bool ends_operand(const Word *word) {
     return word->role == ROLE_OPERAND || word->role == ROLE_CLOSE;
 }
 
-// Begins a segment of the innermost bracket.
+// Starts a segment in the innermost bracket.
 static Segment *push_segment(Reader *reader, bool unspaced) {
     Words *words = reader->words;
     if (words->segment_count == words->segment_capacity) {
@@ -87,7 +87,7 @@ static bool opens_function(const Word *before) {
     return before && before->kind == PETRI_TOKEN_KEYWORD && word_is(before, "func");
 }
 
-// Keeps the segments, into which brackets and operators cut expressions.
+// Tracks the segments of expressions, which are separated by brackets and operators.
 static void split_segment(Reader *reader, Word *word, const Word *before) {
     if (word->begins) {
         reader->depth = 0;
@@ -131,7 +131,7 @@ static void split_segment(Reader *reader, Word *word, const Word *before) {
     }
 }
 
-// `name=`, `name;name=`: only a line of bindings begins so.
+// Sets reader->binds if the statement starts with `name=` or `name;name=`, as only bindings do.
 static void find_binding(Reader *reader, const Word *word) {
     const Words *words = reader->words;
     if (!word_is(word, "=") || word->role != ROLE_UNSPACED || reader->depth > 0)

@@ -1,20 +1,20 @@
-// tokens.h: a text's tokens with what its layout needs to know of them.
+// tokens.h: the tokens of a script with the properties that decide its format.
 #ifndef PETRI_SRC_FMT_TOKENS_H
 #define PETRI_SRC_FMT_TOKENS_H
 
 #include "base/str.h"
 #include "petri.h"
 
-// How a token stands to its neighbours.
+// How a token is spaced.
 typedef enum Role {
-    ROLE_OPERAND,  // a name, a literal
-    ROLE_PREFIX,   // a sign, `$`, `@`, a range without start: none behind
-    ROLE_UNSPACED, // none on both sides
-    ROLE_SPACED,   // one on both sides: keywords, too
-    ROLE_SUM,      // + or - between operands: as its sum is written
-    ROLE_COMMA,    // one behind
-    ROLE_OPEN,
-    ROLE_CLOSE,
+    ROLE_OPERAND,  // a name or literal
+    ROLE_PREFIX,   // a sign, `$`, `@` or `..` without start: no space after it
+    ROLE_UNSPACED, // no space on either side
+    ROLE_SPACED,   // a space on both sides; also keywords
+    ROLE_SUM,      // + or - between operands: spaced or not, see word_is_unspaced
+    ROLE_COMMA,    // a space after it
+    ROLE_OPEN,     // an opening bracket
+    ROLE_CLOSE,    // a closing bracket
     ROLE_COMMENT,
 } Role;
 
@@ -22,20 +22,20 @@ typedef struct Word {
     Str text;
     PetriTokenKind kind;
     Role role;
-    uint32_t breaks;      // line ends before it
-    uint32_t level;       // of the block that it is in
-    uint32_t indent;      // of its line, as it is, if it begins one: a tab counts as eight
-    uint32_t segment;     // of ROLE_SUM: where the precedence that it has begins
-    bool begins;          // a statement, or a line of bindings
-    bool joined;          // a backslash joins its line to the one before
+    uint32_t breaks;      // number of line ends before it
+    uint32_t level;       // level of its block
+    uint32_t indent;      // if it starts a line: original indent, where a tab counts as eight; else 0
+    uint32_t segment;     // if ROLE_SUM: index of its segment
+    bool begins;          // starts a statement or a line of bindings
+    bool joined;          // a backslash joins its line to the previous one
     bool ends_parameters; // closes the parameters of an inline function
 } Word;
 
-// A part of an expression between operators that bind less than a sum.
+// A part of an expression between operators of lower precedence than a sum.
 typedef struct Segment {
-    bool unspaced; // in brackets or an attribute
-    bool ranges;   // has a range in it
-    bool mixed;    // has operators in it that bind more
+    bool unspaced; // is in brackets or in an attribute
+    bool ranges;   // contains a range
+    bool mixed;    // contains operators of higher precedence than a sum
 } Segment;
 
 typedef struct Words {
@@ -46,16 +46,17 @@ typedef struct Words {
     Segment *segments;
     size_t segment_count;
     size_t segment_capacity;
-    bool invalid;
+    bool invalid; // the text has an invalid token
 } Words;
 
-// Reads a text; to be freed. False if memory is used up or a character starts no token.
+// Reads a text. The caller frees the words with words_free, also on failure. Returns false if the text has an invalid
+// token or if out of memory.
 bool words_read(PetriSession *session, Str text, Words *words);
 void words_free(Words *words);
-// Where the word stands in its line as it is, in characters.
+// Returns the column of the word in the original text, in characters.
 uint32_t word_column(const Words *words, const Word *word);
 bool word_is(const Word *word, const char *text);
-// Is it a sum's operator that is written without spaces?
+// Returns true if the word is a ROLE_SUM that is written without spaces.
 bool word_is_unspaced(const Words *words, size_t at);
 
 #endif

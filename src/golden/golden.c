@@ -1,4 +1,4 @@
-// golden.c: reading and rewriting recorded output.
+// golden.c: goldens: reading and updating; see golden.h.
 #include "golden/golden.h"
 
 #include "base/file.h"
@@ -12,11 +12,12 @@
 #include <string.h>
 
 static void add_word(TextList *words, ByteBuffer *word) {
-    byte_buffer_add_text(word, ""); // so that there is a text
+    byte_buffer_add_text(word, ""); // makes word->data a text even if the word is empty
     texts_add(words, word->data);
 }
 
-// Splits the way a shell does: blanks part words; '...' keeps everything, "..." and \ protect what follows.
+// Splits a line into words like a shell: at spaces, except in '...' or "..." or after a backslash. In '...', a
+// backslash has no meaning.
 static bool split_options(Golden *golden, const char *line, size_t length, ByteBuffer *error_text) {
     SCOPED_BYTE_BUFFER word = {0};
     char quote = '\0';
@@ -42,11 +43,11 @@ static bool split_options(Golden *golden, const char *line, size_t length, ByteB
     if (in_word)
         add_word(&golden->options, &word);
     if (quote != '\0')
-        byte_buffer_format(error_text, "line 1: a quote is not closed");
+        byte_buffer_format(error_text, "line 1: missing closing quote");
     return quote == '\0';
 }
 
-// Remarks that mean nothing to us are plain comments.
+// Reads a remark such as `# tolerance 1e-9`. Unknown remarks are comments.
 static bool read_remark(Golden *golden, const char *line, size_t length, ByteBuffer *error_text) {
     char copy[128];
     size_t kept = length < sizeof copy - 1 ? length : sizeof copy - 1;
@@ -62,7 +63,7 @@ static bool read_remark(Golden *golden, const char *line, size_t length, ByteBuf
             sscanf(copy, "# horizon %" SCNd64 " strict %" SCNd64 " %c", &golden->horizon, &golden->strict, &rest);
         if (count == 1) {
             golden->strict = golden->horizon;
-            // Something may follow the number that is not `strict`.
+            // The number may be followed by other text than `strict`.
             if (sscanf(copy, "# horizon %*d %c", &rest) != 1)
                 return true;
         } else if (count == 2) {
@@ -75,7 +76,7 @@ static bool read_remark(Golden *golden, const char *line, size_t length, ByteBuf
     return false;
 }
 
-// The row of an option of `petri run`; NULL: there is none, which that will say itself.
+// Returns an option of `petri run`. Returns NULL if there is none; `petri run` will then report it.
 static const OptionSpec *find_option(const char *word, size_t length) {
     for (const OptionSpec *spec = OPTIONS; spec->name; spec++) {
         bool same = word[1] == '-' ? strlen(spec->name) == length - 2 && memcmp(spec->name, word + 2, length - 2) == 0
@@ -86,14 +87,14 @@ static const OptionSpec *find_option(const char *word, size_t length) {
     return NULL;
 }
 
-// Whoever runs the tests of others wants no files written where their goldens say.
+// Rejects options that write files: a golden from another author must not write files on this machine.
 static bool check_options(const Golden *golden, ByteBuffer *error_text) {
     for (size_t i = 0; i < golden->options.count; i++) {
         const char *word = golden->options.items[i];
         size_t length = strcspn(word, "=");
         const OptionSpec *spec = word[0] == '-' && length > 1 ? find_option(word, length) : NULL;
         if (spec && !(spec->commands & FOR_GOLDEN)) {
-            byte_buffer_format(error_text, "line 1: option '--%s' is not for goldens: tests write no files",
+            byte_buffer_format(error_text, "line 1: option '--%s' is not allowed in goldens: tests write no files",
                                spec->name);
             return false;
         }
@@ -130,7 +131,7 @@ bool golden_read(Golden *golden, const char *path, ByteBuffer *error_text) {
         golden->body_line++;
     }
     if (golden->body_line == 1)
-        byte_buffer_format(error_text, "the golden is empty; its first line is '# run' and the options");
+        byte_buffer_format(error_text, "the golden is empty; start it with '# run' and the options");
     return golden->body_line > 1;
 }
 

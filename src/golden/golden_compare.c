@@ -1,11 +1,11 @@
-// golden_compare.c: comparison of two outputs, frame by frame.
+// golden_compare.c: comparison of two outputs, frame by frame (golden.h).
 #include "golden/golden.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
-// How closely numbers must agree between `strict` and the horizon (conformance/physics/README.md).
+// Tolerance for frames between `strict` and the horizon (conformance/physics/README.md).
 static const double LOOSE_TOLERANCE = 1e-4;
 
 enum { EXCERPT_LENGTH = 100, EXCERPT_BEFORE = 30 };
@@ -13,7 +13,7 @@ enum { EXCERPT_LENGTH = 100, EXCERPT_BEFORE = 30 };
 typedef struct Line {
     Str text;
     uint32_t number;
-    bool matched; // already matched with a line of the other side
+    bool matched; // has been matched with a line of the other output
 } Line;
 
 typedef struct LineList {
@@ -22,15 +22,16 @@ typedef struct LineList {
     size_t capacity;
 } LineList;
 
-// Head: the @ line, if there is one. Body: tree and state, in order. Logs and errors: in any order.
+// The sections of a frame. Head: the @ line, if there is one. Body: tree and state, in order. Logs and errors: in any
+// order.
 typedef enum Section { HEAD, BODY, LOGS, ERRORS, SECTION_COUNT } Section;
 
-// Reads an output frame by frame. What stands before the first header (logs alone have none) counts as frame 0.
+// Reads an output frame by frame. Lines before the first header count as frame 0; an output of logs has no headers.
 typedef struct Reader {
     const char *at;
     const char *end;
-    uint32_t number;                  // of the next line
-    LineList sections[SECTION_COUNT]; // of the frame that was read last
+    uint32_t number;                  // line number of the next line
+    LineList sections[SECTION_COUNT]; // lines of the last frame that was read
 } Reader;
 
 static void add_line(LineList *list, Str text, uint32_t number) {
@@ -49,7 +50,7 @@ static Str read_line(Reader *reader) {
     return (Str){start, !end ? rest : (size_t)(end - start)};
 }
 
-// Reads the next frame; false at the end.
+// Reads the next frame. Returns false at the end of the output.
 static bool read_frame(Reader *reader) {
     const char *start = reader->at;
     for (int i = 0; i < SECTION_COUNT; i++)
@@ -59,7 +60,7 @@ static bool read_frame(Reader *reader) {
         Section section = first == '@' ? HEAD : first == '>' ? LOGS : first == '?' ? ERRORS : BODY;
         uint32_t number = reader->number;
         Str text = read_line(reader);
-        // A text of several lines goes on where lines are indented.
+        // Indented lines continue a log or error text.
         while (section >= LOGS && reader->at < reader->end && *reader->at == ' ') {
             Str more = read_line(reader);
             text.len = (size_t)(more.bytes + more.len - text.bytes);
@@ -78,7 +79,7 @@ static int64_t frame_number(const Reader *reader) {
     return reader->sections[HEAD].count == 0 ? 0 : strtoll(reader->sections[HEAD].items[0].text.bytes + 1, NULL, 10);
 }
 
-// The part of a line around the place that matters.
+// Adds the part of a line around the offset `at`.
 static void add_excerpt(ByteBuffer *error_text, Str line, size_t at) {
     size_t start = line.len <= EXCERPT_LENGTH || at <= EXCERPT_BEFORE ? 0 : at - EXCERPT_BEFORE;
     // Do not cut a character in two.
@@ -102,7 +103,7 @@ typedef struct Comparison {
     ByteBuffer *error_text;
 } Comparison;
 
-// Describes a difference; either line may be missing. Always false.
+// Adds a description of a difference. Either line may be NULL. Always returns false.
 static bool report_difference(const Comparison *comparison, const Line *expected, const Line *got, uint32_t line,
                               LineDifference where) {
     ByteBuffer *error_text = comparison->error_text;
@@ -132,8 +133,8 @@ static bool compare_in_order(const Comparison *comparison, const LineList *expec
     return true;
 }
 
-// Finds a line that agrees and takes it out of the set. The search starts where the last one ended, since sets are
-// mostly in the same order.
+// Finds a line that agrees with `wanted` and marks it as matched. The search starts where the last one ended, because
+// both sets are usually in the same order.
 static bool claim_match(const Comparison *comparison, const Line *wanted, LineList *set, size_t *next) {
     for (size_t i = 0; i < set->count; i++) {
         Line *line = &set->items[(*next + i) % set->count];

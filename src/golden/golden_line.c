@@ -1,4 +1,4 @@
-// golden_line.c: whether two lines of output mean the same.
+// golden_line.c: comparison of two lines of output (golden.h).
 #include "cli/byte_buffer.h"
 #include "golden/golden.h"
 
@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// An indent is white space at the start of a line, where its width means something.
+// TOKEN_INDENT is white space at the start of a line, where its width is significant.
 typedef enum TokenKind { TOKEN_END, TOKEN_INDENT, TOKEN_SIGN, TOKEN_WORD, TOKEN_NUMBER, TOKEN_STRING } TokenKind;
 
 typedef struct Token {
@@ -25,7 +25,7 @@ static bool is_number(const char *word, size_t length, double *number) {
     char copy[MAX_NUMBER_LENGTH + 1];
     memcpy(copy, word, length);
     copy[length] = '\0';
-    // The C library reads more than is ever printed, such as 0x10 and infinity.
+    // strtod accepts forms that petri never prints, such as 0x10 and infinity.
     if (strspn(copy, "0123456789+-.e") != length && strcmp(copy, "nan") != 0 && strcmp(copy, "inf") != 0 &&
         strcmp(copy, "-inf") != 0)
         return false;
@@ -68,7 +68,7 @@ static Token next_token(Str line, size_t at) {
     return token;
 }
 
-// The bytes that a string in quotes stands for.
+// Adds the contents of a quoted string.
 static void unquote(ByteBuffer *out, const char *text, size_t length) {
     const char *end = text + length - (length > 1 && text[length - 1] == text[0]);
     for (const char *at = text + 1; at < end; at++) {
@@ -95,11 +95,11 @@ static bool strings_same(const char *a, size_t a_length, const char *b, size_t b
     return str_equal((Str){first.data, first.length}, (Str){second.data, second.length});
 }
 
-// How far the numbers of one value are apart, and how large they are.
+// Differences between the numbers of two values.
 typedef struct Spread {
-    double distance;
-    double size;
-    LineDifference max_position; // where the distance was found
+    double distance;             // largest difference of two numbers
+    double size;                 // largest absolute number, at least 1
+    LineDifference max_position; // position of the largest difference
 } Spread;
 
 static bool numbers_same(double a, double b) {
@@ -136,7 +136,7 @@ bool line_same(Str expected, Str got, double tolerance, LineDifference *differen
     *difference = (LineDifference){0};
     if (str_equal(expected, got))
         return true;
-    // A hash is no number, even if its digits look like one, such as 1e99….
+    // A hash is compared as text, even if its digits look like a number such as 1e99.
     if (expected.len > 0 && expected.bytes[0] == '=')
         return false;
     bool in_key = expected.len > 0 && expected.bytes[0] == '$';

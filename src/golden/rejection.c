@@ -1,4 +1,4 @@
-// rejection.c: scripts that must be rejected.
+// rejection.c: tests of scripts that must be rejected (golden.h).
 #include "cli/subprocess.h"
 #include "golden/golden.h"
 
@@ -10,7 +10,7 @@
 
 enum { ANY_LINE = -1, NO_LINE = 0 };
 
-// The line that the .err file names, or NO_LINE after adding what is wrong with it.
+// Returns the line number in the .err file, or NO_LINE after adding an error.
 static long read_line_number(const char *path, ByteBuffer *error_text) {
     SCOPED_BYTE_BUFFER text = {0};
     long line = NO_LINE;
@@ -28,7 +28,8 @@ static long read_line_number(const char *path, ByteBuffer *error_text) {
     return line;
 }
 
-// The line of the next `NAME:LINE:` in the errors; moves `at` behind it. NO_LINE if there is none.
+// Returns the line number of the next `NAME:LINE:` in the errors and moves *at after it. Returns NO_LINE if there is
+// none.
 static long next_reported_line(const char **at, const char *name) {
     size_t length = strlen(name);
     for (const char *found = strstr(*at, name); found; found = strstr(found + 1, name)) {

@@ -1,4 +1,4 @@
-// report.c: how results of tests are told.
+// report.c: reports of test results (golden.h).
 #include "base/file.h"
 #include "cli/cli.h"
 #include "golden/golden.h"
@@ -14,7 +14,7 @@ void report_result(Output *output, const Result *result) {
     }
 }
 
-// XML knows no control characters, escaped or not.
+// Adds text escaped for XML. Control characters become `?`, because XML does not allow them even escaped.
 static void add_escaped(ByteBuffer *out, const char *text) {
     static const char *const escapes[128] = {['<'] = "&lt;", ['>'] = "&gt;", ['&'] = "&amp;", ['"'] = "&quot;"};
     for (const char *c = text; *c != '\0'; c++) {

@@ -1,4 +1,4 @@
-// test.c: `petri test`: runs scripts and compares what they print with what was recorded.
+// test.c: the command `petri test`, which runs scripts and compares their output with goldens.
 #include "base/source.h"
 #include "cli/options.h"
 #include "cli/output.h"
@@ -15,14 +15,14 @@
 
 enum { MAX_CPUS = 256 };
 
-// A script, what it is compared with while it runs, and the verdict.
+// A test of one script.
 typedef struct Case {
     Result result;
-    char *script;   // path
-    char *name;     // its last part
-    char *recorded; // path of the golden, or of the .err
-    bool is_rejection;
-    Golden golden;
+    char *script;      // path of the script
+    char *name;        // its file name
+    char *recorded;    // path of the golden or .err file
+    bool is_rejection; // `recorded` is an .err file
+    Golden golden;     // while the script runs
     Subprocess child;
     bool done;
 } Case;
@@ -32,11 +32,11 @@ typedef struct Suite {
     Options *options;
     Case *cases;
     size_t count;
-    size_t reported; // cases whose result was printed
+    size_t reported; // number of cases whose result was printed
     Output output;
 } Suite;
 
-// NAME.fl with another ending, if there is such a file, else NULL.
+// Returns the path NAME.ending for a script NAME.fl if that file exists, else NULL. The caller frees it.
 static char *file_beside(const char *script, const char *ending) {
     size_t length = strlen(script);
     if (length > 3 && strcmp(script + length - 3, ".fl") == 0)
@@ -65,7 +65,7 @@ static void add_case(Suite *suite, const Script *script) {
     };
 }
 
-// An option that overrides the golden's; what is wrong with its value, `petri run` will say.
+// Adds an option that overrides that of the golden. `petri run` checks its value.
 static void add_override(char **argv, int *argc, ByteBuffer *text, const char *name, const char *value) {
     if (value) {
         byte_buffer_format(text, "--%s=%s", name, value);
@@ -82,7 +82,7 @@ static void start_child(Suite *suite, Case *item) {
     int argc = 0;
     argv[argc++] = "petri";
     argv[argc++] = "run";
-    // Scripts run side by side already. Results never depend on the number of threads, and the golden may ask for more.
+    // Scripts already run in parallel. Results never depend on the number of threads; a golden can set another number.
     argv[argc++] = "--threads=1";
     if (item->is_rejection)
         argv[argc++] = "--frames=1";
@@ -140,14 +140,14 @@ static Case *find_running(Suite *suite, size_t started, pid_t pid) {
     return NULL;
 }
 
-// Results are printed in the order of the scripts, each as soon as those before it are there.
+// Prints results in the order of the scripts, as far as they are known.
 static void report_done(Suite *suite, size_t started) {
     while (suite->reported < started && suite->cases[suite->reported].done)
         report_result(&suite->output, &suite->cases[suite->reported++].result);
     output_flush(&suite->output);
 }
 
-// Nobody waits for results that nobody reads.
+// Returns false if no one reads the results: standard output is closed and there is no --junit.
 static bool is_wanted(const Suite *suite) {
     return suite->output.error == 0 || suite->options->junit;
 }
@@ -193,8 +193,8 @@ static int run_suite(Suite *suite) {
     for (size_t i = 0; i < suite->options->scripts.count; i++)
         add_case(suite, &suite->options->scripts.items[i]);
     if (suite->count == 0) {
-        message("no script found that has a .golden or a .err beside it%s",
-                !suite->options->filter ? "; 'petri help test' tells how to make one" : " and fits the filter");
+        message("no script found with a .golden or .err file%s",
+                !suite->options->filter ? "; see 'petri help test' for how to create one" : " that matches --filter");
         return STATUS_FAILED;
     }
     run_cases(suite);
@@ -228,19 +228,19 @@ static int test_run(const CommandContext *context, Options *options) {
 const Command TEST_COMMAND = {
     .name = "test",
     .operands = "PATH...",
-    .summary = "compare what scripts print with what was recorded",
+    .summary = "run scripts and compare the output with goldens",
     .details =
-        "Runs each NAME.fl that has a NAME.golden beside it and compares its output with the golden, whose first\n"
-        "line holds the options: '# run --frames 61 --every 20 --print state'. A NAME.err holds 'line N': the\n"
-        "script must be rejected with an error in that line. Each script runs in the folder that it is in.\n\n"
-        "To make a golden, write its first line and let petri write the rest:\n\n"
+        "Runs each NAME.fl that has a NAME.golden beside it and compares the output. The first line of a golden\n"
+        "contains the options of the run: '# run --frames 61 --every 20 --print state'. If there is a NAME.err with\n"
+        "'line N', the script must be rejected with an error in that line. Each script runs in its folder.\n\n"
+        "To create a golden, write its first line and let petri write the rest:\n\n"
         "  echo '# run --frames 61 --every 20 --print state' >dish.golden\n"
         "  petri test --update dish.fl\n\n"
-        "With --print hash a golden of many particles has one line a frame: the SHA-256 of the state.",
-    .examples = "  petri test .                                    all scripts here that have a golden\n"
-                "  petri test --update dish.fl                     its golden becomes what it prints now\n",
-    .missing_operand = "nothing to test",
-    .no_stdin = "standard input has no golden beside it: petri test takes files and folders",
+        "With --print hash, a golden has one line per frame: the SHA-256 of the state.",
+    .examples = "  petri test .                                    test all scripts in this folder\n"
+                "  petri test --update dish.fl                     write the current output to its golden\n",
+    .missing_operand = "no script or folder given",
+    .no_stdin = "cannot test standard input: it has no golden; give files or folders",
     .options = FOR_TEST,
     .accepts_many = true,
     .run = test_run,

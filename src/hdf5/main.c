@@ -1,5 +1,6 @@
-// main.c: petri-hdf5, which writes files for petri (cli/hdf5.h): `petri-hdf5 trajectory|table FILE [NUMBERS]` with a
-// stream on its standard input, a socket.
+// main.c: the program petri-hdf5, which writes HDF5 files for petri (cli/hdf5.h).
+//
+// Usage: `petri-hdf5 trajectory|table FILE [NUMBERS]`, with a socket as standard input.
 #include "cli/cli.h"
 #include "cli/hdf5.h"
 #include "hdf5/spool.h"
@@ -14,7 +15,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-// False if the stream ends before.
+// Reads `length` bytes. Returns false if the stream ends before.
 static bool read_stream(void *bytes, size_t length) {
     char *at = bytes;
     while (length > 0) {
@@ -34,77 +35,77 @@ static bool receive_block(char **block, Hdf5Head *head) {
     return read_stream(*block, head->bytes);
 }
 
-// MSG_NOSIGNAL: petri may be gone.
+// Sends a byte to petri. MSG_NOSIGNAL, because petri may have ended.
 static void acknowledge(void) {
     send(STDIN_FILENO, "!", 1, MSG_NOSIGNAL);
 }
 
-// What a run with a state (cli/hdf5.h) goes on from.
+// The point where a run with --state resumes a trajectory; see hdf5_start.
 typedef struct Resumed {
-    Spool *spool; // NULL: it has none
-    int64_t after;
-    int64_t expected;
+    Spool *spool;
+    int64_t after;    // number of the frame to resume after; -1: none
+    int64_t expected; // number of the last frame that the file should contain
 } Resumed;
 
-static bool resume_trajectory(TrajectoryFile *way, Store *store, const Resumed *from) {
+static bool resume_trajectory(TrajectoryFile *file, Store *store, const Resumed *from) {
     Hdf5Head head;
     char *block = NULL;
     if (!store->existing) {
-        trajectory_file_begin(way, store);
-    } else if (!trajectory_file_resume(way, store, from->after)) {
+        trajectory_file_begin(file, store);
+    } else if (!trajectory_file_resume(file, store, from->after)) {
         message("cannot continue %s: %s", store->path, TRAJECTORY_FILE_UNKNOWN);
         return false;
     }
     while (!store->failed && spool_next(from->spool, from->after, &head, &block))
         if (head.command == HDF5_ADD)
-            trajectory_file_add(way, block);
+            trajectory_file_add(file, block);
         else
-            trajectory_file_begin_run(way);
+            trajectory_file_begin_run(file);
     free(block);
-    trajectory_file_begin_run(way);
-    if ((store->existing || from->spool->has_frames) && way->last < from->expected) {
+    trajectory_file_begin_run(file);
+    if ((store->existing || from->spool->has_frames) && file->last < from->expected) {
         message("frames %" PRId64 " to %" PRId64 " are missing in %s, which continues with frame %" PRId64,
-                way->last + 1, from->after, store->path, from->after + 1);
+                file->last + 1, from->after, store->path, from->after + 1);
     }
     return spool_add(from->spool, &(Hdf5Head){HDF5_NEW_RUN, 0}, "");
 }
 
-// Takes one block, and does what it says. False at the end of the trajectory.
-static bool handle_block(TrajectoryFile *way, Spool *spool, Hdf5Head *head, char **block) {
+// Receives and handles one block. Returns false at the end of the trajectory or after an error.
+static bool handle_block(TrajectoryFile *file, Spool *spool, Hdf5Head *head, char **block) {
     if (!receive_block(block, head) || (head->command != HDF5_ADD && head->command != HDF5_SYNC))
         return false;
     bool good = true;
     if (head->command == HDF5_SYNC)
-        good = !spool || spool_save(spool, way->store->replacement.folder);
+        good = !spool || spool_save(spool, file->store->replacement.folder);
     else if (spool)
         good = spool_add(spool, head, *block);
     if (head->command == HDF5_ADD)
-        trajectory_file_add(way, *block);
-    else if (good && !way->store->failed)
+        trajectory_file_add(file, *block);
+    else if (good && !file->store->failed)
         acknowledge();
     if (!good)
-        way->store->reported = way->store->failed = true;
-    return !way->store->failed;
+        file->store->reported = file->store->failed = true;
+    return !file->store->failed;
 }
 
 static bool write_trajectory(Store *store, Spool *spool, const Resumed *from) {
-    TrajectoryFile way;
+    TrajectoryFile file;
     Hdf5Head head = {0};
     char *block = NULL;
     bool begun = true;
     if (!spool) {
-        trajectory_file_begin(&way, store);
-    } else if (!resume_trajectory(&way, store, from)) {
+        trajectory_file_begin(&file, store);
+    } else if (!resume_trajectory(&file, store, from)) {
         store->reported = store->failed = true;
         begun = false;
     }
     if (begun)
         acknowledge();
-    while (begun && handle_block(&way, spool, &head, &block)) {
+    while (begun && handle_block(&file, spool, &head, &block)) {
     }
-    trajectory_file_end(&way);
+    trajectory_file_end(&file);
     free(block);
-    return head.command == HDF5_COMMIT || (head.command != HDF5_DISCARD && way.last >= 0);
+    return head.command == HDF5_COMMIT || (head.command != HDF5_DISCARD && file.last >= 0);
 }
 
 static bool write_table(Store *store) {
@@ -151,10 +152,10 @@ static bool run_table(const char *path) {
 int main(int argc, char **argv) {
     bool is_table = argc == 3 && strcmp(argv[1], "table") == 0;
     if (!is_table && !((argc == 3 || argc == 4) && strcmp(argv[1], "trajectory") == 0)) {
-        message("petri-hdf5 writes files for petri run and petri sweep; it is of no use by itself");
+        message("petri-hdf5 is started by petri run and petri sweep; it cannot be used alone");
         return STATUS_USAGE;
     }
     bool good = is_table ? run_table(argv[2]) : run_trajectory(argv[2], argv[3]);
-    // Without what runs at the end: it would try again to write what could not be written.
+    // _exit, because libhdf5's exit handlers would try again to write what could not be written.
     _exit(good ? STATUS_DONE : STATUS_FAILED);
 }

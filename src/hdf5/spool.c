@@ -1,7 +1,7 @@
 // spool.c: see spool.h.
 //
-// A line says what it is and whether it is whole; blocks follow, each behind an Entry. The first that is not as its
-// hash says ends what is good.
+// The file starts with a line that shows its kind (KINDS). Blocks follow, each after an Entry. The first block whose
+// hash is wrong ends the valid part.
 #include "hdf5/spool.h"
 
 #include "base/file.h"
@@ -17,12 +17,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+// First line of a spool: [0] continues an HDF5 file, [1] contains the whole trajectory.
 static const char *const KINDS[] = {"petri way 1 lengthens\n", "petri way 1 is whole \n"};
-enum { LINE = 22 };
+enum { LINE = 22 }; // length of that line
 
 typedef struct Entry {
     Hdf5Head head;
-    uint64_t hash; // of what follows
+    uint64_t hash; // hash of the block
 } Entry;
 
 static bool report_error(const Spool *spool, const char *why) {
@@ -30,9 +31,9 @@ static bool report_error(const Spool *spool, const char *why) {
     return false;
 }
 
-// petri-hdf5 of a run that was killed may just be ending its file.
+// Waits up to ten seconds for the lock: the petri-hdf5 of a run that was killed may still be finishing its file.
 static bool lock_file(int file) {
-    enum { TRIES = 200, PAUSE_MS = 50 }; // milliseconds
+    enum { TRIES = 200, PAUSE_MS = 50 };
     for (int i = 0; i < TRIES; i++) {
         if (flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK)
             return true;
@@ -41,7 +42,7 @@ static bool lock_file(int file) {
     return false;
 }
 
-// The file of that name, once nobody else has it; who had it may have removed it.
+// Opens and locks the file. Tries twice, because the process that held the lock may have deleted the file.
 static bool open_locked(Spool *spool) {
     struct stat info = {0};
     for (int i = 0; i < 2; i++) {
@@ -55,9 +56,9 @@ static bool open_locked(Spool *spool) {
         }
         close(spool->file);
         if (!locked)
-            return report_error(spool, "another petri-hdf5 is still at it");
+            return report_error(spool, "the file is in use by another petri-hdf5 process");
     }
-    return report_error(spool, "it vanishes");
+    return report_error(spool, "another process deletes the file");
 }
 
 static bool read_at(const Spool *spool, uint64_t at, void *bytes, size_t length) {
@@ -91,9 +92,9 @@ bool spool_open(Spool *spool, const char *path, bool begins) {
     bool read = read_at(spool, 0, line, LINE);
     spool->complete = memcmp(line, KINDS[1], LINE) == 0;
     if (spool->size >= LINE && !spool->complete && memcmp(line, KINDS[0], LINE) != 0)
-        return report_error(spool, "a file of another kind has this name");
+        return report_error(spool, "the existing file is of another kind");
     spool->at = LINE;
-    spool->has_frames = spool->size > LINE + sizeof(Entry); // more than that a run has begun
+    spool->has_frames = spool->size > LINE + sizeof(Entry); // more than one HDF5_NEW_RUN
     return !begins && read ? true : reset_spool(spool, begins);
 }
 

@@ -1,7 +1,7 @@
-// spool.h: what is added to a trajectory that a run with `--state` writes, until the file has it (FILE.part).
+// spool.h: crash-safe storage of new frames of a trajectory (FILE.part), used with `--state`.
 //
-// A file of HDF5 takes its name as a whole, when the run ends. If both programs are killed before, the frames up to the
-// last saved state are in the spool, and the next run takes them from there.
+// An HDF5 file gets its name only when it is complete, at the end of a run. If both programs are killed before, the
+// spool contains the frames up to the last saved state, and the next run reads them from there.
 #ifndef PETRI_SRC_HDF5_SPOOL_H
 #define PETRI_SRC_HDF5_SPOOL_H
 
@@ -14,23 +14,24 @@
 
 typedef struct Spool {
     ByteBuffer path;
-    int file;        // locked
-    bool complete;   // the trajectory is all in it: what the file holds is older
-    bool has_frames; // frames, perhaps of a run before
-    uint64_t size;   // bytes of the file when it was opened
-    uint64_t at;
+    int file;        // descriptor, locked
+    bool complete;   // the spool contains the whole trajectory; an existing HDF5 file is older and ignored
+    bool has_frames; // contains frames, possibly of an earlier run
+    uint64_t size;   // size of the file in bytes
+    uint64_t at;     // offset of the next block to read or write
 } Spool;
 
-// Opens that of a trajectory, an empty one if it begins. False after a message, also if another process writes it.
+// Opens the spool of the trajectory `path`. If `begins` is true, empties it. Returns false after a message, also if
+// another process uses it.
 bool spool_open(Spool *spool, const char *path, bool begins);
-// The next block, in order, of HDF5_ADD or HDF5_NEW_RUN; frames later than `after` are not given, nor what comes behind
-// one.
+// Reads the next block, HDF5_ADD or HDF5_NEW_RUN. Returns false at the first frame later than `after`, at a damaged
+// block and at the end.
 bool spool_next(Spool *spool, int64_t after, Hdf5Head *head, char **block);
-// Adds a block of this run; what spool_next has not given goes first. False after a message.
+// Adds a block of this run after the blocks that spool_next has read; drops all others. Returns false after a message.
 bool spool_add(Spool *spool, const Hdf5Head *head, const char *block);
-// Brings it to the disk, its name, too. False after a message.
+// Writes the spool and its folder entry to disk. Returns false after a message.
 bool spool_save(Spool *spool, int folder);
-// Removes it if the file has all, or there is nothing in it.
+// Closes the spool. Removes its file if `done` (the HDF5 file has everything) or if it contains no frames.
 void spool_close(Spool *spool, bool done);
 
 #endif

@@ -1,4 +1,4 @@
-// store.c: see store.h. Times are kept nowhere, so that the same run gives the same bytes.
+// store.c: see store.h. No time stamps are stored, so that equal runs give identical files.
 #include "hdf5/store.h"
 
 #include "base/file.h"
@@ -12,7 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
-// The library says why the system refused in words only.
+// Finds errno in the text of an error. libhdf5 does not report it in any other way.
 static herr_t find_cause(unsigned depth, const H5E_error2_t *error, void *context) {
     (void)depth;
     Store *store = context;
@@ -39,7 +39,7 @@ static bool report_error(const Store *store, const char *why) {
     return false;
 }
 
-// The old file's bytes, in the new one.
+// Copies the existing file, if there is one, to the new file. Returns false and sets errno on failure.
 static bool copy_existing(Store *store) {
     enum { COPY_BYTES = 1 << 20 };
     int old;
@@ -62,7 +62,7 @@ static bool copy_existing(Store *store) {
 
 bool store_begin(Store *store, const char *path, bool continues) {
     *store = (Store){.path = path, .file = H5I_INVALID_HID};
-    // It takes no file without a name.
+    // libhdf5 needs a path, so the temporary file must have a name.
     if (!replace_begin(&store->replacement, path, REPLACE_NAMED))
         return report_error(store, strerror(errno));
     if (store->replacement.direct) {
@@ -74,11 +74,11 @@ bool store_begin(Store *store, const char *path, bool continues) {
         replace_abort(&store->replacement);
         return report_error(store, strerror(cause));
     }
-    // It locks files, which ours is already.
+    // libhdf5 must not lock the file, because replace_begin already has.
     setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1);
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     hid_t access = H5Pcreate(H5P_FILE_ACCESS);
-    H5Pset_fclose_degree(access, H5F_CLOSE_STRONG); // with all that is open in it
+    H5Pset_fclose_degree(access, H5F_CLOSE_STRONG); // H5Fclose also closes all open objects of the file
     SCOPED_BYTE_BUFFER name = {0};
     byte_buffer_format(&name, "/proc/self/fd/%d/%s", store->replacement.folder, store->replacement.temporary_name);
     store->file = store->existing ? H5Fopen(name.data, H5F_ACC_RDWR, access)
@@ -98,8 +98,8 @@ bool store_end(Store *store, bool keep) {
     if (keep && !store->failed)
         return replace_commit(&store->replacement) || report_error(store, strerror(errno));
     replace_abort(&store->replacement);
-    return !store->failed || (!store->reported &&
-                              report_error(store, store->cause != 0 ? strerror(store->cause) : "libhdf5 cannot do it"));
+    return !store->failed ||
+           (!store->reported && report_error(store, store->cause != 0 ? strerror(store->cause) : "libhdf5 failed"));
 }
 
 hid_t store_group(Store *store, hid_t parent, const char *name) {
@@ -142,9 +142,10 @@ void store_numbers(Store *store, hid_t object, const char *name, const int *numb
     add_attribute(store, object, name, H5T_NATIVE_INT, space, numbers);
 }
 
-// Chunks hold many short rows, or a part of a long one: what is not filled is lost, and each takes its time.
+// Chooses the chunk size: many short rows or a part of a long one. Large chunks waste the space that is not filled;
+// each chunk costs time.
 static void choose_chunk(int rank, const hsize_t sizes[STORE_RANKS], hsize_t chunk[STORE_RANKS]) {
-    enum { SHORT = 1024, LONG = 65536 }; // numbers
+    enum { SHORT = 1024, LONG = 65536 }; // minimum and maximum of values in a chunk
     hsize_t row = 1;
     for (int k = rank - 1; k > 0; k--) {
         hsize_t size = sizes[k] > LONG / row ? LONG / row : sizes[k];
@@ -157,9 +158,9 @@ static void choose_chunk(int rank, const hsize_t sizes[STORE_RANKS], hsize_t chu
 StoreColumn store_column(Store *store, hid_t parent, const char *name, hid_t type, int rank,
                          const hsize_t sizes[STORE_RANKS], const void *fill) {
     StoreColumn column = {.parent = parent, .name = name, .type = type, .fill = fill, .rank = rank};
-    hsize_t most[STORE_RANKS] = {H5S_UNLIMITED, H5S_UNLIMITED, H5S_UNLIMITED};
+    hsize_t max_sizes[STORE_RANKS] = {H5S_UNLIMITED, H5S_UNLIMITED, H5S_UNLIMITED};
     choose_chunk(rank, sizes, column.chunk);
-    hid_t made = H5Pcreate(H5P_DATASET_CREATE), space = H5Screate_simple(rank, column.sizes, most);
+    hid_t made = H5Pcreate(H5P_DATASET_CREATE), space = H5Screate_simple(rank, column.sizes, max_sizes);
     H5Pset_obj_track_times(made, false);
     H5Pset_chunk(made, rank, column.chunk);
     H5Pset_fill_value(made, type, fill);
@@ -197,7 +198,7 @@ void store_grow(Store *store, StoreColumn *column, const hsize_t sizes[STORE_RAN
         store_check(store, H5Dset_extent(column->set, column->sizes));
 }
 
-// The beginning of a row, written or read.
+// Reads the beginning of a row into `out` or, if that is NULL, writes it from `in`.
 static void move_row(Store *store, const StoreColumn *column, hsize_t row, const hsize_t sizes[STORE_RANKS], void *out,
                      const void *in) {
     hsize_t start[STORE_RANKS] = {row}, count[STORE_RANKS] = {1};
@@ -216,10 +217,11 @@ void store_read_row(Store *store, const StoreColumn *column, hsize_t row, const 
     move_row(store, column, row, sizes, numbers, NULL);
 }
 
-// Rows have become far longer: in chunks for short ones each would be in very many.
+// Copies a column to a new one with larger chunks, because rows have become much longer. In small chunks, each row
+// would be split into very many.
 static void recreate_column(Store *store, StoreColumn *column, const hsize_t sizes[STORE_RANKS]) {
     StoreColumn old = *column;
-    store_check(store, H5Ldelete(old.parent, old.name, H5P_DEFAULT)); // it is there until it is closed
+    store_check(store, H5Ldelete(old.parent, old.name, H5P_DEFAULT)); // the data set exists until it is closed
     *column = store_column(store, old.parent, old.name, old.type, old.rank, sizes, old.fill);
     store_grow(store, column, old.sizes);
     hsize_t numbers = old.rank > 2 ? old.sizes[1] * old.sizes[2] : old.sizes[1];
@@ -280,7 +282,8 @@ hid_t store_open(Store *store, hid_t parent, const char *name) {
     return check_id(store, H5Gopen2(parent, name, H5P_DEFAULT));
 }
 
-// A text of a fixed length, as it is in the file.
+// Reads `count` texts of fixed length from a data set, or from an attribute if `set` is negative. Sets *bytes to the
+// size of each text with its NUL. Closes the type.
 static char *read_fixed(Store *store, hid_t type, size_t count, hid_t attribute, hid_t set, size_t *bytes) {
     *bytes = H5Tget_size(type) + 1;
     hid_t memory = store_text_type(*bytes - 1);

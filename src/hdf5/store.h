@@ -1,6 +1,7 @@
-// store.h: a file of HDF5 that is being written.
+// store.h: an HDF5 file that is being written.
 //
-// It takes its name when it is complete (base/replace.h). Of what fails, the first is kept, and store_end tells it.
+// The file gets its name when it is complete (base/replace.h). Functions do not return errors: the first error is
+// recorded and reported by store_end.
 #ifndef PETRI_SRC_STORE_H
 #define PETRI_SRC_STORE_H
 
@@ -16,69 +17,75 @@ typedef struct Store {
     const char *path;
     Replacement replacement;
     hid_t file;
-    bool existing; // there was a file, and it is to be lengthened
-    bool failed;
-    bool reported; // why
-    int cause;     // errno, if it is known; else 0
+    bool existing; // an existing file is being extended
+    bool failed;   // an error has occurred
+    bool reported; // a message about it was printed
+    int cause;     // errno of the error; 0: unknown
 } Store;
 
-enum { STORE_RANKS = 3 };
+enum { STORE_RANKS = 3 }; // maximum number of dimensions
 
-// Numbers of eight bytes in rows, which grows.
+// A data set of eight-byte values that grows in all dimensions. The first dimension counts rows.
 typedef struct StoreColumn {
     hid_t parent;
     const char *name;
-    hid_t type; // in memory and in the file
-    const void *fill;
+    hid_t type;       // type in memory and in the file
+    const void *fill; // value of elements that were not written
     hid_t set;
     int rank;
     hsize_t sizes[STORE_RANKS];
-    hsize_t chunk[STORE_RANKS]; // in which it lies in the file
+    hsize_t chunk[STORE_RANKS]; // chunk sizes in the file
 } StoreColumn;
 
-// With `goes_on` it begins with what the file holds, if there is one (`old`). False after a message.
+// Starts writing a file. If `continues` is true and the file exists, starts with its contents and sets store->existing.
+// Returns false after a message.
 bool store_begin(Store *store, const char *path, bool continues);
-// Puts the file in its place, or drops it. False after a message if something has failed.
+// Gives the file its name if `keep` is true, else removes it. Returns false after a message if an error has occurred.
 bool store_end(Store *store, bool keep);
-// `result` is negative if something has failed.
+// Records an error if `result`, the return value of a libhdf5 function, is negative.
 void store_check(Store *store, int64_t result);
 
-// What is made is open until the end.
+// Creates a group. It stays open until store_end.
 hid_t store_group(Store *store, hid_t parent, const char *name);
-// Attributes: a text; a list that has it `count` times; whole numbers, of which one is no list.
+// Adds a text attribute.
 void store_text(Store *store, hid_t object, const char *name, const char *text);
+// Adds an attribute that is a list with the same text `count` times.
 void store_texts(Store *store, hid_t object, const char *name, const char *text, hsize_t count);
+// Adds an integer attribute: a list or, if `count` is 1, a scalar.
 void store_numbers(Store *store, hid_t object, const char *name, const int *numbers, hsize_t count);
-// An empty one whose rows will mostly have these sizes, the first of which is not looked at. Where nothing is written
-// later, there is `fill`. It keeps `name` and `fill`.
+// Creates an empty column. `sizes` are the expected sizes of a row; sizes[0] is ignored. The column keeps the pointers
+// `name` and `fill`.
 StoreColumn store_column(Store *store, hid_t parent, const char *name, hid_t type, int rank,
                          const hsize_t sizes[STORE_RANKS], const void *fill);
-// One that is there, made by store_column. `parent` is open until the end.
+// Opens a column that store_column created. `parent` must stay open until store_end.
 StoreColumn store_open_column(Store *store, hid_t parent, const char *name, hid_t type, int rank, const void *fill);
-// Drops what is beyond these sizes.
+// Reduces a column to these sizes.
 void store_truncate(Store *store, StoreColumn *column, const hsize_t sizes[STORE_RANKS]);
-// Reads the beginning of a row.
+// Reads the first elements of a row.
 void store_read_row(Store *store, const StoreColumn *column, hsize_t row, const hsize_t sizes[STORE_RANKS],
                     void *numbers);
-// Makes it at least as large.
+// Extends a column to at least these sizes.
 void store_grow(Store *store, StoreColumn *column, const hsize_t sizes[STORE_RANKS]);
-// Writes the beginning of a row; the column grows to hold it.
+// Writes the first elements of a row and extends the column if necessary.
 void store_write_row(Store *store, StoreColumn *column, hsize_t row, const hsize_t sizes[STORE_RANKS],
                      const void *numbers);
-// The type of texts up to this length.
+// Returns a type for texts up to this length.
 hid_t store_text_type(size_t length);
-// A list that is there as a whole. Closes the type.
+// Writes a complete list as a data set. Closes the type.
 void store_list(Store *store, hid_t parent, const char *name, hid_t type, hsize_t count, const void *list);
-// One of texts, which are one after the other, each ended by NUL.
+// Writes a complete list of texts. `texts` contains the NUL-terminated texts one after the other.
 void store_text_list(Store *store, hid_t parent, const char *name, const char *texts, hsize_t count);
-// What is there: a group; a text, to be freed, or a whole number that is an attribute; the name of a member by number
-// from 0, false beyond the last; a list of texts, each in so many bytes, to be freed.
+// Opens a group. It stays open until store_end.
 hid_t store_open(Store *store, hid_t parent, const char *name);
+// Returns the text of an attribute. The caller frees it.
 char *store_read_text(Store *store, hid_t object, const char *name);
+// Returns the value of an integer attribute.
 int store_read_number(Store *store, hid_t object, const char *name);
+// Sets `name` to the name of a member of a group, numbered from 0. Returns false after the last.
 bool store_name_at(Store *store, hid_t group, hsize_t number, ByteBuffer *name);
+// Returns a list of *count texts, each in *bytes bytes. The caller frees it.
 char *store_read_texts(Store *store, hid_t parent, const char *name, size_t *count, size_t *bytes);
-// A second name for what is there.
+// Adds a second name (a hard link) for an object.
 void store_link(Store *store, hid_t from, const char *old, hid_t to, const char *name);
 
 #endif

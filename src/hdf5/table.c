@@ -11,24 +11,24 @@ typedef enum Kind { INTEGER, NUMBER, TEXT } Kind;
 
 typedef struct Column {
     Kind kind;
-    size_t bytes; // of a cell in a record
+    size_t bytes; // size of a cell in a record
     hid_t type;
 } Column;
 
 typedef struct Table {
-    ByteBuffer texts; // all cells, each ended by NUL
-    size_t *cells;    // where they begin
-    size_t count;
-    size_t width; // cells of a row
+    ByteBuffer texts; // texts of all cells, each NUL-terminated
+    size_t *cells;    // offsets of the cells in `texts`
+    size_t count;     // number of cells
+    size_t width;     // number of cells in a row
 } Table;
 
-// The cell at *at, and behind what ends it.
+// Reads the cell at *at and moves *at to the comma or newline after it.
 static void read_cell(Table *table, const char **at, const char *end) {
     bool quoted = false;
     for (; *at < end && (quoted || (**at != ',' && **at != '\n')); (*at)++) {
         bool quote = **at == '"';
         if (quote && quoted && *at + 1 < end && (*at)[1] == '"') {
-            (*at)++; // stands for one
+            (*at)++; // a doubled quote is a quote
         } else if (quote) {
             quoted = !quoted;
             continue;
@@ -65,7 +65,7 @@ static Kind kind_of(const char *text) {
     return *end == '\0' ? NUMBER : TEXT;
 }
 
-// The last column is for errors, there is none mostly.
+// Chooses the type of a column. The last column contains error texts, so it is text even if it is empty.
 static Column choose_column(const Table *table, size_t number, size_t rows) {
     Column column = {.kind = number + 1 == table->width ? TEXT : INTEGER};
     size_t max_length = 0;

@@ -1,7 +1,7 @@
 // trajectory.c: see trajectory.h.
 //
-// Each system is a group of particles, with an own list of steps, for it may be absent from frames. The number of its
-// particles may change: a row is as long as the longest, and ends in particles whose id is the fill value, -1.
+// Each system is a group of particles with its own list of steps, because it can be absent from frames. Its number of
+// particles can change: all rows have the largest number, and unused places at the end have the fill value -1 as id.
 #include "hdf5/trajectory.h"
 
 #include "cli/hdf5.h"
@@ -15,17 +15,17 @@ typedef enum Kind { POSITION, VELOCITY, RADIUS, MASS, CHARGE, ID, ANCHOR, EDGES,
 static const char *const NAMES[] = {"position", "velocity", "radius", "mass", "charge", "id", "anchor", "edges"};
 
 struct Group {
-    char *system_name; // as the script calls it
+    char *system_name; // name in the script
     uint64_t dimensions;
     hid_t group;
-    StoreColumn step;
-    StoreColumn time;
+    StoreColumn step; // frame numbers
+    StoreColumn time; // seconds
     StoreColumn columns[KINDS];
-    hsize_t frames;
-    hsize_t max_particles; // particles
+    hsize_t frames;        // number of frames
+    hsize_t max_particles; // largest number of particles in a frame
 };
 
-// Columns keep where their fill values are.
+// Fill values. Static, because columns keep pointers to them.
 static const int64_t NO_ID = -1, NO_ANCHOR;
 static const double NO_NUMBER = NAN;
 
@@ -45,41 +45,41 @@ static int rank_of(Kind kind) {
     return kind == POSITION || kind == VELOCITY ? 3 : 2;
 }
 
-static void add_author(TrajectoryFile *way) {
+static void add_author(TrajectoryFile *file) {
     static const int version[] = {1, 1};
-    hid_t about = store_group(way->store, way->store->file, "h5md");
-    store_numbers(way->store, about, "version", version, 2);
-    store_text(way->store, store_group(way->store, about, "author"), "name", "unknown");
-    hid_t creator = store_group(way->store, about, "creator");
-    store_text(way->store, creator, "name", "petri");
-    store_text(way->store, creator, "version", VERSION);
+    hid_t about = store_group(file->store, file->store->file, "h5md");
+    store_numbers(file->store, about, "version", version, 2);
+    store_text(file->store, store_group(file->store, about, "author"), "name", "unknown");
+    hid_t creator = store_group(file->store, about, "creator");
+    store_text(file->store, creator, "name", "petri");
+    store_text(file->store, creator, "version", VERSION);
 }
 
-void trajectory_file_begin(TrajectoryFile *way, Store *store) {
-    *way = (TrajectoryFile){.store = store, .last = -1};
-    add_author(way);
-    way->particles = store_group(store, store->file, "particles");
+void trajectory_file_begin(TrajectoryFile *file, Store *store) {
+    *file = (TrajectoryFile){.store = store, .last = -1};
+    add_author(file);
+    file->particles = store_group(store, store->file, "particles");
 }
 
-static bool is_name_used(const TrajectoryFile *way, const char *name) {
-    return H5Lexists(way->particles, name, H5P_DEFAULT) > 0;
+static bool is_name_used(const TrajectoryFile *file, const char *name) {
+    return H5Lexists(file->particles, name, H5P_DEFAULT) > 0;
 }
 
-// `:cells` is cells. Slashes part names, and another system may be called so.
-static void choose_name(const TrajectoryFile *way, const char *called, ByteBuffer *name) {
+// Chooses the name of a group: `:cells` becomes cells, slashes become `|`, and a number is added if the name is used.
+static void choose_name(const TrajectoryFile *file, const char *called, ByteBuffer *name) {
     byte_buffer_add_text(name, called + (called[0] == ':' && called[1] != '\0'));
     for (char *c = name->data; *c != '\0'; c++)
         *c = *c == '/' ? '|' : *c;
     size_t length = name->length;
-    for (int number = 2; is_name_used(way, name->data); number++) {
+    for (int number = 2; is_name_used(file, name->data); number++) {
         name->length = length;
         byte_buffer_format(name, "-%d", number);
     }
 }
 
-// What changes with time: the steps of all are the same.
-static void add_element(TrajectoryFile *way, Group *group, hid_t parent, Kind kind, hsize_t particles) {
-    Store *store = way->store;
+// Adds an H5MD element, a quantity that changes with time. All elements of a group share the step and time data sets.
+static void add_element(TrajectoryFile *file, Group *group, hid_t parent, Kind kind, hsize_t particles) {
+    Store *store = file->store;
     hid_t element = store_group(store, parent, NAMES[kind]);
     hsize_t rows[STORE_RANKS] = {0, particles, group->dimensions};
     hsize_t edges[STORE_RANKS] = {0, group->dimensions};
@@ -94,34 +94,34 @@ static void add_element(TrajectoryFile *way, Group *group, hid_t parent, Kind ki
     }
 }
 
-static void add_group(TrajectoryFile *way, const char *called, const Hdf5System *system) {
-    Store *store = way->store;
+static void add_group(TrajectoryFile *file, const char *called, const Hdf5System *system) {
+    Store *store = file->store;
     SCOPED_BYTE_BUFFER name = {0};
-    choose_name(way, called, &name);
-    way->groups = memory_realloc(way->groups, (way->group_count + 1) * sizeof *way->groups);
-    Group *group = &way->groups[way->group_count++];
+    choose_name(file, called, &name);
+    file->groups = memory_realloc(file->groups, (file->group_count + 1) * sizeof *file->groups);
+    Group *group = &file->groups[file->group_count++];
     *group = (Group){.system_name = memory_strdup(called), .dimensions = system->dimensions};
-    group->group = store_group(store, way->particles, name.data);
+    group->group = store_group(store, file->particles, name.data);
     store_text(store, group->group, "system", called);
     hid_t box = store_group(store, group->group, "box");
     int dimensions = (int)system->dimensions;
     store_numbers(store, box, "dimension", &dimensions, 1);
     store_texts(store, box, "boundary", "none", system->dimensions);
     for (Kind kind = POSITION; kind < KINDS; kind++)
-        add_element(way, group, kind == EDGES ? box : group->group, kind, system->particles);
+        add_element(file, group, kind == EDGES ? box : group->group, kind, system->particles);
 }
 
-static Group *find_group(TrajectoryFile *way, const char *called, const Hdf5System *system) {
-    for (size_t i = 0; i < way->group_count; i++) {
-        Group *group = &way->groups[i];
+static Group *find_group(TrajectoryFile *file, const char *called, const Hdf5System *system) {
+    for (size_t i = 0; i < file->group_count; i++) {
+        Group *group = &file->groups[i];
         if (strcmp(group->system_name, called) == 0 && group->dimensions == system->dimensions)
             return group;
     }
-    add_group(way, called, system);
-    return &way->groups[way->group_count - 1];
+    add_group(file, called, system);
+    return &file->groups[file->group_count - 1];
 }
 
-// The smallest box that holds the middles of all: there is no other.
+// Computes the edges of the smallest box that contains all particle centres. H5MD requires a box, but petri has none.
 static void compute_extent(const double *position, const Hdf5System *system, double *edges) {
     for (uint64_t k = 0; k < system->dimensions; k++) {
         double min = INFINITY, max = -INFINITY;
@@ -134,30 +134,30 @@ static void compute_extent(const double *position, const Hdf5System *system, dou
     }
 }
 
-static void number_ids(const TrajectoryFile *way, int64_t *ids, uint64_t count) {
+static void number_ids(const TrajectoryFile *file, int64_t *ids, uint64_t count) {
     for (uint64_t i = 0; i < count; i++)
-        ids[i] = ids[i] <= -2 ? way->numbers[-2 - ids[i]] : ids[i];
+        ids[i] = ids[i] <= -2 ? file->numbers[-2 - ids[i]] : ids[i];
 }
 
-// Returns what follows the system.
-static char *add_system(TrajectoryFile *way, const Hdf5Frame *frame, char *bytes) {
+// Adds a system at `bytes` to the frame. Returns a pointer to the data after the system.
+static char *add_system(TrajectoryFile *file, const Hdf5Frame *frame, char *bytes) {
     const Hdf5System *system = (const Hdf5System *)(const void *)bytes;
     char *called = bytes + sizeof *system, *at = called + system->name_bytes;
-    Group *group = find_group(way, called, system);
+    Group *group = find_group(file, called, system);
     hsize_t row = group->frames++, sizes[STORE_RANKS] = {1, system->particles, system->dimensions};
     group->max_particles = system->particles > group->max_particles ? system->particles : group->max_particles;
     double *edges = memory_calloc(system->dimensions * sizeof *edges);
     compute_extent((const double *)(const void *)at, system, edges);
-    store_write_row(way->store, &group->columns[EDGES], row, (hsize_t[STORE_RANKS]){1, system->dimensions}, edges);
+    store_write_row(file->store, &group->columns[EDGES], row, (hsize_t[STORE_RANKS]){1, system->dimensions}, edges);
     free(edges);
     for (Kind kind = POSITION; kind < EDGES; kind++) {
         if (kind == ID)
-            number_ids(way, (int64_t *)(void *)at, system->particles);
-        store_write_row(way->store, &group->columns[kind], row, sizes, at);
+            number_ids(file, (int64_t *)(void *)at, system->particles);
+        store_write_row(file->store, &group->columns[kind], row, sizes, at);
         at += system->particles * (kind <= VELOCITY ? system->dimensions : 1) * sizeof(double);
     }
-    store_write_row(way->store, &group->step, row, sizes, &frame->number);
-    store_write_row(way->store, &group->time, row, sizes, &frame->time);
+    store_write_row(file->store, &group->step, row, sizes, &frame->number);
+    store_write_row(file->store, &group->time, row, sizes, &frame->time);
     return at;
 }
 
@@ -165,44 +165,45 @@ static bool is_text(const void *owner, uint32_t entry, const void *key) {
     return strcmp(((const TrajectoryFile *)owner)->texts.items[entry], key) == 0;
 }
 
-// The number that stands for the text of an id in the whole file.
-static int64_t number_text(TrajectoryFile *way, const char *text) {
+// Returns the id that is stored in the file for a text.
+static int64_t number_text(TrajectoryFile *file, const char *text) {
     uint64_t hash = hash_bytes(0, text, strlen(text));
-    uint32_t entry = hash_index_find(&way->index, hash, is_text, way, text);
+    uint32_t entry = hash_index_find(&file->index, hash, is_text, file, text);
     if (entry == HASH_INDEX_NONE) {
-        entry = (uint32_t)way->texts.count;
-        if (!hash_index_add(&way->index, hash, entry)) {
-            way->store->failed = true;
-            way->store->cause = ENOMEM;
+        entry = (uint32_t)file->texts.count;
+        if (!hash_index_add(&file->index, hash, entry)) {
+            file->store->failed = true;
+            file->store->cause = ENOMEM;
         }
-        texts_add(&way->texts, text);
+        texts_add(&file->texts, text);
     }
     return -2 - (int64_t)entry;
 }
 
-void trajectory_file_begin_run(TrajectoryFile *way) {
-    way->run_texts = 0;
+void trajectory_file_begin_run(TrajectoryFile *file) {
+    file->run_texts = 0;
 }
 
-// A run numbers texts from 0; those of runs before it may be others.
-static void read_id_texts(TrajectoryFile *way, const char *text, uint64_t count) {
-    way->numbers = memory_realloc(way->numbers, (way->run_texts + count + 1) * sizeof *way->numbers);
+// Reads the new texts of a frame. Each run numbers its texts from 0, so they are mapped to the ids in the file.
+static void read_id_texts(TrajectoryFile *file, const char *text, uint64_t count) {
+    file->numbers = memory_realloc(file->numbers, (file->run_texts + count + 1) * sizeof *file->numbers);
     for (uint64_t i = 0; i < count; i++, text += strlen(text) + 1)
-        way->numbers[way->run_texts++] = number_text(way, text);
+        file->numbers[file->run_texts++] = number_text(file, text);
 }
 
-void trajectory_file_add(TrajectoryFile *way, char *bytes) {
+void trajectory_file_add(TrajectoryFile *file, char *bytes) {
     const Hdf5Frame *frame = (const Hdf5Frame *)(const void *)bytes;
     char *texts = bytes + sizeof *frame, *at = texts + frame->text_bytes;
-    read_id_texts(way, texts, frame->text_count);
-    for (uint64_t s = 0; s < frame->system_count && frame->number > way->last; s++)
-        at = add_system(way, frame, at);
-    way->last = frame->number > way->last ? frame->number : way->last;
+    read_id_texts(file, texts, frame->text_count);
+    for (uint64_t s = 0; s < frame->system_count && frame->number > file->last; s++)
+        at = add_system(file, frame, at);
+    file->last = frame->number > file->last ? frame->number : file->last;
 }
 
-// A group that is there: how many of its frames are not later, and how many particles it has in them.
-static bool read_group(TrajectoryFile *way, Group *group, int64_t after, int64_t *min_id) {
-    Store *store = way->store;
+// Opens an existing group and counts its frames up to `after` and the particles in them. Lowers *min_id to the smallest
+// id. Returns false if no frame is left.
+static bool read_group(TrajectoryFile *file, Group *group, int64_t after, int64_t *min_id) {
+    Store *store = file->store;
     group->system_name = store_read_text(store, group->group, "system");
     hid_t box = store_open(store, group->group, "box");
     group->dimensions = (uint64_t)store_read_number(store, box, "dimension");
@@ -220,7 +221,7 @@ static bool read_group(TrajectoryFile *way, Group *group, int64_t after, int64_t
         store_read_row(store, &group->step, group->frames, one, &step);
         if (step > after)
             break;
-        way->last = step > way->last ? step : way->last;
+        file->last = step > file->last ? step : file->last;
         memset(ids, 0xff, one[1] * sizeof *ids); // -1
         if (one[1] > 0)
             store_read_row(store, &group->columns[ID], group->frames, one, ids);
@@ -242,63 +243,63 @@ static void cut_group(Store *store, Group *group) {
     hsize_t frames[STORE_RANKS] = {group->frames};
     store_truncate(store, &group->step, frames);
     store_truncate(store, &group->time, frames);
-    store_check(store, H5Ldelete(group->group, "species", H5P_DEFAULT)); // it comes with the end
+    store_check(store, H5Ldelete(group->group, "species", H5P_DEFAULT)); // written again by trajectory_file_end
 }
 
-static void read_groups(TrajectoryFile *way, int64_t after, int64_t *min_id) {
+static void read_groups(TrajectoryFile *file, int64_t after, int64_t *min_id) {
     SCOPED_BYTE_BUFFER name = {0};
-    for (hsize_t i = 0; store_name_at(way->store, way->particles, i, &name);) {
-        Group group = {.group = store_open(way->store, way->particles, name.data)};
-        if (!read_group(way, &group, after, min_id)) {
+    for (hsize_t i = 0; store_name_at(file->store, file->particles, i, &name);) {
+        Group group = {.group = store_open(file->store, file->particles, name.data)};
+        if (!read_group(file, &group, after, min_id)) {
             free(group.system_name);
-            store_check(way->store, H5Ldelete(way->particles, name.data, H5P_DEFAULT));
+            store_check(file->store, H5Ldelete(file->particles, name.data, H5P_DEFAULT));
             continue;
         }
-        cut_group(way->store, &group);
-        way->groups = memory_realloc(way->groups, (way->group_count + 1) * sizeof *way->groups);
-        way->groups[way->group_count++] = group;
+        cut_group(file->store, &group);
+        file->groups = memory_realloc(file->groups, (file->group_count + 1) * sizeof *file->groups);
+        file->groups[file->group_count++] = group;
         i++;
     }
 }
 
-bool trajectory_file_resume(TrajectoryFile *way, Store *store, int64_t after) {
+bool trajectory_file_resume(TrajectoryFile *file, Store *store, int64_t after) {
     int64_t min_id = NO_ID;
-    *way = (TrajectoryFile){.store = store, .last = -1};
-    way->particles = store_open(store, store->file, "particles");
-    read_groups(way, after, &min_id);
+    *file = (TrajectoryFile){.store = store, .last = -1};
+    file->particles = store_open(store, store->file, "particles");
+    read_groups(file, after, &min_id);
     if (H5Lexists(store->file, "parameters", H5P_DEFAULT) > 0) {
         size_t count = 0, bytes = 0;
         char *texts = store_read_texts(store, store->file, "parameters/id_texts", &count, &bytes);
         for (size_t i = 0; !store->failed && i < count && (int64_t)i < NO_ID - min_id; i++)
-            number_text(way, texts + i * bytes);
+            number_text(file, texts + i * bytes);
         free(texts);
         store_check(store, H5Ldelete(store->file, "parameters", H5P_DEFAULT));
     }
     return !store->failed;
 }
 
-// All are of species 0, which stands for no element (X) in ASE.
-static void add_species(TrajectoryFile *way, const Group *group) {
+// Adds the species of the particles: always 0, which ASE reads as no element (X).
+static void add_species(TrajectoryFile *file, const Group *group) {
     static const int64_t none;
     hsize_t sizes[STORE_RANKS] = {group->max_particles};
-    StoreColumn species = store_column(way->store, group->group, "species", H5T_NATIVE_INT64, 1, sizes, &none);
-    store_grow(way->store, &species, sizes);
+    StoreColumn species = store_column(file->store, group->group, "species", H5T_NATIVE_INT64, 1, sizes, &none);
+    store_grow(file->store, &species, sizes);
 }
 
-void trajectory_file_end(TrajectoryFile *way) {
-    for (size_t i = 0; i < way->group_count; i++) {
-        add_species(way, &way->groups[i]);
-        free(way->groups[i].system_name);
+void trajectory_file_end(TrajectoryFile *file) {
+    for (size_t i = 0; i < file->group_count; i++) {
+        add_species(file, &file->groups[i]);
+        free(file->groups[i].system_name);
     }
-    if (way->texts.count > 0) {
+    if (file->texts.count > 0) {
         SCOPED_BYTE_BUFFER texts = {0};
-        for (size_t i = 0; i < way->texts.count; i++)
-            byte_buffer_add(&texts, way->texts.items[i], strlen(way->texts.items[i]) + 1);
-        hid_t parameters = store_group(way->store, way->store->file, "parameters");
-        store_text_list(way->store, parameters, "id_texts", texts.data, way->texts.count);
+        for (size_t i = 0; i < file->texts.count; i++)
+            byte_buffer_add(&texts, file->texts.items[i], strlen(file->texts.items[i]) + 1);
+        hid_t parameters = store_group(file->store, file->store->file, "parameters");
+        store_text_list(file->store, parameters, "id_texts", texts.data, file->texts.count);
     }
-    texts_free(&way->texts);
-    hash_index_free(&way->index);
-    free(way->numbers);
-    free(way->groups);
+    texts_free(&file->texts);
+    hash_index_free(&file->index);
+    free(file->numbers);
+    free(file->groups);
 }

@@ -1,4 +1,4 @@
-// trajectory.h: the file of `petri run --trajectory FILE.h5`, as H5MD 1.1 has it.
+// trajectory.h: the H5MD 1.1 file of `petri run --trajectory FILE.h5`.
 #ifndef PETRI_SRC_HDF5_TRAJECTORY_H
 #define PETRI_SRC_HDF5_TRAJECTORY_H
 
@@ -13,20 +13,24 @@ typedef struct TrajectoryFile {
     hid_t particles;
     Group *groups;
     size_t group_count;
-    TextList texts;   // of ids
-    HashIndex index;  // of them
-    int64_t *numbers; // of those of the present run
-    size_t run_texts;
-    int64_t last; // frame; -1: none
+    TextList texts;   // ids that are texts
+    HashIndex index;  // index of `texts`
+    int64_t *numbers; // by text number of the current run: the id stored in the file
+    size_t run_texts; // number of texts of the current run
+    int64_t last;     // number of the last frame; -1: none
 } TrajectoryFile;
 
-void trajectory_file_begin(TrajectoryFile *way, Store *store);
-// The same with what the file holds up to a frame; what is later is cut. False if it is no such file.
-bool trajectory_file_resume(TrajectoryFile *way, Store *store, int64_t after);
-// What follows comes from another run.
-void trajectory_file_begin_run(TrajectoryFile *way);
-// Adds what Hdf5Frame says, if it is later than what is there. Changes the ids in `bytes`.
-void trajectory_file_add(TrajectoryFile *way, char *bytes);
-void trajectory_file_end(TrajectoryFile *way);
+// Starts an empty trajectory.
+
+void trajectory_file_begin(TrajectoryFile *file, Store *store);
+// Like trajectory_file_begin, but keeps the frames of an existing file up to `after` and removes later ones. Returns
+// false if the file was not written by petri.
+bool trajectory_file_resume(TrajectoryFile *file, Store *store, int64_t after);
+// Must be called before the first frame of another run, whose text numbers start at 0 again.
+void trajectory_file_begin_run(TrajectoryFile *file);
+// Adds a frame (Hdf5Frame and its data) unless it is not later than the last one. Modifies the ids in `bytes`.
+void trajectory_file_add(TrajectoryFile *file, char *bytes);
+// Writes the parts that are only known at the end, and frees the memory.
+void trajectory_file_end(TrajectoryFile *file);
 
 #endif

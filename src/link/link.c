@@ -1,4 +1,4 @@
-// link.c: `petri link`: a script as a link that opens it in a browser.
+// link.c: the command `petri link`, which prints a link that contains a script.
 #include "base/source.h"
 #include "cli/output.h"
 #include "cli/script.h"
@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-// A change for each `NAME=VALUE` of -D, which options_open has looked at.
+// Adds a change for each `NAME=VALUE` of -D. Invalid ones are ignored; the run reports them.
 static void read_definitions(Linked *linked, const TextList *definitions) {
     linked->changes = memory_calloc((definitions->count + 1) * sizeof *linked->changes);
     for (size_t i = 0; i < definitions->count; i++) {
@@ -21,10 +21,10 @@ static void read_definitions(Linked *linked, const TextList *definitions) {
 }
 
 static bool read_script(ByteBuffer *text, const char *name) {
-    static const size_t most_bytes = (size_t)4 << 20;
+    static const size_t max_bytes = (size_t)4 << 20;
     byte_buffer_add(text, "", 0);
     bool is_stdin = script_is_stdin(name);
-    if (is_stdin ? byte_buffer_read(text, STDIN_FILENO, most_bytes) : byte_buffer_read_file(text, name))
+    if (is_stdin ? byte_buffer_read(text, STDIN_FILENO, max_bytes) : byte_buffer_read_file(text, name))
         return true;
     message("cannot read '%s': %s", script_display_name(name), strerror(errno));
     script_suggest(name);
@@ -38,7 +38,7 @@ static int print_link(const Linked *linked, const char *page) {
         return STATUS_FAILED;
     byte_buffer_add_text(&link, "\n");
     if (!page && isatty(STDERR_FILENO))
-        message("this goes behind the address of the page, which --page gives; 'petri open' takes it as it is");
+        message("append this to the URL of the playground (--page URL), or run 'petri open' with it");
     return output_text(link.data, link.length, STATUS_DONE);
 }
 
@@ -49,12 +49,12 @@ static int make_link(const CommandContext *context, Options *options, LinkSessio
     const char *name = options->script;
     linked->name = memory_strdup(script_is_stdin(name) ? "script.fl" : name + path_directory(str_from(name)).len);
     read_definitions(linked, &options->definitions);
-    // One frame in any case: what is wrong with the script is better known before it is sent.
+    // Without --frame, one frame is computed to find errors before the link is sent.
     linked->frame = options->frame < 0 ? 0 : options->frame;
     texts_free(&options->definitions);
     int status = link_session_run(link_session, context, options);
-    if (link_session_print_files(link_session, "a link holds one script and no files, and this one asks for ",
-                                 "; put what it takes of them into the script"))
+    if (link_session_print_files(link_session,
+                                 "cannot link a script that reads files: ", "; move their contents into the script"))
         return STATUS_FAILED;
     if (status != OPTIONS_READ)
         return status;
@@ -72,16 +72,16 @@ static int link_run(const CommandContext *context, Options *options) {
 const Command LINK_COMMAND = {
     .name = "link",
     .operands = "SCRIPT.fl",
-    .summary = "print a link that opens a script in a browser, or by petri open",
+    .summary = "print a link that contains a script",
     .details =
-        "Prints a link that holds the script, compressed, the parameters that -D sets and, with --frame, a frame and\n"
-        "the hash of its state: who opens it sees that frame and learns whether it is the same to the last bit. All\n"
-        "of it is behind the '#', which browsers send to nobody. A script that takes files, modules or images has no\n"
-        "link, nor has one of more than 100000 characters, compressed.",
-    .examples = "  petri link dish.fl                              what comes behind the address of the page\n"
-                "  petri link dish.fl -D DROPS=50 --frame 240      frame 240 of 50 drops\n"
-                "  petri link dish.fl --page http://127.0.0.1/     with the address of the page\n",
-    .missing_operand = "no script was given",
+        "Prints a link that contains the compressed script, its parameters (-D) and, with --frame, a frame number and\n"
+        "the hash of the state. 'petri open' and the playground run it to that frame and verify that the state is\n"
+        "bit-identical. The data follows the '#', so browsers send it to no server. Scripts that read files, modules\n"
+        "or images cannot be linked, nor scripts of more than 100000 characters when compressed.",
+    .examples = "  petri link dish.fl                              only the fragment, from '#'\n"
+                "  petri link dish.fl -D DROPS=50 --frame 240      frame 240 with 50 drops\n"
+                "  petri link dish.fl --page http://127.0.0.1/     a link to a playground\n",
+    .missing_operand = "no script given",
     .options = FOR_LINK,
     .run = link_run,
 };

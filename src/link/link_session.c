@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// There is no file: a link has one script. Folders, for `glob`, are empty.
+// Records a file that the script tries to read, and returns NULL: no file exists. Folders, as for `glob`, are not
+// recorded; they are empty.
 static const char *note_file(void *host, const char *name, size_t *length) {
     LinkSession *link_session = host;
     if (!texts_contain(&link_session->requested_files, name) && !str_ends_with(str_from(name), STR("/")))
@@ -15,7 +16,7 @@ static const char *note_file(void *host, const char *name, size_t *length) {
     return NULL;
 }
 
-// Images are asked for when they are drawn.
+// Draws the last frame to one pixel, because images are requested only when they are drawn.
 static void draw_last_frame(PetriSession *session) {
     PetriPictureOptions options = {0};
     petri_picture_options_init(&options, sizeof options);
@@ -35,7 +36,7 @@ static bool set_parameters(const LinkSession *link_session, int64_t frame) {
         const LinkedChange *change = &link_session->linked.changes[i];
         if (change->frame == frame && frame >= 0 &&
             petri_set_parameter(link_session->frames.session, change->name, change->value) != PETRI_OK) {
-            message("the link sets %s to %s after frame %d, which the script does not take", change->name,
+            message("the link sets %s to %s after frame %d, but the script does not accept it", change->name,
                     change->value, (int)frame);
             return false;
         }
@@ -43,7 +44,7 @@ static bool set_parameters(const LinkSession *link_session, int64_t frame) {
     return true;
 }
 
-// The pictures of frames before the last, on which later ones may depend.
+// Renders a frame before the last if the pictures of later frames depend on it.
 static void render_if_needed(LinkSession *link_session) {
     PetriSession *session = link_session->frames.session;
     PetriPictureOptions options = petri_default_picture_options();

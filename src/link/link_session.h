@@ -1,4 +1,4 @@
-// link_session.h: running a script as a link has it: it has no files, and what it asks for is noted.
+// link_session.h: a run of a script from a link, without files. Files that the script requests are recorded.
 #ifndef PETRI_SRC_LINK_SESSION_H
 #define PETRI_SRC_LINK_SESSION_H
 
@@ -9,16 +9,16 @@
 typedef struct LinkSession {
     Linked linked;
     Frames frames;
-    TextList requested_files; // the files that the script has asked for
-    PetriPainter *painter;    // that has the pictures of the frames before the last, if that depends on them; or NULL
+    TextList requested_files; // files that the script tried to read
+    PetriPainter *painter;    // painter with the pictures of earlier frames, if later ones need them; else NULL
 } LinkSession;
 
-// Opens a session, loads the text and makes frames up to the link's with its changes of parameters. Returns
-// OPTIONS_READ, or the status to exit with after a message; link_session_close is due in any case.
+// Opens a session, loads the script and computes frames up to that of the link, with its changes of parameters. Returns
+// OPTIONS_READ, or an exit status after a message. link_session_close must be called in any case.
 int link_session_run(LinkSession *link_session, const CommandContext *context, Options *options);
-// The hash of the state, to be freed.
+// Returns the hash of the state. The caller frees it.
 char *link_session_hash(const LinkSession *link_session);
-// Tells what files were asked for: `before`, their names, `behind`. False if there were none.
+// Prints a message with the names of the requested files between prefix and suffix. Returns false if there are none.
 bool link_session_print_files(const LinkSession *link_session, const char *prefix, const char *suffix);
 void link_session_close(LinkSession *link_session);
 

@@ -1,4 +1,4 @@
-// open.c: `petri open`: the frame that a link shows, and whether it is the same here.
+// open.c: the command `petri open`, which runs the script of a link and verifies its frame.
 #include "base/file.h"
 #include "cli/output.h"
 #include "cli/script.h"
@@ -13,11 +13,11 @@
 #include <unistd.h>
 
 static bool read_link(Linked *linked, const char *operand) {
-    static const size_t most_bytes = (size_t)1 << 20;
+    static const size_t max_bytes = (size_t)1 << 20;
     SCOPED_BYTE_BUFFER link = {0};
     if (!script_is_stdin(operand)) {
         byte_buffer_add_text(&link, operand);
-    } else if (!byte_buffer_read(&link, STDIN_FILENO, most_bytes)) {
+    } else if (!byte_buffer_read(&link, STDIN_FILENO, max_bytes)) {
         message("cannot read standard input: %s", strerror(errno));
         return false;
     }
@@ -39,13 +39,13 @@ static int save_picture(LinkSession *link_session, const char *file) {
     return saved ? STATUS_DONE : STATUS_FAILED;
 }
 
-// Shows the picture to who sits at the terminal; output is not redirected then.
+// Shows the picture if standard output is a terminal.
 static int show_picture(PetriSession *session, PetriPainter *painter, const Options *options) {
     bool wanted = !options->output && options->verbosity > LOG_QUIET && isatty(STDOUT_FILENO) &&
                   terminal_picture_possible() && progress_possible() && petri_has_picture(session);
     if (!wanted)
         return STATUS_DONE;
-    enum { LINES_BELOW = 6 }; // rows for the hash and what it tells
+    enum { LINES_BELOW = 6 }; // terminal rows for the hash and messages
     Output output;
     output_start(&output, STDOUT_FILENO);
     PetriStatus status = still_show(session, painter, !options->monochrome, LINES_BELOW, output_write, &output);
@@ -68,7 +68,7 @@ static int write_script(const CommandContext *context, const Linked *linked, con
             byte_buffer_format(&changes, " after frame %" PRId64, change->frame);
     }
     if (changes.length > 0)
-        message("the link also has%s, which is not in %s", changes.data, file);
+        message("the link also sets%s, which is not in %s", changes.data, file);
     hint_pictures(context, file);
     return STATUS_DONE;
 }
@@ -80,12 +80,12 @@ static bool is_script(const char *file) {
 static bool check_output(const char *file) {
     bool good = !file || is_script(file) || petri_picture_can_save(file);
     if (!good)
-        message("'%s' should end in .fl, for the script, or in .png, .svg or .pdf, for the picture", file);
+        message("unknown output format: '%s'; use .fl for the script, or .png, .svg or .pdf for the picture", file);
     return good;
 }
 
-// Tells whether the frame is that of the link; without --output its hash goes to standard output, as petri run prints
-// it.
+// Reports whether the state has the hash of the link. Without --output, also prints the hash to standard output like
+// petri run. Returns the exit status.
 static int compare_state(const LinkSession *link_session, const Options *options) {
     const Linked *linked = &link_session->linked;
     SCOPED_BYTE_BUFFER text = {0};
@@ -93,13 +93,12 @@ static int compare_state(const LinkSession *link_session, const Options *options
     int status = !options->output ? output_text(text.data, text.length, STATUS_DONE) : STATUS_DONE;
     SCOPED_TEXT hash = link_session_hash(link_session);
     if (!linked->hash) {
-        message("%s: the link tells of no state to compare with", linked->name);
+        message("%s: no state to compare: the link has no hash", linked->name);
         return status;
     }
     bool same = strcmp(hash, linked->hash) == 0;
-    message(same ? "%s: frame %" PRId64 " has the same state as where the link was made, to the last bit"
-                 : "%s: the state of frame %" PRId64 " is not that where the link was made; it was made by another "
-                   "version of petri, perhaps",
+    message(same ? "%s: frame %" PRId64 ": state matches the link exactly"
+                 : "%s: frame %" PRId64 ": state differs from the link; it may be from another version of petri",
             linked->name, linked->frame);
     return same ? status : STATUS_FAILED;
 }
@@ -113,7 +112,7 @@ static int open_link(const CommandContext *context, Options *options, LinkSessio
     const char *file = options->output;
     int wrote = file && is_script(file) ? write_script(context, linked, file) : STATUS_DONE;
     int status = link_session_run(link_session, context, options);
-    link_session_print_files(link_session, "the script asks for ", ", and links hold no files");
+    link_session_print_files(link_session, "the script reads ", ", but links contain no files");
     if (status != OPTIONS_READ)
         return status == STATUS_USAGE ? STATUS_FAILED : status;
     if (file && !is_script(file))
@@ -136,21 +135,20 @@ static int open_run(const CommandContext *context, Options *options) {
 const Command OPEN_COMMAND = {
     .name = "open",
     .operands = "LINK",
-    .summary = "run what a link holds to its frame, and tell whether the state is the same",
+    .summary = "run a link's script and verify its frame",
     .details =
-        "Runs the script that is in a link, of petri link or of the page in a browser, to the frame that the link\n"
-        "names, with the parameters as they were changed, and tells whether the state has the same hash: the exit\n"
-        "status is 1 if not. The hash goes to standard output, at a terminal below the picture of the frame; with\n"
-        "--output a file gets the script (FILE.fl, or - for standard output) or the picture. The script neither\n"
-        "reads nor writes files.\n"
+        "Runs the script in a link (from petri link or the playground) to the frame of the link, with the same\n"
+        "changes of parameters, and compares the hash of the state. Exits with 1 if it differs. Prints the hash and,\n"
+        "in a terminal, the picture; --output saves the script or the picture instead. The script can neither read\n"
+        "nor write files.\n"
         "\n"
-        "LINK is the whole address, or what begins with '#', in quotes because of that; - is standard input.",
-    .examples = "  petri open 'http://127.0.0.1:8080/#q1bKU...'    is the frame the same here?\n"
-                "  petri open '#q1bKU...' -o dish.fl               the script, too\n"
-                "  petri open '#q1bKU...' -o dish.png              the picture, too\n"
-                "  petri link dish.fl --frame 99 | petri open -    there and back\n",
-    .missing_operand = "no link was given (what begins with '#' needs quotes)",
-    .second_operand_error = "one link is opened at a time; '%s' is too many (a link needs quotes)",
+        "LINK is the whole URL or the part from '#', in quotes; - reads it from standard input.",
+    .examples = "  petri open 'http://127.0.0.1:8080/#q1bKU...'    verify the frame\n"
+                "  petri open '#q1bKU...' -o dish.fl               also save the script\n"
+                "  petri open '#q1bKU...' -o dish.png              also save the picture\n"
+                "  petri link dish.fl --frame 99 | petri open -    make a link and open it\n",
+    .missing_operand = "no link given (a link needs quotes)",
+    .second_operand_error = "too many arguments: '%s'; petri open takes one link, in quotes",
     .options = FOR_OPEN,
     .run = open_run,
 };

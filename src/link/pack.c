@@ -47,7 +47,8 @@ static void add_base64(ByteBuffer *out, const unsigned char *bytes, size_t lengt
     }
 }
 
-// Mail breaks long lines, and `+` and `/` are those of other writers.
+// Decodes base64url. Ignores white space, because mail programs break long lines, and accepts the digits `+` and `/` of
+// plain base64.
 static bool read_base64(ByteBuffer *out, const char *text, size_t length) {
     uint32_t bits = 0;
     unsigned count = 0;
@@ -96,27 +97,27 @@ bool link_pack(ByteBuffer *out, const Linked *linked) {
     z_stream stream = {0};
     if (deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, RAW, MAX_MEM_LEVEL, Z_DEFAULT_STRATEGY) != Z_OK)
         return report_error("out of memory");
-    unsigned long most = deflateBound(&stream, json.length);
-    unsigned char *packed = memory_calloc(most);
+    unsigned long bound = deflateBound(&stream, json.length);
+    unsigned char *packed = memory_calloc(bound);
     stream.next_in = (unsigned char *)json.data;
     stream.avail_in = (unsigned)json.length;
     stream.next_out = packed;
-    stream.avail_out = (unsigned)most;
-    deflate(&stream, Z_FINISH); // all fits
+    stream.avail_out = (unsigned)bound;
+    deflate(&stream, Z_FINISH); // cannot fail: the output has deflateBound bytes
     deflateEnd(&stream);
     size_t start = out->length;
     byte_buffer_add_text(out, "#");
-    add_base64(out, packed, most - stream.avail_out);
+    add_base64(out, packed, bound - stream.avail_out);
     free(packed);
     if (out->length - start > MAX_LENGTH) {
-        message("the script is too long for a link: %zu characters, %d at the most; share the file",
-                out->length - start, MAX_LENGTH);
+        message("the script is too long for a link: %zu characters, at most %d; share the file", out->length - start,
+                MAX_LENGTH);
         return false;
     }
     return true;
 }
 
-// What it unpacks to; false if it is damaged, or too long.
+// Decompresses a link. Returns false if it is damaged or too long.
 static bool unpack(ByteBuffer *json, const ByteBuffer *packed, bool *too_long) {
     z_stream stream = {.next_in = (unsigned char *)packed->data, .avail_in = (unsigned)packed->length};
     if (inflateInit2(&stream, RAW) != Z_OK)
@@ -132,7 +133,7 @@ static bool unpack(ByteBuffer *json, const ByteBuffer *packed, bool *too_long) {
     return whole && !*too_long;
 }
 
-// A text without NUL in it; NULL: there is none.
+// Returns the text of a JSON string, or NULL if it is not a string or contains NUL.
 static const char *string_value(json_object *value) {
     bool good = json_object_is_type(value, json_type_string) &&
                 strlen(json_object_get_string(value)) == (size_t)json_object_get_string_len(value);
@@ -192,8 +193,7 @@ static bool read_json(Linked *linked, const ByteBuffer *text) {
     bool good = parsed && !newer && parse_link(linked, all);
     json_object_put(all);
     json_tokener_free(tokener);
-    return good || report_error(newer ? "the link was made by a newer petri, which this one does not understand"
-                                      : "the link is none of petri's");
+    return good || report_error(newer ? "the link is from a newer petri; update petri to open it" : "not a petri link");
 }
 
 bool link_read(Linked *linked, const ByteBuffer *link) {
@@ -203,12 +203,12 @@ bool link_read(Linked *linked, const ByteBuffer *link) {
     SCOPED_BYTE_BUFFER packed = {0}, json = {0};
     bool too_long = length > MAX_LENGTH;
     if (too_long) {
-        message("the link is too long: %zu characters, %d at the most", length, MAX_LENGTH);
+        message("the link is too long: %zu characters, at most %d", length, MAX_LENGTH);
         return false;
     }
     if (!read_base64(&packed, start, length) || !unpack(&json, &packed, &too_long)) {
         return report_error(too_long ? "the link unpacks to more than 4 MiB"
-                                     : "the link is damaged: was it cut off when it was copied?");
+                                     : "the link is damaged; check that it was copied completely");
     }
     return read_json(linked, &json);
 }
@@ -216,7 +216,7 @@ bool link_read(Linked *linked, const ByteBuffer *link) {
 #else
 
 bool link_possible(void) {
-    message("this petri was built without zlib or json-c, which links take (Debian: zlib1g-dev, libjson-c-dev)");
+    message("cannot use links: petri was built without zlib or json-c (Debian: zlib1g-dev, libjson-c-dev)");
     return false;
 }
 

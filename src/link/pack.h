@@ -1,15 +1,16 @@
-// pack.h: a script in a link, as the page in src/web has it: `#` and, compressed (deflate without a header, base64url),
-// JSON: v version, t the script's text, n its file's name, c changes of parameters as [after which frame, name, value],
-// f frame, h the hash of the state there. src/web/page/link.mjs is the same for JavaScript.
+// pack.h: links that contain a script, shared with the playground (src/web/page/link.mjs).
+//
+// A link is `#` and compressed JSON (deflate without a header, then base64url). Its fields: v version, t script text, n
+// file name, c changes of parameters as [after which frame, name, value], f frame, h hash of the state in that frame.
 #ifndef PETRI_SRC_PACK_H
 #define PETRI_SRC_PACK_H
 
 #include "cli/byte_buffer.h"
 
 typedef struct LinkedChange {
-    int64_t frame; // after which one; -1: from the start
+    int64_t frame; // frame after which it is made; -1: from the start
     char *name;
-    char *value; // as the script would write it
+    char *value; // in the syntax of scripts
 } LinkedChange;
 
 typedef struct Linked {
@@ -17,15 +18,16 @@ typedef struct Linked {
     char *name;
     LinkedChange *changes;
     size_t change_count;
-    int64_t frame; // -1: none was made
-    char *hash;    // NULL: not told
+    int64_t frame; // -1: no frame was computed
+    char *hash;    // SHA-256 of the state in hexadecimal; NULL: not in the link
 } Linked;
 
-// Whether petri was built with the libraries that this takes; says so if not.
+// Returns true if petri was built with the libraries for links. Otherwise prints a message.
 bool link_possible(void);
-// Adds `#…`. False after a message: the text is too long.
+// Adds the link, from `#`. Returns false after a message if it is too long.
 bool link_pack(ByteBuffer *out, const Linked *linked);
-// Reads what is behind the first `#`, or all. False after a message. To be freed in any case.
+// Reads a link: the part after the first `#`, or all of it. Returns false after a message. The caller frees *linked
+// with link_free in any case.
 bool link_read(Linked *linked, const ByteBuffer *link);
 void link_free(Linked *linked);
 

@@ -1,4 +1,4 @@
-// commands.c: the commands that this program has.
+// commands.c: see commands.h.
 #include "main/commands.h"
 
 #include <string.h>
@@ -9,7 +9,7 @@ const Command *const COMMANDS[] = {&RUN_COMMAND,  &VIEW_COMMAND,  &RENDER_COMMAN
                                    &LINK_COMMAND, &OPEN_COMMAND,  &NEW_COMMAND,    &HELP_COMMAND, NULL};
 #elif defined PETRI_LSP
 const Command *const COMMANDS[] = {&LSP_COMMAND, NULL};
-#else // those that never draw
+#else // petri and petri-ranks: commands that never draw
 const Command *const COMMANDS[] = {&RUN_COMMAND, &SWEEP_COMMAND, &TEST_COMMAND, &CHECK_COMMAND,
                                    &FMT_COMMAND, &SEND_COMMAND,  &NEW_COMMAND,  NULL};
 #endif

@@ -1,12 +1,12 @@
-// commands.h: the commands that this program has: petri-pictures has all, petri those that never draw.
+// commands.h: the commands of this program. petri-pictures has all of them, petri those that never draw.
 #ifndef PETRI_SRC_COMMANDS_H
 #define PETRI_SRC_COMMANDS_H
 
 #include "cli/cli.h"
 
-// In the order of help, ended by NULL.
+// All commands in the order of help, then NULL.
 extern const Command *const COMMANDS[];
-// NULL if there is none of this name.
+// Returns the command with this name, or NULL.
 const Command *command_find(const char *name);
 
 #endif

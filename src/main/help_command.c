@@ -1,6 +1,7 @@
-// help_command.c: `petri help`: all there is help on.
+// help_command.c: the command `petri help`.
 //
-// Apart from help.c, which the program that does not draw has as well: this knows the prompt.
+// Only petri-pictures has this file, because it needs the commands of the prompt. Help on single commands is in
+// cli/help.c, which every program has.
 #include "cli/cli.h"
 #include "cli/help.h"
 #include "cli/options.h"
@@ -38,7 +39,7 @@ static void write_attributes(ByteBuffer *text, size_t kind) {
     }
 }
 
-// All kinds of nodes that do something.
+// Prints all kinds of nodes with their attributes.
 static int help_nodes(void) {
     SCOPED_BYTE_BUFFER text = {0};
     PetriNodeKind kind;
@@ -55,7 +56,7 @@ static int help_nodes(void) {
     return help_print(&text);
 }
 
-// `--NAME`, `-X` or `-X...`: what the commands that have the option say of it. False if none has it.
+// Adds the help for the option `--NAME` or `-X` of each command that has it. Returns false if no command has it.
 static bool print_option(ByteBuffer *text, const char *word) {
     bool found = false, is_long = word[1] == '-';
     for (size_t i = 0; COMMANDS[i]; i++) {
@@ -81,13 +82,13 @@ static int unknown_topic(const char *topic) {
     nearest_offer(&nearest, "version");
     topics_offer(&nearest);
     if (nearest.found.bytes)
-        message("there is no help on '%.60s', did you mean 'petri help %s'?", topic, nearest.found.bytes);
+        message("no help for '%.60s'; did you mean 'petri help %s'?", topic, nearest.found.bytes);
     else
-        message("there is no help on '%.60s'; 'petri help' tells what there is help on", topic);
+        message("no help for '%.60s'; run 'petri help' for a list", topic);
     return STATUS_USAGE;
 }
 
-// Tells of a command of the prompt; false if there is none of this name.
+// Adds the help for a command of the prompt. Returns false if there is no such command.
 static bool help_prompt(ByteBuffer *text, const char *name) {
     const ReplCommand *command = repl_find_command(name, strlen(name));
     if (command) {
@@ -118,14 +119,14 @@ static int help_topic(const char *topic) {
     return command ? help_for(command) : help_word(topic);
 }
 
-// What follows is a topic, even if it looks like an option.
+// The argument is always a topic, even if it looks like an option.
 static int help_run(const CommandContext *context, Options *options) {
     char **words = options->argv;
     (void)context;
     if (options->argc > 0 && (strcmp(words[0], "--help") == 0 || strcmp(words[0], "-h") == 0))
         return help_for(&HELP_COMMAND);
     if (options->argc > 1) {
-        message("help is given on one thing at a time; '%s' is too many", words[1]);
+        message("too many arguments: '%s'", words[1]);
         return STATUS_USAGE;
     }
     return options->argc == 0 ? help_overview(COMMANDS) : help_topic(words[0]);
@@ -134,15 +135,13 @@ static int help_run(const CommandContext *context, Options *options) {
 const Command HELP_COMMAND = {
     .name = "help",
     .operands = "[TOPIC]",
-    .summary = "tell of a command, a function, a node or another word of scripts",
-    .details =
-        "Lists the commands, or tells of a TOPIC:\n\n"
-        "  run, render, ...    a command and its options\n"
-        "  builtins, nodes     all functions that scripts can call; all nodes that drive particles or draw\n"
-        "  sin, particle       one function, one node with its attributes ('!random' if a function is called so, "
-        "too)\n"
-        "  tempo, let, radius  a value that petri gives, a word of the language, an attribute\n"
-        "  --frames, .step     an option, a command of the prompt",
+    .summary = "show help for a command, function, node or word",
+    .details = "Lists the commands, or explains a TOPIC:\n\n"
+               "  run, render, ...    a command and its options\n"
+               "  builtins, nodes     all functions; all nodes with their attributes\n"
+               "  sin, particle       one function, one node ('!random' if a function has the same name)\n"
+               "  tempo, let, radius  a predefined value, a word of the language, an attribute\n"
+               "  --frames, .step     an option, a command of the prompt",
     .parses_arguments = true,
     .run = help_run,
 };

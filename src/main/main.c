@@ -1,4 +1,4 @@
-// main.c: prepares the process, finds the command and runs it on a thread with a large stack.
+// main.c: the main function, which prepares the process and runs a command on a thread with a large stack.
 #include "cli/byte_buffer.h"
 #include "cli/cli.h"
 #include "cli/helper_exec.h"
@@ -21,7 +21,7 @@
 #include "lsp/lsp.h"
 #endif
 
-// A script's name has a dot or a slash in it, or is the name of something that exists.
+// Returns true if the word contains a dot or a slash, or is the name of an existing file.
 static bool looks_like_file(const char *word) {
     return strpbrk(word, "./") || access(word, F_OK) == 0;
 }
@@ -38,24 +38,23 @@ static int unknown_command(const char *word) {
     for (size_t i = 0; COMMANDS[i]; i++)
         nearest_offer(&nearest, COMMANDS[i]->name);
     if (nearest_offer(&nearest, "builtins") || nearest_offer(&nearest, "nodes")) {
-        message("there is no command and no file '%s', did you mean 'petri help %s'?", word, nearest.found.bytes);
+        message("no such command or file: '%s'; did you mean 'petri help %s'?", word, nearest.found.bytes);
         return STATUS_USAGE;
     }
     if (word[0] == '\0')
-        message("the name of the script is empty");
+        message("the script name is empty");
     else if (is_script_without_suffix(word))
-        message("there is no command and no file '%s', did you mean 'petri %s.fl'?", word, word);
+        message("no such command or file: '%s'; did you mean 'petri %s.fl'?", word, word);
     else if (nearest.found.bytes)
-        message("there is no command and no file '%s', did you mean 'petri %s'?", word, nearest.found.bytes);
+        message("no such command or file: '%s'; did you mean 'petri %s'?", word, nearest.found.bytes);
     else
-        message("there is no command and no file '%s'; 'petri help' lists the commands", word);
+        message("no such command or file: '%s'; see 'petri help'", word);
     return STATUS_USAGE;
 }
 
 static int dispatch(const CommandContext *host, int argc, char **argv) {
     if (argc < 2) {
-        message("nothing to do; 'petri new NAME' begins a script, 'petri view SCRIPT.fl' shows it, 'petri help' lists "
-                "all commands");
+        message("no script given; try 'petri new NAME' or 'petri help'");
         return STATUS_USAGE;
     }
     const char *first = argv[1];
@@ -83,11 +82,11 @@ static int dispatch(const CommandContext *host, int argc, char **argv) {
     return helper_exec_forwards_unknown() ? helper_exec_pictures(argv) : unknown_command(first);
 }
 
-// Were a standard descriptor closed, the next file to be opened would take its place and get our output.
+// Opens closed standard descriptors. Otherwise the next opened file would get their number and receive output.
 static void open_standard_descriptors(void) {
     for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++) {
         if (fcntl(fd, F_GETFD) == -1) {
-            // Opened the wrong way round, so that using it fails as it would have when closed.
+            // Opened in the wrong direction, so that its use fails like that of a closed descriptor.
             (void)open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY);
         }
     }
@@ -106,8 +105,8 @@ static void *run_job(void *context) {
     return NULL;
 }
 
-// Scripts may nest thousands of calls, so evaluation gets far more stack than a program starts with. Pages that are
-// not touched cost nothing; where even the address space is scarce, less has to do.
+// Scripts can nest thousands of calls, so evaluation gets a much larger stack than the main thread has. Unused pages
+// use no memory. If the address space is limited, smaller stacks are tried.
 static bool run_on_large_stack(Job *job) {
     const size_t mebibyte = (size_t)1 << 20;
     for (size_t size = 512 * mebibyte; size >= 8 * mebibyte; size /= 2) {
@@ -120,7 +119,7 @@ static bool run_on_large_stack(Job *job) {
                        pthread_create(&thread, &attributes, run_job, job) == 0;
         pthread_attr_destroy(&attributes);
         if (started) {
-            sigset_t all; // signals go to the thread that works
+            sigset_t all; // signals are delivered to the new thread
             sigfillset(&all);
             pthread_sigmask(SIG_BLOCK, &all, NULL);
             return pthread_join(thread, NULL) == 0;
@@ -129,7 +128,7 @@ static bool run_on_large_stack(Job *job) {
     return false;
 }
 
-// The system knows best where we are; argv[0] may be a name that the shell has looked up.
+// Returns a path of this program. argv[0] is only the fallback, because it can be a name that the shell found in PATH.
 static const char *program_path(const char *name, char *resolved) {
     static const char system_path[] = "/proc/self/exe";
     if (access(system_path, X_OK) == 0)
@@ -139,9 +138,8 @@ static const char *program_path(const char *name, char *resolved) {
 
 int main(int argc, char **argv) {
     open_standard_descriptors();
-    // A closed pipe is seen as an error of write, not as the end of the process.
+    // Closed pipes and exceeded file size limits make write fail instead of ending the process.
     signal(SIGPIPE, SIG_IGN);
-    // So is a file that grows beyond what is allowed.
     signal(SIGXFSZ, SIG_IGN);
     char resolved[PATH_MAX];
     Job job = {.host.program = program_path(argc > 0 ? argv[0] : NULL, resolved),

@@ -1,4 +1,4 @@
-// send.c: `petri send`: a text for a running view, and its answer.
+// send.c: the command `petri send`, which evaluates code in a running view.
 #include "base/file.h"
 #include "cli/options.h"
 #include "cli/output.h"
@@ -18,8 +18,8 @@ static int connect_to(const char *path) {
     if (descriptor >= 0)
         strcpy(address.sun_path, path);
     if (descriptor < 0 || connect(descriptor, (const struct sockaddr *)&address, sizeof address) != 0) {
-        message("cannot reach a view at %s: %s; petri view SCRIPT.fl --listen %s opens one", path,
-                descriptor < 0 ? "the name is too long" : strerror(errno), path);
+        message("cannot reach a view at %s: %s; start one with petri view SCRIPT.fl --listen %s", path,
+                descriptor < 0 ? "name too long" : strerror(errno), path);
         return -1;
     }
     return descriptor;
@@ -34,7 +34,7 @@ static int send_text(const char *path, const ByteBuffer *text) {
                 byte_buffer_read(&reply, view, SIZE_MAX / 2);
     close(view);
     if (!sent || reply.length == 0) {
-        message("the view gives no answer");
+        message("no answer from the view");
         return STATUS_FAILED;
     }
     int status = output_text(reply.data, reply.length, STATUS_DONE);
@@ -49,7 +49,7 @@ static int send_run(const CommandContext *context, Options *options) {
     if (options->argc == 1 && (strcmp(options->argv[0], "--help") == 0 || strcmp(options->argv[0], "-h") == 0))
         return help_for(&SEND_COMMAND);
     if (options->argc != 2) {
-        message("petri send takes a socket and a text: petri send /tmp/dish 'let SPEED=2', or - for standard input");
+        message("expected a socket and a text: petri send /tmp/dish 'let SPEED=2', or - for standard input");
         return STATUS_USAGE;
     }
     SCOPED_BYTE_BUFFER text = {0};
@@ -66,16 +66,14 @@ static int send_run(const CommandContext *context, Options *options) {
 const Command SEND_COMMAND = {
     .name = "send",
     .operands = "SOCKET TEXT",
-    .summary = "send a text to a running view, which evaluates it",
+    .summary = "evaluate code in a running `petri view`",
     .details =
-        "Sends a text, or standard input if it is -, to a view that was started with --listen SOCKET, and writes what\n"
-        "comes back, lines of JSON: {\"text\": ...} for values and debug(), a diagnostic, and at last {\"done\": "
-        "true}.\n"
-        "The text is evaluated as at the prompt of petri repl: expressions once, what binds names and nodes in each\n"
-        "frame, after the script. '.set NAME VALUE' sets a parameter ('.set NAME' its default), '.back N' goes back N\n"
-        "frames, '.drop' forgets what was sent before, '.reset' starts the script anew. The exit status is 1 if the "
-        "text\n"
-        "was not taken.",
+        "Sends TEXT (-: standard input) to a view that was started with --listen SOCKET, and prints its answer as\n"
+        "lines of JSON: {\"text\": ...} for values and debug(), diagnostics, and finally {\"done\": true}. The text "
+        "is\n"
+        "evaluated as at the prompt of petri repl: expressions once, bindings and nodes in every frame, after the\n"
+        "script. '.set NAME VALUE' sets a parameter ('.set NAME' its default), '.back N' goes back N frames, '.drop'\n"
+        "removes what was sent before, '.reset' restarts the script. Exits with 1 if the text was rejected.",
     .examples = "  petri view dish.fl --listen /tmp/dish &\n"
                 "  petri send /tmp/dish 'len($)'\n"
                 "  petri send /tmp/dish '.set SPEED 0.5'\n",

@@ -23,12 +23,12 @@ tail -n 1 out >hash
 petri open "$link"
 check "it shows that frame" status_is 0
 check "… which has the hash that a run has" [ "$(tail -n 1 out)" = "$(cat hash)" ]
-check "… and says that it is the same" has err "count.fl: frame 30 has the same state"
+check "… and says that it is the same" has err "count.fl: frame 30: state matches the link exactly"
 echo "$link" | timeout 100 "$petri" open - >out 2>err
-check "it may come on standard input" has err "frame 30 has the same state"
+check "it may come on standard input" has err "frame 30: state matches the link exactly"
 petri open "$link" -o there.fl
 check "the script is written" cmp -s count.fl there.fl
-check "… with what else the link has" has err "the link also has N=5"
+check "… with what else the link has" has err "the link also sets N=5"
 petri open "$link" -o there.mp4
 check "a film is no frame" status_is 2
 petri open "$link" -o absent/there.fl
@@ -47,7 +47,7 @@ fi
 
 petri open "$page_link"
 check "a link of another state is told" status_is 1
-check "… as that" has err "is not that where the link was made"
+check "… as that" has err "state differs from the link"
 petri open "$page_link" -o there.fl
 check "its script is there all the same" cmp -s count.fl there.fl
 check "… and all changes are told" has err "N=5, N=7 after frame 10"
@@ -57,22 +57,22 @@ while read -r bad said; do
     petri open "$bad"
     check "a bad link, $bad" one_message "$said"
 done <<'TEXT'
-#q1YqU7Iy0lEqUbJSykktUfCz9VPIL1I was it cut off
-#q1YqU7Iy0lEqUbJSykktUfCz9VPIL1IwjslTTM4vzStJLVIoLkksSbW1SlYoAtF-MXlKtQA made by a newer petri
-#q1YqU7Iy1FGqULJSykktUfCz9VPIL1IwjslTTM4vzStJLVIoLkksSbW1SlYoAtF-MXlKtQA the link is none of petri's
-#q1YqU7Iy1FEqUbJSykktUfCz9VPIL1IwjslTTM4vzStJLVIoLkksSbW1SlYoAtF-MXlKOkppSlaGBjBQCwA the link is none of petri's
-#q1YqU7Iy1FEqUbJSykktUfCz9VPIL1IwjslTTM4vzStJLVIoLkksSbW1SlYoAtF-MXlKOkrJSlbR0Up-SjqGsbG1AA the link is none of petri's
-#q1YqU7Iy1FEqUbJSSowpNTAwMEhSqgUA the link is none of petri's
-#izaMBQA the link is none of petri's
-#q1YqU7Iy1FEqUbJSykktUfCz9VPIL1IwjslTTM4vzStJLVIoLkksSbW1SlYoAtF-MXlKtRUA the link is none of petri's
-http://127.0.0.1:8080/ was it cut off
-dish.fl was it cut off
+#q1YqU7Iy0lEqUbJSykktUfCz9VPIL1I check that it was copied completely
+#q1YqU7Iy0lEqUbJSykktUfCz9VPIL1IwjslTTM4vzStJLVIoLkksSbW1SlYoAtF-MXlKtQA from a newer petri
+#q1YqU7Iy1FGqULJSykktUfCz9VPIL1IwjslTTM4vzStJLVIoLkksSbW1SlYoAtF-MXlKtQA not a petri link
+#q1YqU7Iy1FEqUbJSykktUfCz9VPIL1IwjslTTM4vzStJLVIoLkksSbW1SlYoAtF-MXlKOkppSlaGBjBQCwA not a petri link
+#q1YqU7Iy1FEqUbJSykktUfCz9VPIL1IwjslTTM4vzStJLVIoLkksSbW1SlYoAtF-MXlKOkrJSlbR0Up-SjqGsbG1AA not a petri link
+#q1YqU7Iy1FEqUbJSSowpNTAwMEhSqgUA not a petri link
+#izaMBQA not a petri link
+#q1YqU7Iy1FEqUbJSykktUfCz9VPIL1IwjslTTM4vzStJLVIoLkksSbW1SlYoAtF-MXlKtRUA not a petri link
+http://127.0.0.1:8080/ check that it was copied completely
+dish.fl check that it was copied completely
 TEXT
 # A name with escape sequences.
 petri open '#q1YqU7Iy1FEqUbJSUkxUSLJNVtJRygNyYkoNDAyToo0Nc0EsyyS9tBygTLKSVXS0LlC9I5BjqBQbq6OUBtRfCwA'
 check "nothing of a link is an order to the terminal" eval '! grep -q "[[:cntrl:]]" err && has err "?[31m?.fl:1:6"'
 petri open "#$(repeat 25001 AAAA)"
-check "a link that is too long" one_message "too long: 100004 characters, 100000 at the most"
+check "a link that is too long" one_message "too long: 100004 characters, at most 100000"
 petri open
 check "no link is a wrong command line" status_is 2
 check "… which tells of quotes" has err "needs quotes"
@@ -86,10 +86,10 @@ echo 'let A=1' >module.fl
 printf 'import A from "module.fl"\n!a b=A\n' >uses.fl
 petri link uses.fl
 check "a script with a module has no link" status_is 1
-check "… and is told why" has err "a link holds one script and no files, and this one asks for module.fl"
+check "… and is told why" has err "cannot link a script that reads files: module.fl"
 printf '!a b=read("module.fl")\n' >uses.fl
 petri link uses.fl
-check "nor has one that reads a file" has err "this one asks for module.fl"
+check "nor has one that reads a file" has err "reads files: module.fl"
 printf '!a b=)\n' >wrong.fl
 petri link wrong.fl
 check "a script that cannot be loaded has none" one_error
@@ -108,7 +108,7 @@ TEXT
     check "… with text, frame and hash" has told "\"frame\":30,\"hash\":\"$(cut -c 3- hash)\""
     petri open "$(tail -n 1 told)" -o -
     check "petri reads that of the page" [ "$(tail -n 1 out)" = '-- é' ]
-    check "… and makes its changes" has err "is not that where the link was made"
+    check "… and makes its changes" has err "state differs from the link"
 fi
 
 fi

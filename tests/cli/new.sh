@@ -63,4 +63,4 @@ check "a script that the disk cannot hold is an error" status_is 1
 check "… which says so" has err "cannot write full.fl: File too large"
 check "… and leaves no half of it" [ ! -e full.fl ]
 petri help
-check "help knows it" has out "  new      start a script"
+check "help knows it" has out "  new      create a commented example"

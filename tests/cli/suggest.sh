@@ -45,7 +45,7 @@ check "an empty name is told" [ "$(cat err)" = "petri: the script name is empty"
 petri ''
 check "also without a command" [ "$(cat err)" = "petri: the script name is empty" ]
 petri check ''
-check "also to be checked" has err "the name of a script is empty"
+check "also to be checked" has err "the script name is empty"
 petri run -o x.png dish.fl
 check "another command's option is told to be that" has err "'petri run' has no option '-o', but 'petri render' has"
 petri view --print tree dish.fl
@@ -68,7 +68,7 @@ helps() {
 helps 'sin(x)' sin
 helps '!particle (physics)' particle
 helps '!particle (physics)' '!particle'
-helps 'beats a minute' tempo
+helps 'beats per minute' tempo
 helps 'gives names to values' let
 helps '    !particle  number' charge
 helps 'petri run' --frames
@@ -100,9 +100,9 @@ check "a list of help alone is found" has err "did you mean 'petri help nodes'?"
 petri list
 check "a word like no other suggests nothing" lacks err "did you mean"
 petri test dish.fl
-check "a test without goldens tells where to read of them" has err "'petri help test' tells how to make one"
+check "a test without goldens tells where to read of them" has err "see 'petri help test'"
 petri
-check "nothing to do tells how to begin" has err "'petri new NAME' begins a script"
+check "nothing to do tells how to begin" has err "try 'petri new NAME'"
 
 # help fits a screen that is not wide, and gives examples
 for command in run view render repl test check new help; do

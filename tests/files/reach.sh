@@ -137,7 +137,7 @@ for options in '--trajectory ../elsewhere/victim.csv' '--state ../elsewhere/new.
     printf '# run --frames 2 %s\n' "$options" >golden/t.golden
     petri test golden/t.fl
     check "a golden with $options fails" status_is 1
-    check "… and says why" has out "is not for goldens: tests write no files"
+    check "… and says why" has out "is not allowed in goldens: tests write no files"
     petri test --update golden/t.fl
     check "… is not updated either" status_is 1
     check "… and writes nothing" eval '[ "$(cat elsewhere/*)" = keep ]'

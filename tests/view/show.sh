@@ -65,7 +65,7 @@ check "in silence" [ ! -s err ]
 if ! "$petri" open '#' 2>&1 | grep -q 'built without'; then
     "$petri" link dish.fl --frame 9 >link
     typed "$(quoted "$petri") open - <link"
-    check "petri open tells that the frame of a link is the same" soon shows 'frame 9 has the same state'
+    check "petri open tells that the frame of a link is the same" soon shows 'frame 9: state matches the link exactly'
     check "below its picture" eval 'screen | grep -q "[▀▄█▌▐]"'
     typed "$(quoted "$petri") open --quiet - <link"
     check "quietly there is the hash alone" soon shows 'status 0'
