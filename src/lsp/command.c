@@ -1,9 +1,9 @@
-// command.c: `petri lsp`, of which this program may know no more than what help tells.
+// command.c: `petri lsp`. The program petri only has its help; petri-lsp sets CommandContext.run_lsp.
 #include "cli/options.h"
 
 static int lsp_run(const CommandContext *context, Options *options) {
     if (!context->run_lsp) {
-        message("petri-lsp serves editors, and this is not it");
+        message("cannot start the language server: this program is not petri-lsp");
         return STATUS_FAILED;
     }
     return context->run_lsp(context, options);
@@ -12,14 +12,14 @@ static int lsp_run(const CommandContext *context, Options *options) {
 const Command LSP_COMMAND = {
     .name = "lsp",
     .operands = "",
-    .summary = "serve editors: errors as you type, completion, help, renaming",
+    .summary = "start the language server (LSP) for editors",
     .details =
-        "Speaks the Language Server Protocol on standard input and output; an editor starts it. It tells what petri\n"
-        "check tells, while one types, completes names, nodes, attributes and keys, shows what they are and what\n"
-        "constants come to, goes to definitions, renames, lays out, and corrects what is nearly right. It makes\n"
-        "the first frame, as petri check does, of which nothing is printed, drawn or stored.",
+        "Implements the Language Server Protocol on standard input and output; editors start it. Reports the errors\n"
+        "and warnings of petri check as you type, completes names, nodes, attributes and keys, shows help and values\n"
+        "of constants, goes to definitions, renames, formats, and offers corrections. Evaluates the first frame, as\n"
+        "petri check does, without drawing, printing or storing anything.",
     .examples = "  vim.lsp.start({ name = 'petri', cmd = { 'petri', 'lsp' } })    -- for Neovim\n",
     .options = FOR_LSP,
-    .second_operand_error = "'%s' is too much: an editor tells which scripts there are",
+    .second_operand_error = "too many arguments: '%s'; the editor opens the scripts",
     .run = lsp_run,
 };

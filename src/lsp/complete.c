@@ -1,4 +1,4 @@
-// complete.c: what may go on at a place: names, functions, nodes, attributes, keys, files; and the parameters of calls.
+// complete.c: completion of names, functions, nodes, attributes, keys and files, and the parameters of calls.
 #include "base/source.h"
 #include "cli/help.h"
 #include "lsp/workspace.h"
@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Kinds of the protocol.
+// Item kinds of the protocol.
 enum {
     AS_FUNCTION = 3,
     AS_FIELD = 5,
@@ -20,14 +20,16 @@ enum {
     AS_CONSTANT = 21
 };
 
-// One list of items. What replaces the word that is begun is the label, or `insert`.
+// A list of completion items.
 typedef struct Offer {
     const RequestContext *request;
     Json *items;
-    size_t start;    // of the word
-    TextList labels; // so far
+    size_t start;    // offset of the word being completed
+    TextList labels; // labels added so far
 } Offer;
 
+// Adds an item that replaces the word with `insert`; `order` is the first character of its sort key. Returns NULL if an
+// item with this label exists.
 static Json *add_candidate(Offer *all, const char *label, int kind, const char *insert, char order) {
     if (texts_contain(&all->labels, label))
         return NULL;
@@ -89,7 +91,7 @@ static void offer_name(Offer *all, Document *document, const PetriBinding *name)
     }
 }
 
-// What the scripts bind that include this one, where they do.
+// Offers the names that scripts bind which include this one, as visible at the include.
 static void offer_around(Offer *all) {
     Workspace workspace;
     workspace_open(&workspace, all->request->server, all->request->document, false);
@@ -110,7 +112,8 @@ static void offer_around(Offer *all) {
 static void offer_names(Offer *all) {
     Document *document = all->request->document;
     PetriBuiltin builtin;
-    for (size_t i = document->name_count; i > 0; i--) { // the innermost of a name is the last
+    for (size_t i = document->name_count; i > 0;
+         i--) { // from the end, since the last binding of a name is the innermost
         const PetriBinding *name = &document->names[i - 1];
         bool seen = name->kind != PETRI_NAME_USE && name->scope_start <= all->request->offset &&
                     all->request->offset <= name->scope_end;
@@ -127,7 +130,7 @@ static void offer_names(Offer *all) {
         set_detail(add_candidate(all, TOPICS[i].word, AS_CONSTANT, TOPICS[i].word, 'c'), "", TOPICS[i].help);
 }
 
-// The symbols of a script; with `keys` those under which its systems write their state, and what it looks up already.
+// Offers the script's symbols; with `keys` only those used as state keys, by systems or in look-ups.
 static void offer_symbols(Offer *all, bool keys) {
     const Document *document = all->request->document;
     for (size_t i = 0; i < document->token_count; i++) {
@@ -145,7 +148,7 @@ static void offer_symbols(Offer *all, bool keys) {
     }
 }
 
-// The words that an attribute takes stand in its type: ":butt, :round or :square".
+// Offers the symbols that an attribute accepts, which are in its type, such as ":butt, :round or :square".
 static void offer_choices(Offer *all, size_t token) {
     const Document *document = all->request->document;
     const char *node;
@@ -179,7 +182,7 @@ static void offer_files(Offer *all, size_t string) {
         closedir(entries);
 }
 
-// The bracket around an offset that a name stands before, as in a call; SIZE_MAX if there is none. Counts commas.
+// Returns the name token of the call around an offset, or SIZE_MAX. *commas is the number of commas before the offset.
 static size_t call_around(const Document *document, size_t offset, size_t *commas) {
     size_t depth = 0;
     *commas = 0;
@@ -192,7 +195,7 @@ static size_t call_around(const Document *document, size_t offset, size_t *comma
             bool call = document_is(document, i - 1, "(") && i > 1 && document->tokens[i - 2].kind == PETRI_TOKEN_NAME;
             if (depth == 0 && call)
                 return i - 2;
-            *commas = depth == 0 ? 0 : *commas; // what is within other brackets
+            *commas = depth == 0 ? 0 : *commas; // the commas were inside other brackets
             depth -= depth > 0;
         } else if (document_is(document, i - 1, ",") && depth == 0) {
             ++*commas;
@@ -203,7 +206,7 @@ static size_t call_around(const Document *document, size_t offset, size_t *comma
     return SIZE_MAX;
 }
 
-// The parameters of the function that a name stands for, without brackets; its help goes to `help`.
+// Appends the parameters of a function without parentheses, and its help. Returns false if the name is not a function.
 static bool parameters_of(const RequestContext *request, size_t token, ByteBuffer *out, ByteBuffer *help) {
     Workspace workspace;
     workspace_open(&workspace, request->server, request->document, false);
@@ -258,23 +261,23 @@ static bool ends_operand(const Document *document, size_t token) {
                                    : document_is(document, token, ")") || document_is(document, token, "]");
 }
 
-// What may stand at the token, of which so much is written.
+// Offers everything that may stand at the token. `first`: only blanks precede it in its line.
 static void offer_all(Offer *all, size_t token, bool first) {
     const Document *document = all->request->document;
     const char *node;
-    bool behind = token > 0 && !first && document->tokens[token - 1].kind != PETRI_TOKEN_COMMENT;
-    if (behind && document_is(document, token - 1, "$")) {
+    bool after_token = token > 0 && !first && document->tokens[token - 1].kind != PETRI_TOKEN_COMMENT;
+    if (after_token && document_is(document, token - 1, "$")) {
         offer_symbols(all, true);
         return;
     }
-    if (behind && ends_operand(document, token - 1)) { // an attribute, or a word that goes on
+    if (after_token && ends_operand(document, token - 1)) { // an attribute or an operator word may follow
         offer_attributes(all, hover_node_of(document, token, &node));
         offer_keywords(all, "for if else in where and or xor");
         return;
     }
-    if (behind && document_is(document, token - 1, "="))
+    if (after_token && document_is(document, token - 1, "="))
         offer_choices(all, token);
-    if (behind && (document_is(document, token - 1, "(") || document_is(document, token - 1, ",")))
+    if (after_token && (document_is(document, token - 1, "(") || document_is(document, token - 1, ",")))
         offer_arguments(all);
     offer_names(all);
     offer_keywords(all, first ? "let func import for if elif else not" : "not func");
@@ -304,7 +307,7 @@ Json *answer_completion(const RequestContext *request, const char **problem) {
     } else if (kind == PETRI_TOKEN_STRING || (kind == PETRI_TOKEN_INVALID && (c == '\'' || c == '"'))) {
         offer_files(&all, document->tokens[at].start);
     } else if (kind != PETRI_TOKEN_COMMENT && kind != PETRI_TOKEN_NUMBER) {
-        bool line = true; // nothing but blanks stands before it in its line
+        bool line = true; // true if only blanks precede the word in its line
         for (size_t i = all.start; i > 0 && document->text.data[i - 1] != '\n'; i--)
             line = line && strchr(" \t", document->text.data[i - 1]);
         offer_all(&all, token, line);

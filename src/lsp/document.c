@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The length of a character in the units that the editor counts in.
+// Returns the length of a character in the editor's units.
 static size_t character_units(int32_t c, size_t bytes, bool utf8) {
     return utf8 ? bytes : c > 0xffff ? 2 : 1;
 }
@@ -24,7 +24,7 @@ static void count_lines(Document *document) {
             document->lines[++line] = i + 1;
 }
 
-// Keeps invalid UTF-8 out, which JSON cannot have but files can.
+// Replaces invalid UTF-8, which files may contain but JSON must not, by question marks.
 static void add_valid_utf8(ByteBuffer *out, Str text) {
     for (size_t at = 0; at < text.len;) {
         size_t start = at;
@@ -166,7 +166,7 @@ static int by_start(const void *a, const void *b) {
     return first->start < second->start ? -1 : first->start > second->start;
 }
 
-// Strings behind %include and the `from` of an import.
+// Finds the strings after %include and after the `from` of an import.
 static void find_links(Document *document) {
     forget_links(document);
     for (size_t i = 1; document->is_file && i < document->token_count; i++) {
@@ -358,7 +358,7 @@ char *uri_of(const char *path) {
     ByteBuffer uri = {0};
     if (path[0] == '/')
         byte_buffer_add_uri(&uri, path);
-    else // the editor's own name of what is no file
+    else // a URI of the editor that is not a file
         byte_buffer_add_text(&uri, path);
     return uri.data;
 }

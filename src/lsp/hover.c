@@ -1,4 +1,4 @@
-// hover.c: what is known of a word: petri's tables, the script itself, and values that never change.
+// hover.c: information about a word, from petri's tables, the script, and the values of constants.
 #include "base/source.h"
 #include "cli/help.h"
 #include "lsp/workspace.h"
@@ -29,7 +29,7 @@ bool hover_builtin(Str name, PetriBuiltin *builtin) {
     return false;
 }
 
-// Backwards within the statement, over what is in brackets: the node that begins what the attribute is added to.
+// Searches backwards within the statement, skipping brackets, for the node.
 size_t hover_node_of(const Document *document, size_t token, const char **name) {
     size_t depth = 0;
     for (size_t i = token; i > 0; i--) {
@@ -89,7 +89,7 @@ static bool hover_topic(ByteBuffer *out, Str word) {
 
 // --- values
 
-// Do all names in a part of the text stand for what never changes?
+// Returns true if all names in a part of the text are constant.
 static bool is_constant(const Document *document, size_t start, size_t end, unsigned depth) {
     PetriBuiltin builtin;
     for (size_t i = document_token_at(document, start); i < document->token_count && document->tokens[i].start < end;
@@ -117,7 +117,7 @@ static bool is_top_level(const PetriBinding *name) {
     return name->depth == 0 && name->kind == PETRI_NAME_LET && name->is_sole;
 }
 
-// `let NAME=NAME or DEFAULT`: its default.
+// Returns true for a parameter: `let NAME=NAME or DEFAULT`.
 static bool is_parameter(const Document *document, const PetriBinding *name) {
     Str value = document_slice(document, name->value_start, name->value_end);
     Str own = document_slice(document, name->start, name->end);
@@ -131,7 +131,7 @@ static const PetriBinding *last_binding_of(const Document *document, const Petri
 
 static void find_values(Server *server, Document *document) {
     PetriOptions options = petri_default_options();
-    options.work_limit = 1 << 22; // some 40 ms
+    options.work_limit = 1 << 22; // about 40 ms
     options.threads = 1;
     options.stack_limit = server->host->stack_bytes;
     options.read_unsaved = server_unsaved;
@@ -179,7 +179,7 @@ const PetriBinding *hover_export(const Document *document, Str text) {
     return found;
 }
 
-// The lines of comment right above a statement, which say what it is for.
+// Appends the comment lines directly above a statement.
 static void add_comment_above(ByteBuffer *out, const Document *document, size_t start) {
     size_t line, character, first;
     document_position(document, start, true, &line, &character);
@@ -208,10 +208,10 @@ void hover_binding(ByteBuffer *out, Server *server, Document *document, const Pe
     if (value)
         byte_buffer_format(out, "= `%s`\n\n", value);
     add_comment_above(out, document, start);
-    size_t behind = document_token_at(document, end);
-    if (!head && behind < document->token_count && document->tokens[behind].kind == PETRI_TOKEN_COMMENT &&
-        !memchr(document->text.data + end, '\n', document->tokens[behind].start - end)) {
-        Str comment = document_token(document, behind);
+    size_t next = document_token_at(document, end);
+    if (!head && next < document->token_count && document->tokens[next].kind == PETRI_TOKEN_COMMENT &&
+        !memchr(document->text.data + end, '\n', document->tokens[next].start - end)) {
+        Str comment = document_token(document, next);
         byte_buffer_add(out, comment.bytes + 2, comment.len - 2);
     }
 }
@@ -247,7 +247,7 @@ static void hover_name(ByteBuffer *out, const RequestContext *request, size_t to
         hover_topic(out, text);
 }
 
-// A number with a suffix, or a time code, is not what it looks like.
+// Shows the value of a number, because it may have a suffix or be a time code.
 static void hover_number(ByteBuffer *out, Str text) {
     SCOPED_TEXT copy = memory_strndup(text.bytes, text.len);
     double x;
@@ -260,7 +260,7 @@ Json *answer_hover(const RequestContext *request, const char **problem) {
     Document *document = request->document;
     size_t token = document_token_at(document, request->offset);
     bool touches = token > 0 && document->tokens[token - 1].end == request->offset &&
-                   document->tokens[token - 1].kind != PETRI_TOKEN_OPERATOR; // the cursor is behind it
+                   document->tokens[token - 1].kind != PETRI_TOKEN_OPERATOR; // the cursor is at the end of the token
     token -= touches ? 1 : 0;
     if (token >= document->token_count || document->tokens[token].start > request->offset)
         return NULL;

@@ -1,4 +1,4 @@
-// inlay_hints.c: values of constants, colours, corrections, and the layout.
+// inlay_hints.c: inlay hints with values of constants, colours, corrections, and formatting.
 #include "fmt/layout.h"
 #include "lsp/server.h"
 
@@ -13,7 +13,7 @@ static Json *text_edit(const RequestContext *request, size_t start, size_t end, 
     return json_put(json_put(json_object_new_object(), "range", range), "newText", json_from(text));
 }
 
-// Where in the text a position is that the editor asks for.
+// Returns the offset of a position in the request's parameters.
 static size_t position_offset(const RequestContext *request, const char *position) {
     return document_offset(request->document, json_path(request->params, position), request->server->utf8);
 }
@@ -47,10 +47,11 @@ Json *answer_hints(const RequestContext *request, const char **problem) {
 
 // --- colours
 
-// Numbers with semicolons from a token on, up to `most`; *end is behind them.
-static size_t read_numbers(const Document *document, size_t token, double *numbers, size_t most, size_t *end) {
+// Parses at most `max` numbers separated by semicolons. *end is the token of the last one. Returns how many there are;
+// 0 if there are more than `max` or other values.
+static size_t read_numbers(const Document *document, size_t token, double *numbers, size_t max, size_t *end) {
     size_t count = 0;
-    for (size_t i = token; i < document->token_count && count < most; i += 2) {
+    for (size_t i = token; i < document->token_count && count < max; i += 2) {
         Str text = document_token(document, i);
         SCOPED_TEXT copy = memory_strndup(text.bytes, text.len);
         if (document->tokens[i].kind != PETRI_TOKEN_NUMBER || !petri_parse_number(copy, &numbers[count]))
@@ -69,20 +70,20 @@ static double clamp_unit(double x) {
 
 static void from_hsv(const double *hsv, double *rgb) {
     for (int i = 0; i < 3; i++) {
-        double k = fmod(5 - 2 * i + (hsv[0] - floor(hsv[0])) * 6, 6), least = k < 4 - k ? k : 4 - k;
-        rgb[i] = clamp_unit(hsv[2]) * (1 - clamp_unit(hsv[1]) * clamp_unit(least));
+        double k = fmod(5 - 2 * i + (hsv[0] - floor(hsv[0])) * 6, 6), min = k < 4 - k ? k : 4 - k;
+        rgb[i] = clamp_unit(hsv[2]) * (1 - clamp_unit(hsv[1]) * clamp_unit(min));
     }
 }
 
 static void to_hsv(const double *rgb, double *hsv) {
-    double most = fmax(rgb[0], fmax(rgb[1], rgb[2])), spread = most - fmin(rgb[0], fmin(rgb[1], rgb[2]));
-    double hue = spread <= 0      ? 0
-                 : most == rgb[0] ? (rgb[1] - rgb[2]) / spread + 6
-                 : most == rgb[1] ? (rgb[2] - rgb[0]) / spread + 2
-                                  : (rgb[0] - rgb[1]) / spread + 4;
+    double max = fmax(rgb[0], fmax(rgb[1], rgb[2])), spread = max - fmin(rgb[0], fmin(rgb[1], rgb[2]));
+    double hue = spread <= 0     ? 0
+                 : max == rgb[0] ? (rgb[1] - rgb[2]) / spread + 6
+                 : max == rgb[1] ? (rgb[2] - rgb[0]) / spread + 2
+                                 : (rgb[0] - rgb[1]) / spread + 4;
     hsv[0] = fmod(hue, 6) / 6;
-    hsv[1] = most > 0 ? spread / most : 0;
-    hsv[2] = most;
+    hsv[1] = max > 0 ? spread / max : 0;
+    hsv[2] = max;
 }
 
 static void add_colour(const RequestContext *request, Json *list, size_t first, size_t last, const double *rgb,
@@ -149,7 +150,7 @@ Json *answer_presentations(const RequestContext *request, const char **problem) 
 
 // --- corrections
 
-// What is meant, of "did you mean 'X'?" or "did you mean X?"; empty if nothing is said.
+// Returns X of "did you mean 'X'?" or "did you mean X?", or an empty text.
 static Str suggested_word(const char *text) {
     static const char question[] = "did you mean ";
     const char *at = strstr(text, question);
@@ -160,13 +161,13 @@ static Str suggested_word(const char *text) {
     return (Str){at, strcspn(at, "'?")};
 }
 
-// The first word in quotes.
+// Returns the first word in quotes, or an empty text.
 static Str quoted_word(const char *text) {
     const char *open = strchr(text, '\''), *close = !open ? NULL : strchr(open + 1, '\'');
     return !close ? (Str){0} : (Str){open + 1, (size_t)(close - open - 1)};
 }
 
-// Where the wrong word stands in what is meant by a diagnostic.
+// Finds the wrong word in the range of a diagnostic. Returns false if it is not there.
 static bool find_invalid_word(const Document *document, const DocumentDiagnostic *diagnostic, Str meant, size_t *start,
                               size_t *end) {
     Str part = document_slice(document, diagnostic->start, diagnostic->end), wrong = quoted_word(diagnostic->text);
@@ -186,7 +187,7 @@ static bool find_invalid_word(const Document *document, const DocumentDiagnostic
     return node && meant.bytes[0] == '!';
 }
 
-// Hints that say what to write instead of all that is meant.
+// Returns the replacement for the diagnostic's whole range if the hint contains one, or an empty text.
 static Str replacement_of(const char *hint) {
     static const char *const forms[] = {"a node is written ", "to compare write "};
     for (size_t i = 0; i < sizeof forms / sizeof forms[0]; i++) {
@@ -230,9 +231,9 @@ Json *answer_actions(const RequestContext *request, const char **problem) {
     return list;
 }
 
-// --- layout
+// --- formatting
 
-// One edit, of the lines that change. A script with errors stays as it is.
+// Returns one edit of the lines that change. Does not format a script with errors.
 Json *answer_format(const RequestContext *request, const char **problem) {
     (void)problem;
     const Document *document = request->document;
@@ -242,12 +243,12 @@ Json *answer_format(const RequestContext *request, const char **problem) {
     if (!session || !layout_text(session, text, &out) ||
         !layout_same(session, document->path, text, (Str){out.data, out.length}))
         return NULL;
-    size_t start = 0, end = 0, most = text.len < out.length ? text.len : out.length;
-    while (start < most && text.bytes[start] == out.data[start])
+    size_t start = 0, end = 0, max = text.len < out.length ? text.len : out.length;
+    while (start < max && text.bytes[start] == out.data[start])
         start++;
     while (start > 0 && text.bytes[start - 1] != '\n')
         start--;
-    while (end < most - start && text.bytes[text.len - 1 - end] == out.data[out.length - 1 - end])
+    while (end < max - start && text.bytes[text.len - 1 - end] == out.data[out.length - 1 - end])
         end++;
     while (end > 0 && text.bytes[text.len - end] != '\n')
         end--;

@@ -1,6 +1,6 @@
-// lsp.c: `petri lsp`: a server for editors, by the Language Server Protocol 3.17.
+// lsp.c: `petri lsp`, a server of the Language Server Protocol 3.17.
 //
-// One thread: it takes a message, answers it, and checks what was changed when no other message waits.
+// The server has one thread. It reads and answers messages, and checks changed documents when no message is waiting.
 #include "lsp/lsp.h"
 
 #include "lsp/server.h"
@@ -55,7 +55,7 @@ bool server_open_session(Server *server) {
     return options_open(server->options, server->host, diagnostics_collect, server, &server->session) == OPTIONS_READ;
 }
 
-// A session knows each symbol that it ever saw, and a text of so many bytes has no more of them than a third of that.
+// Opens a new session after 4 MiB of text, because a session never frees the symbols that it has seen.
 void server_read(Server *server, Document *document) {
     server->read += document->unread ? document->text.length : 0;
     if (server->read > MAX_READ)
@@ -66,7 +66,7 @@ void server_read(Server *server, Document *document) {
 
 // --- documents
 
-// Those that import or include the document have it in an older state.
+// Marks the documents that import or include the touched one.
 static void mark_dependents_unchecked(Server *server, const Document *touched) {
     for (size_t i = 0; i < server->document_count; i++) {
         Document *document = server->documents[i];
@@ -108,7 +108,7 @@ static void close_document(Server *server, const Json *params) {
     }
 }
 
-// A file was saved, or changed by another program: it may be one that others import.
+// Marks all documents: a file that they import was saved or may have been changed by another program.
 static void check_all(Server *server, const Json *params) {
     (void)params;
     for (size_t i = 0; i < server->document_count; i++)
@@ -122,7 +122,7 @@ static void ignore_notification(Server *server, const Json *params) {
 
 static const struct {
     const char *method;
-    void (*take)(Server *server, const Json *params);
+    void (*handle)(Server *server, const Json *params);
 } notifications[] = {
     {"initialized", ignore_notification},        {"textDocument/didOpen", open_document},
     {"textDocument/didChange", change_document}, {"textDocument/didClose", close_document},
@@ -134,7 +134,7 @@ static const struct {
 static const struct {
     const char *method;
     RequestHandler *answer;
-    const char *capability; // that says that there is an answer; NULL: said otherwise
+    const char *capability; // name of the capability; NULL: capabilities() adds it
 } requests[] = {
     {"textDocument/completion", answer_completion, NULL},
     {"textDocument/hover", answer_hover, "hoverProvider"},
@@ -245,17 +245,17 @@ static bool handle_request(Server *server, const char *method, Json *id, const J
 static void handle_notification(Server *server, const char *method, const Json *params) {
     for (size_t i = 0; server->initialized && i < sizeof notifications / sizeof notifications[0]; i++)
         if (strcmp(notifications[i].method, method) == 0)
-            notifications[i].take(server, params);
+            notifications[i].handle(server, params);
 }
 
-// False if the editor is gone.
+// Returns false if the editor has closed the pipe.
 static bool handle_message(Server *server, const Json *message) {
     const char *method = json_text(message, "method");
     Json *id = json_get(message, "id");
     if (!method) {
         return json_get(message, "result") || json_get(message, "error") || !id
-                   ? true // an answer, though nothing was asked
-                   : rpc_send_error(id, RPC_INVALID_REQUEST, "a message has a method");
+                   ? true // a response, though the server sends no requests
+                   : rpc_send_error(id, RPC_INVALID_REQUEST, "the message has no method");
     }
     if (id)
         return handle_request(server, method, id, json_get(message, "params"));
@@ -282,7 +282,7 @@ int lsp_serve(const CommandContext *host, Options *options) {
             status = server.shutting_down ? STATUS_DONE : STATUS_FAILED;
             reading = false;
         } else if (came == RPC_INVALID) {
-            reading = rpc_send_error(NULL, RPC_PARSE_ERROR, "this is no JSON");
+            reading = rpc_send_error(NULL, RPC_PARSE_ERROR, "not valid JSON");
         } else {
             reading = handle_message(&server, message);
         }

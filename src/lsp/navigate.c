@@ -1,17 +1,17 @@
-// navigate.c: from a name to what it means, and to all that mean the same.
+// navigate.c: definitions, references and renaming.
 #include "base/source.h"
 #include "lsp/workspace.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-// The token of a name at the place, or SIZE_MAX.
+// Returns the name token at the request's position, or SIZE_MAX.
 static size_t token_of(const RequestContext *request) {
     const Document *document = request->document;
     size_t token = document_token_at(document, request->offset);
-    bool behind = token > 0 && document->tokens[token - 1].end == request->offset &&
-                  document->tokens[token - 1].kind == PETRI_TOKEN_NAME; // the cursor is behind it
-    token -= behind ? 1 : 0;
+    bool touches = token > 0 && document->tokens[token - 1].end == request->offset &&
+                   document->tokens[token - 1].kind == PETRI_TOKEN_NAME; // the cursor is at the end of the name
+    token -= touches ? 1 : 0;
     return token < document->token_count && document->tokens[token].kind == PETRI_TOKEN_NAME ? token : SIZE_MAX;
 }
 
@@ -25,7 +25,7 @@ static Json *location(const Server *server, const Document *document, size_t sta
                     document_range(document, start, end, server->utf8));
 }
 
-// The file that a string names, if there is one: its first line.
+// Returns the start of the file that the string at the position names, or NULL.
 static Json *file_location(const RequestContext *request) {
     const Link *link = document_link(request->document, request->offset);
     bool own = false;
@@ -36,7 +36,7 @@ static Json *file_location(const RequestContext *request) {
     return result;
 }
 
-// A place, or several if scripts that include this one bind the name each.
+// Returns a location, or a list of them if several scripts that include this one bind the name. NULL: none.
 static Json *definitions(const RequestContext *request, bool whole) {
     Workspace workspace;
     workspace_open(&workspace, request->server, request->document, whole);
@@ -62,7 +62,7 @@ Json *answer_definition(const RequestContext *request, const char **problem) {
     return !result ? file_location(request) : result;
 }
 
-// --- all that mean the same
+// --- references
 
 typedef struct Use {
     size_t file;
@@ -92,8 +92,8 @@ static bool is_named(const Document *document, size_t number, Str text) {
     return str_equal(document_slice(document, name->start, name->end), text);
 }
 
-// What a file that is included more than once takes from the one includer, it takes from the other: both must go by one
-// name.
+// A name of an included file may refer to a binding in each including script. Adds these bindings to `meant`, because
+// they must be renamed together.
 static void merge_includer_bindings(const Workspace *workspace, BindingSet *meant, Str text) {
     for (bool more = meant->count > 0; more;) {
         more = false;
@@ -108,7 +108,7 @@ static void merge_includer_bindings(const Workspace *workspace, BindingSet *mean
     }
 }
 
-// The function whose parameter a name is, or NULL.
+// Returns the function that a parameter belongs to, or NULL.
 static const PetriBinding *function_of(const Document *document, const PetriBinding *parameter) {
     const PetriBinding *found = NULL;
     for (const PetriBinding *name = document->names; name < parameter; name++) {
@@ -119,7 +119,7 @@ static const PetriBinding *function_of(const Document *document, const PetriBind
     return parameter->kind == PETRI_NAME_PARAMETER ? found : NULL;
 }
 
-// In other files arguments are named as the parameter is: `f(NAME=…)`, `@f NAME=…`.
+// Adds named arguments of a call in another file: `f(NAME=…)`, `@f NAME=…`.
 static void add_arguments(Uses *uses, const Workspace *workspace, size_t file, size_t token, Str text) {
     const Document *document = workspace->documents[file];
     bool template = token > 0 && document_is(document, token - 1, "@");
@@ -154,7 +154,7 @@ static void find_arguments(Uses *uses, const Workspace *workspace, BindingRef pa
     }
 }
 
-// All names that mean what the one at the place means, by file and place; to be freed.
+// Returns all names with the same binding as the name at the position, by file and offset. The caller frees `items`.
 static Uses uses_of(const RequestContext *request, const Workspace *workspace) {
     Uses uses = {0};
     BindingSet meant = bindings_at(request, workspace);
@@ -217,14 +217,14 @@ Json *answer_highlight(const RequestContext *request, const char **problem) {
 
 // --- renaming
 
-// The name that can be renamed at the place; NULL with a problem if there is none.
+// Returns the name at the position if it can be renamed, else NULL with *problem set.
 static const PetriBinding *rename_target(const RequestContext *request, const Workspace *workspace,
                                          const char **problem) {
     const PetriBinding *at = document_name_at(request->document, request->offset);
     if (bindings_at(request, workspace).count == 0)
-        *problem = "only names that the script binds can be renamed";
+        *problem = "cannot rename: the script does not bind this name";
     else if (!at)
-        *problem = "there is an error in this statement";
+        *problem = "cannot rename: the statement has an error";
     return !*problem ? at : NULL;
 }
 
@@ -246,7 +246,7 @@ static bool is_name(Server *server, const char *text) {
     return good;
 }
 
-// What each name of all files means, one after the other; to be freed.
+// Returns the bindings of every name of all files in order. The caller frees it with free.
 static BindingSet *all_bindings(const Workspace *workspace, size_t *count) {
     *count = 0;
     for (size_t file = 0; file < workspace->count; file++)
@@ -263,7 +263,7 @@ static bool binding_sets_equal(const BindingSet *a, const BindingSet *b) {
     return a->count == b->count && !binding_set_add(&both, b);
 }
 
-// The edits of one file, of uses that follow each other, and its new text.
+// Returns the edits of one file and appends its new text. `uses` are in order.
 static Json *edits_of(const RequestContext *request, const Document *document, const Use *uses, size_t count,
                       const char *wanted, ByteBuffer *text) {
     Json *edits = json_object_new_array();
@@ -280,7 +280,7 @@ static Json *edits_of(const RequestContext *request, const Document *document, c
     return edits;
 }
 
-// Renames in all files, in the workspace too, in which names must hang together as they did.
+// Renames the uses, also in the workspace. Sets *problem if a name then has other bindings than before.
 static Json *rename_uses(const RequestContext *request, Workspace *workspace, const Uses *uses, const char *wanted,
                          const char **problem) {
     size_t count, renamed;
@@ -299,7 +299,7 @@ static Json *rename_uses(const RequestContext *request, Workspace *workspace, co
     bool same = count == renamed;
     for (size_t i = 0; same && i < count; i++)
         same = binding_sets_equal(&before[i], &after[i]);
-    *problem = same ? NULL : "the name is taken: the script would mean something else";
+    *problem = same ? NULL : "the name is in use: renaming would change the script's meaning";
     free(before);
     free(after);
     return json_put(json_object_new_object(), "changes", changes);
@@ -311,7 +311,7 @@ Json *answer_rename(const RequestContext *request, const char **problem) {
     Workspace workspace;
     workspace_open(&workspace, request->server, request->document, true);
     if (rename_target(request, &workspace, problem) && (!wanted || !is_name(request->server, wanted)))
-        *problem = "this is no name";
+        *problem = "not a valid name";
     if (!*problem) {
         Uses uses = uses_of(request, &workspace);
         result = rename_uses(request, &workspace, &uses, wanted, problem);

@@ -1,4 +1,4 @@
-// outline.c: the shape of a document: its symbols, what folds, and classes of tokens.
+// outline.c: document symbols, folding ranges and semantic tokens.
 #include "lsp/server.h"
 
 #include <stdlib.h>
@@ -6,10 +6,10 @@
 
 // --- symbols
 
-// Kinds of the protocol.
+// Symbol kinds of the protocol.
 enum { AS_MODULE = 2, AS_FUNCTION = 12, AS_VARIABLE = 13, AS_OBJECT = 19 };
 
-// Where the block of the statement that a token begins ends, or the statement if it has none.
+// Returns the end of the statement that a token begins, including its block.
 static size_t block_end(const Document *document, size_t token) {
     size_t level = document_level(document, token), end = document->tokens[token].end;
     for (size_t i = token + 1; i < document->token_count; i++) {
@@ -75,7 +75,7 @@ Json *answer_folding(const RequestContext *request, const char **problem) {
     (void)problem;
     const Document *document = request->document;
     Json *list = json_object_new_array();
-    size_t first = SIZE_MAX, last = 0; // of comments, each of which has its line
+    size_t first = SIZE_MAX, last = 0; // lines of consecutive comments that each have a line
     for (size_t i = 0; i <= document->token_count; i++) {
         bool comment = i < document->token_count && document->tokens[i].kind == PETRI_TOKEN_COMMENT;
         size_t line = 0, end = 0, character, column;
@@ -133,7 +133,7 @@ Json *tokens_legend(void) {
 static Class class_of_name(const Document *document, size_t token, int *modifiers) {
     const PetriBinding *name = document_name_at(document, document->tokens[token].start);
     if (!name)
-        return CLASS_PROPERTY; // of an attribute or a named argument
+        return CLASS_PROPERTY; // the name of an attribute or argument
     const PetriBinding *bound = document_binding(document, name);
     PetriBuiltin builtin;
     if (!bound) {
@@ -159,7 +159,7 @@ static Class class_of(const Document *document, size_t token, int *modifiers) {
                                                             : classes[document->tokens[token].kind];
 }
 
-// Five numbers for each token: lines and characters since the one before, length, class, modifiers.
+// Encodes a token as five numbers: lines and characters since the previous token, length, class, modifiers.
 typedef struct Encoder {
     Json *data;
     size_t line;
@@ -170,7 +170,7 @@ static void add_number(Encoder *encoder, size_t number) {
     json_object_array_add(encoder->data, json_object_new_int64((int64_t)number));
 }
 
-// A token in each of its lines, for none may go on in the next.
+// Encodes a token once per line, because tokens of the protocol must not span lines.
 static void encode(Encoder *encoder, const RequestContext *request, const PetriToken *token, Class class,
                    int modifiers) {
     const Document *document = request->document;

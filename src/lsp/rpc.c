@@ -13,7 +13,7 @@
 enum { MAX_DEPTH = 256, MAX_HEADER = 4096 };
 static const size_t MAX_BYTES = (size_t)64 << 20;
 
-// Reads more input; false at its end.
+// Reads more input. Returns false at its end.
 static bool read_more(ByteBuffer *input) {
     char part[1 << 16];
     ssize_t count;
@@ -31,7 +31,7 @@ static void drop_bytes(ByteBuffer *input, size_t count) {
     input->data[input->length] = '\0';
 }
 
-// The length that a header tells; SIZE_MAX if it tells none.
+// Returns the length in a message header; SIZE_MAX if there is none or it is too large.
 static size_t content_length(const char *header) {
     static const char name[] = "Content-Length:";
     for (const char *line = header; line; line = strchr(line, '\n')) {
@@ -53,7 +53,7 @@ RpcRead rpc_read(ByteBuffer *input, Json **message) {
     *end = '\0';
     size_t length = content_length(input->data), begin = (size_t)(end - input->data) + 4;
     if (length == SIZE_MAX)
-        return RPC_END; // where the next one begins nobody knows
+        return RPC_END; // the start of the next message is unknown
     while (input->length - begin < length)
         if (!read_more(input))
             return RPC_END;

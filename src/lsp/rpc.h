@@ -8,7 +8,7 @@
 
 typedef struct json_object Json;
 
-// What the protocol calls errors.
+// Error codes of the protocol.
 enum {
     RPC_PARSE_ERROR = -32700,
     RPC_INVALID_REQUEST = -32600,
@@ -19,26 +19,27 @@ enum {
 };
 
 typedef enum RpcRead { RPC_MESSAGE, RPC_INVALID, RPC_END } RpcRead;
-// Waits for the next message. RPC_INVALID: what came is no JSON.
+// Waits for the next message. Returns RPC_INVALID if it is not valid JSON. The caller releases *message.
 RpcRead rpc_read(ByteBuffer *input, Json **message);
-// Whether more of standard input is there already.
+// Returns true if more input can be read without waiting.
 bool rpc_has_input(const ByteBuffer *input);
-// They take `result` and `params`. False if nobody reads.
+// Send a message and take ownership of `result` and `params`. Return false if the editor has closed the pipe.
 bool rpc_answer(Json *id, Json *result);
 bool rpc_send_error(Json *id, int code, const char *text);
 bool rpc_notify(const char *method, Json *params);
 
-// JSON. Those that make or put take what they are given; those that get borrow, and NULL has nothing in it.
+// JSON. json_put* take ownership of the value and return the object. json_get, json_path and json_text return borrowed
+// values; NULL if there is no such member or `object` is NULL.
 Json *json_get(const Json *object, const char *key);
-Json *json_path(const Json *object, const char *keys); // with dots
+Json *json_path(const Json *object, const char *keys); // keys separated by dots
 const char *json_text(const Json *object, const char *key);
 int64_t json_number(const Json *object, const char *key, int64_t otherwise);
-Json *json_put(Json *object, const char *key, Json *value); // gives the object
+Json *json_put(Json *object, const char *key, Json *value);
 Json *json_put_text(Json *object, const char *key, const char *text);
 Json *json_put_number(Json *object, const char *key, int64_t number);
 Json *json_put_true(Json *object, const char *key);
 Json *json_from(Str text);
-// `{"kind": "markdown", "value": text}`
+// Returns `{"kind": "markdown", "value": text}`.
 Json *json_markdown(const char *text);
 
 #endif

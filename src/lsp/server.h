@@ -1,4 +1,4 @@
-// server.h: what the parts of the language server share.
+// server.h: internal declarations of the language server.
 #ifndef PETRI_SRC_LSP_SERVER_H
 #define PETRI_SRC_LSP_SERVER_H
 
@@ -9,62 +9,67 @@ typedef struct Server {
     const CommandContext *host;
     Options *options;
     PetriSession *session; // for tokens, names and checks
-    size_t read;           // bytes since it was opened
-    TextList roots;        // the editor's folders
+    size_t read;           // bytes of text that the session has read
+    TextList roots;        // workspace folders of the editor
     Document **documents;
     size_t document_count;
-    bool utf8; // how the editor counts characters: UTF-8 or UTF-16
+    bool utf8; // unit of positions: UTF-8 bytes if true, else UTF-16 code units
     bool initialized;
-    bool shutting_down; // shutdown was asked for
-    bool checking;      // diagnostics go to `checked`
+    bool shutting_down; // true after the shutdown request
+    bool checking;      // true while `checked` is checked
     Document *checked;
-    Json *found; // … and here, by URI
+    Json *found; // by URI: diagnostics of the current check
 } Server;
 
-// NULL if the editor has not opened it.
+// Returns an open document, or NULL.
 Document *server_document(const Server *server, const char *uri);
-// The document, or the file read into one that is to be freed if `*read` is set. NULL if there is none.
+// Returns the open document of a file, or reads the file. If *read is set, the caller frees the document. Returns NULL
+// if there is no such file.
 Document *server_file(Server *server, const char *path, bool *read);
-// For petri_open: what is open stands for its file, and whatever the document at work asks for is noted.
+// For PetriOptions.read_unsaved: returns the text of an open document. During a check, records the path in `used`.
 const char *server_unsaved(void *server, const char *path, size_t *length);
-// Tokens and names of the present text.
+// Updates tokens and names of a document.
 void server_read(Server *server, Document *document);
 bool server_open_session(Server *server);
 
-// What petri check has to say, to the editor (publish.c).
+// Diagnostics (publish.c).
+// Checks a document and sends the diagnostics to the editor.
 void diagnostics_publish(Server *server, Document *document);
+// Collects a diagnostic of the current check; the session's diagnostic callback.
 void diagnostics_collect(void *server, const PetriDiagnostic *diagnostic);
+// Removes the document's diagnostics from the editor.
 void diagnostics_withdraw(Server *server, Document *document);
 
-// Where a request asks about something.
+// The parameters of a request.
 typedef struct Place {
     Server *server;
     Document *document;
     const Json *params;
-    size_t offset; // of params.position, if there is one
+    size_t offset; // offset of params.position; 0: the request has no position
 } RequestContext;
 
-// Requests: each gives the result, or NULL for null. An error is a text in *problem.
+// Request handlers. They return the result, NULL for null. On failure they set *problem to a message.
 typedef Json *RequestHandler(const RequestContext *request, const char **problem);
 RequestHandler answer_completion, answer_hover, answer_signature, answer_definition, answer_references,
     answer_highlight, answer_prepare_rename, answer_rename, answer_symbols, answer_folding, answer_tokens, answer_hints,
     answer_colours, answer_presentations, answer_actions, answer_format;
-// Of semantic tokens, for the capabilities.
+// Returns the legend of semantic tokens, for the capabilities.
 Json *tokens_legend(void);
 
-// What is known of a word (hover.c).
+// Information about a word (hover.c).
 
-// The number of the node kind to which an attribute that begins at the token belongs, or SIZE_MAX.
+// Returns the index of the node kind that an attribute at the token belongs to, or SIZE_MAX.
 size_t hover_node_of(const Document *document, size_t token, const char **name);
-// Kinds of one name stand in several areas: the one in `area`, or any.
+// Finds the first kind with this name from index *number on, and sets *number. Several areas may have kinds of one
+// name.
 bool hover_kind(Str name, size_t *number, PetriNodeKind *kind);
 bool hover_builtin(Str name, PetriBuiltin *builtin);
 void hover_attribute(ByteBuffer *out, const PetriNodeAttribute *attribute);
-// The statement or value of a name, as a block of code, with its value if it is a constant.
+// Appends the definition of a name as a block of code, its value if it is constant, and its comment.
 void hover_binding(ByteBuffer *out, Server *server, Document *document, const PetriBinding *name);
-// The value of a name that is the same in each frame; NULL if it is none, or more than a frame may take.
+// Returns the value of a constant. Returns NULL if the name is not constant or its evaluation exceeds the work limit.
 const char *hover_value(Server *server, Document *document, const PetriBinding *name);
-// The binding of a name at the top level, the last that counts.
+// Returns the last top-level binding of a name, which is the one that importing scripts get, or NULL.
 const PetriBinding *hover_export(const Document *document, Str name);
 
 #endif

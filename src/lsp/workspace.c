@@ -1,7 +1,7 @@
 // workspace.c: see workspace.h.
 //
-// What is imported means the last binding of its name at the top level of its file. What is included is a block of its
-// own: it sees the names above it, and nothing sees its own.
+// An imported name refers to the last top-level binding of that name in its file. An included file is a separate block:
+// it sees the names bound before the include, and its bindings are not visible outside.
 #include "lsp/workspace.h"
 
 #include "base/source.h"
@@ -13,8 +13,8 @@
 
 enum {
     MAX_FILES = 5000,
-    MAX_FOLDERS = 12, // within each other
-    MAX_LINKS = 16    // from file to file
+    MAX_FOLDERS = 12, // depth of nested folders
+    MAX_LINKS = 16    // length of a chain of imports or includes
 };
 
 static size_t find_document(const Workspace *workspace, const char *path) {
@@ -33,7 +33,7 @@ static void add_document(Workspace *workspace, Document *document, bool own) {
     server_read(workspace->server, document);
 }
 
-// What is imported and included, and so on.
+// Adds all files that are imported or included, directly or indirectly.
 static void follow_links(Workspace *workspace) {
     for (size_t i = 0; i < workspace->count; i++) {
         for (size_t k = 0; k < workspace->documents[i]->link_count; k++) {
@@ -49,7 +49,7 @@ static void follow_links(Workspace *workspace) {
     }
 }
 
-// Drops what is not connected with the first document by any chain of links.
+// Removes documents that no chain of links connects with the first one.
 static void drop_unconnected(Workspace *workspace) {
     size_t kept = 0;
     bool *connected = memory_calloc(workspace->count);
@@ -76,7 +76,7 @@ static void drop_unconnected(Workspace *workspace) {
     free(connected);
 }
 
-// All links lead to documents that are there.
+// Sets the targets of all links, and `included`.
 static void find_targets(Workspace *workspace) {
     free(workspace->included);
     workspace->included = memory_calloc(workspace->count);
@@ -90,7 +90,7 @@ static void find_targets(Workspace *workspace) {
     }
 }
 
-// A script that may have to do with others: most have not.
+// Adds a script if it contains imports or includes; most do not.
 static void add_candidate(Workspace *workspace, const char *path) {
     SCOPED_BYTE_BUFFER text = {0};
     bool own = false;
@@ -190,8 +190,9 @@ bool binding_set_add(BindingSet *senses, const BindingSet *more) {
     return any;
 }
 
-// --- what a name means
+// --- bindings of names
 
+// Returns the definition of a binding: for an import, that of the imported name, else the binding itself.
 static BindingSet binding_definition(const Workspace *workspace, size_t file, size_t name, unsigned depth) {
     const Document *document = workspace->documents[file];
     const PetriBinding *bound = &document->names[name];
@@ -215,7 +216,7 @@ const PetriBinding *workspace_visible(const Document *document, const Link *link
     return found;
 }
 
-// What a name means that the file does not bind: what the scripts bind that include it, where they do.
+// Returns the bindings of a name that the file does not bind: those visible where other scripts include the file.
 static BindingSet includer_bindings(const Workspace *workspace, size_t file, Str text, unsigned depth) {
     BindingSet all = {.count = 0};
     for (size_t i = 0; workspace->included[file] && depth <= MAX_LINKS && i < workspace->count; i++) {
@@ -245,7 +246,7 @@ BindingSet workspace_bindings(const Workspace *workspace, size_t file, size_t nu
     if (name->kind != PETRI_NAME_USE)
         return binding_definition(workspace, file, number, 0);
     BindingSet found = resolve_name(workspace, file, text, document_binding(document, name));
-    // The NAME in the value of a parameter, which -D gives, is that of the parameter.
+    // In `let NAME=NAME or DEFAULT`, the second NAME, which -D sets, belongs to the parameter.
     bool given = found.count == 0 && before && before->kind == PETRI_NAME_LET && before->value_start == name->start &&
                  str_equal(document_slice(document, before->start, before->end), text);
     return given ? binding_definition(workspace, file, number - 1, 0) : found;

@@ -1,18 +1,18 @@
-// workspace.h: the scripts that one script is written together with, and what names mean in all of them.
+// workspace.h: the scripts that are connected with a script by imports and includes, and name resolution among them.
 #ifndef PETRI_SRC_LSP_WORKSPACE_H
 #define PETRI_SRC_LSP_WORKSPACE_H
 
 #include "lsp/server.h"
 
-// A name of a document: a binding is what its uses mean.
+// A reference to a name of a document, usually a binding.
 typedef struct BindingRef {
-    size_t file; // number of the document
-    size_t name; // in its names
+    size_t file; // index in Workspace.documents
+    size_t name; // index in Document.names
 } BindingRef;
 
 enum { MAX_BINDINGS = 32 };
 
-// What a name means: one binding, or one for each script that includes its own.
+// The bindings that a name may refer to: one, or for a name of an included file one per including script.
 typedef struct BindingSet {
     BindingRef items[MAX_BINDINGS];
     size_t count;
@@ -20,28 +20,30 @@ typedef struct BindingSet {
 
 typedef struct Workspace {
     Server *server;
-    Document **documents; // the one asked about is the first
-    bool *own;            // those that are freed with the workspace
-    bool *included;       // by another of them
+    Document **documents; // the requested document is the first
+    bool *own;            // by document: true if the workspace frees it
+    bool *included;       // by document: true if another document includes it
     size_t count;
-    size_t files_left; // files that may still be read
+    size_t files_left; // number of directory entries that may still be visited
 } Workspace;
 
-// The document, those that the editor has open, and what they import and include; if `whole`, scripts of the editor's
-// folders (without any: of the document's own) as well. In either case only those that have to do with the document.
+// Opens the document, the editor's open documents and the files that they import and include. If `whole`, also opens
+// the scripts in the editor's folders, or in the document's folder if the editor has none. Keeps only documents that
+// links connect with the first one.
 void workspace_open(Workspace *workspace, Server *server, Document *document, bool whole);
 void workspace_close(Workspace *workspace);
-// The same with another text of one document.
+// Replaces the text of a document within the workspace only.
 void workspace_replace(Workspace *workspace, size_t file, const ByteBuffer *text);
 
+// Returns the bindings that a name refers to.
 BindingSet workspace_bindings(const Workspace *workspace, size_t file, size_t name);
-// Of a token of the first document, which may be in a statement that does not parse.
+// Returns the bindings of a token of the first document, which may be in a statement that does not parse.
 BindingSet workspace_resolve(const Workspace *workspace, size_t token);
 bool binding_sets_overlap(const BindingSet *a, const BindingSet *b);
-// Adds what is not among them yet; false if nothing is new.
+// Adds the bindings that `senses` does not contain. Returns true if there were any.
 bool binding_set_add(BindingSet *senses, const BindingSet *more);
 
-// What a name means where a document includes a file.
+// Returns the binding of a name that is visible where a document includes a file, or NULL.
 const PetriBinding *workspace_visible(const Document *document, const Link *link, Str text);
 const PetriBinding *workspace_name(const Workspace *workspace, BindingRef sense);
 

@@ -1,4 +1,4 @@
-"""client.py: a language client for tests: it starts `petri lsp`, sends messages and reads what comes back."""
+"""client.py: a language client for tests, which starts `petri lsp`, sends messages and reads the answers."""
 
 import json
 import subprocess
@@ -8,12 +8,12 @@ class Client:
     def __init__(self, petri, utf8=False, options=(), root=None):
         self.process = subprocess.Popen([petri, "lsp", *options], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
         self.number = 0
-        self.told = {}  # by URI: the last publishDiagnostics
+        self.published = {}  # by URI: the last publishDiagnostics
         self.versions = {}
         encodings = ["utf-8", "utf-16"] if utf8 else ["utf-16"]
         self.server = self.ask("initialize", {"processId": None, "rootUri": root, "capabilities": {
             "general": {"positionEncodings": encodings}}})
-        self.tell("initialized", {})
+        self.notify("initialized", {})
 
     def send(self, message):
         body = json.dumps({"jsonrpc": "2.0", **message}).encode()
@@ -27,23 +27,23 @@ class Client:
             if name.lower() == b"content-length":
                 length = int(value)
         if length is None:
-            raise EOFError(f"the server is gone: exit status {self.process.wait()}")
+            raise EOFError(f"the server has ended: exit status {self.process.wait()}")
         message = json.loads(self.process.stdout.read(length))
         if message.get("method") == "textDocument/publishDiagnostics":
-            self.told[message["params"]["uri"]] = message["params"]
+            self.published[message["params"]["uri"]] = message["params"]
         return message
 
-    def tell(self, method, params):
+    def notify(self, method, params):
         self.send({"method": method, "params": params})
 
     def answer(self, number):
-        """The answer to a request; to None, what is said of one that could not be read."""
+        """Returns the answer to a request; for None, the error about a message that could not be parsed."""
         while (message := self.read()).get("id") != number or "method" in message:
             pass
         return message
 
     def reply(self, method, params):
-        """The answer as it is, an error among them."""
+        """Returns the answer to a request, which may be an error."""
         self.number += 1
         self.send({"id": self.number, "method": method, "params": params})
         return self.answer(self.number)
@@ -62,26 +62,26 @@ class Client:
 
     def open(self, uri, text):
         self.versions[uri] = 1
-        self.tell("textDocument/didOpen", {"textDocument": {
+        self.notify("textDocument/didOpen", {"textDocument": {
             "uri": uri, "languageId": "flitter", "version": 1, "text": text}})
         return self.wait(uri)
 
     def change(self, uri, *changes):
         self.versions[uri] += 1
-        self.tell("textDocument/didChange", {"textDocument": {
+        self.notify("textDocument/didChange", {"textDocument": {
             "uri": uri, "version": self.versions[uri]}, "contentChanges": list(changes)})
 
     def wait(self, uri):
-        """The diagnostics of the present version."""
-        while self.told.get(uri, {}).get("version") != self.versions[uri]:
+        """Returns the diagnostics of the current version."""
+        while self.published.get(uri, {}).get("version") != self.versions[uri]:
             self.read()
-        return self.told[uri]["diagnostics"]
+        return self.published[uri]["diagnostics"]
 
     def close(self, uri):
-        self.tell("textDocument/didClose", {"textDocument": {"uri": uri}})
+        self.notify("textDocument/didClose", {"textDocument": {"uri": uri}})
 
     def end(self):
         self.ask("shutdown", None)
-        self.tell("exit", None)
+        self.notify("exit", None)
         self.process.stdin.close()
         return self.process.wait()

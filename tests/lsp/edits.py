@@ -1,5 +1,5 @@
-"""edits.py: random edits of the samples, with requests in between: `petri lsp` does not crash, and what it tells is what
-`petri check` says of the same text. usage: edits.py PATH-OF-PETRI PATH-OF-SAMPLES; LSP_EDITS=N for more of them"""
+"""edits.py: random edits of the samples, with requests in between. `petri lsp` must not crash, and must report the same
+diagnostics as `petri check`. usage: edits.py PATH-OF-PETRI PATH-OF-SAMPLES; LSP_EDITS=N sets the number of edits"""
 
 import json
 import os
@@ -14,7 +14,7 @@ from pathlib import Path
 from client import Client
 
 EDITS = int(os.environ.get("LSP_EDITS", 120))
-COMPARED = 12  # one in so many
+COMPARED = 12  # every 12th text is compared with petri check
 POSITIONED = ["completion", "hover", "signatureHelp", "definition", "documentHighlight", "references", "prepareRename",
               "rename"]
 WHOLE = ["documentSymbol", "foldingRange", "semanticTokens/full", "inlayHint", "documentColor", "codeAction",
@@ -34,13 +34,13 @@ whole = "".join(texts.values())
 
 
 def position(text, offset):
-    """As the protocol counts. A CR LF is one end of a line."""
+    """Returns the protocol's position of an offset. CR LF is one line end."""
     lines = text[:offset].replace("\r\n", "\n").replace("\r", "\n").split("\n")
     return {"line": len(lines) - 1, "character": len(lines[-1].encode("utf-16-le")) // 2}
 
 
 def edit(text):
-    """A random change: where it begins and ends, and what is there then."""
+    """Returns a random change: start, end, new text."""
     start = chance.randrange(len(text) + 1)
     kind = chance.random()
     end = start if kind < 0.6 else min(len(text), start + chance.randrange(1, 40 if kind < 0.95 else 2000))
@@ -58,7 +58,7 @@ def checked(name, text):
                   if d["file"] == str(folder / name))
 
 
-def told(text, diagnostics):
+def published(text, diagnostics):
     lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
 
     def one(diagnostic):
@@ -77,12 +77,12 @@ for number in range(EDITS):
     name = chance.choice(list(texts)) if number % 40 == 0 else name
     if number % 40 == 0:
         uri, text = (folder / name).as_uri(), texts[name]
-        client.told.pop(uri, None)
+        client.published.pop(uri, None)
         client.open(uri, text)
     changes = []
     for _ in range(chance.choice([1, 1, 1, 3])):
         start, end, new = edit(text)
-        # No change cuts a CR LF in two.
+        # Changes must not split a CR LF.
         start -= start > 0 and text[start - 1:start + 1] == "\r\n"
         end += end > 0 and text[end - 1:end + 1] == "\r\n"
         changes.append({"range": {"start": position(text, start), "end": position(text, end)}, "text": new})
@@ -106,7 +106,7 @@ for number in range(EDITS):
     slowest.append(time.monotonic() - begun)
     if number % COMPARED == COMPARED - 1:
         wanted = checked(name, text)
-        assert told(text, diagnostics) == wanted, (number, told(text, diagnostics), wanted)
+        assert published(text, diagnostics) == wanted, (number, published(text, diagnostics), wanted)
         compared += 1
     if number % 40 == 39:
         client.close(uri)

@@ -1,4 +1,4 @@
-"""features.py: what `petri lsp` answers, request by request. usage: features.py PATH-OF-PETRI"""
+"""features.py: tests of the answers of `petri lsp`, request by request. usage: features.py PATH-OF-PETRI"""
 
 import os
 import subprocess
@@ -27,14 +27,14 @@ def labels(items):
 
 
 def place(text):
-    """A text with a mark, §: the text without it, and the place."""
+    """Takes a text with a mark, §. Returns the text without it, and the line and character of the mark."""
     before = text[:text.index("§")]
     line = before.count("\n")
     return text.replace("§", ""), line, len(before.split("\n")[-1].encode("utf-16-le")) // 2
 
 
 def spot(text, method, **more):
-    """What is answered at the mark."""
+    """Returns the answer to a request at the mark."""
     plain, line, character = place(text)
     client.versions.setdefault(uri, 0)
     if client.versions[uri] == 0:
@@ -57,35 +57,35 @@ def applied(text, edits):
 
 client = Client(petri)
 uri = Path("script.fl").absolute().as_uri()
-check("the server says what it is", client.server["serverInfo"]["name"], "petri")
-check("positions are UTF-16 unless the editor can do better", client.server["capabilities"]["positionEncoding"],
+check("the server reports its name", client.server["serverInfo"]["name"], "petri")
+check("positions are UTF-16 unless the editor supports UTF-8", client.server["capabilities"]["positionEncoding"],
       "utf-16")
 
 # Diagnostics.
-told = client.open(uri, "let a=coz(1)\n!n b=a c='😀' d=nowhere\n")
-check("what petri check says is told", [(d["message"], d["range"]["start"], d["range"]["end"], d["severity"], d["code"])
-                                        for d in told],
+diagnostics = client.open(uri, "let a=coz(1)\n!n b=a c='😀' d=nowhere\n")
+check("diagnostics of petri check are published",
+      [(d["message"], d["range"]["start"], d["range"]["end"], d["severity"], d["code"]) for d in diagnostics],
       [("unbound name 'coz' is null\ndid you mean 'cos'?", {"line": 0, "character": 6}, {"line": 0, "character": 9}, 2,
         "unbound-name"),
        ("unbound name 'nowhere' is null", {"line": 1, "character": 16}, {"line": 1, "character": 23}, 2,
         "unbound-name")])
 client.change(uri, {"range": {"start": {"line": 0, "character": 8}, "end": {"line": 0, "character": 9}}, "text": "s"},
               {"range": {"start": {"line": 1, "character": 16}, "end": {"line": 1, "character": 23}}, "text": "1"})
-check("… and no more when it is corrected", client.wait(uri), [])
+check("corrected diagnostics are withdrawn", client.wait(uri), [])
 client.change(uri, {"text": "!n a=)\n"})
-check("errors are errors", [d["severity"] for d in client.wait(uri)], [1])
+check("errors have severity 1", [d["severity"] for d in client.wait(uri)], [1])
 Path("part.fl").write_text("!n v=nothing\n")
 part = Path("part.fl").absolute().as_uri()
 client.change(uri, {"text": "%include 'part.fl'\n!n\n"})
-while part not in client.told:
+while part not in client.published:
     client.read()
-check("what is wrong in an included file is told of that", [d["range"]["start"] for d in client.told[part]["diagnostics"]],
+check("diagnostics of an included file are published for that file", [d["range"]["start"] for d in client.published[part]["diagnostics"]],
       [{"line": 0, "character": 5}])
 client.change(uri, {"text": "!n\n"})
 client.wait(uri)
-while client.told[part]["diagnostics"]:
+while client.published[part]["diagnostics"]:
     client.read()
-check("… until it is included no more", client.told[part]["diagnostics"], [])
+check("they are withdrawn when the file is no longer included", client.published[part]["diagnostics"], [])
 
 # Completion.
 script = """let SIZE=300
@@ -95,75 +95,75 @@ func area(width, height=2)
     !particle id=1
 %s
 """
-check("names in scope", {"SIZE", "area", "sin", "beat", "pi"} <= set(labels(spot(script % "let x=§", "completion"))))
-check("names out of scope are not", "width" in labels(spot(script % "let x=§", "completion")), False)
-check("parameters within their function",
+check("names in scope are completed", {"SIZE", "area", "sin", "beat", "pi"} <= set(labels(spot(script % "let x=§", "completion"))))
+check("names out of scope are not completed", "width" in labels(spot(script % "let x=§", "completion")), False)
+check("parameters are completed within their function",
       {"width", "height"} <= set(labels(spot(script.replace("width*height", "w§") % "", "completion"))))
-check("nodes after !", {"!window", "!particle", "!ellipse"} <= set(labels(spot(script % "!§", "completion"))))
+check("nodes are completed after !", {"!window", "!particle", "!ellipse"} <= set(labels(spot(script % "!§", "completion"))))
 items = spot(script % "!physics state=:b §", "completion")
-check("attributes", {"dimensions=", "resolution="} <= set(labels(items)))
-check("… with types", [i["detail"] for i in items if i["label"] == "dimensions="], ["whole number, 1 or more"])
-check("… and defaults", "default" in str([i for i in spot("!particle §\n", "completion") if i["label"] == "mass="]))
-check("keys of the state after $", labels(spot(script % "let x=$§", "completion"))[:1], [":dish"])
-check("… when one is begun", ":dish" in labels(spot(script % "let x=$:d§", "completion")))
-check("words that an attribute takes", {":butt", ":round", ":square"} <=
+check("attributes are completed", {"dimensions=", "resolution="} <= set(labels(items)))
+check("attributes are completed with types", [i["detail"] for i in items if i["label"] == "dimensions="], ["whole number, 1 or more"])
+check("attributes are completed with defaults", "default" in str([i for i in spot("!particle §\n", "completion") if i["label"] == "mass="]))
+check("state keys are completed after $", labels(spot(script % "let x=$§", "completion"))[:1], [":dish"])
+check("a partial state key is completed", ":dish" in labels(spot(script % "let x=$:d§", "completion")))
+check("symbols that an attribute accepts are completed", {":butt", ":round", ":square"} <=
       set(labels(spot("!path\n    !stroke stroke_cap=:§\n", "completion"))))
-check("arguments by name", {"width=", "height="} <= set(labels(spot(script % "let x=area(§", "completion"))))
-check("files in strings", "part.fl" in labels(spot("%include 'p§'\n", "completion")))
-check("nothing in comments", labels(spot("-- s§\n", "completion")), [])
+check("named arguments are completed", {"width=", "height="} <= set(labels(spot(script % "let x=area(§", "completion"))))
+check("file names are completed in strings", "part.fl" in labels(spot("%include 'p§'\n", "completion")))
+check("nothing is completed in comments", labels(spot("-- s§\n", "completion")), [])
 items = spot("let x=si§\n", "completion")
 sin = [i for i in items if i["label"] == "sin"][0]
-check("functions with their parameters", sin["detail"], "sin(x)")
-check("… replace what is begun", applied("let x=si\n", [sin["textEdit"]]), "let x=sin\n")
+check("functions are completed with their parameters", sin["detail"], "sin(x)")
+check("a completion replaces the partial word", applied("let x=si\n", [sin["textEdit"]]), "let x=sin\n")
 
 # Hover.
 hover = spot("let x=s§in(1)\n", "hover")
-check("a function", "sin(x)" in hover["contents"]["value"])
-check("… where it is", hover["range"]["end"], {"line": 0, "character": 9})
-check("a node", "a particle" in spot("!parti§cle id=1\n", "hover")["contents"]["value"])
-check("a force with its formula", "\nF = strength · (r₁ + r₂ − l)^power if l < r₁ + r₂\n" in spot(
+check("hover shows a function", "sin(x)" in hover["contents"]["value"])
+check("hover returns the range of the word", hover["range"]["end"], {"line": 0, "character": 9})
+check("hover shows a node", "a particle" in spot("!parti§cle id=1\n", "hover")["contents"]["value"])
+check("hover shows the formula of a force", "\nF = strength · (r₁ + r₂ − l)^power if l < r₁ + r₂\n" in spot(
     "!coll§ision strength=2\n", "hover")["contents"]["value"])
-check("an attribute", "of `!particle`" in spot("!particle ra§dius=1\n", "hover")["contents"]["value"])
-check("a value of petri's", "tempo" in spot("!n a=be§at\n", "hover")["contents"]["value"])
-check("a keyword", "repeats" in spot("fo§r i in 3\n    !n\n", "hover")["contents"]["value"])
+check("hover shows an attribute", "of `!particle`" in spot("!particle ra§dius=1\n", "hover")["contents"]["value"])
+check("hover shows a built-in value", "tempo" in spot("!n a=be§at\n", "hover")["contents"]["value"])
+check("hover shows a keyword", "repeats" in spot("fo§r i in 3\n    !n\n", "hover")["contents"]["value"])
 hover = spot("-- How large\nlet SIZE=2*150   -- it is\n!n a=SI§ZE\n", "hover")["contents"]["value"]
-check("a constant has its value", "= `300`" in hover)
-check("… and the comments at it", "How large" in hover and "it is" in hover)
-check("what changes has none", "= `" in spot("let a=frame\n!n a=§a\n", "hover")["contents"]["value"], False)
-check("a number with a suffix", spot("!n a=9§0deg\n", "hover")["contents"]["value"], "= `0.25`")
-check("nothing on blanks", spot("!n  §  a=1\n", "hover"), None)
+check("hover shows the value of a constant", "= `300`" in hover)
+check("hover shows the comments at a binding", "How large" in hover and "it is" in hover)
+check("hover shows no value of a variable name", "= `" in spot("let a=frame\n!n a=§a\n", "hover")["contents"]["value"], False)
+check("hover shows the value of a number with a suffix", spot("!n a=9§0deg\n", "hover")["contents"]["value"], "= `0.25`")
+check("hover shows nothing on blanks", spot("!n  §  a=1\n", "hover"), None)
 for topic in ("builtins", "nodes"):
     listed = subprocess.run([petri, "help", topic], capture_output=True, text=True, env={**os.environ, "COLUMNS": "1000"}).stdout.split("\n")
     words = {line.split("(")[0] for line in listed if line} if topic == "builtins" else {
         line.strip().split(":")[0] for line in listed if line.startswith("  !")}
-    check(f"there are {topic}", len(words) > 60)
+    check(f"petri help lists {topic}", len(words) > 60)
     text = "".join(f"!n a={word}\n" if topic == "builtins" else word + "\n" for word in sorted(words))
     client.change(uri, {"text": text})
     silent = [word for i, word in enumerate(sorted(words))
               if not client.at("hover", uri, i, 6 if topic == "builtins" else 1)["contents"]["value"]]
-    check(f"each of them is explained", silent, [])
+    check(f"hover explains all {topic}", silent, [])
 
 # Signatures.
 help = spot(script % "let x=area(1, §", "signatureHelp")
-check("the parameters of a function", help["signatures"][0]["label"], "area(width, height=2)")
-check("… and which one it is", help["activeParameter"], 1)
-check("… of a built-in", spot("let x=map(0.5, (1;§2), 3)\n", "signatureHelp")["signatures"][0]["label"][:4], "map(")
+check("signature help shows the parameters of a function", help["signatures"][0]["label"], "area(width, height=2)")
+check("signature help marks the current parameter", help["activeParameter"], 1)
+check("signature help shows a built-in", spot("let x=map(0.5, (1;§2), 3)\n", "signatureHelp")["signatures"][0]["label"][:4], "map(")
 
 # Names.
 names = "let a=1\nfunc f(a, b)\n    a + b\n!n x=a y=f(a, b=3) z=a\n"
-check("definition of an argument", spot(names.replace("    a + b", "    §a + b"), "definition")["range"]["start"],
+check("the definition of an argument is found", spot(names.replace("    a + b", "    §a + b"), "definition")["range"]["start"],
       {"line": 1, "character": 7})
-check("definition of a let", spot(names.replace("x=a", "x=§a"), "definition")["range"]["start"],
+check("the definition of a let is found", spot(names.replace("x=a", "x=§a"), "definition")["range"]["start"],
       {"line": 0, "character": 4})
-check("references", len(spot(names.replace("x=a", "x=§a"), "references", context={"includeDeclaration": True})), 4)
-check("… without the declaration", len(spot(names.replace("x=a", "x=§a"), "references",
-                                            context={"includeDeclaration": False})), 3)
-check("highlights", len(spot(names.replace("x=a", "x=§a"), "documentHighlight")), 4)
+check("references include the declaration on request", len(spot(names.replace("x=a", "x=§a"), "references", context={"includeDeclaration": True})), 4)
+check("references exclude the declaration by default", len(spot(names.replace("x=a", "x=§a"), "references",
+                                                                context={"includeDeclaration": False})), 3)
+check("all uses are highlighted", len(spot(names.replace("x=a", "x=§a"), "documentHighlight")), 4)
 edits = spot(names.replace("(a, b)", "(a, §b)"), "rename", newName="c")["changes"][uri]
-check("renaming, named arguments too", applied(names, edits),
+check("renaming a parameter renames named arguments", applied(names, edits),
       "let a=1\nfunc f(a, c)\n    a + c\n!n x=a y=f(a, c=3) z=a\n")
 edits = spot("let N=N or 5\n!n a=§N\n", "rename", newName="COUNT")["changes"][uri]
-check("renaming a parameter of the script", applied("let N=N or 5\n!n a=N\n", edits), "let COUNT=COUNT or 5\n!n a=COUNT\n")
+check("renaming a script parameter renames both names", applied("let N=N or 5\n!n a=N\n", edits), "let COUNT=COUNT or 5\n!n a=COUNT\n")
 
 
 def refusal(text, name):
@@ -174,24 +174,24 @@ def refusal(text, name):
     return reply.get("error", {}).get("message")
 
 
-check("a name that is taken is refused", refusal(names.replace("(a, b)", "(a, §b)"), "a"),
-      "the name is taken: the script would mean something else")
-check("… and one that would hide a built-in in use", refusal("let §a=1\n!n b=a c=sin(1)\n", "sin"),
-      "the name is taken: the script would mean something else")
-check("what is no name is refused", refusal("let §a=1\n", "1x"), "this is no name")
-check("built-ins stay as they are", refusal("let a=§sin(1)\n", "x"), "only names that the script binds can be renamed")
+check("renaming to a name in use is rejected", refusal(names.replace("(a, b)", "(a, §b)"), "a"),
+      "the name is in use: renaming would change the script's meaning")
+check("renaming to a built-in in use is rejected", refusal("let §a=1\n!n b=a c=sin(1)\n", "sin"),
+      "the name is in use: renaming would change the script's meaning")
+check("renaming to an invalid name is rejected", refusal("let §a=1\n", "1x"), "not a valid name")
+check("built-ins cannot be renamed", refusal("let a=§sin(1)\n", "x"), "cannot rename: the script does not bind this name")
 Path("lib.fl").write_text("-- Twice as much.\nfunc twice(x)\n    2*x\n")
 imports = "import twice from 'lib.fl'\n!n a=§twice(2)\n"
-check("an imported name is defined in its file", spot(imports, "definition"),
+check("the definition of an imported name is in its file", spot(imports, "definition"),
       {"uri": Path("lib.fl").absolute().as_uri(),
        "range": {"start": {"line": 1, "character": 5}, "end": {"line": 1, "character": 10}}})
-check("… and explained from there", "Twice as much" in spot(imports, "hover")["contents"]["value"])
-check("… with its parameters", spot("import twice from 'lib.fl'\n!n a=twice(§2)\n",
-                                    "signatureHelp")["signatures"][0]["label"], "twice(x)")
-check("a file in a string is gone to", spot("import twice from 'l§ib.fl'\n", "definition")["uri"],
+check("hover shows the comment of an imported name", "Twice as much" in spot(imports, "hover")["contents"]["value"])
+check("signature help shows the parameters of an imported function",
+      spot("import twice from 'lib.fl'\n!n a=twice(§2)\n", "signatureHelp")["signatures"][0]["label"], "twice(x)")
+check("the definition of a file name is the file", spot("import twice from 'l§ib.fl'\n", "definition")["uri"],
       Path("lib.fl").absolute().as_uri())
 
-# Names of several files, of which one is open and not saved.
+# Names in several files, one of which is open and not saved.
 Path("project").mkdir()
 os.chdir("project")
 files = {
@@ -209,7 +209,7 @@ several.open(of["main.fl"], files["main.fl"])
 
 
 def at(name, mark, method, nth=0, **more):
-    """What is answered at the nth place of a word in a file, which is opened for it."""
+    """Returns the answer at the nth occurrence of a word in a file, which is opened for the request."""
     opened = name in opens
     if not opened:
         several.open(of[name], files[name])
@@ -228,56 +228,56 @@ opens = {"main.fl"}
 
 
 def where(locations):
-    """Places as FILE:LINE:COLUMN, from 1."""
+    """Returns locations as FILE:LINE:COLUMN, from 1."""
     locations = locations if isinstance(locations, list) else [locations]
     return sorted("%s:%d:%d" % (l["uri"].split("/")[-1], l["range"]["start"]["line"] + 1,
                                 l["range"]["start"]["character"] + 1) for l in locations)
 
 
 def renamed(edit):
-    """The texts of all files after an edit."""
+    """Returns the texts of all files after an edit."""
     return {name: applied(text, edit["changes"][of[name]]) if of[name] in edit["changes"] else text
             for name, text in files.items()}
 
 
-check("what is included means what includes it", where(at("parts.fl", "COUNT", "definition")), ["main.fl:2:5"])
-check("… which explains it", "let COUNT=3" in at("parts.fl", "COUNT", "hover")["contents"]["value"])
-check("… and is offered", {"COUNT", "area"} <= set(labels(at("parts.fl", "COUNT", "completion"))))
+check("a name of an included file is defined in the including file", where(at("parts.fl", "COUNT", "definition")), ["main.fl:2:5"])
+check("hover in an included file shows the binding of the including file", "let COUNT=3" in at("parts.fl", "COUNT", "hover")["contents"]["value"])
+check("completion in an included file offers names of the including file", {"COUNT", "area"} <= set(labels(at("parts.fl", "COUNT", "completion"))))
 every = {"includeDeclaration": True}
-check("references in all files", where(at("main.fl", "area", "references", context=every)),
+check("references are found in all files", where(at("main.fl", "area", "references", context=every)),
       ["lib.fl:2:6", "main.fl:1:8", "main.fl:4:6", "shapes.fl:1:8", "shapes.fl:2:9"])
-check("… from a file that imports nothing", where(at("lib.fl", "SCALE", "references", context=every)),
+check("references are found from a file that imports nothing", where(at("lib.fl", "SCALE", "references", context=every)),
       ["lib.fl:1:5", "lib.fl:3:18", "main.fl:1:13", "main.fl:4:26"])
-check("… through what is included", where(at("parts.fl", "COUNT", "references", context=every)),
+check("references are found through an include", where(at("parts.fl", "COUNT", "references", context=every)),
       ["main.fl:2:5", "main.fl:4:34", "parts.fl:1:21", "parts.fl:1:9"])
-check("highlights are of the file", len(at("main.fl", "COUNT", "documentHighlight")), 2)
-check("renaming in all files", renamed(at("main.fl", "area", "rename", newName="face")),
+check("highlights are limited to the file", len(at("main.fl", "COUNT", "documentHighlight")), 2)
+check("a function is renamed in all files", renamed(at("main.fl", "area", "rename", newName="face")),
       {name: text if name == "other.fl" else text.replace("area", "face") for name, text in files.items()})
-check("… a parameter, too", renamed(at("lib.fl", "height", "rename", newName="tall")),
+check("a parameter is renamed in all files", renamed(at("lib.fl", "height", "rename", newName="tall")),
       {name: text.replace("height", "tall") for name, text in files.items()})
-check("… what is included", renamed(at("parts.fl", "COUNT", "rename", newName="MANY")),
+check("a name of an included file is renamed in all files", renamed(at("parts.fl", "COUNT", "rename", newName="MANY")),
       {name: text.replace("COUNT", "MANY") for name, text in files.items()})
-check("… not to a name that another file has", at("lib.fl", "area", "rename", newName="COUNT"),
-      "the name is taken: the script would mean something else")
-check("… nor to one that what is included uses", at("main.fl", "SCALE", "rename", newName="sin"),
-      "the name is taken: the script would mean something else")
-check("there is nothing to tell", several.told[of["main.fl"]]["diagnostics"], [])
+check("renaming to a name of another file is rejected", at("lib.fl", "area", "rename", newName="COUNT"),
+      "the name is in use: renaming would change the script's meaning")
+check("renaming to a name that an included file uses is rejected", at("main.fl", "SCALE", "rename", newName="sin"),
+      "the name is in use: renaming would change the script's meaning")
+check("correct files have no diagnostics", several.published[of["main.fl"]]["diagnostics"], [])
 opens.add("lib.fl")
 several.open(of["lib.fl"], files["lib.fl"])
 several.change(of["lib.fl"], {"text": files["lib.fl"].replace("SCALE", "SIZE")})
 several.of("documentSymbol", of["lib.fl"])
-while not several.told[of["main.fl"]]["diagnostics"]:
+while not several.published[of["main.fl"]]["diagnostics"]:
     several.read()
-check("what is not saved counts for what imports it", several.told[of["main.fl"]]["diagnostics"][0]["message"],
+check("unsaved changes affect importing files", several.published[of["main.fl"]]["diagnostics"][0]["message"],
       f"'{Path('lib.fl').absolute()}' does not bind 'SCALE'")
 several.close(of["lib.fl"])
-while several.told[of["main.fl"]]["diagnostics"]:
+while several.published[of["main.fl"]]["diagnostics"]:
     several.read()
-check("… until it is closed", several.told[of["main.fl"]]["diagnostics"], [])
+check("closing a file discards its unsaved changes", several.published[of["main.fl"]]["diagnostics"], [])
 several.end()
 os.chdir("..")
 
-# Names that were typed once are forgotten (not that a sanitizer gives memory back).
+# Memory of names that were typed is freed. Not checked with AddressSanitizer, which does not return memory.
 def memory():
     return next(int(line.split()[1]) for line in open(f"/proc/{several.process.pid}/status") if line.startswith("VmRSS"))
 
@@ -294,12 +294,12 @@ check("memory for names is bounded",
       "ASAN_OPTIONS" in os.environ or any(b < 0.7 * a for a, b in zip(sizes, sizes[1:])))
 several.end()
 
-# The shape.
+# Symbols, folding, semantic tokens.
 text = "-- one\n-- two\nlet a=1\nfunc f(x)\n    x\n!window size=1;2\n    !canvas\n        !rect\n"
 client.change(uri, {"text": text})
-check("symbols", [(s["name"], s["kind"]) for s in client.of("documentSymbol", uri)],
+check("top-level names and nodes are symbols", [(s["name"], s["kind"]) for s in client.of("documentSymbol", uri)],
       [("a", 13), ("f", 12), ("!window", 19)])
-check("folding", [(f["startLine"], f["endLine"], f.get("kind")) for f in client.of("foldingRange", uri)],
+check("comments and blocks fold", [(f["startLine"], f["endLine"], f.get("kind")) for f in client.of("foldingRange", uri)],
       [(0, 1, "comment"), (3, 4, None), (5, 7, None), (6, 7, None)])
 client.change(uri, {"text": "let a=sin(1) -- c\n!n #t x=:y z='''😀\n2''' w=a\n"})
 legend = client.server["capabilities"]["semanticTokensProvider"]["legend"]["tokenTypes"]
@@ -309,25 +309,25 @@ classes = []
 for i in range(0, len(data), 5):
     line, character = line + data[i], data[i + 1] + (0 if data[i] else character)
     classes.append((line, character, data[i + 2], legend[data[i + 3]]))
-check("semantic tokens", classes, [
+check("tokens have semantic types", classes, [
     (0, 0, 3, "keyword"), (0, 4, 1, "variable"), (0, 5, 1, "operator"), (0, 6, 3, "function"), (0, 9, 1, "operator"),
     (0, 10, 1, "number"), (0, 11, 1, "operator"), (0, 13, 4, "comment"), (1, 0, 2, "class"), (1, 3, 2, "decorator"),
     (1, 6, 1, "property"), (1, 7, 1, "operator"), (1, 8, 2, "enumMember"), (1, 11, 1, "property"),
     (1, 12, 1, "operator"), (1, 13, 5, "string"), (2, 0, 4, "string"), (2, 5, 1, "property"), (2, 6, 1, "operator"),
     (2, 7, 1, "variable")])
 
-# Hints, colours, corrections, layout.
+# Inlay hints, colours, corrections, formatting.
 whole = {"start": {"line": 0, "character": 0}, "end": {"line": 99, "character": 0}}
 client.change(uri, {"text": "let a=2*3 b=a;1 c=frame+1 d=5 e=$:x\nlet N=N or 2*a\n"})
-check("values of constants", [(h["label"], h["position"]["character"]) for h in client.of("inlayHint", uri, range=whole)],
+check("inlay hints show values of constants", [(h["label"], h["position"]["character"]) for h in client.of("inlayHint", uri, range=whole)],
       [("= 6", 9), ("= 6;1", 15), ("= 12", 14)])
 client.change(uri, {"text": "!fill color=1;0.5;0\nlet c=hsv(0.5;1;1)\n!fill color=a;1;1\n"})
 colours = client.of("documentColor", uri)
-check("colours", [tuple(c["color"][k] for k in ("red", "green", "blue", "alpha")) for c in colours],
+check("colours are found", [tuple(c["color"][k] for k in ("red", "green", "blue", "alpha")) for c in colours],
       [(1, 0.5, 0, 1), (0, 1, 1, 1)])
 shown = client.of("colorPresentation", uri, color={"red": 1, "green": 0, "blue": 0, "alpha": 1},
                   range=colours[1]["range"])
-check("… as they are written", [s["label"] for s in shown], ["hsv(0;1;1)"])
+check("a colour keeps its notation", [s["label"] for s in shown], ["hsv(0;1;1)"])
 for wrong, right in [("!n a=coz(1)\n", "!n a=cos(1)\n"), ("!pysics state=:a dimensions=1\n", "!physics state=:a dimensions=1\n"),
                      ("!window\n    !canvas\n        !elipse\n", "!window\n    !canvas\n        !ellipse\n"),
                      ("!window\n    !canvas\n        !ellipse radus=1\n", "!window\n    !canvas\n        !ellipse radius=1\n"),
@@ -335,33 +335,33 @@ for wrong, right in [("!n a=coz(1)\n", "!n a=cos(1)\n"), ("!pysics state=:a dime
                      ("!physics state=:a dimensions=1\n    !partcle id=1\n", "!physics state=:a dimensions=1\n    !particle id=1\n")]:
     client.change(uri, {"text": wrong})
     actions = client.of("codeAction", uri, range=whole, context={"diagnostics": []})
-    check("correction to " + right.split("\n")[-2].strip(),
+    check("a correction is offered: " + right.split("\n")[-2].strip(),
           [applied(wrong, a["edit"]["changes"][uri]) for a in actions], [right])
 text = "let a = 1\n!n   b=a\n!m\n"
 client.change(uri, {"text": text})
-check("layout", applied(text, client.of("formatting", uri, options={})), "let a=1\n!n b=a\n!m\n")
+check("a script is formatted", applied(text, client.of("formatting", uri, options={})), "let a=1\n!n b=a\n!m\n")
 client.change(uri, {"text": "let a = \n"})
-check("… not of what has errors", client.of("formatting", uri, options={}), None)
+check("a script with errors is not formatted", client.of("formatting", uri, options={}), None)
 
-# What is half written.
-check("names are known though a line is wrong", {"SIZE", "area"} <=
+# Incomplete scripts.
+check("names are completed although a line has an error", {"SIZE", "area"} <=
       set(labels(spot(script.replace("width*height", "width*height\nlet y=(1;") % "let x=§", "completion"))))
-check("… and definitions", spot("let a=1\n!n b=)\n!m c=§a\n", "definition")["range"]["start"],
+check("definitions are found although a line has an error", spot("let a=1\n!n b=)\n!m c=§a\n", "definition")["range"]["start"],
       {"line": 0, "character": 4})
 
-# Messages that make no sense.
-check("an unknown request is refused", client.reply("petri/nonsense", {})["error"]["code"], -32601)
-check("a request about no document, too", "error" in client.reply("textDocument/hover", {}))
-check("a position far away is the end", client.at("hover", uri, 10**6, 10**6), None)
+# Invalid messages.
+check("an unknown request is an error", client.reply("petri/nonsense", {})["error"]["code"], -32601)
+check("a request without a document is an error", "error" in client.reply("textDocument/hover", {}))
+check("a position after the end is accepted", client.at("hover", uri, 10**6, 10**6), None)
 client.process.stdin.write(b"Content-Length: 3\r\n\r\n{x}")
 client.process.stdin.flush()
-check("what is no JSON is refused", client.answer(None)["error"]["code"], -32700)
+check("invalid JSON is an error", client.answer(None)["error"]["code"], -32700)
 client.close(uri)
-check("the server ends when it is told to", client.end(), 0)
+check("the server exits with 0 after shutdown", client.end(), 0)
 client = Client(petri, utf8=True)
-told = client.open(uri, "!n c='😀' d=nowhere\n")
-check("positions are bytes for editors that count so", told[0]["range"]["start"]["character"], 14)
+diagnostics = client.open(uri, "!n c='😀' d=nowhere\n")
+check("positions are bytes for editors that support UTF-8", diagnostics[0]["range"]["start"]["character"], 14)
 client.process.stdin.close()
-check("… and with status 1 when the editor is gone", client.process.wait(), 1)
+check("the server exits with 1 when the editor is gone", client.process.wait(), 1)
 print(f"{passed} passed, {failed} failed")
 sys.exit(failed > 0)

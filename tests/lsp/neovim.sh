@@ -1,12 +1,12 @@
 #!/bin/sh
-# neovim.sh: Neovim's own client with the server: diagnostics, completion and hover are seen. Skipped without nvim.
+# neovim.sh: Neovim's LSP client with petri lsp: diagnostics, completion and hover. Skipped without nvim.
 # usage: tests/lsp/neovim.sh PATH-OF-PETRI
 
 # shellcheck source=tests/support/check.sh
 . "$(dirname "$0")/../support/check.sh"
 petri=$(program "$1") || exit 2
 command -v nvim >/dev/null || {
-    echo "skipped: there is no nvim (Debian: neovim)"
+    echo "skipped: nvim is not installed (Debian: neovim)"
     exit 77
 }
 scratch
@@ -36,9 +36,9 @@ vim.cmd('qa!')
 END
 timeout 60 nvim --headless -u NONE -S session.lua >out 2>err </dev/null
 status=$?
-check "Neovim ends" status_is 0
-check "it shows what is wrong" has diagnostics "0:10 unbound name 'coz' is null did you mean 'cos'?"
-check "it completes attributes" has completion "radius="
-check "… and names" has names "speed"
-check "it shows what a node is" has hover "a particle"
+check "Neovim exits with 0" status_is 0
+check "Neovim shows diagnostics" has diagnostics "0:10 unbound name 'coz' is null did you mean 'cos'?"
+check "Neovim completes attributes" has completion "radius="
+check "Neovim completes names" has names "speed"
+check "Neovim shows help for a node" has hover "a particle"
 finish
