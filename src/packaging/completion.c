@@ -1,6 +1,6 @@
-// completion.c: completions for bash, zsh and fish, of the commands, their options and what these take.
+// completion.c: completion scripts for bash, zsh and fish.
 //
-// Each is the shell's own few lines, with the words of the tables between them.
+// Each script is a short template with the commands, options and option values from the tables.
 #include "cli/options.h"
 #include "packaging/packaging.h"
 #include "petri.h"
@@ -12,7 +12,7 @@ static void write_text(Output *output, const char *text) {
     output_format(output, "%s", text);
 }
 
-// Text within single quotes of a shell; `escaped` has the characters that take a backslash before them.
+// Writes text for single quotes in a shell. Characters in `escaped` get a backslash.
 static void write_quoted(Output *output, const char *text, const char *escaped) {
     for (const char *c = text; *c != '\0'; c++)
         if (*c == '\'')
@@ -21,7 +21,7 @@ static void write_quoted(Output *output, const char *text, const char *escaped) 
             output_format(output, strchr(escaped, *c) ? "\\%c" : "%c", *c);
 }
 
-// The option's words, with something before and behind them.
+// Writes the option's possible values, separated by spaces, between prefix and suffix.
 static void write_wrapped(Output *output, const char *prefix, const OptionSpec *option, const char *suffix) {
     write_text(output, prefix);
     for (int i = 0; option->words[i]; i++)
@@ -34,7 +34,7 @@ static void write_command_names(Output *output) {
         output_format(output, i == 0 ? "%s" : " %s", COMMANDS[i]->name);
 }
 
-// What `petri help` tells of: commands, functions, nodes.
+// Writes the topics of `petri help`: commands, functions and nodes.
 static void write_topics(Output *output) {
     write_text(output, "builtins nodes version ");
     write_command_names(output);
@@ -46,7 +46,8 @@ static void write_topics(Output *output) {
         output_format(output, " %s", kind.name);
 }
 
-// `COMMAND --OPTION|COMMAND -O`, as a pattern of bash. Each shell takes what is no command for a script to run.
+// Writes a bash pattern for `COMMAND --OPTION` or `COMMAND -O`. If the first word is not a command, it is a script, and
+// the options of `run` are completed.
 static void write_bash_pattern(Output *output, const Command *command, const OptionSpec *option) {
     output_format(output, "    '%s --%s'", command->name, option->name);
     if (option->letter != '\0')
@@ -187,7 +188,7 @@ void completion_zsh(Output *output) {
         output_format(output, "    %s)\n        _arguments -s -S \\\n", COMMANDS[i]->name);
         for (const OptionSpec *option = NULL; (option = option_after(COMMANDS[i], option));)
             write_zsh_option(output, option);
-        write_text(output, "            '--help[tell of the command and its options]' \\\n"
+        write_text(output, "            '--help[show help for the command]' \\\n"
                            "            '*:script:_files -g \"*.fl\"'\n"
                            "        ;;\n");
     }
@@ -227,7 +228,7 @@ void completion_fish(Output *output) {
     }
     for (size_t i = 0; COMMANDS[i]; i++) {
         ByteBuffer condition = {0};
-        if (COMMANDS[i] == &RUN_COMMAND) { // also where a script stands in the command's place
+        if (COMMANDS[i] == &RUN_COMMAND) { // also if the first word is a script
             byte_buffer_add_text(&condition, "not __fish_seen_subcommand_from");
             for (size_t k = 0; COMMANDS[k]; k++) {
                 byte_buffer_format(&condition, "%s%s", COMMANDS[k] == &RUN_COMMAND ? "" : " ",
@@ -240,7 +241,7 @@ void completion_fish(Output *output) {
             write_fish_option(output, option, condition.data);
         byte_buffer_free(&condition);
     }
-    write_text(output, "complete -c petri -l help -d 'tell of the command and its options'\n"
+    write_text(output, "complete -c petri -l help -d 'show help for the command'\n"
                        "complete -c petri -n '__fish_seen_subcommand_from help' -f -a '");
     write_topics(output);
     write_text(output, "'\n");

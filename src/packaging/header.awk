@@ -1,7 +1,7 @@
-# header.awk: petri.h(3), of a header's comments and declarations. Variables: version.
+# header.awk: generates the manual page of a public header, such as petri.h(3). Variables: version.
 #
-# A comment that begins a line is text, what stands between two of them is shown as it is, with the comments at its lines'
-# ends. What the preprocessor alone reads is left out.
+# Comments at the start of a line become text. Declarations between them are copied with their trailing comments.
+# Preprocessor directives are omitted.
 function escaped(text) {
     gsub(/\\/, "\\e", text)
     gsub(/-/, "\\-", text)

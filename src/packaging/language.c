@@ -1,5 +1,4 @@
-// language.c: petri(5), what scripts are made of: words, functions and nodes, from the tables of the command and
-// libpetri.
+// language.c: petri(5), the reference of words, functions and nodes of scripts, generated from petri's tables.
 #include "cli/byte_buffer.h"
 #include "cli/help.h"
 #include "packaging/packaging.h"
@@ -9,9 +8,8 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char DESCRIPTION[] = "A script describes one frame, and is evaluated from its first line to its last for "
-                                  "every frame. It yields a tree of "
-                                  "nodes:\n\n"
+static const char DESCRIPTION[] = "A script describes one frame. It is evaluated from the first line to the last in "
+                                  "every frame and yields a tree of nodes:\n\n"
                                   "  -- drops.fl\n"
                                   "  !physics state=:drops dimensions=2\n"
                                   "      for i in ..80\n"
@@ -22,12 +20,12 @@ static const char DESCRIPTION[] = "A script describes one frame, and is evaluate
                                   "          for i in ..80\n"
                                   "              !ellipse point=$(:drops;i) radius=8 fill=true\n\n"
                                   "Indented nodes belong to the node above. Each value is a vector. Systems of "
-                                  "particles write where these are into the "
-                                  "state, which the next frame reads with $.";
+                                  "particles write positions and other values to the state, which the next frame "
+                                  "reads with $.";
 
 static void write_words(Output *output) {
     for (const Topic *topic = TOPICS; topic->word; topic++) {
-        // Two words may be told of in one: $ and state.
+        // Words with the same syntax, such as $ and state, have one entry.
         if (topic == TOPICS || strcmp(topic->form, topic[-1].form) != 0) {
             roff_item(output, topic->form, "");
             roff_text(output, topic->help);
@@ -69,7 +67,7 @@ static void write_attributes(Output *output, size_t kind) {
     output_format(output, ".RE\n");
 }
 
-// In lines; what the letters stand for comes with the first.
+// Writes the formulas of a node, one per line. The first node with formulas also explains the symbols.
 static void write_formula(Output *output, const PetriNodeKind *kind) {
     for (const char *line = kind->formula; *line != '\0'; line += line[0] == '\n') {
         size_t length = strcspn(line, "\n");
@@ -105,7 +103,7 @@ static void write_nodes(Output *output) {
 }
 
 void page_of_language(Output *output) {
-    roff_begin(output, "petri", 5, "the language of Flitter scripts, as petri knows it");
+    roff_begin(output, "petri", 5, "the Flitter language as supported by petri");
     roff_heading(output, "DESCRIPTION");
     roff_paragraphs(output, DESCRIPTION);
     roff_heading(output, "WORDS");

@@ -1,5 +1,5 @@
-// main.c: writes one page of the manual, what a shell completes, or a grammar for editors to standard output. The build
-// runs it; nobody has it afterwards.
+// main.c: a program that writes one manual page, completion script or editor grammar to standard output. It is only
+// used by the build and is not installed.
 #include "cli/help.h"
 #include "packaging/packaging.h"
 

@@ -1,6 +1,6 @@
 #!/bin/sh
-# package.sh FOLDER: makes Debian packages of what git knows of this tree, in FOLDER: the source package, and by
-# dpkg-buildpackage the binary ones. debian/ is put together there; its files are in src/packaging/debian.
+# package.sh FOLDER: builds Debian packages (source and binary) in FOLDER from the files that git tracks. The debian/
+# folder is assembled there from src/packaging/debian.
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 mkdir -p "$1"
@@ -10,7 +10,7 @@ source=$folder/petri-$version
 rm -rf "$source" "$folder"/*petri*_"$version"* "$folder"/petri_"$version"*
 mkdir "$source"
 cd "$root"
-# The same tree gives the same packages: times are that of the last commit.
+# All times are that of the last commit, so that the same tree gives the same packages.
 SOURCE_DATE_EPOCH=$(git log -1 --format=%ct)
 export SOURCE_DATE_EPOCH
 git ls-files -z | tar -c --null --files-from=- | tar -x -C "$source"
@@ -26,7 +26,7 @@ cd "$source/debian"
     echo
     echo " -- The petri authors <petri@localhost>  $(LC_ALL=C date -uRd "@$SOURCE_DATE_EPOCH")"
 } >changelog
-# The licence, as this form wants it: a blank before each line, a dot in the empty ones.
+# The licence in the format of debian/copyright: a space before each line, and a dot in empty lines.
 sed '1,/^Copyright/d' "$root/LICENSE" | sed '1d; s/^$/./; s/^/ /' >licence
 sed -i -e "s/@OWNER@/$(sed -n 's/^Copyright (c) //p' "$root/LICENSE")/" -e '/@LICENCE@/{r licence' -e 'd}' copyright
 rm licence

@@ -1,4 +1,4 @@
-// pages.c: petri(1) and the page of each command, made of the tables that `petri help` is made of.
+// pages.c: petri(1) and the pages of the commands, generated from the tables of `petri help`.
 #include "cli/help.h"
 #include "packaging/packaging.h"
 #include "packaging/roff.h"
@@ -19,18 +19,17 @@ bool option_takes(const OptionSpec *option, const char *value) {
 }
 
 const PageRow PAGE_VARIABLES[] = {
-    {"NO_COLOR", "if it is not empty, messages and pictures in the terminal have no colours"},
-    {"PETRI_CPU",
-     "scalar, avx2 or avx512: the vector instructions that are used at the most; results never depend on it"},
-    {"TMPDIR", "the folder of what '-o -' writes until it is complete (/tmp)"},
-    {"XDG_STATE_HOME", "the history of the prompt is petri/history in this folder (~/.local/state)"},
+    {"NO_COLOR", "disables colours in messages and in terminal pictures if it is not empty"},
+    {"PETRI_CPU", "limits the vector instructions to scalar, avx2 or avx512; does not change results"},
+    {"TMPDIR", "folder for temporary files of '-o -' (default: /tmp)"},
+    {"XDG_STATE_HOME", "folder for petri/history, the history of the prompt (default: ~/.local/state)"},
     {0},
 };
 const PageRow PAGE_STATUSES[] = {
-    {"0", "all went well"},
-    {"1", "a script is wrong, a limit was reached, a file could not be written, a test has failed"},
-    {"2", "the command line is wrong; nothing was done"},
-    {"128+N", "signal N ended it"},
+    {"0", "success"},
+    {"1", "error in a script, exceeded limit, file that cannot be written, or failed test"},
+    {"2", "invalid command line; nothing was done"},
+    {"128+N", "ended by signal N"},
     {0},
 };
 
@@ -81,9 +80,9 @@ static void write_option(Output *output, const OptionSpec *option) {
     output_format(output, "\n");
 }
 
-// Lines `  COMMAND   what it is for`, with three blanks or one before a word that is no option.
+// Writes example lines. The description of an example starts in COMMENT_COLUMN.
 static void write_examples(Output *output, const char *examples) {
-    enum { COMMENT_COLUMN = 50 }; // in all of them
+    enum { COMMENT_COLUMN = 50 };
     while (*examples != '\0') {
         int length = (int)strcspn(examples, "\n"), end = length < COMMENT_COLUMN ? length : COMMENT_COLUMN;
         const char *comment = examples + end;
@@ -125,7 +124,7 @@ void page_of_command(Output *output, const Command *command) {
     for (const OptionSpec *option = NULL; (option = option_after(command, option));)
         write_option(output, option);
     if (command == &REPL_COMMAND) {
-        roff_heading(output, "COMMANDS OF THE PROMPT");
+        roff_heading(output, "PROMPT COMMANDS");
         write_prompt_commands(output);
     }
     if (command->examples) {

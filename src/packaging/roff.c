@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-// What roff reads as something else than itself.
+// Returns the escape sequence for a character that is special in roff, else NULL.
 static const char *escape_for(char c) {
     switch (c) {
     case '\\':
@@ -34,7 +34,7 @@ static void write_escaped(Output *output, const char *text, size_t length) {
         if (other) {
             output_format(output, "%s", other);
         } else {
-            // A dot that begins a line would make it a request.
+            // A line that starts with a dot would be a request.
             output_format(output, "%s%c", i == 0 && text[i] == '.' ? "\\&" : "", text[i]);
         }
     }
@@ -70,20 +70,20 @@ void roff_bold(Output *output, const char *text) {
 }
 
 void roff_paragraphs(Output *output, const char *text) {
-    bool as_it_is = false, empty = false, first = true;
+    bool in_example = false, empty = false, first = true;
     while (*text != '\0') {
         size_t length = strcspn(text, "\n");
         bool indented = text[0] == ' ';
-        if (as_it_is && !indented) {
+        if (in_example && !indented) {
             output_format(output, ".EE\n");
-            as_it_is = false;
+            in_example = false;
         }
-        // Two paragraphs, or text that goes on behind lines that stay as they are.
-        if (length > 0 && !first && (empty || (indented && !as_it_is)))
+        // A new paragraph follows an empty line or starts an example.
+        if (length > 0 && !first && (empty || (indented && !in_example)))
             output_format(output, ".PP\n");
-        if (indented && !as_it_is) {
+        if (indented && !in_example) {
             output_format(output, ".EX\n");
-            as_it_is = true;
+            in_example = true;
         }
         if (length > 0) {
             write_escaped(output, text, length);
@@ -93,7 +93,7 @@ void roff_paragraphs(Output *output, const char *text) {
         empty = length == 0;
         text += length + (text[length] == '\n');
     }
-    output_format(output, "%s", as_it_is ? ".EE\n" : "");
+    output_format(output, "%s", in_example ? ".EE\n" : "");
 }
 
 void roff_item(Output *output, const char *head, const char *rest) {

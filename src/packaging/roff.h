@@ -1,21 +1,21 @@
-// roff.h: text as pages of the manual have it, in the macros of man(7).
+// roff.h: functions that write manual pages in the macros of man(7).
 #ifndef PETRI_SRC_ROFF_H
 #define PETRI_SRC_ROFF_H
 
 #include "cli/output.h"
 
-// The page's first lines, with its name, its section and what it is about.
+// Writes the head of a page.
 void roff_begin(Output *output, const char *name, int section, const char *summary);
 void roff_heading(Output *output, const char *text);
 void roff_subheading(Output *output, const char *text);
-// Plain text: whatever it holds is written as it is.
+// Writes text, with all characters that are special in roff escaped.
 void roff_text(Output *output, const char *text);
 void roff_bold(Output *output, const char *text);
-// Paragraphs with empty lines between them; lines that are indented stay as they are.
+// Writes paragraphs, which are separated by empty lines. Indented lines are examples and keep their line breaks.
 void roff_paragraphs(Output *output, const char *text);
-// An item's head in bold, and then `rest`; its text follows.
+// Writes the head of an item: `head` in bold, then `rest`. The caller writes the text of the item next.
 void roff_item(Output *output, const char *head, const char *rest);
-// The other pages to read, each such as "petri(1)", ended by NULL.
+// Writes the section SEE ALSO. `pages` are names such as "petri(1)", then NULL.
 void roff_see_also(Output *output, const char *const *pages);
 
 #endif

@@ -1,4 +1,4 @@
-// tables.c: all that petri's tables tell of commands and language, as JSON, for the manual as a site (src/web/site).
+// tables.c: petri's tables of commands, functions, nodes and words as JSON, for the manual on the web (src/web/site).
 #include "cli/byte_buffer.h"
 #include "cli/help.h"
 #include "cli/json.h"
@@ -6,7 +6,7 @@
 #include "petri.h"
 #include "repl/repl.h"
 
-// Names and texts by turns, ended by NULL, as an object that is still open.
+// Adds a JSON object without its closing brace. `texts` alternates names and values and ends with NULL.
 static void add_row(ByteBuffer *out, const char *const texts[]) {
     byte_buffer_add_text(out, out->data[out->length - 1] == '}' ? ",\n{" : "\n{");
     for (size_t i = 0; texts[i]; i += 2) {

@@ -1,7 +1,7 @@
-// template.c: fills the names of petri's tables into a file for editors, so that the two cannot drift apart.
+// template.c: templates of files for editors, filled with the names in petri's tables.
 //
-// `@builtins|@` stands for the names of all functions with `|` between them; `nodes` and `values` likewise.
-// The separator may be any text without `@`.
+// `@builtins|@` is replaced by the names of all functions, separated by `|`. `@nodes|@` and `@values|@` are replaced by
+// the names of nodes and of predefined values. The separator can be any text without `@`.
 #include "cli/byte_buffer.h"
 #include "cli/help.h"
 #include "packaging/packaging.h"
@@ -27,7 +27,7 @@ static void list_nodes(TextList *list) {
         add_unique(list, kind.name);
 }
 
-// What petri gives to each frame, and constants: the topics before the words of the language.
+// Lists the values that petri sets in each frame, and constants: all topics before `let`, the first keyword.
 static void list_values(TextList *list) {
     for (size_t i = 0; TOPICS[i].word && strcmp(TOPICS[i].word, "let") != 0; i++)
         add_unique(list, TOPICS[i].word);
@@ -39,7 +39,7 @@ static const struct {
     void (*list)(TextList *list);
 } lists[] = {{"builtins", list_builtins}, {"nodes", list_nodes}, {"values", list_values}};
 
-// What stands between two `@`; false if it is no list.
+// Writes the list for the text between two `@`. Returns false if the text is not a mark.
 static bool write_list(Output *output, Str between) {
     for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++) {
         Str name = str_from(lists[i].name);

@@ -1,9 +1,9 @@
 #!/bin/sh
-# try.sh FOLDER: installs the Debian packages in FOLDER on this machine, which is a bare one made for that (./dev package
-# --test), and uses them as people do. Ends with 0 if all went well.
+# try.sh FOLDER: installs the Debian packages in FOLDER on this machine and tests them. It runs on the minimal machine of
+# ./dev package --test. Exits with 0 if all tests pass.
 set -eu
 [ "$(id -u)" -eq 0 ] && [ -e /root/petri ] || {
-    echo "try.sh is for the bare machine of ./dev package --test" >&2
+    echo "try.sh must run on the machine of ./dev package --test" >&2
     exit 2
 }
 folder=$(cd "$1" && pwd)
@@ -14,7 +14,7 @@ install() { DEBIAN_FRONTEND=noninteractive apt-get -qqy --no-install-recommends 
     exit 1
 }; }
 debs() { find "$folder" -name "$1_*.deb"; }
-# The static program needs nothing, and comes first, where nothing is.
+# The static program has no dependencies, so it is tested before anything is installed.
 find "$folder" -name 'petri-*-static' | while read -r program; do
     echo "!x y=frame" >x.fl
     [ "$("$program" run x.fl --frames 2 --print tree | grep -c '!x y=')" -eq 2 ] || exit 1
@@ -28,7 +28,7 @@ petri render dish.fl -o dish.png --frames 1 --quiet
 head -c 8 dish.png | grep -q PNG
 petri help sin | grep -q Sine
 [ -s /usr/share/bash-completion/completions/petri ]
-echo "petri runs, draws and helps"
+echo "petri runs, draws and shows help"
 # shellcheck disable=SC2046 # file names without blanks
 install $(debs libpetri0.3) $(debs libpetri-draw0.3) $(debs libpetri-dev) gcc libc6-dev pkg-config
 sed -n '/^```c where.c$/,/^```$/p' /root/petri/README.md | sed '1d;$d' >where.c
@@ -38,7 +38,7 @@ mkdir -p samples
 cp /usr/share/petri/samples/petri.fl samples
 ./where | grep -q '^0 is at '
 ldd where | grep -q libpetri.so.0.3
-echo "a program with libpetri builds and runs"
+echo "a program that uses libpetri builds and runs"
 install "$(debs python3-petri)"
 python3 - <<'END'
 import petri
@@ -50,4 +50,4 @@ END
 echo "python3-petri works"
 apt-get -qqy purge petri libpetri0.3 libpetri-draw0.3 >install.log 2>&1
 [ ! -e /usr/bin/petri ] && [ ! -e /usr/share/petri ]
-echo "and all of it goes again"
+echo "the packages can be removed"
