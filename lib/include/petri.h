@@ -338,7 +338,7 @@ typedef struct PetriPointer {
 PETRI_API PetriStatus petri_report_pointer(PetriSession *session, const PetriPointer *pointer);
 
 // Reports that a key was pressed or released. `name` is a letter, a digit, or a word such as "space", "left",
-// "page_up", "f1" or "left_shift" (README). Returns PETRI_INVALID for unknown names.
+// "page_up", "f1" or "left_shift" (see src/manual/view.md). Returns PETRI_INVALID for unknown names.
 PETRI_API PetriStatus petri_report_key(PetriSession *session, const char *name, bool pressed);
 
 // Returns true if a `!key` node of the last frame uses the key. The host should then give the key no other meaning.

@@ -23,7 +23,7 @@ export LC_ALL
 
 pages='README.md CONTRIBUTING.md src/README.md samples/README.md samples/TUTORIAL.md samples/RECIPES.md
     samples/TROUBLESHOOTING.md tests/README.md tests/bench/README.md tests/bench/PEERS.md src/web/README.md'
-least=250
+least=170
 
 [ $# -ge 2 ] || { echo "usage: pages.sh PETRI ROOT [--update]" >&2 && exit 2; }
 petri=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
