@@ -7,10 +7,10 @@
 typedef struct ModelShape {
     size_t dimensions;
     uint32_t groups, particles, forces;
-    uint32_t hostile; // one number in so many is extreme; 0: none
+    uint32_t hostile; // one in `hostile` numbers is extreme; 0: none
 } ModelShape;
 
-// A number between the bounds, or, in hostile models, now and then one from the dark.
+// Returns a number between the bounds or, in hostile models, sometimes an extreme one.
 static inline double model_number(Dice *dice, const ModelShape *shape, double low, double high) {
     static const double extremes[] = {NAN,    INFINITY, -INFINITY, 1e308, -1e308, 1e200, -1e155, 1e-308,
                                       5e-324, -5e-324,  -0.0,      0,     1e-160, 1e16,  -1};
@@ -24,7 +24,7 @@ static inline void model_vector(Dice *dice, const ModelShape *shape, double *vec
         vector[k] = model_number(dice, shape, -size, size);
 }
 
-// radius, mass: often nothing, never negative or NaN (the scene clamps them).
+// Returns a radius or mass: often 0, never negative or NaN, because lib/scene clamps them.
 static inline double model_size(Dice *dice, const ModelShape *shape, double high) {
     if (dice_below(dice, 5) == 0)
         return 0;
@@ -38,7 +38,7 @@ static inline double model_ease(Dice *dice, const ModelShape *shape) {
 
 static inline void model_random_particle(Dice *dice, const ModelShape *shape, Model *model, ModelParticle *p) {
     *p = (ModelParticle){.group = dice_below(dice, shape->groups), .anchor = dice_below(dice, 6) == 0};
-    // Positions on a coarse grid now and then, so that some particles coincide and some just touch.
+    // Some positions are on a coarse grid, so that some particles coincide and some just touch.
     bool grid = dice_below(dice, 4) == 0;
     model_vector(dice, shape, p->position, 1);
     for (size_t k = 0; grid && k < model->n; k++)
@@ -84,13 +84,13 @@ static inline void model_random_force(Dice *dice, const ModelShape *shape, const
     force->minimum = model_number(dice, shape, -0.2, 1);
     force->maximum = model_number(dice, shape, -0.2, 1.5);
     force->key = dice_next(dice);
-    force->from = dice_below(dice, model->particle_count + 1); // one handle too many
+    force->from = dice_below(dice, model->particle_count + 1); // the largest is not a valid handle
     force->to = dice_below(dice, model->particle_count + 1);
     if (kind == PHYS_BARRIER)
         model_random_barrier(dice, model, f);
 }
 
-// Groups in pre-order: the parent of a new one is its predecessor or a group that encloses that.
+// Adds groups in pre-order: the parent of a new one is its predecessor or one that encloses it.
 static inline void model_random_groups(Dice *dice, const ModelShape *shape, Model *model) {
     model->group_count = shape->groups;
     model->parent[0] = 0;
@@ -113,7 +113,7 @@ static inline void model_random(Dice *dice, const ModelShape *shape, Model *mode
         model_random_force(dice, shape, model, &model->forces[i]);
 }
 
-// Simulates some frames of a random system both ways. Options may be NULL.
+// Simulates some frames of a random system with lib/physics and the reference. `options` may be NULL.
 static inline void compare_random_with(uint64_t seed, const ModelShape *shape, int frames, const PhysOptions *options) {
     Dice dice = {seed * UINT64_C(0x9e3779b97f4a7c15) + 1};
     Model *model = calloc(1, sizeof *model);

@@ -1,7 +1,7 @@
-// reference.h: section 4 of the specification once more, transcribed word by word without a thought for speed.
+// reference.h: a slow, literal implementation of section 4 of the specification.
 //
-// Particles are an array of structs in order of declaration, groups are looked up by search, every sum is written as
-// the text has it. Tests compare the results of lib/physics with these bit for bit.
+// Particles are an array of structs in order of declaration, groups are found by search, and every sum is written as in
+// the text. Tests compare the results of lib/physics with it bit for bit.
 #ifndef TESTS_UNIT_PHYSICS_REFERENCE_H
 #define TESTS_UNIT_PHYSICS_REFERENCE_H
 
@@ -27,7 +27,7 @@ typedef struct ModelForce {
     uint64_t item;
 } ModelForce;
 
-// A system that can be given to lib/physics and to the reference. Everything is in order of declaration.
+// A system for lib/physics and the reference. Everything is in order of declaration.
 typedef struct Model {
     size_t n;
     uint32_t group_count, particle_count, force_count;
@@ -68,7 +68,7 @@ static inline double to_the_power(double x, double power) {
     return power == 1 ? x : power == 2 ? x * x : maths_pow(x, power);
 }
 
-// 4.1: K and whether `from` gets + u K (and `to` the opposite) or the other way round.
+// 4.1: computes K, and whether `from` receives + u K and `to` the opposite, or vice versa.
 static inline bool coefficient(const ModelForce *f, const ModelParticle *from, const ModelParticle *to, double l,
                                double *K, bool *plus) {
     double strength = f->strength, r1 = from->radius, r2 = to->radius;
@@ -127,7 +127,7 @@ static inline void reference_pair(const Model *model, const ModelForce *f, Model
     }
 }
 
-// One pass: i among G's particles, j > i in T.
+// One pass: i in the particles of G, j > i in T.
 static inline void reference_pass(Model *model, uint32_t G, uint32_t A) {
     ModelParticle *T[MODEL_MAX];
     uint32_t size = 0, own = 0;
@@ -348,7 +348,7 @@ static inline PhysResult reference_simulate(Model *model, const PhysTime *time) 
     return (PhysResult){PHYS_OK, clock, steps};
 }
 
-// Same bits; but one NaN is as good as another (its sign and payload are not part of the arithmetic).
+// Returns true if the bits are the same, or if both are NaN with any sign and payload.
 static inline bool same_bits(const double *a, const double *b, size_t n) {
     for (size_t k = 0; k < n; k++)
         if (memcmp(&a[k], &b[k], sizeof *a) && !(isnan(a[k]) && isnan(b[k])))
@@ -356,7 +356,8 @@ static inline bool same_bits(const double *a, const double *b, size_t n) {
     return true;
 }
 
-// Simulates a frame both ways and compares; the model then holds the new positions and velocities.
+// Simulates a frame with lib/physics and the reference and compares. Afterwards the model has the new positions and
+// velocities.
 static inline void compare_frame(Model *model, PhysSystem *system, const PhysTime *time) {
     model_feed(model, system);
     PhysResult found = phys_simulate(system, time), wanted = reference_simulate(model, time);

@@ -19,12 +19,12 @@
 #define VEC(...) ((const double[]){__VA_ARGS__})
 #define COUNT_OF(array) (sizeof(array) / sizeof *(array))
 
-// A force with the defaults of the language.
+// Returns a force with the default attributes of the language.
 static inline PhysForce force_of(PhysForceKind kind) {
     return (PhysForce){.kind = kind, .strength = 1, .power = 1, .overlap = 0.25, .density = 1, .restitution = 1};
 }
 
-// A particle of mass 1 at a place.
+// Returns a particle of mass 1 at a position.
 static inline PhysParticle particle_at(PhysVector position) {
     return (PhysParticle){.position = position, .mass = 1};
 }
@@ -33,20 +33,20 @@ static inline PhysTime time_until(double now, double resolution) {
     return (PhysTime){.now = now, .resolution = resolution, .lockstep = true, .performance = 1};
 }
 
-// From time 0 to `now` in steps of `resolution`.
+// Simulates from time 0 to `now` in steps of `resolution`.
 static inline PhysResult run_until(PhysSystem *system, double now, double resolution) {
     PhysTime time = time_until(now, resolution);
     return phys_simulate(system, &time);
 }
 
-// One step of length 1 at clock 0. For a resting particle of mass 1 the velocity is then the force, exactly.
+// Makes one step of length 1 at clock 0. A resting particle of mass 1 then has exactly the force as velocity.
 static inline void one_step(PhysSystem *system) {
     PhysResult result = run_until(system, 1, 1);
     assert_int_equal(result.status, PHYS_OK);
     assert_int_equal(result.steps, 1);
 }
 
-// Numbers that compare equal, or two NaNs. (Zeros of either sign are equal.)
+// Checks that two numbers are equal or both NaN. Zeros of either sign are equal.
 static inline void check_equal(double found, double wanted, const char *file, int line) {
     if (found == wanted || (isnan(found) && isnan(wanted)))
         return;
@@ -64,7 +64,7 @@ static inline void check_near(double found, double wanted, double tolerance, con
 #define assert_same(found, wanted) check_equal(found, wanted, __FILE__, __LINE__)
 #define assert_near(found, wanted, tolerance) check_near(found, wanted, tolerance, __FILE__, __LINE__)
 
-// A deterministic stream for test data (an xorshift generator).
+// A deterministic xorshift generator for test data.
 typedef struct Dice {
     uint64_t state;
 } Dice;

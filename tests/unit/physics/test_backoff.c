@@ -1,18 +1,18 @@
-// test_backoff.c: when threads ask each other for help, and that a busy machine makes them stop, by played time.
+// test_backoff.c: decisions to use helper threads on a quiet and on a busy machine, in simulated time.
 #include "physics/backoff.h"
 #include "support.h"
 
-// A machine on which jobs take so long alone, and so long with help.
+// A simulated machine. Times of a job alone and with a helper, in nanoseconds.
 enum { ALONE = 20000, HELPED = 12000, SECOND = 1000000000 };
 
 typedef struct Machine {
     PhysBackoff help;
     uint64_t now;
-    uint64_t worked; // what all jobs would have taken alone
-    uint64_t asked;  // jobs that others were asked to help with
+    uint64_t worked; // time of all jobs if done alone
+    uint64_t asked;  // number of jobs offered to helpers
 } Machine;
 
-// How long the caller waits for a helper that has begun a share at a time; UINT64_MAX if nobody comes.
+// Returns how long the caller waits for a helper that begins a chunk at `now`; UINT64_MAX: no helper comes.
 typedef uint64_t Answer(uint64_t now);
 
 static void play_jobs(Machine *machine, Answer *answer, uint64_t duration) {
@@ -31,28 +31,28 @@ static void play_jobs(Machine *machine, Answer *answer, uint64_t duration) {
     }
 }
 
-static uint64_t at_once(uint64_t now) {
+static uint64_t answer_at_once(uint64_t now) {
     (void)now;
     return 0;
 }
 
-static uint64_t nobody(uint64_t now) {
+static uint64_t answer_never(uint64_t now) {
     (void)now;
     return UINT64_MAX;
 }
 
-// Another process has the helper's processor for 4 milliseconds of 8.
-static uint64_t half_of_the_time(uint64_t now) {
+// Another process uses the helper's processor for 4 of 8 ms.
+static uint64_t answer_half_of_the_time(uint64_t now) {
     return now % 8000000 < 4000000 ? 0 : 8000000 - now % 8000000;
 }
 
-// … for one of 16.
-static uint64_t now_and_then(uint64_t now) {
+// Another process uses the helper's processor for 1 of 16 ms.
+static uint64_t answer_most_of_the_time(uint64_t now) {
     return now % 16000000 < 15000000 ? 0 : 16000000 - now % 16000000;
 }
 
-// The helper's turn is over as soon as it has begun something.
-static uint64_t always_late(uint64_t now) {
+// The helper always loses its processor as soon as it has begun a chunk.
+static uint64_t answer_always_late(uint64_t now) {
     (void)now;
     return 4000000;
 }
@@ -64,15 +64,15 @@ static double ratio(const Machine *machine) {
 static void test_quiet(void **state) {
     (void)state;
     Machine machine = {0};
-    play_jobs(&machine, at_once, SECOND);
+    play_jobs(&machine, answer_at_once, SECOND);
     assert_near(ratio(&machine), (double)HELPED / ALONE, 1e-9);
     assert_int_equal(machine.help.pause_length, 0);
 }
 
-// Never slower than alone, but for a percent or two.
+// At most one or two per cent slower than alone.
 static void test_busy(void **state) {
     (void)state;
-    Answer *answers[] = {half_of_the_time, always_late, nobody};
+    Answer *answers[] = {answer_half_of_the_time, answer_always_late, answer_never};
     for (size_t i = 0; i < COUNT_OF(answers); i++) {
         Machine machine = {0};
         play_jobs(&machine, answers[i], 10ull * SECOND);
@@ -84,20 +84,20 @@ static void test_busy(void **state) {
 static void test_disturbed(void **state) {
     (void)state;
     Machine machine = {0};
-    play_jobs(&machine, now_and_then, 10ull * SECOND);
+    play_jobs(&machine, answer_most_of_the_time, 10ull * SECOND);
     assert_true(ratio(&machine) < 0.75);
 }
 
-// When the other process is gone, help is back within a second.
+// When the other process has ended, helpers are used again within a second.
 static void test_quiet_again(void **state) {
     (void)state;
-    Answer *answers[] = {half_of_the_time, always_late, nobody};
+    Answer *answers[] = {answer_half_of_the_time, answer_always_late, answer_never};
     for (size_t i = 0; i < COUNT_OF(answers); i++) {
         Machine machine = {0};
         play_jobs(&machine, answers[i], 10ull * SECOND);
-        play_jobs(&machine, at_once, SECOND);
+        play_jobs(&machine, answer_at_once, SECOND);
         uint64_t asked = machine.asked, before = machine.now;
-        play_jobs(&machine, at_once, SECOND);
+        play_jobs(&machine, answer_at_once, SECOND);
         assert_int_equal(machine.asked - asked, (machine.now - before) / HELPED);
     }
 }
@@ -113,7 +113,7 @@ static void test_unanswered(void **state) {
     assert_true(phys_backoff_pauses(&help, 201));
 }
 
-// Jobs on a machine where help makes them take `helped` instead of `alone`; returns the mean of the last rounds.
+// Runs jobs that take `helped` with help and `alone` without. Returns their mean time in the last periods.
 static double play_tuner(PhysTuner *tuner, double alone, double helped) {
     enum { JOBS = 8 * PHYS_TUNER_PERIOD };
     double sum = 0;
@@ -121,13 +121,13 @@ static double play_tuner(PhysTuner *tuner, double alone, double helped) {
         bool asks = phys_tuner_should_help(tuner);
         double took = asks ? helped : alone;
         if (asks || !phys_tuner_skip(tuner))
-            phys_tuner_learn(tuner, asks, i % 50 ? took : took * 100); // now and then something else disturbs
+            phys_tuner_learn(tuner, asks, i % 50 ? took : took * 100); // sometimes a job is disturbed
         sum += i < JOBS / 2 ? 0 : took;
     }
     return sum / (JOBS / 2);
 }
 
-// The faster way is found, and found again when cores have moved.
+// The tuner finds the faster way, also after it has changed.
 static void test_tuner_picks_faster(void **state) {
     (void)state;
     PhysTuner tuner = {0};

@@ -1,4 +1,4 @@
-// test_barriers.c: bounces (4.4).
+// test_barriers.c: reflections at barriers (4.4).
 #include "support.h"
 
 static const double UP[] = {0, 1}, DOWN[] = {0, -10};
@@ -34,14 +34,14 @@ static void check_ball(const PhysSystem *system, double x, double y, double vx, 
     assert_same(phys_velocity(system, 0)[1], vy);
 }
 
-// The rest of the step after the contact is spent on the way back.
+// After the contact, the particle moves back for the rest of the step.
 static void test_elastic(void **state) {
     (void)state;
     PhysSystem *system = ball_and_floor(VEC(0, 1), VEC(2, -4), 0, 1);
-    one_step(system); // in touch after a quarter of the step
+    one_step(system); // contact after a quarter of the step
     check_ball(system, 2, 3, 2, 4);
     phys_free(system);
-    system = ball_and_floor(VEC(0, 1.5), VEC(2, -4), 0.5, 1); // the edge counts
+    system = ball_and_floor(VEC(0, 1.5), VEC(2, -4), 0.5, 1); // the radius counts
     one_step(system);
     check_ball(system, 2, 3.5, 2, 4);
     phys_free(system);
@@ -62,12 +62,12 @@ static void test_restitution(void **state) {
 static void test_not_crossed(void **state) {
     (void)state;
     PhysSystem *system = ball_and_floor(VEC(0, 5), VEC(2, -4), 1, 0.5);
-    one_step(system); // just in touch
+    one_step(system); // just touching
     check_ball(system, 2, 1, 2, -4);
     phys_free(system);
 }
 
-// Behind the barrier but on its way out: put on the surface, velocity as it is.
+// A particle behind the barrier that moves out is put on the surface and keeps its velocity.
 static void test_leaving(void **state) {
     (void)state;
     PhysSystem *system = ball_and_floor(VEC(0, -5), VEC(2, 1), 0.5, 0.5);
@@ -80,7 +80,8 @@ static void test_leaving(void **state) {
     phys_free(system);
 }
 
-// Behind the barrier from the start, going deeper: the step is taken back, then it is put on the surface and reflected.
+// For a particle that starts behind the barrier and moves deeper, the step is undone. Then it is put on the surface and
+// reflected.
 static void test_outside(void **state) {
     (void)state;
     PhysSystem *system = ball_and_floor(VEC(0, -5), VEC(2, -1), 0, 1);
@@ -105,7 +106,7 @@ static void test_anchor_and_massless(void **state) {
     phys_free(system);
 }
 
-// Corner of two barriers: both bounces in one step.
+// A corner of two barriers: two reflections in one step.
 static void test_corner(void **state) {
     (void)state;
     PhysSystem *system = ball_and_floor(VEC(1, 1), VEC(-4, -2), 0, 1);
@@ -117,7 +118,7 @@ static void test_corner(void **state) {
     phys_free(system);
 }
 
-// Dropped from a height on a floor with restitution e, a ball comes back to e² of the height.
+// A ball that is dropped on a floor with restitution e returns to e² of its height.
 static double bounce_height(double restitution, double resolution) {
     PhysSystem *system = ball_and_floor(VEC(0, 1.25), NULL, 0.25, restitution);
     PhysForce fall = gravity();
@@ -149,7 +150,7 @@ static void test_bounce_height(void **state) {
     }
 }
 
-// A ball that has come to rest stays on the floor and does not tremble.
+// A ball at rest stays on the floor and does not jitter.
 static void test_ball_comes_to_rest(void **state) {
     (void)state;
     PhysSystem *system = ball_and_floor(VEC(0, 1), NULL, 0.5, 0.5);
@@ -161,7 +162,7 @@ static void test_ball_comes_to_rest(void **state) {
     phys_free(system);
 }
 
-// Motion after a bounce obeys the speed of light too: 4 with a push of 2, for the half of the step that is left.
+// Motion after a reflection also obeys the speed of light: 4, with a force of 2, for the remaining half of the step.
 static void test_speed_of_light(void **state) {
     (void)state;
     PhysSystem *system = ball_and_floor(VEC(0, 1), VEC(0, -4), 0, 1);
@@ -172,7 +173,8 @@ static void test_speed_of_light(void **state) {
     PhysTime time = time_until(1, 1);
     time.speed_of_light = 3;
     phys_simulate(system, &time);
-    // -4 + 2 = -2, so the place is -1 and contact was half a step ago, with -2 - 0.5 · 2 = -3; then 3 + 0.5 · 2 = 4.
+    // -4 + 2 = -2, so the position is -1 and contact was half a step ago, with velocity -2 - 0.5 · 2 = -3. Then 3 + 0.5
+    // · 2 = 4.
     check_ball(system, 0, 1.5, 0, 3);
     phys_free(system);
 }

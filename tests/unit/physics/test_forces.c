@@ -1,11 +1,11 @@
-// test_forces.c: each force against the formula of section 4, worked out by hand.
+// test_forces.c: each force compared with the formula of section 4, calculated by hand.
 //
-// A resting particle of mass 1 has, after one step of length 1, a velocity equal to the force on it.
+// After one step of length 1, a resting particle of mass 1 has a velocity equal to the force on it.
 #include "maths/random.h"
 #include "support.h"
 
-// Two free particles on the axis at 0 and `distance`, one force; what the first one feels. The second feels the
-// opposite to the last bit.
+// Returns the force on the first of two particles at 0 and `distance` on the axis. Checks that the second has exactly
+// the opposite.
 static double pair_force(PhysParticle a, PhysParticle b, double distance, const PhysForce *force) {
     PhysSystem *system = phys_new();
     phys_begin(system, 2);
@@ -70,7 +70,7 @@ static void test_distance_powers(void **state) {
         assert_same(pair_force(ball(0), ball(0), 2.75, &force), values[i] * 3);
     }
     force = link_of(2, -1);
-    force.power = 2; // a restoring force for even powers too
+    force.power = 2; // also a restoring force for even powers
     assert_same(pair_force(ball(0), ball(0), 1.5, &force), -0.25);
 }
 
@@ -108,7 +108,7 @@ static void test_gravity(void **state) {
     force.strength = 3;
     PhysParticle heavy = {.mass = 5};
     assert_same(pair_force(ball(0), heavy, 2, &force), 3 * (1 * 5.0) / 4);
-    heavy.radius = 3; // inside each other the force is constant
+    heavy.radius = 3; // within the radii the force is constant
     assert_same(pair_force(ball(1), heavy, 2, &force), 3 * (1 * 5.0) / 16);
     assert_same(pair_force(ball(1), heavy, 1, &force), 3 * (1 * 5.0) / 16);
     heavy.mass = 0;
@@ -135,13 +135,13 @@ static void test_adhesion(void **state) {
     PhysForce force = force_of(PHYS_ADHESION);
     force.strength = 4;
     force.overlap = 0.5;
-    // Radii 1 and 2: in touch below 3, at rest at 1 · 0.5 + 3 · 0.5 = 2.
+    // Radii 1 and 2: contact below 3, at rest at 1 · 0.5 + 3 · 0.5 = 2.
     assert_same(pair_force(ball(1), ball(2), 2, &force), 0);
     assert_same(pair_force(ball(1), ball(2), 2.5, &force), 4 * 0.5 * 0.5);
     assert_same(pair_force(ball(1), ball(2), 1.5, &force), 4 * 1.5 * -0.5);
     assert_same(pair_force(ball(1), ball(2), 3, &force), 0);
     assert_same(pair_force(ball(1), ball(0), 0.5, &force), 0);
-    force.overlap = 1; // the smaller one is drawn in until it touches from within
+    force.overlap = 1; // attracts the smaller one until it touches from within
     assert_same(pair_force(ball(1), ball(2), 1, &force), 0);
     assert_true(pair_force(ball(1), ball(2), 1.5, &force) > 0);
     force.overlap = 0; // a collision with power 2
@@ -151,7 +151,7 @@ static void test_adhesion(void **state) {
     assert_same(pair_force(ball(1), ball(2), 2.25, &force), pair_force(ball(1), ball(2), 2.25, &collision));
 }
 
-// One particle with a velocity and one force, in three dimensions; its change of velocity in a step of length 1.
+// Returns the change of velocity of one particle with one force, in three dimensions and a step of length 1.
 static void single_force(PhysParticle particle, const PhysForce *force, double change[3]) {
     PhysSystem *system = phys_new();
     phys_begin(system, 3);
@@ -250,14 +250,14 @@ static void test_own_force(void **state) {
     PhysForce none = force_of(PHYS_CONSTANT);
     PhysParticle p = {.mass = 2, .force = VEC(1, 2, 4)};
     check_single(p, &none, 0.5, 1, 2);
-    p.ease = 1; // at clock 0 nothing of it
+    p.ease = 1; // no force at clock 0
     check_single(p, &none, 0, 0, 0);
     p.ease = 0;
     p.anchor = true;
     check_single(p, &none, 0, 0, 0);
 }
 
-// Each force, eased in over 8: at the steps that begin at clock 0, 1, 2, … it has 0, 1/8, 2/8, … of its strength.
+// If a force is eased in over 8, it has 0, 1/8, 2/8, … of its strength in steps that begin at clock 0, 1, 2, …
 static void test_ease(void **state) {
     (void)state;
     PhysSystem *system = phys_new();
@@ -279,7 +279,7 @@ static void test_ease(void **state) {
     phys_free(system);
 }
 
-// `!random` items: components, then particles (anchors take none), then steps, counted in the force's own group.
+// Items of `!random` are counted in the force's group: components, then particles (except anchors), then steps.
 static void test_random(void **state) {
     (void)state;
     PhysSystem *system = phys_new();
@@ -296,7 +296,7 @@ static void test_random(void **state) {
     force.key = 777;
     phys_add_force(system, other, &force);
     run_until(system, 2, 1);
-    // Pre-order: light (0, 1), top (2, 3), inner (4, 5), other (6, 7); the next step goes on at 8.
+    // Pre-order: light (0, 1), top (2, 3), inner (4, 5), other (6, 7); the next step continues at 8.
     for (uint64_t k = 0; k < 2; k++) {
         assert_same(phys_velocity(system, in_top)[k], random_normal(12345, 2 + k) + random_normal(12345, 10 + k));
         assert_same(phys_velocity(system, in_inner)[k], random_normal(12345, 4 + k) + random_normal(12345, 12 + k));
@@ -307,7 +307,7 @@ static void test_random(void **state) {
     phys_free(system);
 }
 
-// Forces of the own group come first, then those of the enclosing ones; the speed limit holds after all of them.
+// Forces of a particle's group come first, then those of enclosing groups. The speed limit applies after all of them.
 static void test_speed_of_light(void **state) {
     (void)state;
     PhysSystem *system = phys_new();
@@ -320,7 +320,7 @@ static void test_speed_of_light(void **state) {
     phys_simulate(system, &time);
     assert_same(phys_velocity(system, 0)[0], 3 * (2.0 / 5));
     assert_same(phys_velocity(system, 0)[1], 4 * (2.0 / 5));
-    assert_same(phys_velocity(system, 1)[0], 9); // no mass, no limit
+    assert_same(phys_velocity(system, 1)[0], 9); // mass 0: no limit
     phys_free(system);
 }
 

@@ -1,10 +1,10 @@
-// test_groups.c: who sees whom, handles, and descriptions that change from frame to frame.
+// test_groups.c: interactions between groups, handles, and descriptions that change between frames.
 #include "support.h"
 
 enum { BODIES = 6 };
 
-// Top (0: one body), A (1: two), A.B (2: one), C (3: two); handles in an order that has nothing to do with it. Bodies
-// lie on a line far apart, so that a spring-like force between all pairs shows who acts on whom.
+// Top (0: one body), A (1: two), A.B (2: one), C (3: two), with handles in a different order. A force between all pairs
+// shows which bodies act on which.
 static PhysSystem *family(void) {
     static const uint32_t groups[BODIES] = {3, 1, 2, 0, 1, 3};
     PhysSystem *system = phys_new();
@@ -14,14 +14,14 @@ static PhysSystem *family(void) {
     phys_add_group(system, 0);
     for (int i = 0; i < BODIES; i++) {
         double position[BODIES] = {0};
-        position[i] = 1; // each in a dimension of its own: a force from j on i has a component j
+        position[i] = 1; // each on a separate axis: a force from j on i has a component j
         PhysParticle p = {.position = position, .mass = 1};
         assert_int_equal(phys_add_particle(system, groups[i], &p), i);
     }
     return system;
 }
 
-// Row i names, as bits, the bodies that act on body i when `group` declares gravity.
+// Checks which bodies act on body i if `group` declares gravity: the bits of row i.
 static void check_sight(uint32_t group, const unsigned char wanted[BODIES]) {
     PhysSystem *system = family();
     PhysForce gravity = force_of(PHYS_GRAVITY);
@@ -41,7 +41,7 @@ static void test_sight(void **state) {
     check_sight(0, (unsigned char[]){TOP | (C & ~1), TOP | B | (A & ~2), TOP | A, A | B | C, TOP | B | (A & ~16),
                                      TOP | (C & ~32)});
     check_sight(1, (unsigned char[]){0, B | (A & ~2), A, 0, B | (A & ~16), 0});
-    check_sight(2, (unsigned char[]){0, 0, 0, 0, 0, 0}); // one alone
+    check_sight(2, (unsigned char[]){0, 0, 0, 0, 0, 0}); // a single body
     check_sight(3, (unsigned char[]){C & ~1, 0, 0, 0, 0, C & ~32});
 }
 
@@ -87,7 +87,7 @@ static void test_barriers_reach_subgroups(void **state) {
     phys_free(system);
 }
 
-// A particle of a group is pushed by an anchor of an enclosing one; the anchor stays.
+// An anchor of an enclosing group pushes a particle of a group and does not move.
 static void test_anchor_above(void **state) {
     (void)state;
     PhysSystem *system = phys_new();
@@ -106,7 +106,7 @@ static void test_anchor_above(void **state) {
     phys_free(system);
 }
 
-// Before anything is simulated, what was given can be read.
+// Before the first frame, the described values can be read.
 static void test_handles(void **state) {
     (void)state;
     PhysSystem *system = phys_new();
@@ -129,7 +129,7 @@ static void test_handles(void **state) {
     phys_free(system);
 }
 
-// A new description starts from nothing, with another number of dimensions too.
+// A new description starts from scratch, also with another number of dimensions.
 static void test_new_description(void **state) {
     (void)state;
     PhysSystem *system = family();

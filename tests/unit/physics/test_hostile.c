@@ -1,7 +1,7 @@
-// test_hostile.c: input that no sane script gives. Nothing may crash, and what the specification says still holds.
+// test_hostile.c: hostile input. Nothing may crash, and the specification still holds.
 #include "random_model.h"
 
-// NaN, infinite, huge and tiny numbers in every field, against the reference.
+// NaN, infinite, huge and tiny numbers in every field, compared with the reference.
 static void test_extreme_numbers(void **state) {
     (void)state;
     for (uint64_t seed = 1; seed <= 200; seed++) {
@@ -12,7 +12,7 @@ static void test_extreme_numbers(void **state) {
     }
 }
 
-// A particle that is not finite affects nobody.
+// A particle that is not finite does not affect others.
 static void test_stays_inside(void **state) {
     (void)state;
     const double lost[] = {NAN, INFINITY, -INFINITY, 1e200};
@@ -69,7 +69,7 @@ static void test_all_at_one_point(void **state) {
     phys_free(system);
 }
 
-// 1e9 dimensions: fine as long as there is nothing that needs so many numbers.
+// 1e9 dimensions work as long as there are no vectors.
 static void test_dimensions(void **state) {
     (void)state;
     PhysSystem *system = phys_new();
@@ -93,7 +93,7 @@ static void test_dimensions(void **state) {
         assert_int_equal(result.steps, 0);
         assert_same(result.clock, 7);
     }
-    phys_begin(system, 2); // and the system can be used again
+    phys_begin(system, 2); // the system can be used again
     PhysParticle p = particle_at(VEC(1, 1));
     phys_add_particle(system, 0, &p);
     assert_int_equal(run_until(system, 1, 1).status, PHYS_OK);
@@ -145,7 +145,7 @@ static void test_many_links(void **state) {
     phys_free(system);
 }
 
-// 10,000 groups inside each other; all forces at the top, particles at the top and at the bottom.
+// 10,000 nested groups; all forces in the top group, particles in the top and the innermost group.
 static void test_deep_nesting(void **state) {
     (void)state;
     PhysSystem *system = phys_new();

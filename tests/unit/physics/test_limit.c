@@ -1,4 +1,4 @@
-// test_limit.c: the limit kernel of soft discs and spheres has the bits of lib/physics, lists made anew on the way.
+// test_limit.c: the limit kernel of soft discs and spheres gives the bits of lib/physics, also when lists are rebuilt.
 #include "../../bench/limit.h"
 #include "base/cpu.h"
 #include "physics/system.h"
@@ -33,7 +33,7 @@ static void simulate_particles(uint32_t dimensions, uint32_t n, double *position
 static void compare_with_limit(uint32_t dimensions, uint32_t side) {
     uint32_t n = dimensions == 2 ? side * side : side * side * side;
     size_t count = (size_t)n * dimensions;
-    double *numbers[4]; // position and velocity, of both
+    double *numbers[4]; // positions and velocities of both
     for (int k = 0; k < 4; k++)
         numbers[k] = calloc(count, sizeof *numbers[k]);
     uint32_t seed = 1;
@@ -65,7 +65,7 @@ static void test_spheres(void **state) {
 
 int main(void) {
     if (cpu_detected.level < CPU_AVX512)
-        return 77; // the kernel has no other form
+        return 77; // the kernel needs AVX-512
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_discs), cmocka_unit_test(test_spheres)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
-// test_memory.c: a warm frame allocates nothing; an allocation that fails leaves the system usable.
+// test_memory.c: a frame after the first allocates nothing, and a system is usable after a failed allocation.
 //
-// Linked with --wrap=malloc: arenas, the only users of the heap, come here.
+// Linked with --wrap=malloc, so that all allocations of arenas go through this file.
 #include "support.h"
 
 void *__real_malloc(size_t size);
@@ -41,7 +41,7 @@ static void test_warm_frame(void **state) {
     int before = allocations;
     for (int frame = 0; frame < 5; frame++)
         assert_int_equal(describe_and_run(system, 300).status, PHYS_OK);
-    assert_int_equal(describe_and_run(system, 20).status, PHYS_OK); // smaller ones are served as well
+    assert_int_equal(describe_and_run(system, 20).status, PHYS_OK); // a smaller system needs no new memory
     assert_int_equal(allocations, before);
     phys_free(system);
 }
@@ -56,7 +56,7 @@ static void test_growing(void **state) {
     phys_free(system);
 }
 
-// Each allocation of a frame in turn is the one that fails.
+// Each allocation of a frame fails in turn.
 static void test_failing(void **state) {
     (void)state;
     allocations = 0;
@@ -84,7 +84,7 @@ static void test_failing(void **state) {
     fail_at = -1;
 }
 
-// Numbers that all particles share are kept once, until one gets another; each has its own anyway.
+// Attributes that all particles share are stored once until one particle changes. Every particle has the right values.
 static void test_records(void **state) {
     enum { COUNT = 1000 };
     (void)state;

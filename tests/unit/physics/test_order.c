@@ -1,5 +1,5 @@
-// test_order.c: the order of accumulation. Random systems with nested groups and all kinds of forces give the same
-// bits as the reference.
+// test_order.c: the order of summation. Random systems with nested groups and all kinds of forces give the bits of the
+// reference.
 #include "random_model.h"
 
 static void compare_many(size_t dimensions) {
@@ -51,7 +51,7 @@ static void test_large_group(void **state) {
     compare_random(7, &shape, 3);
 }
 
-// With three particles in a row the order of additions shows: change it and these bits change.
+// With three particles in a row, the bits depend on the order of additions.
 static void test_order_is_visible(void **state) {
     (void)state;
     double forward = (0.1 + 0.2) + 0.3, backward = (0.3 + 0.2) + 0.1;

@@ -1,11 +1,11 @@
-// test_reorder.c: columns in the order of a neighbour list (lib/physics/reorder.c) give the bits of all pairs in the
-// order of the description, whatever happens to the system in between.
+// test_reorder.c: reordered columns (lib/physics/reorder.c) give the same bits as all pairs in the order of the
+// description, also when the system changes.
 #include "physics/neighbour_list.h"
 #include "support.h"
 
 enum { SIDE = 24, COUNT = SIDE * SIDE };
 
-// A system and one that takes no lists, which go through the same.
+// A system with neighbour lists and one without, which undergo the same changes.
 typedef struct Twins {
     PhysSystem *plain, *listed;
     size_t dimensions;
@@ -21,7 +21,7 @@ static Twins twins_of(size_t dimensions, const PhysOptions *options) {
     return twins;
 }
 
-// Discs on a grid, in no order of places: numbers that follow each other are far apart.
+// Describes discs on a grid, in an order in which consecutive handles are far apart.
 static void describe_system(PhysSystem *system, size_t dimensions, uint32_t count, uint32_t groups, bool pushed) {
     Dice dice = {77};
     phys_begin(system, (uint32_t)dimensions);
@@ -63,7 +63,7 @@ static void begin_forces(Twins *twins) {
     add_forces(twins->listed, 0);
 }
 
-// The forces, and one more.
+// Replaces the forces by the usual ones and one more.
 static void add_force(Twins *twins, PhysForceKind kind) {
     PhysForce force = force_of(kind);
     begin_forces(twins);
@@ -83,7 +83,7 @@ static void begin_systems(Twins *twins, uint32_t count, uint32_t groups, bool pu
     add_forces(twins->listed, groups - 1);
 }
 
-// Another radius and mass, at the place of now.
+// Changes radius and mass and keeps the position.
 static void change_particle(Twins *twins, uint32_t particle, double radius, double mass) {
     PhysParticle p = {.radius = radius, .mass = mass};
     PhysPreserve preserve = {.position = true, .velocity = true};
@@ -106,7 +106,7 @@ static void check_same(const Twins *twins, int line) {
         }
 }
 
-static void frames(Twins *twins, int count, bool settled, int line) {
+static void frames(Twins *twins, int count, bool in_cell_order, int line) {
     for (int f = 0; f < count; f++, twins->frame++) {
         double now = twins->frame * 0.04;
         PhysTime time = {.last = now, .now = now + 0.04, .clock = now, .resolution = 0.01, .lockstep = true};
@@ -116,13 +116,13 @@ static void frames(Twins *twins, int count, bool settled, int line) {
         assert_int_equal(phys_simulate(twins->listed, &time).status, PHYS_OK);
         check_same(twins, line);
     }
-    if (twins->listed->in_cell_order == settled)
+    if (twins->listed->in_cell_order == in_cell_order)
         return;
-    print_error("line %d: settled is %d\n", line, twins->listed->in_cell_order);
+    print_error("line %d: in_cell_order is %d\n", line, twins->listed->in_cell_order);
     fail();
 }
 
-#define FRAMES(twins, count, settled) frames(twins, count, settled, __LINE__)
+#define FRAMES(twins, count, in_cell_order) frames(twins, count, in_cell_order, __LINE__)
 
 static void check_changes(size_t dimensions, const PhysOptions *options) {
     PhysOptions never = *options;
@@ -130,26 +130,26 @@ static void check_changes(size_t dimensions, const PhysOptions *options) {
     Twins twins = twins_of(dimensions, options);
     begin_systems(&twins, COUNT, 1, false);
     FRAMES(&twins, 6, true);
-    for (int i = 0; i < 4; i++) { // between frames, after which the next step is prepared
+    for (int i = 0; i < 4; i++) { // between frames, when the next step is already prepared
         move_particle(&twins, 17 + 100 * i, 1.3 + 4 * i);
         FRAMES(&twins, 1, true);
     }
     change_particle(&twins, 5, 0.4, 2);
     change_particle(&twins, 300, 0.6, 0);
     FRAMES(&twins, 3, true);
-    add_force(&twins, PHYS_DISTANCE); // a link names columns
+    add_force(&twins, PHYS_DISTANCE); // a link contains column numbers
     FRAMES(&twins, 2, false);
     begin_forces(&twins);
     FRAMES(&twins, 7, true);
-    add_force(&twins, PHYS_RANDOM); // whose numbers come in the order of particles
+    add_force(&twins, PHYS_RANDOM); // random numbers depend on the order of particles
     FRAMES(&twins, 2, false);
     begin_forces(&twins);
     FRAMES(&twins, 7, true);
-    add_force(&twins, PHYS_GRAVITY); // without a reach
+    add_force(&twins, PHYS_GRAVITY); // no bounded range
     FRAMES(&twins, 2, false);
     begin_forces(&twins);
     FRAMES(&twins, 7, true);
-    change_particle(&twins, 100, 4, 1); // large ones meet all others in order
+    change_particle(&twins, 100, 4, 1); // large particles are summed in column order
     FRAMES(&twins, 2, false);
     change_particle(&twins, 100, 0.5, 1);
     move_particle(&twins, 17, NAN);
@@ -160,7 +160,7 @@ static void check_changes(size_t dimensions, const PhysOptions *options) {
     phys_set_options(twins.listed, &never);
     FRAMES(&twins, 1, false);
     phys_set_options(twins.listed, options);
-    begin_systems(&twins, COUNT, 1, true); // the same number again, with forces of their own
+    begin_systems(&twins, COUNT, 1, true); // the same number of particles, with their own forces
     FRAMES(&twins, 3, true);
     begin_systems(&twins, COUNT, 1, false);
     FRAMES(&twins, 1, true);
@@ -187,7 +187,7 @@ static void test_kept_forces(void **state) {
                .threads = 4, .keep_forces = true, .cpu = cpu_detected.level, .neighbours = PHYS_NEIGHBOURS_ALWAYS});
 }
 
-// So many that one thread takes several chunks of places: each may have a column of forces to itself, or the same one.
+// Enough particles for several chunks per thread, with separate or shared columns of forces.
 static void test_chunks(void **state) {
     (void)state;
     enum { MANY = 40000, ROW = 200, STEPS = 4 };

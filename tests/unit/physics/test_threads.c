@@ -1,4 +1,4 @@
-// test_threads.c: shares of work: each is done once, whoever does it.
+// test_threads.c: the thread pool: each chunk of a job runs once, on any thread.
 #include "physics/internal.h"
 #include "physics/threads.h"
 #include "support.h"
@@ -61,7 +61,7 @@ static void test_systems_share_threads(void **state) {
     phys_threads_free(pool);
 }
 
-// Threads that others keep from working: whoever has begun a share falls asleep.
+// Simulates threads that lose their processor: a helper sleeps after it has begun a chunk.
 typedef struct Slow {
     pthread_t caller;
     atomic_int helped;
@@ -79,7 +79,7 @@ static void count_chunk_slowly(void *context, int chunk, int chunks) {
     nanosleep(&(struct timespec){.tv_nsec = 2000000}, NULL);
 }
 
-// Nobody is asked any more after the first time, for a while.
+// After the first such job, no helper is used for a while.
 static void test_slow_threads(void **state) {
     (void)state;
     enum { MAX_TRIES = 1000000, SLOW_JOBS = 400, MAX_HELPED = 40 };

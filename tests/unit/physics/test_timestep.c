@@ -1,7 +1,7 @@
-// test_timestep.c: how many steps a frame makes (the loop of section 4).
+// test_timestep.c: the number of steps in a frame (the loop of section 4).
 #include "support.h"
 
-// A particle that falls freely, so that the number of steps shows in its velocity.
+// A particle in free fall, so that its velocity shows the number of steps.
 static PhysSystem *falling(void) {
     PhysSystem *system = phys_new();
     phys_begin(system, 1);
@@ -29,7 +29,7 @@ static void test_lockstep(void **state) {
     check_steps((PhysTime){.last = 5, .now = 6, .clock = 3, .resolution = 0.25, .lockstep = true}, PHYS_OK, 4, 4);
 }
 
-// A rest that is only rounding does not make a step of its own.
+// A remainder due to rounding does not cause another step.
 static void test_crumbs(void **state) {
     (void)state;
     check_steps(time_until(1, 0.1), PHYS_OK, 10, 1);
@@ -41,7 +41,7 @@ static void test_crumbs(void **state) {
 static void test_real_time(void **state) {
     (void)state;
     PhysTime time = {.now = 1, .resolution = 0.25, .performance = 1.5};
-    check_steps(time, PHYS_OK, 1, 0.25); // what is left is dropped without a word
+    check_steps(time, PHYS_OK, 1, 0.25); // the rest is dropped without a report
     time.performance = 1.6;
     check_steps(time, PHYS_OK, 2, 0.5);
     time.performance = NAN;
@@ -63,7 +63,7 @@ static void test_step_limit(void **state) {
     check_steps(time_until(1, 1e-6), PHYS_OK, PHYS_MAX_STEPS, 1);
 }
 
-// Where the clock cannot express the step, none is made.
+// No step is made if it is too small to change the clock.
 static void test_lost_precision(void **state) {
     (void)state;
     PhysTime time = {.last = 1e17, .now = 1e17 + 64, .resolution = 1, .lockstep = true};
@@ -78,7 +78,7 @@ static void test_lost_precision(void **state) {
     phys_free(system);
 }
 
-// The same steps grouped into frames in another way give the same bits.
+// The bits do not depend on how steps are grouped into frames.
 static void test_grouping_of_steps(void **state) {
     (void)state;
     PhysSystem *whole = falling(), *parts = falling();

@@ -1,11 +1,11 @@
-// test_variants.c: every vector level, with and without neighbour lists, on any number of threads, gives the same bits:
-// small random systems those of the reference, large ones those of the scalar code on one thread.
+// test_variants.c: all instruction sets, with and without neighbour lists, on any number of threads, give the same
+// bits. Small random systems are compared with the reference, large ones with scalar code on one thread.
 #include "random_model.h"
 
 typedef void Check(const PhysOptions *options, void *context);
 
-// Calls `check` for each level with all values of the other options, though not with all combinations of these. The
-// scalar level takes its time and has fewer ways.
+// Calls `check` for each instruction set with all values of the other options, but not all combinations. The scalar
+// level is slow and has fewer variants.
 static void for_each_variant(Check *check, void *context) {
     static const PhysOptions options[] = {
         {.threads = 1, .neighbours = PHYS_NEIGHBOURS_NEVER},  {.threads = 3, .neighbours = PHYS_NEIGHBOURS_NEVER},
@@ -46,8 +46,8 @@ typedef struct Scene {
     const char *name;
     uint32_t dimensions, count, groups;
     Layout layout;
-    double size;     // of the place
-    double extremes; // share of the particles that are strange
+    double size;     // of the area
+    double extremes; // fraction of particles with extreme values
     int force_count;
     PhysForce forces[FORCES];
     uint32_t force_group[FORCES];
@@ -116,7 +116,7 @@ static void copy_results(const Scene *scene, Bodies *bodies, const PhysSystem *s
         memcpy(bodies->velocity[i], phys_velocity(system, i), scene->dimensions * sizeof(double));
         if (frame == 5 && i % 100 == 3) // anchors and others jump
             bodies->position[i][0] += 3;
-        if (frame == 7 && !isfinite(bodies->position[i][0])) // and the lost come back
+        if (frame == 7 && !isfinite(bodies->position[i][0])) // particles that are not finite return
             bodies->position[i][0] = 1;
     }
 }
@@ -130,7 +130,7 @@ static void simulate_frame(PhysSystem *system, int frame) {
 
 typedef struct Recording {
     const Scene *scene;
-    Bodies *start, *end; // end: what the scalar code gives
+    Bodies *start, *end; // end: result of the scalar code
     Bodies *now;
 } Recording;
 
@@ -181,7 +181,7 @@ static PhysForce pair_force(PhysForceKind kind, double strength, double power, d
     return force;
 }
 
-// With a key of 0 all numbers would be the same.
+// With key 0 all random numbers would be the same.
 static PhysForce random_force(void) {
     PhysForce force = force_of(PHYS_RANDOM);
     force.key = UINT64_C(0x9e3779b97f4a7c15);
@@ -230,8 +230,8 @@ static void test_unbounded(void **state) {
         }
 }
 
-// On several threads particles are moved while others still get forces: all that happens to one alone. Enough of them
-// that threads are called, and not a whole number of lanes.
+// On several threads, some particles are moved while forces on others are still computed. There are enough of them for
+// threads, and not a multiple of the lanes.
 static void test_moved_at_once(void **state) {
     (void)state;
     for (uint32_t n = 1; n <= 3; n++) {
@@ -246,7 +246,7 @@ static void test_moved_at_once(void **state) {
     }
 }
 
-// Nested groups with forces at several levels: passes over several ranges.
+// Nested groups with forces at several levels, so that passes have several ranges.
 static void test_nested(void **state) {
     (void)state;
     Scene scene = {.name = "nested", .dimensions = 2, .count = 700, .groups = 5, .size = 29, .frames = 8};

@@ -1,7 +1,6 @@
-// test_scene_mirror.c: state and engine agree after an update that broke off, wherever that was.
+// test_scene_mirror.c: state and engine are in sync after an update that was aborted at any point.
 //
-// Trees are made by hand and live as long as the test, as those of a program do; an update breaks off where its arena's
-// budget ends.
+// Trees are built by the test and have program lifetime. An update is aborted where its arena's limit is reached.
 #include "scene/scene.h"
 #include "values.h"
 
@@ -33,8 +32,8 @@ static Value append_node(World *world, Value system, const char *kind, const cha
                       node_append(&world->arena, system.as.items->as.node, value_node(&world->arena, node)));
 }
 
-// A system in two dimensions: particles 1 … count, and three forces of the same size. A vector of one number takes the
-// frame's memory when it is read.
+// Returns a system in two dimensions with particles 1 to `count` and three equal forces. Reading a vector of one number
+// allocates from the frame's arena.
 static Value system_of(World *world, int count, double force) {
     const Node *node = make_node(world, "physics", "state", read_value(world, ":s"));
     node = node_set_attrs(&world->arena, node, &(Attr){name_of(world, "dimensions"), value_number(2)}, 1);
@@ -47,7 +46,7 @@ static Value system_of(World *world, int count, double force) {
     return tree;
 }
 
-// One frame; false if it broke off.
+// Updates the scene for one frame. Returns false if the update was aborted.
 static bool update_scene(Stage *stage, Value tree, size_t budget) {
     volatile bool whole = false;
     arena_init(&stage->arena, "frame", budget);
@@ -71,7 +70,8 @@ static bool has_entry(const Stage *stage, const char *key) {
     return get_entry(stage, key).len > 0;
 }
 
-// Frames of `first`, `second`, which may break off, and `third`.
+// Runs frames of `first`, `second`, which may be aborted, and `third`. Returns false if it was aborted. Budget 0 skips
+// `second`.
 static bool run_frames(Stage *stage, World *world, Value first, Value second, Value third, size_t budget) {
     *stage = (Stage){.world = world, .state = state_new(NULL)};
     schema_init(&stage->schema, &world->symbols, (SchemaSink){NULL, ignore_report});
@@ -91,9 +91,9 @@ static void free_stage(Stage *stage) {
     state_free(stage->state);
 }
 
-enum { MAX_BUDGET = 1000, BY = 8, PLACES = 4 }; // budgets; where an update breaks off, at least
+enum { MAX_BUDGET = 1000, BY = 8, PLACES = 4 }; // budgets in bytes; minimum number of points of abortion
 
-// Particles of the last whole tree go from the state with the next whole one.
+// Particles of the last complete tree are removed from the state by the next complete one.
 static void test_vanished(void **state) {
     World *world = *state;
     Value two = system_of(world, 2, 1), one = system_of(world, 1, 1), three = system_of(world, 3, 1);
@@ -108,7 +108,7 @@ static void test_vanished(void **state) {
     assert_true(broken >= PLACES && broken < MAX_BUDGET / BY);
 }
 
-// Forces of a tree that was not read to its end do not act.
+// Forces of a tree that was not read completely do not act.
 static void test_forces(void **state) {
     World *world = *state;
     Value pushed = system_of(world, 2, 1), pulled = system_of(world, 2, -5);
@@ -135,7 +135,7 @@ static size_t arena_bytes(const Arena *arena) {
     return bytes;
 }
 
-// Ids that are made for a host are charged as all that a script has is.
+// Ids for a host are charged to the budget of the script.
 static void test_ids_are_charged(void **state) {
     World *world = *state;
     Value two = system_of(world, 2, 1), three = system_of(world, 3, 1);
