@@ -1,16 +1,16 @@
-// code.h: what the machine runs: expressions lowered to instructions over registers.
+// code.h: code of the VM: expressions lowered to instructions over registers.
 //
-// Each function, the main program and each module is one Code. Its registers are the function's slots followed by
-// temporaries. An operand is the number of a register, or a negative one: the constants are put just before the first
-// register when the code is entered, so that both are read in the same way. Instructions that take several operands
-// find their numbers in a list. Every instruction knows its place in the source, for diagnostics. Code refers to
-// nothing that was only needed to make it.
+// Each function, the main program and each module is one Code. Its registers are the function's slots, followed by
+// temporaries. An operand is the number of a register. Negative numbers are constants: they are stored directly before
+// the first register when the code is entered, so that both are read in the same way. Instructions with many operands
+// refer to a list of numbers. Every instruction has a position in the source, for diagnostics. Code does not refer to
+// data of the compiler.
 //
 //   !particle id=i position=2*i;0       mul      r3 = 2 r0
 //                                       compose  r3 = (r3, 0)
 //                                       node     r4 = particle (r0, r3)
 //
-// The order of evaluation is that of the expressions; nothing is moved or left out.
+// Instructions are in the order in which the expressions are evaluated; none is moved or omitted.
 #ifndef PETRI_PROGRAM_CODE_H
 #define PETRI_PROGRAM_CODE_H
 
@@ -27,19 +27,19 @@ typedef enum Opcode {
 
 #define CODE_NO_OPERAND INT32_MAX
 
-// A node that is made at once: what is known of it beforehand.
+// The constant parts of a node that one instruction creates.
 typedef struct NodeCode {
     const Node *base;                  // kind and tags
-    const Symbol *const *names;        // of the attributes, each once
-    const Origin *decorated;           // where they were added, or NULL
-    const NodeList *constant_children; // constant children, or NULL
+    const Symbol *const *names;        // names of the attributes, without duplicates
+    const Origin *decorated;           // position of the attributes, or NULL
+    const NodeList *constant_children; // NULL: the children are not constant
 } NodeCode;
 
-// What a closure takes along when it is made.
+// Where a new closure finds a captured value.
 typedef enum CaptureKind {
-    CAPTURE_SLOT,  // of the enclosing function
-    CAPTURE_OUTER, // what the enclosing closure has captured
-    CAPTURE_SELF,  // the enclosing closure
+    CAPTURE_SLOT,  // in a slot of the enclosing function
+    CAPTURE_OUTER, // among the captured values of the enclosing closure
+    CAPTURE_SELF,  // it is the enclosing closure itself
 } CaptureKind;
 
 typedef struct Capture {
@@ -48,85 +48,88 @@ typedef struct Capture {
 } Capture;
 
 typedef struct FunctionCode {
-    Str name;                    // "<anon>" without one
-    const Symbol *const *params; // they have the first slots
+    Str name;                    // "<anon>" for an anonymous function
+    const Symbol *const *params; // parameters, which use the first slots
     uint32_t param_count;
     uint32_t capture_count;
     const Capture *captures;
-    const Code *code; // of the body
+    const Code *code; // code of the body
 } FunctionCode;
 
 typedef struct CallCode {
-    uint32_t arg_count;         // positional
-    const Symbol *const *names; // of the named ones
+    uint32_t arg_count;         // number of positional arguments
+    const Symbol *const *names; // names of the named arguments
     uint32_t named_count;
 } CallCode;
 
 typedef struct DecorateCode {
     const Symbol *const *tags;
     uint32_t tag_count;
-    const Symbol *const *names; // of the attributes
+    const Symbol *const *names; // names of the attributes
 } DecorateCode;
 
-// A loop of whose body many rounds can be run at once, instruction by instruction: no round depends on another one, and
-// nothing is to be seen of them but their parts. Each register that the body writes is a column then, with a value for
-// each round.
+// Plan for a loop whose iterations are independent and whose only effect is the values they yield, so that a batch of
+// iterations can be executed one instruction at a time. Registers written by the body become columns.
 typedef struct BatchPlan {
-    uint32_t end;            // the NEXT
-    int32_t first_register;  // of the registers that may be columns,
-    uint32_t register_count; // … which are so many;
-    const uint8_t *columns;  // of each of them: which column it is, from 1; 0: none, it is the same in all rounds
+    uint32_t end;            // index of the NEXT instruction
+    int32_t first_register;  // first register that may be a column
+    uint32_t register_count; // number of registers that may be columns
+    const uint8_t *columns;  // by register - first_register: column number from 1; 0: uniform
     uint32_t column_count;
-    uint32_t yield_count; // ADD_PARTs
+    uint32_t yield_count; // number of YIELD instructions
 } BatchPlan;
 
-enum { CODE_MAX_COLUMNS = 64, CODE_MAX_YIELDS = 8, CODE_MAX_READ = 32 }; // registers that one instruction reads
+enum {
+    CODE_MAX_COLUMNS = 64,
+    CODE_MAX_YIELDS = 8,
+    CODE_MAX_READ = 32
+}; // limits of a batch plan; READ: registers that one instruction reads
 
 typedef struct Instr {
     uint16_t op;
     uint16_t loop;
-    int32_t d; // register written, or the first that is bound; YIELD_NODE: whether nothing else of the round stays
+    int32_t d; // register written, or first register bound; YIELD_NODE: 1 if the iteration retains nothing else
     union {
         int32_t a;
-        uint32_t list; // position of the first operand in `operands`
+        uint32_t list; // index of the first operand in Code.operands
     };
     int32_t b;
     union {
         int32_t c;
-        uint32_t count; // of the list, or of the registers bound
+        uint32_t count; // number of operands in the list, or of registers bound
     };
-    uint32_t
-        target; // instruction to jump to; number of a capture or a place; YIELD_NODE: the register of the loop's name
+    // Instruction to jump to; number of a capture, engine name or lookup; YIELD_NODE: register of the loop's name.
+    uint32_t target;
     const Origin *at;
     union {
         const NodeCode *node;
-        const NodeList *constant_children; // APPEND: constant children, or NULL
+        const NodeList *constant_children; // APPEND: NULL: not constant
         const DecorateCode *decorate;
         const FunctionCode *function; // CLOSURE
         const CallCode *call;
         const Builtin *builtin;
-        const BatchPlan *batch_plan; // FOR, FOR_RANGE: NULL if rounds are run one by one
+        const BatchPlan *batch_plan; // FOR, FOR_RANGE: NULL: iterations are executed one by one
         const Symbol *name;          // UNBOUND
         const Symbol *const *names;  // IMPORT
-        const Origin *inner_origin;  // SLICE: the place of the range; LOOKUP: that of the key
+        const Origin *inner_origin;  // SLICE: position of the range; LOOKUP: position of the key
     } as;
 } Instr;
 
 struct Code {
-    const Source *source; // in which it begins
+    const Source *source; // source of its first instruction
     const Instr *instrs;
     uint32_t count;
     uint32_t register_count;
-    uint32_t slot_count; // registers that names have; they start as null in the main program and in modules
-    uint32_t loop_count; // greatest number of loops within each other
+    uint32_t slot_count; // registers of names, which start as null in the main program and in modules
+    uint32_t loop_count; // maximum nesting depth of loops
     const int32_t *operands;
-    const Value *constants; // the last one is operand -1
+    const Value *constants; // the last constant is operand -1
     uint32_t constant_count;
-    const uint32_t *lines; // of each instruction the line of the source, from 1; NULL unless asked for
+    const uint32_t *lines; // source line of each instruction, from 1; NULL: not recorded
 };
 
-// The operands that an instruction reads: CODE_MAX_READ at most if it belongs to a BatchPlan. `operands`: of the
-// code.
+// Stores the operands that an instruction reads and returns their number: at most CODE_MAX_READ within a BatchPlan.
+// `operands` is Code.operands.
 uint32_t program_operands_read(const int32_t *operands, const Instr *instr, int32_t *reads);
 
 #endif

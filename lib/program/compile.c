@@ -1,7 +1,7 @@
-// compile.c: syntax tree to executable expressions; see program.h.
+// compile.c: compilation of syntax trees to expressions and code; see program.h.
 //
-// One pass, in the order of evaluation: a binding becomes visible just after its value has been compiled, which is
-// exactly its scope (spec language.md L8.2).
+// There is one pass, in the order of evaluation. A binding becomes visible directly after its value was compiled, which
+// is the start of its scope (spec language.md L8.2).
 #include "program/compile.h"
 
 #include "program/lower.h"
@@ -28,7 +28,8 @@ void compile_report(Compiler *compiler, Span span, DiagLevel level, const char *
     diag_report(compiler->diags, &(Diag){level, compiler->source, span, text, hint, code});
 }
 
-// Is part number i of an expression what the expression is, or a part of that? Then it becomes children if that does.
+// Returns true if child i is the value of an expression or a part of it. It then becomes children if the expression
+// does.
 static bool is_part(ExprKind kind, uint32_t i, uint32_t count) {
     return kind == EXPR_COMPOSE || (kind == EXPR_IF && (i % 2 == 1 || i + 1 == count));
 }
@@ -38,7 +39,7 @@ static const Expr *compile_part(Compiler *compiler, const Ast *ast, bool in_chil
     return compile_expr(compiler, ast);
 }
 
-// All children in order, as one expression.
+// Compiles all children in order, as the children of one expression.
 static Expr *compile_children(Compiler *compiler, ExprKind kind, const Ast *ast, bool in_children) {
     const Expr **children = arena_alloc_array(compiler->scratch, ast->count, sizeof *children);
     for (uint32_t i = 0; i < ast->count; i++)
@@ -47,7 +48,7 @@ static Expr *compile_children(Compiler *compiler, ExprKind kind, const Ast *ast,
     return compile_expr_new(compiler, kind, ast, children, ast->count);
 }
 
-// All children in order, where the expression is of the same kind as the syntax tree.
+// Compiles all children in order, to an expression of the same kind as the syntax tree (SAME in expr_list.h).
 static Expr *compile_same(Compiler *compiler, const Ast *ast, bool in_children) {
     static const ExprKind kinds[] = {
 #define EXPR(kind)
@@ -63,7 +64,7 @@ static const Expr *compile_arith(Compiler *compiler, const Ast *ast) {
     return expr;
 }
 
-// A name compared with itself is one object, of which not even a nan is out of order (L5.5).
+// A name compared with itself is the same object, so that even NaN is ordered (L5.5).
 static const Expr *compile_order(Compiler *compiler, const Ast *ast) {
     const Ast *left = ast->children[0], *right = ast->children[1];
     Expr *expr = compile_same(compiler, ast, false);
@@ -85,7 +86,7 @@ static const Expr *compile_node(Compiler *compiler, const Ast *ast) {
     return expr;
 }
 
-// `then if test else other`: the IF of one branch.
+// Compiles `then if test else other` to an IF with one branch.
 static const Expr *compile_cond(Compiler *compiler, const Ast *ast, bool in_children) {
     const Expr *test = compile_expr(compiler, ast->children[1]);
     const Expr *parts[3] = {test, compile_part(compiler, ast->children[0], in_children)};
@@ -96,7 +97,7 @@ static const Expr *compile_cond(Compiler *compiler, const Ast *ast, bool in_chil
     return expr;
 }
 
-// BINDING: the value first, then its names become visible.
+// Compiles the value of a BINDING before its names become visible.
 static const Expr *compile_binding(Compiler *compiler, const Ast *binding) {
     const Ast *names = binding->children[0];
     const Expr *value = compile_expr(compiler, binding->children[1]);
@@ -128,7 +129,7 @@ static const Expr *compile_where(Compiler *compiler, const Ast *ast, bool in_chi
 }
 
 static const Expr *compile_for(Compiler *compiler, const Ast *ast, bool in_children) {
-    // A range that is gone through needs no vector, be it constant.
+    // A loop over a range needs no vector, even if the range is constant.
     const Ast *source = ast->children[1];
     const Expr *parts[2] = {source->kind == AST_RANGE ? compile_range(compiler, source)
                                                       : compile_expr(compiler, source)};
@@ -177,7 +178,7 @@ static const Expr *compile_decorate(Compiler *compiler, const Ast *ast) {
     return expr;
 }
 
-// CALL and TEMPLATE alike: callee, positional and named arguments.
+// Compiles a CALL or TEMPLATE: callee, positional and named arguments.
 static const Expr *compile_call(Compiler *compiler, const Ast *ast, const Ast *const *args, uint32_t count) {
     CallCode *code = arena_alloc(compiler->scratch, sizeof *code);
     const Symbol **names = arena_alloc_array(compiler->scratch, count, sizeof *names);
@@ -198,7 +199,7 @@ static const Expr *compile_call(Compiler *compiler, const Ast *ast, const Ast *c
     return expr;
 }
 
-// The suite under a template call is its first positional argument.
+// The suite below a template call is its first positional argument.
 static const Expr *compile_template(Compiler *compiler, const Ast *ast) {
     uint32_t count = ast->count - 1;
     const Ast **args = arena_alloc_array(compiler->scratch, ast->count, sizeof *args);
@@ -210,7 +211,7 @@ static const Expr *compile_template(Compiler *compiler, const Ast *ast) {
     return compile_call(compiler, ast, args, count);
 }
 
-// A closure depends on its defaults, which are its children, and on what it captures; its body is another matter.
+// A closure depends on its defaults, which are its children, and on its captures, but not on its body.
 static void describe_closure(Expr *expr) {
     const FunctionCode *code = expr->as.function;
     for (uint32_t i = 0; i < code->capture_count; i++) {
@@ -263,7 +264,7 @@ const Expr *compile_closure(Compiler *compiler, const Ast *ast) {
     return fold_expr(compiler, expr, compiler->function->next_slot);
 }
 
-// `func name(…)` as a statement binds the name; without one the closure is the statement's value.
+// `func name(…)` as a statement binds the name. Without a name, the closure is the value of the statement.
 static const Expr *compile_func_statement(Compiler *compiler, const Ast *ast) {
     const Expr *closure = compile_closure(compiler, ast);
     if (!ast->name)
@@ -316,7 +317,7 @@ static Include find_include(Compiler *compiler, const Ast *ast, const Expr *file
     return include;
 }
 
-// Puts the statements of another file in the place of the directive.
+// Compiles the statements of an included file instead of the directive.
 static const Expr *compile_include(Compiler *compiler, const Ast *ast, bool in_children) {
     compiler->in_include_path = true;
     const Expr *file = compile_expr(compiler, ast->children[0]);
@@ -332,7 +333,7 @@ static const Expr *compile_include(Compiler *compiler, const Ast *ast, bool in_c
         return compile_constant(compiler, ast, VALUE_NULL);
     const Source *outer = compiler->source;
     compiler->source = include.source;
-    compiler->depth--; // its statements stand at the depth of the directive
+    compiler->depth--; // its statements have the depth of the directive
     const Expr *expr = compile_suite(compiler, include.ast, in_children);
     compiler->depth++;
     compiler->source = outer;
@@ -342,7 +343,7 @@ static const Expr *compile_include(Compiler *compiler, const Ast *ast, bool in_c
 static const Expr *compile_kind(Compiler *compiler, const Ast *ast, bool in_children) {
     switch (ast->kind) {
     case AST_LITERAL:
-        return compile_constant(compiler, ast, value_copy(compiler->arena, ast->value)); // the syntax tree goes
+        return compile_constant(compiler, ast, value_copy(compiler->arena, ast->value)); // the syntax tree is freed
     case AST_NODE:
         return compile_node(compiler, ast);
     case AST_NAME:
@@ -432,7 +433,7 @@ static void collect_pragmas(Compiler *compiler, const Ast *ast, Program *program
     program->pragmas = pragmas;
 }
 
-// The top-level bindings that are visible at the end, oldest first.
+// Stores the top-level bindings that are visible at the end, oldest first.
 static void collect_exports(Compiler *compiler, Program *program, const Binding *params) {
     uint32_t count = 0;
     for (const Binding *binding = compiler->function->scope; binding != params; binding = binding->outer)
@@ -444,7 +445,7 @@ static void collect_exports(Compiler *compiler, Program *program, const Binding 
     program->exports = exports;
 }
 
-// Does a file only bind names at its top level?
+// Returns true if a file only binds names at its top level.
 static bool binds_only(const Ast *ast) {
     for (uint32_t i = 0; i < ast->count; i++) {
         AstKind kind = ast->children[i]->kind;
@@ -463,10 +464,10 @@ static const Program *compile_file(Compiler *compiler, const Ast *ast) {
         compiler->define_uses[i] = (DefineUse){0};
     FunctionScope function;
     compile_function_open(compiler, &function, NULL);
-    compiler->repeats = options->module; // a module may be imported at several places
+    compiler->repeats = options->module; // a module may be imported several times
     for (uint32_t i = 0; i < options->param_count; i++) {
         compile_bind(compiler, BINDING_PARAM, options->params[i], (Span){0}, NULL);
-        compiler->function->scope->used = true; // it is the host's, who gives it to whatever script
+        compiler->function->scope->used = true; // set by the host for all scripts
     }
     const Binding *params = function.scope;
     Program *program = arena_alloc(compiler->arena, sizeof *program);

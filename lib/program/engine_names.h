@@ -1,6 +1,6 @@
 // engine_names.h: the names that the engine supplies to the main program (spec language.md L16.1).
 //
-// ENGINE_NAME(ID, "name", static): static ones keep their value for the whole run (L17.2).
+// ENGINE_NAME(ID, "name", static): static names have a constant value during a run (L17.2).
 // clang-format off
 ENGINE_NAME(FRAME,       "frame",       false)
 ENGINE_NAME(FPS,         "fps",         false)

@@ -1,6 +1,7 @@
-// expr.h: expressions, which stand between the syntax tree and the code: names are slots, constants are in place.
+// expr.h: expressions, the intermediate form between syntax tree and code: names are resolved to slots.
 //
-// The compiler makes them, the simplifier replaces some (fold.c), lowering reads them (lower.c); then they are dropped.
+// The compiler creates them, the simplifier (fold.c) replaces some, and lowering (lower.c) reads them. Then they are
+// freed.
 #ifndef PETRI_PROGRAM_EXPR_H
 #define PETRI_PROGRAM_EXPR_H
 
@@ -12,7 +13,7 @@ typedef enum ExprKind {
     EXPR_COUNT
 } ExprKind;
 
-// What DECORATE adds, and where its attributes stand.
+// Tags and attributes that DECORATE adds, with the positions of the attributes.
 typedef struct Decoration {
     DecorateCode code;
     uint32_t attr_count;
@@ -22,14 +23,14 @@ typedef struct Decoration {
 typedef struct Expr Expr;
 struct Expr {
     ExprKind kind;
-    uint32_t count; // children
+    uint32_t count; // number of children
     uint32_t slot;
     uint32_t slot_count;
-    // For the simplifier (fold.c): what the value depends on.
-    bool dynamic;         // something that may change from frame to frame
-    bool uses_closure;    // the running closure: its captures or itself
-    bool can_batch;       // FOR: what it makes becomes children, so it may be in runs (value/node_batch.h)
-    uint32_t lowest_slot; // the lowest slot that is read, UINT32_MAX if none
+    // Dependencies of the value, for the simplifier (fold.c)
+    bool dynamic;         // may change from frame to frame
+    bool uses_closure;    // depends on the running closure: its captures or itself
+    bool can_batch;       // FOR: its nodes become children and may be in batches (value/node_batch.h)
+    uint32_t lowest_slot; // lowest slot that is read; UINT32_MAX: none
     Origin origin;
     union {
         Value value;                // CONST
@@ -38,12 +39,12 @@ struct Expr {
         const FunctionCode *function;
         const CallCode *call;
         const Decoration *decorate;
-        const NodeList *constant_children; // APPEND: the children, if they are constant; or NULL
+        const NodeList *constant_children; // APPEND: NULL: not constant
     } as;
     const Expr *const *children;
 };
 
-// Is an expression a statement that binds names and has no value of its own?
+// Returns true for statements that only bind names and have no value.
 static inline bool expr_only_binds(const Expr *expr) {
     return expr->kind == EXPR_BIND || expr->kind == EXPR_LET || expr->kind == EXPR_IMPORT;
 }

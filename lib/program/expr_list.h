@@ -1,7 +1,8 @@
-// expr_list.h: the kinds of expressions, one row each: what is simplified and then lowered to instructions.
+// expr_list.h: the kinds of expressions.
 //
-// EXPR(KIND). children[] is named in the comment; `…` repeats. SAME: the syntax tree has this kind, too, over the same
-// children; PLAIN: besides, the instruction of this name takes their values.
+// EXPR(KIND). The comment lists the children, where `…` means repetition, then the fields in use. SAME(KIND): the syntax
+// tree has a node of this kind with the same children. PLAIN(KIND): there is also an instruction of this name, whose
+// operands are the children's values.
 // clang-format off
 #ifndef SAME
 #define SAME(kind) EXPR(kind)
@@ -10,7 +11,7 @@
 #define PLAIN(kind) SAME(kind)
 #endif
 EXPR(CONST)     // value
-EXPR(NODE)      // name: a fresh node of that kind
+EXPR(NODE)      // name: a new node of that kind
 EXPR(SLOT)      // slot: a local of the current frame
 EXPR(CAPTURE)   // slot: a value that the running closure captured
 EXPR(SELF)      // the running closure

@@ -1,18 +1,18 @@
-// fold.c: the simplifier: what does not depend on the frame is evaluated once, when the program is loaded.
+// fold.c: the simplifier, which folds constant expressions at load time.
 //
-// An expression can be evaluated ahead if nothing in it is dynamic and it reads no slot but its own, that is, none
-// below the slot that was free when it began: slots are handed out like a stack, so what it binds itself lies above.
-// The machine that runs the program does it, with the same functions; if on its way it meets something dynamic (inside
-// a function that is called, say), a fault or a limit, the expression stays as it is. So a value is the same with and
-// without the simplifier, to the last bit, and nothing is re-associated.
+// An expression can be folded if nothing in it is dynamic and it reads only slots that it binds itself. Slots are
+// allocated like a stack, so these are the slots from `mark` on, the first free slot before the expression. The VM that
+// runs the program evaluates it. If the VM finds something dynamic, for example in a called function, or an error or a
+// limit, the expression is not changed. Values are therefore identical with and without the simplifier, to the last
+// bit.
 //
-// A name bound to a constant is that constant from then on, which is how constants spread through a program, and how a
-// static particle tree comes to be one constant vector of nodes that all frames share.
+// A name that is bound to a constant is replaced by the constant. So constants propagate through a program, and a
+// static tree of particles becomes one constant vector of nodes that all frames share.
 #include "program/compile.h"
 #include "program/lower.h"
 #include "value/value_hash.h"
 
-// More elements than this are worth the time of evaluating them again rather than the memory of keeping them.
+// Longer vectors are not folded: evaluating them again costs less than keeping them in memory.
 enum { MAX_ELEMENTS = 1 << 22 };
 
 void fold_add_dependency(Expr *expr, const Expr *child) {
@@ -44,7 +44,7 @@ void fold_set_dependencies(Expr *expr) {
         fold_add_dependency(expr, expr->children[i]);
 }
 
-// Kinds that act on the frame, are constants already, or are as quick as one.
+// Returns false for kinds that affect the frame, are constant already, or are as fast as a constant.
 static bool is_candidate(const Compiler *compiler, const Expr *expr) {
     switch (expr->kind) {
     case EXPR_CONST:
@@ -54,13 +54,13 @@ static bool is_candidate(const Compiler *compiler, const Expr *expr) {
     case EXPR_SLOT:
         return false;
     case EXPR_FUNC:
-        return compiler->repeats == 0; // see may_keep
+        return compiler->repeats == 0; // see can_fold
     default:
         return true;
     }
 }
 
-// Does a value reach a closure? Gives up with yes where there is very much to look at.
+// Searches a value for closures. After MAX_VISITS nodes the result is true.
 enum { MAX_VISITS = 100000 };
 
 static bool node_reaches_closure(const Node *node, uint32_t *visits);
@@ -88,14 +88,14 @@ static bool node_reaches_closure(const Node *node, uint32_t *visits) {
     return false;
 }
 
-// Each evaluation makes closures that equal no others and count their own calls, so an expression that may be evaluated
-// several times in a frame must not be replaced by one that shares them.
+// Returns false for values with closures in expressions that may be evaluated several times per frame. Each evaluation
+// creates closures that differ from all others and count their own calls, so they must not be shared.
 static bool can_fold(const Compiler *compiler, Value value) {
     uint32_t visits = 0;
     return value.len <= MAX_ELEMENTS && (compiler->repeats == 0 || !reaches_closure(value, &visits));
 }
 
-// A constant in the place of an expression. What the expression depended on, it is still taken to depend on.
+// Returns a constant that replaces an expression and keeps its dependencies.
 static const Expr *replace_with_constant(Compiler *compiler, const Expr *expr, Value value) {
     Expr *folded = arena_copy(compiler->scratch, expr, sizeof *expr);
     folded->kind = EXPR_CONST;
@@ -106,7 +106,7 @@ static const Expr *replace_with_constant(Compiler *compiler, const Expr *expr, V
     return folded;
 }
 
-// Constant children are one array that every frame's parent shares.
+// Stores constant children in one array, which the parent nodes of all frames share.
 static void share_constant_children(Compiler *compiler, Expr *expr) {
     if (expr->kind != EXPR_APPEND || expr->children[1]->kind != EXPR_CONST)
         return;
@@ -116,7 +116,7 @@ static void share_constant_children(Compiler *compiler, Expr *expr) {
     expr->as.constant_children = list;
 }
 
-// An `if` whose first test is known comes down to one branch or starts with the next test.
+// Replaces an `if` whose first tests are constant by one of its branches, or by an `if` that starts with a later test.
 static const Expr *prune_branches(Compiler *compiler, const Expr *expr) {
     uint32_t skip = 0;
     while (skip + 1 < expr->count && expr->children[skip]->kind == EXPR_CONST) {
@@ -137,8 +137,8 @@ static const Expr *prune_branches(Compiler *compiler, const Expr *expr) {
     return rest;
 }
 
-// The value of an expression that reads no slot from outside; false, with nothing left of it, if it is not known yet or
-// must not be kept.
+// Evaluates an expression that reads only its own slots. Returns false, with the arenas rewound, if it cannot be
+// evaluated or the value must not be folded.
 static bool evaluate_expr(Compiler *compiler, const Expr *expr, Value *value) {
     const CompileHost *host = &compiler->options->host;
     ArenaMark before = arena_mark(compiler->arena), scratch = arena_mark(compiler->scratch);
@@ -162,7 +162,7 @@ const Expr *fold_expr(Compiler *compiler, Expr *expr, uint32_t mark) {
         return expr;
     Value value;
     if (!evaluate_expr(compiler, expr, &value)) {
-        expr->dynamic = true; // what encloses it need not try
+        expr->dynamic = true; // so that enclosing expressions are not tried
         return expr;
     }
     return replace_with_constant(compiler, expr, value);

@@ -1,4 +1,4 @@
-// lint.c: what `petri check` says beyond faults; see compile.h.
+// lint.c: lints of petri check; see compile.h.
 #include "base/file.h"
 #include "builtin/builtin.h"
 #include "program/compile.h"
@@ -25,17 +25,18 @@ void lint_bind(Compiler *compiler, const Binding *binding) {
     Str name = binding->name->name;
     if (lint_enabled(compiler) && is_builtin(compiler, name))
         compile_report(compiler, binding->span, DIAG_NOTE, "shadowed-builtin",
-                       str_format(compiler->arena, "'%.*s' hides the built-in of that name", STR_ARGS(name)), (Str){0});
+                       str_format(compiler->arena, "'%.*s' shadows the built-in of that name", STR_ARGS(name)),
+                       (Str){0});
 }
 
-// Loops may run for their number of rounds only, and a name that starts with an underscore says that it is not used.
+// Loop names may be unused, because a loop may only repeat; so may names that start with an underscore.
 static bool can_be_unused(const Binding *binding) {
     return binding->kind == BINDING_LOOP || binding->name->name.bytes[0] == '_';
 }
 
 void lint_unused(Compiler *compiler, const Binding *scope, const Binding *end) {
     static const char *const kinds[] = {"let", "func", "parameter", "loop name", "import"};
-    // A file that yields nothing is a module: its top-level names are for others.
+    // A file that only binds names is a module, whose top-level names are used by other files.
     if (!lint_enabled(compiler) ||
         (!compiler->function->outer && compiler->function->scope == scope && !end && compiler->is_module))
         return;
@@ -46,7 +47,7 @@ void lint_unused(Compiler *compiler, const Binding *scope, const Binding *end) {
                 str_format(compiler->arena, "unused %s '%.*s'", kinds[binding->kind], STR_ARGS(binding->name->name)));
 }
 
-// In the words of the call itself (lib/builtin), so that it is told once if the first frame gets there.
+// Uses the same text as the call itself (lib/builtin), so that it is reported once if the first frame evaluates it.
 static void lint_builtin_call(Compiler *compiler, const Ast *ast, const Builtin *builtin, const CallCode *code) {
     uint32_t count = code->arg_count + code->named_count;
     bool few = count < builtin->required;
@@ -70,23 +71,24 @@ static bool is_named(const CallCode *code, const Symbol *name) {
     return false;
 }
 
-// A call of a function that is defined in sight: surplus arguments are ignored and missing ones are null (L9.2).
+// Lints a call of a visible function. Extra arguments are ignored and missing ones are null (L9.2).
 static void lint_user_call(Compiler *compiler, const Ast *ast, const Ast *function, const CallCode *code) {
     const Ast *params = function->children[0];
     Arena *arena = compiler->arena;
     if (code->arg_count > params->count)
         add_warning(compiler, ast->span, "wrong-arguments",
-                    str_format(arena, "%u arguments for a function of %u", code->arg_count, params->count));
+                    str_format(arena, "too many arguments: %u; the function takes %u", code->arg_count, params->count));
     for (uint32_t i = 0; i < code->named_count; i++)
         if (!find_param(params, code->names[i]))
             add_warning(compiler, ast->span, "wrong-arguments",
                         str_format(arena, "the function has no parameter '%.*s'", STR_ARGS(code->names[i]->name)));
-    // A template may leave its first parameter to a suite that is not there.
+    // A template without a suite may omit its first argument.
     for (uint32_t i = code->arg_count; i < params->count && ast->kind == AST_CALL; i++) {
         const Ast *param = params->children[i];
         if (param->count == 0 && !is_named(code, param->name))
-            add_warning(compiler, ast->span, "wrong-arguments",
-                        str_format(arena, "no argument for '%.*s', which has no default", STR_ARGS(param->name->name)));
+            add_warning(
+                compiler, ast->span, "wrong-arguments",
+                str_format(arena, "missing argument '%.*s', which has no default", STR_ARGS(param->name->name)));
     }
 }
 
@@ -116,7 +118,7 @@ static const Node *constant_node(const Expr *expr) {
     return node ? expr->as.value.as.items[0].as.node : NULL;
 }
 
-// An `if` whose test is a true constant never gets to what follows.
+// Warns about tests that are nodes, and about branches after a test that is always true.
 void lint_branches(Compiler *compiler, const Expr *expr) {
     if (!lint_enabled(compiler))
         return;
@@ -130,12 +132,12 @@ void lint_branches(Compiler *compiler, const Expr *expr) {
     for (uint32_t i = 0; i + 2 < expr->count; i += 2)
         if (expr->children[i]->kind == EXPR_CONST && value_true(expr->children[i]->as.value)) {
             add_warning(compiler, expr->children[i]->origin.span, "unreachable",
-                        STR("always true: what follows under else is never reached"));
+                        STR("always true: the following branches are unreachable"));
             return;
         }
 }
 
-// `!x` where x is a name: negated, as they say elsewhere?
+// Warns about `!x` if x is a name: other languages write a negation like this.
 void lint_negation(Compiler *compiler, const Ast *ast) {
     if (lint_enabled(compiler) && ast->kind == AST_NODE &&
         (compile_find_binding(compiler, ast->name) || engine_name_exists(ast->name->name)))
@@ -152,13 +154,13 @@ static bool has_text(Value v) {
 void lint_arith(Compiler *compiler, const Ast *ast, const Expr *expr) {
     for (uint32_t i = 0; lint_enabled(compiler) && i < expr->count; i++)
         if (expr->children[i]->kind == EXPR_CONST && has_text(expr->children[i]->as.value)) {
-            add_warning_with_hint(compiler, ast->span, "string-arithmetic", STR("arithmetic on a text is null"),
+            add_warning_with_hint(compiler, ast->span, "string-arithmetic", STR("arithmetic on a string is null"),
                                   STR("join strings and values with semicolons: 'x=';x"));
             return;
         }
 }
 
-// The machine says the same when it gets there, which may be late.
+// The VM reports the same when it executes the import, which may be much later.
 void lint_import(Compiler *compiler, const Ast *ast, const Expr *file) {
     if (!lint_enabled(compiler) || file->kind != EXPR_CONST || file->as.value.len == 0)
         return;

@@ -1,14 +1,14 @@
-// lower.c: expressions to instructions; see code.h.
+// lower.c: lowering of expressions to instructions; see code.h.
 //
-// Temporaries are handed out like a stack above the slots, so an operand that waits is never overwritten: a slot is
-// read late only where its name is in sight for as long (an operand that is just a name). The register that a value is
-// wanted in may be a slot whose name is not yet in sight, and whose number inner names have used before; so it is
-// written last.
+// Temporaries are allocated like a stack above the slots, so a pending operand is never overwritten. An operand that is
+// just a name is its slot, which is read later, but within the scope of the name. The destination of a value may be a
+// slot whose name is not visible yet and whose number was used by inner names; therefore it is written last.
 #include "program/lower.h"
 
 #include "base/source.h"
 
-// The line of an instruction for the profile. What ends an expression of several lines belongs to the last of them.
+// Returns the line of an instruction for the profile. An instruction that ends an expression of several lines belongs
+// to the last of them.
 static uint32_t line_of(const Lowering *lowering, Opcode op, const Expr *at) {
     uint32_t last = lowering->instr_count;
     bool ends = op == OP_COMPOSE || op == OP_JUMP || op == OP_RETURN;
@@ -67,7 +67,7 @@ int32_t lower_operand(Lowering *lowering, const Expr *expr) {
     return temporary;
 }
 
-// Operands are put down when all of them are known, since those inside have lists of their own.
+// Called when all operands are known, because nested expressions also add lists.
 uint32_t lower_list(Lowering *lowering, const int32_t *operands, uint32_t count) {
     uint32_t start = lowering->operand_count;
     for (uint32_t i = 0; i < count; i++) {
@@ -85,7 +85,6 @@ uint32_t lower_operands(Lowering *lowering, const Expr *const *exprs, uint32_t c
     return lower_list(lowering, operands, count);
 }
 
-// The end of a jump: the instruction that is emitted next.
 void lower_patch_jump(Lowering *lowering, uint32_t jump) {
     lowering->instrs[jump].target = lowering->instr_count;
 }
@@ -100,7 +99,7 @@ static void emit_move(Lowering *lowering, int32_t d, int32_t a, const Expr *at) 
         lower_emit(lowering, at, (Instr){.op = OP_MOVE, .d = d, .a = a});
 }
 
-// An instruction over the values of one or two children.
+// Emits an instruction whose operands are the values of one or two children.
 static void emit_operator(Lowering *lowering, uint16_t op, const Expr *expr, int32_t d) {
     int32_t a = lower_operand(lowering, expr->children[0]);
     int32_t b = expr->count > 1 ? lower_operand(lowering, expr->children[1]) : 0;
@@ -118,7 +117,7 @@ static void lower_load(Lowering *lowering, const Expr *expr, int32_t d) {
     lower_emit(lowering, expr, instr);
 }
 
-// --- statements: what binds names and has no value
+// --- statements that bind names and have no value
 
 static void lower_bind(Lowering *lowering, const Expr *expr) {
     const Expr *value = expr->children[0];
@@ -176,7 +175,7 @@ static void lower_compose(Lowering *lowering, const Expr *expr, int32_t d) {
     lower_emit(lowering, expr, (Instr){.op = OP_COMPOSE, .d = d, .list = list, .count = count});
 }
 
-// `or` and `and`: the left value stays unless the right one is wanted.
+// Emits `or` or `and`: the right side is evaluated only if the left value is not the result.
 static void lower_short_circuit(Lowering *lowering, const Expr *expr, int32_t d) {
     int32_t left = lower_operand(lowering, expr->children[0]);
     int32_t result = lower_temporary(lowering);
@@ -187,7 +186,7 @@ static void lower_short_circuit(Lowering *lowering, const Expr *expr, int32_t d)
     emit_move(lowering, d, result, expr);
 }
 
-// A branch of an `if`: its value goes to a register or, in a loop's body, to the loop.
+// Emits a branch of an `if`. Its value goes to a register or, in a loop's body, is yielded.
 static void lower_branch(Lowering *lowering, const Expr *expr, const Target *target) {
     int32_t mark = lowering->next_register;
     if (target->to_loop)
@@ -224,7 +223,7 @@ static void lower_closure(Lowering *lowering, const Expr *expr, int32_t d) {
                (Instr){.op = OP_CLOSURE, .d = d, .list = list, .count = expr->count, .as.function = expr->as.function});
 }
 
-// A call with no more and no fewer arguments than a built-in takes needs no matching.
+// Returns the built-in if a call has exactly its number of arguments, so that they need not be matched; else NULL.
 static const Builtin *direct_builtin(const Expr *callee, const CallCode *code) {
     if (callee->kind != EXPR_CONST || callee->as.value.kind != VALUE_MIXED || callee->as.value.len != 1 ||
         callee->as.value.as.items[0].type != ITEM_FUNCTION || code->named_count > 0)
@@ -250,7 +249,7 @@ static void lower_call(Lowering *lowering, const Expr *expr, int32_t d) {
     lower_emit(lowering, expr, instr);
 }
 
-// A key that is composed on the spot is looked up by its parts.
+// Emits a lookup. The parts of a composed key become operands, so that the key need not be built.
 static void lower_lookup(Lowering *lowering, const Expr *expr, int32_t d) {
     const Expr *key = expr->children[0];
     bool parts = key->kind == EXPR_COMPOSE && key->slot > 1;
@@ -264,7 +263,7 @@ static void lower_lookup(Lowering *lowering, const Expr *expr, int32_t d) {
     lower_emit(lowering, expr, instr);
 }
 
-// `vector[start..stop]` takes elements without making the range.
+// Emits `vector[start..stop]` as a slice, without building the range.
 static void lower_subscript(Lowering *lowering, const Expr *expr, int32_t d) {
     const Expr *range = expr->children[1];
     bool slice = range->kind == EXPR_RANGE && range->children[2]->kind == EXPR_CONST &&
@@ -304,7 +303,7 @@ static void lower_if_value(Lowering *lowering, const Expr *expr, int32_t d) {
 void lower_into(Lowering *lowering, const Expr *expr, int32_t d) {
     static const struct {
         void (*lower)(Lowering *lowering, const Expr *expr, int32_t d);
-        uint16_t plain; // without such a function, the instruction over the children's values
+        uint16_t plain; // if `lower` is NULL: instruction whose operands are the children's values
     } ways[EXPR_COUNT] = {
 #define EXPR(kind)
 #define SAME(kind)
@@ -329,7 +328,7 @@ void lower_into(Lowering *lowering, const Expr *expr, int32_t d) {
     lowering->next_register = mark;
 }
 
-// The constants in the order in which negative operands count them.
+// Returns the constants in reverse order, so that operand -1 is the last one.
 static const Value *reversed_constants(const Lowering *lowering) {
     uint32_t count = lowering->constant_count;
     Value *constants = arena_alloc_array(lowering->options->arena, count, sizeof *constants);

@@ -1,82 +1,83 @@
-// lower.h: expressions to code; and what the files that do it share: lower.c, and lower_node.c for loops and nodes.
+// lower.h: lowering of expressions to code (lower.c; lower_node.c for loops and nodes; lower_batch.c).
 #ifndef PETRI_PROGRAM_LOWER_H
 #define PETRI_PROGRAM_LOWER_H
 
 #include "program/code.h"
 #include "program/expr.h"
 
-// How an expression is to be lowered.
+// Options of lowering.
 typedef struct LowerOptions {
-    Arena *arena;   // the code goes here
-    Arena *values;  // parts of values that the code makes, which may outlive it
-    Arena *scratch; // what is dropped afterwards
-    uint32_t
-        *lookup_count; // counts the look-ups of a program: raised by those in the expression; NULL: none is numbered
-    bool lines;        // note the lines of instructions
+    Arena *arena;           // memory of the code
+    Arena *values;          // memory of values that the code refers to, which may live longer than the code
+    Arena *scratch;         // temporary data
+    uint32_t *lookup_count; // number of state lookups in the program so far, updated; NULL: lookups are not numbered
+    bool lines;             // record the source line of each instruction
 } LowerOptions;
 
-// The code of an expression that is evaluated in a frame of `slot_count` slots.
+// Returns the code of an expression that uses `slot_count` slots.
 const Code *program_lower(const LowerOptions *options, const Expr *expr, uint32_t slot_count);
 
 // The code under construction.
 typedef struct Lowering {
     const LowerOptions *options;
-    const Expr *origin_expr; // the expression whose place was put down last,
-    const Origin *origin;    // … which is here
+    const Expr *origin_expr; // expression whose position was stored last
+    const Origin *origin;    // that position
     Instr *instrs;
-    uint32_t *lines; // as many as instructions, if wanted
+    uint32_t *lines; // line of each instruction, if LowerOptions.lines is set
     uint32_t instr_count;
     uint32_t instr_capacity;
     int32_t *operands;
     uint32_t operand_count;
     uint32_t operand_capacity;
-    Value *constants; // the first one is operand -1
+    Value *constants; // the first constant is operand -1
     uint32_t constant_count;
     uint32_t constant_capacity;
     int32_t next_register;
     int32_t register_count;
     uint32_t loop_depth;
     uint32_t loop_count;
-    const Expr
-        *yielded_node; // the node that each round of a loop makes, which may go into a run; NULL: there is no such node
-    uint32_t yielded_loop; // … and the instruction that begins that loop
+    const Expr *yielded_node; // the only node that an iteration of the loop creates, if it may be batched; else NULL
+    uint32_t yielded_loop;    // index of the instruction that starts that loop
 } Lowering;
 
-// Where the value of an expression goes.
+// Destination of the value of an expression.
 typedef struct Target {
-    int32_t d;
-    bool to_loop; // instead: it is a part of the result of the loop
+    int32_t d;    // register
+    bool to_loop; // yield it to `loop` instead
     uint16_t loop;
 } Target;
 
-// Puts an instruction down; its place is that of `at`.
+// Appends an instruction with the position of `at`.
 void lower_emit(Lowering *lowering, const Expr *at, Instr instr);
-// The place of an expression, in the code.
+// Returns the position of an expression, stored in the code's arena.
 const Origin *lower_origin(Lowering *lowering, const Expr *expr);
-// A copy of names, in the code.
+// Returns a copy of names, in the code's arena.
 const Symbol *const *lower_names(const Lowering *lowering, const Symbol *const *names, uint32_t count);
-// A register of its own until next_register is set back.
+// Returns an unused register. It is in use until next_register is reset.
 int32_t lower_temporary(Lowering *lowering);
+// Returns the operand of a constant.
 int32_t lower_constant(Lowering *lowering, Value value);
-// Emits what computes an expression and returns the operand that stands for its value.
+// Emits instructions that compute an expression, and returns the operand that contains its value.
 int32_t lower_operand(Lowering *lowering, const Expr *expr);
+// Emits several expressions and returns the list of their operands.
 uint32_t lower_operands(Lowering *lowering, const Expr *const *exprs, uint32_t count);
 uint32_t lower_list(Lowering *lowering, const int32_t *operands, uint32_t count);
+// Emits instructions that compute an expression into register `d`.
 void lower_into(Lowering *lowering, const Expr *expr, int32_t d);
-// A binding, whose value is null.
+// Emits a statement that only binds names.
 void lower_statement(Lowering *lowering, const Expr *expr);
-// Makes a jump lead to what comes next.
+// Sets the target of a jump to the next instruction.
 void lower_patch_jump(Lowering *lowering, uint32_t jump);
 void lower_if(Lowering *lowering, const Expr *expr, const Target *target);
 
 void lower_for(Lowering *lowering, const Expr *expr, int32_t d);
-// The value of a loop's body, or of a part of it.
+// Emits a loop's body, or a part of it, which yields its values.
 void lower_yields(Lowering *lowering, const Expr *expr, uint16_t loop);
 void lower_yield(Lowering *lowering, int32_t a, uint16_t loop, const Expr *at);
-// Whether many rounds of the loop that begins with instruction `start` can be run at once, its body being all that
-// follows; NULL if not.
+// Returns the batch plan of the loop that starts at instruction `first` and whose body is everything after it, or NULL
+// if it must be executed iteration by iteration.
 const BatchPlan *lower_batch(const Lowering *lowering, uint32_t first);
-// NODE, DECORATE and APPEND.
+// Emits a NODE, DECORATE or APPEND.
 void lower_node(Lowering *lowering, const Expr *expr, int32_t d);
 
 #endif

@@ -1,4 +1,4 @@
-// lower_batch.c: which loops the machine may run many rounds of at once; see BatchPlan in code.h.
+// lower_batch.c: selection of loops that the VM may execute in batches; see BatchPlan in code.h.
 #include "program/lower.h"
 
 #include <string.h>
@@ -20,12 +20,12 @@ uint32_t program_operands_read(const int32_t *operands, const Instr *instr, int3
     return count;
 }
 
-// The registers that an instruction writes begin with `d`.
+// Returns how many registers an instruction writes, starting with `d`.
 static uint32_t count_written(const Instr *instr) {
     return strchr(operand_formats[instr->op], 's') ? instr->count : strchr(operand_formats[instr->op], 'd') != NULL;
 }
 
-// Is what is called a built-in that does nothing but give a value?
+// Returns false for calls that may have side effects: calls of anything but pure built-ins.
 static bool calls_pure(const Lowering *lowering, const Instr *instr) {
     if (instr->op != OP_CALL)
         return instr->op != OP_BUILTIN || instr->as.builtin->pure;
@@ -36,7 +36,8 @@ static bool calls_pure(const Lowering *lowering, const Instr *instr) {
     return builtin && builtin->pure;
 }
 
-// Instructions whose rounds do not depend on each other and do nothing but give values, or faults.
+// Returns true if an instruction of a loop's body can be executed for a batch: iterations do not depend on each other,
+// and its only effects are values and errors.
 static bool can_batch_instr(const Lowering *lowering, uint32_t i, uint32_t end) {
     static const bool never[OP_COUNT] = {
         [OP_UNBOUND] = true,    [OP_CLOSURE] = true, [OP_IMPORT] = true,    [OP_FOR] = true,
@@ -48,12 +49,13 @@ static bool can_batch_instr(const Lowering *lowering, uint32_t i, uint32_t end) 
            (!strchr(operand_formats[instr->op], 'l') || instr->count <= CODE_MAX_READ - 2);
 }
 
-// Numbers the registers that a body writes; false if those are too many, or if one is read before it is written.
+// Assigns column numbers to the registers that a body writes. Returns false if there are too many, or if a register is
+// read before it is written.
 static bool number_columns(const Lowering *lowering, uint32_t start, BatchPlan *plan, uint8_t *columns) {
     for (uint32_t i = start; i < plan->end; i++) {
         const Instr *instr = &lowering->instrs[i];
         int32_t reads[CODE_MAX_READ];
-        // A register that is written further on keeps no value from round to round.
+        // Mark registers that are read first: if one is written later, it would carry a value between iterations.
         for (uint32_t k = i == start ? 0 : program_operands_read(lowering->operands, instr, reads); k-- > 0;)
             if (reads[k] >= plan->first_register && reads[k] != CODE_NO_OPERAND &&
                 !columns[reads[k] - plan->first_register])

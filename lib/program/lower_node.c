@@ -1,17 +1,17 @@
-// lower_node.c: loops and nodes; see lower.h.
+// lower_node.c: lowering of loops and nodes; see lower.h.
 #include "program/lower.h"
 #include "value/node_batch.h"
 
 // --- nodes
 
-// The node that an expression is without being evaluated, or NULL.
+// Returns the node of a constant expression, or NULL.
 static const Node *constant_node(const Expr *expr) {
     bool is_node = expr->kind == EXPR_CONST && expr->as.value.kind == VALUE_MIXED && expr->as.value.len == 1 &&
                    expr->as.value.as.items[0].type == ITEM_NODE;
     return is_node ? expr->as.value.as.items[0].as.node : NULL;
 }
 
-// The node that an expression is before anything has been added to it, or NULL if it is something else.
+// Returns the node of an expression for a node without attributes and children, or NULL for other expressions.
 static const Node *bare_node(const Expr *expr, Arena *arena) {
     if (expr->kind == EXPR_NODE) {
         NodeOrigin origin = {.origin = expr->origin};
@@ -31,7 +31,7 @@ static bool names_differ(const Decoration *code) {
     return true;
 }
 
-// The node with the places of the attributes that are written with it, for messages.
+// Returns a copy of a node with the positions of its attributes, for messages.
 static const Node *with_attr_origins(Arena *arena, const Node *node, const Expr *decorate) {
     const Decoration *code = decorate->as.decorate;
     if (!node->origin || node->origin->origin.source != decorate->origin.source)
@@ -46,9 +46,9 @@ static const Node *with_attr_origins(Arena *arena, const Node *node, const Expr 
     return placed;
 }
 
-enum { MAX_DISTINCT = 64 }; // attributes that are compared with each other
+enum { MAX_DISTINCT = 64 }; // maximum number of attributes that are checked for duplicates
 
-// The instruction for a node with attributes and children that can be made at once; false if it cannot.
+// Builds one instruction that creates a node with its attributes and children. Returns false if that is not possible.
 static bool build_node(Lowering *lowering, const Expr *expr, Instr *instr) {
     Arena *values = lowering->options->values;
     const Expr *append = expr->kind == EXPR_APPEND ? expr : NULL;
@@ -82,8 +82,8 @@ void lower_yield(Lowering *lowering, int32_t a, uint16_t loop, const Expr *at) {
     lower_emit(lowering, at, (Instr){.op = OP_YIELD, .a = a, .loop = loop});
 }
 
-// Has an expression one element at the most, and is it no stream? Then a composition of such parts is not too long, and
-// its parts can be added to what is around it one by one.
+// Returns true if an expression has at most one element and is not a stream. A composition of such parts cannot become
+// too long, so its parts can be yielded one by one.
 static bool is_small(const Expr *expr) {
     switch (expr->kind) {
     case EXPR_NODE:
@@ -110,7 +110,7 @@ static bool has_small_parts(const Expr *expr) {
     return true;
 }
 
-// Do instructions keep nothing that was made in the round of the loop that they belong to?
+// Returns true if no instruction retains data that was allocated in the current iteration of the loop.
 static bool retains_nothing(const Instr *instrs, uint32_t count) {
     static const bool retained[OP_COUNT] = {
         [OP_CLOSURE] = true,  [OP_IMPORT] = true,     [OP_NODE] = true, [OP_APPEND] = true,
@@ -121,7 +121,7 @@ static bool retains_nothing(const Instr *instrs, uint32_t count) {
     return true;
 }
 
-// The node of a round, as a row of a run; false if it can be none.
+// Emits the node of an iteration as a row of a node batch. Returns false if it cannot be one.
 static bool lower_yield_node(Lowering *lowering, const Expr *expr, uint16_t loop) {
     Instr row;
     if (expr != lowering->yielded_node || !build_node(lowering, expr, &row))
@@ -135,7 +135,7 @@ static bool lower_yield_node(Lowering *lowering, const Expr *expr, uint16_t loop
     return true;
 }
 
-// The one node that a loop's body comes to, if that may be one of very many; else NULL.
+// Returns the only node that a loop's body creates, if its kind may be batched; else NULL.
 static const Expr *sole_node(const Expr *expr) {
     while (expr->kind == EXPR_COMPOSE && expr->slot == 1)
         for (uint32_t i = 0, count = expr->count; i < count; i++)
@@ -174,10 +174,10 @@ void lower_for(Lowering *lowering, const Expr *expr, int32_t d) {
     int32_t source[3];
     for (int i = 0; i < (spans ? 3 : 1); i++)
         source[i] = lower_operand(lowering, spans ? over->children[i] : over);
-    uint16_t loop = (uint16_t)lowering->loop_depth++; // expressions are not nested as deeply as that
+    uint16_t loop = (uint16_t)lowering->loop_depth++; // expressions cannot be nested that deeply
     if (lowering->loop_depth > lowering->loop_count)
         lowering->loop_count = lowering->loop_depth;
-    if (spans) // no need to make the range
+    if (spans) // without building the range
         lower_emit(lowering, over,
                    (Instr){.op = OP_RANGE_INIT, .loop = loop, .a = source[0], .b = source[1], .c = source[2]});
     Instr loop_instr = {

@@ -1,28 +1,28 @@
-// opcode_list.h: the instructions of the machine, one row each; see code.h for what the letters mean.
+// opcode_list.h: the instructions of the VM.
 //
-// OPCODE(ID, "name in --dump=code", "operands"). Operands that --dump=code shows, in order: d register written;
-// a b c operand read; l the list of operands; j target of the jump; s registers bound; o loop; i number; x what was
-// prepared.
+// OPCODE(ID, "name in --dump=code", "operands"). Operands, in the order of --dump=code: d: register written; a, b, c:
+// operands read; l: list of operands read; j: jump target; s: registers bound; o: loop; i: number (Instr.target); x: other
+// data (Instr.as).
 // clang-format off
 OPCODE(MOVE,       "move",       "da")   // d = a
-OPCODE(CAPTURE,    "capture",    "di")   // d = what the running closure captured as number i
+OPCODE(CAPTURE,    "capture",    "di")   // d = captured value number i of the running closure
 OPCODE(SELF,       "self",       "d")    // d = the running closure
 OPCODE(GLOBAL,     "global",     "dx")   // d = a name of the engine
-OPCODE(UNBOUND,    "unbound",    "dx")   // d = null, with a report
+OPCODE(UNBOUND,    "unbound",    "dx")   // d = null, and reports it
 OPCODE(COMPOSE,    "compose",    "dl")   // d = the composition of l
 OPCODE(UNPACK,     "unpack",     "sa")   // s = the elements of a
 OPCODE(CLOSURE,    "closure",    "dlx")  // d = a closure; l: the defaults of its parameters
-OPCODE(IMPORT,     "import",     "sa")   // s = names of the module whose file is a
-OPCODE(FOR,        "for",        "osaj") // begins loop o over a: s = the first elements, or jumps if there are none
-OPCODE(RANGE_INIT,       "range init",       "oabc") // prepares loop o to go over a..b|c
-OPCODE(FOR_RANGE,   "for range",   "osj")  // begins the loop that was prepared
+OPCODE(IMPORT,     "import",     "sa")   // s = names exported by the module with path a
+OPCODE(FOR,        "for",        "osaj") // starts loop o over a: s = first elements, or jumps if there are none
+OPCODE(RANGE_INIT,       "range init",       "oabc") // prepares loop o over the range a..b|c
+OPCODE(FOR_RANGE,   "for range",   "osj")  // starts the loop that was prepared
 OPCODE(YIELD,   "yield",   "oa")   // adds a to the result of loop o
-OPCODE(YIELD_NODE,    "yield node",    "olx")  // adds a node with attributes l to a run in the result of loop o
-OPCODE(NEXT,       "next",       "osj")  // s = the next elements of loop o, and jumps back if there are any
+OPCODE(YIELD_NODE,    "yield node",    "olx")  // adds a node with attributes l to a batch in the result of loop o
+OPCODE(NEXT,       "next",       "osj")  // s = next elements of loop o, and jumps back if there are any
 OPCODE(END_LOOP,    "end loop",    "do")   // d = the result of loop o
 OPCODE(JUMP,       "jump",       "j")
 OPCODE(JUMP_TRUE,  "jump true",  "aj")   // if a is true
-OPCODE(JUMP_FALSE, "jump false", "aj")   // if it is not
+OPCODE(JUMP_FALSE, "jump false", "aj")   // if a is false
 OPCODE(NODE,       "node",       "dlbx") // d = a node with attributes l, and with children b
 OPCODE(APPEND,     "append",     "dab")  // d = a with children b
 OPCODE(DECORATE,   "decorate",   "dblx") // d = b with the expression's tags, and with attributes l
@@ -32,7 +32,7 @@ OPCODE(XOR,        "xor",        "dab")
 OPCODE(NOT,        "not",        "da")
 OPCODE(EQ,         "eq",         "dab")
 OPCODE(NE,         "ne",         "dab")
-OPCODE(LT,         "lt",         "dab")  // here and in the next three, c: 1 if both are one object
+OPCODE(LT,         "lt",         "dab")  // for LT, GT, LE, GE, c: 1 if both operands are the same object
 OPCODE(GT,         "gt",         "dab")
 OPCODE(LE,         "le",         "dab")
 OPCODE(GE,         "ge",         "dab")
@@ -49,6 +49,6 @@ OPCODE(NEG,        "neg",        "da")
 OPCODE(POS,        "pos",        "da")
 OPCODE(INDEX,      "index",      "dab")  // d = a[b]
 OPCODE(SLICE,      "slice",      "dabc") // d = a[b..c]
-OPCODE(LOOKUP,     "lookup",     "dli")  // d = the state under the key that l composes; i: the number of the place
-OPCODE(RETURN,     "return",     "a")    // the value of the code
+OPCODE(LOOKUP,     "lookup",     "dli")  // d = value in the state of the key composed of l; i: number of the lookup
+OPCODE(RETURN,     "return",     "a")    // a = result of the code
 // clang-format on

@@ -1,15 +1,15 @@
-// parameters.c: the names that a script leaves to whoever runs it: `let NAME=NAME or DEFAULT`; see program.h.
+// parameters.c: parameters of scripts, `let NAME=NAME or DEFAULT`; see program.h.
 //
-// The language needs nothing for this: a name that is not defined is null, which is false, and `or` takes the default.
-// What is added here is that such a name is meant, so that nobody is warned of it, and that it can be listed: with the
-// comment behind it, which the scanner drops, but the source text still has.
+// The language needs no special rule: an undefined name is null, which is false, so `or` selects the default. This file
+// suppresses the warning about the undefined name and collects the parameters for listings. Their comments are read
+// from the source text, because the scanner drops comments.
 #include "ast/literal.h"
 #include "program/compile.h"
 
 #include <math.h>
 #include <string.h>
 
-// The NAME of `NAME or …`, however many `or` follow; NULL if the value is none.
+// Returns the NAME of `NAME or … or …`, or NULL for other values.
 static const Ast *first_operand(const Ast *value) {
     if (value->kind != AST_OR)
         return NULL;
@@ -22,12 +22,12 @@ static bool is_blank(char c) {
     return c == ' ' || c == '\t';
 }
 
-// What stands between two offsets, without blanks at the ends.
+// Returns the text between two offsets, trimmed.
 static Str text_between(const Source *source, uint32_t start, uint32_t end) {
     return str_trim((Str){source->text.bytes + start, end > start ? end - start : 0});
 }
 
-// The text after the first `or`.
+// Returns the text after the first `or`.
 static Str default_text(const Source *source, const Ast *use, const Ast *value) {
     Str rest = text_between(source, use->span.end, value->span.end);
     if (str_starts_with(rest, STR("or")))
@@ -35,7 +35,7 @@ static Str default_text(const Source *source, const Ast *use, const Ast *value) 
     return str_trim(rest);
 }
 
-// The comment behind a binding in the line in which it ends, if nothing else is between.
+// Returns the comment after a binding on the line in which it ends, if only blanks and brackets are between.
 static Str trailing_comment(const Source *source, uint32_t at) {
     const char *text = source->text.bytes;
     while (is_blank(text[at]) || text[at] == ')')
@@ -48,13 +48,13 @@ static Str trailing_comment(const Source *source, uint32_t at) {
     return text_between(source, at, (uint32_t)(end - text));
 }
 
-// One end of a range; without a number it is `nothing`.
+// Parses one end of a range, which is `if_absent` if the text is empty.
 static bool parse_bound(Str text, double if_absent, double *x) {
     *x = if_absent;
     return text.len == 0 || (literal_parse_number(text, x) && !isnan(*x));
 }
 
-// `LEAST..MOST`, `LEAST..MOST|STEP`, or either end alone.
+// Parses `MIN..MAX` or `MIN..MAX|STEP`; one of the ends may be missing.
 static bool parse_range(Str word, Parameter *parameter) {
     double min, max, step = 0;
     const char *dots = NULL, *bar = memchr(word.bytes, '|', word.len);
@@ -75,7 +75,7 @@ static bool parse_range(Str word, Parameter *parameter) {
     return true;
 }
 
-// Parts a comment into the range that it may begin with and the rest.
+// Splits a comment into the range at its start, if there is one, and the rest.
 static void parse_comment(Str comment, Parameter *parameter) {
     size_t len = 0;
     while (len < comment.len && !is_blank(comment.bytes[len]))
@@ -90,7 +90,7 @@ static void parse_comment(Str comment, Parameter *parameter) {
         parameter->comment = str_trim((Str){comment.bytes + len, comment.len - len});
 }
 
-// A default that its own range leaves out is hardly meant.
+// Warns about a default outside its range.
 static void lint_default(Compiler *compiler, const Parameter *parameter) {
     Value v = parameter->value;
     bool within = true;
@@ -120,7 +120,7 @@ void compile_note_parameter(Compiler *compiler, const Ast *binding) {
                                             &compiler->parameter_capacity, sizeof parameter);
     compiler->parameters[compiler->parameter_count++] = parameter;
     compiler->parameter_use = use;
-    if (value->children[0] == use) // `X or A or B` without X is `A or B`, which is nowhere as a whole
+    if (value->children[0] == use) // in `X or A or B`, the tree has no node for the default `A or B`
         compiler->parameter_default = value->children[1];
 }
 

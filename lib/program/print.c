@@ -1,4 +1,4 @@
-// print.c: a program's code as text, for --dump=code.
+// print.c: code of a program as text, for --dump=code.
 #include "program/code.h"
 #include "value/format.h"
 
@@ -11,7 +11,7 @@ static const struct {
 #undef OPCODE
 };
 
-enum { MAX_CONSTANT_LENGTH = 60 }; // characters of a constant that are shown
+enum { MAX_CONSTANT_LENGTH = 60 }; // longer constants are truncated
 
 static void print_constant(Text *out, const SymbolTable *symbols, Value value) {
     Text text = text_new(out->arena);
@@ -19,7 +19,7 @@ static void print_constant(Text *out, const SymbolTable *symbols, Value value) {
     Str shown = str_truncate(text_str(&text), MAX_CONSTANT_LENGTH);
     text_add(out, shown);
     if (shown.len < text.len)
-        text_add_format(out, "… (%u elements)", value.len);
+        text_add_format(out, "... (%u elements)", value.len);
 }
 
 static void print_operand(Text *out, const SymbolTable *symbols, const Code *code, int32_t operand) {
@@ -42,7 +42,7 @@ static void print_list(Text *out, const SymbolTable *symbols, const Code *code, 
     text_add_char(out, ')');
 }
 
-// What was prepared for the instruction.
+// Prints the operand 'x': a name from Instr.as or Instr.target.
 static void print_extra(Text *out, const Instr *instr) {
     Str name = {0};
     switch ((Opcode)instr->op) {

@@ -1,9 +1,8 @@
-// program.h: a compiled program: names resolved to slots, constants in place, nothing left to look up.
+// program.h: compiled programs, in which all names are resolved to slots.
 //
-// A program is the code that its text comes down to (code.h), immutable, in one arena, replaced as a whole on reload.
-// The expressions in between (expr.h) are gone when it is compiled. Every function, the main program and every module
-// runs in a frame of slots; a nested function reaches outer values only through what it has captured by value when it
-// was defined (spec language.md L9.1).
+// A program is immutable code (code.h) in one arena, and is replaced as a whole on reload. The intermediate expressions
+// (expr.h) are freed after compilation. Each function, module and main program has its own slots. A nested function
+// accesses outer values only through captures, which are copied when it is defined (spec language.md L9.1).
 #ifndef PETRI_PROGRAM_PROGRAM_H
 #define PETRI_PROGRAM_PROGRAM_H
 
@@ -32,92 +31,91 @@ typedef struct Pragma {
     Span span;
 } Pragma;
 
-// A parameter: `let NAME=NAME or DEFAULT` at the top level of a file, where nothing but -D could give the name on the
-// right a value (parameters.c). What stands behind it in its line tells a person what it is for.
+// A parameter: `let NAME=NAME or DEFAULT` at the top level of a file, if only -D can give the name on the right a value
+// (parameters.c). The comment after it on its line describes it.
 typedef struct Parameter {
     const Symbol *name;
     const Source *source;
-    Span span;        // of the name
-    Str default_text; // text of the default
-    bool is_static;   // the default is the same in every frame: `value`
+    Span span;        // position of the name
+    Str default_text; // source text of the default
+    bool is_static;   // the default is constant: `value`
     Value value;
     Str comment; // without the range at its start
-    double min;  // the comment's range, with its ends; infinite where it says nothing
+    double min;  // inclusive range from the comment; infinite without one
     double max;
-    double step; // 0: the comment has none
+    double step; // step of the range; 0: none
 } Parameter;
 
-// What a program does with a -D name.
+// How a program uses a name that -D defines.
 typedef struct DefineUse {
     bool read;
-    Origin bound; // where the program first binds the name itself; no source: nowhere
-    bool by_let;  // … with a `let` at its top level
+    Origin bound; // position at which the program first binds the name itself; no source: nowhere
+    bool by_let;  // it is bound there by a top-level `let`
 } DefineUse;
 
 typedef struct Program {
     const Source *source;
     const Code *code;
-    uint32_t lookup_count; // look-ups in the state, numbered for the machine to remember where they found what
-    uint32_t param_count;  // the first slots: values that the host gives
-    const Export *exports; // top-level bindings, in order: of a name bound several times the last counts
+    uint32_t lookup_count; // number of state lookups; the VM has an inline cache for each
+    uint32_t param_count;  // values set by the host, in the first slots
+    const Export *exports; // top-level bindings, in order; if a name is repeated, the last one is used
     uint32_t export_count;
     const Pragma *pragmas;
     uint32_t pragma_count;
-    const Parameter *parameters; // in order
+    const Parameter *parameters; // in source order
     uint32_t parameter_count;
-    const DefineUse *define_uses; // of CompileOptions.defines, one by one
-    const Str *imports;           // paths of the modules that it imports at its top level, as far as they are constant
+    const DefineUse *define_uses; // for each of CompileOptions.defines
+    const Str *imports;           // constant paths of modules imported at the top level
     uint32_t import_count;
 } Program;
 
-// What compiling may ask of the host.
+// Functions that the compiler calls.
 typedef struct CompileHost {
     void *user_data;
-    // Parses another file for %include; NULL with a reason in *why (borrowed) if it cannot. The source must live as
-    // long as the program, the tree until it is compiled.
+    // Parses a file for %include. Returns NULL with a borrowed *reason on failure. The source must live as long as the
+    // program, the tree until the end of the compilation.
     const Ast *(*include)(void *host, Str path, const Source **source, Str *reason);
-    // Runs code in a fresh frame. False if that met anything dynamic (L17.2), a fault or a limit; then *value is null.
-    // The value must live as long as the program: it is made in its arena, and dropped from there if the simplifier
-    // has no use for it.
+    // Runs code with new slots. Returns false, and *value is null, if it is dynamic (L17.2), fails or exceeds a limit.
+    // The value is allocated in the program's arena, which the simplifier rewinds if it does not use the value.
     bool (*evaluate)(void *host, const Code *code, Value *value);
 } CompileHost;
 
 typedef struct Define {
     const Symbol *name;
     Value value;
-    const char *text; // name=value, as it was given
+    const char *text; // name=value, as in petri_define
 } Define;
 
 typedef struct CompileOptions {
-    bool module;           // neither engine names nor -D names are visible; unbound names are reported when reached
-    bool lint;             // report what is hardly meant, too
-    bool simplify;         // evaluate static parts now (L17.1)
-    bool lines;            // note which lines instructions come from
-    const Define *defines; // later ones count
+    bool module;           // names of the engine and -D names are not visible; unbound names are reported at run time
+    bool lint;             // also report code that is unlikely to be intended
+    bool simplify;         // fold constant expressions (L17.1)
+    bool lines;            // record the source line of each instruction
+    const Define *defines; // if a name is repeated, the last definition is used
     uint32_t define_count;
-    const Symbol *const *params; // names of values that the host gives to each run; of equal ones the last counts
+    const Symbol *const *params; // names of values that each run receives; if repeated, the last one is used
     uint32_t param_count;
-    const struct Builtin *const *functions; // the host's, none of which has the name of a built-in
+    const struct Builtin *const *functions; // host functions; none has the name of a built-in
     uint32_t function_count;
-    const struct FileAccess *files; // where modules come from, if it is not the disk; else NULL
+    const struct FileAccess *files; // provides the modules; NULL: the disk
     CompileHost host;
 } CompileOptions;
 
-// Compiles a parsed program. Faults are reported to the sink and never fatal. The program lives in `arena`, on its own;
-// `scratch` takes what is needed until then and may be another one, for the syntax tree as well.
+// Compiles a parsed program. Errors are reported to the sink and are never fatal. The program is allocated in `arena`
+// and refers to nothing else. Temporary data is allocated in `scratch`, which may also contain the syntax tree.
 const Program *program_compile(Arena *arena, Arena *scratch, SymbolTable *symbols, const Source *source, const Ast *ast,
                                const CompileOptions *options, DiagSink *diags);
 
-// The export of this name that counts, or NULL.
+// Returns the last export with this name, or NULL.
 const Export *program_find_export(const Program *program, const Symbol *name);
 
-// The parameter of this name, or NULL.
+// Returns the parameter with this name, or NULL.
 const Parameter *program_find_parameter(const Program *program, const Symbol *name);
 
 const char *engine_name_text(EngineName name);
 bool engine_name_exists(Str name);
 
-// The program as indented text, for --dump=code.
+// Appends the code of a program as text, for --dump=code.
 void program_print(Text *out, const SymbolTable *symbols, const Program *program);
 
 #endif

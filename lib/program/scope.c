@@ -1,4 +1,4 @@
-// scope.c: what names mean; see compile.h.
+// scope.c: scopes and resolution of names; see compile.h.
 #include "builtin/builtin.h"
 #include "program/compile.h"
 
@@ -6,7 +6,7 @@ ScopeMark compile_scope_open(Compiler *compiler) {
     return (ScopeMark){compiler->function->scope, compiler->function->next_slot};
 }
 
-// Slots of a closed scope are used again: closures have copied what they need.
+// Slots of a closed scope are reused, because closures have copied the values they need.
 void compile_scope_close(Compiler *compiler, ScopeMark mark) {
     lint_unused(compiler, compiler->function->scope, mark.scope);
     compiler->function->scope = mark.scope;
@@ -73,7 +73,7 @@ const Binding *compile_find_binding(const Compiler *compiler, const Symbol *name
     return NULL;
 }
 
-// A name of the program that is not bound in the function itself: captured by value, once per function.
+// Captures a name that is bound in an enclosing function, once per function.
 static const Expr *add_capture(Compiler *compiler, FunctionScope *function, const Ast *ast, const Expr *outer) {
     Capture wanted = {outer->kind == EXPR_SLOT      ? CAPTURE_SLOT
                       : outer->kind == EXPR_CAPTURE ? CAPTURE_OUTER
@@ -92,7 +92,7 @@ static const Expr *add_capture(Compiler *compiler, FunctionScope *function, cons
     return slot_expr(compiler, EXPR_CAPTURE, ast, function->capture_count++);
 }
 
-// The name as seen from inside `function`, or NULL if no binding of the program has it.
+// Resolves a name inside `function`. Returns NULL if the program does not bind it.
 static const Expr *find_in_program(Compiler *compiler, FunctionScope *function, const Ast *ast) {
     if (!function)
         return NULL;
@@ -143,7 +143,8 @@ bool compile_is_free(const Compiler *compiler, const Symbol *name) {
            !builtin_constant(name->name, &value) && (compiler->options->module || !engine_name_exists(name->name));
 }
 
-// Engine names, then -D names, then built-ins (L8.1); NULL if none has it.
+// Resolves a name of the engine, of a definition (-D) or of a built-in, in this order (L8.1). Returns NULL if there is
+// none.
 static const Expr *find_predefined(Compiler *compiler, const Ast *ast) {
     Str name = ast->name->name;
     const CompileOptions *options = compiler->options;
@@ -179,7 +180,7 @@ static const struct {
 #include "program/name_hint_list.h"
 };
 
-// Does a name stand behind `//`? There it is read as a divisor.
+// Returns true if a name follows `//`, which is a division in Flitter, not a comment.
 static bool follows_slashes(const Compiler *compiler, Span span) {
     const char *text = compiler->source->text.bytes;
     uint32_t at = span.start;
@@ -188,7 +189,7 @@ static bool follows_slashes(const Compiler *compiler, Span span) {
     return at > 1 && text[at - 1] == '/' && text[at - 2] == '/';
 }
 
-// "did you mean …", if some visible name is close.
+// Returns a hint "did you mean 'x'?" if a visible name is similar, else an empty text.
 static Str nearest_name(Compiler *compiler, Str wanted) {
     StrNearest nearest = {.wanted = wanted, .limit = wanted.len < 4 ? 2 : 3};
     for (const FunctionScope *function = compiler->function; function; function = function->outer) {
@@ -206,7 +207,7 @@ static Str nearest_name(Compiler *compiler, Str wanted) {
     return nearest.found.len ? str_format(compiler->arena, "did you mean '%.*s'?", STR_ARGS(nearest.found)) : (Str){0};
 }
 
-// What the author of an unbound name may have meant; empty if nothing comes to mind.
+// Returns a hint about the probable cause of an unbound name, or an empty text.
 static Str unbound_hint(Compiler *compiler, const Ast *ast) {
     Str name = ast->name->name;
     for (size_t i = 0; i < sizeof name_hints / sizeof name_hints[0]; i++)
@@ -215,8 +216,7 @@ static Str unbound_hint(Compiler *compiler, const Ast *ast) {
     if (compiler->subject == ast)
         return str_format(compiler->arena, "a node is written !%.*s", STR_ARGS(name));
     if (compiler->key == ast)
-        return str_format(compiler->arena, "$ looks a key of the state up, such as $:%.*s; a name stands without it",
-                          STR_ARGS(name));
+        return str_format(compiler->arena, "write $:%.*s to read the state, or the name without $", STR_ARGS(name));
     Str nearest = nearest_name(compiler, name);
     return nearest.len ? nearest : follows_slashes(compiler, ast->span) ? STR("comments start with --") : (Str){0};
 }

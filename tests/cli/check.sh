@@ -20,10 +20,10 @@ check "an unknown pragma is told with the nearest name" has err "lints.fl:1:1: w
 check "… which is tempo" has err "did you mean tempo?"
 check "an unused let is told" has err "lints.fl:2:9: warning: unused let 'b'"
 check "a used let is not" lacks err "unused let 'a'"
-check "a name that hides a built-in is noted" has err "lints.fl:3:5: note: 'sin' hides the built-in"
+check "a name that hides a built-in is noted" has err "lints.fl:3:5: note: 'sin' shadows the built-in"
 check "unused parameters are told" count_is err "unused parameter" 2
-check "a missing argument is told" has err "lints.fl:6:6: warning: no argument for 'y'"
-check "surplus arguments are told" has err "4 arguments for a function of 3"
+check "a missing argument is told" has err "lints.fl:6:6: warning: missing argument 'y'"
+check "surplus arguments are told" has err "too many arguments: 4; the function takes 3"
 check "an unknown named argument is told" has err "no parameter 'q'"
 check "the arguments of built-ins are counted" has err "too many arguments: 2 given to cos(x)"
 check "an else that is never reached is told" has err "lints.fl:7:4: warning: always true"
