@@ -1,7 +1,7 @@
-"""What cffi makes petri._petri of: the declarations of petri.h and petri-draw.h themselves, and a few functions in C.
+"""The cffi definition of petri._petri: the declarations of petri.h and petri-draw.h, and a few C functions.
 
-PETRI_HEADERS is the folder of the headers, PETRI_LIBRARIES what the linker is told. Without them pkg-config is asked
-for an installed libpetri-draw.
+PETRI_HEADERS is the folder of the headers, PETRI_LIBRARIES has the linker's arguments. Without them, pkg-config finds
+an installed libpetri-draw.
 """
 
 import os
@@ -19,7 +19,7 @@ def pkg_config(option):
 
 
 def declarations(header):
-    """The header without what is for the preprocessor, for C++, or a body."""
+    """Returns a header without preprocessor directives, C++ parts and inline functions."""
     text = Path(header).read_text(encoding="utf-8")
     text = re.sub(r"#ifdef __cplusplus\n.*?#endif\n", "", text, flags=re.S)
     text = re.sub(r"^static inline .*?^}\n", "", text, flags=re.S | re.M)

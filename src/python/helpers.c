@@ -1,8 +1,8 @@
-// helpers.c: see helpers.h, which stands before this when it is compiled.
+// helpers.c: implementation of helpers.h, whose text is compiled before this file.
 #include <signal.h>
 #include <string.h>
 
-static PetriSession *volatile active_session; // of the main thread
+static PetriSession *volatile active_session; // in the main thread
 static volatile sig_atomic_t interrupted;
 static struct sigaction outer; // Python's handler
 
@@ -15,7 +15,7 @@ static void on_interrupt(int number, siginfo_t *info, void *context) {
         outer.sa_handler(number);
 }
 
-// Ctrl-C is for the session that is being stepped. False if nobody is told: then nobody listens.
+// Directs Ctrl-C to the session that is being stepped. Returns false if Python has no handler to pass it on to.
 static bool install_handler(void) {
     struct sigaction ours = {.sa_flags = SA_SIGINFO | SA_RESTART};
     ours.sa_sigaction = on_interrupt;
@@ -25,8 +25,7 @@ static bool install_handler(void) {
 
 PetriStatus petri_python_step(PetriSession *session, size_t count, bool interruptible, const bool *stop) {
     PetriStatus status = session ? PETRI_OK : PETRI_INVALID;
-    PetriSession *before =
-        active_session; // whose script has called a function of Python's, which steps another session
+    PetriSession *before = active_session; // the outer session, if this step is called from a function of its script
     struct sigaction now = {0};
     interruptible = interruptible && session && sigaction(SIGINT, NULL, &now) == 0;
     bool nested = interruptible && now.sa_flags & SA_SIGINFO && now.sa_sigaction == on_interrupt;
@@ -41,7 +40,7 @@ PetriStatus petri_python_step(PetriSession *session, size_t count, bool interrup
     if (interruptible && !nested) {
         sigaction(SIGINT, &outer, NULL);
         if (interrupted && status != PETRI_INTERRUPTED)
-            petri_clear_interrupt(session); // it came too late, and is none of the next step's business
+            petri_clear_interrupt(session); // it came after the step, and must not end the next one
     }
     if (nested)
         active_session = before;

@@ -1,35 +1,35 @@
-// helpers.h: what Python would otherwise ask libpetri for in several calls; all without the interpreter's lock.
+// helpers.h: functions for the Python module that combine several calls of libpetri. They run without the GIL.
 #ifndef PETRI_SRC_PYTHON_HELPERS_H
 #define PETRI_SRC_PYTHON_HELPERS_H
 
 #include "petri-draw.h"
 
-// Makes so many frames, until one fails, or a function of Python's sets `stop` (NULL: there are none). `interruptible`:
-// Ctrl-C interrupts them; for the main thread only, whose handler then tells Python.
+// Computes `count` frames, or fewer if one fails or a Python function sets `stop` (NULL if there are no functions).
+// `interruptible`: Ctrl-C interrupts them and is then passed to Python's handler; only for the main thread.
 PetriStatus petri_python_step(PetriSession *session, size_t count, bool interruptible, const bool *stop);
 
-// The system of this name, looked for first where it was; -1 if there is none. NULL stands for any name.
+// Returns the index of a system, or -1 if there is none. `number` is tried first; NULL matches any name.
 int petri_python_system(PetriSession *session, int number, const char *name, PetriSystem *system);
 
-// A column of a system.
+// A column of a system, as memory.
 typedef struct PetriPythonView {
-    uintptr_t address; // 0 if there are no such numbers
-    size_t count;      // of particles
-    size_t width;      // doubles of each
-    size_t stride;     // in doubles
+    uintptr_t address; // 0: the system has no such column
+    size_t count;      // number of particles
+    size_t width;      // doubles per particle
+    size_t stride;     // doubles from one particle to the next
 } PetriPythonView;
-// False if there is no such system. `which` is one of the letters of Python's attribute: p, v, f, r, m, c.
+// Returns false if there is no such system. `which` is the first letter of the attribute: p, v, f, r, m or c.
 bool petri_python_view(PetriSession *session, int number, const char *name, char which, PetriPythonView *view);
 
-// The value under a key of so many numbers; false if it has other elements than numbers.
+// Gets the value of a key with `length` numbers. Returns false if the value is not numeric.
 bool petri_python_state(PetriSession *session, const double *key, uint32_t length, PetriValue *value);
-// The same of a symbol and a number.
+// Like petri_python_state, for a key of a symbol and a number.
 bool petri_python_pair(PetriSession *session, double symbol, double number, PetriValue *value);
 
-// The PetriFunctionCall of a function of Python's, whose handle `host` is.
+// The PetriFunctionCall of Python functions; `user_data` is the handle of the function.
 PetriValue petri_python_call(PetriCall *call, void *user_data, const PetriValue *arguments, uint32_t count);
 
-// What takes a handle by its address, for finalizers; and what Python cannot call, since it is inline.
+// Finalizers, which take the handle itself; and an inline function, which Python cannot call.
 void petri_python_close(PetriSession *session);
 void petri_python_painter_close(PetriPainter *painter);
 void petri_python_picture_free(PetriPicture *picture);

@@ -1,6 +1,6 @@
 #!/bin/sh
-# wheel.sh SOURCE OUTPUT SCRATCH PYTHON: makes the folder OUTPUT with a wheel of the module in it. What build_petri.py
-# and setup.py ask for is in the environment. Nothing is downloaded.
+# wheel.sh SOURCE OUTPUT SCRATCH PYTHON: builds a wheel of the module in the new folder OUTPUT. The environment has the
+# variables for build_petri.py and setup.py. Nothing is downloaded.
 set -eu
 rm -rf "$2" "$3"
 mkdir -p "$3"

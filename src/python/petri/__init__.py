@@ -1,13 +1,13 @@
-"""petri runs Flitter scripts that hold systems of particles: fast, and to the last bit the same each time.
+"""petri runs Flitter scripts with particle physics: fast, and with results that are the same bit for bit.
 
     import petri
     session = petri.Session("dish.fl", CELLS=200)
     session.step(60)
     session.systems["cells"].position      # a numpy array, N×2
     session.state["cells", 3]              # (x, y)
-    session.picture()                      # shown by notebooks
+    session.picture()                      # displayed in notebooks
 
-TUTORIAL.md in src/python of the sources goes on from here.
+The tutorial is src/python/TUTORIAL.md in the source tree.
 """
 
 from ._petri import ffi as _ffi, lib as _lib
@@ -25,4 +25,4 @@ __all__ = ["Diagnostic", "Frame", "InterruptedStep", "LimitError", "MissingLibra
            "PetriError", "PetriWarning", "Picture", "ScriptError", "Session", "Snapshot", "State", "System", "Systems",
            "Text", "sweep"]
 for _name in __all__:
-    globals()[_name].__module__ = "petri"  # where people find them
+    globals()[_name].__module__ = "petri"  # the public location

@@ -1,4 +1,4 @@
-"""What is told of scripts: diagnostics, which come as exceptions or as warnings."""
+"""Diagnostics of scripts, as exceptions and warnings."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ _LEVELS = {lib.PETRI_ERROR: "error", lib.PETRI_WARNING: "warning", lib.PETRI_NOT
 
 
 class Diagnostic(NamedTuple):
-    """One thing that is wrong with a script. Lines and columns count from 1; without a place `file` is None."""
+    """A message about a script. Lines and columns count from 1; `file` is None if there is no position."""
 
     level: str
     file: Optional[str]
@@ -23,7 +23,7 @@ class Diagnostic(NamedTuple):
 
 
 class _ScriptMessage(Exception):
-    """The file, line, column and code of the first diagnostic, and all of them."""
+    """All diagnostics, and the attributes of the first one."""
 
     def __init__(self, message: str, diagnostics: tuple[Diagnostic, ...] = ()):
         super().__init__(message)
@@ -34,19 +34,19 @@ class _ScriptMessage(Exception):
 
 
 class PetriError(_ScriptMessage):
-    """What failed. `diagnostics` tell why; `file`, `line`, `column`, `code` and `text` are those of the first."""
+    """A call failed. `diagnostics` has the reasons; `file`, `line`, `column`, `code`, `text` are of the first one."""
 
 
 class ScriptError(PetriError, ValueError):
-    """The script or expression is wrong, or there is none."""
+    """The script or expression is invalid, or the file does not exist."""
 
 
 class LimitError(PetriError):
-    """A frame, load or picture asked for more work or memory than it may have; it was given up and changed nothing."""
+    """A frame, load or picture exceeded a limit of work or memory; it was aborted and changed nothing."""
 
 
 class OutOfMemoryError(PetriError, MemoryError):
-    """The machine's memory is used up."""
+    """The machine is out of memory."""
 
 
 class MissingLibraryError(PetriError):
@@ -54,16 +54,16 @@ class MissingLibraryError(PetriError):
 
 
 class InterruptedStep(PetriError):
-    """Session.interrupt() was called: what was under way was given up and changed nothing."""
+    """Session.interrupt() was called; the call was aborted and changed nothing."""
 
 
 class PetriWarning(_ScriptMessage, UserWarning):
-    """What is hardly meant, or does less than it seems. Has the attributes of PetriError."""
+    """A script does something that is unlikely to be intended. Has the attributes of PetriError."""
 
 
 _ERRORS = {
-    lib.PETRI_INVALID: (ScriptError, "there is no such script, or it makes no sense"),
-    lib.PETRI_LIMIT_EXCEEDED: (LimitError, "a limit was reached"),
+    lib.PETRI_INVALID: (ScriptError, "no such script, or invalid argument"),
+    lib.PETRI_LIMIT_EXCEEDED: (LimitError, "limit exceeded"),
     lib.PETRI_OUT_OF_MEMORY: (OutOfMemoryError, "out of memory"),
     lib.PETRI_UNSUPPORTED: (MissingLibraryError, "this build cannot draw"),
     lib.PETRI_INTERRUPTED: (InterruptedStep, "interrupted"),
@@ -88,7 +88,7 @@ def petri_python_diagnostic(user_data, diagnostic) -> None:
 
 
 def finish(status: int, told: list[Diagnostic], message: Optional[str] = None) -> None:
-    """Raises what the status means; what was told otherwise becomes warnings."""
+    """Raises an exception if the status is not PETRI_OK; otherwise issues the diagnostics as warnings."""
     diagnostics = tuple(told)
     told.clear()
     if status != lib.PETRI_OK:

@@ -1,4 +1,4 @@
-"""Functions of Python's that scripts call."""
+"""Python functions that scripts can call."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from ._petri import ffi, lib
 
 
 class Functions:
-    """Those of a session, and what they have raised since it was looked at."""
+    """The functions of a session, and the exceptions they have raised."""
 
     def __init__(self, session: Any, functions: Mapping[str, Callable]):
-        self.pointer = session._c  # while a function is called, the session has none
+        self.pointer = session._c  # the session has no pointer while a function is called
         self._session = session
         self._keep: List[Any] = []
         self.raised: List[BaseException] = []
@@ -23,7 +23,7 @@ class Functions:
             self._add(name, function)
 
     def lend(self, calling: bool) -> None:
-        """Takes the session away while a function is called, and gives it back."""
+        """Makes the session unusable during a call of a function, or usable again."""
         self.calling = calling
         self._session._c = self._session.state._session = ffi.NULL if calling else self.pointer
 
@@ -37,7 +37,7 @@ class Functions:
             "size": ffi.sizeof("PetriFunction"), "name": texts[0], "parameters": texts[1], "help": texts[2],
             "call": ffi.addressof(lib, "petri_python_call"), "user_data": handle})
         self._keep.append(handle)
-        self._session._call(lib.petri_add_function, made, message=f"{name} is no name for a function, or one is taken")
+        self._session._call(lib.petri_add_function, made, message=f"not a valid name, or already in use: {name}")
 
     def _parameters(self, function: Callable) -> str:
         words = []
@@ -45,7 +45,7 @@ class Functions:
             if parameter.kind is parameter.VAR_POSITIONAL:
                 words.append("...")
             elif parameter.kind not in (parameter.POSITIONAL_ONLY, parameter.POSITIONAL_OR_KEYWORD):
-                raise TypeError(f"scripts give arguments by position only, which {parameter} does not take")
+                raise TypeError(f"scripts pass arguments by position only: {parameter}")
             elif parameter.default is parameter.empty:
                 words.append(parameter.name)
             else:
@@ -57,12 +57,12 @@ class Functions:
 def _result(given: Any) -> tuple:
     for part in values.elements(given):
         if isinstance(part, str) and not isinstance(part, values.Text):
-            raise TypeError(f"{part!r} would be a symbol; a function for scripts returns numbers and petri.Text")
+            raise TypeError(f"cannot return {part!r}: functions for scripts return numbers and petri.Text, not symbols")
     return values.encode(None, given)
 
 
 def _failed(_: Any, error: BaseException, trace: Any) -> None:
-    """Whatever was raised, be it Ctrl-C on the way into the function or out of it, comes out of the session's call."""
+    """Records an exception, even a Ctrl-C just before or after the function, for the caller of the session."""
     arguments = trace.tb_frame.f_locals
     owner = ffi.from_handle(arguments["user_data"])[0]
     lib.petri_call_error(arguments["call"], f"{type(error).__name__}: {error}".encode())
@@ -76,7 +76,7 @@ def petri_python_called(call: Any, user_data: Any, arguments: Any, count: int, o
     owner, function, defaults = ffi.from_handle(user_data)
     owner.lend(True)
     given = [values.decode(owner.pointer, arguments[i]) for i in range(count)]
-    for i, default in enumerate(defaults):  # null stands for one that was left out
+    for i, default in enumerate(defaults):  # scripts pass null for omitted arguments
         given[i] = default if given[i] is None and default is not inspect.Parameter.empty else given[i]
     out[0], owner.result = _result(function(*given))
     owner.lend(False)

@@ -12,7 +12,7 @@ _END = r"(?![\w'])"
 
 
 def _names(make, kind):
-    """The names of a table of petri's."""
+    """Yields the names in one of petri's tables."""
     row, number = ffi.new(kind + " *"), 0
     while make(number, row):
         yield ffi.string(row.name).decode()

@@ -1,4 +1,4 @@
-"""Pictures of what a frame shows."""
+"""Pictures of frames."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class Picture:
-    """What a frame showed; it does not change when the session goes on. Notebooks show it by themselves."""
+    """The picture of a frame, independent of later frames. Notebooks display it."""
 
     def __init__(self, session: Session, pointer: Any):
         self._owner = session
@@ -39,19 +39,19 @@ class Picture:
 
     @property
     def pixels(self) -> numpy.ndarray:
-        """Red, green, blue and alpha of each pixel: uint8, height×width×4. Alpha is 255 but in an `!offscreen`."""
+        """Red, green, blue and alpha of each pixel: uint8, height×width×4. Alpha is 255 except in an `!offscreen`."""
         argb = numpy.zeros((self.height, self.width), numpy.uint32)
         target = ffi.cast("uint32_t *", argb.ctypes.data)
         self._draw(lambda painter: lib.petri_picture_draw(self._c, painter, target, self.width, self.height,
                                                           4 * self.width))
         rgba = numpy.stack([argb >> shift & 255 for shift in (16, 8, 0, 24)], axis=-1)
         alpha = rgba[..., 3:]
-        clear = (alpha > 0) & (alpha < 255)  # colours were multiplied by it
+        clear = (alpha > 0) & (alpha < 255)  # colours are premultiplied
         rgba[..., :3] = numpy.where(clear, rgba[..., :3] * 255 // numpy.maximum(alpha, 1), rgba[..., :3])
         return rgba.astype(numpy.uint8)
 
     def save(self, file: Union[str, os.PathLike]) -> None:
-        """Writes a .png, .svg or .pdf."""
+        """Writes a .png, .svg or .pdf file."""
         name = os.fsencode(file)
         self._draw(lambda painter: lib.petri_picture_save(self._c, painter, name))
 

@@ -21,7 +21,7 @@ _MAIN = threading.main_thread().ident
 
 @dataclass
 class Options:
-    """How a session runs; the fields are those of PetriOptions in petri.h, where None is its default."""
+    """Options of a session; the fields are those of PetriOptions in petri.h. None: the default."""
 
     fps: Optional[float] = None
     threads: int = 0
@@ -36,7 +36,7 @@ class Options:
 
 
 class Frame(NamedTuple):
-    """A frame's number, from 0, and its clocks."""
+    """The number of a frame, from 0, and its clocks."""
 
     number: int
     time: float
@@ -49,13 +49,13 @@ class Frame(NamedTuple):
 
 
 class Snapshot:
-    """All that decides how a session goes on, for Session.rewind."""
+    """The complete state of a session, for Session.rewind."""
 
     def __init__(self, session: Any, frame: int):
         pointer = lib.petri_snapshot(session)
         if not pointer:
             raise MemoryError("out of memory")
-        # The session outlives it.
+        # The snapshot must be freed before the session.
         self._c = ffi.gc(pointer, lambda p, session=session: lib.petri_snapshot_free(p))
         self._session = session
         self.frame = frame
@@ -72,16 +72,16 @@ def petri_python_write(user_data: Any, text: Any, length: int) -> bool:
 
 
 class Session:
-    """A script and all that it does.
+    """A script and its state.
 
-    `source` is the script's file, or its text if there is a line end in it. Further keywords define names for the
-    script: `petri.Session("dish.fl", CELLS=20)` is `-D CELLS=20`. What is wrong with the script is raised
-    (ScriptError, …), what is hardly meant is a PetriWarning. `given` has names that the script reads like its own, and
-    whose values may be others in each frame (set_global). Several threads may use a session, one after the other.
+    `source` is the script's file, or its text if it contains a line end. Further keywords define names for the script:
+    `petri.Session("dish.fl", CELLS=20)` corresponds to `-D CELLS=20`. Errors of the script are raised (ScriptError, …);
+    a script that is probably wrong causes a PetriWarning. `given` has globals for the script, whose values can be
+    changed between frames (set_global). Several threads may use a session, but not at the same time.
 
-    `functions` are called by the script like built-in ones: they take and return numbers, Text, tuples of them, and
-    None; symbols they take only. They may not use the session. Where one raises something the script sees null, the
-    frame is made, and then the error comes out of step.
+    The script calls `functions` like built-in ones. They take and return numbers, Text, tuples of them, and None; they
+    also take symbols, as str. They must not use the session. If a function raises an exception, its result is null; the
+    frame is completed, and then step raises the exception.
     """
 
     def __init__(self, source: Union[str, os.PathLike], *, options: Optional[Options] = None,
@@ -92,13 +92,13 @@ class Session:
         self._painter: Any = None
         self._functions: Optional[Functions] = None
         self._stop: Any = ffi.NULL
-        self._shown: List[None] = []  # one for each array of the session's memory
+        self._shown: List[None] = []  # one element per array that shows the session's memory
         self._c = self._open(options or Options())
         self.state = State(self._c, self._lock)
         self.systems = Systems(self)
         for name, value in defines.items():
             text = value if isinstance(value, str) else self._printed(value)
-            self._call(lib.petri_define, f"{name}={text}".encode(), message=f"{name} is no name that can be defined")
+            self._call(lib.petri_define, f"{name}={text}".encode(), message=f"not a name that can be defined: {name}")
         if functions:
             self._functions = Functions(self, functions)
             self._stop = self._functions.stop
@@ -129,7 +129,7 @@ class Session:
         options.user_data = handle = ffi.new_handle(self._told)
         pointer = lib.petri_open(options)
         if not pointer:
-            raise ValueError(f"there is no session with {wanted}")
+            raise ValueError(f"invalid options: {wanted}")
         return ffi.gc(pointer, lambda p, handle=handle: lib.petri_python_close(p))
 
     def _printed(self, value: Any) -> str:
@@ -137,7 +137,7 @@ class Session:
             encoded, keep = values.encode(self._c, value)
             text = lib.petri_format_value(self._c, encoded)
             if not text:
-                raise ValueError(f"{value!r} is no value of the language")
+                raise ValueError(f"cannot convert {value!r} to a value of the language")
             return ffi.string(text).decode()
 
     def _call(self, function: Any, *arguments: Any, message: Optional[str] = None) -> None:
@@ -147,7 +147,7 @@ class Session:
             self._finish(status, message)
 
     def _finish(self, status: int, message: Optional[str] = None) -> None:
-        """Raises what came of a call, or what a function raised in it."""
+        """Raises the error of a call, or the exception of a function that it called."""
         if self._functions and self._functions.calling:
             raise RuntimeError("a function that a script calls cannot use its session")
         if self._functions and self._functions.raised:
@@ -165,49 +165,49 @@ class Session:
         return b"".join(pieces).decode("utf-8", "replace")
 
     def step(self, n: int = 1) -> None:
-        """Makes n frames; another thread may use Python meanwhile. Ctrl-C gives the frame at hand up."""
+        """Computes n frames without holding the GIL. Ctrl-C aborts the current frame."""
         with self._lock:
             status = lib.petri_python_step(self._c, n, threading.get_ident() == _MAIN, self._stop)
         if status or self._told or self._stop and self._stop[0]:
             self._finish(status)
 
     def __iter__(self) -> Iterator[Frame]:
-        """The frames, one after the other, without end."""
+        """Computes and yields frames without end."""
         for _ in count():
             self.step()
             yield self.frame
 
     def frames(self, n: int) -> Iterator[Frame]:
-        """The next n frames."""
+        """Computes and yields the next n frames."""
         for _ in range(n):
             self.step()
             yield self.frame
 
     @property
     def frame(self) -> Frame:
-        """The frame that was made last; its number is -1 before the first."""
+        """The last computed frame; its number is -1 before the first."""
         with self._lock:
             frame = lib.petri_frame(self._c)
         return Frame(*(getattr(frame, name) for name in Frame._fields))
 
     def evaluate(self, text: str) -> values.Value:
-        """The value of an expression, in the frame that was made last."""
+        """Returns the value of an expression in the last frame."""
         data = text.encode()
         return values.parse(self._collect(lib.petri_evaluate, data, len(data), ffi.new("PetriEvaluation *")))
 
     def interrupt(self) -> None:
-        """Has another thread's step end with InterruptedStep; the frame at hand is given up. For any thread."""
+        """Aborts the frame that another thread computes; its step raises InterruptedStep. Any thread may call this."""
         lib.petri_interrupt(self._c)
 
     def snapshot(self) -> Snapshot:
-        """Keeps all that decides how the session goes on."""
+        """Returns a snapshot of the complete state."""
         with self._lock:
             return Snapshot(self._c, lib.petri_frame(self._c).number)
 
     def rewind(self, snapshot: Snapshot) -> None:
-        """Goes back to just after the frame of a snapshot: what follows is the same to the last bit."""
+        """Returns to the end of the snapshot's frame. The following frames are the same, bit for bit."""
         if snapshot._session is not self._c:
-            raise ValueError("the snapshot is of another session")
+            raise ValueError("the snapshot belongs to another session")
         self._call(lib.petri_rewind, snapshot._c)
 
     def save(self, file: Union[str, os.PathLike]) -> None:
@@ -215,26 +215,26 @@ class Session:
         self._call(lib.petri_save, os.fsencode(file))
 
     def restore(self, file: Union[str, os.PathLike]) -> None:
-        """Goes on from what was saved, to the last bit."""
+        """Resumes from a saved state, bit for bit."""
         if not os.path.exists(file):
             raise FileNotFoundError(file)
         self._call(lib.petri_restore, os.fsencode(file))
 
     def set_parameter(self, name: str, value: Any) -> None:
-        """Gives a parameter (`let SIZE=SIZE or 20`) another value from the next frame on; None: its default."""
+        """Sets a parameter (`let SIZE=SIZE or 20`) from the next frame on; None: to its default."""
         text = ffi.NULL if value is None else (value if isinstance(value, str) else self._printed(value)).encode()
         self._call(lib.petri_set_parameter, name.encode(), text, message=f"the script has no parameter {name}")
 
     def set_global(self, name: str, value: Any) -> None:
-        """Gives a name that was `given` at first another value, from the next frame on."""
+        """Sets a global that was in `given` to another value, from the next frame on."""
         if name not in self._given:
-            raise KeyError(f"{name!r} was not given when the session began: petri.Session(..., given={{{name!r}: ...}})")
+            raise KeyError(f"unknown global {name!r}; use petri.Session(..., given={{{name!r}: ...}})")
         with self._lock:
             encoded, keep = values.encode(self._c, value)
-        self._call(lib.petri_set_global, name.encode(), encoded, message=f"{name!r} cannot be given as {value!r}")
+        self._call(lib.petri_set_global, name.encode(), encoded, message=f"cannot set {name!r} to {value!r}")
 
     def text(self, *sections: str) -> str:
-        """What `petri run --print` writes of the frame: any of "tree", "state", "log", "error", "hash"."""
+        """Returns the output of `petri run --print` for the frame: any of "tree", "state", "log", "error", "hash"."""
         bits = 0
         for section in sections:
             bits |= getattr(lib, f"PETRI_PRINT_{section.upper()}")
@@ -242,7 +242,7 @@ class Session:
 
     def picture(self, width: int = 0, height: int = 0, *, scale: float = 1, window: int = -1,
                 automatic: Optional[bool] = None) -> Picture:
-        """What the last frame shows: its window; the particles where it draws none, or if `automatic`."""
+        """Returns the picture of the last frame: its window, or the particles if it has none or if `automatic`."""
         options = ffi.new("PetriPictureOptions *")
         lib.petri_python_picture_options(options)
         options.width, options.height, options.scale, options.window = width, height, scale, window
@@ -258,7 +258,7 @@ class Session:
         return self._painter
 
     def close(self) -> None:
-        """Ends the session. Its memory is given back when nothing shows it any more."""
+        """Ends the session. Its memory is freed when no array shows it any more."""
         with self._lock:
             self._c = self.state._session = ffi.NULL
 

@@ -1,4 +1,4 @@
-"""The state dictionary, which scripts read with `$`, as a mapping."""
+"""The state, which scripts read with `$`, as a mapping."""
 
 from __future__ import annotations
 
@@ -10,15 +10,16 @@ from ._petri import ffi, lib
 
 
 class State(MutableMapping):
-    """`session.state["cells", 3]` is `$(:cells;3)`: a float, a tuple of them, or None where there is nothing.
+    """`session.state["cells", 3]` is `$(:cells;3)`: a float, a str, a Text, or a tuple of these.
 
-    A key is a str (a symbol), a number, a `Text` (a string) or a tuple of these. Values can be set, for the next frame.
+    A key is a str (a symbol), a number, a `Text` (a string) or a tuple of these. Values that are set are seen by the
+    next frame. Missing keys raise KeyError.
     """
 
     __slots__ = ("_session", "_lock", "_symbols", "_value")
 
     def __init__(self, session: Any, lock: Any):
-        self._session = session  # None: it is closed
+        self._session = session  # NULL: closed
         self._lock = lock
         self._symbols: dict[str, float] = {}
         self._value = ffi.new("PetriValue *")
@@ -31,7 +32,7 @@ class State(MutableMapping):
     def __getitem__(self, key: Any) -> values.Value:
         value = self._value
         with self._lock:
-            # The usual key, without detours.
+            # Fast path for the most common keys: a symbol and a number.
             if type(key) is tuple and len(key) == 2 and type(key[0]) is str and type(key[1]) in (int, float):
                 plain = lib.petri_python_pair(self._session, self._symbols.get(key[0]) or self._symbol(key[0]), key[1],
                                               value)
@@ -42,7 +43,7 @@ class State(MutableMapping):
             length = value.length
             if plain and length > 1:
                 numbers = tuple(ffi.unpack(value.numbers, length))
-                if min(numbers) > -8e307:  # no symbol among them
+                if min(numbers) > -8e307:  # symbols are below this
                     return numbers
             result = values.decode(self._session, value)
         if result is None:
@@ -54,10 +55,10 @@ class State(MutableMapping):
             encoded_key, keep_key = values.encode(self._session, key)
             encoded, keep = values.encode(self._session, value)
             if lib.petri_state_set(self._session, encoded_key, encoded) != lib.PETRI_OK:
-                raise ValueError(f"the state has finite numbers, symbols and strings only, not {value!r} under {key!r}")
+                raise ValueError(f"cannot store {value!r} as {key!r}: not finite numbers, symbols and strings")
 
     def __delitem__(self, key: Any) -> None:
-        self[key]  # KeyError where there is nothing
+        self[key]  # raises KeyError if the key is missing
         self[key] = None
 
     def __iter__(self) -> Iterator[Any]:

@@ -1,4 +1,4 @@
-"""Many runs of a script with other values."""
+"""Runs of a script over many values."""
 
 from __future__ import annotations
 
@@ -14,12 +14,13 @@ from .session import Options, Session
 def sweep(source: Union[str, os.PathLike], defines: Mapping[str, Iterable[Any]], metrics: Mapping[str, str], *,
           frames: int = 600, until: Optional[str] = None, seeds: int = 0, jobs: Optional[int] = None,
           options: Optional[Options] = None) -> Mapping[str, List[Any]]:
-    """Runs a script once for each combination of values, several at a time, and measures what comes of it.
+    """Runs a script once per combination of values, several runs at a time, and measures the results.
 
-    `defines` has the values of each name, `metrics` expressions, which are evaluated after the last frame; `seeds`
-    counts a name SEED from 1. A run ends after `frames`, or with the first frame in which `until` is true. The result
-    has lists as long as there are runs, in the order of `petri sweep`: the names, frame, the metrics, error (None, or
-    why the run failed, whose metrics are None). `pandas.DataFrame(petri.sweep(...))` is a table.
+    `defines` has the values of each name. `metrics` has expressions, which are evaluated after the last frame. `seeds`
+    adds a name SEED with values from 1. A run ends after `frames` frames, or with the first frame in which `until` is
+    true. The result has one list per column and one element per run, in the order of `petri sweep`: the names, frame,
+    the metrics, and error (None, or the reason for a failure; the metrics are None then).
+    `pandas.DataFrame(petri.sweep(...))` makes it a table.
     """
     axes = {name: list(given) for name, given in defines.items()}
     if seeds > 0:
@@ -27,7 +28,7 @@ def sweep(source: Union[str, os.PathLike], defines: Mapping[str, Iterable[Any]],
     taken = [*axes, "frame", "error"]
     double = [name for name in metrics if name in taken]
     if double:
-        raise ValueError(f"two columns would be called {double[0]!r}")
+        raise ValueError(f"duplicate column {double[0]!r}")
     runs = [dict(zip(axes, chosen)) for chosen in itertools.product(*axes.values())]
 
     def run(chosen: Mapping[str, Any]) -> dict:

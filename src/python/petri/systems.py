@@ -1,4 +1,4 @@
-"""The particle systems of a session, as numpy arrays that lie in the session itself."""
+"""The particle systems of a session, as numpy arrays of the session's memory."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class _Memory:
-    """What an array is of, for numpy; keeps the session and the numbers alive as long as there is an array."""
+    """The memory of an array, for numpy; keeps the session and the columns alive as long as the array."""
 
     __slots__ = ("__array_interface__", "session", "shown")
 
@@ -39,11 +39,11 @@ def _column(letter: str, doc: str) -> property:
 
 
 class System:
-    """A particle system, with N particles (anchors are among them) of d dimensions.
+    """A particle system with N particles, including anchors, in d dimensions.
 
-    Its arrays are views of the session's own memory: nothing is copied, they cannot be written to, and they are to be
-    asked for anew after each step. What an older one shows is either of a frame before or of the last one, as the
-    session has or has not put its particles elsewhere; `.copy()` keeps what is there.
+    Its arrays are read-only views of the session's memory. Get them again after each step: an older array may show an
+    earlier frame or the last one, because the session may have moved its particles in memory. `.copy()` keeps the
+    values.
     """
 
     def __init__(self, session: Session, number: int, name: bytes):
@@ -61,7 +61,7 @@ class System:
             if not lib.petri_python_view(session, self._number, self._printed, letter.encode(), view):
                 raise self._missing_error()
             place = address, count, width, stride = view.address, view.count, view.width, view.stride
-            # What lies where the last array lay is what that array shows.
+            # Memory in the same place is already shown by the last array.
             if letter in self._arrays:
                 if self._arrays[letter][0] == place:
                     return self._arrays[letter][1]
@@ -87,12 +87,12 @@ class System:
         return self._struct
 
     def _missing_error(self) -> LookupError:
-        return LookupError(f"the last frame has no system {self.name!r}")
+        return LookupError(f"no system {self.name!r} in the last frame")
 
-    position = _column("p", "Where the particles are: float64, N×d, read-only.")
-    velocity = _column("v", "Their velocities: float64, N×d, read-only.")
-    force = _column("f", "The sum of all forces on each in the frame's last step: float64, N×d, read-only; 0 on an "
-                         "anchor. NaN if no step was made or without Options.keep_forces.")
+    position = _column("p", "Positions of the particles: float64, N×d, read-only.")
+    velocity = _column("v", "Velocities of the particles: float64, N×d, read-only.")
+    force = _column("f", "Total force on each particle in the frame's last step: float64, N×d, read-only; 0 for "
+                         "anchors. NaN if there was no step or without Options.keep_forces.")
     radius = _column("r", "float64, N, read-only.")
     mass = _column("m", "float64, N, read-only.")
     charge = _column("c", "float64, N, read-only.")
@@ -109,29 +109,29 @@ class System:
 
     @property
     def name(self) -> str:
-        """The key of its state: "cells" for `state=:cells`; other keys than symbols as they are printed."""
+        """Its state key: "cells" for `state=:cells`; keys other than symbols in printed form."""
         return _plain(self._printed)
 
     @property
     def dimensions(self) -> int:
-        """d, the components of a position."""
+        """d, the number of components of a position."""
         return self._fetch().dimensions
 
     @property
     def steps(self) -> int:
-        """Simulation steps in the last frame."""
+        """Number of simulation steps in the last frame."""
         return self._fetch().steps
 
     @property
     def ids(self) -> List[Any]:
-        """The ids of the particles, N of them: int, float, str for symbols, Text for strings, tuples of these."""
+        """The N ids of the particles: int, float, str for symbols, Text for strings, or tuples of these."""
         count = self._fetch().particle_count
         with self._owner._lock:
             session = self._owner._c
             return [values.whole(values.decode(session, lib.petri_particle_id(session, self._number, i))) for i in range(count)]
 
     def index(self, id: Any) -> int:
-        """The row of the particle with this id; KeyError if there is none."""
+        """Returns the row of the particle with this id. Raises KeyError if there is none."""
         self._fetch()
         found = ffi.new("uint32_t *")
         with self._owner._lock:
@@ -141,7 +141,7 @@ class System:
         return found[0]
 
     def to_dataframe(self) -> Any:
-        """A pandas DataFrame, with a row for each particle: id, anchor, x1 … xd, v1 … vd, radius, mass, charge."""
+        """Returns a pandas DataFrame with a row per particle: id, anchor, x1 … xd, v1 … vd, radius, mass, charge."""
         pandas = _optional("pandas", "to_dataframe")
         columns: dict[str, Any] = {"id": self.ids, "anchor": self.anchor.copy()}
         for letter, array in (("x", self.position), ("v", self.velocity)):
@@ -152,7 +152,7 @@ class System:
         return pandas.DataFrame(columns)
 
     def to_ase(self) -> Any:
-        """An ase.Atoms of element X, with positions, velocities, masses and charges, in at most three dimensions."""
+        """Returns an ase.Atoms of element X with positions, velocities, masses, charges; at most three dimensions."""
         ase = _optional("ase", "to_ase")
         position, velocity = numpy.zeros((len(self), 3)), numpy.zeros((len(self), 3))
         width = min(3, self.dimensions)
@@ -170,7 +170,7 @@ class System:
         try:
             return f"<petri.System {self.name!r}: {len(self)} particles, {self.dimensions} dimensions>"
         except LookupError:
-            return f"<petri.System {self.name!r}, which is gone>"
+            return f"<petri.System {self.name!r}, not in the last frame>"
 
 
 class Systems(Mapping):
@@ -189,7 +189,7 @@ class Systems(Mapping):
         return names
 
     def _clear_arrays(self) -> None:
-        """Gives back what only this module still holds of where particles were, unless a user does."""
+        """Frees old columns that are only referenced by this module, unless the user has arrays."""
         for system in self._known.values():
             system._arrays.clear()
         if not self._session._shown:

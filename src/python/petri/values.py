@@ -1,7 +1,7 @@
-"""Values of the language as Python has them.
+"""Conversion of values of the language to and from Python.
 
-A vector is a tuple, a vector of one element that element, null None. Numbers are float, symbols such as `:cells` are
-str, and strings are Text, which is a str, too: they are told apart because `$:cells` and `$'cells'` are different keys.
+A vector is a tuple, but a vector of one element is that element, and null is None. Numbers are float, symbols such as
+`:cells` are str, and strings are Text, a subclass of str, because `$:cells` and `$'cells'` are different keys.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import Any, Iterable, List, Tuple, Union
 
 from ._petri import ffi, lib
 
-# Symbols are numbers below this one.
+# Symbols are represented by numbers below this.
 _SYMBOLS_BELOW = -8.98e307
 
 
@@ -30,7 +30,7 @@ Value = Union[None, Element, Tuple[Element, ...]]
 
 
 def elements(value: Any) -> Iterable[Any]:
-    """What there is in a value from Python: anything that can be gone through, but no str, is a vector."""
+    """Yields the elements of a Python value: any iterable except str is a vector."""
     if value is None:
         return
     if isinstance(value, (str, float, int)) or not hasattr(value, "__iter__"):
@@ -41,15 +41,15 @@ def elements(value: Any) -> Iterable[Any]:
 
 
 def symbol(session: Any, name: str) -> float:
-    """The number that a symbol is."""
+    """Returns the number that represents a symbol."""
     number = lib.petri_symbol(session, name.removeprefix(":").encode())
     if number != number:
-        raise ValueError(f"{name!r} is no name: a str stands for a symbol, petri.Text for a string")
+        raise ValueError(f"not a symbol: {name!r}; use petri.Text for strings")
     return number
 
 
 def encode(session: Any, value: Any) -> Tuple[Any, list]:
-    """A PetriValue, and what has to live as long."""
+    """Returns a PetriValue, and the objects that must be kept alive with it."""
     parts = [symbol(session, part) if isinstance(part, str) and not isinstance(part, Text) else part
              for part in elements(value)]
     result = ffi.new("PetriValue *", {"length": len(parts)})
@@ -84,11 +84,11 @@ def _item(session: Any, item: Any) -> Any:
         return number(session, value.number)
     if item.type == lib.PETRI_STRING:
         return Text(ffi.buffer(value.string.bytes, value.string.length)[:].decode("utf-8", "replace"))
-    return None  # nodes and functions, of which no state has any
+    return None  # nodes and functions, which are never in the state
 
 
 def decode(session: Any, value: Any) -> Value:
-    """A value of Python's own."""
+    """Returns the Python value of a PetriValue."""
     length = value.length
     if length == 0:
         return None
@@ -104,7 +104,7 @@ def decode(session: Any, value: Any) -> Value:
 
 
 def whole(value: Value) -> Value:
-    """Numbers that are whole as int, for keys."""
+    """Converts integral floats to int, for keys."""
     if isinstance(value, tuple):
         return tuple(whole(part) for part in value)  # type: ignore[misc]
     return int(value) if isinstance(value, float) and value.is_integer() else value
@@ -115,7 +115,7 @@ _TOKEN = re.compile(
 
 
 def parse(printed: str) -> Value:
-    """The value of a printed form; where it is none of numbers, symbols and strings, the form itself as Text."""
+    """Parses a printed value. If it has elements other than numbers, symbols and strings, returns it as Text."""
     parts: List[Element] = []
     at = 0
     while at < len(printed) and printed != "null":
@@ -125,7 +125,7 @@ def parse(printed: str) -> Value:
         if match["symbol"]:
             parts.append(match["symbol"])
         elif match["text"]:
-            parts.append(Text(ast.literal_eval(match["text"])))  # it is written as Python would
+            parts.append(Text(ast.literal_eval(match["text"])))  # strings are printed as in Python
         else:
             try:
                 parts.append(float(match["number"]))
