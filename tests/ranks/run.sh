@@ -1,20 +1,21 @@
 #!/bin/sh
-# run.sh: `mpirun petri run` and `sweep`: the bits of one process, once. usage: tests/ranks/run.sh PATH-OF-PETRI. Skipped without mpirun.
+# run.sh: tests `mpirun petri run` and `mpirun petri sweep`, which give the results of one process.
+# usage: tests/ranks/run.sh PATH-OF-PETRI. Skipped without mpirun.
 set -u
 # shellcheck source=tests/support/check.sh
 . "$(dirname "$0")/../support/check.sh"
 petri=$(program "$1") || exit 2
 command -v mpirun >/dev/null || exit 77
 scratch
-# As in a container: as root, with more ranks than processors, on this machine alone.
+# Allows Open MPI to run in a container: as root, with more ranks than processors, on this machine only.
 OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_plm=isolated
 OMPI_MCA_btl_vader_single_copy_mechanism=none OMPI_MCA_mpi_yield_when_idle=1 TMPDIR=/tmp
-ASAN_OPTIONS=${ASAN_OPTIONS:-}:detect_leaks=0 # of MPI
+ASAN_OPTIONS=${ASAN_OPTIONS:-}:detect_leaks=0 # MPI leaks memory
 export ASAN_OPTIONS OMPI_ALLOW_RUN_AS_ROOT OMPI_ALLOW_RUN_AS_ROOT_CONFIRM OMPI_MCA_rmaps_base_oversubscribe OMPI_MCA_plm \
     OMPI_MCA_btl_vader_single_copy_mechanism OMPI_MCA_mpi_yield_when_idle TMPDIR
 mpirun -n 1 true 2>err || { echo "mpirun does not start a process here: $(head -n 3 err)" && exit 77; }
 same() { cmp "$1" "$2"; }
-# ranks COUNT ARGS...
+# ranks COUNT ARGS...: runs petri with COUNT ranks; sets out, err and $status.
 ranks() {
     count=$1
     shift
@@ -43,36 +44,36 @@ debug('frame';frame)
     !barrier position=0;0 normal=0;1
 END
 "$petri" run stars.fl --frames 5 --print hash,log --every 4 --trajectory one.csv --stats >one 2>stats
-# Numbers of discs go through memory that ranks have in common, or else by messages.
+# The positions of discs are collected through shared memory, or else by messages.
 for count in 2 3 4 7; do
     no_shared_memory=$((count % 2))
     [ -w /dev/shm ] || no_shared_memory=1
     export PETRI_NO_SHARED_MEMORY=${no_shared_memory#0}
     ranks $count run stars.fl --frames 5 --print hash,log --every 4 --stats --threads $((count % 2 + 1))
-    check "$count ranks come to the bits of one, and say it once" same one out
-    check "in one table, too" [ "$(grep momentum err)" = "$(grep momentum stats)" ]
-    check "with stars shared by pairs, discs by region" [ "$(grep -c "on $count ranks  *by \(pairs\|region\)" err)" -eq 2 ]
-    check "as messages between machines only" [ "$(grep -c ", 0 bytes a frame" err)" -eq $((2 - no_shared_memory)) ]
+    check "$count ranks print the hashes of one process, once" same one out
+    check "$count ranks print one table of momentum" [ "$(grep momentum err)" = "$(grep momentum stats)" ]
+    check "$count ranks: stars by pairs, discs by region" [ "$(grep -c "on $count ranks  *by \(pairs\|region\)" err)" -eq 2 ]
+    check "$count ranks: messages only without shared memory" [ "$(grep -c ", 0 bytes a frame" err)" -eq $((2 - no_shared_memory)) ]
 done
 unset PETRI_NO_SHARED_MEMORY
 ranks 2 stars.fl --frames 5 --print hash,log --every 4 --trajectory two.csv
-check "as does a script without command" same one out
-check "one of them writes the trajectory" same one.csv two.csv
+check "a script without a command also runs on ranks" same one out
+check "one rank writes the trajectory" same one.csv two.csv
 
 ranks 3 run stars.fl --frames 3 --state world.state
-check "the state is kept" exists world.state
+check "one rank saves the state" exists world.state
 ranks 2 run stars.fl --frames 2 --print hash --state world.state
-check "another number of ranks goes on from it" [ "$(tail -n 1 out)" = "$(tail -n 2 one | grep '=')" ]
+check "another number of ranks continues from the state" [ "$(tail -n 1 out)" = "$(tail -n 2 one | grep '=')" ]
 
 echo 'let X=(' >wrong.fl
 ranks 2 run wrong.fl
-check "a script that is wrong ends all" status_is 1
-check "and is told once" count_is err 'error:' 1
+check "an invalid script ends all ranks" status_is 1
+check "an invalid script is reported once" count_is err 'error:' 1
 ranks 2 run stars.fl --frames 5 --work 20K
-check "a limit ends all" status_is 1
-check "and is told once, too" count_is err 'stopped in frame' 1
+check "a work limit ends all ranks" status_is 1
+check "a work limit is reported once" count_is err 'stopped in frame' 1
 if command -v pgrep >/dev/null; then
-    # end SIGNAL WHICH: once all are at work, ends one rank: the `head` or the `tail` of them.
+    # end SIGNAL WHICH: starts three ranks and signals one of them, the first (`head`) or the last (`tail`).
     end() {
         rm -f dead.state
         mpirun -n 3 "$petri" run stars.fl --frames 100000 --trace --state dead.state --save-every 2 >out 2>err </dev/null &
@@ -82,26 +83,26 @@ if command -v pgrep >/dev/null; then
         wait $job
         ended=$?
         frames=$(grep -c "petri: frame" err)
-        told=$(grep "signal 15" err)
+        report=$(grep "signal 15" err)
         ranks 2 run stars.fl --frames 1 --print hash --state dead.state
         next=$(sed -n 's/^@\([0-9]*\).*/\1/p' out)
     }
     end -KILL tail
-    check "a rank that dies ends all" [ $ended -ne 0 ]
-    check "and some frames are kept" [ "${next:-0}" -ge 4 ]
+    check "a rank that dies ends all ranks" [ $ended -ne 0 ]
+    check "a rank that dies leaves a saved state" [ "${next:-0}" -ge 4 ]
     end -TERM head
-    check "a rank that is to end ends all" [ $ended -ne 0 ]
-    check "with a message that says where whole frames are" [ "${told#*a rank has died*in dead.state}" != "$told" ]
-    check "all of them" [ "${next:-0}" -eq "$frames" ]
+    check "a terminated rank ends all ranks" [ $ended -ne 0 ]
+    check "a terminated rank reports where the state was saved" [ "${report#*a rank has died*in dead.state}" != "$report" ]
+    check "the saved state has all frames" [ "${next:-0}" -eq "$frames" ]
     "$petri" run stars.fl --frames $((next + 1)) --print hash --every "$next" >one 2>err
-    check "from which other ranks come to the same bits" [ "$(tail -n 1 out)" = "$(tail -n 1 one)" ]
+    check "other ranks continue from it with the same hashes" [ "$(tail -n 1 out)" = "$(tail -n 1 one)" ]
 fi
 ranks 2 run - --frames 1
-check "no script on standard input" has err 'cannot use a script on standard input under mpirun'
+check "a script on standard input is rejected" has err 'cannot use a script on standard input under mpirun'
 ranks 2 run stars.fl --realtime --frames 1
-check "no --realtime" has err 'cannot use --realtime under mpirun'
+check "--realtime is rejected" has err 'cannot use --realtime under mpirun'
 
-# --- sweeps: rank 0 deals the runs out
+# --- sweeps: rank 0 assigns the runs
 
 cat >dish.fl <<'END'
 let DROPS=DROPS or 20 SEED=SEED or 1
@@ -110,28 +111,28 @@ let DROPS=DROPS or 20 SEED=SEED or 1
         !particle id=i position=9*normal(:start;SEED)[2*i;2*i+1]
     !gravity strength=50
 END
-# cells COMMAND...: the words of a sweep behind these.
-# shellcheck disable=SC2016 # dollars are for petri
+# cells COMMAND...: runs COMMAND with the options of a sweep.
+# shellcheck disable=SC2016 # the dollar signs are for petri
 cells() { "$@" -D 'DROPS=2..20|3' --seeds 10 --frames 300 --every 150 --metric 'far=sum(hypot($(:drops;i)) for i in ..DROPS)'; }
 cells "$petri" sweep dish.fl --quiet -o one.csv
 cells ranks 3 sweep dish.fl -o three.csv
-check "a sweep ends well" status_is 0
-check "… with the table of one process" same one.csv three.csv
-check "… and its commands" same one.csv.runs three.csv.runs
-check "… which one of them tells" count_is err '70 runs in three.csv, 70 of them' 1
-check "… and nothing else stays" [ "$(echo three.csv*)" = "three.csv three.csv.runs" ]
+check "a sweep on ranks succeeds" status_is 0
+check "a sweep on ranks writes the table of one process" same one.csv three.csv
+check "a sweep on ranks writes the commands of one process" same one.csv.runs three.csv.runs
+check "a sweep on ranks is reported once" count_is err '70 runs in three.csv, 70 of them' 1
+check "a sweep on ranks leaves no other files" [ "$(echo three.csv*)" = "three.csv three.csv.runs" ]
 cells mpirun -n 3 "$petri" sweep dish.fl -o cut.csv 2>err </dev/null &
 job=$!
 while kill -0 $job 2>/dev/null && [ "$(cat cut.csv.part 2>/dev/null | grep -c '^run ')" -lt 20 ]; do :; done
 kill -9 "$(pgrep -P $job | head -n 1)" 2>/dev/null
 wait $job 2>/dev/null
 cells ranks 2 sweep dish.fl -o cut.csv
-check "cut short, it goes on, on another number of ranks" same one.csv cut.csv
+check "an interrupted sweep resumes on another number of ranks" same one.csv cut.csv
 cat >limit.fl <<'END'
 let A=A or 1
     LONG=sum(i*i for i in ..A*10000) + frame
 END
 ranks 3 sweep limit.fl -D 'A=1;2;1000;4' --work 5M --frames 2 --metric a=A -o limit.csv
-check "a run that fails is a row, wherever it was made" [ "$(cut -d, -f1-4 limit.csv | tail -n 3 | tr '\n' ' ')" = "2,2,1,2 3,1000,0, 4,4,1,4 " ]
+check "a failed run is a row on any rank" [ "$(cut -d, -f1-4 limit.csv | tail -n 3 | tr '\n' ' ')" = "2,2,1,2 3,1000,0, 4,4,1,4 " ]
 
 finish
