@@ -1,4 +1,4 @@
-// extension.js: what VS Code does with Flitter scripts: it starts `petri lsp`, and runs, views and draws them.
+// extension.js: the VS Code extension. It starts `petri lsp`, and has commands to run, view and draw scripts.
 const childProcess = require("child_process");
 const os = require("os");
 const path = require("path");
@@ -6,9 +6,9 @@ const vscode = require("vscode");
 const { LanguageClient } = require("vscode-languageclient/node");
 
 let client;
-let panel; // the picture beside
-let shown; // the script that it shows
-const socket = path.join(os.tmpdir(), `petri-vscode-${process.pid}`); // of the last view
+let panel; // the panel with the picture; undefined: closed
+let shown; // path of the script in the panel
+const socket = path.join(os.tmpdir(), `petri-vscode-${process.pid}`); // for `petri view --listen`
 
 const setting = (name) => vscode.workspace.getConfiguration("petri").get(name);
 
@@ -26,15 +26,15 @@ async function startServer() {
     try {
         await client.start();
     } catch (problem) {
-        vscode.window.showErrorMessage(`petri lsp does not start: ${problem.message}. Is "petri.path" right?`);
+        vscode.window.showErrorMessage(`Cannot start petri lsp: ${problem.message}. Check the setting "petri.path".`);
     }
 }
 
-// The script that is being edited, saved; undefined, after a message, if there is none.
+// Saves the script in the active editor and returns its path. Returns undefined, after a message, if there is none.
 async function script() {
     const document = vscode.window.activeTextEditor?.document;
     if (document?.languageId !== "flitter" || document.uri.scheme !== "file") {
-        vscode.window.showErrorMessage("No Flitter script is open.");
+        vscode.window.showErrorMessage("The active editor has no Flitter script.");
         return undefined;
     }
     await document.save();
@@ -54,7 +54,7 @@ async function inTerminal(command, ...options) {
     }
 }
 
-// Has the view take a text; what comes back is shown.
+// Evaluates a text in the view and shows the result.
 function send(text) {
     childProcess.execFile(setting("path"), ["send", socket, text], { timeout: 10000 }, (problem, out, said) => {
         const answers = out.split("\n").filter(Boolean).map((line) => JSON.parse(line).text).filter(Boolean);
@@ -63,7 +63,7 @@ function send(text) {
     });
 }
 
-// The selection, or the line.
+// Sends the selection, or the current line if nothing is selected.
 function sendSelection() {
     const editor = vscode.window.activeTextEditor;
     send(editor?.document.getText(editor.selection.isEmpty
@@ -72,7 +72,7 @@ function sendSelection() {
 
 const escaped = (text) => text.replace(/[&<>]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;" })[c]);
 
-// Draws a frame with `petri render`; what it says instead of a picture is shown as text.
+// Draws a frame with `petri render`, or shows its error message.
 function draw() {
     const args = ["render", shown, "-o", "-", "--format", "png", "--frame", String(setting("frame"))];
     const options = { encoding: "buffer", maxBuffer: 1 << 28, cwd: path.dirname(shown), timeout: 60000 };

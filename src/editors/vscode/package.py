@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""package.py GRAMMAR OUT.vsix: packs the extension, once `npm run bundle` has made it, with the grammar that the build
-makes. The same files give the same bytes."""
+"""package.py GRAMMAR OUT.vsix: packs the extension, after `npm run bundle`, with the generated grammar. The output
+depends only on the files."""
 
 import json
 import sys
