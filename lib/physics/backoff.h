@@ -1,6 +1,6 @@
 // backoff.h: decides from earlier jobs whether to use helper threads.
 //
-// On a busy machine a helper that has begun a chunk may lose its processor for milliseconds while the caller waits, or
+// On a busy machine a helper that has begun a chunk may lose its processor for milliseconds, while the caller waits. Or
 // no helper arrives at all. When the caller has waited longer than helpers have saved, it works alone for a pause. The
 // pause is much longer than the loss, so the loss hardly matters. This affects only speed, never results.
 #ifndef PETRI_PHYSICS_BACKOFF_H

@@ -1,9 +1,9 @@
 // grid.c: sorts the particles of a pass into the cells of a grid.
 //
-// Cells are at least as wide as the range of a regular particle, so its neighbours are in its own cell and the adjacent
-// ones. The grid covers the area of most particles. Particles outside belong to the cells at its edge, which still
-// keeps neighbours in the same or in adjacent cells. A few particles may be much larger than the others. They are in no
-// cell; every particle tests them.
+// Cells are at least as wide as the range of a regular particle, so its neighbours are in the same cell and the
+// adjacent ones. The grid covers the area of most particles. Particles outside belong to the cells at its edge, which
+// still keeps neighbours in the same or in adjacent cells. A few particles may be much larger than the others. They are
+// in no cell; every particle tests them.
 #include "physics/grid.h"
 
 #include "maths/maths.h"

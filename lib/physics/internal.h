@@ -1,10 +1,10 @@
 // internal.h: internal declarations of lib/physics. No other library includes it.
 //
-// A system exists in two forms. The description keeps records in the order of the calls, and for each particle a row of
-// 2 n doubles (position, velocity), from which results are read. For simulation it is arranged: particles are copied
-// into columns, where component k of particle i is at [k * stride + i]. Columns are in pre-order of the groups, and the
-// particles of a group itself come before those of its sub-groups. Forces are sorted by group and by the stage in which
-// they act. Therefore:
+// A system exists in two forms. The description has records in the order of the calls. It also has a row of 2 n doubles
+// (position, velocity) for each particle, from which results are read. For simulation it is arranged: particles are
+// copied into columns, where component k of particle i is at [k * stride + i]. Columns are in pre-order of the groups,
+// and the particles of a group itself come before those of its sub-groups. Forces are sorted by group and by the stage
+// in which they act. Therefore:
 //
 //   - the particles of a group are one contiguous range, with or without its sub-groups;
 //   - the partners of a particle in a pass over pairs are its own range and one range per enclosing group;

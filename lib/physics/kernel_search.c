@@ -1,8 +1,8 @@
 // kernel_search.c: builds neighbour lists from the cells of a grid, LANES candidates at a time.
 //
 // Particles with adjacent sorted indices share most of their candidates. So the candidates of a batch of particles are
-// copied and sorted into the order of the pass once, and each list is filled from them in that order. If a batch spans
-// two rows of cells, or has very many candidates, each particle searches separately, and its list is sorted afterwards.
+// sorted into the order of the pass only once. Each list is filled from them in that order. If a batch spans two rows
+// of cells, or has very many candidates, each particle searches separately, and its list is sorted afterwards.
 #include "physics/grid.h"
 #include "physics/lanes.h"
 

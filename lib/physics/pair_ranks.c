@@ -1,7 +1,7 @@
 // pair_ranks.c: force decomposition: computes all pairs of a pass on several ranks, each pair once.
 //
 // The blocks are those of pair_wavefront.c. Rows of blocks are assigned to ranks in turn. The partial sums of a block's
-// columns are sent from row to row, one message per block, so all sums have the order of a single process. At the end
+// columns are sent from row to row, one message per block. So all sums have the order of a single process. At the end
 // every rank broadcasts the sums of its rows, and all ranks move all particles.
 #include "physics/pair_wavefront.h"
 

@@ -4,7 +4,7 @@
 // trees into calls of these functions and writes the results to the state. The caller describes a system (phys_begin,
 // phys_add_…) and then simulates it frame by frame. Between frames it changes particles and forces with
 // phys_update_particle, phys_begin_forces and phys_set_key, or describes the system again. All arithmetic is IEEE
-// double in the order that the specification fixes, so results do not depend on storage order or on the number of
+// double in the order that the specification fixes. So results do not depend on storage order or on the number of
 // threads.
 #ifndef PETRI_PHYSICS_SYSTEM_H
 #define PETRI_PHYSICS_SYSTEM_H

@@ -13,9 +13,9 @@
 #include <time.h>
 #include <unistd.h>
 
-// The ticket is one word with the number of the job, its number of chunks, and the numbers of chunks claimed from the
-// front and from the back. Every other thread claims from the back, so that a thread processes nearly the same
-// particles in each job and finds them in its cache.
+// Fields of the ticket, one word: the number of the job, its number of chunks, and how many are claimed from the back
+// and from the front. Every other thread claims from the back, so that a thread processes nearly the same particles in
+// each job and finds them in its cache.
 enum { COUNT_BITS = 8, BACK_SHIFT = COUNT_BITS, CHUNKS_SHIFT = 2 * COUNT_BITS, JOB_SHIFT = 3 * COUNT_BITS };
 _Static_assert(PHYS_MAX_CHUNKS < 1 << COUNT_BITS, "the number of claimed chunks must fit");
 

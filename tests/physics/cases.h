@@ -12,7 +12,7 @@ typedef struct Case {
     const char *script; // run at one frame per second
     int frame;
     // Expected state in that frame: NAME=NUMBERS is the position of the particle `:NAME` of the system `:s`, NAME'=…
-    // its velocity, :NAME=… another key of the system, $=… the key of the prefix itself. =none: no such key.
+    // its velocity. :NAME=… is another key of the system, and $=… the key of the prefix itself. =none: no such key.
     const char *wanted;
     const char *reported; // codes of all diagnostics up to that frame; NULL: none
 } Case;
