@@ -7,7 +7,7 @@ export const GROUPS = [
         { name: 'tutorial', title: 'Tutorial', about: 'From one particle to a dish, in ten steps that run on the page',
             parts: [['samples/TUTORIAL.md']] },
         { name: 'gallery', title: 'Gallery', about: 'The samples, which run here',
-            parts: [['samples/README.md', null, 'What they look like']], made: 'gallery' },
+            parts: [['samples/README.md', null, 'Gallery'], ['samples/README.md', 'All samples']], made: 'gallery' },
         { name: 'recipes', title: 'Recipes', about: 'Solutions for single tasks', parts: [['samples/RECIPES.md']] },
         { name: 'troubleshooting', title: 'Troubleshooting', about: 'Symptoms, causes, and commands that confirm them',
             parts: [['samples/TROUBLESHOOTING.md']] },
