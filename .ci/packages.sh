@@ -1,7 +1,7 @@
-# packages.sh: the Debian packages that dev installs, and how. Sourced by dev after progress.sh, with `root` set.
+# packages.sh: installation of the Debian packages that dev needs. Sourced by dev after progress.sh, with `root` set.
 
-# What has to be there, and the packages that bring it: one line each, the test first.
-# To compile petri and to see it in a terminal:
+# Requirements: lines of a test command, a colon, and the packages to install if the test fails.
+# To compile petri and to show pictures in a terminal:
 RUN_NEEDS='
 command -v gcc            : gcc libc6-dev
 command -v meson          : meson
@@ -19,7 +19,7 @@ pkg-config --exists epoxy egl : libepoxy-dev libegl-dev
 ls /usr/lib/*/dri/swrast_dri.so : libgl1-mesa-dri libegl1 libgles2
 test -f /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf : fonts-dejavu-core
 '
-# For windows, films, plans of petri sweep, links, files in HDF5 and editors:
+# For windows, video, plans of petri sweep, links, HDF5 files and editors:
 BUILD_NEEDS="$RUN_NEEDS
 pkg-config --exists sdl2  : libsdl2-dev
 command -v ffmpeg         : ffmpeg
@@ -28,7 +28,7 @@ pkg-config --exists json-c: libjson-c-dev
 pkg-config --exists zlib  : zlib1g-dev
 pkg-config --exists hdf5  : libhdf5-dev
 "
-# For the module for Python:
+# For the Python module:
 PYTHON_NEEDS="
 /usr/bin/python3 -I -c 'import build'      : python3-build
 /usr/bin/python3 -I -c 'import cffi'       : python3-cffi
@@ -38,7 +38,7 @@ PYTHON_NEEDS="
 /usr/bin/python3 -I -c 'import wheel'      : python3-wheel
 command -v python3-config : python3-dev
 "
-# For the tests; those that lack a tool are skipped:
+# For the tests; tests without their tool are skipped:
 TEST_NEEDS="$BUILD_NEEDS
 $PYTHON_NEEDS
 pkg-config --exists cmocka: libcmocka-dev
@@ -64,7 +64,7 @@ test -f /usr/share/fonts/truetype/dejavu/DejaVuSans-Oblique.ttf : fonts-dejavu-e
 test -d /usr/share/fonts/truetype/liberation : fonts-liberation
 "
 CLANG_NEEDS='command -v clang: clang'
-# The memory sanitizer of Debian's clang, 14, does not know fstat of today's glibc.
+# The memory sanitizer of clang 14, Debian's default, does not support fstat of Debian's glibc.
 MEMORY_NEEDS='command -v clang-16: clang-16 libclang-rt-16-dev'
 EDITOR_NEEDS='
 command -v nvim: neovim
@@ -86,7 +86,7 @@ command -v re2c  : re2c
 command -v emcc  : emscripten
 command -v node  : nodejs
 '
-# npm, which the page takes, is not among them: Debian's brings 400 packages along. Without it there is the engine alone.
+# Without npm, which the page needs: Debian's npm depends on 400 packages. Only the engine is built if npm is missing.
 WEB_TEST_NEEDS="$WEB_NEEDS
 command -v chromium : chromium
 "
@@ -101,14 +101,14 @@ command -v dh_python3       : dh-python
 command -v xz               : xz-utils
 '
 STATIC_NEEDS='command -v musl-gcc: musl-tools'
-# Options of a build that takes the C library alone.
+# Options of a build that needs only the C library.
 WITHOUT='-Dcairo=disabled -Dgl=disabled -Dsdl=disabled -Dchafa=disabled -Dlibedit=disabled -Dyaml=disabled
     -Dhdf5=disabled -Djson=disabled -Dzlib=disabled -Dmpi=disabled -Dpython=disabled -Dtests=false -Ddefault_library=static'
 CLEAN_INSTALL_NEEDS='command -v debootstrap: debootstrap'
-# What meson looks for and can do without. A build folder is set up anew when another of these is there.
+# Libraries that meson uses if they are installed. A build folder is configured again when this changes.
 OPTIONAL_LIBRARIES='cairo pangocairo libjpeg libpng chafa libedit sdl2 epoxy yaml-0.1 zlib hdf5 json-c cmocka x11 ompi-c mpfr python3'
 
-# missing NEEDS: the packages for what is not there.
+# missing NEEDS: prints the packages for the tests that fail.
 missing() {
     echo "$1" | while IFS=: read -r probe packages; do
         if [ -n "$probe" ] && ! eval "$probe" >/dev/null 2>&1; then
@@ -119,8 +119,8 @@ missing() {
 
 print_command() { echo "apt-get install --no-install-recommends $*"; }
 
-# plan_sizes PLAN: prints the number of packages, megabytes to download and megabytes of disk space in what
-# `apt-get --print-uris install` has written. It is a line of three numbers, or nothing.
+# plan_sizes PLAN: reads the output of `apt-get --print-uris install`. Prints a line with the number of packages, the
+# megabytes to download and the megabytes of disk space, or nothing.
 plan_sizes() {
     awk 'function megabytes(number, unit) {
             sub(",", ".", number)
@@ -132,8 +132,8 @@ plan_sizes() {
         END { if (found) printf "%d %.0f %.0f\n", count, download, disk }' "$1"
 }
 
-# sizes PACKAGES: prints the numbers of plan_sizes from the lists that the machine has, which takes no root, or after
-# "about", from figures of a bare Debian 12 in proportion, where the lists are empty or too old.
+# sizes PACKAGES: prints the numbers of plan_sizes from the machine's package lists, which does not need root. If the
+# lists are empty or too old, prints an estimate from figures of a minimal Debian 12, followed by "about".
 sizes() {
     # shellcheck disable=SC2086 # packages are words
     LC_ALL=C apt-get -qy -o Debug::NoLocking=true --no-install-recommends --print-uris install $1 \
@@ -146,10 +146,10 @@ sizes() {
 # named NEEDS: the number of packages in the list.
 named() { echo "$1" | sed -n 's/.*: *//p' | wc -w; }
 
-# packages_of N: "1 package" or "N packages".
+# packages_of N [WORD]: prints "1 WORD package" or "N WORD packages".
 packages_of() { if [ "$1" -eq 1 ]; then echo "1 ${2:-}package"; else echo "$1 ${2:-}packages"; fi; }
 
-# confirm PACKAGES: asks, once for all packages that will ever be needed, if there is someone to ask.
+# confirm PACKAGES: asks whether to install, only once ever and only on a terminal outside CI.
 confirm() {
     agreed=$root/build/packages-agreed
     if [ ! -t 0 ] || [ "${CI:-}" = true ] || [ -e "$agreed" ]; then
@@ -164,7 +164,7 @@ confirm() {
 $(sizes "$1")
 $(sizes "$1 $later")
 END
-    # Debian's servers and an ordinary disk: 2 MB and 4 packages a second.
+    # Estimate for Debian's servers and an ordinary disk: 2 MB and 4 packages per second.
     minutes=$(((download / 2 + count / 4) / 60 + 1))
     number=$(echo "$1" | wc -w)
     {
@@ -178,30 +178,30 @@ END
     read -r answer || answer=no
     case $answer in
     '' | y* | Y*) ;;
-    *) die "nothing was installed; to install them by hand, run: $(print_command "$1")" ;;
+    *) die "nothing was installed; to install the packages yourself, run: $(print_command "$1")" ;;
     esac
     : >"$agreed"
 }
 
-# become_root PACKAGES: sets `as_root` to what makes a command root's.
+# become_root PACKAGES: sets `as_root` to the prefix that runs a command as root.
 become_root() {
     as_root=
     [ "$(id -u)" -ne 0 ] || return 0
     as_root=sudo
     if command -v sudo >/dev/null; then
-        # It asks for the password, or says why not, before anything is hidden in a log.
+        # Asks for the password now, because later output goes to a log.
         ! sudo -n true 2>/dev/null || return 0
         if [ -t 0 ] || [ -t 2 ]; then
             ! sudo -v || return 0
         fi
     fi
-    die "installing packages needs root, and you are not: there is no sudo, or it does not let you.
-An administrator can do it for you, and then the same command works:
+    die "cannot install packages: you are not root and cannot use sudo.
+Ask an administrator to run this command, then try again:
   $(print_command "$1")"
 }
 
 install_packages() {
-    # shellcheck disable=SC2086 # $as_root may be no word
+    # shellcheck disable=SC2086 # $as_root may be empty
     $as_root env LC_ALL=C DEBIAN_FRONTEND=noninteractive apt-get -qy "$@"
 }
 
@@ -224,34 +224,34 @@ follow_installation() {
         Waiting) name="waiting for another installation to end" ;;
         *) continue ;;
         esac
-        finished=$(((fetched + unpacked + ready) / 3)) # of more than was planned if the lists have changed
+        finished=$(((fetched + unpacked + ready) / 3)) # may exceed $count if the lists have changed
         counted packages $((finished < count ? finished : count)) "$count" "$name"
     done
 }
 
-# explain_failure LOG PACKAGES: tells why an installation failed.
+# explain_failure LOG PACKAGES: reports why an installation failed, and exits.
 explain_failure() {
     erase
     if grep -Eq 'Temporary failure resolving|Could not (resolve|connect)|Unable to connect|Connection (failed|timed out)|Network is unreachable' "$1"; then
-        die "cannot fetch packages: no network? (What apt-get said is in $1.)"
+        die "cannot fetch packages: no network? (The output of apt-get is in $1.)"
     fi
     grep -h '^E: ' "$1" | tail -n 3 >&2
-    die "cannot install $2. (What apt-get said is in $1.)"
+    die "cannot install $2. (The output of apt-get is in $1.)"
 }
 
-# need NEEDS: installs what is missing of these.
+# need NEEDS: installs the missing packages.
 need() {
     packages=$(missing "$1")
     [ -n "$packages" ] || return 0
-    command -v apt-get >/dev/null || die "please install what Debian calls: $packages"
+    command -v apt-get >/dev/null || die "no apt-get on this system; please install the equivalents of these Debian packages: $packages"
     confirm "$packages"
     become_root "$packages"
     mkdir -p "$root/build"
     lists=$root/build/packages-lists.log
     plan=$root/build/packages-plan.log
-    # The lists of a fresh machine are empty, those of an old one may name files that are gone: both need the update.
+    # Package lists of a new machine are empty, and those of an old one may name deleted files.
     say "packages: reading the lists"
-    install_packages update >"$lists" 2>&1 </dev/null || true # with old lists it may do all the same
+    install_packages update >"$lists" 2>&1 </dev/null || true # the old lists may still work
     # shellcheck disable=SC2086 # packages are words
     install_packages --no-install-recommends --print-uris install $packages >"$plan" 2>&1 </dev/null || {
         cat "$plan" >>"$lists"
@@ -262,7 +262,7 @@ $(plan_sizes "$plan")
 END
     say "packages: ${count:=1} to install, ${download:-0} MB to download, ${disk:-0} MB of disk space"
     rm -f "$plan"
-    # Nothing of the machine's is at stake when power fails in between: no need to wait for the disk after each file.
+    # Does not sync after each file: a power failure would only affect this installation.
     # shellcheck disable=SC2086 # packages are words
     following "$root/build/packages.log" follow_installation install_packages --no-install-recommends \
         -o Dpkg::Options::=--force-unsafe-io -o DPkg::Lock::Timeout=600 install $packages ||

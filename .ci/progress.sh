@@ -1,4 +1,4 @@
-# progress.sh: what dev says while it works. Sourced by dev; sets `columns`, the width of the terminal that is told, or 0.
+# progress.sh: messages and progress of dev. Sourced by dev. Sets `columns`, the width of the terminal; 0: no terminal.
 
 columns=0
 if [ -t 2 ] && [ "${TERM:-dumb}" != dumb ]; then
@@ -6,7 +6,7 @@ if [ -t 2 ] && [ "${TERM:-dumb}" != dumb ]; then
     [ "${columns:-0}" -gt 0 ] || columns=80
 fi
 
-# erase: takes the line away that `counted` rewrites.
+# erase: erases the progress line of `counted`.
 erase() { [ "$columns" -eq 0 ] || printf '\r\033[K' >&2; }
 
 say() {
@@ -19,8 +19,8 @@ die() {
     exit 1
 }
 
-# counted WHAT N M [NAME]: N of M are done, NAME is at work. One line that is rewritten on a terminal; elsewhere a line for
-# each quarter.
+# counted WHAT N M [NAME]: shows that N of M are done and NAME is in progress. On a terminal, rewrites one line;
+# elsewhere prints a line per quarter.
 counted() {
     if [ "$columns" -gt 0 ]; then
         printf "\r\033[K%.$((columns - 1))s" "dev: $1: $2 of $3${4:+, $4}" >&2
@@ -30,8 +30,8 @@ counted() {
     fi
 }
 
-# following LOG FOLLOWER COMMAND...: runs the command, which writes into LOG, while FOLLOWER reads the same. The
-# command's status.
+# following LOG FOLLOWER COMMAND...: runs the command with its output going to LOG and to FOLLOWER. Returns the command's
+# status.
 following() {
     log=$1
     follower=$2
@@ -43,7 +43,7 @@ following() {
     return "$status"
 }
 
-# quietly LOG COMMAND...: shows what it writes only when it fails.
+# quietly LOG COMMAND...: runs the command and shows its output only if it fails.
 quietly() {
     log=$1
     shift

@@ -1,9 +1,9 @@
-# tests.sh: `./dev test`. Sourced by dev after progress.sh and packages.sh, with `root` set; `build` is in dev.
+# tests.sh: implements `./dev test`. Sourced by dev after progress.sh and packages.sh, with `root` and `build` defined.
 
-# counts NAME LOG: the number that meson's summary gives for NAME.
+# counts NAME LOG: prints the number for NAME in meson's summary.
 counts() { awk -F: -v name="$1" '$1 == name { n = $2 } END { print n + 0 }' "$2"; }
 
-# Tests start in the order of meson's list: the first that has not ended is the one that takes long.
+# Shows progress. Tests start in the order of meson's list, so the first unfinished one is the slowest.
 follow_tests() {
     waiting=$chosen
     counted tests 0 "$(echo "$waiting" | wc -l)" "$(echo "$waiting" | head -n 1)"
@@ -18,8 +18,8 @@ follow_tests() {
     done
 }
 
-# choose_tests [NAME...]: sets `chosen` to the tests and `folders` to the folders of scripts with one of these names, or in one of these
-# suites; without names, to all of them.
+# choose_tests [NAME...]: sets `chosen` to the tests and `folders` to the folders of scripts with these names or in these
+# suites; without names, to all.
 choose_tests() {
     folders=
     for folder in tests/golden tests/conformance samples; do
@@ -47,10 +47,10 @@ skipped_tests() {
         /^test: / && name == "" { name = $NF; reason = 0 }
         /^result: .*exit status 77$/ { all[name] = 1 }
         sub(/^skipped: /, "") { print "skipped: " name ": " $0; delete all[name] }
-        END { for (name in all) print "skipped: " name ": it gives no reason" }' "$1"
+        END { for (name in all) print "skipped: " name ": no reason given" }' "$1"
 }
 
-# run_tests [NAME...]
+# run_tests [NAME...]: builds, runs the tests and prints the results.
 run_tests() {
     build "$TEST_NEEDS" ''
     cd "$root"
@@ -59,18 +59,18 @@ run_tests() {
     : >"$log"
     choose_tests "$@"
     if [ $# -eq 0 ] || [ -n "$chosen" ]; then
-        # Some tests mostly wait, so more run at a time than there are processors.
+        # Runs more tests in parallel than there are processors, because some tests mostly wait.
         # shellcheck disable=SC2086 # names are words
         following $log follow_tests meson test -C build --no-rebuild --no-suite scripts --print-errorlogs \
             --num-processes "$(($(nproc) + 2))" ${1:+$chosen} || code=1
-        # Lines of tests that passed are dropped, also within a failed program; a case that began and did not end stays.
+        # Removes the lines of passed tests, also within a failed program. A test case that did not end is kept.
         sed -e '/^\[ *RUN *\]/{' -e N -e '/\n\[ *OK *\]/d' -e '}' "$log" |
             grep -v -e '^ninja: ' -e ' OK  ' -e '^Full log' -e '^$' -e ':  *0 *$' -e '^ok ' || true
         [ ! -f build/meson-logs/testlog.txt ] || skipped_tests build/meson-logs/testlog.txt
         good=$(counts Ok "$log")
         bad=$(($(counts Fail "$log") + $(counts Timeout "$log") + $(counts 'Unexpected Pass' "$log")))
         failed=$(sed -nE 's#^ *[0-9]+/[0-9]+ [^/]* / ([^ ]+) +(FAIL|TIMEOUT|ERROR|UNEXPECTEDPASS|INTERRUPT) .*#\1#p' "$log" | sort -u)
-        # Meson may fail without a failed test; that must not pass for success.
+        # Meson may fail without a failed test; count that as a failure.
         [ "$code" -eq 0 ] || [ "$bad" -gt 0 ] || bad=1
     fi
     for folder in $folders; do

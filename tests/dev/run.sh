@@ -1,7 +1,7 @@
 #!/bin/sh
-# run.sh: what ./dev says and does on a bare machine: packages, questions, root, network, compiler, tests. Nothing
-# is installed or compiled: its PATH has stand-ins that note how they are called and do what the real ones would tell.
-# shellcheck disable=SC2016 # dollars are for the stand-ins
+# run.sh: tests of ./dev on a simulated minimal machine: packages, questions, root, network, compiler, tests. Nothing is
+# installed or compiled: PATH contains fake tools that record their calls and print what the real ones would.
+# shellcheck disable=SC2016 # dollars are for the fake tools
 set -u
 # shellcheck source=tests/support/check.sh
 . "$(dirname "$0")/../support/check.sh"
@@ -14,14 +14,14 @@ print_details() {
 }
 lines_at_most() { [ "$(wc -l <"$1")" -le "$2" ]; }
 
-# fake_tool NAME: a program with this text.
+# fake_tool NAME: makes a program in $work from the shell script on standard input. It records its calls.
 fake_tool() {
     rm -f "$work/$1" # it may be a link to the real one
     { echo '#!/bin/sh' && echo "echo \"${1##*/} \$*\" >>'$work/calls'" && cat; } >"$work/$1"
     chmod +x "$work/$1"
 }
 
-# machine: a new one, with the project and nothing else; root without a terminal, who has a network.
+# machine: makes a new machine with the project and basic tools; the user is root and there is a network.
 machine() {
     rm -rf "$work/bin" "$work/later" "$project" "$work/fonts" "$work/lists" "$work/mesa"
     mkdir -p "$work/bin" "$work/later" "$project/.ci" "$work/fonts/truetype/dejavu" "$work/mesa/dri"
@@ -169,7 +169,7 @@ esac
 END
 }
 
-# with_sudo WHAT: sudo that lets the user do everything, or nothing.
+# with_sudo all|nothing: makes a fake sudo that allows everything or nothing.
 with_sudo() {
     fake_tool bin/sudo <<END
 [ $1 = all ] || { echo 'somebody is not in the sudoers file.' >&2; exit 1; }
@@ -180,17 +180,17 @@ exec "\$@"
 END
 }
 
-# The environment of the machine.
+# on_machine COMMAND...: runs a command in the machine's environment.
 on_machine() {
     env -i PATH="$work/bin" HOME="$work" WORK="$work" FAKE_UID="$uid" NETWORK="$network" BREAKS="$breaks" "$@"
 }
-# dev ARGUMENTS...: without a terminal.
+# dev ARGUMENTS...: runs ./dev without a terminal.
 dev() {
     : >"$work/calls"
     on_machine sh "$project/dev" "$@" >"$work/out" 2>"$work/err" </dev/null
     status=$?
 }
-# typed ANSWER ARGUMENTS...: at a terminal of 110 columns; all that is seen is in out.
+# typed ANSWER ARGUMENTS...: runs ./dev on a terminal of 110 columns and types the answer. The output is in `out`.
 script=$(command -v script) || script=
 typed() {
     answer=$1
@@ -202,14 +202,14 @@ typed() {
     status=$?
 }
 
-# odd COMMAND...: with an environment that changes tests.
+# odd COMMAND...: runs a command with .ci/clean-env in an environment that would affect tests.
 odd() {
     (umask 077 && COLORTERM=truecolor LANG=de_DE.UTF-8 CDPATH=. POSIXLY_CORRECT=1 TMPDIR="/no such" TZ=Asia/Tokyo HOME=/proc PETRI_TESTS='' \
         TRIES="a 'b'" PETRI_CPU=scalar "$root/.ci/clean-env" "$@") >out 2>err
     status=$?
 }
 odd env
-check "tests see only what they are meant to see" [ "$(grep -cE '^(COLORTERM|LANG|CDPATH|POSIXLY_CORRECT|TMPDIR)=' out)" -eq 0 ]
+check "tests do not see other variables" [ "$(grep -cE '^(COLORTERM|LANG|CDPATH|POSIXLY_CORRECT|TMPDIR)=' out)" -eq 0 ]
 check "tests have a fixed locale" has out LC_ALL=C.UTF-8
 check "tests have a fixed time zone" has out TZ=UTC
 check "variables that select tests are passed" has out "TRIES=a 'b'"
@@ -222,37 +222,37 @@ check "the home folder is removed" [ ! -e "$(tail -n 1 out)" ]
 
 machine
 dev run dish.fl --every 7
-check "the first command does all" status_is 0
-check "it runs the script with its options" has out "this is petri run --show dish.fl --every 7"
-check "it says how much there is to fetch" has err "packages: 3 to install, 61 MB to download, 212 MB of disk space"
-check "and how far it is" has err "packages: 3 of 3"
-check "and compiles" has err "compiling: 4 of 4"
-check "all that in few lines" lines_at_most err 20
-check "it asks nothing where nobody is" lacks err "[Y/n]"
-check "it installs the compiler" grep -q 'apt-get .*install.* gcc libc6-dev meson ' "$work/calls"
-check "and what shows pictures in terminals" grep -q 'apt-get .*install.* libchafa-dev' "$work/calls"
-check "nothing that a window needs" lacks calls libsdl2-dev
-check "nothing that only films need" lacks calls ffmpeg
-check "nothing that only tests need" lacks calls libcmocka-dev
-check "it compiles what runs, not the tests" has calls "ninja -C $project/build src/petri src/petri-pictures"
+check "the first ./dev run succeeds on a new machine" status_is 0
+check "run runs the script with its options" has out "this is petri run --show dish.fl --every 7"
+check "run reports the number and size of packages" has err "packages: 3 to install, 61 MB to download, 212 MB of disk space"
+check "run shows progress of the installation" has err "packages: 3 of 3"
+check "run shows progress of the compilation" has err "compiling: 4 of 4"
+check "run prints at most 20 lines" lines_at_most err 20
+check "run does not ask without a terminal" lacks err "[Y/n]"
+check "run installs the compiler" grep -q 'apt-get .*install.* gcc libc6-dev meson ' "$work/calls"
+check "run installs libchafa for pictures in terminals" grep -q 'apt-get .*install.* libchafa-dev' "$work/calls"
+check "run does not install packages for windows" lacks calls libsdl2-dev
+check "run does not install packages for video" lacks calls ffmpeg
+check "run does not install packages for tests" lacks calls libcmocka-dev
+check "run compiles the programs, not the tests" has calls "ninja -C $project/build src/petri src/petri-pictures"
 dev run dish.fl
-check "the second time it just runs" has out "this is petri run --show dish.fl"
-check "without a word" empty err
-check "or a package" lacks calls apt-get
-check "or another setup" lacks calls "meson"
+check "a second run runs the script" has out "this is petri run --show dish.fl"
+check "a second run prints no messages" empty err
+check "a second run installs nothing" lacks calls apt-get
+check "a second run does not configure" lacks calls "meson"
 dev build
-check "build is for windows, too" has calls " libsdl2-dev ffmpeg"
-check "but does not install again what is there" lacks calls "gcc"
-check "the folder is set up again, for SDL is there now" grep -q 'meson setup --reconfigure' "$work/calls"
+check "build installs packages for windows" has calls " libsdl2-dev ffmpeg"
+check "build does not install packages again" lacks calls "gcc"
+check "build configures again when a library was added" grep -q 'meson setup --reconfigure' "$work/calls"
 dev test
-check "test installs what tests need" grep -q ' libcmocka-dev tmux procps .* fonts-dejavu-extra' "$work/calls"
-check "tests pass" status_is 0
+check "test installs packages for tests" grep -q ' libcmocka-dev tmux procps .* fonts-dejavu-extra' "$work/calls"
+check "test exits with 0 if all tests pass" status_is 0
 check "the last line counts tests and scripts" [ "$(tail -n 1 "$work/out")" = "3 passed, 0 failed" ]
 mkdir -p "$project/samples" "$project/tests/golden"
 dev test
-check "scripts are counted as well" [ "$(tail -n 1 "$work/out")" = "13 passed, 0 failed" ]
+check "the last line includes scripts" [ "$(tail -n 1 "$work/out")" = "13 passed, 0 failed" ]
 check "reports why a test was skipped" has out "skipped: other: there is no node"
-check "reports a skipped test that gives no reason" has out "skipped: quick: it gives no reason"
+check "reports a skipped test without a reason" has out "skipped: quick: no reason given"
 check "names no log when all tests pass" lacks out "to repeat"
 dev test base golden
 check "runs the tests of a suite" grep -q '^meson test .*--print-errorlogs .* quick other$' "$work/calls"
@@ -272,27 +272,27 @@ rm "$project/golden-fails"
 check "tests are counted while they run" has err "tests: 3 of 3"
 breaks=tests
 dev test
-check "a test that fails makes it fail" status_is 1
-check "the log of the test is shown" has out ">>> the log of slow"
+check "test exits with 1 if a test fails" status_is 1
+check "the log of a failed test is shown" has out ">>> the log of slow"
 check "names the log and the command that repeats the failed test" has out "log: build/tests.log; to repeat: ./dev test slow"
 check "failures are counted" [ "$(tail -n 1 "$work/out")" = "12 passed, 1 failed" ]
 
 machine
 breaks=compiler
 dev run dish.fl
-check "what does not compile fails" status_is 1
-check "the error is shown" has err "part4.c:1:1: error: what is this"
-check "what compiled is not" lacks err "Compiling part1.c"
-check "the log is named" has err "build/compile.log"
+check "a compilation error exits with 1" status_is 1
+check "a compilation error is shown" has err "part4.c:1:1: error: what is this"
+check "successful compiler commands are not shown" lacks err "Compiling part1.c"
+check "a compilation error names the log" has err "build/compile.log"
 breaks=
 dev run dish.fl
-check "mended, it goes on" has out "this is petri"
+check "run continues after the error is fixed" has out "this is petri"
 
-# A relative path, of which a shell with CDPATH prints where it leads.
+# With CDPATH, cd prints the target of a relative path.
 machine
 on_machine CDPATH="$work" sh "${project#"$work"/}/dev" run dish.fl >out 2>err </dev/null
 status=$?
-check "works with CDPATH" status_is 0
+check "run exits with 0 with CDPATH" status_is 0
 check "runs the script with CDPATH" has out "this is petri"
 
 machine
@@ -304,60 +304,60 @@ breaks=
 machine
 uid=1000
 dev run dish.fl
-check "without root and sudo it fails" status_is 1
-check "and says that it needs root" has err "needs root"
-check "with the line for an administrator" has err "  apt-get install --no-install-recommends gcc libc6-dev meson"
-check "nothing was tried" lacks calls apt-get
+check "run without root and sudo exits with 1" status_is 1
+check "run without root and sudo gives the reason" has err "you are not root and cannot use sudo"
+check "run without root prints the command for an administrator" has err "  apt-get install --no-install-recommends gcc libc6-dev meson"
+check "run without root does not call apt-get" lacks calls apt-get
 with_sudo nothing
 dev run dish.fl
-check "sudo that refuses is no sudo" has err "  apt-get install --no-install-recommends gcc"
-check "nothing was tried" lacks calls apt-get
+check "run with a refusing sudo prints the command" has err "  apt-get install --no-install-recommends gcc"
+check "run with a refusing sudo does not call apt-get" lacks calls apt-get
 with_sudo all
 dev run dish.fl
-check "sudo will do" has out "this is petri"
+check "run uses sudo" has out "this is petri"
 
 machine
 network=no
 dev run dish.fl
-check "without a network it fails" status_is 1
-check "and says so" has err "no network?"
-check "not as apt-get does" lacks err "E: "
-check "in few lines" lines_at_most err 3
-check "the log is named" has err "build/packages-lists.log"
-check "and there" grep -q 'Unable to locate package meson' "$project/build/packages-lists.log"
+check "run without a network exits with 1" status_is 1
+check "run without a network suggests the reason" has err "no network?"
+check "run without a network hides the errors of apt-get" lacks err "E: "
+check "run without a network prints at most 3 lines" lines_at_most err 3
+check "run without a network names the log" has err "build/packages-lists.log"
+check "the log has the errors of apt-get" grep -q 'Unable to locate package meson' "$project/build/packages-lists.log"
 touch "$work/lists"
 dev run dish.fl
-check "old lists do not help" has err "no network?"
-check "the log is another" has err "build/packages.log"
+check "run with old lists and no network suggests the reason" has err "no network?"
+check "run with old lists and no network names the log" has err "build/packages.log"
 network=yes breaks=dpkg
 dev run dish.fl
-check "what goes wrong otherwise is told" has err "E: Sub-process dpkg returned an error code (1)"
-check "with the log" has err "build/packages.log"
+check "other errors of apt-get are shown" has err "E: Sub-process dpkg returned an error code (1)"
+check "other errors name the log" has err "build/packages.log"
 
 machine
 mkdir -p "$project/src/packaging"
 fake_tool "${project#"$work"/}/src/packaging/package.sh" </dev/null
 dev package
-check "packages are made" has calls "package.sh $project/build/package"
-check "with what makes them" grep -q 'apt-get .*install.* dpkg-dev debhelper dh-python' calls
-check "and what they are made of" has calls libsdl2-dev
-check "it says where they are" has err "what was made is in $project/build/package"
+check "package makes packages" has calls "package.sh $project/build/package"
+check "package installs the packaging tools" grep -q 'apt-get .*install.* dpkg-dev debhelper dh-python' calls
+check "package installs the build dependencies" has calls libsdl2-dev
+check "package reports the folder" has err "packages are in $project/build/package"
 dev package --dynamic
-check "other packages there are not" has err "package knows --test, --wheel and --static only, not '--dynamic'"
+check "package rejects unknown options" has err "unknown option: '--dynamic'; package takes --test, --wheel or --static"
 
 machine
 dev install "$work/some where"
-check "what is installed is compiled before" grep -q 'ninja .* installed' "$work/calls"
-check "it is installed where it was asked for" has calls "meson configure $project/build -Dprefix=$work/some where"
-check "by meson" has calls "meson install -C $project/build --no-rebuild"
+check "install compiles first" grep -q 'ninja .* installed' "$work/calls"
+check "install uses the given prefix" has calls "meson configure $project/build -Dprefix=$work/some where"
+check "install uses meson" has calls "meson install -C $project/build --no-rebuild"
 check "prints the line that extends PATH" has err "  export PATH=\"\$HOME/some where/bin:\$PATH\""
 dev install
-check "root installs for all" has calls "-Dprefix=/usr/local"
+check "install by root uses /usr/local" has calls "-Dprefix=/usr/local"
 uid=1000
 dev install
-check "a user installs for himself" has calls "-Dprefix=$work/.local"
-check "names no MANPATH where none is set" lacks err MANPATH
-# installed SHELL PROFILE: the user types the lines that dev prints; a new shell reads PROFILE.
+check "install by a user uses ~/.local" has calls "-Dprefix=$work/.local"
+check "prints no MANPATH if none is set" lacks err MANPATH
+# installed SHELL PROFILE: checks that the printed lines work in this shell and, through PROFILE, in new ones.
 installed() {
     rm -f "$work/$2"
     on_machine SHELL="/bin/$1" MANPATH=/man sh "$project/dev" install >out 2>err </dev/null
@@ -370,9 +370,9 @@ check "bash finds petri and its manual" installed bash .bashrc
 check "zsh finds petri and its manual" installed zsh .zshrc
 check "another shell finds petri and its manual" installed dash .profile
 on_machine SHELL=/usr/bin/fish sh "$project/dev" install >out 2>err </dev/null
-check "fish has a command for it" has err '  fish_add_path "$HOME/.local/bin"'
+check "prints the command for fish" has err '  fish_add_path "$HOME/.local/bin"'
 on_machine PATH="$work/.local/bin:$work/bin" sh "$project/dev" install >out 2>err </dev/null
-check "prints no line where petri is found" lacks err "PATH"
+check "prints no line if petri is already in PATH" lacks err "PATH"
 
 machine
 for tool in bash dirname mktemp unshare git; do
@@ -381,60 +381,60 @@ for tool in bash dirname mktemp unshare git; do
 done
 uid=1000
 dev clean-install
-check "a bare machine needs root" status_is 77
-check "and says so" has err "not possible here: it needs root"
+check "clean-install without root exits with 77" status_is 77
+check "clean-install without root gives the reason" has err "not possible here: root is required"
 uid=0
 dev clean-install
-check "it installs debootstrap" grep -q 'apt-get .* install debootstrap' "$work/calls"
-check "what is no checkout has no HEAD" status_is 77
-check "and says so" has err "not possible here: this is no git checkout"
+check "clean-install installs debootstrap" grep -q 'apt-get .* install debootstrap' "$work/calls"
+check "clean-install outside a checkout exits with 77" status_is 77
+check "clean-install outside a checkout gives the reason" has err "not possible here: not a git checkout"
 (cd "$project" && git init -q && git -c user.name=x -c user.email=x@y commit -q --allow-empty -m x)
 echo 'exit 1' | fake_tool bin/unshare
 dev clean-install
-check "it needs namespaces" status_is 77
-check "and says so" has err "not possible here: no namespaces"
-check "it leaves nothing behind" [ -z "$(find /var/tmp -maxdepth 1 -name 'petri-clean-run-*' -newer "$work/bin/unshare")" ]
+check "clean-install without namespaces exits with 77" status_is 77
+check "clean-install without namespaces gives the reason" has err "not possible here: no namespaces"
+check "clean-install leaves no files behind" [ -z "$(find /var/tmp -maxdepth 1 -name 'petri-clean-run-*' -newer "$work/bin/unshare")" ]
 
-# A bare container has no pseudo-terminals.
+# A minimal container has no pseudo-terminals.
 if [ -n "$script" ] && "$script" -qec true /dev/null >/dev/null 2>&1 </dev/null; then
     machine
     typed y run dish.fl
-    check "at a terminal it asks" has out "[Y/n]"
-    check "it asks once" count_is out "[Y/n]" 1
+    check "run asks on a terminal" has out "[Y/n]"
+    check "run asks only once" count_is out "[Y/n]" 1
     check "names the packages" has out "gcc libc6-dev meson ninja-build"
-    check "estimates sizes and time where there are no lists" has out \
+    check "estimates sizes without package lists" has out \
         "petri needs 19 Debian packages (about 204 with dependencies, 155 MB to download, 600 MB of disk space,"
     check "estimates the time" has out "3 minutes): gcc"
     check "says what the tests need" has out "more (about 327 with "
     check "says that later commands do not ask" has out "Later commands install what they need without asking again"
-    check "after yes it goes on" has out "this is petri run --show dish.fl"
+    check "run continues after yes" has out "this is petri run --show dish.fl"
     erase=$(printf '\r\033[K')
-    check "packages are counted in one line" has out "${erase}dev: packages: 2 of 3, setting up part2${erase}"
-    check "files that are compiled as well" has out "${erase}dev: compiling: 2 of 4${erase}dev: compiling: 3 of 4${erase}"
+    check "packages are counted on one line" has out "${erase}dev: packages: 2 of 3, setting up part2${erase}"
+    check "compiled files are counted on one line" has out "${erase}dev: compiling: 2 of 4${erase}dev: compiling: 3 of 4${erase}"
     typed n test
-    check "it asks once for all" lacks out "[Y/n]"
-    check "and takes it as yes" grep -q 'apt-get .* install .*libcmocka-dev' "$work/calls"
-    check "the test that takes long is named" has out "${erase}dev: tests: 2 of 3, slow${erase}"
+    check "test does not ask again" lacks out "[Y/n]"
+    check "test installs its packages" grep -q 'apt-get .* install .*libcmocka-dev' "$work/calls"
+    check "the progress line names the slowest test" has out "${erase}dev: tests: 2 of 3, slow${erase}"
     machine
     typed n run dish.fl
-    check "after no it ends" status_is 1
-    check "with what can be done by hand" has out "apt-get install --no-install-recommends gcc"
-    check "nothing was installed" lacks calls "apt-get -qy update"
+    check "run exits with 1 after no" status_is 1
+    check "run prints the command to install packages after no" has out "apt-get install --no-install-recommends gcc"
+    check "run installs nothing after no" lacks calls "apt-get -qy update"
     touch "$work/lists"
     uid=1000
     with_sudo all
     typed n run dish.fl
-    check "sizes are those of the lists, which take no root" has out "packages (3 with dependencies, 61 MB to download, 212 MB of disk space,"
-    check "nobody became root for that" lacks calls sudo
+    check "reads sizes from the package lists" has out "packages (3 with dependencies, 61 MB to download, 212 MB of disk space,"
+    check "reads package lists without sudo" lacks calls sudo
     uid=0
     typed '' run dish.fl
-    check "no is not kept; Enter means yes" has out "this is petri"
+    check "asks again after no, and Enter means yes" has out "this is petri"
     "$root/.ci/hostile" 'tty; echo "$COLORTERM $LANG"; umask; printf "1 of 2\r\033[K2 of 2\n"; exit 3' >out 2>&1
     status=$?
-    check "a hostile environment passes the status on" status_is 3
-    check "it is a terminal with odd settings" has out "truecolor de_DE.UTF-8"
-    check "it shows each line as it was last" [ "$(tail -n 2 out | tr '\n' ' ')" = "0077 2 of 2 " ]
+    check "hostile exits with the command's status" status_is 3
+    check "hostile provides a terminal with odd settings" has out "truecolor de_DE.UTF-8"
+    check "hostile shows each line in its final state" [ "$(tail -n 2 out | tr '\n' ' ')" = "0077 2 of 2 " ]
 else
-    echo "skipped: the questions, for there are no pseudo-terminals"
+    echo "skipped: questions: there are no pseudo-terminals"
 fi
 finish

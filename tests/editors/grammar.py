@@ -32,7 +32,7 @@ NAMES = {"variable", "parameter", "function", "property"}
 def by_petri(client, path):
     """Whose token begins where, and of which class."""
     uri = path.as_uri()
-    client.tell("textDocument/didOpen", {"textDocument": {
+    client.notify("textDocument/didOpen", {"textDocument": {
         "uri": uri, "languageId": "flitter", "version": 1, "text": path.read_bytes().decode()}})
     data = client.of("semanticTokens/full", uri)["data"]
     client.close(uri)
