@@ -1,14 +1,14 @@
-// batch.c: many rounds of a loop at once; see machine.h and batch_columns.h.
+// batch.c: execution of loops in batches of iterations; see batch_columns.h.
 #include "vm/batch_columns.h"
 
 #include <string.h>
 
 enum {
-    MIN_BATCH = 8,    // that are worth it
-    MAX_FAILURES = 4, // of blocks, in a run of a loop
+    MIN_BATCH = 8,    // minimum number of iterations that is worth a batch
+    MAX_FAILURES = 4, // failed batches after which a loop is executed iteration by iteration
 };
 
-// The elements that the rounds bind.
+// Binds the loop's names in all iterations.
 static void bind_iterations(LoopBatch *batch, const Instr *start, const Loop *loop) {
     Value values[BATCH_SIZE];
     if (start->count == 1 && loop->source.kind == VALUE_ABSENT) {
@@ -27,7 +27,7 @@ static void bind_iterations(LoopBatch *batch, const Instr *start, const Loop *lo
 
 // --- branches
 
-// The active rounds for which `goes_on` is not set become inactive until instruction `target`.
+// Removes iterations from the selection until instruction `target`: all, or those for which `continues` is false.
 static void deselect_iterations(LoopBatch *batch, uint32_t target, const bool *continues) {
     uint32_t remaining = 0;
     for (uint32_t k = 0; k < batch->selected_count; k++) {
@@ -61,7 +61,7 @@ static void run_jump(LoopBatch *batch, const Instr *instr) {
     deselect_iterations(batch, instr->target, instr->op == OP_JUMP ? NULL : continues);
 }
 
-// --- parts
+// --- yielded values
 
 static void store_yields(LoopBatch *batch, const Instr *instr) {
     const Column *column = column_of(batch, instr->a);
@@ -73,13 +73,13 @@ static void store_yields(LoopBatch *batch, const Instr *instr) {
     }
 }
 
-// The row that each round ends with.
+// Yields the node with which each iteration ends.
 static void yield_nodes(LoopBatch *batch, const Instr *instr, Loop *loop) {
     int32_t reads[CODE_MAX_READ];
     uint32_t count = program_operands_read(batch->code->operands, instr, reads);
     Value *slots = batch->frame->slots;
     Instr row = *instr;
-    row.d = 0; // what the rounds have made stays until all are added
+    row.d = 0; // keep temporary data until all iterations have been added
     ArenaMark before = loop->mark;
     const NodeBatch *nodes = loop->batch;
     for (uint32_t iteration = 0; iteration < batch->count; iteration++) {
@@ -101,7 +101,7 @@ static void append_yields(LoopBatch *batch, Loop *loop) {
         yield_nodes(batch, last, loop);
 }
 
-// --- blocks
+// --- batches
 
 static void run_body(LoopBatch *batch, uint32_t at) {
     for (; at < batch->plan->end && !batch->vm->speculation_failed; at++) {
@@ -119,11 +119,11 @@ static void run_body(LoopBatch *batch, uint32_t at) {
     }
 }
 
-// False if a round has a fault to report: then they must be run one by one.
+// Executes one batch. Returns false if an iteration would report an error; the caller then executes them one by one.
 static bool run_batch(LoopBatch *batch, const Instr *start, Loop *loop) {
     Vm *vm = batch->vm;
     uint32_t first = (uint32_t)(start - batch->code->instrs) + 1;
-    // One by one most of the work is charged in the body: that is what a limit should point at.
+    // Charged at the first instruction of the body, because iteration-by-iteration execution charges most work there.
     vm_charge(vm, batch->code->instrs[first].at,
               batch->count * (1 + (uint64_t)(batch->plan->end - first) / VM_INSTRS_A_UNIT));
     for (uint32_t i = 0; i < batch->plan->column_count; i++)

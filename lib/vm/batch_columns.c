@@ -1,4 +1,4 @@
-// batch_columns.c: one instruction for many rounds of a loop; see batch_columns.h.
+// batch_columns.c: execution of one instruction for a batch of iterations; see batch_columns.h.
 #include "vm/batch_columns.h"
 
 #include "value/value_hash.h"
@@ -13,7 +13,7 @@ static bool all_selected(const LoopBatch *batch) {
     return batch->selected_count == batch->count;
 }
 
-// Makes a column one of values, for some of them to be written.
+// Converts a column to COLUMN_VALUES, so that some of its values can be written.
 static void make_values(const LoopBatch *batch, int32_t d, Column *column) {
     Value same = column->kind == COLUMN_UNIFORM ? batch->frame->slots[d] : VALUE_NULL;
     if (column->kind == COLUMN_VALUES)
@@ -65,7 +65,7 @@ void vm_batch_store(LoopBatch *batch, int32_t d, const Value *values) {
         column->as.values[batch->selection[k]] = values[k];
 }
 
-// The same value for all active rounds.
+// Writes the same value for all selected iterations.
 static void store_uniform(LoopBatch *batch, int32_t d, Value value) {
     Column *column = column_to_write(batch, d);
     if (all_selected(batch)) {
@@ -79,7 +79,6 @@ static void store_uniform(LoopBatch *batch, int32_t d, Value value) {
     vm_batch_store(batch, d, values);
 }
 
-// The numbers that an operand is in the active rounds, perhaps in `room`; NULL if it is not one number in each.
 const double *vm_batch_numbers(const LoopBatch *batch, int32_t operand, double buffer[BATCH_SIZE]) {
     const Column *column = column_of(batch, operand);
     if (column && column->kind != COLUMN_NUMBERS)
@@ -101,7 +100,7 @@ const double *vm_batch_numbers(const LoopBatch *batch, int32_t operand, double b
             to[k] = result;                                                                                            \
         break;
 
-// An operator over numbers; false if it has no simple loop.
+// Applies an operator to arrays of numbers. Returns false for other instructions.
 static bool apply_operator(uint16_t op, uint32_t count, const double *x, const double *y, double *to) {
     switch ((Opcode)op) {
         EACH(OP_ADD, x[k] + y[k])
@@ -122,7 +121,7 @@ static bool apply_operator(uint16_t op, uint32_t count, const double *x, const d
     return true;
 }
 
-// Powers are quicker for a vector.
+// Computes powers as one vector operation, which is faster.
 static bool run_powers(LoopBatch *batch, const Instr *instr) {
     double left[BATCH_SIZE], right[BATCH_SIZE];
     const double *x = vm_batch_numbers(batch, instr->a, left);
@@ -137,7 +136,7 @@ static bool run_powers(LoopBatch *batch, const Instr *instr) {
     return true;
 }
 
-// Elements of one vector of numbers, or items of one stream.
+// Indexes one vector of numbers or one stream that is the same in all iterations.
 static bool run_index(LoopBatch *batch, const Instr *instr) {
     double buffer[BATCH_SIZE], to[BATCH_SIZE];
     const double *at = vm_batch_numbers(batch, instr->b, buffer);
@@ -172,9 +171,9 @@ bool vm_batch_try_operator(LoopBatch *batch, const Instr *instr) {
     return true;
 }
 
-// --- anything
+// --- other instructions
 
-// An instruction by itself.
+// Executes a single instruction with vm_eval.
 static Value run_alone(LoopBatch *batch, const Instr *instr) {
     const Code *code = batch->code;
     const Instr instrs[2] = {*instr, {.op = OP_RETURN, .a = instr->d, .at = instr->at}};
@@ -201,12 +200,12 @@ static Value run_once(LoopBatch *batch, const Instr *instr) {
     }
 }
 
-// Is its result the same for the same operands, and may it be shared?
+// Returns true if equal operands give the same result and iterations may share it.
 static bool can_share(const Instr *instr) {
     return instr->op != OP_NODE && instr->op != OP_APPEND && instr->op != OP_DECORATE && instr->op != OP_LOOKUP;
 }
 
-// The instruction with the registers set to the values of each round.
+// Executes an instruction for each selected iteration, with the registers set to its values.
 static void run_each_iteration(LoopBatch *batch, const Instr *instr) {
     int32_t reads[CODE_MAX_READ];
     Value *registers[CODE_MAX_READ], values[BATCH_SIZE];

@@ -1,20 +1,19 @@
-// batch_columns.h: what the files that run many rounds of a loop at once share; see vm_run_batches in machine.h.
+// batch_columns.h: columnar (SIMD-style) execution of a batch of up to 64 loop iterations; see vm_run_batches.
 //
-// A block of rounds is run instruction by instruction. What the body writes is kept in columns, a value for each round;
-// branches make some of the rounds inactive until their instruction comes. Numbers are computed with in simple loops;
-// for anything else the instruction is done as ever, for one active round after the other.
+// Each instruction runs for the whole batch. Registers become columns; branches narrow the selection vector until
+// control flow reconverges. Arithmetic uses simple loops; other instructions run per selected iteration, as in vm_eval.
 #ifndef PETRI_VM_BATCH_COLUMNS_H
 #define PETRI_VM_BATCH_COLUMNS_H
 
 #include "vm/machine.h"
 
-enum { BATCH_SIZE = 64 }; // of a block, at most
+enum { BATCH_SIZE = 64 }; // maximum number of iterations in a batch
 
 typedef enum ColumnKind {
-    COLUMN_NONE,    // nothing has been written yet
-    COLUMN_UNIFORM, // the same in all rounds: it is in the register
-    COLUMN_NUMBERS, // one number each
-    COLUMN_VALUES,
+    COLUMN_NONE,    // not written yet
+    COLUMN_UNIFORM, // the same value in all iterations, stored in the register
+    COLUMN_NUMBERS, // one number per iteration
+    COLUMN_VALUES,  // one value per iteration
 } ColumnKind;
 
 typedef struct Column {
@@ -31,16 +30,16 @@ typedef struct LoopBatch {
     const Code *code;
     const BatchPlan *plan;
     Column *columns;
-    uint32_t count; // of rounds
+    uint32_t count; // number of iterations
     uint32_t selected_count;
-    uint8_t selection[BATCH_SIZE];     // those, ascending
-    uint32_t resume_at[BATCH_SIZE];    // of each round: the instruction from which on it is active
-    uint32_t reconverge_at;            // the first of those that are ahead
-    uint32_t yield_counts[BATCH_SIZE]; // of each round
-    Value *yields;                     // … plan->part_count of each round
+    uint8_t selection[BATCH_SIZE];     // selected iterations, ascending
+    uint32_t resume_at[BATCH_SIZE];    // by iteration: instruction at which it joins the selection
+    uint32_t reconverge_at;            // first instruction at which further iterations join the selection
+    uint32_t yield_counts[BATCH_SIZE]; // by iteration: number of yielded values
+    Value *yields;                     // plan->yield_count elements per iteration
 } LoopBatch;
 
-// The column that an operand is, or NULL if its value is the same in all rounds.
+// Returns the column of an operand, or NULL if its value is the same in all iterations.
 static inline Column *column_of(const LoopBatch *batch, int32_t operand) {
     uint32_t at = (uint32_t)(operand - batch->plan->first_register);
     if (operand < batch->plan->first_register || at >= batch->plan->register_count || !batch->plan->columns[at])
@@ -49,26 +48,29 @@ static inline Column *column_of(const LoopBatch *batch, int32_t operand) {
     return column->kind == COLUMN_UNIFORM ? NULL : column;
 }
 
+// Returns the value of a column in an iteration.
 static inline Value column_value(const Column *column, uint32_t iteration) {
     return column->kind == COLUMN_NUMBERS ? value_number(column->as.numbers[iteration]) : column->as.values[iteration];
 }
 
-// The value of an operand in a round.
+// Returns the value of an operand in an iteration.
 static inline Value column_read(const LoopBatch *batch, int32_t operand, uint32_t iteration) {
     const Column *column = column_of(batch, operand);
     return column ? column_value(column, iteration) : batch->frame->slots[operand];
 }
 
-// Writes a value for each active round, in their order.
+// Writes a value for each selected iteration, in order.
 void vm_batch_store(LoopBatch *batch, int32_t d, const Value *values);
+// Like vm_batch_store, for numbers.
 void vm_batch_store_numbers(LoopBatch *batch, int32_t d, const double *numbers);
-// The numbers that an operand is in the active rounds, perhaps in `room`; NULL if it is not one number in each.
+// Returns the operand's number in each selected iteration, which may be stored in `buffer`. Returns NULL if it is not a
+// single number in each.
 const double *vm_batch_numbers(const LoopBatch *batch, int32_t operand, double buffer[BATCH_SIZE]);
-// Does an instruction for all active rounds at once; false if there is no way to. The first is for operators over
-// numbers, the second, in batch_ops.c, for all.
+// Executes an operator over numbers for all selected iterations at once. Returns false if that is not possible.
 bool vm_batch_try_operator(LoopBatch *batch, const Instr *instr);
+// Like vm_batch_try_operator, for all instructions (batch_ops.c).
 bool vm_batch_try_op(LoopBatch *batch, const Instr *instr);
-// Runs an instruction, which is no jump and adds no part, for all active rounds.
+// Executes an instruction other than a jump or a yield for all selected iterations.
 void vm_batch_run_instr(LoopBatch *batch, const Instr *instr);
 
 #endif

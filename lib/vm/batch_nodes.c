@@ -1,13 +1,13 @@
-// batch_nodes.c: loops whose rounds make one node each, kept as runs (value/node_batch.h); see machine.h.
+// batch_nodes.c: loops that create one node per iteration, stored as node batches (value/node_batch.h).
 #include "vm/machine.h"
 
 enum {
-    MIN_BATCH = 16, // that are worth a run
-    MIN_ROWS = 8,   // a run of fewer came to little
-    MAX_SHORT_BATCHES = 4,
+    MIN_BATCH = 16,        // remaining iterations that are worth a batch
+    MIN_ROWS = 8,          // a batch with fewer rows counts as short
+    MAX_SHORT_BATCHES = 4, // short batches after which a loop creates single nodes
 };
 
-// How a run keeps an attribute; false if it cannot.
+// Selects how a batch stores an attribute. Returns false if it cannot store it.
 static bool choose_column(const Loop *loop, const Instr *instr, int32_t operand, const Value *value,
                           uint32_t *numbers) {
     if (operand < 0) {
@@ -18,7 +18,7 @@ static bool choose_column(const Loop *loop, const Instr *instr, int32_t operand,
     return value->kind == VALUE_NUMBERS && value->len > 0 && value->len <= NODE_BATCH_MAX_NUMBERS;
 }
 
-// A run that begins with this node; NULL if there is to be none.
+// Starts a batch with this node. Returns NULL if the node should be created alone.
 static NodeBatch *begin_batch(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, const Loop *loop) {
     uint32_t iterations = loop->source.len - loop->at, numbers[NODE_BATCH_MAX_ATTRS] = {0}, count = 0;
     int32_t from[NODE_BATCH_MAX_ATTRS];
@@ -28,7 +28,7 @@ static NodeBatch *begin_batch(Vm *vm, const int32_t *list, const Value *slots, c
     for (uint32_t i = 0; i < instr->count; i++) {
         const Value *value = &slots[list[i]];
         if (list[i] < 0 && value->len == 0)
-            continue; // null and streams are left out (L7.2)
+            continue; // null and streams are omitted (L7.2)
         if (!choose_column(loop, instr, list[i], value, &numbers[count]))
             return NULL;
         from[count] = list[i];
@@ -41,13 +41,13 @@ static NodeBatch *begin_batch(Vm *vm, const int32_t *list, const Value *slots, c
     return batch;
 }
 
-// Ends a run that the next node does not belong to.
+// Ends a batch to which the next node could not be added.
 static void end_batch(Loop *loop) {
     NodeBatch *batch = loop->batch;
     if (!batch || batch->count == batch->capacity)
         return;
     if (batch->count == 1 && !loop->not_counting)
-        loop->not_counting = true; // which may be why
+        loop->not_counting = true; // the probable reason
     else
         loop->short_batches += batch->count < MIN_ROWS;
 }
@@ -56,7 +56,7 @@ void vm_yield_node(Vm *vm, const int32_t *list, const Value *slots, const Instr 
     if (loop->batch && loop->batch->count < loop->batch->capacity) {
         vm_charge(vm, instr->at, 1 + instr->count / 4);
         if (node_batch_add(loop->batch, slots)) {
-            // What the round has made besides is of no use to anybody, unless it was told as a fault.
+            // Free the temporary data of the iteration, unless a reported error may refer to it.
             if (instr->d && vm->reported_count == loop->reported)
                 arena_rewind(vm->arena, loop->mark);
             return;

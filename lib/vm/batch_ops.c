@@ -1,15 +1,15 @@
-// batch_ops.c: instructions that make something for many rounds of a loop at once; see batch_columns.h.
+// batch_ops.c: batched versions of calls, compositions, lookups and nodes; see batch_columns.h.
 #include "builtin/noise.h"
 #include "vm/batch_columns.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { MAX_SLICE_LENGTH = 16 }; // for which one array is worth it
+enum { MAX_SLICE_LENGTH = 16 }; // slices up to this length are copied to one array
 
 // --- built-ins
 
-// A built-in that is element-wise is called once, with vectors.
+// Calls an element-wise built-in once, with vectors.
 static bool run_each(LoopBatch *batch, const Instr *instr) {
     enum { MAX_OPERANDS = 4 };
     const Builtin *builtin = instr->as.builtin;
@@ -33,7 +33,7 @@ static bool run_each(LoopBatch *batch, const Instr *instr) {
     return true;
 }
 
-// A built-in that is not element-wise.
+// Calls a built-in that is not element-wise for each selected iteration.
 static bool run_calls(LoopBatch *batch, const Instr *instr) {
     enum { MAX_OPERANDS = 8 };
     const int32_t *list = batch->code->operands + instr->list;
@@ -60,7 +60,7 @@ static bool run_calls(LoopBatch *batch, const Instr *instr) {
     return true;
 }
 
-// The noise at one point of the plane in each round.
+// Computes noise at one point of the plane per iteration.
 static bool run_noise(LoopBatch *batch, const Instr *instr) {
     const int32_t *list = batch->code->operands + instr->list;
     double left[BATCH_SIZE], right[BATCH_SIZE], to[BATCH_SIZE];
@@ -75,7 +75,7 @@ static bool run_noise(LoopBatch *batch, const Instr *instr) {
     return true;
 }
 
-// Parts that are numbers, as rows of one array.
+// Composes vectors of numbers, as rows of one array.
 static bool run_compose(LoopBatch *batch, const Instr *instr) {
     enum { MAX_OPERANDS = 8 };
     const int32_t *list = batch->code->operands + instr->list;
@@ -97,7 +97,7 @@ static bool run_compose(LoopBatch *batch, const Instr *instr) {
     return true;
 }
 
-// Slices of one length of one vector of numbers, copied into one array.
+// Copies slices of equal length of one vector of numbers to one array.
 static bool run_slice(LoopBatch *batch, const Instr *instr) {
     double left[BATCH_SIZE], right[BATCH_SIZE];
     const double *from = vm_batch_numbers(batch, instr->b, left);
@@ -126,7 +126,7 @@ static bool run_slice(LoopBatch *batch, const Instr *instr) {
     return true;
 }
 
-// The values under keys of numbers, copied into one array, as vm_lookup copies each.
+// Looks up keys of numbers and copies the values to one array, as vm_lookup copies each of them.
 static bool run_lookups(LoopBatch *batch, const Instr *instr) {
     enum { MAX_OPERANDS = 4 };
     Vm *vm = batch->vm;
@@ -165,8 +165,8 @@ static bool run_lookups(LoopBatch *batch, const Instr *instr) {
 
 // --- nodes
 
-// The attributes that nodes have in common, and the columns of the others; false if some nodes lack one, or if one
-// holds nodes.
+// Collects the attributes of the nodes: uniform values, and columns for the others. Returns false if some iterations
+// lack an attribute, or if an attribute may contain nodes.
 static bool plan_attributes(const LoopBatch *batch, const Instr *instr, Attr *attrs, const Column **columns,
                             uint32_t *count) {
     const int32_t *list = batch->code->operands + instr->list;
@@ -182,14 +182,14 @@ static bool plan_attributes(const LoopBatch *batch, const Instr *instr, Attr *at
         if (same && same->kind == VALUE_MIXED)
             return false;
         if (same && same->len == 0)
-            continue; // null and streams are left out (L7.2)
+            continue; // null and streams are omitted (L7.2)
         attrs[*count] = (Attr){instr->as.node->names[i], same ? *same : VALUE_NULL};
         columns[(*count)++] = column;
     }
     return true;
 }
 
-// Nodes without children, in one allocation.
+// Creates nodes without children in one allocation.
 static bool run_nodes(LoopBatch *batch, const Instr *instr) {
     Attr attrs[CODE_MAX_READ];
     const Column *columns[CODE_MAX_READ];

@@ -3,14 +3,14 @@
 
 bool vm_stack_left(const Vm *vm) {
     const char *here = __builtin_frame_address(0);
-    // The stack grows down on every machine we run on; the distance is taken without sign to be safe.
+    // The stack grows down on all supported machines; the absolute distance works in either direction.
     size_t used = vm->stack_base > here ? (size_t)(vm->stack_base - here) : (size_t)(here - vm->stack_base);
-    // The other half is for the expressions inside one function, whose nesting is limited (AST_MAX_HEIGHT), and for
-    // what they call.
+    // The other half is reserved for the expressions of one function, whose nesting is limited (AST_MAX_HEIGHT), and
+    // for functions that they call.
     return used < vm->stack_bytes / 2;
 }
 
-// A closure captures names of the function that encloses it, and nothing else.
+// Returns a captured value. Closures capture only names of the enclosing function.
 static Value outer_value(const Frame *frame, const Capture *capture) {
     switch (capture->kind) {
     case CAPTURE_SLOT:
@@ -54,7 +54,7 @@ static Value argument(const Closure *closure, const Arguments *args, uint32_t i)
     return closure->defaults[i];
 }
 
-// What a code costs to run through once, without what its instructions charge for themselves.
+// Returns the work units of executing a code once, without those that its instructions charge themselves.
 static uint64_t cost_of(const Code *code) {
     return 1 + (code->count + code->constant_count) / VM_INSTRS_A_UNIT;
 }
@@ -62,19 +62,19 @@ static uint64_t cost_of(const Code *code) {
 static bool can_enter(Vm *vm, const Closure *closure, const Origin *at) {
     enum { CALL_WORK = 1 }; // frame and arguments
     vm_charge(vm, at, CALL_WORK + cost_of(closure->code->code));
-    const char *limit = closure->active_calls >= VM_CLOSURE_DEPTH ? "500 calls of one function"
-                        : vm->depth >= VM_CALL_DEPTH              ? "8192 nested calls"
-                        : !vm_stack_left(vm)                      ? "the stack"
+    const char *limit = closure->active_calls >= VM_CLOSURE_DEPTH ? "limit of 500 calls of one function"
+                        : vm->depth >= VM_CALL_DEPTH              ? "limit of 8192 nested calls"
+                        : !vm_stack_left(vm)                      ? "stack limit"
                                                                   : NULL;
     if (limit)
-        vm_fault(vm, at, "recursion-depth", "recursion too deep in '%.*s': the limit is %s",
-                 STR_ARGS(closure->base.name), limit);
+        vm_fault(vm, at, "recursion-depth", "recursion too deep in '%.*s': %s reached", STR_ARGS(closure->base.name),
+                 limit);
     return !limit;
 }
 
 static Value call_closure(Vm *vm, Closure *closure, const Arguments *args, const Origin *at) {
     const FunctionCode *code = closure->code;
-    if (closure->evaluation_id != vm->evaluation_id) { // made ahead: what an evaluation that was given up left is void
+    if (closure->evaluation_id != vm->evaluation_id) { // folded, or left by an aborted evaluation
         closure->evaluation_id = vm->evaluation_id;
         closure->active_calls = 0;
     }
@@ -104,7 +104,7 @@ static Value call_item(Vm *vm, Item item, const Arguments *args, const Origin *a
     const Builtin *builtin = item.as.function->builtin;
     if (!builtin)
         return call_closure(vm, (Closure *)item.as.function, args, at);
-    if (!vm_can_call(vm, builtin, at, args->positional, args->count + args->named_count)) // the named ones follow
+    if (!vm_can_call(vm, builtin, at, args->positional, args->count + args->named_count)) // named arguments follow
         return VALUE_NULL;
     return builtin_call(&vm->builtins, builtin, args->positional, args->count, args->names, args->named,
                         args->named_count);
@@ -112,7 +112,7 @@ static Value call_item(Vm *vm, Item item, const Arguments *args, const Origin *a
 
 Value vm_call(Vm *vm, const Instr *instr, Value callee, const Value *values) {
     const CallCode *code = instr->as.call;
-    if (callee.kind != VALUE_MIXED) // null, a stream, numbers: null in silence (L9.3)
+    if (callee.kind != VALUE_MIXED) // null, streams and numbers: null without an error (L9.3)
         return VALUE_NULL;
     Arguments args = {values, code->arg_count, code->names, values + code->arg_count, code->named_count};
     if (callee.len == 1)

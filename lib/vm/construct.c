@@ -1,4 +1,4 @@
-// construct.c: instructions that make vectors and nodes or look something up; see machine.h.
+// construct.c: instructions that create vectors and nodes, or look up values; see machine.h.
 #include "base/heap.h"
 #include "value/value_hash.h"
 #include "vm/machine.h"
@@ -17,7 +17,7 @@ static uint32_t add_numbers(double *numbers, uint32_t at, const Value *part) {
     return at + part->len;
 }
 
-// Numbers are put together in one allocation; anything else goes through a builder.
+// Composes numbers in one allocation; other values are added to a Vector.
 Value vm_compose(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, const Origin *at) {
     vm->at = at;
     uint64_t len = 0;
@@ -73,7 +73,7 @@ Value vm_decorate(Vm *vm, const int32_t *list, const Value *slots, const Instr *
     return subject;
 }
 
-// The attributes of a new node. The names differ, so nothing is replaced; null and streams are left out (L7.2).
+// Sets the attributes of a new node. All names differ, so nothing is replaced. Null and streams are omitted (L7.2).
 static void set_attributes(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, Node *node,
                            Attr *attrs) {
     uint32_t count = 0, height = node->height;
@@ -112,7 +112,7 @@ static void set_children(Vm *vm, const Instr *instr, Node *node, const NodeList 
         node->height = (uint16_t)(list->height + 1);
 }
 
-// Node, vector, attributes and list of children are one allocation.
+// Creates the node, its vector, attributes and list of children in one allocation.
 Value vm_make_node(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr) {
     const NodeCode *plan = instr->as.node;
     const Value *children = instr->b == CODE_NO_OPERAND ? NULL : &slots[instr->b];
@@ -137,7 +137,7 @@ Value vm_make_node(Vm *vm, const int32_t *list, const Value *slots, const Instr 
 
 // --- elements
 
-enum { STREAM_WORK = 4 }; // of one item of a stream
+enum { STREAM_WORK = 4 }; // work units of one item of a stream
 
 static Value index_stream(Vm *vm, Value stream, Value index) {
     if (!value_is_numeric(index))
@@ -179,7 +179,7 @@ void vm_range_init(Vm *vm, const Origin *at, Loop *loop, Value start, Value stop
         range_too_long(vm, at);
 }
 
-// Whole numbers within the vector need no range: its elements are copied.
+// With integer bounds within the vector, elements are copied without building a range.
 Value vm_slice(Vm *vm, const Origin *at, Value vector, Value start, Value stop) {
     if (is_number(&stop) && (is_number(&start) || start.len == 0) && vector.kind == VALUE_NUMBERS) {
         double from = start.len ? start.as.number : 0, to = stop.as.number;
@@ -219,10 +219,10 @@ void vm_inline_cache_free(Vm *vm) {
     vm->inline_cache_count = 0;
 }
 
-// A place that is reached more often in a frame than this goes without after that.
+// Maximum number of entries in an inline cache; further executions of the lookup are not cached.
 enum { MAX_CACHED = 1 << 22 };
 
-// Where the guess for the next look-up of a place is kept, or NULL.
+// Returns the cache entry for the next execution of a lookup, or NULL.
 static StateSlot *next_guess(Vm *vm, uint32_t lookup) {
     if (lookup >= vm->inline_cache_count)
         return NULL;
@@ -252,8 +252,8 @@ static Value copy_of(Vm *vm, Value v) {
     return value_copy(vm->arena, v);
 }
 
-// Keys are a few numbers nearly always: they need not be made into a vector. The dictionary's value is copied into the
-// frame: systems may overwrite it in place after the evaluation.
+// Keys are nearly always a few numbers, which need not be composed to a vector. The value is copied, because systems
+// may overwrite it in place after the evaluation.
 Value vm_lookup(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr) {
     vm->met_dynamic = true;
     vm->at = instr->at;

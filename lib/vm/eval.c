@@ -1,7 +1,7 @@
-// eval.c: the machine's loop; see vm.h, and program/code.h for what it runs.
+// eval.c: the instruction loop of the VM; see vm.h, and program/code.h for the instructions.
 //
-// The cases that nearly every instruction comes down to are here; what is longer or rarer is a function, so that the
-// loop keeps its few registers.
+// The most frequent cases are inlined. Longer or rarer ones are separate functions, so that the loop needs few
+// processor registers.
 #include "value/value_hash.h"
 #include "vm/machine.h"
 
@@ -21,7 +21,7 @@ bool vm_is_true(const Value *v) {
     return is_true(v);
 }
 
-// A stream counts as null for != (L5.4).
+// For !=, a stream is equal to null (L5.4).
 static Value stream_as_null(Value v) {
     return v.kind == VALUE_STREAM ? VALUE_NULL : v;
 }
@@ -62,13 +62,13 @@ Value vm_loop_element(Vm *vm, const Loop *loop, uint32_t i) {
                                                : value_element(vm->arena, loop->source, i);
 }
 
-// The elements of one round (L10.1), of which the last may be missing.
+// Binds the elements of one iteration (L10.1); missing ones at the end are null.
 NOINLINE static void bind_elements(Vm *vm, const Loop *loop, Value *slots, uint32_t count) {
     for (uint32_t i = 0; i < count; i++)
         slots[i] = vm_loop_element(vm, loop, loop->at + i);
 }
 
-// The next round of a loop, if there is one.
+// Starts the next iteration of a loop. Returns false if there is none.
 static bool next_iteration(Vm *vm, const Instr *instr, const Loop *loop, Value *slots, uint64_t cost) {
     if (loop->at >= loop->source.len)
         return false;
@@ -89,7 +89,7 @@ NOINLINE static Value arithmetic(Vm *vm, const Instr *instr, ArithOp op, Value a
 
 enum { MAX_STACK_ARGUMENTS = 8 };
 
-// The values of a list, in a row: in `few` if there is room.
+// Copies the values of a list to an array: to `buffer` if they fit.
 static const Value *gather_operands(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr,
                                     Value *buffer) {
     Value *values =
@@ -131,7 +131,7 @@ NOINLINE static void eval_import(Vm *vm, Frame *frame, const Instr *instr, Value
     vm->met_dynamic = true;
     if (!vm->is_static)
         vm_import(vm, frame, instr, file);
-    else // the rest is evaluated all the same
+    else // continue with null; the result is discarded
         for (uint32_t i = 0; i < instr->count; i++)
             frame->slots[(uint32_t)instr->d + i] = VALUE_NULL;
 }
@@ -141,7 +141,7 @@ NOINLINE static void eval_import(Vm *vm, Frame *frame, const Instr *instr, Value
 #define C slots[instr->c]
 #define D slots[instr->d]
 
-// Two numbers are computed with at once; vectors go through the function that the simplifier uses, too.
+// Two numbers are computed inline; other values use the general function.
 #define ARITHMETIC(opcode, arith, operator)                                                                            \
     case opcode: {                                                                                                     \
         const Value *a = &A, *b = &B;                                                                                  \
@@ -152,7 +152,7 @@ NOINLINE static void eval_import(Vm *vm, Frame *frame, const Instr *instr, Value
         break;                                                                                                         \
     }
 
-// `claim` is what the comparison of the numbers x and y comes to; nan is above everything (L5.5).
+// `claim` compares the numbers x and y; NaN is greater than everything (L5.5).
 #define COMPARISON(opcode, claim)                                                                                      \
     case opcode: {                                                                                                     \
         const Value *a = &A, *b = &B;                                                                                  \
@@ -165,7 +165,7 @@ NOINLINE static void eval_import(Vm *vm, Frame *frame, const Instr *instr, Value
         break;                                                                                                         \
     }
 
-// The loop, of which there are two: measuring costs the other nothing.
+// The loop. It is compiled twice, so that profiling costs nothing when it is off.
 static inline __attribute__((always_inline)) Value eval_code(Vm *vm, Frame *frame, const Code *code,
                                                              const bool profiled) {
     Value *const slots = frame->slots;

@@ -1,8 +1,10 @@
-// fault.c: what the machine reports; see machine.h.
+// fault.c: reporting of run-time errors; see machine.h.
 #include "vm/machine.h"
 
 #include <stdarg.h>
 
+// Returns true if an error must be reported: it is new at this position in this frame, and execution is not
+// speculative.
 static bool first_fault(Vm *vm, const Origin *at, uint64_t what) {
     if (vm->reported_count >= VM_REPORTED / 2)
         return false;

@@ -1,7 +1,7 @@
-// profile.h: the time that evaluation spends on each line of its sources.
+// profile.h: time that evaluation spends on each source line.
 //
-// The machine tells when it comes to another line; the time until then goes to the line that it leaves. A call's time
-// goes to the lines of the function, and coming back from it does not count as coming to the line again.
+// The VM reports each change of line, and the time since the last change is charged to the previous line. The time of a
+// call is charged to the lines of the function. Returning from a call does not count as another hit of the line.
 #ifndef PETRI_VM_PROFILE_H
 #define PETRI_VM_PROFILE_H
 
@@ -11,17 +11,17 @@
 
 typedef struct ProfileLine {
     uint64_t nanoseconds;
-    uint64_t hits; // that evaluation came to the line
+    uint64_t hits; // number of times that evaluation reached the line
 } ProfileLine;
 
 // One version of a source file.
 typedef struct ProfileFile {
-    const Source *source;       // a copy: programs may be dropped
-    const Source *frame_source; // what it is known as in this frame, or NULL
-    ProfileLine *lines;         // as many as the source has
+    const Source *source;       // a copy, because programs may be freed
+    const Source *frame_source; // the same source in the current frame; NULL: not used yet
+    ProfileLine *lines;         // one element per line of the source
 } ProfileFile;
 
-// Where evaluation is.
+// Current position of the evaluation.
 typedef struct ProfilePosition {
     const Source *source;
     uint32_t line;
@@ -34,23 +34,24 @@ typedef struct Profile {
     uint32_t file_count;
     uint32_t file_capacity;
     ProfilePosition position;
-    uint64_t last_change; // clock at the last change
+    uint64_t last_change; // monotonic clock at the last change of line, nanoseconds
 } Profile;
 
-// NULL if memory is used up.
+// Returns NULL if out of memory. Free it with vm_profile_free.
 Profile *vm_profile_new(void);
 void vm_profile_free(Profile *profile);
-// Forgets everything.
+// Clears all measurements.
 void vm_profile_clear(Profile *profile);
 
-// A frame begins or ends. What the profile needs beyond its memory leaves through the escape.
+// Start and end the evaluation of a frame. If memory runs out in between, control leaves through `escape`.
 void vm_profile_begin(Profile *profile, jmp_buf *escape);
 void vm_profile_end(Profile *profile);
+// Changes to another line.
 void vm_profile_move(Profile *profile, const Source *source, uint32_t line);
-// Back from a call to where it was made.
+// Returns from a call to the position of the call.
 void vm_profile_return(Profile *profile, ProfilePosition place);
 
-// Evaluation is at this line now.
+// Must be called for each instruction; changes to its line if it differs from the current one.
 static inline void vm_profile_at(Profile *profile, const Source *source, uint32_t line) {
     if (line != profile->position.line || source != profile->position.source)
         vm_profile_move(profile, source, line);

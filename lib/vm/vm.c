@@ -1,9 +1,9 @@
-// vm.c: running whole programs and importing modules; see vm.h.
+// vm.c: evaluation of programs and import of modules; see vm.h.
 #include "vm/machine.h"
 
 #include <string.h>
 
-// A built-in's own complaint belongs to the call that is being made.
+// Reports an error of a built-in at the position of its call.
 static void builtin_fault_here(void *host, Str text) {
     Vm *vm = host;
     vm_fault_text(vm, vm->at, "bad-call", text);
@@ -41,7 +41,7 @@ Frame vm_frame(Vm *vm, const Code *code, Closure *closure) {
     return (Frame){slots, (Loop *)(void *)(slots + registers), closure};
 }
 
-// A frame whose names all have a value.
+// Allocates a frame whose slots are null.
 static Frame new_frame(Vm *vm, const Code *code) {
     Frame frame = vm_frame(vm, code, NULL);
     for (uint32_t i = 0; i < code->slot_count; i++)
@@ -49,7 +49,7 @@ static Frame new_frame(Vm *vm, const Code *code) {
     return frame;
 }
 
-// Fresh limits; nothing is left over from an evaluation that was escaped from.
+// Prepares an evaluation, and discards data of one that was aborted.
 static void reset_evaluation(Vm *vm, const char *stack_base) {
     arena_reset(&vm->slots);
     vm->slots.escape = vm->arena->escape;
@@ -105,9 +105,9 @@ static bool is_importing(const Vm *vm, const Source *source) {
     return false;
 }
 
-enum { IMPORT_WORK = 100 }; // its file is looked at
+enum { IMPORT_WORK = 100 }; // work units of checking the file of a module
 
-// Evaluates a module in a frame of its own, with only the built-ins visible and without state (L13.2).
+// Evaluates a module in a separate frame. It sees only built-ins and no state (L13.2).
 static void run_module(Vm *vm, Frame *frame, const Program *module, const Instr *instr) {
     ImportLink link = {vm->imports, module->source, vm->imports->depth + 1};
     vm_charge(vm, instr->at, IMPORT_WORK + module->code->count / VM_INSTRS_A_UNIT + link.depth / 8);

@@ -1,8 +1,9 @@
-// vm.h: the machine that evaluates a compiled program for one frame.
+// vm.h: the virtual machine (VM), which evaluates compiled programs.
 //
-// Evaluation never fails: every fault has a value, nearly always null, and is reported through the host (spec
-// language.md L15). Results live in the frame's arena. Limits of depth are diagnostics too. Work and memory are charged
-// to that arena; when they are used up, control leaves through its escape, and `at` tells what asked for them.
+// Evaluation never fails: every error has a value, nearly always null, and is reported through the host (spec
+// language.md L15), including limits of depth. Results are allocated in the frame's arena, which is charged for work
+// and memory. If a limit is exceeded, control leaves through the arena's escape; `at` is then the position that
+// exceeded it.
 #ifndef PETRI_VM_VM_H
 #define PETRI_VM_VM_H
 
@@ -15,28 +16,28 @@
 enum {
     VM_CLOSURE_DEPTH = 500, // active calls of one closure object (L9.4)
     VM_CALL_DEPTH = 8192,   // nested calls of user functions
-    VM_IMPORT_DEPTH = 500,  // modules that import each other in turn
-    VM_REPORTED = 1024,     // distinct faults that one frame reports; a power of two
+    VM_IMPORT_DEPTH = 500,  // nested imports
+    VM_REPORTED = 1024,     // size of the hash set of reported errors; a power of two
 };
 
 typedef struct VmHost {
     void *user_data;
     void (*report)(void *host, const Diag *diag);
     void (*log)(void *host, Str text);
-    // The compiled module at a path, or NULL with the reason in *why (borrowed).
+    // Returns the compiled module at a path, or NULL with a borrowed *reason.
     const Program *(*module)(void *host, Str path, Str *reason);
 } VmHost;
 
 typedef struct ImportLink ImportLink;
 
-// A place and the kind of its fault.
+// A reported error: its position and kind.
 typedef struct Reported {
     const Origin *at;
     uint64_t what;
 } Reported;
 
-// What a look-up in the state found when it was last made for the first, second, … time in a frame: most scripts look
-// up the same keys in the same order in every frame. Only a guess, which is checked.
+// Inline cache of one lookup in the state: the slots that its first, second and further executions found in the last
+// frame. Most scripts look up the same keys in the same order in every frame. Each slot is verified before use.
 typedef struct InlineCache {
     StateSlot *slots; // heap
     uint32_t count;
@@ -45,42 +46,41 @@ typedef struct InlineCache {
 } InlineCache;
 
 typedef struct Vm {
-    Arena *arena; // the frame's: results and temporaries
-    Arena slots;  // frames of slots, a stack
+    Arena *arena; // arena of the frame: results and temporary values
+    Arena slots;  // stack of call frames
     SymbolTable *symbols;
-    const State *state; // NULL: look-ups give null (modules, static evaluation)
+    const State *state; // NULL: lookups result in null (modules, folding)
     Value globals[ENGINE_NAME_COUNT];
-    BuiltinContext builtins; // arena, files, directory of the program being evaluated
+    BuiltinContext builtins; // arena, files, and the directory of the current program
     VmHost host;
-    const Origin *at; // what is at work: a built-in's fault belongs to it, and so does a limit. NULL: nothing yet
+    const Origin *at; // current position, for errors of built-ins and for limits; NULL: none yet
     uint32_t depth;
-    uint64_t evaluation_id; // number of the evaluation, unique over a session's machines: closures may outlive a frame
-    bool is_static;         // evaluating ahead: dynamic things have no value yet
-    bool met_dynamic;       // … and one was met
-    size_t stack_bytes;     // of the C stack that evaluation may use
+    uint64_t evaluation_id; // unique among the VMs of a session, because closures may live longer than a frame
+    bool is_static;         // folds expressions; dynamic values are not available
+    bool met_dynamic;       // something dynamic was evaluated
+    size_t stack_bytes;     // bytes of C stack that evaluation may use
     const char *stack_base;
     const ImportLink *imports;      // modules being evaluated, innermost first
-    Reported reported[VM_REPORTED]; // hash set of the faults of this frame
+    Reported reported[VM_REPORTED]; // hash set of the errors of this frame
     uint32_t reported_count;
-    bool speculative;            // what is run may be run again, in another order: a fault that would be reported
-    bool speculation_failed;     // … is only noted here
-    uint64_t batched_iterations; // of loops that were run many at once, ever
-    InlineCache *inline_caches;  // of the main program's look-ups by number; heap
+    bool speculative;            // instructions may be executed again; errors set speculation_failed instead
+    bool speculation_failed;     // an error would have been reported
+    uint64_t batched_iterations; // total number of iterations executed in batches
+    InlineCache *inline_caches;  // by number of the lookup in the main program; heap
     uint32_t inline_cache_count;
     Profile *profile; // borrowed; NULL: nothing is measured
 } Vm;
 
-// Prepares a machine; `stack_bytes` is what it may use of the caller's stack. Free with vm_free.
-// The runs of a machine made for static evaluation are numbered apart from those of the one for frames.
+// Initialises a VM that may use `stack_bytes` of the caller's stack. Free it with vm_free. `is_static`: it is used for
+// folding; its evaluation ids then differ from those of the VM for frames.
 void vm_init(Vm *vm, Arena *arena, SymbolTable *symbols, VmHost host, size_t stack_bytes, bool is_static);
 void vm_free(Vm *vm);
 
-// Evaluates a main program: the composition of its statements. `given` are the values of its parameters (NULL if it has
-// none); what its exports are bound to in the end is stored in `exports`, unless that is NULL.
+// Evaluates a main program and returns the composition of its statements. `arguments` are the values of its parameters
+// (NULL if it has none). Stores the values of its exports in `exports`, unless that is NULL.
 Value vm_run(Vm *vm, const Program *program, const Value *arguments, Value *exports);
-// Runs code that is no program's in a fresh frame; the value lives in
-// `arena`. False, and *value null, if that met anything dynamic (L17.2), a fault or a limit. For machines that run
-// nothing else.
+// Evaluates the code of an expression at load time. The value is allocated in `arena`. Returns false, with *value null,
+// if it is dynamic (L17.2), or on an error. Only for VMs initialised with `is_static`.
 bool vm_run_static(Vm *vm, Arena *arena, const Code *code, Value *value);
 
 #endif

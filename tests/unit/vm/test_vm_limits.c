@@ -14,7 +14,7 @@ static void test_closure_depth(void **state) {
     Runner *runner = *state;
     check_tree_and_reports(runner, "func f(n)\n    1+f(n-1) if n>0 else 0\n!a v=f(499)\n", "!a v=499\n", "");
     check_tree_and_reports(runner, "func f(n)\n    1+f(n-1) if n>0 else 0\n!a v=f(500)\n", "!a\n",
-                           "2:7 recursion too deep in 'f': the limit is 500 calls of one function "
+                           "2:7 recursion too deep in 'f': limit of 500 calls of one function reached "
                            "[recursion-depth]\n");
     // After it the limit is as before.
     runner_run(runner, "func f(n)\n    1+f(n-1) if n>0 else 0\nlet x=f(600)\n!a v=f(499)\n", 2);
@@ -41,7 +41,7 @@ static void test_call_depth(void **state) {
     snprintf(text, sizeof text, deep, 8192);
     runner_run(runner, text, 1);
     assert_text("8192", runner_tree(runner), "!a\n");
-    assert_non_null(strstr(text_c(&runner->reported), "the limit is 8192 nested calls [recursion-depth]"));
+    assert_non_null(strstr(text_c(&runner->reported), "limit of 8192 nested calls reached [recursion-depth]"));
 }
 
 // A small stack limits sooner, with the same kind of diagnostic.
@@ -52,7 +52,7 @@ static void test_stack(void **state) {
     runner_run(runner,
                "let level=func(k, level) (func() 1+level(k-1, level)() if k>0 else 0)\n!a v=level(8000, level)()\n", 1);
     assert_text("tree", runner_tree(runner), "!a\n");
-    assert_non_null(strstr(text_c(&runner->reported), "the limit is the stack [recursion-depth]"));
+    assert_non_null(strstr(text_c(&runner->reported), "stack limit reached [recursion-depth]"));
     runner_run(runner, "!a v=1\n", 1);
     assert_text("goes on", runner_tree(runner), "!a v=1\n");
 }
