@@ -1,4 +1,4 @@
-// files.h: an arena and a temporary folder for each test of a file, `FILE_TEST(function)`.
+// files.h: fixture with an arena and a temporary folder for each test declared with FILE_TEST(function).
 #ifndef PETRI_TESTS_BASE_FILES_H
 #define PETRI_TESTS_BASE_FILES_H
 

@@ -1,8 +1,8 @@
-// test_base_arena.c: regions: alignment, marks, growth, budget.
+// test_base_arena.c: tests of arenas: alignment, marks, growth and limits.
 #include "base/arena.h"
 #include "check.h"
 
-static void test_alignment(void **state) {
+static void test_allocations_are_aligned(void **state) {
     (void)state;
     Arena arena;
     arena_init(&arena, "test", SIZE_MAX);
@@ -13,8 +13,8 @@ static void test_alignment(void **state) {
     arena_free(&arena);
 }
 
-// Every byte of every allocation can be written without touching another's.
-static void test_allocations_are_apart(void **state) {
+// Writing all bytes of an allocation does not change other allocations.
+static void test_allocations_do_not_overlap(void **state) {
     (void)state;
     enum { COUNT = 400 };
     unsigned char *parts[COUNT];
@@ -30,7 +30,7 @@ static void test_allocations_are_apart(void **state) {
     arena_free(&arena);
 }
 
-static void test_copy(void **state) {
+static void test_copy_is_independent(void **state) {
     (void)state;
     Arena arena;
     arena_init(&arena, "test", SIZE_MAX);
@@ -40,7 +40,7 @@ static void test_copy(void **state) {
     arena_free(&arena);
 }
 
-static void test_mark_and_rewind(void **state) {
+static void test_rewind_drops_later_allocations(void **state) {
     (void)state;
     Arena arena;
     arena_init(&arena, "test", SIZE_MAX);
@@ -55,12 +55,12 @@ static void test_mark_and_rewind(void **state) {
     assert_int_equal(arena.used, used);
     assert_string_equal(kept, "kept");
 #ifndef PETRI_STRESS
-    assert_ptr_equal(arena_alloc(&arena, 100), first); // the same place is given out again
+    assert_ptr_equal(arena_alloc(&arena, 100), first); // the same address is allocated again
 #else
     (void)first;
 #endif
     arena_rewind(&arena, mark);
-    arena_rewind(&arena, mark); // twice is once
+    arena_rewind(&arena, mark); // rewinding twice is the same as once
     assert_string_equal(kept, "kept");
     arena_rewind(&arena, empty);
     assert_int_equal(arena.used, 0);
@@ -68,8 +68,8 @@ static void test_mark_and_rewind(void **state) {
     arena_free(&arena);
 }
 
-// A nested mark after a block boundary, then the outer one.
-static void test_nested_marks(void **state) {
+// Rewinds to a nested mark after a block boundary, then to the outer mark.
+static void test_marks_nest(void **state) {
     (void)state;
     Arena arena;
     arena_init(&arena, "test", SIZE_MAX);
@@ -107,7 +107,7 @@ static void test_reset_keeps_blocks(void **state) {
     assert_null(arena.first);
 }
 
-static void test_high_water(void **state) {
+static void test_high_water_is_largest_use(void **state) {
     (void)state;
     Arena arena;
     arena_init(&arena, "test", SIZE_MAX);
@@ -121,7 +121,7 @@ static void test_high_water(void **state) {
     arena_free(&arena);
 }
 
-static void test_grow(void **state) {
+static void test_grow_keeps_contents(void **state) {
     (void)state;
     Arena arena;
     arena_init(&arena, "test", SIZE_MAX);
@@ -129,7 +129,7 @@ static void test_grow(void **state) {
     memcpy(bytes, "1234567", 8);
     char *same = arena_grow(&arena, bytes, 8, 40);
 #ifndef PETRI_STRESS
-    assert_ptr_equal(same, bytes); // it was the latest: extended in place
+    assert_ptr_equal(same, bytes); // the latest allocation is extended in place
 #endif
     memset(same + 8, 'x', 32);
     char *other = arena_alloc(&arena, 16);
@@ -141,7 +141,7 @@ static void test_grow(void **state) {
         assert_int_equal(moved[i], 'x');
     assert_int_equal(other[15], 'o');
     size_t size = 80;
-    for (; size < 1 << 20; size *= 2) { // over many block boundaries
+    for (; size < 1 << 20; size *= 2) { // crosses many block boundaries
         memset(moved + size / 2, 'y', size / 2);
         moved = arena_grow(&arena, moved, size, size * 2);
     }
@@ -157,7 +157,7 @@ typedef struct Attempt {
     void *bytes;
 } Attempt;
 
-// True if the action left through the escape.
+// Returns true if the action escaped.
 static bool escapes(Attempt *attempt, void (*action)(Attempt *)) {
     jmp_buf escape;
     attempt->arena.escape = &escape;
@@ -179,7 +179,7 @@ static void grow_to_size(Attempt *attempt) {
     attempt->bytes = arena_grow(&attempt->arena, attempt->bytes, 16, attempt->size);
 }
 
-static void test_budget(void **state) {
+static void test_exceeded_limit_escapes(void **state) {
     (void)state;
     Attempt attempt = {.size = 1000};
     arena_init(&attempt.arena, "test", 10000);
@@ -187,33 +187,33 @@ static void test_budget(void **state) {
         assert_false(escapes(&attempt, alloc_size));
     assert_int_equal(attempt.arena.used, 9 * 1008);
     assert_true(escapes(&attempt, alloc_size));
-    assert_int_equal(attempt.arena.used, 9 * 1008); // a refused allocation takes nothing
+    assert_int_equal(attempt.arena.used, 9 * 1008); // a failed allocation uses no memory
     attempt.size = 16;
     assert_false(escapes(&attempt, alloc_size));
     attempt.size = 20000;
     assert_true(escapes(&attempt, grow_to_size));
     arena_reset(&attempt.arena);
     attempt.size = 10000;
-    assert_false(escapes(&attempt, alloc_size)); // the budget counts from reset to reset
+    assert_false(escapes(&attempt, alloc_size)); // the limit applies from reset to reset
     arena_free(&attempt.arena);
 }
 
-// Under AddressSanitizer a malloc that cannot be is to fail as it does without, not to end the program.
+// Makes AddressSanitizer return NULL from an impossible malloc instead of ending the program.
 const char *__asan_default_options(void);
 const char *__asan_default_options(void) {
     return "allocator_may_return_null=1";
 }
 
-static void test_overflowing_sizes(void **state) {
+static void test_overflowing_sizes_escape(void **state) {
     (void)state;
     Attempt attempt = {.size = 16, .count = SIZE_MAX / 8};
     arena_init(&attempt.arena, "test", SIZE_MAX);
     assert_true(escapes(&attempt, alloc_array));
     attempt.size = SIZE_MAX / 2;
-    assert_true(escapes(&attempt, alloc_size)); // more than any machine has
-    attempt.size = SIZE_MAX - 3;                // rounding up to the alignment must not wrap round to 0
+    assert_true(escapes(&attempt, alloc_size)); // more memory than any machine has
+    attempt.size = SIZE_MAX - 3;                // rounding up to the alignment must not overflow
     assert_true(escapes(&attempt, alloc_size));
-    attempt.size = SIZE_MAX - 40; // nor must the block's header
+    attempt.size = SIZE_MAX - 40; // adding the block's header must not overflow
     assert_true(escapes(&attempt, alloc_size));
     attempt.size = 0;
     attempt.count = SIZE_MAX;
@@ -224,11 +224,16 @@ static void test_overflowing_sizes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_alignment),    cmocka_unit_test(test_allocations_are_apart),
-        cmocka_unit_test(test_copy),         cmocka_unit_test(test_mark_and_rewind),
-        cmocka_unit_test(test_nested_marks), cmocka_unit_test(test_reset_keeps_blocks),
-        cmocka_unit_test(test_high_water),   cmocka_unit_test(test_grow),
-        cmocka_unit_test(test_budget),       cmocka_unit_test(test_overflowing_sizes),
+        cmocka_unit_test(test_allocations_are_aligned),
+        cmocka_unit_test(test_allocations_do_not_overlap),
+        cmocka_unit_test(test_copy_is_independent),
+        cmocka_unit_test(test_rewind_drops_later_allocations),
+        cmocka_unit_test(test_marks_nest),
+        cmocka_unit_test(test_reset_keeps_blocks),
+        cmocka_unit_test(test_high_water_is_largest_use),
+        cmocka_unit_test(test_grow_keeps_contents),
+        cmocka_unit_test(test_exceeded_limit_escapes),
+        cmocka_unit_test(test_overflowing_sizes_escape),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,11 +1,10 @@
-// test_base_cpu.c: PETRI_CPU lowers what the processor has. Also run with PETRI_CPU=scalar and with a word that is
-// none.
+// test_base_cpu.c: PETRI_CPU limits the detected level. Also run with PETRI_CPU=scalar and with an unknown word.
 #include "base/cpu.h"
 #include "check.h"
 
 #include <stdlib.h>
 
-static void test_detected_level(void **state) {
+static void test_environment_limits_detected_level(void **state) {
     (void)state;
     const char *wish = getenv("PETRI_CPU");
     if (wish && !strcmp(wish, "scalar")) {
@@ -19,7 +18,7 @@ static void test_detected_level(void **state) {
 #endif
 }
 
-static void test_choices(void **state) {
+static void test_requested_level_is_limited(void **state) {
     (void)state;
     static const struct {
         const char *wish;
@@ -37,6 +36,7 @@ static void test_choices(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_detected_level), cmocka_unit_test(test_choices)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_environment_limits_detected_level),
+                                       cmocka_unit_test(test_requested_level_is_limited)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

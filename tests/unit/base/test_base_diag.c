@@ -1,4 +1,4 @@
-// test_base_diag.c: how diagnostics are kept and how they read (cli.md 3.5).
+// test_base_diag.c: storage and formatting of diagnostics (cli.md 3.5).
 #include "base/diag.h"
 #include "check.h"
 
@@ -31,7 +31,7 @@ static const char *formatted(const Diag *diag, bool colour) {
     return str_to_c(&arena, text_str(&text));
 }
 
-static void test_carets(void **state) {
+static void test_caret_marks_span(void **state) {
     (void)state;
     static const struct {
         const char *text;
@@ -41,14 +41,14 @@ static void test_carets(void **state) {
         {"let x=1", {4, 5}, "a.fl:1:5: error: bad\n    let x=1\n        ^\n"},
         {"let abc=1", {4, 7}, "a.fl:1:5: error: bad\n    let abc=1\n        ^~~\n"},
         {"x\n  yy\n", {4, 6}, "a.fl:2:3: error: bad\n      yy\n      ^~\n"},
-        {"é😀ab", {6, 8}, "a.fl:1:3: error: bad\n    é😀ab\n      ^~\n"},       // columns are characters
-        {"\t\tab", {2, 4}, "a.fl:1:3: error: bad\n    \t\tab\n    \t\t^~\n"}, // tabs stay tabs
+        {"é😀ab", {6, 8}, "a.fl:1:3: error: bad\n    é😀ab\n      ^~\n"},       // columns count characters
+        {"\t\tab", {2, 4}, "a.fl:1:3: error: bad\n    \t\tab\n    \t\t^~\n"}, // tabs are kept
         {"x\ty", {2, 3}, "a.fl:1:3: error: bad\n    x\ty\n     \t^\n"},
-        {"ab\ncd", {1, 5}, "a.fl:1:2: error: bad\n    ab\n     ^\n"}, // clipped to the line
+        {"ab\ncd", {1, 5}, "a.fl:1:2: error: bad\n    ab\n     ^\n"}, // the marked text ends at the line end
         {"ab\n", {2, 3}, "a.fl:1:3: error: bad\n    ab\n      ^\n"},  // the line end
         {"ab\n", {3, 3}, "a.fl:1:3: error: bad\n    ab\n      ^\n"},  // the end of the file
         {"", {0, 0}, "a.fl:1:1: error: bad\n    \n    ^\n"},
-        {"a\x1b[31m\x7f\xff", {1, 2}, "a.fl:1:2: error: bad\n    a?[31m??\n     ^\n"}, // nothing that a terminal obeys
+        {"a\x1b[31m\x7f\xff", {1, 2}, "a.fl:1:2: error: bad\n    a?[31m??\n     ^\n"}, // no control characters
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         Diag diag = {.source = source_of(rows[i].text), .span = rows[i].span, .text = STR("bad")};
@@ -56,22 +56,22 @@ static void test_carets(void **state) {
     }
 }
 
-// A script may put any string into a message, and any name into a link.
-static void test_control_characters(void **state) {
+// Messages may contain any string of a script, and names may come from links.
+static void test_control_characters_are_replaced(void **state) {
     (void)state;
     const Source *source = source_new(&arena, STR("a\x1b[1m.fl"), STR("a.fl"), str_from("ab"));
     Diag diag = {.source = source,
                  .span = {1, 2},
                  .text = STR("no '\x1b]0;x\x07'"),
                  .hint = STR("did you mean '\xc2\x9b\x7f'?")};
-    assert_text("all parts", formatted(&diag, false),
+    assert_text("name, text, line and hint", formatted(&diag, false),
                 "a?[1m.fl:1:2: error: no '?]0;x?'\n    ab\n     ^\n    did you mean '\?\?'?\n");
 }
 
-static void test_levels_codes_hints(void **state) {
+static void test_level_code_and_hint_are_printed(void **state) {
     (void)state;
     Diag diag = {.level = DIAG_WARNING, .text = STR("odd")};
-    assert_text("no place", formatted(&diag, false), "warning: odd\n");
+    assert_text("no location", formatted(&diag, false), "warning: odd\n");
     diag.code = "some-code";
     assert_text("code", formatted(&diag, false), "warning: odd [some-code]\n");
     diag.level = DIAG_NOTE;
@@ -83,8 +83,8 @@ static void test_levels_codes_hints(void **state) {
     assert_string_equal(coloured + strlen(coloured) - strlen("    try y\n"), "    try y\n");
 }
 
-// Of a line of a megabyte the part round the caret is shown, and the caret still points at it.
-static void test_long_lines(void **state) {
+// Only the part around the caret is shown of a very long line.
+static void test_long_lines_are_shortened(void **state) {
     (void)state;
     static const uint32_t places[] = {0, 10, 59, 60, 61, 5000, 999998};
     enum { LENGTH = 1000000 };
@@ -109,7 +109,7 @@ static bool report_at(const Source *source, uint32_t start, const char *text) {
         &sink, &(Diag){.level = DIAG_ERROR, .source = source, .span = {start, start + 1}, .text = str_from(text)});
 }
 
-static void test_once_per_place(void **state) {
+static void test_duplicates_are_stored_once(void **state) {
     (void)state;
     const Source *a = source_of("aaaa"), *b = source_of("bbbb");
     assert_true(report_at(a, 0, "x"));
@@ -135,7 +135,7 @@ static void test_texts_are_copied(void **state) {
     assert_int_equal(sink.error_count, 0);
 }
 
-static void test_limit(void **state) {
+static void test_diagnostics_beyond_limit_are_counted(void **state) {
     (void)state;
     char text[20];
     for (int i = 0; i < 250; i++) {
@@ -146,20 +146,25 @@ static void test_limit(void **state) {
     assert_int_equal(sink.dropped, 150);
 }
 
-static void test_one_line(void **state) {
+static void test_one_line_form_names_location(void **state) {
     (void)state;
     Diag diag = {.text = STR("bad")};
-    assert_text("no place", str_to_c(&arena, diag_one_line(&arena, &diag)), "bad");
+    assert_text("no location", str_to_c(&arena, diag_one_line(&arena, &diag)), "bad");
     diag.source = source_of("a\nb\n");
     diag.span = (Span){2, 3};
-    assert_text("place", str_to_c(&arena, diag_one_line(&arena, &diag)), "bad (a.fl:2)");
+    assert_text("location", str_to_c(&arena, diag_one_line(&arena, &diag)), "bad (a.fl:2)");
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        DIAG_TEST(test_carets),     DIAG_TEST(test_control_characters), DIAG_TEST(test_levels_codes_hints),
-        DIAG_TEST(test_long_lines), DIAG_TEST(test_once_per_place),     DIAG_TEST(test_texts_are_copied),
-        DIAG_TEST(test_limit),      DIAG_TEST(test_one_line),
+        DIAG_TEST(test_caret_marks_span),
+        DIAG_TEST(test_control_characters_are_replaced),
+        DIAG_TEST(test_level_code_and_hint_are_printed),
+        DIAG_TEST(test_long_lines_are_shortened),
+        DIAG_TEST(test_duplicates_are_stored_once),
+        DIAG_TEST(test_texts_are_copied),
+        DIAG_TEST(test_diagnostics_beyond_limit_are_counted),
+        DIAG_TEST(test_one_line_form_names_location),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

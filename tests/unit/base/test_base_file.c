@@ -1,4 +1,4 @@
-// test_base_file.c: whole files in and out.
+// test_base_file.c: reading of whole files, versions and paths.
 #include "base/file.h"
 #include "files.h"
 
@@ -13,19 +13,19 @@ static const char *content(const char *name, size_t limit) {
     return bytes.bytes;
 }
 
-static void test_read(void **state) {
+static void test_read_respects_limit(void **state) {
     (void)state;
     folder_write(&folder, "a", "some text\n");
     assert_string_equal(content("a", 1000), "some text\n");
     assert_string_equal(content("a", 10), "some text\n");
-    assert_null(content("a", 9)); // larger than allowed
+    assert_null(content("a", 9)); // larger than the limit
     folder_write(&folder, "empty", "");
     assert_string_equal(content("empty", 1000), "");
     assert_null(content("none", 1000));
-    assert_null(content(".", 1000)); // a folder
+    assert_null(content(".", 1000)); // is a folder
 }
 
-static void test_version(void **state) {
+static void test_version_changes_with_file(void **state) {
     (void)state;
     Str first, second, third, read_version, bytes;
     const char *problem;
@@ -42,7 +42,7 @@ static void test_version(void **state) {
     assert_false(file_version(&arena, NULL, folder_file(&folder, "none"), &third));
 }
 
-static void test_canonical(void **state) {
+static void test_canonical_path_has_no_links(void **state) {
     (void)state;
     folder_write(&folder, "a", "");
     char plain[600], dotted[800];
@@ -55,7 +55,7 @@ static void test_canonical(void **state) {
     assert_true(str_equal(file_canonical(&arena, NULL, "no/such/file"), STR("no/such/file")));
 }
 
-static void test_normal(void **state) {
+static void test_normalise_removes_dots(void **state) {
     (void)state;
     static const char *const rows[][2] = {
         {"a.fl", "a.fl"},   {"./a//b/", "a/b"}, {"a/../b", "b"},          {"a/b/../../c", "c"},  {"/a/./../b", "/b"},
@@ -78,10 +78,10 @@ static void test_normal(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        FILE_TEST(test_read),
-        FILE_TEST(test_version),
-        FILE_TEST(test_canonical),
-        FILE_TEST(test_normal),
+        FILE_TEST(test_read_respects_limit),
+        FILE_TEST(test_version_changes_with_file),
+        FILE_TEST(test_canonical_path_has_no_links),
+        FILE_TEST(test_normalise_removes_dots),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

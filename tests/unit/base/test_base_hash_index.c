@@ -1,4 +1,4 @@
-// test_base_hash_index.c: the index of a hash table, against a plain model.
+// test_base_hash_index.c: the hash index, compared with a simple model.
 #include "base/hash_index.h"
 #include "check.h"
 
@@ -6,7 +6,7 @@
 
 enum { KEYS = 3000 };
 
-// Entries are numbers; `weak` hashes put many of them into one run of slots.
+// Entries are numbers. With `weak` hashes many of them share a sequence of slots.
 typedef struct Owner {
     HashIndex index;
     uint32_t entries[KEYS];
@@ -30,7 +30,7 @@ static void add_key(Owner *owner, uint32_t entry, uint32_t key) {
     assert_true(hash_index_add(&owner->index, hash_of(owner, key), entry));
 }
 
-static void test_empty(void **state) {
+static void test_empty_index_finds_nothing(void **state) {
     (void)state;
     Owner owner = {0};
     assert_true(find_key(&owner, 1) == HASH_INDEX_NONE);
@@ -59,13 +59,13 @@ static void add_and_find(bool weak, uint32_t count) {
     hash_index_free(&owner.index);
 }
 
-static void test_add_and_find(void **state) {
+static void test_added_keys_are_found(void **state) {
     (void)state;
     add_and_find(false, KEYS);
     add_and_find(true, 300);
 }
 
-// Random additions, removals and moves; after each change all keys are found where the model has them.
+// Random additions, removals and moves. After each change all keys are at the positions of the model.
 static void add_and_remove_keys(bool weak, uint32_t keys, int rounds) {
     const uint32_t nowhere = UINT32_MAX;
     Owner owner = {.weak = weak};
@@ -79,7 +79,7 @@ static void add_and_remove_keys(bool weak, uint32_t keys, int rounds) {
             place[key] = live;
             add_key(&owner, live++, key);
         } else {
-            // Remove, and fill the hole with the last entry, as a dense owner does.
+            // Removes an entry and moves the last entry to its position, as an owner with a dense array does.
             uint32_t hole = place[key], last = --live, moved = owner.entries[last];
             hash_index_remove(&owner.index, hash_of(&owner, key), hole);
             place[key] = nowhere;
@@ -98,13 +98,13 @@ static void add_and_remove_keys(bool weak, uint32_t keys, int rounds) {
     hash_index_free(&owner.index);
 }
 
-static void test_add_remove(void **state) {
+static void test_index_matches_model(void **state) {
     (void)state;
     add_and_remove_keys(false, 500, 20000);
     add_and_remove_keys(true, 60, 5000);
 }
 
-// Removing and adding for ever does not make the table grow.
+// Repeated removals and additions do not make the table grow.
 static void test_deleted_slots_are_reclaimed(void **state) {
     (void)state;
     Owner owner = {0};
@@ -117,20 +117,20 @@ static void test_deleted_slots_are_reclaimed(void **state) {
     hash_index_free(&owner.index);
 }
 
-static void test_hash(void **state) {
+static void test_hash_has_known_values(void **state) {
     (void)state;
     assert_true(hash_bytes(0, "ab", 2) != hash_bytes(0, "ba", 2));
     assert_true(hash_bytes(0, "ab", 2) != hash_bytes(1, "ab", 2));
     assert_true(hash_bytes(0, "a\0", 2) != hash_bytes(0, "a", 1));
     assert_true(hash_bytes(0, NULL, 0) == hash_bytes(0, "x", 0));
-    assert_true(hash_mix(1) == UINT64_C(0x5692161d100b05e5)); // the finaliser of SplitMix64
+    assert_true(hash_mix(1) == UINT64_C(0x5692161d100b05e5)); // the SplitMix64 finaliser
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_empty),      cmocka_unit_test(test_add_and_find),
-        cmocka_unit_test(test_add_remove), cmocka_unit_test(test_deleted_slots_are_reclaimed),
-        cmocka_unit_test(test_hash),
+        cmocka_unit_test(test_empty_index_finds_nothing), cmocka_unit_test(test_added_keys_are_found),
+        cmocka_unit_test(test_index_matches_model),       cmocka_unit_test(test_deleted_slots_are_reclaimed),
+        cmocka_unit_test(test_hash_has_known_values),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

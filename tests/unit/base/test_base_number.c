@@ -1,4 +1,4 @@
-// test_base_number.c: doubles to text and back, in any locale.
+// test_base_number.c: conversion of doubles to text and back, in any locale.
 #include "base/number.h"
 #include "check.h"
 
@@ -59,7 +59,7 @@ static const struct {
     {NAN, "nan", "nan"},
 };
 
-static void test_printed_forms(void **state) {
+static void test_known_numbers_are_printed(void **state) {
     (void)state;
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         assert_text(rows[i].shortest, printed(rows[i].x), rows[i].shortest);
@@ -81,8 +81,8 @@ static double of_bits(uint64_t bits) {
     return x;
 }
 
-// FNV-1a of the lines that an independent implementation (Python's repr without ".0") prints.
-static void test_powers_of_two(void **state) {
+// Compares the FNV-1a hash of all lines with that of an independent implementation (Python's repr without ".0").
+static void test_powers_of_two_read_back(void **state) {
     (void)state;
     uint64_t hash = 0xcbf29ce484222325u;
     for (int exponent = -1074; exponent <= 1023; exponent++) {
@@ -93,7 +93,7 @@ static void test_powers_of_two(void **state) {
     assert_true(hash == UINT64_C(0x3fc860b38cea65d5));
 }
 
-static void test_random_bits(void **state) {
+static void test_random_numbers_read_back(void **state) {
     (void)state;
     uint64_t seed = 1, hash = 0xcbf29ce484222325u;
     for (int i = 0; i < 100000; i++) {
@@ -106,15 +106,15 @@ static void test_random_bits(void **state) {
     assert_true(hash == UINT64_C(0x1fb3382a90909f4a));
 }
 
-// Coordinates: fractions from 2^-20 to 2^53, many of them short or a tie between two decimals.
-static void test_fractions(void **state) {
+// Fractions such as coordinates, from 2^-20 to 2^53. Many are short or halfway between two decimals.
+static void test_fractions_are_shortest(void **state) {
     (void)state;
     uint64_t seed = 2;
     for (int i = 0; i < 200000; i++) {
         uint64_t bits = next_bits(&seed);
         double x = ldexp((double)(bits >> (11 + bits % 40)), (int)(bits >> 20 & 63) - 73);
         x = i % 4 ? x : (double)(bits % 20000000) / 10000;
-        // The first of 15, 16 and 17 digits that reads back, as C's printf rounds it; at powers of two others may.
+        // The shortest of 15, 16 and 17 digits of printf that reads back. Powers of two may have a shorter one.
         char wanted[NUMBER_TEXT];
         for (int digits = 15; digits <= 17; digits++) {
             snprintf(wanted, sizeof wanted, "%.*g", digits, x);
@@ -127,7 +127,7 @@ static void test_fractions(void **state) {
     }
 }
 
-static void test_parse(void **state) {
+static void test_parse_rounds_correctly(void **state) {
     (void)state;
     static const struct {
         const char *text;
@@ -148,7 +148,7 @@ static void test_parse(void **state) {
     };
     for (size_t i = 0; i < COUNT_OF(cases); i++)
         assert_number(cases[i].text, number_parse(str_from(cases[i].text)), cases[i].x);
-    // The text need not end where its slice does, and may be long.
+    // The text may continue after the slice, and may be long.
     assert_number("slice", number_parse((Str){"12345", 2}), 12);
     char digits[501];
     memset(digits, '1', 500);
@@ -156,8 +156,8 @@ static void test_parse(void **state) {
     assert_number("500 digits", number_parse((Str){digits, 500}), 1.1111111111111112);
 }
 
-// A locale with a decimal comma, if the machine has one, changes nothing.
-static void test_locale(void **state) {
+// A locale with a decimal comma, if installed, does not change the results.
+static void test_locale_has_no_effect(void **state) {
     static const char *const locales[] = {"de_DE.UTF-8", "de_DE.utf8", "de_DE", "fr_FR.UTF-8", "nl_NL.UTF-8"};
     const char *found = NULL;
     for (size_t i = 0; i < COUNT_OF(locales) && !found; i++)
@@ -165,14 +165,14 @@ static void test_locale(void **state) {
     if (!found)
         skip();
     assert_string_equal(localeconv()->decimal_point, ",");
-    test_printed_forms(state);
-    test_parse(state);
-    test_powers_of_two(state);
+    test_known_numbers_are_printed(state);
+    test_parse_rounds_correctly(state);
+    test_powers_of_two_read_back(state);
     setlocale(LC_NUMERIC, "C");
 }
 
-// To the bit what the C library says, zeros with their sign.
-static void test_floor(void **state) {
+// Same bits as floor of the C library, including the sign of zero.
+static void test_floor_matches_c(void **state) {
     (void)state;
     static const double numbers[] = {0.0,
                                      -0.0,
@@ -205,9 +205,10 @@ static void test_floor(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_floor),       cmocka_unit_test(test_printed_forms), cmocka_unit_test(test_powers_of_two),
-        cmocka_unit_test(test_random_bits), cmocka_unit_test(test_fractions),     cmocka_unit_test(test_parse),
-        cmocka_unit_test(test_locale),
+        cmocka_unit_test(test_floor_matches_c),         cmocka_unit_test(test_known_numbers_are_printed),
+        cmocka_unit_test(test_powers_of_two_read_back), cmocka_unit_test(test_random_numbers_read_back),
+        cmocka_unit_test(test_fractions_are_shortest),  cmocka_unit_test(test_parse_rounds_correctly),
+        cmocka_unit_test(test_locale_has_no_effect),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-// test_base_replace.c: files that are replaced as a whole.
+// test_base_replace.c: atomic replacement of files.
 #include "base/file.h"
 #include "base/replace.h"
 #include "files.h"
@@ -29,10 +29,10 @@ static mode_t mode_of(const char *name) {
     return info.st_mode;
 }
 
-// Both ways to make the new file must do the same.
+// Both ways to create the new file must behave the same.
 static const unsigned ways[] = {0, REPLACE_NAMED};
 
-static void test_whole(void **state) {
+static void test_file_is_replaced(void **state) {
     (void)state;
     for (int i = 0; i < 2; i++) {
         assert_null(file_replace(folder_file(&folder, "new"), STR("one"), ways[i]));
@@ -46,11 +46,11 @@ static void test_whole(void **state) {
     }
     assert_string_equal(file_replace(folder_file(&folder, "no/folder"), STR("x"), 0), strerror(ENOENT));
     assert_string_equal(file_replace("", STR("x"), 0), strerror(ENOENT));
-    errno = EINVAL; // left from something else
+    errno = EINVAL; // an unrelated earlier error
     assert_string_equal(file_replace(folder.path, STR("x"), 0), strerror(EISDIR));
 }
 
-static void test_permissions(void **state) {
+static void test_permissions_are_kept(void **state) {
     (void)state;
     for (int i = 0; i < 2; i++) {
         folder_write(&folder, "secret", "old");
@@ -64,7 +64,7 @@ static void test_permissions(void **state) {
     assert_int_equal(mode_of("fresh") & 07777, 0640);
 }
 
-static void test_links(void **state) {
+static void test_links_are_kept(void **state) {
     (void)state;
     folder_write(&folder, "target", "old");
     assert_int_equal(symlink("target", folder_file(&folder, "link")), 0);
@@ -78,13 +78,13 @@ static void test_links(void **state) {
     check_content("later", "made");
     assert_int_equal(symlink("round", folder_file(&folder, "round")), 0);
     assert_string_equal(file_replace(folder_file(&folder, "round"), STR("x"), 0), strerror(ELOOP));
-    Replacement replacement; // who has resolved the path himself follows no link
+    Replacement replacement; // replace_begin_in does not follow links
     int open_folder = open(folder.path, O_RDONLY | O_DIRECTORY);
     assert_false(replace_begin_in(&replacement, open_folder, "link", 0));
     assert_int_equal(errno, ELOOP);
 }
 
-static void test_no_regular_file(void **state) {
+static void test_special_files_are_written_directly(void **state) {
     (void)state;
     assert_int_equal(mkfifo(folder_file(&folder, "pipe"), 0600), 0);
     int reader = open(folder_file(&folder, "pipe"), O_RDONLY | O_NONBLOCK);
@@ -102,7 +102,7 @@ static void test_no_regular_file(void **state) {
     assert_true(stat("/dev/full", &info) == 0 && S_ISCHR(info.st_mode));
 }
 
-static void test_only_new(void **state) {
+static void test_create_only_keeps_existing_file(void **state) {
     (void)state;
     for (int i = 0; i < 2; i++) {
         assert_null(file_replace(folder_file(&folder, "new"), STR("one"), REPLACE_CREATE_ONLY | ways[i]));
@@ -110,7 +110,7 @@ static void test_only_new(void **state) {
                             strerror(EEXIST));
         check_content("new", "one");
         unlink(folder_file(&folder, "new"));
-        // Somebody else is faster.
+        // Another process creates the file first.
         Replacement replacement;
         assert_true(replace_begin(&replacement, folder_file(&folder, "new"), REPLACE_CREATE_ONLY | ways[i]));
         folder_write(&folder, "new", "theirs");
@@ -122,7 +122,7 @@ static void test_only_new(void **state) {
     }
 }
 
-static void test_abort(void **state) {
+static void test_abort_keeps_old_file(void **state) {
     (void)state;
     folder_write(&folder, "old", "old");
     for (int i = 0; i < 2; i++) {
@@ -137,18 +137,18 @@ static void test_abort(void **state) {
     }
 }
 
-// What was left by a process that was killed goes with the next file; what one at work has stays.
-static void test_removes_stale_files(void **state) {
+// Temporary files of killed processes are removed with the next replacement; locked ones are kept.
+static void test_stale_files_are_removed(void **state) {
     (void)state;
     folder_write(&folder, "old", "old");
     folder_write(&folder, ".petri-0123456789abcdef.tmp", "left");
     folder_write(&folder, ".petri-0123456789abcdef.tmp.mine", "another's");
-    folder_write(&folder, ".petri-fedcba9876543210.tmp", "of one at work");
+    folder_write(&folder, ".petri-fedcba9876543210.tmp", "of a running process");
     int file = open(folder_file(&folder, ".petri-fedcba9876543210.tmp"), O_RDONLY);
     assert_int_equal(flock(file, LOCK_EX), 0);
     assert_null(file_replace(folder_file(&folder, "old"), STR("new"), 0));
     assert_int_equal(count_files(), 3);
-    check_content(".petri-fedcba9876543210.tmp", "of one at work");
+    check_content(".petri-fedcba9876543210.tmp", "of a running process");
     close(file);
     assert_null(file_replace(folder_file(&folder, "another"), STR("new"), REPLACE_NAMED));
     assert_int_equal(count_files(), 3);
@@ -157,13 +157,13 @@ static void test_removes_stale_files(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        FILE_TEST(test_whole),
-        FILE_TEST(test_permissions),
-        FILE_TEST(test_links),
-        FILE_TEST(test_no_regular_file),
-        FILE_TEST(test_only_new),
-        FILE_TEST(test_abort),
-        FILE_TEST(test_removes_stale_files),
+        FILE_TEST(test_file_is_replaced),
+        FILE_TEST(test_permissions_are_kept),
+        FILE_TEST(test_links_are_kept),
+        FILE_TEST(test_special_files_are_written_directly),
+        FILE_TEST(test_create_only_keeps_existing_file),
+        FILE_TEST(test_abort_keeps_old_file),
+        FILE_TEST(test_stale_files_are_removed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,8 @@
-// test_base_sha256.c: SHA-256 against the examples of its standard, and against sha256sum(1) where blocks end.
+// test_base_sha256.c: SHA-256, compared with examples of the standard and with sha256sum(1) near block boundaries.
 #include "base/sha256.h"
 #include "check.h"
 
-// Of `count` times the text, added in pieces of `piece` bytes.
+// Returns the hash of `count` copies of the text, added in pieces of `piece` bytes.
 static const char *hashed(const char *text, size_t count, size_t piece) {
     static char digits[SHA256_DIGITS + 1];
     static char whole[1000001];
@@ -38,7 +38,7 @@ static const struct {
     {"\xff", 128, "e9175db65a9789096ca9cb5524d3abc2107df03e3c9ba3af1aca628f9c5d3bd2"},
 };
 
-static void test_hashes(void **state) {
+static void test_hashes_match_standard(void **state) {
     (void)state;
     static const size_t pieces[] = {1, 3, 63, 64, 65, 1000000};
     for (size_t i = 0; i < COUNT_OF(rows); i++)
@@ -47,6 +47,6 @@ static void test_hashes(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_hashes)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_hashes_match_standard)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

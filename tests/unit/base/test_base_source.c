@@ -1,4 +1,4 @@
-// test_base_source.c: line ends, places and paths.
+// test_base_source.c: line ends, positions and paths.
 #include "base/source.h"
 #include "check.h"
 
@@ -20,7 +20,7 @@ static const Source *source_of(Str text) {
     return source_new(&arena, STR("some/dir/a.fl"), STR("/abs/some/dir/a.fl"), text);
 }
 
-static void test_line_ends(void **state) {
+static void test_line_ends_are_unified(void **state) {
     (void)state;
     static const struct {
         Str text;
@@ -47,7 +47,7 @@ static void test_line_ends(void **state) {
     }
 }
 
-static void test_places(void **state) {
+static void test_offsets_are_located(void **state) {
     (void)state;
     const Source *source = source_of(STR("let é=1\n\n\t😀x\nlast"));
     static const struct {
@@ -58,7 +58,7 @@ static void test_places(void **state) {
         {8, 1, 8, "let é=1"},       {9, 2, 1, ""},        {10, 3, 1, "\t😀x"},
         {11, 3, 2, "\t😀x"},         {15, 3, 3, "\t😀x"},   {16, 3, 4, "\t😀x"},
         {17, 4, 1, "last"},         {20, 4, 4, "last"},   {21, 4, 5, "last"},
-        {22, 4, 5, "last"}, // beyond the end: where the text ends
+        {22, 4, 5, "last"}, // after the end: the end of the text
         {4000000000, 4, 5, "last"},
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
@@ -69,8 +69,8 @@ static void test_places(void **state) {
     }
 }
 
-// Every offset of a text of many lines, against counting.
-static void test_many_lines(void **state) {
+// Compares every offset of a text of many lines with counting.
+static void test_positions_match_counting(void **state) {
     (void)state;
     Text text = text_new(&arena);
     for (int i = 0; i < 300; i++) {
@@ -89,18 +89,18 @@ static void test_many_lines(void **state) {
     }
 }
 
-static void test_names(void **state) {
+static void test_names_are_copied(void **state) {
     (void)state;
     char name[] = "some/dir/a.fl", text[] = "a\n";
     const Source *source = source_new(&arena, str_from(name), str_from(name), str_from(text));
-    memset(name, 'x', sizeof name - 1); // everything was copied
+    memset(name, 'x', sizeof name - 1); // the source has its own copies
     memset(text, 'x', sizeof text - 1);
     assert_true(str_equal(source->name, STR("some/dir/a.fl")));
     assert_true(str_equal(source->directory, STR("some/dir/")));
     assert_true(str_equal(source->text, STR("a\n")));
 }
 
-static void test_paths(void **state) {
+static void test_paths_are_split_and_joined(void **state) {
     (void)state;
     static const struct {
         const char *path, *directory;
@@ -123,11 +123,11 @@ static void test_paths(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_line_ends, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_places, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_many_lines, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_names, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_paths, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_line_ends_are_unified, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_offsets_are_located, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_positions_match_counting, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_names_are_copied, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_paths_are_split_and_joined, setup, teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

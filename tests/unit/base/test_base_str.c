@@ -1,4 +1,4 @@
-// test_base_str.c: slices, UTF-8 and the growing text.
+// test_base_str.c: text slices, UTF-8 and the text buffer.
 #include "base/str.h"
 #include "check.h"
 
@@ -9,7 +9,7 @@ static int32_t decode(const char *bytes, size_t len, size_t *used) {
     return c;
 }
 
-// Each code point survives encoding and decoding, and has the length that UTF-8 gives it.
+// Every code point is unchanged after encoding and decoding, and has the right encoded length.
 static void test_utf8_round_trip(void **state) {
     (void)state;
     for (uint32_t c = 0; c <= 0x10ffff; c += c < 0x3000 ? 1 : 97) {
@@ -23,8 +23,8 @@ static void test_utf8_round_trip(void **state) {
     }
 }
 
-// The first byte of each is ill-formed: -1, and one byte is skipped.
-static void test_utf8_ill_formed(void **state) {
+// The first byte of each text is ill-formed: utf8_next returns -1 and skips one byte.
+static void test_utf8_rejects_ill_formed_bytes(void **state) {
     (void)state;
     static const struct {
         const char *bytes;
@@ -42,7 +42,7 @@ static void test_utf8_ill_formed(void **state) {
         {"\xed\xa0\x80", 3, "first surrogate"},
         {"\xed\xbf\xbf", 3, "last surrogate"},
         {"\xf4\x90\x80\x80", 4, "U+110000"},
-        {"\xf5\x80\x80\x80", 4, "lead byte beyond"},
+        {"\xf5\x80\x80\x80", 4, "lead byte too large"},
         {"\xfe", 1, "FE"},
         {"\xff", 1, "FF"},
         {"\xc3", 1, "cut after one of two"},
@@ -58,7 +58,7 @@ static void test_utf8_ill_formed(void **state) {
         assert_claim(rows[i].why, used == 1);
         assert_claim(rows[i].why, utf8_find_error((Str){rows[i].bytes, rows[i].len}) == 0);
     }
-    // The edges that are well-formed.
+    // Well-formed limits.
     static const char *const good[] = {"\x7f",         "\xc2\x80",         "\xe0\xa0\x80",     "\xed\x9f\xbf",
                                        "\xee\x80\x80", "\xf0\x90\x80\x80", "\xf4\x8f\xbf\xbf", "\xef\xbf\xbf"};
     for (size_t i = 0; i < COUNT_OF(good); i++)
@@ -79,7 +79,7 @@ static void test_utf8_find_error_and_length(void **state) {
     assert_int_equal(utf8_length(STR("a\0b")), 3);
 }
 
-static void test_compare(void **state) {
+static void test_compare_orders_by_bytes(void **state) {
     (void)state;
     static const struct {
         const char *a, *b;
@@ -102,14 +102,14 @@ static void test_prefix_suffix_trim(void **state) {
     assert_false(str_ends_with(STR("eg"), STR("deg")));
     assert_true(str_starts_with(STR("x"), STR("")));
     assert_true(str_ends_with(STR("x"), STR("")));
-    assert_true(str_starts_with((Str){0}, (Str){0})); // no bytes at all: nothing may be read
+    assert_true(str_starts_with((Str){0}, (Str){0})); // NULL bytes must not be read
     assert_true(str_ends_with((Str){0}, (Str){0}));
     assert_true(str_equal(str_trim(STR(" \t\r\n\v\f x y \n")), STR("x y")));
     assert_int_equal(str_trim(STR(" \t ")).len, 0);
     assert_int_equal(str_trim((Str){0}).len, 0);
 }
 
-static void test_distance(void **state) {
+static void test_edit_distance_counts_edits(void **state) {
     (void)state;
     static const struct {
         const char *a, *b;
@@ -136,11 +136,12 @@ static void test_distance(void **state) {
     char longer[65], shorter[64];
     memset(longer, 'x', sizeof longer);
     memset(shorter, 'x', sizeof shorter);
-    assert_int_equal(str_edit_distance((Str){longer, 65}, (Str){longer, 65}), 64); // beyond 64 bytes: far apart
+    assert_int_equal(str_edit_distance((Str){longer, 65}, (Str){longer, 65}),
+                     64); // longer than 64 bytes: maximum distance
     assert_int_equal(str_edit_distance((Str){shorter, 64}, (Str){shorter, 63}), 1);
 }
 
-static void test_text(void **state) {
+static void test_text_buffer_grows(void **state) {
     (void)state;
     Arena arena;
     arena_init(&arena, "test", SIZE_MAX);
@@ -164,7 +165,7 @@ static void test_text(void **state) {
     arena_free(&arena);
 }
 
-static void test_hex_colours(void **state) {
+static void test_hex_colours_become_numbers(void **state) {
     (void)state;
     Arena arena;
     arena_init(&arena, "test", SIZE_MAX);
@@ -196,7 +197,7 @@ static void test_hex_colours(void **state) {
     arena_free(&arena);
 }
 
-static void test_word_number(void **state) {
+static void test_word_number_is_index_in_list(void **state) {
     (void)state;
     assert_int_equal(str_word_number(STR("one"), "one two three"), 0);
     assert_int_equal(str_word_number(STR("three"), "one two three"), 2);
@@ -208,14 +209,14 @@ static void test_word_number(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_utf8_round_trip),
-        cmocka_unit_test(test_utf8_ill_formed),
+        cmocka_unit_test(test_utf8_rejects_ill_formed_bytes),
         cmocka_unit_test(test_utf8_find_error_and_length),
-        cmocka_unit_test(test_compare),
+        cmocka_unit_test(test_compare_orders_by_bytes),
         cmocka_unit_test(test_prefix_suffix_trim),
-        cmocka_unit_test(test_distance),
-        cmocka_unit_test(test_text),
-        cmocka_unit_test(test_hex_colours),
-        cmocka_unit_test(test_word_number),
+        cmocka_unit_test(test_edit_distance_counts_edits),
+        cmocka_unit_test(test_text_buffer_grows),
+        cmocka_unit_test(test_hex_colours_become_numbers),
+        cmocka_unit_test(test_word_number_is_index_in_list),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

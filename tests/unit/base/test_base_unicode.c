@@ -1,9 +1,9 @@
-// test_base_unicode.c: the classes of code points of language.md L2.4 and L18.1.
+// test_base_unicode.c: the character classes of language.md L2.4 and L18.1.
 #include "base/unicode.h"
 #include "check.h"
 
-// Counts and a sum over all code points of name_ranges.txt (Unicode 16.0).
-static void test_classes_as_a_whole(void **state) {
+// Number and sum of the code points in each class of name_ranges.txt (Unicode 16.0).
+static void test_classes_match_name_ranges(void **state) {
     (void)state;
     uint64_t letters = 0, letter_hash = 0, digits = 0, digit_hash = 0;
     for (uint32_t c = 0; c <= 0x10ffff; c++) {
@@ -25,7 +25,7 @@ static void test_classes_as_a_whole(void **state) {
     assert_true(digit_hash == UINT64_C(0xf217e0ea40761edc));
 }
 
-static void test_names(void **state) {
+static void test_name_characters(void **state) {
     (void)state;
     static const uint32_t starts[] = {'a', 'Z', '_', 0xb5, 0xe9, 0x3c0, 0x1d70f, 0x2160, 0x345, 0x24b6, 0x4e00};
     static const uint32_t continues[] = {'0', '9', 0x660, 0x1d7ce};
@@ -38,7 +38,7 @@ static void test_names(void **state) {
         assert_true(!unicode_starts_name(neither[i]) && !unicode_continues_name(neither[i]));
 }
 
-static void test_printable(void **state) {
+static void test_printable_characters(void **state) {
     (void)state;
     static const uint32_t printable[] = {' ', '~', 0xa1, 0xe9, 0x300, 0xb2, 0xfffd, 0x1f600, 0x4e00};
     // Cc, Cf, Cs, Co, Cn, Zl, Zp, and Zs other than the space.
@@ -52,9 +52,9 @@ static void test_printable(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_classes_as_a_whole),
-        cmocka_unit_test(test_names),
-        cmocka_unit_test(test_printable),
+        cmocka_unit_test(test_classes_match_name_ranges),
+        cmocka_unit_test(test_name_characters),
+        cmocka_unit_test(test_printable_characters),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

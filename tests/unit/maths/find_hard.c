@@ -1,10 +1,10 @@
-// find_hard.c: looks for arguments whose results are nearly half-way between two doubles. Wrote hard_cases.h.
+// find_hard.c: search for arguments whose results are nearly halfway between two doubles. hard_cases.h is its output.
 //
-// usage: find_hard NAME SECONDS LOWEST HIGHEST [BITS]: x is a random double with an exponent in [LOWEST, HIGHEST)
+// usage: find_hard NAME SECONDS LOW HIGH [BITS]: x is a random double with an exponent in [LOW, HIGH)
 //
-// As Lefèvre does it: among 2 REACH + 1 neighbours of x a function is a straight line up to 2^-28 of its last place;
-// where a + b i comes near to a whole number is found by Euclid's algorithm. Each hit is printed with its distance from
-// the border in bits of the last place.
+// Lefèvre's method: among 2 REACH + 1 neighbours of x the function is linear up to 2^-28 of its last place. Euclid's
+// algorithm finds the i for which a + b i is near an integer. Each hit is printed with its distance from the halfway
+// point in bits of the last place.
 #include "model.h"
 
 #include <stdlib.h>
@@ -15,7 +15,7 @@
 
 __extension__ typedef __int128 Long;
 
-// The least x ≥ 0 with l ≤ a x mod m ≤ r, or -1; 0 ≤ a < m, 0 ≤ l ≤ r < m
+// Returns the smallest x ≥ 0 with l ≤ a x mod m ≤ r, or -1. Requires 0 ≤ a < m and 0 ≤ l ≤ r < m.
 static int64_t first_in(int64_t a, int64_t m, int64_t l, int64_t r) {
     if (l == 0)
         return 0;
@@ -31,7 +31,7 @@ static int64_t first_in(int64_t a, int64_t m, int64_t l, int64_t r) {
 
 static mpfr_t at[3], line, best;
 
-// f(x) in half units of its last place, modulo 1, in 2^-62
+// Returns f(x) in half units of its last place, modulo 1, as a multiple of 2^-62.
 static int64_t phase(const Subject *subject, double x, double y, mpfr_t f, mpfr_exp_t unit) {
     model_value(subject, f, x, y);
     if (unit == 0)

@@ -1,6 +1,6 @@
-// hard_cases.h: arguments whose results are hard to round. The distance from the nearest border (half-way between two
-// doubles) or double is given in bits of half a unit of the last place. The first list is from the literature (Lefèvre
-// and Muller's tables of worst cases, and what was published since), the second is what find_hard.c found.
+// hard_cases.h: arguments whose results are hard to round. The comments give the distance of the result from the
+// nearest border (the point halfway between two doubles) or double, in half units of the last place. The first list is
+// from the literature (Lefèvre and Muller's tables of worst cases and later work), the second from find_hard.c.
 #ifndef PETRI_TESTS_MATHS_HARD_CASES_H
 #define PETRI_TESTS_MATHS_HARD_CASES_H
 
@@ -53,7 +53,7 @@ static const HardCase hard_cases[] = {
     {"tan", 0x1.a33f32ac5ceb5p-3, 0},     // 2^-55.6 from a double
     {"tan", 0x1.d696bfa988db9p-2, 0},     // 2^-51.7 from a border
     {"tan", 0x1.dffffffffff1fp-22, 0},    // 2^-78.5 from a border
-    // found
+    // found by find_hard.c
     {"sin", 0x1.ffe2a99eca841p-8, 0},                      // 2^-40.1
     {"sin", -0x1.144d42abfc5e2p-2, 0},                     // 2^-35.3
     {"sin", -0x1.01b1190fb52f6p-8, 0},                     // 2^-35.0

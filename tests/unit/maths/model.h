@@ -1,4 +1,4 @@
-// model.h: what the functions of lib/maths must return, by MPFR; and arguments to ask them for.
+// model.h: reference results for lib/maths by MPFR, and random arguments.
 #ifndef PETRI_TESTS_MATHS_MODEL_H
 #define PETRI_TESTS_MATHS_MODEL_H
 
@@ -13,7 +13,7 @@ typedef int (*ModelTwo)(mpfr_t, const mpfr_t, const mpfr_t, mpfr_rnd_t);
 typedef double (*One)(double);
 typedef double (*Two)(double, double);
 
-// A function with its instances; either the first half of the members or the second is set.
+// A function with its variants. Either the first half of the members is set (one parameter) or the second (two).
 typedef struct Subject {
     const char *name;
     ModelOne model1;
@@ -40,14 +40,14 @@ static inline uint64_t bits_from(double x) {
     return bits;
 }
 
-// The range and the precision of doubles.
+// Sets MPFR to the range and precision of doubles.
 static inline void model_start(void) {
     mpfr_set_default_prec(53);
     mpfr_set_emin(-1073);
     mpfr_set_emax(1024);
 }
 
-// r = f(x, y), rounded to the precision of r; the return value is MPFR's, on which side of f it is.
+// Sets r = f(x, y), rounded to the precision of r. Returns MPFR's ternary value: the sign of r - f(x, y).
 static inline int model_value(const Subject *subject, mpfr_t r, double x, double y) {
     static mpfr_t a, b;
     static bool ready;
@@ -69,12 +69,12 @@ static inline double model(const Subject *subject, double x, double y) {
     return mpfr_get_d(r, MPFR_RNDN);
 }
 
-// The same bits; one nan is as good as another.
+// Returns true if both have the same bits or both are NaN.
 static inline bool same_number(double a, double b) {
     return (isnan(a) && isnan(b)) || bits_from(a) == bits_from(b);
 }
 
-// Asks all instances and the accurate path alone for one case; tells and counts what is wrong.
+// Checks all variants and the accurate path for one case. Prints and counts wrong results.
 static inline int wrong_cases(const Subject *subject, double x, double y, bool exact_too) {
     double wanted = model(subject, x, y), found[3] = {0};
     if (subject->model1) {

@@ -1,7 +1,8 @@
-// speed.c: nanoseconds a result, beside those of the C library that this program is linked with.
+// speed.c: benchmark of lib/maths in nanoseconds per result, compared with the C library.
 //
-// usage: maths_speed [NAME]. The best of many runs over 1024 arguments, taken in turns, so that a busy machine disturbs
-// both alike. `plain` is the instance without fused multiply-add, `exact` the accurate path alone.
+// usage: maths_speed [NAME]. Prints the best of many runs over 1024 arguments. Runs of both libraries alternate, so
+// that a busy machine affects both alike. `plain` is the variant without fused multiply-add, `exact` the accurate path
+// alone.
 #include "check.h"
 #include "maths/arrays.h"
 #include "maths/fast.h"
@@ -12,7 +13,8 @@
 
 enum { COUNT = 1024, ROUNDS = 1500 };
 
-double x[COUNT], y[COUNT], out[COUNT], out2[COUNT]; // with external linkage, so that nothing is left out
+double x[COUNT], y[COUNT], out[COUNT],
+    out2[COUNT]; // external linkage, so that the compiler cannot remove the computation
 
 static double now(void) {
     struct timespec t;

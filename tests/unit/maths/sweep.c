@@ -1,9 +1,9 @@
-// sweep.c: random arguments against MPFR.
+// sweep.c: comparison with MPFR for random arguments.
 //
-// usage: sweep COUNT [NAME]: COUNT arguments for each function, or for one. Half of them spread evenly over all
-// exponents for which the function is neither constant nor the identity, half from ranges where results are dense or
-// error bounds tight. Tells for each function how many results were wrong, how often the accurate path ran, and the
-// largest error of the fast path as a share of its bound. The exit code is 0 if nothing was wrong.
+// usage: sweep COUNT [NAME]: tests COUNT arguments for each function or for one. Half of them are spread evenly over
+// all exponents for which the function is neither constant nor the identity. The others are from ranges where results
+// are dense or error bounds tight. Prints for each function the number of wrong results, how often the accurate path
+// ran, and the largest error of the fast path relative to its bound. Exits with 0 if no result was wrong.
 #include "model.h"
 #include "watch.h"
 
@@ -11,9 +11,9 @@
 
 typedef struct Range {
     const char *name;
-    bool exponents; // x = ±2^[low, high), or x in [low, high)
+    bool exponents; // true: |x| = 2^e with e in [low, high); false: x in [low, high)
     double low, high;
-    double y_low, y_high; // the second argument in the same way; Y_BY_X tells another way
+    double y_low, y_high; // range of the second argument, like low and high; Y_BY_X: other ways
 } Range;
 
 static const Range ranges[] = {
@@ -53,7 +53,7 @@ static uint64_t sweep_function(const Subject *subject, const Watched *watched, u
     uint64_t seed = 1, wrong = 0;
     watch_start();
     for (uint64_t i = 0; i < count; i++) {
-        // The first range has half of the arguments.
+        // Half of the arguments are from the first range.
         const Range *range = mine[i % 2 ? 0 : i / 2 % kinds];
         double x = random_argument(&seed, range->exponents, range->low, range->high);
         double y = random_argument(&seed, range->exponents, range->y_low, range->y_high);
@@ -69,7 +69,7 @@ static uint64_t sweep_function(const Subject *subject, const Watched *watched, u
         (double)watch_state[0].cases / (double)(watch_state[0].undecided + !watch_state[0].undecided),
         watch_state[0].worst, watch_state[1].worst);
     fflush(stdout);
-    // An error beyond its bound is a wrong proof, even if no result is wrong yet.
+    // An error above its bound means that the error analysis is wrong, even if all results are right.
     return wrong + (watch_state[0].worst > 1) + (watch_state[1].worst > 1);
 }
 

@@ -1,20 +1,20 @@
-// test_maths_arrays.c: many numbers at once, with 1, 2, 4 and 8 lanes, give the bits of one at a time; so do streams of
-// normals.
+// test_maths_arrays.c: array functions with 1, 2, 4 and 8 lanes and streams of normals return the bits of the scalar
+// functions.
 #include "check.h"
 #include "maths/arrays.h"
 #include "maths/arrays_isa.h"
 #include "maths/maths.h"
 #include "maths/random.h"
 
-#define COUNT 4099 // no multiple of any number of lanes
-#define EXTRA 8    // untouched numbers behind the results
+#define COUNT 4099 // not a multiple of any lane count
+#define EXTRA 8    // numbers after the results that must not be changed
 
 typedef struct Lanes {
     const char *name;
     const ArraysIsa *instance;
 } Lanes;
 
-// What this processor can run.
+// The levels that this processor supports.
 static size_t find_isas(Lanes *lanes) {
     size_t count = 0;
     lanes[count++] = (Lanes){"1 lane", &maths_arrays_plain};
@@ -30,7 +30,7 @@ static size_t find_isas(Lanes *lanes) {
 
 static double x[COUNT], y[COUNT], out[COUNT + EXTRA], out2[COUNT + EXTRA];
 
-// Numbers of all sizes, with special ones among them, so that some lanes of a vector can be decided and others cannot.
+// Fills an array with numbers of all sizes and special values, so that some lanes of a vector are undecided.
 static void fill_arguments(uint64_t *seed, double low, double high, bool special) {
     static const double odd[] = {0.0, -0.0, INFINITY, -INFINITY, NAN,  0x1p-1074, -0x1p-1030, 0x1.fffffffffffffp+1023,
                                  1.0, -1.0, 2.0,      0.5,       1e10, -1e300,    710,        -745.1};
@@ -86,8 +86,8 @@ static void test_arrays_match_scalars(void **state) {
         }
 }
 
-// The result may take the place of the arguments; short arrays are not read or written beyond their end.
-static void test_in_place(void **state) {
+// The result may overwrite the arguments. Short arrays are not accessed after their end.
+static void test_result_may_overwrite_arguments(void **state) {
     (void)state;
     for (int level = 0; level <= (int)cpu_detected.level; level++)
         for (size_t n = 0; n < 20; n++) {
@@ -104,7 +104,7 @@ static void test_in_place(void **state) {
         }
 }
 
-static void test_uniform(void **state) {
+static void test_uniform_array_matches_items(void **state) {
     (void)state;
     Lanes lanes[4];
     size_t count = find_isas(lanes);
@@ -117,7 +117,7 @@ static void test_uniform(void **state) {
         }
 }
 
-static void test_normals(void **state) {
+static void test_normals_match_items(void **state) {
     (void)state;
     uint64_t key = UINT64_C(0x03953eea0e693074);
     double found[700];
@@ -130,8 +130,8 @@ static void test_normals(void **state) {
             }
 }
 
-// turns_sin for huge numbers of turns, where C's remquo gives the quadrant, too.
-static void test_turns(void **state) {
+// turns_sin of huge arguments, compared with the quadrant of C's remquo.
+static void test_sine_of_turns_matches_remquo(void **state) {
     (void)state;
     uint64_t seed = 9;
     for (int i = 0; i < 100000; i++) {
@@ -147,8 +147,9 @@ static void test_turns(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_arrays_match_scalars), cmocka_unit_test(test_in_place),
-                                       cmocka_unit_test(test_uniform), cmocka_unit_test(test_normals),
-                                       cmocka_unit_test(test_turns)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_arrays_match_scalars), cmocka_unit_test(test_result_may_overwrite_arguments),
+        cmocka_unit_test(test_uniform_array_matches_items), cmocka_unit_test(test_normals_match_items),
+        cmocka_unit_test(test_sine_of_turns_matches_remquo)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

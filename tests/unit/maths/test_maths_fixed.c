@@ -1,5 +1,5 @@
-// test_maths_fixed.c: wide numbers against MPFR with many more bits: each function of fixed.h is as near as it says,
-// with each number of limbs.
+// test_maths_fixed.c: fixed.h, compared with MPFR at higher precision. Each function must be within its documented
+// error for every number of limbs.
 #include "check.h"
 #include "maths/fixed.h"
 
@@ -23,7 +23,7 @@ static void parse_fixed(mpfr_t to, const Fixed *from) {
         mpfr_neg(to, to, MPFR_RNDN);
 }
 
-// |found - wanted| in ulps is at most `limit`.
+// Checks that |found - wanted| is at most `limit` ulps.
 static void check_near(const char *what, const Fixed *found, mpfr_t wanted, double limit) {
     parse_fixed(d, found);
     mpfr_sub(d, d, wanted, MPFR_RNDN);
@@ -38,7 +38,7 @@ static double unit(uint64_t *seed) {
     return (double)(next_bits(seed) >> 11) * 0x1p-53;
 }
 
-// A number of that size in [0, 1) with random bits, in `to`, too.
+// Returns a random number in [0, 1) of the given size, and sets `to` to the same number.
 static Fixed random_fixed(uint64_t *seed, int size, mpfr_t to) {
     Fixed r = fixed_from_int(0, size);
     for (int i = 0; i < size; i++)
@@ -49,7 +49,7 @@ static Fixed random_fixed(uint64_t *seed, int size, mpfr_t to) {
 
 static const int sizes[] = {3, 6, 12};
 
-static void test_arithmetic(void **state) {
+static void test_arithmetic_is_within_error(void **state) {
     (void)state;
     uint64_t seed = 1;
     for (int i = 0; i < 3000; i++) {
@@ -99,8 +99,8 @@ static void test_arithmetic(void **state) {
     }
 }
 
-// Rounding against MPFR's: random numbers, ties, results in and below the subnormal range and beyond the largest.
-static void test_rounding(void **state) {
+// Random numbers, ties, subnormal and smaller results, and results that overflow.
+static void test_rounding_matches_mpfr(void **state) {
     (void)state;
     uint64_t seed = 2;
     mpfr_t rounded;
@@ -132,7 +132,7 @@ static void test_rounding(void **state) {
     mpfr_clear(rounded);
 }
 
-static void test_functions(void **state) {
+static void test_functions_are_within_error(void **state) {
     (void)state;
     uint64_t seed = 3;
     double limit = 0x1p16;
@@ -170,7 +170,7 @@ static void test_functions(void **state) {
     }
 }
 
-static void test_turns(void **state) {
+static void test_reduction_is_within_error(void **state) {
     (void)state;
     uint64_t seed = 4;
     mpfr_t pi;
@@ -198,7 +198,8 @@ static void test_turns(void **state) {
 
 int main(void) {
     mpfr_inits2(BITS, a, b, c, d, (mpfr_ptr)0);
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_arithmetic), cmocka_unit_test(test_rounding),
-                                       cmocka_unit_test(test_functions), cmocka_unit_test(test_turns)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_arithmetic_is_within_error), cmocka_unit_test(test_rounding_matches_mpfr),
+        cmocka_unit_test(test_functions_are_within_error), cmocka_unit_test(test_reduction_is_within_error)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

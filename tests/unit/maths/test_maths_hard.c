@@ -1,5 +1,5 @@
-// test_maths_hard.c: arguments that are hard to round, against MPFR: the public functions, the instance without FMA,
-// and the accurate path alone.
+// test_maths_hard.c: arguments that are hard to round, compared with MPFR. Tests the public functions, the variant
+// without FMA and the accurate path alone.
 #include "hard_cases.h"
 #include "model.h"
 
@@ -10,8 +10,8 @@ static const Subject *subject_of(const char *name) {
     return NULL;
 }
 
-// Half-way, but for some 2^-30 to 2^-60 of the last place: each is hard enough to need the accurate path.
-static void test_listed(void **state) {
+// These are 2^-30 to 2^-60 of the last place away from a halfway point, so each needs the accurate path.
+static void test_listed_cases_are_rounded_correctly(void **state) {
     (void)state;
     int wrong = 0;
     for (size_t i = 0; i < COUNT_OF(hard_cases); i++) {
@@ -24,8 +24,8 @@ static void test_listed(void **state) {
     assert_int_equal(wrong, 0);
 }
 
-// Every power of two and its neighbours.
-static void test_powers_of_two(void **state) {
+// All powers of two and their neighbours.
+static void test_powers_of_two_are_rounded_correctly(void **state) {
     (void)state;
     int wrong = 0;
     for (size_t i = 0; i < COUNT_OF(subjects); i++)
@@ -34,14 +34,14 @@ static void test_powers_of_two(void **state) {
                 double x = double_from(bits_from(ldexp(1, e)) + (uint64_t)(int64_t)side);
                 double y = subjects[i].model2 ? ldexp(1 + 0x1p-40 * (e & 63), e % 9) : 0;
                 wrong += wrong_cases(&subjects[i], x, y, e % 8 == 0);
-                if (subjects[i].model2) // pow and atan2 the other way round, too
+                if (subjects[i].model2) // pow and atan2 also with exchanged arguments
                     wrong += wrong_cases(&subjects[i], y, x, e % 8 == 0);
             }
     assert_int_equal(wrong, 0);
 }
 
-// Multiples of pi/2 and the doubles around them: the argument's rest is small, down to 2^-61.
-static void test_quarter_turns(void **state) {
+// Multiples of pi/2 and the doubles near them. The reduced argument is small, down to 2^-61.
+static void test_quarter_turns_are_rounded_correctly(void **state) {
     (void)state;
     int wrong = 0;
     for (int name = 0; name < 3; name++) {
@@ -50,15 +50,15 @@ static void test_quarter_turns(void **state) {
             double x = i * 1.5707963267948966 * (i % 3 == 0 ? ldexp(1, i % 1000) : 1);
             wrong += wrong_cases(subject, x, 0, i % 16 == 0) + wrong_cases(subject, nextafter(x, 0), 0, false);
         }
-        // the double nearest to a multiple of pi/2, relatively (Kahan; Muller)
+        // the double with the smallest relative distance to a multiple of pi/2 (Kahan; Muller)
         wrong += wrong_cases(subject, 0x1.6ac5b262ca1ffp+849, 0, true);
         wrong += wrong_cases(subject, 0x1.921fb54442d18p+0, 0, true);
     }
     assert_int_equal(wrong, 0);
 }
 
-// x^y that is a double, or half-way between two: m^n with up to 64 bits, roots of squares, subnormal results.
-static void test_exact_powers(void **state) {
+// Powers that are exactly a double or halfway between two: m^n with up to 64 bits, roots of squares, subnormal results.
+static void test_exact_powers_are_rounded_correctly(void **state) {
     (void)state;
     const Subject *subject = subject_of("pow");
     int wrong = 0;
@@ -68,13 +68,13 @@ static void test_exact_powers(void **state) {
                 wrong += wrong_cases(subject, ldexp((double)m, e), n, true);
     uint64_t seed = 2;
     for (int i = 0; i < 20000; i++) {
-        // a square of up to 54 bits, that is half of them between two doubles
+        // a square of up to 54 bits; about half of the squares are halfway between two doubles
         double root = (double)(next_bits(&seed) >> (37 + i % 8) | 1);
         wrong += wrong_cases(subject, root, 2, true);
         double fourth = (double)(next_bits(&seed) >> (51 + i % 8) | 1);
         wrong += wrong_cases(subject, fourth * fourth * fourth * fourth, 0.75, true);
         wrong += wrong_cases(subject, fourth * fourth * fourth * fourth, 1.25, true);
-        // half-way between two subnormal numbers: an odd number times 2^-1075
+        // halfway between two subnormal numbers: an odd number times 2^-1075
         wrong += wrong_cases(subject, ldexp((double)(next_bits(&seed) >> 58 | 1), -537) * 0.5, 2, true);
         wrong += wrong_cases(subject, ldexp((double)(next_bits(&seed) >> 50 | 1), -540), 2, true);
     }
@@ -86,7 +86,7 @@ static void test_exact_powers(void **state) {
 }
 
 // Results around the smallest normal number and below, around the largest, and around 1.
-static void test_ends(void **state) {
+static void test_range_limits_are_rounded_correctly(void **state) {
     (void)state;
     int wrong = 0;
     uint64_t seed = 3;
@@ -105,7 +105,7 @@ static void test_ends(void **state) {
         wrong += wrong_cases(subject_of("log"), double_from(next_bits(&seed) >> (12 + i % 50)), 0, exact);
         wrong += wrong_cases(subject_of("log10"), double_from(next_bits(&seed) >> (12 + i % 50)), 0, exact);
     }
-    for (size_t i = 0; i < COUNT_OF(subjects); i++) // any bits
+    for (size_t i = 0; i < COUNT_OF(subjects); i++) // random bits
         for (int k = 0; k < 5000; k++) {
             double x = double_from(next_bits(&seed)), y = double_from(next_bits(&seed));
             wrong += isnan(x) || isnan(y) ? 0 : wrong_cases(&subjects[i], x, y, true);
@@ -115,8 +115,10 @@ static void test_ends(void **state) {
 
 int main(void) {
     model_start();
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_listed), cmocka_unit_test(test_powers_of_two),
-                                       cmocka_unit_test(test_quarter_turns), cmocka_unit_test(test_exact_powers),
-                                       cmocka_unit_test(test_ends)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_listed_cases_are_rounded_correctly),
+                                       cmocka_unit_test(test_powers_of_two_are_rounded_correctly),
+                                       cmocka_unit_test(test_quarter_turns_are_rounded_correctly),
+                                       cmocka_unit_test(test_exact_powers_are_rounded_correctly),
+                                       cmocka_unit_test(test_range_limits_are_rounded_correctly)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

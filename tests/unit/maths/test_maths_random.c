@@ -1,17 +1,17 @@
-// test_maths_random.c: the worked examples of builtins.md B1.2 and B9.
+// test_maths_random.c: the examples of builtins.md B1.2 and B9.
 #include "check.h"
 #include "maths/random.h"
 
 static const uint64_t empty_key = UINT64_C(0xe220a8397b1dcdaf), one_key = UINT64_C(0x03953eea0e693074);
 
-static void test_raw(void **state) {
+static void test_raw_items_match_spec(void **state) {
     (void)state;
     assert_true(random_raw(one_key, 1) == UINT64_C(0x8175f7480693d57d));
     assert_true(random_raw(one_key, 0) == random_raw(one_key, 0));
     assert_true(random_raw(one_key, 1) != random_raw(empty_key, 1));
 }
 
-static void test_hash(void **state) {
+static void test_seed_hash_matches_spec(void **state) {
     (void)state;
     assert_true(RANDOM_HASH_START == empty_key);
     assert_true(random_hash_step(RANDOM_HASH_START, random_hash_number(1)) == one_key);
@@ -30,7 +30,7 @@ static void test_hash(void **state) {
         assert_true(random_hash_number(rows[i].x) == rows[i].bits);
 }
 
-static void test_uniform(void **state) {
+static void test_uniform_items_match_spec(void **state) {
     (void)state;
     static const double from_empty[] = {0.11377270426292592, 0.12216453115897499, 0.16838215125240424,
                                         0.0731532577968758};
@@ -48,7 +48,7 @@ static void test_uniform(void **state) {
         assert_number("uniform(1)", random_uniform(one_key, rows[i].i), rows[i].x);
 }
 
-static void test_beta_and_normal(void **state) {
+static void test_beta_and_normal_items_match_spec(void **state) {
     (void)state;
     assert_number("beta()[0]", random_beta(empty_key, 0), 0.12216453115897499);
     assert_number("beta(1)[0]", random_beta(one_key, 0), 0.3236437711805903);
@@ -57,7 +57,7 @@ static void test_beta_and_normal(void **state) {
     for (size_t i = 0; i < COUNT_OF(normal); i++)
         assert_number("normal(1)", random_normal(one_key, i), normal[i]);
     assert_number("normal()[0]", random_normal(empty_key, 0), 1.5003277345391304);
-    for (uint64_t i = 0; i < 10000; i++) { // the median of three, whatever their order
+    for (uint64_t i = 0; i < 10000; i++) { // the median of three numbers in any order
         double a = random_uniform(one_key, 4 * i), b = random_uniform(one_key, 4 * i + 1),
                c = random_uniform(one_key, 4 * i + 2), m = random_beta(one_key, i);
         assert_true(m == a || m == b || m == c);
@@ -66,7 +66,7 @@ static void test_beta_and_normal(void **state) {
     }
 }
 
-static void test_quarter_turns(void **state) {
+static void test_quarter_turns_are_exact(void **state) {
     (void)state;
     static const double sines[] = {0, 1, -0.0, -1}, cosines[] = {1, -0.0, -1, 0};
     for (int k = 0; k < 1000; k++) {
@@ -82,7 +82,7 @@ static void test_quarter_turns(void **state) {
     assert_number("-inf", turns_cos(-INFINITY), NAN);
 }
 
-// B1.2 by way of remquo, to the bit.
+// The definition in B1.2, computed with remquo.
 static double sine_by_remquo(double t) {
     if (t < 0)
         return -sine_by_remquo(-t);
@@ -92,13 +92,13 @@ static double sine_by_remquo(double t) {
     return quadrant & 2 ? -part : part;
 }
 
-static void test_sine_of_turns(void **state) {
+static void test_sine_of_turns_matches_remquo(void **state) {
     (void)state;
     static const double scales[] = {1e-300, 1e-3, 1, 50, 1e6, 2e8, 3e8, 1e15, 1e17, 1e300};
     for (size_t k = 0; k < COUNT_OF(scales); k++)
         for (uint64_t i = 0; i < 2000; i++) {
             double t = (random_uniform(k, i) - 0.5) * scales[k];
-            t = i % 3 ? t : rint(t * 8) / 8; // ties and quarters
+            t = i % 3 ? t : rint(t * 8) / 8; // ties and quarter turns
             double found = turns_sin(t), wanted = sine_by_remquo(t);
             assert_memory_equal(&found, &wanted, sizeof found);
         }
@@ -111,12 +111,9 @@ static void test_sine_of_turns(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sine_of_turns),
-        cmocka_unit_test(test_raw),
-        cmocka_unit_test(test_hash),
-        cmocka_unit_test(test_uniform),
-        cmocka_unit_test(test_beta_and_normal),
-        cmocka_unit_test(test_quarter_turns),
+        cmocka_unit_test(test_sine_of_turns_matches_remquo),     cmocka_unit_test(test_raw_items_match_spec),
+        cmocka_unit_test(test_seed_hash_matches_spec),           cmocka_unit_test(test_uniform_items_match_spec),
+        cmocka_unit_test(test_beta_and_normal_items_match_spec), cmocka_unit_test(test_quarter_turns_are_exact),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-// test_maths_same.c: the bits of many results, as one number per function. They follow from mathematics: any compiler,
-// with any optimisation, on any processor, with and without fused multiply-add, must find the same.
+// test_maths_same.c: hashes of the bits of many results per function. They must be the same with every compiler,
+// optimisation level and processor, with and without fused multiply-add.
 #include "check.h"
 #include "maths/fast.h"
 #include "maths/maths.h"
@@ -10,7 +10,7 @@ typedef struct Row {
     const char *name;
     double (*one[2])(double);
     double (*two[2])(double, double);
-    double low, high; // of the exponent of x
+    double low, high; // range of the exponent of x
     uint64_t wanted;
 } Row;
 
@@ -19,7 +19,7 @@ typedef struct Row {
 #define TWO_ROW(name, low, high, wanted)                                                                               \
     { #name, {NULL, NULL }, {maths_##name, maths_##name##_plain }, low, high, wanted }
 
-// Recorded where MPFR agreed with each result (maths_sweep).
+// Recorded on a machine where MPFR agreed with every result (maths_sweep).
 static const Row rows[] = {
     ONE_ROW(sin, -30, 1024, UINT64_C(0x6075d5a4b4ff1d9b)),     ONE_ROW(cos, -30, 1024, UINT64_C(0xfe856a941cb9a536)),
     ONE_ROW(tan, -30, 1024, UINT64_C(0xe71220ce60cf4fa5)),     ONE_ROW(asin, -30, 0, UINT64_C(0x47bc6410a449ba46)),

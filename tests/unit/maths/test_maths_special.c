@@ -1,4 +1,4 @@
-// test_maths_special.c: C17 Annex F, with the bits that each row must have; no reference is needed.
+// test_maths_special.c: special values of C17 Annex F, compared bit by bit without a reference library.
 #include "check.h"
 #include "maths/fast.h"
 #include "maths/maths.h"
@@ -28,7 +28,7 @@ typedef struct RowTwo {
     { #name "(" #x ", " #y ")", ALL_OF(name), x, y, wanted }
 
 static const RowOne one_rows[] = {
-    // sine, cosine, tangent: F.10.1.5 … 7
+    // sine, cosine, tangent: F.10.1.5 to 7
     ONE_ROW(sin, 0.0, 0.0),
     ONE_ROW(sin, -0.0, -0.0),
     ONE_ROW(sin, INF, NAN),
@@ -52,7 +52,7 @@ static const RowOne one_rows[] = {
     ONE_ROW(tan, -TINY, -TINY),
     ONE_ROW(tan, PI / 2, 0x1.d02967c31cdb5p+53),
     ONE_ROW(tan, PI / 4, 0x1.fffffffffffffp-1),
-    // arcs: F.10.1.1 … 2
+    // asin and acos: F.10.1.1 and 2
     ONE_ROW(asin, 0.0, 0.0),
     ONE_ROW(asin, -0.0, -0.0),
     ONE_ROW(asin, 1.0, PI / 2),
@@ -134,7 +134,7 @@ static const RowTwo two_rows[] = {
     TWO_ROW(atan2, NAN, 1.0, NAN),
     TWO_ROW(atan2, 1.0, NAN, NAN),
     TWO_ROW(atan2, NAN, INF, NAN),
-    // ratios that vanish: y / x rounded once, and a little less than a border goes down
+    // tiny ratios: y / x rounded once; halfway cases are rounded down, because the arc tangent is smaller
     TWO_ROW(atan2, TINY, 1.0, TINY),
     TWO_ROW(atan2, TINY, 2.0, 0.0),
     TWO_ROW(atan2, 3 * TINY, 2.0, TINY),
@@ -179,13 +179,13 @@ static const RowTwo two_rows[] = {
     TWO_ROW(pow, INF, 1.0, INF),
     TWO_ROW(pow, NAN, 1.0, NAN),
     TWO_ROW(pow, 2.0, NAN, NAN),
-    // a number without a fraction is even from 2^53 on
+    // all doubles from 2^53 are even integers
     TWO_ROW(pow, -1.0, 0x1p+53, 1.0),
     TWO_ROW(pow, -1.0, 0x1.fffffffffffffp+52, -1.0),
     TWO_ROW(pow, -1.0, HUGE, 1.0),
     TWO_ROW(pow, -2.0, 3.0, -8.0),
     TWO_ROW(pow, -2.0, -2.0, 0.25),
-    // exact cases, and those that lie between two doubles: to the even one
+    // exact results, and halfway cases, which are rounded to even
     TWO_ROW(pow, 9.0, 0.5, 3.0),
     TWO_ROW(pow, 9.0, 1.5, 27.0),
     TWO_ROW(pow, 54.125, 2.0, 2929.515625),
@@ -200,7 +200,7 @@ static const RowTwo two_rows[] = {
     TWO_ROW(pow, 10.0, 0.3, 1.9952623149688795),
     TWO_ROW(pow, 2.5, 1.5, 3.952847075210474),
     TWO_ROW(pow, 10.0, 22.0, 1e22),
-    // ends of the range
+    // overflow and underflow
     TWO_ROW(pow, HUGE, 1.0, HUGE),
     TWO_ROW(pow, TINY, 1.0, TINY),
     TWO_ROW(pow, TINY, -1.0, INF),
@@ -230,8 +230,8 @@ static void test_binary_special_values(void **state) {
             assert_number(two_rows[i].text, two_rows[i].functions[k](two_rows[i].x, two_rows[i].y), two_rows[i].wanted);
 }
 
-// A nan that a function makes has no sign, so that its bits are the same on every processor.
-static void test_made_nan(void **state) {
+// NaN results from other arguments have no sign, so that their bits are the same on every processor.
+static void test_new_nan_has_no_sign(void **state) {
     (void)state;
     const double made[] = {maths_sin(INF), maths_tan(-INF), maths_asin(2),
                            maths_acos(-2), maths_log(-1),   maths_pow(-2, 0.5)};
@@ -241,8 +241,8 @@ static void test_made_nan(void **state) {
     }
 }
 
-// Odd and even, exactly.
-static void test_symmetry(void **state) {
+// Odd and even functions are exactly symmetric.
+static void test_functions_are_symmetric(void **state) {
     (void)state;
     uint64_t seed = 4;
     for (int i = 0; i < 20000; i++) {
@@ -258,8 +258,8 @@ static void test_symmetry(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_unary_special_values),
-                                       cmocka_unit_test(test_binary_special_values), cmocka_unit_test(test_made_nan),
-                                       cmocka_unit_test(test_symmetry)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_unary_special_values), cmocka_unit_test(test_binary_special_values),
+        cmocka_unit_test(test_new_nan_has_no_sign), cmocka_unit_test(test_functions_are_symmetric)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

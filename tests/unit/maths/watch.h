@@ -1,16 +1,16 @@
-// watch.h: the scalar functions once more, with a look at what their fast paths decide (watched.c, without and with
+// watch.h: variants of the scalar functions that record the decisions of their fast paths (watched.c, without and with
 // FMA).
 #ifndef PETRI_TESTS_MATHS_WATCH_H
 #define PETRI_TESTS_MATHS_WATCH_H
 
 #include "model.h"
 
-// Of one instance: the last decision, and what came of all.
+// The last decision of a variant, and statistics of all.
 typedef struct Watch {
     double high, low, error;
     bool asked;
     uint64_t cases, undecided;
-    double worst; // the largest error as a share of its bound
+    double worst; // largest error relative to its bound
 } Watch;
 
 static Watch watch_state[2];
@@ -24,7 +24,7 @@ static inline void watch_decision(double high, double low, double error, int ins
 
 typedef struct Watched {
     const char *name;
-    bool positive; // arguments x < 0 make no sense
+    bool positive; // x must not be negative
     One one[2];
     Two two[2];
 } Watched;
@@ -39,7 +39,7 @@ MATHS_FUNCTIONS(WATCH_ONE, WATCH_TWO)
 #undef WATCH_ONE
 #undef WATCH_TWO
 
-// Where an instance tells its decisions.
+// Called with each decision of a variant.
 extern void (*watch_hook0)(double high, double low, double error, int instance);
 extern void (*watch_hook1)(double high, double low, double error, int instance);
 
@@ -53,7 +53,8 @@ static inline void watch_start(void) {
     watch_hook0 = watch_hook1 = watch_decision;
 }
 
-// |high + low| 2^k - |f(x, y)|, over the bound; k takes out the scale that exp and pow add only at the end.
+// Returns the error of the last decision relative to its bound. exp and pow apply their scale 2^k only afterwards, so
+// f(x, y) is scaled first.
 static inline double watch_error_ratio(const Subject *subject, const Watch *watch, double x, double y) {
     mpfr_t scale, f, sum;
     mpfr_inits2(200, scale, f, sum, (mpfr_ptr)0);
@@ -72,7 +73,7 @@ static inline double watch_error_ratio(const Subject *subject, const Watch *watc
     return share;
 }
 
-// Asks both instances, and measures their error if `measure` is set and the result is a normal number.
+// Calls both variants. Measures their error if `measure` is set and the result is a normal number.
 static inline void watch_next(const Subject *subject, const Watched *watched, double x, double y, bool measure) {
     for (int i = 0; i < 2; i++) {
         Watch *watch = &watch_state[i];
@@ -82,7 +83,7 @@ static inline void watch_next(const Subject *subject, const Watched *watched, do
         bool decided =
             watch->asked && watch->high + (watch->low + watch->error) == watch->high + (watch->low - watch->error);
         watch->undecided += !decided;
-        // What is decided for a subnormal x of a logarithm is not taken.
+        // Decisions for a subnormal x of a logarithm are ignored, because log_lanes rejects them.
         if (!measure || !watch->asked || !isnormal(r) || (watched->positive && x < 0x1p-1022))
             continue;
         double share = watch_error_ratio(subject, watch, x, y);

@@ -1,4 +1,4 @@
-// watched.c: an instance of the scalar functions that tells what it decides. WATCHED is its number.
+// watched.c: a variant of the scalar functions that records its decisions (watch.h). WATCHED is its index.
 #include "maths/fast.h"
 
 #define JOIN_NAME(name, number) name##number

@@ -1,4 +1,4 @@
-// test_state_compact.c: dropping the slots of keys that are gone.
+// test_state_compact.c: removal of the slots of removed keys.
 #include "state/state.h"
 
 #include <setjmp.h>
@@ -24,8 +24,8 @@ static double second_of(const State *state, double key) {
     return v.len == 2 ? v.as.numbers[1] : -1;
 }
 
-// Every third key goes; of the slots that become free, one is still held by somebody.
-static void test_compact(void **unused) {
+// Removes every third key. One of the freed slots is still in use.
+static void test_compact_keeps_used_slots_in_order(void **unused) {
     (void)unused;
     State *state = filled();
     for (int i = 0; i < COUNT; i += 3)
@@ -44,7 +44,7 @@ static void test_compact(void **unused) {
     assert_int_equal(state_find(state, value_number(31)), moved[other]);
     for (int i = 0; i < COUNT; i++)
         assert_true(second_of(state, i) == (i % 3 ? i + 0.5 : -1));
-    // The order is the old one, and new keys come after it.
+    // The order is unchanged, and new keys come last.
     assert_true(state_set(state, value_number(-1), value_number(7)));
     uint32_t cursor = 0;
     double last = 0;
@@ -59,7 +59,7 @@ static void test_compact(void **unused) {
     state_free(state);
 }
 
-static void test_compact_everything(void **unused) {
+static void test_compact_removes_all_unused_slots(void **unused) {
     (void)unused;
     State *state = filled();
     for (int i = 0; i < COUNT; i++)
@@ -74,6 +74,7 @@ static void test_compact_everything(void **unused) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_compact), cmocka_unit_test(test_compact_everything)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_compact_keeps_used_slots_in_order),
+                                       cmocka_unit_test(test_compact_removes_all_unused_slots)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-// test_state_dictionary.c: keys, slots and order of the state (language.md L11).
+// test_state_dictionary.c: keys, slots and order of the state dictionary (language.md L11).
 #include "state/state.h"
 #include "values.h"
 
@@ -35,7 +35,7 @@ static const char *get_text(Fixture *fixture, const char *key) {
     return show(fixture->world, state_get(fixture->state, read_value(fixture->world, key)));
 }
 
-// All entries in their order, as `key=value key=value`.
+// Returns all entries in order, as `key=value key=value`.
 static const char *listing(Fixture *fixture) {
     Text text = text_new(&fixture->world->arena);
     uint32_t cursor = 0, count = 0;
@@ -52,7 +52,7 @@ static const char *listing(Fixture *fixture) {
     return text_c(&text);
 }
 
-static void test_empty(void **state) {
+static void test_empty_state_has_no_values(void **state) {
     Fixture *fixture = *state;
     assert_text("nothing", get_text(fixture, ":a"), "null");
     assert_text("null key", get_text(fixture, "null"), "null");
@@ -62,7 +62,7 @@ static void test_empty(void **state) {
     state_free(NULL);
 }
 
-static void test_insertion_order(void **state) {
+static void test_entries_keep_insertion_order(void **state) {
     Fixture *fixture = *state;
     put_text(fixture, ":z", "1");
     put_text(fixture, ":a;1", "2;3");
@@ -71,13 +71,13 @@ static void test_insertion_order(void **state) {
     assert_text("order", listing(fixture), ":z=1 :a;1=2;3 's'='t' 5=4");
     put_text(fixture, ":z", "9");
     put_text(fixture, ":a;1", "1;2;3");
-    assert_text("writing again moves nothing", listing(fixture), ":z=9 :a;1=1;2;3 's'='t' 5=4");
+    assert_text("writing again keeps the order", listing(fixture), ":z=9 :a;1=1;2;3 's'='t' 5=4");
     put_text(fixture, ":a;1", "null");
     assert_text("removed", listing(fixture), ":z=9 's'='t' 5=4");
     assert_text("removed", get_text(fixture, ":a;1"), "null");
 }
 
-static void test_key_equality(void **state) {
+static void test_keys_match_exactly(void **state) {
     Fixture *fixture = *state;
     static const char *const keys[] = {
         "0",  "-0",     "1",      "1.5", "1;2",     "2;1",  "1;2;3", "'1'",  "'a'",
@@ -96,7 +96,7 @@ static void test_key_equality(void **state) {
     assert_text("no rounding", get_text(fixture, "1.4999999999999998"), "null");
 }
 
-static void test_invalid_keys(void **state) {
+static void test_invalid_keys_are_ignored(void **state) {
     Fixture *fixture = *state;
     static const char *const keys[] = {"nan", "1;nan", "!a", "1;!a", "uniform:1"};
     for (size_t i = 0; i < COUNT_OF(keys); i++) {
@@ -113,8 +113,8 @@ static void test_invalid_keys(void **state) {
     assert_true(state_key_valid(VALUE_NULL));
 }
 
-// A value that compares equal to the stored one leaves the stored one.
-static void test_equal_values_stay(void **state) {
+// Writing a value equal to the stored one does not change the stored one.
+static void test_equal_values_are_not_replaced(void **state) {
     Fixture *fixture = *state;
     static const struct {
         const char *first, *then, *wanted;
@@ -143,8 +143,8 @@ static void test_equal_values_stay(void **state) {
     }
 }
 
-// Numbers of unchanged length are overwritten where they are.
-static void test_in_place(void **state) {
+// Numbers are overwritten in place if their count does not change.
+static void test_numbers_are_overwritten_in_place(void **state) {
     Fixture *fixture = *state;
     StateSlot slot = state_slot(fixture->state, read_value(fixture->world, ":p"));
     double numbers[] = {1, 2, 3};
@@ -159,7 +159,7 @@ static void test_in_place(void **state) {
     }
 }
 
-static void test_slots(void **state) {
+static void test_slots_stay_valid(void **state) {
     Fixture *fixture = *state;
     enum { COUNT = 5000 };
     StateSlot slots[COUNT];
@@ -167,11 +167,11 @@ static void test_slots(void **state) {
         double key[] = {symbol_of(fixture->world, "cells"), i};
         slots[i] = state_slot(fixture->state, value_numbers_view(key, 2));
         assert_int_not_equal(slots[i], STATE_NO_SLOT);
-        assert_int_equal(state_count(fixture->state), i / 2); // a slot without value is no entry
+        assert_int_equal(state_count(fixture->state), i / 2); // a slot without a value is not an entry
         if (i % 2)
             assert_true(state_slot_set(fixture->state, slots[i], value_number(i)));
     }
-    for (int i = 0; i < COUNT; i++) { // the same after growth
+    for (int i = 0; i < COUNT; i++) { // still found after growth
         double key[] = {symbol_of(fixture->world, "cells"), i};
         Value k = value_numbers_view(key, 2);
         assert_int_equal(state_slot(fixture->state, k), slots[i]);
@@ -181,14 +181,14 @@ static void test_slots(void **state) {
     }
     assert_true(state_slot_set(fixture->state, slots[1], VALUE_NULL));
     assert_int_equal(state_count(fixture->state), COUNT / 2 - 1);
-    assert_true(state_slot_set(fixture->state, slots[1], value_number(-1))); // the slot is still good
+    assert_true(state_slot_set(fixture->state, slots[1], value_number(-1))); // the slot is still valid
     assert_true(value_equal(NULL, state_slot_get(fixture->state, slots[1]), value_number(-1)));
     assert_false(state_slot_set(fixture->state, STATE_NO_SLOT, value_number(1)));
     assert_true(value_is_null(state_slot_get(fixture->state, STATE_NO_SLOT)));
 }
 
-// Keys and values are the state's own.
-static void test_copies(void **state) {
+// The state has its own copies of keys and values.
+static void test_keys_and_values_are_copied(void **state) {
     Fixture *fixture = *state;
     Arena other;
     arena_init(&other, "other", SIZE_MAX);
@@ -203,7 +203,7 @@ static void test_copies(void **state) {
     assert_text("key", listing(fixture), "'key';'';3='a longer text than fits anywhere inline'");
 }
 
-static void test_clear(void **state) {
+static void test_clear_removes_all_entries(void **state) {
     Fixture *fixture = *state;
     put_text(fixture, ":a", "1;2");
     put_text(fixture, "'b'", "'c'");
@@ -215,8 +215,8 @@ static void test_clear(void **state) {
     assert_text("new", listing(fixture), "'b'=7");
 }
 
-// Random writes and removals against a plain array.
-static void test_against_a_model(void **state) {
+// Random writes and removals, compared with an array.
+static void test_state_matches_model(void **state) {
     Fixture *fixture = *state;
     enum { KEYS = 200 };
     double model[KEYS] = {0};
@@ -237,16 +237,16 @@ static void test_against_a_model(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        STATE_TEST(test_empty),
-        STATE_TEST(test_insertion_order),
-        STATE_TEST(test_key_equality),
-        STATE_TEST(test_invalid_keys),
-        STATE_TEST(test_equal_values_stay),
-        STATE_TEST(test_in_place),
-        STATE_TEST(test_slots),
-        STATE_TEST(test_copies),
-        STATE_TEST(test_clear),
-        STATE_TEST(test_against_a_model),
+        STATE_TEST(test_empty_state_has_no_values),
+        STATE_TEST(test_entries_keep_insertion_order),
+        STATE_TEST(test_keys_match_exactly),
+        STATE_TEST(test_invalid_keys_are_ignored),
+        STATE_TEST(test_equal_values_are_not_replaced),
+        STATE_TEST(test_numbers_are_overwritten_in_place),
+        STATE_TEST(test_slots_stay_valid),
+        STATE_TEST(test_keys_and_values_are_copied),
+        STATE_TEST(test_clear_removes_all_entries),
+        STATE_TEST(test_state_matches_model),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

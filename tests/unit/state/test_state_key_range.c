@@ -1,5 +1,4 @@
-// test_state_key_range.c: keys of particles whose ids count up have no entries of their own, which nothing shows but
-// memory.
+// test_state_key_range.c: key ranges behave exactly like separate entries, except that they use less memory.
 #include "base/budget.h"
 #include "state/state.h"
 
@@ -32,8 +31,8 @@ static void add_pairs(State *state, int first, int count) {
         assert_int_not_equal(state_slot(state, key_of(first + i / 2, i % 2, buffer)), STATE_NO_SLOT);
 }
 
-// However long the series is, it takes no memory until somebody asks for keys or writes an entry of his own.
-static void test_memory(void **unused) {
+// A range needs no memory, whatever its length, until a key is requested or a separate entry is written.
+static void test_range_needs_no_memory(void **unused) {
     enum { MANY = 100000 };
     (void)unused;
     Budget budget = {.memory_limit = SIZE_MAX};
@@ -50,7 +49,7 @@ static void test_memory(void **unused) {
         assert_true(key.len == 2 + seen % 2 && key.as.numbers[1] == seen / 2);
     assert_int_equal(seen, 2 * MANY);
     assert_true(budget.memory < MANY);
-    // Without memory for entries nothing changes.
+    // Without memory for the entries nothing changes.
     budget.memory_limit = budget.memory + MANY;
     assert_false(state_slot_set(state, 7, value_number(1)));
     assert_true(state_clear_exhausted(state));
@@ -66,8 +65,8 @@ static void test_memory(void **unused) {
     free(rows);
 }
 
-// A key is one of a series to the bit, or not at all.
-static void test_keys(void **unused) {
+// A key belongs to a range only if all its bits match.
+static void test_range_keys_match_exactly(void **unused) {
     (void)unused;
     State *state = state_new(NULL);
     double buffer[3];
@@ -79,7 +78,8 @@ static void test_keys(void **unused) {
     assert_int_equal(state_find(state, value_numbers_view((double[]){PREFIX + 1, 1}, 2)), STATE_NO_SLOT);
     assert_int_equal(state_slot(state, key_of(-0.0, false, buffer)), SLOTS);
     assert_int_equal(state_slot(state, value_number(PREFIX)), SLOTS + 1);
-    assert_int_equal(state_slot(state, key_of(PAIRS, false, buffer)), SLOTS + 2); // after others: no more of the series
+    assert_int_equal(state_slot(state, key_of(PAIRS, false, buffer)),
+                     SLOTS + 2); // after other keys it no longer belongs to the range
     assert_int_equal(slot_of(state, 0, false), 0);
     assert_int_equal(slot_of(state, PAIRS, false), SLOTS + 2);
     assert_true(state_slot_last_number(state, 5, 2) != state_slot_last_number(state, 5, 2));
@@ -89,13 +89,13 @@ static void test_keys(void **unused) {
     state_free(state);
 }
 
-// A series may begin with the key -0, which is not the key 0.
-static void test_series_from_negative_zero(void **unused) {
+// A range may start with the id -0, which is different from 0.
+static void test_range_may_start_at_negative_zero(void **unused) {
     enum { FIRST = 2 };
     (void)unused;
     State *state = state_new(NULL);
     double buffer[STATE_KEY_BUFFER];
-    for (int i = 0; i < FIRST; i++) // a series can begin only after other entries
+    for (int i = 0; i < FIRST; i++) // a range can start only after other entries
         assert_int_equal(state_slot(state, value_number(i)), i);
     for (int i = 0; i < SLOTS; i++)
         assert_int_equal(state_slot(state, key_of(i < 2 ? -0.0 : i / 2, i % 2, buffer)), FIRST + i);
@@ -109,13 +109,13 @@ static void test_series_from_negative_zero(void **unused) {
     state_free(state);
 }
 
-// What the dictionary should hold.
+// The expected contents of the dictionary.
 typedef struct Model {
     State *state;
     StateOwner owner;
-    double rows[2][SLOTS * NUMBERS]; // that were lent last, and before
+    double rows[2][SLOTS * NUMBERS]; // current and previous array of the owner
     int turn;
-    StateSlot slots[SLOTS]; // by key; STATE_NO_SLOT: gone
+    StateSlot slots[SLOTS]; // by key; STATE_NO_SLOT: removed
     double values[SLOTS][NUMBERS];
     bool has[SLOTS];
 } Model;
@@ -148,7 +148,7 @@ static void reference_numbers(Model *model, uint32_t from, uint32_t to) {
         model->has[i] = true;
         state_slot_reference(model->state, model->slots[i], model->owner, rows + (size_t)NUMBERS * i, NUMBERS);
     }
-    // What was lent before goes, as at the end of a frame: who still has it gets a copy.
+    // The previous array becomes invalid, as at the end of a frame. Slots that still reference it are detached.
     for (uint32_t i = 0; i < SLOTS; i++)
         if (i < from || i >= to)
             assert_true(state_slot_detach(model->state, model->slots[i], model->owner));
@@ -178,8 +178,8 @@ static void set_value(Model *model, uint32_t i, bool value) {
     model->has[i] = value;
 }
 
-// Whatever is done to a series, its keys and values are those of so many entries.
-static void test_random_operations(void **unused) {
+// After random operations a range has the same keys and values as separate entries.
+static void test_range_matches_entries(void **unused) {
     (void)unused;
     srand(1);
     for (int round = 0; round < ROUNDS; round++) {
@@ -210,10 +210,10 @@ static void test_random_operations(void **unused) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_memory),
-        cmocka_unit_test(test_keys),
-        cmocka_unit_test(test_series_from_negative_zero),
-        cmocka_unit_test(test_random_operations),
+        cmocka_unit_test(test_range_needs_no_memory),
+        cmocka_unit_test(test_range_keys_match_exactly),
+        cmocka_unit_test(test_range_may_start_at_negative_zero),
+        cmocka_unit_test(test_range_matches_entries),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-// test_state_views.c: entries that show numbers where somebody else keeps them (state.h).
+// test_state_views.c: entries that reference the numbers of an owner (state.h).
 #include "state/state.h"
 
 #include <setjmp.h>
@@ -27,7 +27,7 @@ static double second(const Fixture *f) {
     return v.len == 2 ? v.as.numbers[1] : -1;
 }
 
-static void test_reference(void **unused) {
+static void test_reference_shows_owners_numbers(void **unused) {
     (void)unused;
     Fixture f = new_fixture();
     assert_int_not_equal(f.owner, 0);
@@ -41,11 +41,11 @@ static void test_reference(void **unused) {
     state_slot_reference(f.state, f.slot, f.owner, elsewhere, 2);
     assert_true(second(&f) == 9);
     assert_true(state_slot_references(f.state, f.slot, f.owner));
-    assert_false(state_clear_modified(f.state, f.owner)); // its own doing
+    assert_false(state_clear_modified(f.state, f.owner)); // its own reference does not count
     state_free(f.state);
 }
 
-static void test_detach(void **unused) {
+static void test_detach_copies_numbers(void **unused) {
     (void)unused;
     Fixture f = new_fixture();
     state_slot_reference(f.state, f.slot, f.owner, f.numbers, 2);
@@ -54,11 +54,11 @@ static void test_detach(void **unused) {
     f.numbers[1] = 3;
     assert_true(second(&f) == 2);
     assert_false(state_clear_modified(f.state, f.owner));
-    assert_true(state_slot_detach(f.state, f.slot, f.owner)); // nothing to do
+    assert_true(state_slot_detach(f.state, f.slot, f.owner)); // already detached
     state_free(f.state);
 }
 
-static void test_modified(void **unused) {
+static void test_other_writes_mark_owner_modified(void **unused) {
     (void)unused;
     const double other[2] = {1, 5}, same[2] = {1, 2};
     for (int way = 0; way < 5; way++) {
@@ -75,21 +75,22 @@ static void test_modified(void **unused) {
         else if (way == 3)
             state_slot_set(f.state, f.slot, value_number(4));
         else
-            state_set(f.state, value_number(7), value_numbers_view(same, 2)); // leaves what is there
+            state_set(f.state, value_number(7),
+                      value_numbers_view(same, 2)); // changes nothing, because the values are equal
         if (way == 2 || way == 3)
             wanted = -1;
         else if (way == 4)
             wanted = 2;
         assert_true(second(&f) == wanted);
-        assert_true(f.numbers[0] == 1 && f.numbers[1] == 2); // nobody writes through a view
+        assert_true(f.numbers[0] == 1 && f.numbers[1] == 2); // the owner's numbers are never written
         assert_int_equal(state_clear_modified(f.state, f.owner), way < 4);
-        assert_false(state_clear_modified(f.state, f.owner)); // told once
+        assert_false(state_clear_modified(f.state, f.owner)); // reported once
         assert_int_equal(state_count(f.state), way != 2);
         state_free(f.state);
     }
 }
 
-static void test_compact_and_clear(void **unused) {
+static void test_compact_keeps_and_clear_ends_references(void **unused) {
     (void)unused;
     Fixture f = new_fixture();
     StateSlot gone = state_slot(f.state, value_number(1)), moved[3];
@@ -112,10 +113,10 @@ static void test_compact_and_clear(void **unused) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_reference),
-        cmocka_unit_test(test_detach),
-        cmocka_unit_test(test_modified),
-        cmocka_unit_test(test_compact_and_clear),
+        cmocka_unit_test(test_reference_shows_owners_numbers),
+        cmocka_unit_test(test_detach_copies_numbers),
+        cmocka_unit_test(test_other_writes_mark_owner_modified),
+        cmocka_unit_test(test_compact_keeps_and_clear_ends_references),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

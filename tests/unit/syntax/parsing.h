@@ -1,4 +1,4 @@
-// parsing.h: programs given as text, their trees and their complaints as text.
+// parsing.h: helpers that parse a text and return its syntax tree or errors as text.
 #ifndef PETRI_TESTS_PARSING_H
 #define PETRI_TESTS_PARSING_H
 
@@ -22,7 +22,7 @@ static inline Parsed parse_str(World *world, Str text) {
 static inline bool accepts_str(World *world, Str text) {
     Parsed parsed = parse_str(world, text);
     bool accepted = parsed.ast != NULL;
-    assert_true(accepted == (parsed.diags.error_count == 0)); // never rejected without a word
+    assert_true(accepted == (parsed.diags.error_count == 0)); // a rejected program has an error
     diag_sink_free(&parsed.diags);
     return accepted;
 }
@@ -31,7 +31,7 @@ static inline bool accepts(World *world, const char *text) {
     return accepts_str(world, str_from(text));
 }
 
-// `(kind name child child)`, a literal as it prints, a missing child as `_`: the shape of a tree on one line.
+// Appends a tree on one line as `(kind name child child)`. Literals appear as printed, missing children as `_`.
 static inline void add_shape(World *world, Text *out, const Ast *ast) {
     if (!ast) {
         text_add_c(out, "_");
@@ -54,7 +54,7 @@ static inline void add_shape(World *world, Text *out, const Ast *ast) {
         text_add_char(out, ')');
 }
 
-// The statements' shapes, joined by spaces; "rejected" if the program is.
+// Returns the trees of all statements, separated by spaces, or "rejected".
 static inline const char *shape(World *world, const char *program) {
     Parsed parsed = parse_str(world, str_from(program));
     Text out = text_new(&world->arena);
@@ -69,7 +69,7 @@ static inline const char *shape(World *world, const char *program) {
     return text_c(&out);
 }
 
-// `line:column: text` of each complaint, with its hint after a `|`, one a line.
+// Returns the errors as `line:column: text | hint`, one per line.
 static inline const char *complaints(World *world, Str program) {
     Parsed parsed = parse_str(world, program);
     Text out = text_new(&world->arena);

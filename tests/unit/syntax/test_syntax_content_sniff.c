@@ -1,7 +1,7 @@
-// test_syntax_content_sniff.c: files that are no scripts get one message; scripts keep all of theirs.
+// test_syntax_content_sniff.c: a file that is not a script gives a single error; a script keeps all its errors.
 #include "parsing.h"
 
-// All messages of a file with this name, a line each.
+// Returns the messages for a file of this name, one per line.
 static const char *reports_of(World *world, const char *name, const char *path, Str bytes) {
     const Source *source = source_new(&world->arena, str_from(name), str_from(path), bytes);
     DiagSink diags = diag_sink_new(&world->arena, 50);
@@ -22,7 +22,7 @@ static void check_bytes(World *world, Str bytes, const char *wanted) {
     assert_text(wanted, reports_of(world, "x.fl", "/x.fl", bytes), wanted);
 }
 
-static void test_encodings(void **state) {
+static void test_other_encodings_are_named(void **state) {
     World *world = *state;
     check_bytes(world, STR("\xff\xfe!\0n\0\n\0"), "'x.fl' is UTF-16 text: save it as UTF-8\n");
     check_bytes(world, STR("\xfe\xff\0!\0n\0\n"), "'x.fl' is UTF-16 text: save it as UTF-8\n");
@@ -32,17 +32,17 @@ static void test_encodings(void **state) {
     check_bytes(world, STR("\xef\xbb\xbf!n a=1\n"), "");
 }
 
-static void test_binary(void **state) {
+static void test_binary_file_gives_one_error(void **state) {
     World *world = *state;
     check_bytes(world,
                 STR("\x7f"
                     "ELF\2\1\1\0\0\0\x80\xff\n\0"),
                 "'x.fl' is a binary file, not a script\n");
     check_bytes(world, STR("!n\0\n!m\0\n!k\0\n"), "'x.fl' is a binary file, not a script\n");
-    check_bytes(world, STR("-- a\0b\n!n a='x\0y'\n"), ""); // where any character may stand
+    check_bytes(world, STR("-- a\0b\n!n a='x\0y'\n"), ""); // NUL is allowed in comments and strings
 }
 
-static void test_other_texts(void **state) {
+static void test_other_text_gives_one_error(void **state) {
     World *world = *state;
     Str table = STR("root:x:0\nbin:y:1\n\nmail:z:2\n");
     const char *sum = "1: not a Flitter script? 3 of 3 lines are invalid; first: "
@@ -54,19 +54,19 @@ static void test_other_texts(void **state) {
     assert_non_null(strstr(all, "2: unexpected symbol :y\n"));
     assert_text("a prompt", reports_of(world, "prompt", "prompt", table), all);
     Str begun = STR("#!/usr/bin/env petri\n)\n)\n)\n");
-    assert_text("it says what it is", reports_of(world, "tool", "/bin/tool", begun),
+    assert_text("a hashbang marks a script", reports_of(world, "tool", "/bin/tool", begun),
                 "2: unexpected ')'\n3: unexpected ')'\n4: unexpected ')'\n");
     Str few = STR("!a\n!b )\n!c\n!d )\n!e\n!f )\n!g\n!h\n!i )\n");
-    assert_text("half is not most", reports_of(world, "old.fl.bak", "/old.fl.bak", STR("!a )\n!b )\n!c\n")),
+    assert_text("too few errors are kept", reports_of(world, "old.fl.bak", "/old.fl.bak", STR("!a )\n!b )\n!c\n")),
                 "1: unexpected ')', expected end of line or '<<'\n2: unexpected ')', expected end of line or '<<'\n");
     assert_non_null(strstr(reports_of(world, "old", "/old", few), "9: unexpected ')'"));
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        WORLD_TEST(test_encodings),
-        WORLD_TEST(test_binary),
-        WORLD_TEST(test_other_texts),
+        WORLD_TEST(test_other_encodings_are_named),
+        WORLD_TEST(test_binary_file_gives_one_error),
+        WORLD_TEST(test_other_text_gives_one_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,7 +6,7 @@ static void check_complaints(World *world, const char *const (*rows)[2], size_t 
         assert_text(rows[i][0], complaints(world, str_from(rows[i][0])), rows[i][1]);
 }
 
-static void test_slips(void **state) {
+static void test_common_mistakes_have_hints(void **state) {
     static const char *const rows[][2] = {
         {"let x 5", "1:7: unexpected number 5, expected '='"},
         {"if x = 3\n    !a", "1:6: unexpected '=' | to compare write ==, to name a value write let NAME=…"},
@@ -88,7 +88,7 @@ static void test_slips(void **state) {
 }
 
 // Each mistake is reported once, without follow-up errors.
-static void test_several_errors(void **state) {
+static void test_each_mistake_is_reported_once(void **state) {
     static const char *const rows[][2] = {
         {"v[\n1]", "1:3: unexpected end of line, expected an expression\n"
                    "2:2: unexpected ']', expected end of line or '<<'"},
@@ -114,7 +114,7 @@ static void test_several_errors(void **state) {
 }
 
 // Ill-formed UTF-8 gives a single error, whatever else is in the file.
-static void test_encoding(void **state) {
+static void test_invalid_utf8_gives_one_error(void **state) {
     World *world = *state;
     static const struct {
         Str text;
@@ -130,7 +130,7 @@ static void test_encoding(void **state) {
 }
 
 // Two symbols with the same number are a load error (language.md L4.3).
-static void test_symbol_collision(void **state) {
+static void test_symbol_collision_is_an_error(void **state) {
     World *world = *state;
     // Sets the number of a to that of :b, because the probability of a real collision is 2^-52.
     Symbol *a = (Symbol *)(uintptr_t)symbol_intern(&world->symbols, STR("a"));
@@ -141,7 +141,7 @@ static void test_symbol_collision(void **state) {
 }
 
 // At most 50 errors are stored, and a file full of mistakes is parsed to its end.
-static void test_many_errors(void **state) {
+static void test_number_of_errors_is_limited(void **state) {
     World *world = *state;
     Text text = text_new(&world->arena);
     for (int i = 0; i < 5000; i++)
@@ -154,7 +154,7 @@ static void test_many_errors(void **state) {
 }
 
 // Random mutations of a program that uses all constructs never crash the parser.
-static void test_mutations(void **state) {
+static void test_mutated_programs_never_crash(void **state) {
     World *world = *state;
     static const char program[] =
         "#!x\n%pragma fps 20\nlet a;b=1;2\nlet c=\n    !a x=1 #t\nfunc f(x, y=2)\n    x+y*2 where y=x\n"
@@ -192,9 +192,9 @@ static void test_mutations(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        WORLD_TEST(test_slips),       WORLD_TEST(test_several_errors),
-        WORLD_TEST(test_encoding),    WORLD_TEST(test_symbol_collision),
-        WORLD_TEST(test_many_errors), WORLD_TEST(test_mutations),
+        WORLD_TEST(test_common_mistakes_have_hints),   WORLD_TEST(test_each_mistake_is_reported_once),
+        WORLD_TEST(test_invalid_utf8_gives_one_error), WORLD_TEST(test_symbol_collision_is_an_error),
+        WORLD_TEST(test_number_of_errors_is_limited),  WORLD_TEST(test_mutated_programs_never_crash),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,13 +1,13 @@
-// test_syntax_keywords.c: no word is reserved: the table of points in language.md L2.12.
+// test_syntax_keywords.c: no word is reserved; tests the keyword table in language.md L2.12.
 //
-// A row is a program with a place, `~`, and the words that are keywords there. Each of the fifteen words is put into
-// the place: it is a name there if the program then has the shape that an ordinary name gives it.
+// A row contains a program with a placeholder `~` and the words that are keywords there. Each of the fifteen words is
+// inserted. It is a name there if the syntax tree is the same as with an ordinary name.
 #include "parsing.h"
 
 static const char *const words[] = {"let",  "stable", "func",  "import", "from", "for", "in", "if",
                                     "elif", "else",   "where", "and",    "or",   "xor", "not"};
 
-// `text` with every occurrence of `place` replaced by the word.
+// Returns `text` with every occurrence of `place` replaced by the word.
 static const char *fill(World *world, const char *text, const char *place, const char *word) {
     Text out = text_new(&world->arena);
     while (*text) {
@@ -59,7 +59,7 @@ static void check_points(World *world, const Point *points, size_t count) {
 #define K7 "else for if in where and or xor"
 #define K9 "stable"
 
-static void test_statements(void **state) {
+static void test_keywords_at_statement_start(void **state) {
     static const Point points[] = {
         {"~\n", K1},
         {"x\n~\n", K1},
@@ -80,7 +80,7 @@ static void test_statements(void **state) {
     check_points(*state, points, COUNT_OF(points));
 }
 
-static void test_compositions(void **state) {
+static void test_keywords_in_compositions(void **state) {
     static const Point points[] = {
         {"(~)\n", K4},
         {"f(~)\n", K4},
@@ -103,7 +103,7 @@ static void test_compositions(void **state) {
     check_points(*state, points, COUNT_OF(points));
 }
 
-static void test_operands(void **state) {
+static void test_keywords_at_operands(void **state) {
     static const Point points[] = {
         {"x for y in ~\n", K5}, {"x if y else ~\n", K5}, {"x where y=~\n", K5}, {"x if ~\n", K5},   {"x or ~\n", K5},
         {"x xor ~\n", K5},      {"x and ~\n", K5},       {"not ~\n", K5},       {"x == ~\n", NONE}, {"x != ~\n", NONE},
@@ -115,7 +115,7 @@ static void test_operands(void **state) {
     check_points(*state, points, COUNT_OF(points));
 }
 
-static void test_after_operands(void **state) {
+static void test_keywords_after_operands(void **state) {
     static const Point points[] = {
         {"x ~=1\n", K7},
         {"1 ~=1\n", K7},
@@ -134,17 +134,17 @@ static void test_after_operands(void **state) {
         {"!a #t ~=1\n", NONE}, // K8
         {"!a x=1 #t ~=1\n", NONE},
         {"f(!a #t ~=1)\n", NONE},
-        // Directly after a name that begins an argument, `else` is a name.
+        // Directly after a name that starts an argument, `else` is a name.
         {"f(x ~=1)\n", "for if in where and or xor"},
         {"f(1, x ~=1)\n", "for if in where and or xor"},
     };
     check_points(*state, points, COUNT_OF(points));
 }
 
-static void test_names(void **state) {
+static void test_keywords_as_names(void **state) {
     static const Point points[] = {
         {"let ~=1\n", K9},
-        {"let stable ~=1\n", NONE}, // K10 from here on
+        {"let stable ~=1\n", NONE}, // K10, as the rows below
         {"let stable x=1\n    ~=2\n", NONE},
         {"let x=1\n    ~=2\n", NONE},
         {"let a;~=1\n", NONE},
@@ -162,13 +162,13 @@ static void test_names(void **state) {
         {"func f(a, ~)\n    b\n", NONE},
         {"func f(a, ~=1)\n    b\n", NONE},
         {"let g=func(~) x\n", NONE},
-        {"@f ~=1\n", K7}, // an operand too
+        {"@f ~=1\n", K7}, // also an operand
     };
     check_points(*state, points, COUNT_OF(points));
 }
 
-// K11: only `in` (`from`) can follow, and it needs no boundary after it.
-static void test_in_and_from(void **state) {
+// K11: where only `in` or `from` can follow, it needs no word boundary after it.
+static void test_in_and_from_need_no_boundary(void **state) {
     World *world = *state;
     for (size_t i = 0; i < COUNT_OF(words); i++) {
         bool is_in = strcmp(words[i], "in") == 0, is_from = strcmp(words[i], "from") == 0;
@@ -195,7 +195,7 @@ static void test_in_and_from(void **state) {
     }
 }
 
-static void test_pragma_and_include(void **state) {
+static void test_pragma_and_include_positions(void **state) {
     World *world = *state;
     static const char *const rows[][2] = {
         {"%pragma fps 20\nx%pragma\n", "(pragma fps 20) (% x pragma)"},
@@ -215,9 +215,13 @@ static void test_pragma_and_include(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        WORLD_TEST(test_statements),         WORLD_TEST(test_compositions), WORLD_TEST(test_operands),
-        WORLD_TEST(test_after_operands),     WORLD_TEST(test_names),        WORLD_TEST(test_in_and_from),
-        WORLD_TEST(test_pragma_and_include),
+        WORLD_TEST(test_keywords_at_statement_start),
+        WORLD_TEST(test_keywords_in_compositions),
+        WORLD_TEST(test_keywords_at_operands),
+        WORLD_TEST(test_keywords_after_operands),
+        WORLD_TEST(test_keywords_as_names),
+        WORLD_TEST(test_in_and_from_need_no_boundary),
+        WORLD_TEST(test_pragma_and_include_positions),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,7 +4,7 @@
 #define SUITE_B "(append (node a) (suite (node b)))"
 #define TWO "(node a) (node b)"
 
-static void test_layout(void **state) {
+static void test_indentation_makes_blocks(void **state) {
     World *world = *state;
     static const char *const rows[][2] = {
         {"", ""},
@@ -13,18 +13,18 @@ static void test_layout(void **state) {
         {"   \t  \n\t\n", ""},
         {"!a\n!b", TWO},
         {"!a\r\n!b\r", TWO},
-        // A tab counts eight, wherever it stands: a sum, not tab stops.
+        // A tab always counts as eight, without tab stops.
         {"!a\n\t!b\n", SUITE_B},
         {"!a\n \t!b\n         !b\n", "(append (node a) (suite (node b) (node b)))"},
         {"!a\n  \t!b\n          !b\n", "(append (node a) (suite (node b) (node b)))"},
         {"!a\n\t  !b\n  \t!b\n", "(append (node a) (suite (node b) (node b)))"},
         {"!a\n !b\n\t!c\n", "(append (node a) (suite (append (node b) (suite (node c)))))"},
-        // Blank lines and comments have no indentation of their own.
+        // The indentation of blank lines and comments is ignored.
         {"!a\n\n      \n-- c\n        -- d\n    !b\n", SUITE_B},
         {"!a\n    !b\n-- c\n    !c\n", "(append (node a) (suite (node b) (node c)))"},
         {"!a -- c\n!b -- d", TWO},
         {"!a\n    !b\n        !c\n!d\n", "(append (node a) (suite (append (node b) (suite (node c))))) (node d)"},
-        // A line that matches none of those above.
+        // A line whose indentation matches no line above.
         {"!a\n    !b\n  !c\n", "rejected"},
         {"!a\n\t!b\n    !c\n", "rejected"},
         {"3\n    !b\n", "(append 3 (suite (node b)))"},
@@ -33,7 +33,7 @@ static void test_layout(void **state) {
         {"   !a\n!b\n", TWO},
         {"\n   !a\n", "rejected"},
         {"-- c\n !a\n", "rejected"},
-        // Newlines vanish in round parentheses, and only there.
+        // Newlines are ignored in round parentheses, but not elsewhere.
         {"(!a\n  ;\n!b)\n", "(compose (node a) (node b))"},
         {"f(1,\n -- c\n2)\n", "(call f 1 2)"},
         {"v[(1\n)]\n", "(index v 1)"},
@@ -41,22 +41,22 @@ static void test_layout(void **state) {
         {"v[\n1]\n", "rejected"},
         {"v[1\n]\n", "rejected"},
         {"!a x=(1\n2)\n", "rejected"},
-        // A backslash before the line end joins lines.
+        // A backslash at the end of a line joins it with the next.
         {"!a x=1+\\\n2\n", "(decorate (node a) (attr x (+ 1 2)))"},
         {"!a \\\n    x=1\n", "(decorate (node a) (attr x 1))"},
         {"!a \\ \n", "rejected"},
         {"\\\n!a\n", "(node a)"},
-        // Two dashes are a comment, everywhere but in strings.
+        // Two dashes start a comment, except in strings.
         {"5--3\n", "5"},
         {"5- -3\n", "(- 5 (neg 3))"},
         {"'--'\n", "'--'"},
-        // The hashbang is the first token or none.
+        // A hashbang is recognised only at the start.
         {"#!/usr/bin/env petri\n!a\n", "(node a)"},
         {"  #! x\n    !a\n!b\n", TWO},
         {"#!only", ""},
         {"!a\n#!b\n", "rejected"},
         {"-- c\n#!b\n", "rejected"},
-        // Form feeds and no-break spaces are no white space.
+        // Form feeds and no-break spaces do not count as white space.
         {"!a\f\n", "rejected"},
         {"!a\u00a0x=1\n", "rejected"},
         // Statements across lines.
@@ -77,13 +77,13 @@ static void test_layout(void **state) {
         assert_text(rows[i][0], shape(world, rows[i][0]), rows[i][1]);
 }
 
-// A NUL byte is no token; nothing is read beyond the text because of one.
-static void test_nul_bytes(void **state) {
+// A NUL byte is an invalid token and never makes the scanner read after the end of the text.
+static void test_nul_bytes_are_rejected(void **state) {
     World *world = *state;
     static const Str rejected[] = {{"\0", 1}, {"!a\0\n", 4}, {"#!\0\n!a\n", 7}, {"#!a\0", 4}, {"!a -- \0\n\0", 9}};
     assert_false(accepts_str(world, rejected[0]));
     assert_false(accepts_str(world, rejected[1]));
-    assert_true(accepts_str(world, rejected[2])); // in a hashbang everything up to the line end is ignored
+    assert_true(accepts_str(world, rejected[2])); // the rest of a hashbang line is ignored
     assert_true(accepts_str(world, rejected[3]));
     assert_false(accepts_str(world, rejected[4]));
     assert_true(accepts_str(world, STR("-- \0 comment\n!a\n")));
@@ -100,7 +100,7 @@ static void nested(Text *text, const char *open, int count, const char *close) {
     text_add_c(text, "\n");
 }
 
-static void test_parentheses_limit(void **state) {
+static void test_deep_parentheses_are_rejected(void **state) {
     World *world = *state;
     Text text = text_new(&world->arena);
     nested(&text, "(", 1000, ")");
@@ -124,21 +124,21 @@ static void indented(Text *text, int levels) {
     }
 }
 
-static void test_indentation_limit(void **state) {
+static void test_deep_indentation_is_rejected(void **state) {
     World *world = *state;
     Text text = text_new(&world->arena);
     indented(&text, 999);
     const char *found = complaints(world, text_str(&text));
-    // A thousand levels of nodes in suites are two thousand levels of tree.
+    // 1000 levels of nested suites make a tree of height 2000.
     assert_text("999", found, "");
     indented(&text, 5000);
     found = complaints(world, text_str(&text));
-    assert_null(strchr(found, '\n')); // one complaint
+    assert_null(strchr(found, '\n')); // one error
     assert_non_null(strstr(found, "the limit is"));
 }
 
-// Other nesting is limited by the height of the tree: each a complaint, never a crash.
-static void test_height_limit(void **state) {
+// Other nesting is limited by the height of the tree. It gives an error, never a crash.
+static void test_high_trees_are_rejected(void **state) {
     World *world = *state;
     static const char *const rows[][2] = {{"- ", ""},  {"not ", ""},     {"$", ""},
                                           {"v[", "]"}, {"func(x) ", ""}, {"x if ", ""}};
@@ -153,7 +153,7 @@ static void test_height_limit(void **state) {
         assert_claim(rows[i][0], strstr(found, "nested too deeply: the limit is 2000 levels") != NULL);
         assert_claim(rows[i][0], strchr(found, '\n') == NULL);
     }
-    // A long vector is not deep; a long sum is.
+    // A long vector makes a low tree; a long sum makes a high one.
     text.len = 0;
     for (int i = 0; i < 50000; i++)
         text_add_c(&text, "1;");
@@ -167,8 +167,9 @@ static void test_height_limit(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        WORLD_TEST(test_layout),       WORLD_TEST(test_parentheses_limit), WORLD_TEST(test_indentation_limit),
-        WORLD_TEST(test_height_limit), WORLD_TEST(test_nul_bytes), // last: it used to read out of bounds
+        WORLD_TEST(test_indentation_makes_blocks),     WORLD_TEST(test_deep_parentheses_are_rejected),
+        WORLD_TEST(test_deep_indentation_is_rejected), WORLD_TEST(test_high_trees_are_rejected),
+        WORLD_TEST(test_nul_bytes_are_rejected), // last: it used to read out of bounds
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,13 +2,13 @@
 #include "ast/literal.h"
 #include "parsing.h"
 
-// Each row is a statement and its shape; a literal's shape is its printed value.
+// Each row contains a statement and its tree. A literal appears as its printed value.
 static void check_shapes(World *world, const char *const (*rows)[2], size_t count) {
     for (size_t i = 0; i < count; i++)
         assert_text(rows[i][0], shape(world, rows[i][0]), rows[i][1]);
 }
 
-static void test_numbers(void **state) {
+static void test_number_tokens(void **state) {
     static const char *const rows[][2] = {
         {"10m", "0.01"},
         {"5u", "4.9999999999999996e-06"},
@@ -42,7 +42,7 @@ static void test_numbers(void **state) {
         {"1e_5", "rejected"},
         {"0x10", "rejected"},
         {"!a x=1e5m y=2", "(decorate (node a) (attr x 100) (attr y 2))"},
-        {"1ex=2", "(decorate 1 (attr ex 2))"}, // no digits: the e is not the number's
+        {"1ex=2", "(decorate 1 (attr ex 2))"}, // without digits the e is not part of the number
         {"9007199254740993", "9007199254740992"},
         {"5 m=1", "(decorate 5 (attr m 1))"},
         {"!a x=1km=2", "(decorate (node a) (attr x 1000) (attr m 2))"},
@@ -50,7 +50,7 @@ static void test_numbers(void **state) {
     check_shapes(*state, rows, COUNT_OF(rows));
 }
 
-static void test_timecodes(void **state) {
+static void test_timecode_tokens(void **state) {
     static const char *const rows[][2] = {
         {"1:30", "90"},          {"12:3", "723"},
         {"1:2:3.4", "3723.4"},   {"100:00:00", "360000"},
@@ -63,7 +63,7 @@ static void test_timecodes(void **state) {
     check_shapes(*state, rows, COUNT_OF(rows));
 }
 
-static void test_strings(void **state) {
+static void test_string_tokens(void **state) {
     static const char *const rows[][2] = {
         {"'a'", "'a'"},
         {"\"it's\"", "\"it's\""},
@@ -94,7 +94,7 @@ static void test_strings(void **state) {
         {"'''abc", "rejected"},
         {"'''abc''", "rejected"},
         {"\"a\nb\"", "rejected"},
-        {"'a\\\nb'", "rejected"}, // no string holds a backslash at the end of a line
+        {"'a\\\nb'", "rejected"}, // a string cannot contain a backslash at the end of a line
         {"'''a\\\nb'''", "rejected"},
         {"'a' 'b'", "rejected"},
         {"'a\"b'", "'a\"b'"},
@@ -102,7 +102,7 @@ static void test_strings(void **state) {
     check_shapes(*state, rows, COUNT_OF(rows));
 }
 
-static void test_names(void **state) {
+static void test_name_tokens(void **state) {
     static const char *const rows[][2] = {
         {"a' ;b", "(compose a' b)"},
         {"x''", "x''"},
@@ -125,15 +125,15 @@ static void test_names(void **state) {
         {"a<<b", "(append a b)"},
         {"a< <b", "rejected"},
         {"a**b//c", "(// (** a b) c)"},
-        {"\ufeffa", "a"}, // a byte-order mark is skipped, at the beginning
+        {"\ufeffa", "a"}, // a byte-order mark at the start is skipped
         {"a\ufeff", "rejected"},
         {"a~b", "rejected"},
     };
     check_shapes(*state, rows, COUNT_OF(rows));
 }
 
-// L16.3: what -D, pragmas and the command line read as a number.
-static void test_whole_numbers(void **state) {
+// L16.3: texts that -D, pragmas and the command line accept as numbers.
+static void test_texts_parsed_as_numbers(void **state) {
     (void)state;
     static const struct {
         const char *text;
@@ -152,7 +152,7 @@ static void test_whole_numbers(void **state) {
         assert_claim(bad[i], !literal_parse_number(str_from(bad[i]), &x));
 }
 
-static void test_whole_timecodes(void **state) {
+static void test_texts_parsed_as_timecodes(void **state) {
     (void)state;
     static const struct {
         const char *text;
@@ -171,8 +171,9 @@ static void test_whole_timecodes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        WORLD_TEST(test_numbers), WORLD_TEST(test_timecodes),     WORLD_TEST(test_strings),
-        WORLD_TEST(test_names),   WORLD_TEST(test_whole_numbers), WORLD_TEST(test_whole_timecodes),
+        WORLD_TEST(test_number_tokens),           WORLD_TEST(test_timecode_tokens),
+        WORLD_TEST(test_string_tokens),           WORLD_TEST(test_name_tokens),
+        WORLD_TEST(test_texts_parsed_as_numbers), WORLD_TEST(test_texts_parsed_as_timecodes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
-// test_syntax_tree.c: precedence, shapes and places of the syntax tree (language.md L3).
+// test_syntax_tree.c: precedence, structure and locations of the syntax tree (language.md L3).
 #include "parsing.h"
 
-static void test_precedence(void **state) {
+static void test_precedence_shapes_tree(void **state) {
     World *world = *state;
     static const char *const rows[][2] = {
         {"2**3**2", "(** (** 2 3) 2)"},
@@ -87,8 +87,8 @@ static const Ast *find_kind(const Ast *ast, AstKind kind) {
     return found;
 }
 
-// The text that a node spans.
-static void test_spans(void **state) {
+// The source text of each node.
+static void test_nodes_span_their_text(void **state) {
     World *world = *state;
     static const struct {
         const char *program;
@@ -121,7 +121,7 @@ static void test_spans(void **state) {
     }
 }
 
-// Every node spans its children, and children of operators stand in order.
+// Every node's span includes its children, and the children of operators are in order.
 static void check_nesting(const Ast *ast) {
     assert_true(ast->span.start <= ast->span.end);
     for (uint32_t i = 0; i < ast->count; i++)
@@ -131,7 +131,7 @@ static void check_nesting(const Ast *ast) {
         }
 }
 
-static void test_print(void **state) {
+static void test_tree_is_printed(void **state) {
     World *world = *state;
     Parsed parsed = parse_str(world, STR("let x=1;:a\n!b é=x if $'k'\n    ..3\n"));
     Text text = text_new(&world->arena);
@@ -163,7 +163,7 @@ static void test_print(void **state) {
     diag_sink_free(&parsed.diags);
 }
 
-static void test_lists(void **state) {
+static void test_lists_grow(void **state) {
     World *world = *state;
     AstList *list = ast_list_new(&world->arena);
     for (int i = 0; i < 100; i++)
@@ -177,10 +177,10 @@ static void test_lists(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        WORLD_TEST(test_precedence),
-        WORLD_TEST(test_spans),
-        WORLD_TEST(test_print),
-        WORLD_TEST(test_lists),
+        WORLD_TEST(test_precedence_shapes_tree),
+        WORLD_TEST(test_nodes_span_their_text),
+        WORLD_TEST(test_tree_is_printed),
+        WORLD_TEST(test_lists_grow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

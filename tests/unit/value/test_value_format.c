@@ -1,8 +1,8 @@
-// test_value_format.c: values and trees as text (language.md L18).
+// test_value_format.c: conversion of values and trees to text (language.md L18).
 #include "value/node.h"
 #include "values.h"
 
-static void test_values(void **state) {
+static void test_values_are_printed(void **state) {
     World *world = *state;
     static const struct {
         const char *v, *wanted;
@@ -30,13 +30,13 @@ static void test_values(void **state) {
     assert_text("function", show(world, value_function(&world->arena, &anonymous)), "(<anon>)");
 }
 
-// A number that equals a symbol's value prints as the symbol only if that has occurred.
-static void test_symbols(void **state) {
+// A number that equals a symbol's value is printed as the symbol only if the symbol is registered.
+static void test_registered_symbols_are_printed(void **state) {
     World *world = *state;
     Value v = value_number(symbol_number(STR("later")));
-    assert_text("not known", show(world, v)[0] == '-' ? "number" : "symbol", "number");
+    assert_text("not registered", show(world, v)[0] == '-' ? "number" : "symbol", "number");
     symbol_register(&world->symbols, STR("later"));
-    assert_text("known", show(world, v), ":later");
+    assert_text("registered", show(world, v), ":later");
 }
 
 static const Node *sample_node(World *world) {
@@ -51,7 +51,7 @@ static const Node *sample_node(World *world) {
     return node_append(arena, a, value_node(arena, a));
 }
 
-static void test_trees(void **state) {
+static void test_trees_are_printed(void **state) {
     World *world = *state;
     Text text = text_new(&world->arena);
     format_tree(&text, &world->symbols, sample_node(world), 0, NULL, NULL);
@@ -71,16 +71,16 @@ static const char *debug(World *world, Value v) {
     return text_c(&text);
 }
 
-static void test_debug(void **state) {
+static void test_debug_text(void **state) {
     World *world = *state;
     static const struct {
         const char *v, *wanted;
     } rows[] = {
         {"null", "null"},
         {"0.3333333333333333;:a;'hi';1e20", "0.333333333;:a;'hi';1e+20"},
-        {"-0;1", "0;1"}, // a zero in a numeric vector shows no sign
+        {"-0;1", "0;1"}, // in a numeric vector -0 is printed as 0
         {"-0", "0"},
-        {"-0;'a'", "-0;'a'"}, // in a mixed one it does
+        {"-0;'a'", "-0;'a'"}, // in a mixed vector it is not
         {"1234567890", "1.23456789e+09"},
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++)
@@ -92,8 +92,8 @@ static void test_debug(void **state) {
                 "  !b #b #z n=1e+22;0.1)");
 }
 
-// L18.4: symbols by name, then numbers, then strings; a prefix comes first.
-static void test_key_order(void **state) {
+// L18.4: symbols by name, then numbers, then strings. A prefix sorts first.
+static void test_keys_are_ordered(void **state) {
     World *world = *state;
     static const char *const ascending[] = {
         "null",  ":B",    ":a",     ":a;:a", ":a;:clock", ":a;-1", ":a;-0", ":a;0",  ":a;0;:velocity", ":a;2",
@@ -110,8 +110,9 @@ static void test_key_order(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        WORLD_TEST(test_values), WORLD_TEST(test_symbols),   WORLD_TEST(test_trees),
-        WORLD_TEST(test_debug),  WORLD_TEST(test_key_order),
+        WORLD_TEST(test_values_are_printed), WORLD_TEST(test_registered_symbols_are_printed),
+        WORLD_TEST(test_trees_are_printed),  WORLD_TEST(test_debug_text),
+        WORLD_TEST(test_keys_are_ordered),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,7 +2,7 @@
 #include "value/node.h"
 #include "values.h"
 
-// One line per node, as text.
+// Returns a tree as text, one line per node.
 static const char *tree(World *world, const Node *node) {
     Text text = text_new(&world->arena);
     format_tree(&text, &world->symbols, node, 0, NULL, NULL);
@@ -13,7 +13,7 @@ static const Node *new_node(World *world, const char *kind) {
     return node_new(&world->arena, name_of(world, kind));
 }
 
-// Sets `name=value …` in one go.
+// Sets several attributes in one call.
 static const Node *with_attrs(World *world, const Node *node, const char *names, const char *const *values) {
     Attr attrs[8];
     uint32_t count = 0;
@@ -27,52 +27,54 @@ static const Node *with_attr(World *world, const Node *node, const char *name, c
     return with_attrs(world, node, name, &value);
 }
 
-static void test_new_node(void **state) {
+static void test_new_node_is_empty(void **state) {
     World *world = *state;
-    assert_text("fresh", tree(world, new_node(world, "canvas")), "!canvas\n");
+    assert_text("new node", tree(world, new_node(world, "canvas")), "!canvas\n");
     assert_int_equal(new_node(world, "a")->height, 1);
 }
 
-static void test_attribute_order(void **state) {
+static void test_attributes_keep_order(void **state) {
     World *world = *state;
     const Node *a = with_attrs(world, new_node(world, "a"), "xyz", (const char *const[]){"1", "2", "3"});
-    assert_text("set", tree(world, a), "!a x=1 y=2 z=3\n");
-    assert_text("keeps its place", tree(world, with_attr(world, a, "x", "9")), "!a x=9 y=2 z=3\n");
+    assert_text("order of setting", tree(world, a), "!a x=1 y=2 z=3\n");
+    assert_text("a new value keeps the position", tree(world, with_attr(world, a, "x", "9")), "!a x=9 y=2 z=3\n");
     const Node *without = with_attr(world, a, "x", "null");
     assert_text("removed", tree(world, without), "!a y=2 z=3\n");
-    assert_text("set again: at the end", tree(world, with_attr(world, without, "x", "4")), "!a y=2 z=3 x=4\n");
+    assert_text("set again after removal: at the end", tree(world, with_attr(world, without, "x", "4")),
+                "!a y=2 z=3 x=4\n");
     assert_text("a stream removes", tree(world, with_attr(world, a, "y", "uniform:1")), "!a x=1 z=3\n");
-    assert_text("removing what is not there", tree(world, with_attr(world, a, "q", "null")), "!a x=1 y=2 z=3\n");
+    assert_text("removing a missing attribute changes nothing", tree(world, with_attr(world, a, "q", "null")),
+                "!a x=1 y=2 z=3\n");
     const char *const twice[] = {"5", "null", "6"};
     assert_text("the same name three times", tree(world, with_attrs(world, a, "yyy", twice)), "!a x=1 z=3 y=6\n");
-    assert_text("the first is as it was", tree(world, a), "!a x=1 y=2 z=3\n");
+    assert_text("the operand is unchanged", tree(world, a), "!a x=1 y=2 z=3\n");
     assert_text("get", show(world, node_get(a, name_of(world, "z"))), "3");
     assert_true(value_is_null(node_get(a, name_of(world, "q"))));
 }
 
-static void test_tags(void **state) {
+static void test_tags_are_sorted_and_unique(void **state) {
     World *world = *state;
     const Node *node = new_node(world, "a");
     static const char *const tags[] = {"m", "z", "b", "é", "b", "Z", "m"};
     for (size_t i = 0; i < COUNT_OF(tags); i++)
         node = node_add_tag(&world->arena, node, name_of(world, tags[i]));
-    assert_text("sorted, each once", tree(world, node), "!a #Z #b #m #z #é\n");
+    assert_text("sorted and unique", tree(world, node), "!a #Z #b #m #z #é\n");
 }
 
-static void test_append(void **state) {
+static void test_append_adds_nodes_only(void **state) {
     World *world = *state;
     Arena *arena = &world->arena;
     const Node *a = node_append(arena, new_node(world, "a"), read_value(world, "!b;1;'x';!c"));
     assert_text("nodes only", tree(world, a), "!a\n    !b\n    !c\n");
-    const Node *more = node_append(arena, a, value_node(arena, a)); // itself, as it was
-    assert_text("at the end", tree(world, more), "!a\n    !b\n    !c\n    !a\n        !b\n        !c\n");
+    const Node *more = node_append(arena, a, value_node(arena, a)); // appends the unchanged node to itself
+    assert_text("appended after the others", tree(world, more), "!a\n    !b\n    !c\n    !a\n        !b\n        !c\n");
     assert_int_equal(more->height, 3);
-    assert_text("untouched", tree(world, a), "!a\n    !b\n    !c\n");
+    assert_text("the operand is unchanged", tree(world, a), "!a\n    !b\n    !c\n");
     assert_text("null", tree(world, node_append(arena, a, VALUE_NULL)), "!a\n    !b\n    !c\n");
     assert_text("numbers", tree(world, node_append(arena, a, read_value(world, "1;2"))), "!a\n    !b\n    !c\n");
 }
 
-static void test_equality(void **state) {
+static void test_equality_is_structural(void **state) {
     World *world = *state;
     Arena *arena = &world->arena;
     const Node *a = new_node(world, "a"), *ab = node_append(arena, a, read_value(world, "!b;!c"));
@@ -91,7 +93,8 @@ static void test_equality(void **state) {
         {"attributes in any order", xy, yx, true},
         {"other value", xy, with_attr(world, yx, "x", "1;3"), false},
         {"fewer attributes", xy, with_attr(world, xy, "x", "null"), false},
-        {"removed is never had", a, with_attr(world, with_attr(world, xy, "x", "null"), "y", "null"), true},
+        {"a removed attribute does not count", a, with_attr(world, with_attr(world, xy, "x", "null"), "y", "null"),
+         true},
         {"-0", with_attr(world, a, "x", "0"), with_attr(world, a, "x", "-0"), true},
         {"nan", with_attr(world, a, "x", "nan"), with_attr(world, a, "x", "nan"), false},
         {"tags in any order", tu, ut, true},
@@ -106,11 +109,11 @@ static void test_equality(void **state) {
         assert_claim(rows[i].what, node_equal(NULL, rows[i].b, rows[i].a) == rows[i].wanted);
     }
     const Node *nan = with_attr(world, a, "x", "nan");
-    assert_false(node_equal(NULL, nan, nan)); // elements decide, not identity
+    assert_false(node_equal(NULL, nan, nan)); // elements are compared, not addresses
 }
 
-// Chains of the greatest height can be walked; a higher one is refused.
-static void test_height_limit(void **state) {
+// Chains of the maximum height can be processed. Higher ones are rejected.
+static void test_higher_trees_are_rejected(void **state) {
     World *world = *state;
     Arena *arena = &world->arena;
     const Node *node = new_node(world, "a");
@@ -130,11 +133,11 @@ static void test_height_limit(void **state) {
     NodeList list = node_list(arena, value_node(arena, node));
     Value both = value_append(arena, vector_finish(&vector), &list, &too_high);
     assert_true(too_high);
-    assert_text("left as it was", show(world, both), "(!p);1");
+    assert_text("unchanged", show(world, both), "(!p);1");
     assert_int_equal(both.as.items[0].as.node->child_count, 0);
 }
 
-// A node inside an attribute can be walked too (== and the seed hash go into it), so that it has to count as height.
+// Nodes in attributes count for the height, because == and the seed hash also recurse into them.
 static void test_attributes_count_as_height(void **state) {
     World *world = *state;
     Arena *arena = &world->arena;
@@ -149,10 +152,10 @@ static void test_attributes_count_as_height(void **state) {
     bool too_high = false;
     Value left = value_set_attrs(arena, node_of(world, "p"), &higher, 1, &too_high);
     assert_true(too_high);
-    assert_text("left as it was", tree(world, left.as.items[0].as.node), "!p\n");
+    assert_text("unchanged", tree(world, left.as.items[0].as.node), "!p\n");
 }
 
-static void test_over_vectors(void **state) {
+static void test_vector_operations_change_nodes_only(void **state) {
     World *world = *state;
     Arena *arena = &world->arena;
     Value v = read_value(world, "!a;3;!b;'s'");
@@ -162,7 +165,7 @@ static void test_over_vectors(void **state) {
     NodeList c = node_list(arena, read_value(world, "!c"));
     v = value_append(arena, v, &c, &too_high);
     assert_false(too_high);
-    assert_text("the others stay", show(world, v), "(!a);3;(!b);'s'");
+    assert_text("other elements are kept", show(world, v), "(!a);3;(!b);'s'");
     assert_text("first", tree(world, v.as.items[0].as.node), "!a #t x=1\n    !c\n");
     assert_text("second", tree(world, v.as.items[2].as.node), "!b #t x=1\n    !c\n");
     static const char *const others[] = {"1;2", "null", "'s'"};
@@ -174,8 +177,8 @@ static void test_over_vectors(void **state) {
     assert_int_equal(value_add_tag(arena, value_stream(STREAM_BETA, 1), name_of(world, "t")).kind, VALUE_STREAM);
 }
 
-// What lives as long as the program keeps its address, and says so, for systems that need not read it twice.
-static void test_program_lifetime(void **state) {
+// Nodes that live as long as the program keep their address and are marked, so that systems need not read them again.
+static void test_program_lifetime_is_marked(void **state) {
     World *world = *state;
     Arena *arena = &world->arena;
     Value children = read_value(world, "!b;7;!c");
@@ -191,7 +194,7 @@ static void test_program_lifetime(void **state) {
     assert_true(first->program_lifetime_children && !first->program_lifetime);
     assert_int_equal(first->child_count, 2);
     const Node *more = node_append_list(arena, first, &list);
-    assert_text("both lists", tree(world, more), "!a\n    !b\n    !c\n    !b\n    !c\n");
+    assert_text("both lists are appended", tree(world, more), "!a\n    !b\n    !c\n    !b\n    !c\n");
     assert_false(more->program_lifetime_children);
     assert_false(node_append(arena, new_node(world, "a"), children)->program_lifetime_children);
     const Node *changed = with_attr(world, b, "x", "1");
@@ -199,14 +202,14 @@ static void test_program_lifetime(void **state) {
     assert_true(changed->program_lifetime_children);
     assert_false(node_add_tag(arena, b, name_of(world, "t"))->program_lifetime);
     assert_false(node_copy(arena, first)->program_lifetime_children);
-    // Keeping goes into attributes and children.
+    // Marking includes attributes and children.
     Value outer = value_node(arena, node_set_attrs(arena, more, &(Attr){name_of(world, "x"), attr}, 1));
     value_mark_program_lifetime(outer);
     assert_true(outer.as.items[0].as.node->program_lifetime);
     assert_true(attr.as.items[0].as.node->program_lifetime);
 }
 
-static void test_copy(void **state) {
+static void test_copy_is_deep(void **state) {
     World *world = *state;
     Arena other;
     arena_init(&other, "other", SIZE_MAX);
@@ -222,11 +225,16 @@ static void test_copy(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        WORLD_TEST(test_new_node),     WORLD_TEST(test_attribute_order),
-        WORLD_TEST(test_tags),         WORLD_TEST(test_append),
-        WORLD_TEST(test_equality),     WORLD_TEST(test_height_limit),
-        WORLD_TEST(test_over_vectors), WORLD_TEST(test_program_lifetime),
-        WORLD_TEST(test_copy),         WORLD_TEST(test_attributes_count_as_height),
+        WORLD_TEST(test_new_node_is_empty),
+        WORLD_TEST(test_attributes_keep_order),
+        WORLD_TEST(test_tags_are_sorted_and_unique),
+        WORLD_TEST(test_append_adds_nodes_only),
+        WORLD_TEST(test_equality_is_structural),
+        WORLD_TEST(test_higher_trees_are_rejected),
+        WORLD_TEST(test_vector_operations_change_nodes_only),
+        WORLD_TEST(test_program_lifetime_is_marked),
+        WORLD_TEST(test_copy_is_deep),
+        WORLD_TEST(test_attributes_count_as_height),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,7 +3,7 @@
 #include "value/ops.h"
 #include "values.h"
 
-static void test_arithmetic(void **state) {
+static void test_arithmetic_by_element(void **state) {
     World *world = *state;
     static const struct {
         const char *a;
@@ -38,8 +38,8 @@ static void test_arithmetic(void **state) {
     }
 }
 
-// x ** 2 is x * x if the whole right operand is the one-element vector 2, else C pow (D2).
-static void test_square(void **state) {
+// x ** 2 is x * x if the right operand is the single number 2, else pow (D2).
+static void test_square_is_multiplication(void **state) {
     World *world = *state;
     uint64_t seed = 7;
     for (int i = 0; i < 20000; i++) {
@@ -54,8 +54,8 @@ static void test_square(void **state) {
     }
 }
 
-// Unequal lengths repeat cyclically, whichever is longer.
-static void test_lengths(void **state) {
+// The shorter vector is repeated cyclically.
+static void test_shorter_vector_is_repeated(void **state) {
     World *world = *state;
     double numbers[12];
     for (int i = 0; i < 12; i++)
@@ -70,7 +70,7 @@ static void test_lengths(void **state) {
         }
 }
 
-static void test_unary(void **state) {
+static void test_unary_operators(void **state) {
     World *world = *state;
     static const struct {
         const char *v, *minus, *plus;
@@ -86,7 +86,7 @@ static void test_unary(void **state) {
     }
 }
 
-static void test_ranges(void **state) {
+static void test_range_elements(void **state) {
     World *world = *state;
     static const struct {
         const char *start, *stop, *step, *wanted;
@@ -129,7 +129,7 @@ static void test_ranges(void **state) {
     }
 }
 
-static void test_range_limit(void **state) {
+static void test_too_long_range_is_reported(void **state) {
     World *world = *state;
     bool too_long = false;
     Value range = op_range(&world->arena, VALUE_NULL, value_number(1e12), VALUE_NULL, &too_long);
@@ -148,8 +148,12 @@ static void test_range_limit(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        WORLD_TEST(test_arithmetic), WORLD_TEST(test_square), WORLD_TEST(test_lengths),
-        WORLD_TEST(test_unary),      WORLD_TEST(test_ranges), WORLD_TEST(test_range_limit),
+        WORLD_TEST(test_arithmetic_by_element),
+        WORLD_TEST(test_square_is_multiplication),
+        WORLD_TEST(test_shorter_vector_is_repeated),
+        WORLD_TEST(test_unary_operators),
+        WORLD_TEST(test_range_elements),
+        WORLD_TEST(test_too_long_range_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

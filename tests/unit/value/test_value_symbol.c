@@ -2,7 +2,7 @@
 #include "value/node.h"
 #include "values.h"
 
-static void test_numbers(void **state) {
+static void test_symbol_numbers_match_spec(void **state) {
     (void)state;
     static const struct {
         const char *name;
@@ -11,7 +11,7 @@ static void test_numbers(void **state) {
     } rows[] = {
         {"a", 0xaf63dc4c8601ec8c, -1.514662081452513e+308},  {"foo", 0xdcb27518fed9d577, -1.6737404350843107e+308},
         {"x", 0xaf63f54c86021707, -1.5146634208382725e+308}, {"hello", 0xa430d84680aabd0b, -1.4753400716276727e+308},
-        {"é", 0xaf64644c8602d3a4, -1.5146693677110448e+308}, // over code points, not bytes
+        {"é", 0xaf64644c8602d3a4, -1.5146693677110448e+308}, // hashes code points, not bytes
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         assert_claim(rows[i].name, symbol_hash(str_from(rows[i].name)) == rows[i].hash);
@@ -20,24 +20,24 @@ static void test_numbers(void **state) {
     assert_true(symbol_hash(STR("")) == UINT64_C(0xcbf29ce484222325));
 }
 
-static void test_interning(void **state) {
+static void test_interned_names_are_unique(void **state) {
     World *world = *state;
     char name[] = "mass";
     const Symbol *mass = symbol_intern(&world->symbols, str_from(name));
-    name[0] = 'X'; // the table has its own copy
+    name[0] = 'X'; // the table has a separate copy
     assert_ptr_equal(symbol_intern(&world->symbols, STR("mass")), mass);
     assert_ptr_not_equal(symbol_intern(&world->symbols, STR("Mass")), mass);
     assert_ptr_not_equal(symbol_intern(&world->symbols, STR("mas")), mass);
     const Symbol *symbols[5000];
     for (int i = 0; i < 5000; i++)
         symbols[i] = symbol_intern(&world->symbols, str_format(&world->arena, "name%d", i));
-    for (int i = 0; i < 5000; i++) // symbols stay where they are while the table grows
+    for (int i = 0; i < 5000; i++) // symbols keep their address while the table grows
         assert_ptr_equal(symbol_intern(&world->symbols, str_format(&world->arena, "name%d", i)), symbols[i]);
     assert_ptr_equal(symbol_intern(&world->symbols, STR("mass")), mass);
 }
 
-// A number is a symbol only once the symbol has occurred as one.
-static void test_registered(void **state) {
+// A number is recognised as a symbol only after the symbol was registered.
+static void test_only_registered_symbols_are_found(void **state) {
     World *world = *state;
     double number = symbol_number(STR("spring"));
     assert_null(symbol_of_number(&world->symbols, number));
@@ -45,13 +45,13 @@ static void test_registered(void **state) {
     assert_null(symbol_of_number(&world->symbols, number));
     assert_ptr_equal(symbol_register(&world->symbols, STR("spring")), name);
     assert_ptr_equal(symbol_of_number(&world->symbols, number), name);
-    assert_ptr_equal(symbol_register(&world->symbols, STR("spring")), name); // again: no collision with itself
+    assert_ptr_equal(symbol_register(&world->symbols, STR("spring")), name); // registering again is not a collision
     static const double others[] = {0, -1, NAN, INFINITY, -INFINITY, -1.7e308, 1e308};
     for (size_t i = 0; i < COUNT_OF(others); i++)
         assert_null(symbol_of_number(&world->symbols, others[i]));
 }
 
-static void test_seed_hashes(void **state) {
+static void test_seed_hashes_match_spec(void **state) {
     World *world = *state;
     static const struct {
         const char *seed;
@@ -70,8 +70,8 @@ static void test_seed_hashes(void **state) {
     assert_true(SEED("inf") != SEED("-inf"));
 }
 
-// The three node seeds of B9.5, by the first item of their streams.
-static void test_node_seeds(void **state) {
+// The three node seeds of B9.5, identified by the first item of their streams.
+static void test_node_seeds_match_spec(void **state) {
     World *world = *state;
     Arena *arena = &world->arena;
     const Node *a = node_new(arena, name_of(world, "a"));
@@ -87,7 +87,7 @@ static void test_node_seeds(void **state) {
     } rows[] = {
         {a, 0.8562539106701949},
         {node_set_attrs(arena, tagged, both, 2), 0.6813509987656384},
-        {node_set_attrs(arena, tagged, swapped, 2), 0.6813509987656384}, // in the order of names
+        {node_set_attrs(arena, tagged, swapped, 2), 0.6813509987656384}, // hashed in the order of names
         {parent, 0.2517061228601389},
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
@@ -96,7 +96,7 @@ static void test_node_seeds(void **state) {
     }
 }
 
-static void test_stream_positions(void **state) {
+static void test_stream_positions_match_spec(void **state) {
     (void)state;
     static const struct {
         double x;
@@ -110,7 +110,7 @@ static void test_stream_positions(void **state) {
         {1e15, 1000000000000000},
         {-9223372036854775808.0, 0x8000000000000000},
         {9223372036854774784.0, 9223372036854774784u},
-        {1e19, 0x8000000000000000}, // beyond 64 bits: the least integer
+        {1e19, 0x8000000000000000}, // outside 64 bits: the smallest integer
         {-1e19, 0x8000000000000000},
         {NAN, 0x8000000000000000},
         {INFINITY, 0x8000000000000000},
@@ -121,8 +121,12 @@ static void test_stream_positions(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        WORLD_TEST(test_numbers),     WORLD_TEST(test_interning),  WORLD_TEST(test_registered),
-        WORLD_TEST(test_seed_hashes), WORLD_TEST(test_node_seeds), WORLD_TEST(test_stream_positions),
+        WORLD_TEST(test_symbol_numbers_match_spec),
+        WORLD_TEST(test_interned_names_are_unique),
+        WORLD_TEST(test_only_registered_symbols_are_found),
+        WORLD_TEST(test_seed_hashes_match_spec),
+        WORLD_TEST(test_node_seeds_match_spec),
+        WORLD_TEST(test_stream_positions_match_spec),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,7 +2,7 @@
 #include "value/node.h"
 #include "values.h"
 
-static void test_composition(void **state) {
+static void test_composition_concatenates_parts(void **state) {
     World *world = *state;
     static const struct {
         const char *parts[4];
@@ -16,8 +16,8 @@ static void test_composition(void **state) {
         {{"1;2", "'a'", "3"}, "1;2;'a';3", VALUE_MIXED},
         {{"'a'", "1;2"}, "'a';1;2", VALUE_MIXED},
         {{"!a", "!b", ":x"}, "(!a);(!b);:x", VALUE_MIXED},
-        {{"uniform:5"}, "null", VALUE_STREAM},          // the only part: it survives
-        {{"null", "uniform:5"}, "null", VALUE_NUMBERS}, // null is a part too
+        {{"uniform:5"}, "null", VALUE_STREAM},          // the only part is kept
+        {{"null", "uniform:5"}, "null", VALUE_NUMBERS}, // null counts as a part
         {{"uniform:5", "null"}, "null", VALUE_NUMBERS},
         {{"uniform:5", "1"}, "1", VALUE_NUMBERS},
         {{"1", "uniform:5"}, "1", VALUE_NUMBERS},
@@ -34,7 +34,7 @@ static void test_composition(void **state) {
     }
 }
 
-// Numbers first, then a string: the builder changes its form in the middle, at any length.
+// Numbers followed by a string: the builder changes to a mixed vector at any length.
 static void test_builder_turns_mixed(void **state) {
     World *world = *state;
     for (uint32_t before = 0; before < 40; before++) {
@@ -54,19 +54,20 @@ static void test_builder_turns_mixed(void **state) {
     }
 }
 
-static void test_builder_overflow(void **state) {
+static void test_builder_reports_overflow(void **state) {
     World *world = *state;
     double few[] = {1, 2, 3};
     Vector vector = vector_new(&world->arena);
     vector_add(&vector, value_numbers_view(few, 3));
-    vector_add(&vector, (Value){.len = VALUE_MAX_LEN - 2, .as.numbers = few}); // one too many: not even read
+    vector_add(&vector,
+               (Value){.len = VALUE_MAX_LEN - 2, .as.numbers = few}); // one too many; the elements are not read
     assert_true(vector.overflow);
     vector_add_number(&vector, 4);
     assert_true(vector.overflow);
     assert_true(value_is_null(vector_finish(&vector)));
 }
 
-static void test_truth(void **state) {
+static void test_truth_of_values(void **state) {
     World *world = *state;
     static const struct {
         const char *v;
@@ -82,7 +83,7 @@ static void test_truth(void **state) {
     assert_true(value_true(value_function(&world->arena, &function)));
 }
 
-static void test_equality(void **state) {
+static void test_equality_of_vectors(void **state) {
     World *world = *state;
     static const struct {
         const char *a, *b;
@@ -117,7 +118,7 @@ static void test_equality(void **state) {
         assert_claim(rows[i].a, value_equal(NULL, a, b) == rows[i].wanted);
         assert_claim(rows[i].a, value_equal(NULL, b, a) == rows[i].wanted);
     }
-    // Functions: the same closure, or the same built-in whoever made the value.
+    // Closures are equal if identical, built-in functions if they have the same table row.
     static const int sine_row = 0, cosine_row = 0;
     static const Function f = {.name = {"f", 1}}, g = {.name = {"f", 1}}, sin1 = {.builtin = &sine_row},
                           sin2 = {.builtin = &sine_row}, cos1 = {.builtin = &cosine_row};
@@ -131,7 +132,7 @@ static void test_equality(void **state) {
 
 enum { LESS = -1, SAME_ORDER, GREATER, NONE = VALUE_INCOMPARABLE };
 
-static void test_order(void **state) {
+static void test_order_of_vectors(void **state) {
     World *world = *state;
     static const struct {
         const char *a, *b;
@@ -171,11 +172,11 @@ static void test_order(void **state) {
         assert_claim(rows[i].a, order == rows[i].wanted);
     }
     Value nans = read_value(world, "nan;nan");
-    assert_int_equal(value_compare(NULL, nans, nans), SAME_ORDER); // the same object (L5.5 rule 1)
+    assert_int_equal(value_compare(NULL, nans, nans), SAME_ORDER); // identical vectors (L5.5 rule 1)
     assert_int_equal(value_compare(NULL, nans, read_value(world, "nan;nan")), GREATER);
 }
 
-static void test_containment(void **state) {
+static void test_in_finds_values(void **state) {
     World *world = *state;
     static const struct {
         const char *x, *y;
@@ -192,7 +193,7 @@ static void test_containment(void **state) {
                                     rows[i].wanted);
 }
 
-static void test_indexing(void **state) {
+static void test_index_wraps(void **state) {
     World *world = *state;
     static const struct {
         const char *v, *index, *wanted;
@@ -202,14 +203,14 @@ static void test_indexing(void **state) {
         {"1;2;3", "0;'a'", "null"},  {"null", "0", "null"},        {"'a';1;2", "1;2", "1;2"},
         {"5", "0;1;2;3", "5;5;5;5"}, {"'abc'", "0", "'abc'"},      {"'a';1", "0;0", "'a';'a'"},
         {"1;2;3", "1e18", "2"},      {"1;2;3", "-1e18", "3"},      {"1;2;3", "uniform:1", "null"},
-        {"1;2;3", "nan", "2"},       {"1;2;3", "inf;-inf", "2;2"}, // as -2147483648 would (D8)
+        {"1;2;3", "nan", "2"},       {"1;2;3", "inf;-inf", "2;2"}, // treated as -2147483648 (D8)
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         Value found = value_index(&world->arena, read_value(world, rows[i].v), read_value(world, rows[i].index));
         assert_text(rows[i].index, show(world, found), rows[i].wanted);
     }
     Value numbers = value_index(&world->arena, read_value(world, "'a';1;2"), read_value(world, "1;2"));
-    assert_int_equal(numbers.kind, VALUE_NUMBERS); // only numbers were selected
+    assert_int_equal(numbers.kind, VALUE_NUMBERS); // the selected elements are all numbers
 }
 
 static void test_element_and_slice(void **state) {
@@ -229,8 +230,8 @@ static void test_element_and_slice(void **state) {
     assert_int_equal(value_wrap_index(4294967296.0 * 4294967296.0, 7), 2); // 2^64 mod 7
 }
 
-// Nothing of a copy lies in the old arena.
-static void test_copy(void **state) {
+// A copy does not point into the old arena.
+static void test_copy_is_deep(void **state) {
     World *world = *state;
     Arena other;
     arena_init(&other, "other", SIZE_MAX);
@@ -249,7 +250,7 @@ static void test_copy(void **state) {
     assert_true(value_equal(NULL, values[4], value_stream(STREAM_BETA, 9)));
 }
 
-static void test_text_conversion(void **state) {
+static void test_text_concatenates_elements(void **state) {
     World *world = *state;
     static const struct {
         const char *v, *wanted;
@@ -271,12 +272,17 @@ static void test_text_conversion(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        WORLD_TEST(test_composition),       WORLD_TEST(test_builder_turns_mixed),
-        WORLD_TEST(test_builder_overflow),  WORLD_TEST(test_truth),
-        WORLD_TEST(test_equality),          WORLD_TEST(test_order),
-        WORLD_TEST(test_containment),       WORLD_TEST(test_indexing),
-        WORLD_TEST(test_element_and_slice), WORLD_TEST(test_copy),
-        WORLD_TEST(test_text_conversion),
+        WORLD_TEST(test_composition_concatenates_parts),
+        WORLD_TEST(test_builder_turns_mixed),
+        WORLD_TEST(test_builder_reports_overflow),
+        WORLD_TEST(test_truth_of_values),
+        WORLD_TEST(test_equality_of_vectors),
+        WORLD_TEST(test_order_of_vectors),
+        WORLD_TEST(test_in_finds_values),
+        WORLD_TEST(test_index_wraps),
+        WORLD_TEST(test_element_and_slice),
+        WORLD_TEST(test_copy_is_deep),
+        WORLD_TEST(test_text_concatenates_elements),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
