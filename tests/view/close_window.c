@@ -1,4 +1,4 @@
-// close_window.c: asks the program that has a window to close it, as a window manager does: close_window WINDOW-ID.
+// close_window.c: asks a program to close a window, as a window manager does. Usage: close_window WINDOW-ID
 #include <X11/Xlib.h>
 #include <stdio.h>
 #include <stdlib.h>

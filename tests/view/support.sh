@@ -1,4 +1,4 @@
-# support.sh: what the tests of `petri view` share. Sourced with $1 the path of petri.
+# support.sh: functions for the tests of `petri view`. Sourced with the path of petri as $1.
 
 # shellcheck source=tests/support/check.sh
 . "$(dirname "$0")/../support/check.sh"
@@ -9,13 +9,13 @@ skip() {
     exit 77
 }
 
-# needs TOOL PACKAGE: skips where a tool is not there.
+# needs TOOL PACKAGE: skips the test if the tool is missing.
 needs() {
     command -v "$1" >/dev/null 2>&1 || skip "no $1; './dev setup all' installs it (Debian: $2)"
 }
 
-# soon COMMAND...: true as soon as the command is, however slow the machine; false if it never is. Where it is waited
-# in vain, what comes after is mostly in vain, too, and gets less time.
+# soon COMMAND...: waits until the command is true; false after `patience` seconds. After a failure, later waits are
+# shorter, because they are likely to fail as well.
 patience=60 # seconds
 soon() {
     end=$(($(date +%s) + patience))

@@ -1,4 +1,5 @@
-# tmux.sh: a terminal of 80 by 24 cells with a shell in it, for tests of what is shown there. Sourced after support.sh with
+# tmux.sh: a terminal of 80 by 24 cells with a shell, for tests of terminal output. Sourced after support.sh; $2 is
+# `chafa` if petri can show pictures in terminals.
 # $2 `chafa`, if petri can show pictures in terminals.
 
 [ "${2:-chafa}" = chafa ] || skip "petri was built without libchafa (Debian: libchafa-dev)"
@@ -19,7 +20,7 @@ print_details() { screen | sed 's/^/  | /'; }
 type_keys() { mux send-keys -t view "$@"; }
 shows() { screen | grep -Fq -e "$1"; }
 hides() { ! shows "$1"; }
-# Cells of rows FROM to TO and columns FROM to TO (from 1) that are no blanks; `filled` or `clear`.
+# Counts cells in rows FROM to TO and columns FROM to TO (from 1) that are not blank; `filled` or `clear`.
 part() { screen | sed -n "$1,$2p" | sed "s/^.\{0,$(($3 - 1))\}//" | cut_columns $(($4 - $3 + 1)) | tr -d ' \n'; }
 cut_columns() { sed "s/^\(.\{0,$1\}\).*/\1/"; }
 filled() { [ -n "$(part "$@")" ]; }
@@ -28,8 +29,8 @@ clear_of() { [ -z "$(part "$@")" ]; }
 mux new-session -d -s view -x 80 -y 24 "PS1='ready: ' sh" || skip "tmux does not start"
 soon shows 'ready:' || skip "no shell under tmux"
 
-# Takes away what the last command left on the screen, which might be taken for what the next one says.
+# Clears the screen, so that old output is not mistaken for that of the next command.
 wipe() { mux send-keys -R -t view; }
-# A picture is there, on the other screen: before that it might be the command line that is seen.
+# True if a picture is on the alternate screen; the normal screen may still show the command line.
 started() { soon seen && soon filled 1 24 1 80; }
 seen() { mux display-message -p -t view '#{alternate_on}#{cursor_flag}' | grep -q 10; }

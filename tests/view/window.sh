@@ -1,5 +1,5 @@
 #!/bin/sh
-# window.sh: `petri view` in a window: what is seen, keys, the pointer, reloading, closing.
+# window.sh: tests of `petri view` in a window: pictures, keys, the pointer, reloading, closing.
 # usage: tests/view/window.sh PATH-OF-PETRI sdl|none [PATH-OF-close_window]
 # shellcheck source=tests/view/support.sh
 . "$(dirname "$0")/support.sh"
@@ -31,7 +31,7 @@ trap clean_up EXIT
 trap 'exit 130' INT TERM
 cd "$work" || exit 1
 unset WAYLAND_DISPLAY
-# SDL loads libraries that leak and are gone by the end, so that no list could name them.
+# SDL loads libraries with leaks and unloads them, so a list of exceptions could not name them.
 ASAN_OPTIONS=${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0
 export ASAN_OPTIONS
 SDL_VIDEODRIVER=x11
@@ -50,8 +50,7 @@ print_details() {
     [ -z "${KEEP:-}" ] || cp -r "$work" "$KEEP"
 }
 
-# view NAME [options] SCRIPT: starts a view, and waits until its window, called NAME, is there: $window.
-# The server takes away the window of a view that has ended when it comes to it: it must not be taken for the next one's.
+# view NAME [options] SCRIPT: starts a view and waits for its window, called NAME: $window.
 none_is_left() { ! find_window; }
 find_window() {
     window=$(xdotool search --onlyvisible --name "^$title\$" 2>/dev/null | tail -n 1)
@@ -64,15 +63,15 @@ view() {
     "$petri" view "$@" >out 2>err </dev/null &
     viewer=$!
     if ! soon find_window; then
-        check "a window called $title comes" false
+        check "a window called $title opens" false
         finish
         exit 1
     fi
     xdotool windowfocus "$window" 2>/dev/null
-    # Away from the picture, so that no test depends on where the pointer was.
+    # Move the pointer off the picture, so that tests do not depend on its position.
     xdotool mousemove 999 699
 }
-# ended STATUS: the view ends by itself, with this status.
+# ended STATUS: the view ends by itself with this status.
 gone() { ! kill -0 "$viewer" 2>/dev/null; }
 ended() {
     soon gone || return 1
@@ -81,22 +80,22 @@ ended() {
     viewer=
     [ "$status" -eq "$1" ] || { echo "  status $status" && false; }
 }
-# The window has the keyboard by then; what is typed before would be lost.
+# Keys typed before the window has the focus would be lost.
 focused() { [ "$(xdotool getwindowfocus 2>/dev/null)" = "$window" ] || { xdotool windowfocus "$window" 2>/dev/null && false; }; }
 press() {
     soon focused
     xdotool key "$@"
 }
 
-# import may wait for ever for a window that changes under its hands.
+# import may hang if a window changes meanwhile.
 look() { timeout 10 import -silent -window "$window" seen.png 2>/dev/null; }
-# shows FILE: the window shows that picture, to the last bit.
+# shows FILE: the window shows this picture exactly.
 same_pixels() { look && [ "$(compare -metric AE seen.png "$1" null: 2>&1)" = 0 ]; }
 shows() { soon same_pixels "$1"; }
-# point X Y COLOUR: a pixel of the window, as RRGGBB.
+# point X Y COLOUR: a pixel of the window has this colour, as RRGGBB.
 colour_is() { look && [ "$(convert seen.png -alpha off -depth 8 -crop "1x1+$1+$2" rgb:- | od -An -tx1 | tr -d ' \n')" = "$3" ]; }
 point() { soon colour_is "$@"; }
-# dark X Y: part of a panel of text: neither what is below nor light.
+# dark X Y: the pixel belongs to a text panel, not to the picture or a letter.
 is_dark() {
     look && set -- $(convert seen.png -alpha off -depth 8 -crop "1x1+$1+$2" rgb:- | od -An -tu1) &&
         [ "$1" -gt 0 ] && [ "$1" -lt 90 ] && [ "$2" -lt 90 ] && [ "$3" -lt 90 ]
@@ -104,9 +103,9 @@ is_dark() {
 dark() { soon is_dark "$@"; }
 size_is() { xdotool getwindowgeometry --shell "$window" | grep -Eq "^WIDTH=$1\$" && xdotool getwindowgeometry --shell "$window" | grep -Eq "^HEIGHT=$2\$"; }
 render() { "$petri" render "$@" >/dev/null 2>&1; }
-# pictures COUNT: so many screenshots are there.
+# pictures COUNT: there are COUNT screenshots.
 count_is() { [ "$(find . -maxdepth 1 -name "$1" | wc -l)" -eq "$2" ]; }
-# shot: presses s and waits for the file: $shot.
+# shot: presses s and waits for the screenshot: $shot.
 shot() {
     before=$(find . -maxdepth 1 -name '*-[0-9]*.png' | wc -l)
     press s
@@ -128,16 +127,16 @@ END
 render still.fl --frames 1 -o still.png
 render still.fl --frames 1 --scale 2 -o large.png
 
-# What the script draws, in its size, under its title.
+# The picture, size and title of the script.
 view still still.fl
-check "it has the script's size" size_is 320 240
-check "it shows what petri render draws" soon shows still.png
+check "the window has the script's size" size_is 320 240
+check "the window shows the picture of petri render" soon shows still.png
 press q
 check "q closes it" ended 0
-check "nothing is said" [ ! -s err ]
+check "nothing is written to standard error" [ ! -s err ]
 check "nothing is printed" [ ! -s out ]
 
-# What OpenGL draws, although SDL has a context of its own in the same thread.
+# OpenGL pictures, while SDL has its own OpenGL context in the same thread.
 cat >ball.fl <<'END'
 !window size=200;200 title='ball'
     !bloom radius=4
@@ -147,47 +146,47 @@ cat >ball.fl <<'END'
 END
 "$petri" render ball.fl --frames 1 -o ball.png >/dev/null 2>err
 if lacks err needs-gpu; then
-    check "a ball is drawn" [ "$(convert ball.png -depth 8 -crop 1x1+100+100 rgb:- | od -An -tu1 | awk '{ print ($1 > 200) }')" = 1 ]
+    check "petri render draws the ball" [ "$(convert ball.png -depth 8 -crop 1x1+100+100 rgb:- | od -An -tu1 | awk '{ print ($1 > 200) }')" = 1 ]
     view ball ball.fl
-    check "it is drawn in the window as in files" soon shows ball.png
+    check "the window shows the picture of petri render" soon shows ball.png
     press q
     check "q closes it" ended 0
-    check "nothing is said" [ ! -s err ]
-    # Where the window has OpenGL ES it stays on the card.
+    check "nothing is written to standard error" [ ! -s err ]
+    # With OpenGL ES, pictures stay on the graphics card.
     unset SDL_RENDER_DRIVER
     view ball ball.fl --debug
-    check "it is drawn on the window as in files" soon shows ball.png
+    check "the window shows the picture of petri render" soon shows ball.png
     press h
-    check "with texts over it" dark 150 178
+    check "text is shown over the picture" dark 150 178
     press h
-    check "and without" soon shows ball.png
+    check "text is removed again" soon shows ball.png
     press q
     check "q closes it" ended 0
-    check "nothing was read back" has err "read back from the graphics card: 0"
+    check "nothing is read back" has err "read back from the graphics card: 0"
     touch mark
     view ball ball.fl --debug
-    check "s saves it" shot
-    check "as it is" cmp -s "$shot" ball.png
+    check "s saves a screenshot" shot
+    check "the screenshot equals the picture" cmp -s "$shot" ball.png
     press q
     check "q closes it" ended 0
-    check "that was read back" has err "read back from the graphics card: 1"
+    check "the screenshot is read back" has err "read back from the graphics card: 1"
     view still still.fl
-    check "canvases are shown there, too" soon shows still.png
+    check "canvases are shown with OpenGL" soon shows still.png
     xdotool windowsize "$window" 640 480
-    check "in the window's size" soon shows large.png
+    check "canvases are drawn in the window's size" soon shows large.png
     press q
     check "q closes it" ended 0
-    check "nothing is said" [ ! -s err ]
+    check "nothing is written to standard error" [ ! -s err ]
     SDL_RENDER_DRIVER=software
     export SDL_RENDER_DRIVER
 fi
 
-# Those that end by themselves.
+# Views that end by themselves.
 short() { timeout 60 "$petri" view "$@" >out 2>err </dev/null; }
 check "--frames ends it" short still.fl --frames 20
 check "--runtime ends it" short still.fl --runtime 1
-check "--lockstep runs as well" short still.fl --lockstep --frames 20 --verbose
-check "--verbose sums up" has err "20 frames"
+check "--lockstep runs to the end" short still.fl --lockstep --frames 20 --verbose
+check "--verbose prints a summary" has err "20 frames"
 view still still.fl
 press Escape
 check "Escape closes it" ended 0
@@ -198,17 +197,17 @@ view still still.fl
 kill -TERM "$viewer"
 check "SIGTERM ends it" ended 143
 
-# Another size of the window: the picture is drawn anew, as large as it goes, in the middle.
+# In a window of another size, the picture is drawn as large as possible and centred.
 view still still.fl
 xdotool windowsize "$window" 640 480
-check "it is drawn in the window's size" soon shows large.png
+check "the picture is drawn in the window's size" soon shows large.png
 xdotool windowsize "$window" 640 600
 check "bars are black" point 5 5 000000
-check "the picture is in the middle" point 5 70 336699
+check "the picture is centred" point 5 70 336699
 press q
 ended 0
 
-# Keys, by pictures that tell their frame.
+# Keys; the pictures encode the frame number.
 cat >count.fl <<'END'
 let n=frame+1
 !window size=256;64 title='count'
@@ -223,65 +222,65 @@ view count count.fl
 press space
 check "space pauses and s saves" shot
 first=$shot
-check "it stays at one frame" shot
-check "which has one picture" cmp -s "$first" "$shot"
+check "while paused, the frame stays" shot
+check "a frame always has the same picture" cmp -s "$first" "$shot"
 number=$(echo "${first#./count-}" | sed 's/^0*//; s/\.png$//')
 render count.fl --frame "${number:-0}" -o wanted.png
-check "the picture is that frame's" cmp -s "$first" wanted.png
+check "the picture is that of the frame" cmp -s "$first" wanted.png
 press period
 render count.fl --frame $((number + 1)) -o wanted.png
-check ". makes a step" soon exists wanted.png
+check ". makes one step" soon exists wanted.png
 shot
-check "and one only" cmp -s "$shot" wanted.png
-check "which the file's name tells" [ "$shot" = "$(printf './count-%05d.png' $((number + 1)))" ]
+check ". makes only one step" cmp -s "$shot" wanted.png
+check "the file name contains the frame number" [ "$shot" = "$(printf './count-%05d.png' $((number + 1)))" ]
 press r
 render count.fl --frame 0 -o wanted.png
 sleep 0.2
 shot
-check "r starts anew" cmp -s "$shot" wanted.png
+check "r restarts" cmp -s "$shot" wanted.png
 xdotool windowsize "$window" 400 300
-check "the notice goes" point 395 295 000000
+check "the notice disappears" point 395 295 000000
 press h
-check "h tells more" dark 30 285
+check "h shows the status" dark 30 285
 press h
-check "and less" point 30 285 000000
+check "h hides the status" point 30 285 000000
 press space
 sleep 0.3
 shot
-check "space goes on" [ "$shot" != ./count-00000.png ]
-check "nothing else was written" lacks err error
+check "space resumes" [ "$shot" != ./count-00000.png ]
+check "no errors are printed" lacks err error
 press q
 check "q quits" ended 0
 
-# Warnings: a mark in a corner, and a list while it is wanted.
+# Warnings: their number in a corner, and a list on request.
 sed 's/radius=60/radus=60 radius=60/' still.fl >warn.fl
 view still warn.fl
-check "a mark at the right tells of a warning" dark 300 16
-check "and nothing is at the left" point 20 20 336699
+check "the corner shows the number of warnings" dark 300 16
+check "the list is not shown" point 20 20 336699
 press w
-check "w lists it" dark 20 20
+check "w shows the list" dark 20 20
 press w
-check "and hides it" point 20 20 336699
+check "w hides the list" point 20 20 336699
 cp still.fl warn.fl
-check "a reload without warnings has no mark" point 300 16 336699
+check "a reload without warnings removes the number" point 300 16 336699
 press q
 check "q quits" ended 0
 
-# Full screen where there is no window manager: the window is as large as the screen, and the picture as large as it goes.
+# Full screen without a window manager: the window gets the size of the screen.
 view still still.fl
 press f
 check "f fills the screen without a window manager" soon size_is 1000 700
-check "from its corner" soon eval 'xdotool getwindowgeometry "$window" | grep -q "Position: 0,0"'
-check "the picture fills its height" point 40 5 336699
-check "and is in the middle" point 960 690 336699
-check "with bars beside it" point 20 350 000000
+check "the window is at the corner of the screen" soon eval 'xdotool getwindowgeometry "$window" | grep -q "Position: 0,0"'
+check "the picture fills the height" point 40 5 336699
+check "the picture is centred" point 960 690 336699
+check "there are bars beside the picture" point 20 350 000000
 press f
-check "f goes back" soon size_is 320 240
-check "with the picture as it was" soon shows still.png
+check "f restores the size" soon size_is 320 240
+check "f restores the picture" soon shows still.png
 press q
 check "q quits" ended 0
 
-# With a window manager it is for that to do.
+# Full screen with a window manager.
 if command -v openbox >/dev/null 2>&1; then
     openbox >openbox.log 2>&1 &
     manager=$!
@@ -289,19 +288,19 @@ if command -v openbox >/dev/null 2>&1; then
     soon has_manager
     view still still.fl
     press f
-    check "f fills the screen" soon size_is 1000 700
+    check "f fills the screen with a window manager" soon size_is 1000 700
     press f
-    check "f goes back" soon size_is 320 240
+    check "f restores the size with a window manager" soon size_is 320 240
     press q
     ended 0
-    kill -KILL "$manager" # it does not always heed SIGTERM
+    kill -KILL "$manager"  # it sometimes ignores SIGTERM
     wait "$manager" 2>/dev/null
     manager=
 else
     echo "skipped: full screen, for there is no openbox"
 fi
 
-# The pointer and the keyboard reach the script; keys that it asks for are its own.
+# The pointer and keys are passed to the script; keys that it binds have no other function.
 cat >hands.fl <<'END'
 !window size=300;200 title='hands'
     !pointer state=:mouse
@@ -315,28 +314,28 @@ cat >hands.fl <<'END'
             !ellipse point=$:mouse*(300;200) radius=10 color=colour fill=true
 END
 view hands hands.fl --state hands.state
-check "outside there is no pointer" point 150 100 000000
+check "the pointer is outside at first" point 150 100 000000
 xdotool mousemove --window "$window" 150 100
-check "the pointer is where it is" point 150 100 00ff00
+check "the pointer's position reaches the script" point 150 100 00ff00
 xdotool mousedown 1
-check "a button is pressed" point 150 100 ff0000
+check "a button press reaches the script" point 150 100 ff0000
 xdotool mouseup 1
-check "and let go" point 150 100 00ff00
+check "a button release reaches the script" point 150 100 00ff00
 xdotool mousemove --window "$window" 75 50
-check "the pointer moves" point 75 50 00ff00
+check "a pointer movement reaches the script" point 75 50 00ff00
 press q
 check "a key reaches the script" point 275 175 0000ff
 xdotool windowsize "$window" 600 600
 xdotool mousemove --window "$window" 300 50
-check "beside the picture is outside" point 300 300 000000
+check "a pointer beside the picture is outside" point 300 300 000000
 xdotool mousemove --window "$window" 450 200
-check "the pointer is scaled as the picture is" point 450 200 00ff00
+check "the pointer is scaled with the picture" point 450 200 00ff00
 press ctrl+q
 check "Control and q quit" ended 0
 "$petri" run hands.fl --state hands.state --frames 1 --print state >out 2>err
-check "the state has where the pointer was" has out '$:mouse = 0.75'
+check "the state has the pointer's position" has out '$:mouse = 0.75'
 
-# Parameters: what is seen is what -D would give, but that the world goes on.
+# Parameters: a change has the effect of -D, but the script keeps running.
 cat >steps.fl <<'END'
 let PARTS=PARTS or 2 -- 1..7 parts
     SHADE=SHADE or 0.5 -- 0.1..1|0.1
@@ -349,27 +348,27 @@ let PARTS=PARTS or 2 -- 1..7 parts
         !rect point=0;150 size=50*($:c);30 color=0;1;0 fill=true
 END
 view steps steps.fl
-check "two parts" point 70 50 808080
-check "no third" point 120 50 000000
+check "the script starts with two parts" point 70 50 808080
+check "there is no third part" point 120 50 000000
 press Up
-check "the first key shows what is chosen" dark 384 284
+check "the first parameter key shows the selected parameter" dark 384 284
 press Up
-check "up: a third" point 120 50 808080
+check "up adds a third part" point 120 50 808080
 press plus KP_Add
-check "plus: a fourth and a fifth" point 220 50 808080
-check "the state stays" point 110 165 000000
+check "plus adds two parts" point 220 50 808080
+check "the state is kept" point 110 165 000000
 press minus
-check "minus takes one" point 220 50 000000
+check "minus removes a part" point 220 50 000000
 press Tab Down
-check "another parameter by its own step" point 70 50 666666
+check "another parameter changes by its own step" point 70 50 666666
 press bracketleft BackSpace
-check "its default again" point 120 50 000000
-check "the other one stays" point 70 50 666666
+check "the default is restored" point 120 50 000000
+check "the other parameter is kept" point 70 50 666666
 press q
-check "all ends well" ended 0
-check "without a word" [ ! -s err ]
+check "q quits" ended 0
+check "nothing is written to standard error" [ ! -s err ]
 
-# Saving the script: it is loaded anew, keeps state and clock; mistakes are shown, and the last good version goes on.
+# Saving the script reloads it with its state and clock. Errors are shown, and the last good version keeps running.
 cat >work.fl <<'END'
 !counter state=:c rate=0 initial=7
 !window size=500;300 title='work'
@@ -378,25 +377,25 @@ cat >work.fl <<'END'
         !rect point=0;200 size=($:c)*10;100 color=1 fill=true
 END
 view work work.fl
-check "the first version" point 480 250 800000
-check "has its state" point 60 250 ffffff
+check "the first version is shown" point 480 250 800000
+check "the first version has its state" point 60 250 ffffff
 sed 's/0.5;0;0/0;0;0.5/; s/initial=7/initial=3/' work.fl >next.fl && mv next.fl work.fl
 check "a changed script is loaded" point 480 250 000080
-check "and keeps its state" point 60 250 ffffff
+check "the state is kept" point 60 250 ffffff
 echo '        !rect size=(' >>work.fl
-check "a mistake is told in the window" dark 400 18
-check "and on standard error" soon has err "work.fl:"
-check "the last good version is running" point 60 250 ffffff
+check "an error is shown in the window" dark 400 18
+check "the error is printed on standard error" soon has err "work.fl:"
+check "the last good version keeps running" point 60 250 ffffff
 sed '$d; s/0;0;0.5/0;0.5;0/' work.fl >next.fl && cat next.fl >work.fl
-check "the mended script is loaded" point 480 250 008000
-check "the message goes" point 400 18 008000
+check "the corrected script is loaded" point 480 250 008000
+check "the message disappears" point 400 18 008000
 rm work.fl
 sleep 0.5
-check "a script that is gone goes on" point 60 250 ffffff
+check "a deleted script keeps running" point 60 250 ffffff
 press q
-check "all ends well" ended 0
+check "q quits" ended 0
 
-# A frame that cannot be made: told, and waited for what comes.
+# A frame that fails is reported; the view waits for a change.
 cat >loop.fl <<'END'
 %pragma fps 30
 func f(n)
@@ -407,11 +406,11 @@ func f(n)
 END
 sed 's/title=/width=f(0) title=/' loop.fl >never.fl
 view loop never.fl
-check "recursion without end is survived" point 390 190 008000
+check "infinite recursion does not crash the view" point 390 190 008000
 press q
-check "and quits" ended 0
+check "q quits after a failed frame" ended 0
 
-# Recording, and closing the window in the middle of it: whole files only.
+# Recording: closing the window must leave only complete files.
 cat >film.fl <<'END'
 !window size=400;400 title='film'
     !record filename='film/'; frame; '.png'
@@ -424,13 +423,13 @@ mkdir film
 view film film.fl
 soon exists film/3.png
 "$closer" "$window"
-check "closing while recording is fine" ended 0
-check "all files are whole" sh -c 'for file in film/*; do convert "$file" null: || exit 1; done'
-check "and nothing else is left" sh -c 'test "$(find film -type f ! -name "*.png" | wc -l)" -eq 0'
+check "closing while recording exits with status 0" ended 0
+check "all files are complete" sh -c 'for file in film/*; do convert "$file" null: || exit 1; done'
+check "there are no other files" sh -c 'test "$(find film -type f ! -name "*.png" | wc -l)" -eq 0'
 render film.fl --frame 2 -o wanted.png
-check "they are what petri render draws" cmp -s film/2.png wanted.png
+check "the pictures equal those of petri render" cmp -s film/2.png wanted.png
 
-# The frames in which particles cannot be seen yet are neither shown nor recorded, also after a reset, even while paused.
+# Frames before particles are at their positions are neither shown nor recorded, also after a reset and while paused.
 cat >early.fl <<'END'
 %pragma fps 1
 !physics state=:w dimensions=2
@@ -442,54 +441,54 @@ cat >early.fl <<'END'
 END
 mkdir early
 view early early.fl --frames 120
-check "a view begins with black" point 150 100 000000
-check "then the particles are seen" point 150 100 00ff00
+check "the view is black at first" point 150 100 000000
+check "the particles appear" point 150 100 00ff00
 press space
 soon exists early/2.png
 rm -f early/*
 press r
-check "after a reset the first frame with particles is seen" soon exists early/2.png
-check "no other is recorded" [ ! -e early/0.png ]
+check "after a reset, the first frame with particles is recorded" soon exists early/2.png
+check "earlier frames are not recorded" [ ! -e early/0.png ]
 sleep 1
-check "while paused one step is shown" [ "$(echo early/*)" = early/2.png ]
-check "and that is what is seen" point 150 100 00ff00
+check "while paused, a reset records one frame" [ "$(echo early/*)" = early/2.png ]
+check "while paused, a reset shows the particles" point 150 100 00ff00
 press q
 check "q quits" ended 0
 short early.fl --lockstep --frames 5 --verbose
-check "--frames counts what is seen" [ "$(echo early/*)" = "early/2.png early/3.png early/4.png early/5.png early/6.png" ]
+check "--frames counts only visible frames" [ "$(echo early/*)" = "early/2.png early/3.png early/4.png early/5.png early/6.png" ]
 
-# What cannot be.
+# Errors.
 "$petri" view nothing.fl >out 2>err </dev/null
 check "a missing script fails" [ $? -eq 1 ]
-check "with a message" has err "nothing.fl"
+check "the message names the script" has err "nothing.fl"
 "$petri" view still.fl more.fl >out 2>err </dev/null
-check "two scripts are one too many" [ $? -eq 2 ]
+check "two scripts are an error" [ $? -eq 2 ]
 (
     unset DISPLAY SDL_VIDEODRIVER
     "$petri" view still.fl >out 2>err </dev/null
 )
 check "no display and no terminal fails" [ $? -eq 1 ]
-check "with a message" has err "no display"
+check "the message names the display" has err "no display"
 DISPLAY=:9999 "$petri" view still.fl >out 2>err </dev/null
-check "a display that is not there fails" [ $? -eq 1 ]
-check "with a message" has err "cannot open a window: nothing answers at DISPLAY=:9999"
-# Without a driver that is chosen, SDL would open a window that nobody sees.
+check "a display that does not answer fails" [ $? -eq 1 ]
+check "the message names the display that does not answer" has err "cannot open a window: nothing answers at DISPLAY=:9999"
+# Without a chosen driver, SDL would open an invisible window.
 unset SDL_VIDEODRIVER
 for place in DISPLAY=:9999 DISPLAY=localhost:99.0 DISPLAY=nonsense WAYLAND_DISPLAY=wayland-none; do
     env -u DISPLAY XDG_RUNTIME_DIR=. "$place" timeout 60 "$petri" view still.fl >out 2>err </dev/null
     check "$place fails" [ $? -eq 1 ]
-    check "and is named" has err "nothing answers at $place"
+    check "the message names $place" has err "nothing answers at $place"
 done
 view still still.fl
 press q
-check "the display that is there needs no driver" ended 0
+check "an existing display needs no driver" ended 0
 kill -STOP "$server"
 timeout 60 "$petri" view still.fl >out 2>err </dev/null
-check "one that takes connections and never answers fails" [ $? -eq 1 ]
+check "a display that accepts connections but never answers fails" [ $? -eq 1 ]
 kill -CONT "$server"
-check "with a message, too" has err "nothing answers at DISPLAY="
+check "the message names the silent display" has err "nothing answers at DISPLAY="
 
-# A screen that goes away: what has something to do goes on, here as soon as its frames are made more often.
+# The screen is lost: a run with a purpose continues, here with a higher frame rate.
 cat >slow.fl <<'END'
 %pragma fps 0.01
 !counter state=:c rate=0 initial=7
@@ -501,24 +500,24 @@ END
 unset SDL_RENDER_DRIVER
 view slow slow.fl --frames 10 --state gone.state
 goes_on=$viewer
-check "its picture is there" point 150 100 00ff00
+check "the first view shows its picture" point 150 100 00ff00
 cp err slow.err
 "$petri" view still.fl >out 2>still.err </dev/null &
 viewer=$!
 title=still
-check "another one is there" soon find_window
+check "the second view opens a window" soon find_window
 kill -KILL "$server"
 wait "$server" 2>/dev/null
 server=
-check "a view whose display goes ends" ended 1
-check "and says why" has still.err "display lost"
-check "in one line" [ "$(wc -l <still.err)" -eq 1 ]
+check "a view without a purpose ends with status 1" ended 1
+check "the view reports the lost display" has still.err "display lost"
+check "the report is one line" [ "$(wc -l <still.err)" -eq 1 ]
 viewer=$goes_on
 sed -i 's/fps 0.01/fps 60/' slow.fl
-check "one that has an end reaches it" ended 0
-check "and says so" has err "display lost; continuing without it"
-check "in one line" [ "$(wc -l <err)" -eq 1 ]
+check "a run with an end continues to its end" ended 0
+check "the run reports that it continues" has err "display lost; continuing without it"
+check "the report of the run is one line" [ "$(wc -l <err)" -eq 1 ]
 "$petri" run slow.fl --state gone.state --frames 1 --print state >out 2>err
-check "it has saved its state" has out '@10 '
+check "the run has saved its state" has out '@10 '
 
 finish
