@@ -1,7 +1,7 @@
 // replace.h: atomic replacement of files.
 //
-// The bytes are written to an unnamed file in the target's folder (O_TMPFILE), or to a file with a random name if the
-// system does not support that. Once they are on disk, the new file is renamed to the target. Readers see either the
+// The bytes are written to an unnamed file in the target's folder (O_TMPFILE). If the system does not support that, the
+// file has a random name. Once the bytes are on disk, the new file is renamed to the target. Readers see either the
 // complete old file or the complete new one, even after a crash or kill -9. Owner and permissions are kept. A symbolic
 // link is kept and its target is replaced. A target that is not a regular file (a device, a pipe, /dev/stdout) is
 // written to directly.

@@ -66,8 +66,9 @@ Str text_str(const Text *text);
 
 // Returns the value of a hexadecimal digit, or -1.
 int str_hex_digit(char c);
-// If `hex` starts with a colour such as #f80, #ff8800 or 0xff8800, optionally with alpha, appends it as numbers from 0
-// to 1 separated by ';' and returns true. Else appends nothing and returns false.
+// Converts a hexadecimal colour at the start of `hex`, such as #f80, #ff8800 or 0xff8800, optionally with alpha.
+// Appends its components as numbers from 0 to 1, separated by ';'. Returns false, with nothing appended, if there is no
+// colour.
 bool text_add_hex_colour(Text *text, Str hex);
 
 // Returns formatted text in the arena.

@@ -1,7 +1,7 @@
 // syntax_hint_list.h: hints for syntax errors caused by habits from other languages.
 //
-// HINT(BEFORE, AFTER, "hint"): the hint for a syntax error if the text of its line before the unexpected token matches
-// BEFORE and the rest of the line matches AFTER. Both are extended regular expressions. A comment counts as the end of
+// HINT(BEFORE, AFTER, "hint"): the hint applies if the line before the unexpected token matches BEFORE and the rest of
+// the line matches AFTER. Both are extended regular expressions. A comment counts as the end of
 // the line. The first matching row is used, so special cases come first.
 // clang-format off
 #ifndef HINT
