@@ -1,9 +1,10 @@
 // arena.h: bump allocation with one lifetime.
 //
-// Each frame, program and session has an arena, and everything allocated from it is freed at once. Single values are
-// never freed. An allocation never returns NULL. If the budget or the machine's memory is exhausted, control jumps
-// (longjmp) to the enclosing arena_protect, which returns the reason. Public calls such as a frame or a load turn it
-// into a status. An arena without an enclosing arena_protect aborts the process, because that is a bug in petri.
+// Each frame, program and session has an arena, and everything allocated from it is freed together. Single values are
+// never freed. An allocation never returns NULL. If the budget or the machine's memory is exhausted, the function
+// escapes: it jumps (longjmp) to the enclosing arena_protect, which returns the reason. Public calls such as a frame or
+// a load turn it into a status. An arena without an enclosing arena_protect aborts the process, because that is a bug
+// in petri.
 #ifndef PETRI_BASE_ARENA_H
 #define PETRI_BASE_ARENA_H
 
@@ -45,7 +46,7 @@ typedef struct Arena {
     size_t used;         // bytes allocated since the last reset, with padding
     size_t high_water;   // largest value of `used` at a rewind or reset
     size_t limit;        // largest value that `used` may have, bytes
-    jmp_buf *escape;     // of the innermost arena_protect; NULL: failures abort the process
+    jmp_buf *escape;     // where to jump on failure: the innermost arena_protect; NULL: abort the process
     Budget *budget;      // charged for blocks and work; NULL: none
     const char *name;    // for messages
 } Arena;
@@ -107,7 +108,8 @@ static inline void *arena_alloc(Arena *arena, size_t size) {
     return bytes;
 }
 
-// Escapes from the arena because a charge returned `outcome`, which is not BUDGET_OK. Without arena_protect it returns.
+// Escapes from the arena because a charge returned `outcome`, which is not BUDGET_OK. Returns if there is no
+// arena_protect.
 void arena_check(Arena *arena, BudgetOutcome outcome);
 // Charges work (budget.h). Escapes if the work limit is exceeded or the host requested an interrupt.
 static inline void arena_charge(Arena *arena, uint64_t units) {

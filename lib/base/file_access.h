@@ -17,11 +17,11 @@ typedef struct FileAccess {
     Str script_folder; // canonical folder of the script, readable and writable; empty: none
     Str directory;     // folder that relative names in scripts refer to, as the user gave it
     bool no_files;     // true: all files on disk are denied
-    // Returns a file's bytes from the host instead of the disk, or NULL; the folders are then ignored for reading.
-    // NULL: read from disk. Bytes must not change as long as the callback returns the same pointer.
+    // If not NULL, the host provides all files for reading, and the folders do not restrict reading. Returns the bytes
+    // of a file, or NULL if it does not exist. Bytes must not change as long as the same pointer is returned.
     const char *(*read_file)(void *user_data, const char *name, size_t *length);
     void *read_user_data; // passed to read_file and read_unsaved
-    // Returns unsaved text that replaces an existing file, by its canonical path, or NULL. NULL: no unsaved texts.
+    // If not NULL, returns the unsaved text of an existing file, by its canonical path, or NULL if it has none.
     const char *(*read_unsaved)(void *user_data, const char *name, size_t *length);
 } FileAccess;
 

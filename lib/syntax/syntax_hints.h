@@ -4,8 +4,7 @@
 
 #include "base/source.h"
 
-// Returns a hint how to write in Flitter what is at `span`, the location of an unexpected token. Empty if none is
-// known.
+// Returns a hint for the unexpected token at `span`: how to write this in Flitter. Empty if no hint is known.
 Str syntax_hint_find(Arena *arena, const Source *source, Span span);
 
 #endif

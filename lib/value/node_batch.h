@@ -11,12 +11,11 @@
 #include "value/node.h"
 
 enum {
-    NODE_BATCH_MAX_ATTRS = 12,     // attributes of a node
-    NODE_BATCH_MAX_ROWS = 1 << 16, // nodes in a batch
-    NODE_BATCH_MAX_BYTES =
-        1000 << 10, // bytes of all rows in a batch; an arena block is slightly larger than four such batches
-    NODE_BATCH_MAX_NUMBERS = 16,               // numbers of an attribute in a row
-    NODE_BATCH_UNIFORM = 0,                    // value of `numbers`: the attribute is the same in all nodes
+    NODE_BATCH_MAX_ATTRS = 12,         // attributes of a node
+    NODE_BATCH_MAX_ROWS = 1 << 16,     // nodes in a batch
+    NODE_BATCH_MAX_BYTES = 1000 << 10, // bytes of the rows; an arena block is slightly larger than four times this
+    NODE_BATCH_MAX_NUMBERS = 16,       // numbers of an attribute in a row
+    NODE_BATCH_UNIFORM = 0,            // value of `numbers`: the attribute is the same in all nodes
     NODE_BATCH_COUNTING = NODE_BATCH_MAX_ROWS, // value of `numbers`: the attribute increases by 1 per node
 };
 
