@@ -1,5 +1,4 @@
-// compiling.h: scripts compiled without a machine: what is to be evaluated ahead goes to a calculator that knows
-// little.
+// compiling.h: compiles scripts without a VM. Constant expressions are folded by a simple calculator.
 #ifndef PETRI_TESTS_COMPILING_H
 #define PETRI_TESTS_COMPILING_H
 
@@ -13,13 +12,14 @@ typedef struct Desk {
     Arena program;
     Arena scratch;
     CompileOptions options;
-    uint32_t evaluate_calls; // how often something was to be evaluated ahead
-    uint32_t include_calls;  // how often a file was to be included
-    Text reported;           // `line:column text [code]` of each diagnostic, one a line
+    uint32_t evaluate_calls; // number of expressions to be folded
+    uint32_t include_calls;  // number of files to be included
+    Text reported;           // `line:column text [code]` of each diagnostic, one per line
     const Program *compiled;
 } Desk;
 
-// Sums, products, compositions, nodes without anything and functions; all else is not known ahead.
+// Evaluates sums, products, compositions, nodes without attributes and children, and functions. Returns false for
+// everything else.
 static inline bool calculate(void *host, const Code *code, Value *value) {
     enum { MAX_REGISTERS = 64 };
     Desk *desk = host;
@@ -77,7 +77,7 @@ static inline const Ast *parse_text(Desk *desk, const char *name, const char *te
     return ast;
 }
 
-// The one file that there is to include binds `inner` and makes a node.
+// Provides the only file that can be included, which binds `inner` and creates a node.
 static inline const Ast *include_file(void *host, Str path, const Source **source, Str *reason) {
     Desk *desk = host;
     desk->include_calls++;
@@ -125,15 +125,15 @@ static inline const Program *compile(Desk *desk, const char *script) {
                         sink.items[i].text.bytes, sink.items[i].code);
     }
     diag_sink_free(&sink);
-    // Whatever the program still needed of this would be garbage from here on.
+    // Overwrite temporary data, to detect programs that still refer to it.
     for (ArenaBlock *block = desk->scratch.first; block && !ARENA_POISONS; block = block->next)
         memset(block->bytes, 0xdb, block->capacity);
     arena_free(&desk->scratch);
     return desk->compiled;
 }
 
-// The instructions of --dump=code without their numbers and lines: `op operands`, functions after a line with their
-// name.
+// Returns the instructions of --dump=code without numbers and lines, as `op operands`. Functions follow a line with
+// their name.
 static inline const char *code_of(Desk *desk, const char *script) {
     Text dump = text_new(&desk->world.arena), out = text_new(&desk->world.arena);
     program_print(&dump, &desk->world.symbols, compile(desk, script));

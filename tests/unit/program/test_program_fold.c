@@ -1,22 +1,22 @@
-// test_program_fold.c: what the simplifier has evaluated ahead, what it makes of that, and what it leaves alone.
+// test_program_fold.c: tests which expressions the simplifier folds, and the resulting code.
 #include "compiling.h"
 
-static void test_constants(void **state) {
+static void test_constants_are_folded(void **state) {
     static const CodeRow rows[] = {
         {"1+2*3\n", "move r0 = 7\nreturn r0\n"},
         {"let x=2\nlet y=x*x\ny+1\n", "move r0 = 2\nmove r1 = 4\nmove r2 = 5\nreturn r2\n"},
         {"let a;b;c=(1;2)\nc;b;a\n", "unpack r0-r2 = 1;2\nmove r3 = 1;2;1\nreturn r3\n"},
         {"frame+(1+2)\n", "global r1 = frame\nadd r0 = r1 3\nreturn r0\n"},
-        // Sums are not put together in another way than they are written.
+        // Sums are not re-associated.
         {"frame+1+2\n", "global r2 = frame\nadd r1 = r2 1\nadd r0 = r1 2\nreturn r0\n"},
         {"(y*2 where y=3)\n", "move r1 = 6\nreturn r1\n"},
-        // What the calculator does not know stays as it is.
+        // Expressions that the calculator cannot evaluate are not changed.
         {"1-2\n", "sub r0 = 1 2\nreturn r0\n"},
     };
     check_code(*state, rows, COUNT_OF(rows));
 }
 
-static void test_branches(void **state) {
+static void test_constant_branches_are_pruned(void **state) {
     static const CodeRow rows[] = {
         {"frame if 1 else time\n", "global r0 = frame\nreturn r0\n"},
         {"frame if 0 else time\n", "global r0 = time\nreturn r0\n"},
@@ -28,36 +28,36 @@ static void test_branches(void **state) {
     check_code(*state, rows, COUNT_OF(rows));
 }
 
-// What is dynamic, or was found to be, is not asked for again with all that is around it.
+// Expressions that contain something dynamic, or an expression that could not be folded, are not tried.
 static void test_static_evaluation_requests(void **state) {
     static const struct {
         const char *script;
-        uint32_t asked;
+        uint32_t fold_count;
     } rows[] = {
         {"frame+1\n", 0},
         {"1+1\n", 1},
-        {"((((1-1))))*2+3;4\n", 1}, // the difference, in vain
+        {"((((1-1))))*2+3;4\n", 1}, // the difference, which fails
         {"$:k;$(1;2)\n", 1},        // (1;2)
         {"csv\n", 0},               // not pure
-        {"realtime\n", 1},          // of the whole run
+        {"realtime\n", 1},          // constant during a run
         {"!a v=frame\n", 1},        // the bare node
         {"func f()\n    frame\n", 1},
-        {"for i in frame;1\n    func() 1\n", 1}, // the body, in vain
+        {"for i in frame;1\n    func() 1\n", 1}, // the body, which fails
         {"let x=frame\nlet y=x+1\nx;y\n", 0},
     };
     Desk *desk = *state;
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         compile(desk, rows[i].script);
-        if (desk->evaluate_calls != rows[i].asked)
-            print_error("%s asked %u\n", rows[i].script, desk->evaluate_calls);
-        assert_int_equal(desk->evaluate_calls, rows[i].asked);
+        if (desk->evaluate_calls != rows[i].fold_count)
+            print_error("%s: %u expressions\n", rows[i].script, desk->evaluate_calls);
+        assert_int_equal(desk->evaluate_calls, rows[i].fold_count);
     }
     desk->options.simplify = false;
     assert_text("without", code_of(desk, "1+2\n"), "add r0 = 1 2\nreturn r0\n");
 }
 
-// Closures are objects: one may be made ahead only where it would be made once.
-static void test_closures(void **state) {
+// Closures are objects: a closure may be folded only if it would be created once.
+static void test_closures_are_folded_once(void **state) {
     static const CodeRow rows[] = {
         {"let f=func(x) x\nf\n", "move r0 = (<anon>)\nmove r1 = (<anon>)\nreturn r1\n"},
         {"for i in frame\n    func() 1\n",
@@ -67,24 +67,24 @@ static void test_closures(void **state) {
     };
     Desk *desk = *state;
     check_code(desk, rows, COUNT_OF(rows));
-    desk->options.module = true; // which may be imported at several places
+    desk->options.module = true; // may be imported several times
     assert_non_null(strstr(code_of(desk, rows[0].script), "closure r0 = (null) <anon>"));
 }
 
-// A failed attempt leaves nothing in the program's memory.
-static void test_memory(void **state) {
+// A failed attempt leaves no data in the program's memory.
+static void test_failed_folding_frees_memory(void **state) {
     Desk *desk = *state;
     compile(desk, "!a v=1\n");
     size_t used = desk->program.used;
     compile(desk, "!a v=frame+1\n");
     size_t once = desk->program.used - used;
     used = desk->program.used;
-    compile(desk, "!a v=frame+(((((1-1)-1)-1)-1)-1)\n"); // five attempts, and five instructions more
+    compile(desk, "!a v=frame+(((((1-1)-1)-1)-1)-1)\n"); // five attempts, and five more instructions
     assert_true(desk->program.used - used < once + 5 * (sizeof(Instr) + sizeof(Origin) + 3 * sizeof(Value)));
 }
 
-// The file of an %include is what the simplifier makes of it, also where that is turned off.
-static void test_includes(void **state) {
+// The path of an %include is folded, even if the simplifier is turned off.
+static void test_include_paths_are_folded(void **state) {
     static const struct {
         const char *script;
         uint32_t included;
@@ -114,8 +114,9 @@ static void test_includes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        DESK_TEST(test_constants), DESK_TEST(test_branches), DESK_TEST(test_static_evaluation_requests),
-        DESK_TEST(test_closures),  DESK_TEST(test_memory),   DESK_TEST(test_includes),
+        DESK_TEST(test_constants_are_folded),        DESK_TEST(test_constant_branches_are_pruned),
+        DESK_TEST(test_static_evaluation_requests),  DESK_TEST(test_closures_are_folded_once),
+        DESK_TEST(test_failed_folding_frees_memory), DESK_TEST(test_include_paths_are_folded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-// test_program_lower.c: the instructions that expressions come down to, and that these stand alone.
+// test_program_lower.c: tests the instructions of expressions, and that code refers to no data of the compiler.
 #include "compiling.h"
 
 static void test_instructions(void **state) {
@@ -22,7 +22,7 @@ static void test_instructions(void **state) {
     check_code(desk, rows, COUNT_OF(rows));
 }
 
-// A built-in with as many arguments as it takes needs no matching.
+// A call of a built-in with exactly its number of arguments becomes a BUILTIN instruction.
 static void test_calls(void **state) {
     static const CodeRow rows[] = {
         {"sin(frame)\n", "global r1 = frame\nbuiltin r0 = (r1) sin\nreturn r0\n"},
@@ -44,7 +44,8 @@ static void test_calls(void **state) {
     assert_ptr_equal(call->names[1], name_of(&desk->world, "c"));
 }
 
-// Nodes are made at once where that is what piece by piece comes to; small parts of a loop's body are added one by one.
+// Nodes are created by one instruction where the result is the same; small parts of a loop's body are yielded one by
+// one.
 static void test_nodes_and_loops(void **state) {
     static const CodeRow rows[] = {
         {"!a #t v=frame\n    !b\n", "global r1 = frame\nnode r2 = () none b\nnode r0 = (v=r1) r2 a\nreturn r0\n"},
@@ -61,12 +62,12 @@ static void test_nodes_and_loops(void **state) {
     check_code(desk, rows, COUNT_OF(rows));
 }
 
-// Each instruction knows its place, also when nothing else of the source is left (compiling.h overwrites it).
-static void test_places(void **state) {
+// Each instruction has a position, even after the syntax tree was freed (compiling.h overwrites it).
+static void test_instruction_positions(void **state) {
     static const struct {
         Opcode op;
         uint32_t line, column;
-        uint32_t inner; // column
+        uint32_t inner; // column of inner_origin; 0: none
     } rows[] = {{OP_GLOBAL, 1, 7, 0}, {OP_GLOBAL, 2, 10, 0}, {OP_SLICE, 2, 6, 10}, {OP_NODE, 2, 1, 0},
                 {OP_LOOKUP, 3, 1, 3}, {OP_COMPOSE, 1, 1, 0}, {OP_RETURN, 1, 1, 0}};
     Desk *desk = *state;
@@ -85,8 +86,8 @@ static void test_places(void **state) {
     }
 }
 
-// What a statement of a loaded program holds: two instructions with their places, a node, its names and constants.
-static void test_memory(void **state) {
+// Limits the memory of a statement: two instructions with their positions, a node, its names and constants.
+static void test_memory_per_statement(void **state) {
     enum { STATEMENTS = 1000, MAX_BYTES = 600 };
     Desk *desk = *state;
     Text script = text_new(&desk->world.arena);
@@ -98,6 +99,7 @@ static void test_memory(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {DESK_TEST(test_instructions), DESK_TEST(test_calls),
-                                       DESK_TEST(test_nodes_and_loops), DESK_TEST(test_places), DESK_TEST(test_memory)};
+                                       DESK_TEST(test_nodes_and_loops), DESK_TEST(test_instruction_positions),
+                                       DESK_TEST(test_memory_per_statement)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,9 +1,9 @@
-// test_program_parameters.c: what is a parameter, its default, and the comment behind it.
+// test_program_parameters.c: tests parameters, their defaults and their comments.
 #include "compiling.h"
 
 typedef struct ParameterRow {
     const char *script;
-    const char *parameters; // `name=text` of the default, `:value` if it is static, ` least..most|step`, ` -- comment`
+    const char *parameters; // `name=default`, `:value` if it is constant, ` min..max|step`, ` -- comment`
 } ParameterRow;
 
 static const char *parameters_of(Desk *desk, const char *script) {
@@ -25,17 +25,17 @@ static const char *parameters_of(Desk *desk, const char *script) {
     return text_c(&out);
 }
 
-static void test_parameters(void **state) {
+static void test_parameters_are_found(void **state) {
     static const ParameterRow rows[] = {
         {"let n=n or 5\n!a v=n\n", "n=5:5"},
         {"let n=n or 2+3*4 -- 0..20|0.5 how many\n", "n=2+3*4:14 0..20|0.5 -- how many"},
         {"let n=n or 's' m=m or (1;2) -- both\n", "n='s':'s', m=(1;2):1;2 -- both"},
         {"let k=4\nlet n=n or k+1\n", "n=k+1:5"},
-        {"let n=n or frame\n", "n=frame"},   // not the same in every frame
-        {"let n=n or 1-1\n", "n=1-1"},       // nor known to this calculator
-        {"let n=n or 1 or 2\n", "n=1 or 2"}, // as a whole it is nowhere
+        {"let n=n or frame\n", "n=frame"},   // varies from frame to frame
+        {"let n=n or 1-1\n", "n=1-1"},       // cannot be evaluated by this calculator
+        {"let n=n or 1 or 2\n", "n=1 or 2"}, // the tree has no node for the whole default
         {"let n=m or 1\nlet sin=sin or 1\nlet n=5\nlet n=n or 1\n", ""},
-        {"if 1\n    let n=n or 1\n", ""}, // only at the top
+        {"if 1\n    let n=n or 1\n", ""}, // only at the top level
     };
     Desk *desk = *state;
     for (int simplify = 1; simplify >= 0; simplify--) {
@@ -45,8 +45,8 @@ static void test_parameters(void **state) {
     }
 }
 
-// Nobody is told of a parameter's name that has no value, and a definition does not change the default.
-static void test_definitions(void **state) {
+// An undefined parameter name is not reported, and a definition does not change the default.
+static void test_definition_keeps_default(void **state) {
     Desk *desk = *state;
     assert_text("value", code_of(desk, "let n=n or 5\nn\n"), "move r0 = 5\nmove r1 = 5\nreturn r1\n");
     assert_text("value", text_c(&desk->reported), "");
@@ -60,7 +60,7 @@ static void test_definitions(void **state) {
     }
 }
 
-static void test_lint(void **state) {
+static void test_default_outside_range_is_reported(void **state) {
     static const ParameterRow rows[] = {
         {"let n=n or 5 -- 0..3 few\n!a v=n\n",
          "1:5 the default of 'n' is outside the range in its comment [out-of-range]\n"},
@@ -79,6 +79,7 @@ static void test_lint(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {DESK_TEST(test_parameters), DESK_TEST(test_definitions), DESK_TEST(test_lint)};
+    const struct CMUnitTest tests[] = {DESK_TEST(test_parameters_are_found), DESK_TEST(test_definition_keeps_default),
+                                       DESK_TEST(test_default_outside_range_is_reported)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,10 +1,11 @@
-// test_program_scope.c: what a name is: a slot, a capture, a name of the engine, a definition, a built-in, or nothing.
+// test_program_scope.c: tests resolution of names: slots, captures, names of the engine, definitions, built-ins,
+// unbound.
 #include "compiling.h"
 
 static void test_slots(void **state) {
     static const CodeRow rows[] = {
         {"let x=frame\n!a v=x\n", "global r0 = frame\nnode r1 = (v=r0) none a\nreturn r1\n"},
-        // A binding is in sight after its value, and its slot is used again when it is out of sight.
+        // A binding is visible after its value, and its slot is reused after its scope.
         {"let x=frame\nlet x=x+1\nx\n", "global r0 = frame\nadd r1 = r0 1\nmove r2 = r1\nreturn r2\n"},
         {"(x where x=frame)*(y where y=time)\n",
          "global r0 = frame\nmove r2 = r0\nglobal r0 = time\nmove r3 = r0\nmul r1 = r2 r3\nreturn r1\n"},
@@ -38,8 +39,8 @@ static void test_captures(void **state) {
         assert_true(g->captures[i].kind == wanted[i].kind && g->captures[i].slot == wanted[i].slot);
 }
 
-// The program's own names hide those of the engine, these hide definitions, and these the built-ins (L8.1).
-static void test_outside(void **state) {
+// Names of the program shadow those of the engine, which shadow definitions, which shadow built-ins (L8.1).
+static void test_order_of_predefined_names(void **state) {
     Desk *desk = *state;
     const Define defines[] = {{.name = name_of(&desk->world, "d"), .value = value_number(1)},
                               {.name = name_of(&desk->world, "frame"), .value = value_number(2)},
@@ -56,7 +57,7 @@ static void test_outside(void **state) {
     compile(desk, "d\nlet pi=5\n");
     assert_true(desk->compiled->define_uses[3].read && !desk->compiled->define_uses[0].read);
     assert_true(desk->compiled->define_uses[2].by_let && desk->compiled->define_uses[2].bound.span.start == 6);
-    // In a module neither counts, and an unbound name is told of when it is reached.
+    // A module sees neither, and an unbound name is reported when it is evaluated.
     desk->options.module = true;
     assert_text("module", code_of(desk, "frame\n"), "unbound r0 = frame\nreturn r0\n");
     assert_text("module", code_of(desk, "d\n"), "unbound r0 = d\nreturn r0\n");
@@ -86,14 +87,14 @@ static void test_exports(void **state) {
     assert_int_equal(program->param_count, 2);
     assert_int_equal(program->export_count, 4);
     assert_int_equal(program_find_export(program, name_of(&desk->world, "b"))->slot, 3);
-    assert_int_equal(program_find_export(program, name_of(&desk->world, "a"))->slot, 5); // the later one counts
+    assert_int_equal(program_find_export(program, name_of(&desk->world, "a"))->slot, 5); // the last one is used
     assert_null(program_find_export(program, name_of(&desk->world, "hidden")));
     assert_null(program_find_export(program, name_of(&desk->world, "p")));
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        DESK_TEST(test_slots),   DESK_TEST(test_captures), DESK_TEST(test_outside),
+        DESK_TEST(test_slots),   DESK_TEST(test_captures), DESK_TEST(test_order_of_predefined_names),
         DESK_TEST(test_unbound), DESK_TEST(test_exports),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

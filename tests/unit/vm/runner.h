@@ -1,4 +1,4 @@
-// runner.h: scripts run by the machine alone: parsed, compiled, evaluated, without a session around it.
+// runner.h: parses, compiles and evaluates scripts with a VM, without a session.
 #ifndef PETRI_TESTS_RUNNER_H
 #define PETRI_TESTS_RUNNER_H
 
@@ -8,14 +8,14 @@
 #include "values.h"
 #include "vm/machine.h"
 
-// Another file that a script may import.
+// A module that a script may import.
 typedef struct ModuleText {
     const char *path;
     const char *text;
 } ModuleText;
 
 typedef struct Runner {
-    World world; // the symbols, and what the tests make
+    World world; // symbols and data of the tests
     Arena program;
     Arena scratch;
     Arena frame;
@@ -29,7 +29,7 @@ typedef struct Runner {
     size_t module_count;
     const Program *compiled;
     Value result;
-    Text reported; // `line:column text [code]` of each diagnostic, one a line
+    Text reported; // `line:column text [code]` of each diagnostic, one per line
     Text log;
 } Runner;
 
@@ -50,7 +50,7 @@ static inline void runner_log(void *host, Str text) {
     text_add_format(&runner->log, "> %.*s\n", (int)text.len, text.bytes);
 }
 
-// The simplifier's machine is the same with another arena: what it makes lives as long as the program.
+// Folds an expression. Its value lives as long as the program.
 static inline bool runner_evaluate(void *host, const Code *code, Value *value) {
     Runner *runner = host;
     return vm_run_static(&runner->static_vm, &runner->program, code, value);
@@ -70,7 +70,7 @@ static inline const Program *runner_compile_text(Runner *runner, const char *pat
     for (uint32_t i = 0; i < sink.count; i++)
         runner_report(runner, &sink.items[i]);
     diag_sink_free(&sink);
-    // Whatever the program still needed of this would be garbage from here on.
+    // Overwrite temporary data, to detect programs that still refer to it.
     for (ArenaBlock *block = runner->scratch.first; block && !ARENA_POISONS; block = block->next)
         memset(block->bytes, 0xdb, block->capacity);
     arena_free(&runner->scratch);
@@ -130,7 +130,7 @@ static inline int runner_teardown(void **state) {
 
 #define RUNNER_TEST(function) cmocka_unit_test_setup_teardown(function, runner_setup, runner_teardown)
 
-// A frame of the program that was loaded last.
+// Evaluates a frame of the program that was loaded last.
 static inline void runner_frame(Runner *runner, double number) {
     runner->vm.globals[ENGINE_FRAME] = value_number(number);
     arena_reset(&runner->frame);
@@ -138,21 +138,21 @@ static inline void runner_frame(Runner *runner, double number) {
     runner->result = vm_run(&runner->vm, runner->compiled, NULL, NULL);
 }
 
-// False if the script does not parse.
+// Returns false if the script has syntax errors.
 static inline bool runner_load(Runner *runner, const char *script) {
     runner->reported.len = 0;
     runner->compiled = runner_compile_text(runner, "t.fl", script, false);
     return runner->compiled != NULL;
 }
 
-// Loads a script that must parse and makes frames.
+// Loads a script without syntax errors and evaluates frames.
 static inline void runner_run(Runner *runner, const char *script, int frames) {
     assert_claim(script, runner_load(runner, script));
     for (int i = 0; i < frames; i++)
         runner_frame(runner, i);
 }
 
-// The nodes of the last frame.
+// Returns the nodes of the last frame as text.
 static inline const char *runner_tree(Runner *runner) {
     Text text = text_new(&runner->world.arena);
     for (uint32_t i = 0; runner->result.kind == VALUE_MIXED && i < runner->result.len; i++)
@@ -166,7 +166,7 @@ typedef struct ScriptRow {
     const char *wanted;
 } ScriptRow;
 
-// The tree of the last of `frames` frames of each script, which is the same without the simplifier.
+// Checks the tree of the last of `frames` frames of each script, with and without the simplifier.
 static inline void check_trees(Runner *runner, const ScriptRow *rows, size_t count, int frames) {
     for (int simplify = 1; simplify >= 0; simplify--) {
         runner->simplify = simplify;

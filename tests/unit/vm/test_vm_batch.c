@@ -1,14 +1,14 @@
-// test_vm_batch.c: many rounds of a loop at once come to what they come to one by one.
+// test_vm_batch.c: tests that batched loops give the same results as iteration-by-iteration execution.
 #include "runner.h"
 
 enum { ROUNDS = 150 };
 
-// The same rounds of a loop: 150, or 5 at a time, which are run one by one.
+// 150 iterations: as one loop, or as loops of 5 iterations, which are too short for batches.
 static const char many_form[] = "%sfunc all()\n    for i in ..150\n        %s\n!all v=all()\n    all()\n";
 static const char few_form[] = "%sfunc all()\n    for k in ..30\n        for i in k*5..k*5+5\n            %s\n"
                                "!all v=all()\n    all()\n";
 
-// What goes before a body, the body, and whether its rounds are run at once.
+// The body of a loop, and whether it must be executed iteration by iteration.
 typedef struct Body {
     const char *text;
     bool one_by_one;
@@ -33,7 +33,7 @@ static const Body bodies[] = {
     {"normal(:t)[i];normal(:t)[i-70];beta(:t)[i];normal(:t)[i*1e17];(normal(:t)[i//7])", false},
     {"mixed[i];nothing[i];(i;2;3)[i]", false},
     {"'x' if mixed[i]==1 else 2", false},
-    // built-ins: of each element, of points, of anything
+    // built-ins: element-wise, of points, others
     {"sin(i/10)+cos(i)+sine(i/9)+triangle(z+i/7)+abs(3-i)+floor(i/4)+sqrt(i)", false},
     {"clamp(i;i/2, 3, 8);clamp(i, z, 9);round(i/7, 2);round(i/7, 19);impulse(i/10, i/20)", false},
     {"hypot(i;z);hypot(i, 3);hypot(i);length(i, 4);length(i;3);angle(i, z+1);map(i/9, 1, z)", false},
@@ -57,12 +57,12 @@ static const Body bodies[] = {
     {"!p #tag a=1 b=(i if i%2 else nothing) c=!q n=i", false},
     {"!p a=i\n                    !q b=i\n                    !r c=(z if i%4 else i;z)", false},
     {"!p id=i;!q id=i+1;(!r c=z if i%4 else !s)", false},
-    // what must go one by one
+    // bodies that cannot be batched
     {"(func(x) x+i)(1)", true},
     {"debug(i)", true},
 };
 
-// The tree of the second frame of a script.
+// Returns the tree of the second frame of a script.
 static const char *run_loop(Runner *runner, const char *form, const char *body, uint64_t *rounds) {
     char script[2000];
     snprintf(script, sizeof script, form, before, body);
@@ -93,11 +93,11 @@ static void test_bodies(void **state) {
         assert_text(body->text, found, run_loop(runner, few_form, body->text, &few));
         assert_int_equal(few, 0);
         if (!runner->simplify && (many == 0) != body->one_by_one)
-            fail_msg("%s: %d rounds at once", body->text, (int)many);
+            fail_msg("%s: %d iterations in batches", body->text, (int)many);
     }
 }
 
-// Items of a stream in a row are those that are asked for one by one, also where a row ends at the greatest position.
+// Consecutive items of a stream equal the same items read one by one, also at the highest position.
 static void test_items(void **state) {
     Runner *runner = *state;
     runner->simplify = false;
@@ -109,7 +109,7 @@ static void test_items(void **state) {
     assert_int_equal(runner->vm.batched_iterations, 0);
 }
 
-// What is wrong is told in the order in which rounds one by one meet it.
+// Errors are reported in the order of iteration-by-iteration execution.
 static void test_faults(void **state) {
     Runner *runner = *state;
     runner_run(runner,
@@ -128,7 +128,7 @@ static void test_faults(void **state) {
     assert_true(runner->vm.batched_iterations > 0 && runner->vm.batched_iterations < 450);
 }
 
-// The work of rounds is charged before they are run, as that of one: a limit ends both.
+// A batch is charged about the same work as iteration-by-iteration execution.
 static void test_work(void **state) {
     Runner *runner = *state;
     Budget meter = {.memory_limit = SIZE_MAX};

@@ -54,7 +54,7 @@ static void test_stack(void **state) {
     assert_text("tree", runner_tree(runner), "!a\n");
     assert_non_null(strstr(text_c(&runner->reported), "stack limit reached [recursion-depth]"));
     runner_run(runner, "!a v=1\n", 1);
-    assert_text("goes on", runner_tree(runner), "!a v=1\n");
+    assert_text("continues", runner_tree(runner), "!a v=1\n");
 }
 
 // Deep trees are walked by ==, by seeds and by printing: none may use up the stack, however the depth was made.
