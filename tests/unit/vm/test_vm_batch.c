@@ -1,7 +1,7 @@
 // test_vm_batch.c: tests that batched loops give the same results as iteration-by-iteration execution.
 #include "runner.h"
 
-enum { ROUNDS = 150 };
+enum { ITERATIONS = 150 };
 
 // 150 iterations: as one loop, or as loops of 5 iterations, which are too short for batches.
 static const char many_form[] = "%sfunc all()\n    for i in ..150\n        %s\n!all v=all()\n    all()\n";
@@ -63,18 +63,18 @@ static const Body bodies[] = {
 };
 
 // Returns the tree of the second frame of a script.
-static const char *run_loop(Runner *runner, const char *form, const char *body, uint64_t *rounds) {
+static const char *run_loop(Runner *runner, const char *form, const char *body, uint64_t *iterations) {
     char script[2000];
     snprintf(script, sizeof script, form, before, body);
     runner->vm.batched_iterations = 0;
     runner_run(runner, script, 2);
-    *rounds = runner->vm.batched_iterations;
+    *iterations = runner->vm.batched_iterations;
     return runner_tree(runner);
 }
 
 static void set_state(Runner *runner) {
     const double name = symbol_of(&runner->world, "k"), velocity = symbol_of(&runner->world, "v");
-    for (int i = 0; i < ROUNDS; i++) {
+    for (int i = 0; i < ITERATIONS; i++) {
         const double keys[3] = {name, i, velocity}, place[3] = {i, 2 * i, 3};
         state_set(runner->state, value_numbers_view(keys, 3), value_number(7 * i));
         if (i < 70 || i > 80)
@@ -82,7 +82,7 @@ static void set_state(Runner *runner) {
     }
 }
 
-static void test_bodies(void **state) {
+static void test_batches_match_single_iterations(void **state) {
     Runner *runner = *state;
     set_state(runner);
     for (size_t i = 0; i < 2 * sizeof bodies / sizeof bodies[0]; i++) {
@@ -98,7 +98,7 @@ static void test_bodies(void **state) {
 }
 
 // Consecutive items of a stream equal the same items read one by one, also at the highest position.
-static void test_items(void **state) {
+static void test_stream_items_match(void **state) {
     Runner *runner = *state;
     runner->simplify = false;
     runner_run(runner,
@@ -110,7 +110,7 @@ static void test_items(void **state) {
 }
 
 // Errors are reported in the order of iteration-by-iteration execution.
-static void test_faults(void **state) {
+static void test_errors_keep_their_order(void **state) {
     Runner *runner = *state;
     runner_run(runner,
                "let z=frame\n"
@@ -129,16 +129,16 @@ static void test_faults(void **state) {
 }
 
 // A batch is charged about the same work as iteration-by-iteration execution.
-static void test_work(void **state) {
+static void test_work_matches(void **state) {
     Runner *runner = *state;
     Budget meter = {.memory_limit = SIZE_MAX};
     uint64_t work[2];
     for (int i = 0; i < 2; i++) {
-        uint64_t rounds;
+        uint64_t iterations;
         runner->frame.budget = NULL;
         budget_begin(&meter, UINT64_MAX / 2, NULL);
         runner->frame.budget = &meter;
-        run_loop(runner, i ? few_form : many_form, "!p a=sin(i+z) b=hsv(i;z;1) c=i**3", &rounds);
+        run_loop(runner, i ? few_form : many_form, "!p a=sin(i+z) b=hsv(i;z;1) c=i**3", &iterations);
         runner->frame.budget = NULL;
         work[i] = meter.work;
     }
@@ -146,7 +146,8 @@ static void test_work(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {RUNNER_TEST(test_bodies), RUNNER_TEST(test_items), RUNNER_TEST(test_faults),
-                                       RUNNER_TEST(test_work)};
+    const struct CMUnitTest tests[] = {RUNNER_TEST(test_batches_match_single_iterations),
+                                       RUNNER_TEST(test_stream_items_match), RUNNER_TEST(test_errors_keep_their_order),
+                                       RUNNER_TEST(test_work_matches)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

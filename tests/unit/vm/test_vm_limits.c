@@ -1,4 +1,4 @@
-// test_vm_limits.c: every limit is a diagnostic and null.
+// test_vm_limits.c: tests that exceeding a limit results in a diagnostic and null.
 #include "runner.h"
 
 #include <sys/resource.h>
@@ -16,15 +16,15 @@ static void test_closure_depth(void **state) {
     check_tree_and_reports(runner, "func f(n)\n    1+f(n-1) if n>0 else 0\n!a v=f(500)\n", "!a\n",
                            "2:7 recursion too deep in 'f': limit of 500 calls of one function reached "
                            "[recursion-depth]\n");
-    // After it the limit is as before.
+    // The limit is unchanged afterwards.
     runner_run(runner, "func f(n)\n    1+f(n-1) if n>0 else 0\nlet x=f(600)\n!a v=f(499)\n", 2);
     assert_text("again", runner_tree(runner), "!a v=499\n");
 }
 
-// Closures made anew are other objects: only the nesting of all calls limits them.
+// New closures are different objects, so only the total depth of calls limits them.
 static void test_call_depth(void **state) {
     Runner *runner = *state;
-    // A stack whose limit comes after the 8192 calls, also with the larger frames of a sanitizer.
+    // The stack is large enough for 8192 calls, even with the larger frames of a sanitizer.
     struct rlimit stack;
     assert_int_equal(getrlimit(RLIMIT_STACK, &stack), 0);
     stack.rlim_cur = (rlim_t)120 << 20;
@@ -32,7 +32,7 @@ static void test_call_depth(void **state) {
         skip();
     runner->vm.stack_bytes = (size_t)100 << 20;
     runner->simplify = false;
-    // Each level calls a fresh closure (1) and nothing else is on the stack when it does.
+    // Each level calls a new closure, with nothing else on the stack.
     static const char deep[] = "let level=func(k, level) (func() 1+level(k-1, level)() if k>0 else 0)\n"
                                "!a v=level(%d, level)()\n";
     char text[200];
@@ -44,8 +44,8 @@ static void test_call_depth(void **state) {
     assert_non_null(strstr(text_c(&runner->reported), "limit of 8192 nested calls reached [recursion-depth]"));
 }
 
-// A small stack limits sooner, with the same kind of diagnostic.
-static void test_stack(void **state) {
+// A small stack limits the depth earlier, with the same kind of diagnostic.
+static void test_stack_limit(void **state) {
     Runner *runner = *state;
     runner->vm.stack_bytes = (size_t)256 << 10;
     runner->simplify = false;
@@ -57,7 +57,7 @@ static void test_stack(void **state) {
     assert_text("continues", runner_tree(runner), "!a v=1\n");
 }
 
-// Deep trees are walked by ==, by seeds and by printing: none may use up the stack, however the depth was made.
+// Deep trees are traversed by ==, seeds and printing. None of these may overflow the stack.
 static void test_deep_nodes(void **state) {
     Runner *runner = *state;
     static const char make[] = "func wrap(v, n)\n    wrap((!a << v), n-1) if n>0 else v\n"
@@ -73,7 +73,7 @@ static void test_deep_nodes(void **state) {
     assert_text("attributes", runner_tree(runner), "!c v=1;1\n");
 }
 
-static void test_too_long(void **state) {
+static void test_long_vectors_are_reported(void **state) {
     Runner *runner = *state;
     check_tree_and_reports(runner, "!a v=..1e12\n", "!a\n",
                            "1:6 range too long: the limit is 134217728 elements [too-long]\n");
@@ -85,7 +85,7 @@ static void make_frame(void *runner) {
     runner_frame(runner, 0);
 }
 
-// How the frame of a script ends that may take so much work.
+// Returns how a frame of a script ends with a limit of work.
 static ArenaOutcome run_with_budget(Runner *runner, const char *script, uint64_t work, atomic_bool *interrupt) {
     Budget meter = {.memory_limit = SIZE_MAX};
     Arena *frame = &runner->frame;
@@ -99,20 +99,21 @@ static ArenaOutcome run_with_budget(Runner *runner, const char *script, uint64_t
     return end;
 }
 
-// What takes more work than it may is left, and the machine knows where that was.
-static void test_work(void **state) {
+// Evaluation that exceeds the work limit is aborted, and the position is known.
+static void test_work_limit_aborts(void **state) {
     Runner *runner = *state;
     static const char rounds[] = "let n=frame\n!a v=len(i for i in ..900+n)\n";
     assert_int_equal(run_with_budget(runner, rounds, 2000, NULL), ARENA_OK);
     assert_int_equal(run_with_budget(runner, rounds, 800, NULL), ARENA_WORK_LIMIT);
     assert_int_equal(runner->vm.at->span.start, strlen("let n=frame\n!a v=len("));
-    check_tree_and_reports(runner, "let n=frame f=func(x) x\n!a v=f(1+n)\n", "!a v=1\n", ""); // the next has its own
+    check_tree_and_reports(runner, "let n=frame f=func(x) x\n!a v=f(1+n)\n", "!a v=1\n",
+                           ""); // the next frame has a new budget
 }
 
 static const char shared[] = "func f(n, v)\n    f(n-1, (!n << (v;v))) if n>0 else v\n";
 
-// Whatever takes long is charged for: a small part of what each of these takes is not enough.
-static void test_all_is_charged(void **state) {
+// All expensive operations are charged: a small part of their work is not enough.
+static void test_expensive_operations_are_charged(void **state) {
     Runner *runner = *state;
     static const char *const rows[] = {
         "!a v=sum((..1e6)+frame)",
@@ -128,7 +129,7 @@ static void test_all_is_charged(void **state) {
     }
 }
 
-// A tree of 2^60 nodes, of which there are 61.
+// A tree that represents 2^60 nodes with 61 shared ones.
 static void test_shared_nodes(void **state) {
     Runner *runner = *state;
     Arena *arena = &runner->world.arena;
@@ -141,8 +142,8 @@ static void test_shared_nodes(void **state) {
     assert_int_equal(run_with_budget(runner, script.bytes, 1 << 16, NULL), ARENA_WORK_LIMIT);
 }
 
-// Whoever waits for a frame may end it.
-static void test_interrupt(void **state) {
+// The host can interrupt a frame.
+static void test_interrupt_aborts_frame(void **state) {
     Runner *runner = *state;
     atomic_bool interrupt = true;
     static const char rounds[] = "let n=frame\n!a v=len(i for i in ..2000+n)\n";
@@ -151,7 +152,7 @@ static void test_interrupt(void **state) {
     assert_int_equal(run_with_budget(runner, rounds, 1 << 20, &interrupt), ARENA_OK);
 }
 
-// What cannot be evaluated ahead is left for the frames: the simplifier's machine gives up, and says nothing.
+// Expressions that exceed a limit are not folded, and nothing is reported at load time.
 static void test_static_evaluation_reports_limit(void **state) {
     Runner *runner = *state;
     check_tree_and_reports(runner, "func f(n)\n    1+f(n-1) if n>0 else 0\n!a v=f(600)\n", "!a\n", NULL);
@@ -160,12 +161,16 @@ static void test_static_evaluation_reports_limit(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        RUNNER_TEST(test_closure_depth),  RUNNER_TEST(test_stack),
-        RUNNER_TEST(test_too_long),       RUNNER_TEST(test_work),
-        RUNNER_TEST(test_interrupt),      RUNNER_TEST(test_static_evaluation_reports_limit),
-        RUNNER_TEST(test_all_is_charged), RUNNER_TEST(test_shared_nodes),
-        RUNNER_TEST(test_deep_nodes), // it used to overflow the stack
-        RUNNER_TEST(test_call_depth), // makes the stack larger for what follows
+        RUNNER_TEST(test_closure_depth),
+        RUNNER_TEST(test_stack_limit),
+        RUNNER_TEST(test_long_vectors_are_reported),
+        RUNNER_TEST(test_work_limit_aborts),
+        RUNNER_TEST(test_interrupt_aborts_frame),
+        RUNNER_TEST(test_static_evaluation_reports_limit),
+        RUNNER_TEST(test_expensive_operations_are_charged),
+        RUNNER_TEST(test_shared_nodes),
+        RUNNER_TEST(test_deep_nodes), // used to overflow the stack
+        RUNNER_TEST(test_call_depth), // enlarges the stack, so it comes last
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-// test_vm_modules.c: imports (language.md L13): what a module sees, what its importer gets, and what is said.
+// test_vm_modules.c: tests imports (language.md L13): names that a module sees, imported values, and diagnostics.
 #include "runner.h"
 
 static const ModuleText modules[] = {
@@ -21,8 +21,8 @@ static void test_imports(void **state) {
         {"import a from 'm';'.fl'\n!r v=a\n", "!r v=10\n", ""},
         {"if frame==0\n    import a from 'm.fl'\n    !r v=a\n", "!r v=10\n", ""},
         {"import f from 'm.fl'\nlet g=f\nimport f from 'm.fl'\n!r v=f==g\n", "!r v=0\n",
-         ""}, // each import is a new run
-        // Neither the state nor the names of the engine are in sight of a module.
+         ""}, // each import evaluates the module again
+        // A module sees neither the state nor names of the engine.
         {"import s;t from 'state.fl'\n!r v=$:k s=s t=t\n", "!r v=5\n",
          "2:7 unbound name 'frame' is null [unbound-name]\n"},
         {"import a;none;b;nothing from 'm.fl'\n!r v=a;b;none\n", "!r v=10;2\n",

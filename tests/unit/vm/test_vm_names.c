@@ -1,4 +1,4 @@
-// test_vm_names.c: scopes, closures, calls and loops (language.md L8 to L10).
+// test_vm_names.c: tests scopes, closures, calls and loops (language.md L8 to L10).
 #include "runner.h"
 
 static void test_scopes(void **state) {
@@ -26,15 +26,15 @@ static void test_scopes(void **state) {
 
 static void test_functions(void **state) {
     static const ScriptRow rows[] = {
-        // Captured by value when the definition is evaluated.
+        // Values are captured when the definition is evaluated.
         {"let k=3\nfunc g(v)\n    k*v\nlet k=7\n!g v=g(5;6)\n", "!g v=15;18\n"},
         {"let f=(func(x) x+k) k=1\n!g v=f(1)\n", "!g\n"}, // k is not bound yet
         {"let fs=(func() i) for i in ..3\n!f v=fs()\n", "!f v=0;1;2\n"},
         {"func f(a, b=5, c)\n    !f a=a b=b c=c\nf(1)\nf(1, c=3, c=4, q=9)\nf(null, b=2)\nf(1, 2, 3, 4, a=7)\n",
          "!f a=1 b=5\n!f a=1 b=5 c=4\n!f b=2\n!f a=1 b=2 c=3\n"},
         {"let d=1\nfunc f(a, b=d+1)\n    a+b\nlet d=100\n!f v=f(1)\n", "!f v=3\n"}, // defaults at the definition
-        {"func f(a, b=a)\n    b\n!f v=f(1)\n", "!f\n"},                             // which see no parameters
-        {"func f(f)\n    f\n!f v=f(3)\n", "!f v=3\n"}, // a parameter hides the function's name
+        {"func f(a, b=a)\n    b\n!f v=f(1)\n", "!f\n"},                             // defaults do not see parameters
+        {"func f(f)\n    f\n!f v=f(3)\n", "!f v=3\n"}, // a parameter shadows the function's name
         {"func f(a, a)\n    a\n!f v=f(1, 2)\n", "!f v=2\n"},
         {"func f(n)\n    n*f(n-1) if n>1 else 1\n!f v=f(10)\n", "!f v=3628800\n"},
         {"let f=func(x) func(y) x-y\n!f v=f(3)(4)\n", "!f v=-1\n"},
@@ -90,7 +90,7 @@ static void test_nodes(void **state) {
     check_trees(*state, rows, COUNT_OF(rows), 1);
 }
 
-// Branches that are not taken are not evaluated, others once and in order: debug tells.
+// Only taken branches are evaluated, once and in order, as the output of debug() shows.
 static void test_order_of_evaluation(void **state) {
     Runner *runner = *state;
     static const ScriptRow rows[] = {
@@ -128,7 +128,7 @@ static void test_diagnostics(void **state) {
                                      "parentheses: !name a=1 [not-callable]\n"},
         {"!a v=1(2);null(3)\n", ""},
         {"!a v='a'+1;[]\n", NULL},
-        {"!a v='a'+1;(1;2)[null];1<'a'\n3 x=1\n", ""}, // mistakes of type are silent
+        {"!a v='a'+1;(1;2)[null];1<'a'\n3 x=1\n", ""}, // type errors are not reported
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         bool good = runner_load(runner, rows[i].script);

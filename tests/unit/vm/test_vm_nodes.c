@@ -1,4 +1,4 @@
-// test_vm_nodes.c: how nodes are made: where they say that they come from, and what frames share of them.
+// test_vm_nodes.c: tests creation of nodes: their positions, and which parts frames share.
 #include "runner.h"
 
 static const Node *top_node(const Runner *runner, uint32_t i) {
@@ -6,7 +6,7 @@ static const Node *top_node(const Runner *runner, uint32_t i) {
     return runner->result.as.items[i].as.node;
 }
 
-// `line:column` of a node or of an attribute of it.
+// Returns `line:column` of a node, or of one of its attributes.
 static const char *place(Runner *runner, const Node *node, const char *attr) {
     Origin origin = node_origin(node, attr ? name_of(&runner->world, attr) : NULL);
     if (!origin.source)
@@ -15,8 +15,8 @@ static const char *place(Runner *runner, const Node *node, const char *attr) {
     return str_format(&runner->world.arena, "%u:%u", at.line, at.column).bytes;
 }
 
-// The syntax tree is gone (runner.h has overwritten it); the places are still there.
-static void test_places(void **state) {
+// Positions remain available after the syntax tree was freed (runner.h overwrites it).
+static void test_positions_of_nodes(void **state) {
     Runner *runner = *state;
     for (int simplify = 1; simplify >= 0; simplify--) {
         runner->simplify = simplify;
@@ -31,7 +31,7 @@ static void test_places(void **state) {
     }
 }
 
-// What does not depend on the frame is made once, and every frame has the same.
+// Constant parts of the tree are created once and shared by all frames.
 static void test_constant_children_are_shared(void **state) {
     Runner *runner = *state;
     static const char script[] = "!a v=frame\n    !b\n        !c x=1\n    !d\n!e x=frame\n    !f x=frame\n    !g\n";
@@ -47,7 +47,7 @@ static void test_constant_children_are_shared(void **state) {
     assert_false(top_node(runner, 0)->program_lifetime_children);
 }
 
-// Whether a node is made at once or piece by piece does not show.
+// Nodes created by one instruction equal those created step by step.
 static void test_node_construction(void **state) {
     static const ScriptRow rows[] = {
         {"let z=frame*0\n!a #t x=1+z y='s' z=z\n", "!a #t x=1 y='s' z=0\n"},
@@ -62,7 +62,7 @@ static void test_node_construction(void **state) {
     check_trees(*state, rows, COUNT_OF(rows), 2);
 }
 
-// More attributes than are compared with each other beforehand.
+// More attributes than the compiler checks for duplicates.
 static void test_many_attributes(void **state) {
     Runner *runner = *state;
     Text script = text_new(&runner->world.arena), wanted = text_new(&runner->world.arena);
@@ -81,7 +81,7 @@ static void test_many_attributes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        RUNNER_TEST(test_places),
+        RUNNER_TEST(test_positions_of_nodes),
         RUNNER_TEST(test_constant_children_are_shared),
         RUNNER_TEST(test_node_construction),
         RUNNER_TEST(test_many_attributes),
