@@ -1,4 +1,4 @@
-// client.js: the server with VS Code's own client library for the protocol. usage: node client.js PETRI
+// client.js: tests the language server with VS Code's client library. usage: node client.js PETRI
 const childProcess = require("child_process");
 const assert = require("assert");
 const protocol = require("vscode-languageserver-protocol/node");

@@ -1,4 +1,4 @@
-"""grammar.py: the TextMate grammar gives each token of each script the class that petri's scanner gives it.
+"""grammar.py: the TextMate grammar and petri's scanner classify the tokens of all scripts in the same way.
 
 usage: grammar.py PATH-OF-PETRI GRAMMAR PATH-OF-PROJECT. Skipped without node and vscode-textmate (`npm ci` in
 src/editors/vscode, or NODE_PATH). GRAMMAR_STEP=N takes every Nth script."""
@@ -30,7 +30,7 @@ NAMES = {"variable", "parameter", "function", "property"}
 
 
 def by_petri(client, path):
-    """Whose token begins where, and of which class."""
+    """Yields the position and class of each token."""
     uri = path.as_uri()
     client.notify("textDocument/didOpen", {"textDocument": {
         "uri": uri, "languageId": "flitter", "version": 1, "text": path.read_bytes().decode()}})
@@ -48,7 +48,7 @@ def class_of(scope):
     return next((name for prefix, name in CLASSES if scope.startswith(prefix)), None)
 
 
-# What does not parse is no script.
+# Files that do not parse are not scripts.
 rejected = {path.with_suffix(".fl") for path in (root / "tests").rglob("*.err")} | {
     root / line.split()[0] for line in (root / "tests/layouts.txt").read_text().splitlines() if "cannot be read" in line}
 scripts = sorted(path for folder in ("samples", "tests") for path in (root / folder).rglob("*.fl") if path not in rejected)
@@ -56,7 +56,7 @@ step = int(os.environ.get("GRAMMAR_STEP", 1))
 scripts = [path for i, path in enumerate(scripts) if i % step == 0]
 output = subprocess.run([node, str(root / "tests/editors/tokenise.js"), grammar, *map(str, scripts)], env=environment,
                         capture_output=True, text=True, check=True).stdout.splitlines()
-client = Client(petri, options=("--work", "10k"))  # classes take no frame
+client = Client(petri, options=("--work", "10k"))  # tokens need no frame
 tokens, differ, classes = 0, 0, set()
 for path, line in zip(scripts, output, strict=True):
     found = {}  # class by line and character

@@ -1,5 +1,5 @@
-// tokenise.js: what the TextMate grammar makes of scripts, by VS Code's own engine.
-// usage: node tokenise.js GRAMMAR SCRIPT... : a line of JSON for each: [line, start, end, last scope] of each token.
+// tokenise.js: tokenises scripts by the TextMate grammar, with VS Code's engine.
+// usage: node tokenise.js GRAMMAR SCRIPT... : prints a JSON line per script: [line, start, end, last scope] per token.
 const fs = require("fs");
 const oniguruma = require("vscode-oniguruma");
 const textmate = require("vscode-textmate");

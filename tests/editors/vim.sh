@@ -1,5 +1,5 @@
 #!/bin/sh
-# vim.sh: the syntax file and the ftplugin in Neovim. Skipped without it.
+# vim.sh: tests the syntax file and the ftplugin in Neovim. Skipped without Neovim.
 # usage: tests/editors/vim.sh PATH-OF-PETRI SYNTAX-FILE
 
 # shellcheck source=tests/support/check.sh
@@ -62,7 +62,7 @@ func flitterKeyword
 %include flitterKeyword
 END
 check "each token has its class" diff wanted classes
-check "the settings are those of Flitter" [ "$(tr '\n' '|' <settings)" = "flitter|4|-- %s|petri fmt -|" ]
-check ":make lists what petri check says" has faults "4:10 w cannot include"
-check "gq lays out" [ "$(head -n 1 laid)" = "let in2=sin(1:30)  -- it" ]
+check "the ftplugin sets the options for Flitter" [ "$(tr '\n' '|' <settings)" = "flitter|4|-- %s|petri fmt -|" ]
+check ":make lists the messages of petri check" has faults "4:10 w cannot include"
+check "gq formats" [ "$(head -n 1 laid)" = "let in2=sin(1:30)  -- it" ]
 finish

@@ -1,6 +1,6 @@
 #!/bin/sh
-# vscode.sh: the extension for VS Code is bundled and packed, and the client library that it takes talks to the server.
-# Skipped without node and what `npm install` in src/editors/vscode brings.
+# vscode.sh: bundles and packs the VS Code extension, and tests the server with the extension's client library. Skipped
+# without node and the modules of `npm install` in src/editors/vscode.
 # usage: tests/editors/vscode.sh PATH-OF-PETRI GRAMMAR
 
 # shellcheck source=tests/support/check.sh
@@ -20,11 +20,11 @@ ln -s "$folder/node_modules" extension/node_modules
 status=$?
 check "the extension is bundled" status_is 0
 extension/package.py "$grammar" petri.vsix
-check "… and packed" exists petri.vsix
+check "the extension is packed" exists petri.vsix
 extension/package.py "$grammar" again.vsix
-check "… to the same bytes again" cmp -s petri.vsix again.vsix
+check "packing again gives the same bytes" cmp -s petri.vsix again.vsix
 python3 -m zipfile -e petri.vsix unpacked
-mkdir -p node_modules/vscode # of which VS Code has its own
+mkdir -p node_modules/vscode # a stub; VS Code provides the module
 echo 'module.exports = new Proxy(function () {}, { get: (_, name) => (name === "prototype" ? {} : module.exports), construct: () => ({}) });' \
     >node_modules/vscode/index.js
 node -e '
@@ -36,7 +36,7 @@ const source = fs.readFileSync("unpacked/extension/" + about.main, "utf8");
 for (const { command } of commands) if (!source.includes(`"${command}"`)) throw new Error(command);
 if (typeof require("./unpacked/extension/" + about.main).activate !== "function") throw new Error("no activate");' >out 2>err
 status=$?
-check "the package has what it names, and can be loaded" status_is 0
+check "the package is complete and can be loaded" status_is 0
 version=$(sed -n 's/.*version: .\([0-9.]*\).,.*/\1/p' "$root/meson.build" | head -n 1)
 check "its version is petri's" has extension/package.json "\"version\": \"$version\""
 NODE_PATH=$folder/node_modules node "$here/client.js" "$petri" >out 2>err

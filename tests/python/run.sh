@@ -1,6 +1,6 @@
 #!/bin/sh
-# run.sh PETRI [PYTHON WHEEL]: the tests of the module for Python and what its tutorial shows, with the module as it is
-# in the wheel in the folder WHEEL.
+# run.sh PETRI [PYTHON WHEEL]: runs the tests of the Python module and the examples of its tutorial, with the module in
+# the wheel in the folder WHEEL.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 root=${here%/tests/*}
@@ -18,6 +18,6 @@ PYTHONDONTWRITEBYTECODE=1
 export PYTHONPATH PYTHONDONTWRITEBYTECODE
 "$2" "$here/test_petri.py"
 "$2" "$here/test_lexer.py" "$root/samples"
-cd "$root/samples" # scripts of the tutorial are there
+cd "$root/samples" # the tutorial uses these scripts
 "$2" -m doctest "$root/src/python/TUTORIAL.md"
 "$2" "$root/tests/bench/python.py" petri.fl 1

@@ -1,4 +1,4 @@
-"""The Pygments lexer gives the tokens of the samples the classes that petri's scanner gives them."""
+"""The Pygments lexer and petri's scanner classify the tokens of the samples in the same way."""
 
 import sys
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""The module for Python: each promise of its docstrings, as far as a test can hold it to them."""
+"""Tests of the Python module, after its docstrings."""
 
 import gc
 import os
@@ -34,7 +34,7 @@ class Views(unittest.TestCase):
         self.session.step(3)
         self.dish = self.session.systems["dish"]
 
-    def test_are_what_the_state_has(self):
+    def test_match_the_state(self):
         self.assertEqual((len(self.dish), self.dish.dimensions), (4, 2))
         self.assertEqual(self.dish.position.shape, (4, 2))
         self.assertEqual(self.dish.ids, ["middle", 0, 1, 2])
@@ -52,14 +52,14 @@ class Views(unittest.TestCase):
         self.assertEqual(list(self.dish.anchor), [True, False, False, False])
         self.assertTrue(numpy.isnan(self.dish.force).all())
 
-    def test_forces_are_kept_on_request(self):
+    def test_forces_need_keep_forces(self):
         session = petri.Session(DISH, options=petri.Options(keep_forces=True))
         session.step(3)
         force = session.systems["dish"].force
         self.assertGreater(abs(force[1]).max(), 0)
         numpy.testing.assert_array_equal(force[1], -force[2])
 
-    def test_copy_nothing_and_are_read_only(self):
+    def test_are_read_only_views(self):
         self.assertTrue(numpy.shares_memory(self.dish.position, self.dish.position))
         self.assertFalse(self.dish.position.flags.owndata)
         with self.assertRaises(ValueError):
@@ -67,7 +67,7 @@ class Views(unittest.TestCase):
         with self.assertRaises(ValueError):
             self.dish.position.flags.writeable = True
 
-    def test_are_of_the_last_frame(self):
+    def test_show_the_last_frame(self):
         before = self.dish.position.copy()
         self.session.step()
         self.assertFalse(numpy.array_equal(before, self.dish.position))
@@ -80,7 +80,7 @@ class Views(unittest.TestCase):
         gc.collect()
         numpy.testing.assert_array_equal(position, copy)
 
-    def test_older_ones_can_be_read(self):
+    def test_older_arrays_stay_readable(self):
         session = petri.Session("!physics state=:s dimensions=2 time=time\n"
                                 "    for i in ..40000*(1+frame)\n        !particle id=i position=i;frame radius=i\n")
         session.step()
@@ -103,7 +103,7 @@ class Views(unittest.TestCase):
         del session, system
         close()
 
-    def test_follow_the_systems(self):
+    def test_show_added_and_removed_systems(self):
         session = petri.Session("for name in (:a;:b) if frame < 2 else (:b;:c)\n"
                                 "    !physics state=name dimensions=1\n        !particle id=name position=frame\n")
         session.step(2)
@@ -133,7 +133,7 @@ class State(unittest.TestCase):
         with self.assertRaises(KeyError):
             self.state["dish", 17]
 
-    def test_can_be_set(self):
+    def test_values_can_be_set(self):
         for value in (3.0, (1.0, 2.0), "word", ("a", "b", 3.0), petri.Text("a text"), (petri.Text(""), 1.0, "s")):
             self.state["mine", petri.Text("key")] = value
             self.assertEqual(self.state["mine", petri.Text("key")], value)
@@ -153,14 +153,14 @@ class State(unittest.TestCase):
         session.step()
         self.assertIn("!out value=0;1;2", session.text("tree"))
 
-    def test_numbers_are_symbols_only_if_they_are(self):
+    def test_only_symbol_numbers_become_str(self):
         self.state["mine"] = "word"
         self.assertEqual(self.session.evaluate("$:mine==:word"), 1)
         self.assertEqual(self.session.evaluate("$:mine=='word'"), 0)
 
 
 class Running(unittest.TestCase):
-    def test_is_what_the_command_does(self):
+    def test_matches_the_command(self):
         file = SAMPLES / "petri.fl"
         run = subprocess.run([os.environ["PETRI"], "run", file, "--frames", "11", "--every", "10", "--print", "hash"],
                              check=True, stdout=subprocess.PIPE, text=True)
@@ -168,7 +168,7 @@ class Running(unittest.TestCase):
         frames = [session.text("hash").strip() for frame in session.frames(11) if frame.number % 10 == 0]
         self.assertEqual("\n".join(frames).split(), run.stdout.split())
 
-    def test_frames(self):
+    def test_frames_are_numbered(self):
         session = petri.Session("%pragma tempo 30\n!x\n", options=petri.Options(fps=10))
         self.assertEqual(session.frame.number, -1)
         numbers = []
@@ -179,7 +179,7 @@ class Running(unittest.TestCase):
         self.assertEqual(numbers, [0, 1, 2, 3, 4])
         self.assertEqual((frame.time, frame.beat, frame.fps, frame.tempo), (0.4, 0.2, 10, 30))
 
-    def test_definitions_and_parameters(self):
+    def test_definitions_and_parameters_change_values(self):
         session = petri.Session(DISH, COUNT=5)
         session.step()
         self.assertEqual(len(session.systems["dish"]), 6)
@@ -197,7 +197,7 @@ class Running(unittest.TestCase):
         given.step()
         self.assertIn('!x v=1;2 w="it\'s"', given.text("tree"))
 
-    def test_given_names(self):
+    def test_globals_can_be_changed(self):
         session = petri.Session("!x v=2*wind\n", given={"wind": (1, 2)})
         session.step()
         self.assertIn("!x v=2;4", session.text("tree"))
@@ -209,7 +209,7 @@ class Running(unittest.TestCase):
         with self.assertRaises(petri.ScriptError):
             petri.Session("!x\n", given={"time": 1})
 
-    def test_evaluate(self):
+    def test_evaluate_returns_values(self):
         session = petri.Session("let a=1;2;3\n")
         session.step()
         for text, value in {"a": (1, 2, 3), "sum(a)": 6, "null": None, ":word": "word", "'te;xt'": petri.Text("te;xt"),
@@ -221,7 +221,7 @@ class Running(unittest.TestCase):
         with self.assertRaises(petri.ScriptError):
             session.evaluate("1 +")
 
-    def test_rewind(self):
+    def test_rewind_repeats_frames(self):
         session = petri.Session(DISH)
         session.step(5)
         snapshot = session.snapshot()
@@ -237,7 +237,7 @@ class Running(unittest.TestCase):
         gc.collect()
         self.assertGreater(snapshot.nbytes, 0)
 
-    def test_save(self):
+    def test_restore_resumes_saved_state(self):
         session, other = petri.Session(DISH), petri.Session(DISH)
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder) / "dish.state"
@@ -250,7 +250,7 @@ class Running(unittest.TestCase):
         other.step()
         self.assertEqual(session.text("state"), other.text("state"))
 
-    def test_close(self):
+    def test_closed_session_is_unusable(self):
         with petri.Session(DISH) as session:
             session.step()
             session.snapshot()
@@ -260,7 +260,7 @@ class Running(unittest.TestCase):
 
 
 class Functions(unittest.TestCase):
-    def test_are_called(self):
+    def test_scripts_call_functions(self):
         def push(x, angle=2, *more):
             """A push."""
             seen.append((x, angle, more))
@@ -273,7 +273,7 @@ class Functions(unittest.TestCase):
         self.assertIs(type(seen[-1][2][0]), str)
         self.assertEqual(session.text("tree").split("\n")[1], "!a b=2;4 c='none'")
 
-    def test_raise(self):
+    def test_exceptions_reach_the_caller(self):
         def fail(x):
             if x == 2:
                 raise KeyError("two")
@@ -303,7 +303,7 @@ class Functions(unittest.TestCase):
             with self.assertRaisesRegex(RuntimeError, "cannot use its session"):
                 session.step()
 
-    def test_ctrl_c_on_the_way_into_it(self):
+    def test_ctrl_c_before_the_function_is_raised(self):
         def interrupt(frame, event, _):
             if frame.f_code.co_name == "petri_python_called":
                 raise KeyboardInterrupt
@@ -317,7 +317,7 @@ class Functions(unittest.TestCase):
             sys.settrace(None)
         session.step()
 
-    def test_may_use_another_session(self):
+    def test_can_use_another_session(self):
         inner = petri.Session("!counter state=:n rate=60\n")
 
         def inside(x):
@@ -336,7 +336,7 @@ class Functions(unittest.TestCase):
 
 
 class Sweeps(unittest.TestCase):
-    def test_are_those_of_the_command(self):
+    def test_match_petri_sweep(self):
         with tempfile.TemporaryDirectory() as folder:
             script = Path(folder) / "dish.fl"
             script.write_text("let SEED=SEED or 1\n" + DISH.replace("velocity=1;0", "velocity=SEED;0"))
@@ -350,7 +350,7 @@ class Sweeps(unittest.TestCase):
             self.assertEqual([float(table[name][row]) for name in list(table)[:-1]], [float(cell) for cell in line[1:-1]])
         self.assertEqual(table["error"], [None] * 4)
 
-    def test_a_run_that_fails_is_a_row(self):
+    def test_failed_run_is_a_row(self):
         table = petri.sweep("let N=N or 1\n    LONG=sum(i*i for i in ..N*10000)+frame\n", {"N": [1, 1000, 2]},
                             {"twice": "2*N"}, frames=9, until="frame == 3", options=petri.Options(work_limit=5 << 20), jobs=2)
         self.assertEqual(table["twice"], [2, None, 4])
@@ -361,7 +361,7 @@ class Sweeps(unittest.TestCase):
 
 
 class Threads(unittest.TestCase):
-    def test_interrupt_of_another_thread(self):
+    def test_interrupt_from_another_thread(self):
         session = petri.Session(DISH)
         ended = []
 
@@ -372,7 +372,7 @@ class Threads(unittest.TestCase):
                 ended.append(error)
 
         thread = threading.Thread(target=run)
-        thread.start()  # without the lock of the interpreter, or the next line never ran
+        thread.start()  # the GIL must be free, or the next line would never run
         while session._lock.acquire(blocking=False):
             session._lock.release()
         session.interrupt()
@@ -381,7 +381,7 @@ class Threads(unittest.TestCase):
         session.step(3)
         self.assertIn(("dish", 0), session.state)
 
-    def test_control_c(self):
+    def test_ctrl_c_aborts_the_frame(self):
         session = petri.Session(DISH)
         killer = threading.Timer(0.05, os.kill, (os.getpid(), signal.SIGINT))
         killer.start()
@@ -393,7 +393,7 @@ class Threads(unittest.TestCase):
         self.assertEqual(session.frame.number, number + 1)
         self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
 
-    def test_one_after_the_other(self):
+    def test_threads_share_a_session(self):
         session = petri.Session(DISH)
         threads = [threading.Thread(target=lambda: [session.step(10) for _ in range(20)]) for _ in range(4)]
         for thread in threads:
@@ -406,7 +406,7 @@ class Threads(unittest.TestCase):
 
 
 class Diagnostics(unittest.TestCase):
-    def test_errors(self):
+    def test_errors_are_raised(self):
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder) / "wrong.fl"
             file.write_text("!x\n    y=(1\n")
@@ -420,13 +420,13 @@ class Diagnostics(unittest.TestCase):
             petri.Session("nowhere.fl")
         self.assertIn("nowhere.fl", str(caught.exception))
 
-    def test_limits(self):
+    def test_limits_are_raised(self):
         session = petri.Session("for i in ..1000000\n    !x y=i+frame\n", options=petri.Options(work_limit=10000))
         with self.assertRaises(petri.LimitError) as caught:
             session.step()
         self.assertEqual((caught.exception.code, caught.exception.line), ("work-limit", 2))
 
-    def test_warnings(self):
+    def test_warnings_are_issued(self):
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             petri.Session("!physics state=:a dimensions=2 strange=3\n    !particle id=1 position=1;2\n").step()
@@ -437,7 +437,7 @@ class Diagnostics(unittest.TestCase):
             with self.assertRaises(petri.PetriWarning):
                 petri.Session("let x=1\n", NOTHING=1)
 
-    def test_wrong_arguments(self):
+    def test_wrong_arguments_are_errors(self):
         with self.assertRaises(ValueError):
             petri.Session(DISH, options=petri.Options(fps=-1))
         with self.assertRaises(ValueError):
@@ -447,7 +447,7 @@ class Diagnostics(unittest.TestCase):
 
 
 class OtherPackages(unittest.TestCase):
-    def test_pictures(self):
+    def test_pictures_can_be_saved(self):
         session = petri.Session(RED)
         session.step()
         try:
@@ -469,7 +469,7 @@ class OtherPackages(unittest.TestCase):
         empty.step()
         self.assertRaises(petri.ScriptError, empty.picture)
 
-    def test_tables(self):
+    def test_to_dataframe_has_all_columns(self):
         session = petri.Session(DISH)
         session.step()
         dish = session.systems["dish"]
@@ -479,7 +479,7 @@ class OtherPackages(unittest.TestCase):
         numpy.testing.assert_array_equal(table["x2"], dish.position[:, 1])
         self.assertTrue(table["x2"].flags.owndata)
 
-    def test_atoms(self):
+    def test_to_ase_has_all_particles(self):
         try:
             import ase.io
         except ImportError:
@@ -498,7 +498,7 @@ class OtherPackages(unittest.TestCase):
         self.assertGreater(atoms.get_kinetic_energy(), 0)
         session.step()
         self.assertFalse(numpy.array_equal(atoms.positions[:, :2], dish.position))
-        with tempfile.TemporaryDirectory() as folder:  # what petri run writes is read as well
+        with tempfile.TemporaryDirectory() as folder:  # ASE can also read the output of petri run
             script = Path(folder) / "dish.fl"
             script.write_text(DISH)
             file = Path(folder) / "run.xyz"
@@ -507,7 +507,7 @@ class OtherPackages(unittest.TestCase):
         self.assertEqual(len(frames), 4)
         numpy.testing.assert_array_equal(frames[3].positions[:, :2], dish.position)
 
-    def test_what_is_not_installed(self):
+    def test_missing_packages_are_named(self):
         dish = petri.Session(DISH)
         dish.step()
         with unittest.mock.patch.dict(sys.modules, pandas=None, ase=None):

@@ -1,4 +1,4 @@
-// bad.test.mjs: what goes wrong in the page: links, scripts that take too much, browsers without what petri takes.
+// bad.test.mjs: errors in the page: invalid links, scripts that exceed limits, browsers without required features.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { packLink } from '../../src/web/page/link.mjs';
@@ -14,7 +14,7 @@ async function packed(object) {
     return `#${Buffer.from(await new Response(stream).arrayBuffer()).toString('base64url')}`;
 }
 
-const LINKS = 'a link that is cut off, too long, of a newer petri or of something else says so, and leaves what was there';
+const LINKS = 'an invalid link (truncated, too long, from a newer petri, not of petri) is reported and changes nothing';
 test(LINKS, options, () => opened('', {
     use: async page => {
         await typed(page, SQUARE);
@@ -41,7 +41,7 @@ test(LINKS, options, () => opened('', {
     },
 }));
 
-test('what was written is kept when a link is opened, and when another script is', options, () => opened('', {
+test('an edited script is kept when a link or another script is opened', options, () => opened('', {
     use: async page => {
         await typed(page, `-- mine\n${SQUARE}`);
         const link = await packLink({ text: SQUARE, name: 'theirs.fl', frame: 2 });
@@ -64,7 +64,7 @@ test('what was written is kept when a link is opened, and when another script is
     },
 }));
 
-test('memory that is used up is told, and the text stays', options, () => opened('', {
+test('running out of memory is reported and keeps the text', options, () => opened('', {
     use: async page => {
         const greedy = `!a x=..100000000 y=..100000000\n${SQUARE}`;
         await typed(page, greedy);
@@ -78,7 +78,7 @@ test('memory that is used up is told, and the text stays', options, () => opened
     },
 }));
 
-// A server without the headers that let threads share memory.
+// A server without the headers that allow shared memory.
 const unshared = page => page.route('**/*', async route => {
     const answer = await route.fetch(), headers = answer.headers();
     delete headers['cross-origin-opener-policy'];
@@ -86,7 +86,7 @@ const unshared = page => page.route('**/*', async route => {
     await route.fulfill({ response: answer, headers });
 });
 
-test('where threads share no memory, stop ends the engine, and it goes on with another', options, () => opened('', {
+test('without shared memory, stop ends the engine, and another one starts', options, () => opened('', {
     settings: { serviceWorkers: 'block' }, prepare: unshared, expected: /willReadFrequently|Service Worker registration blocked/,
     use: async page => {
         assert.equal(await page.evaluate(() => crossOriginIsolated), false);
@@ -98,7 +98,7 @@ test('where threads share no memory, stop ends the engine, and it goes on with a
         assert.match(await text(page), /fib/);
         await page.evaluate(() => delete document.body.dataset.checked);
         await typed(page, SQUARE);
-        await page.waitForFunction(() => document.body.dataset.checked === '0'); // by the new engine, which said nothing before
+        await page.waitForFunction(() => document.body.dataset.checked === '0'); // by the new engine, which has reported nothing yet
         await said(page, /^Stopped/);
         await page.click('#run');
         await page.waitForFunction(() => document.getElementById('picture').width === 64);
@@ -107,7 +107,7 @@ test('where threads share no memory, stop ends the engine, and it goes on with a
 
 const LOST = [['petri/engine.wasm', /cannot load the engine: .* returned 404/], ['worker.js', /cannot start the engine/]];
 for (const [file, message] of LOST)
-    test(`a page that gets no ${file} says so, and has the text`, options, () => visited(world.server.url, {
+    test(`a page that cannot load ${file} reports it and shows the text`, options, () => visited(world.server.url, {
         prepare: page => page.route(`**/${file}`, route => route.fulfill({ status: 404 })),
         expected: /404|willReadFrequently|MIME|Failed to/,
         ready: () => document.getElementById('message').textContent,
@@ -119,7 +119,7 @@ for (const [file, message] of LOST)
         },
     }));
 
-test('a browser without SIMD shows the script and says why it does not run', options, () => visited(world.server.url, {
+test('a browser without SIMD shows the script and the reason why it does not run', options, () => visited(world.server.url, {
     prepare: async page => {
         await page.addInitScript(() => (WebAssembly.validate = () => false));
     },
@@ -137,7 +137,7 @@ test('a browser without SIMD shows the script and says why it does not run', opt
     },
 }));
 
-test('a script of a link reads no files and reaches no network', options, async () => {
+test('a script of a link cannot read files or use the network', options, async () => {
     const script = "let here=read('/etc/hostname') there=read('http://127.0.0.1:1/x') own=read('samples.json') folder=glob('/etc/*')\n"
         + `!a here=here there=there own=own folder=folder\n${SQUARE}        !image filename='http://127.0.0.1:1/a.png' point=0;0\n`
         + "        !image filename='style.css' point=0;0\n";

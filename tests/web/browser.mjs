@@ -1,4 +1,4 @@
-// browser.mjs: headless Chromium and a server for the tests of the page, which are skipped without npm's modules or the browser.
+// browser.mjs: headless Chromium and a server for the tests of the page. Skips them without npm's modules or the browser.
 import assert from 'node:assert/strict';
 import { existsSync } from 'node:fs';
 import { dirname, join } from 'node:path';
@@ -10,7 +10,7 @@ export const folder = process.env.PETRI_WEB;
 const browserPath = '/usr/bin/chromium';
 const modules = join(root, 'src/web/page/node_modules/playwright-core/index.mjs');
 const missing = [modules, browserPath, join(folder, 'page.js')].find(path => !existsSync(path));
-export const options = { skip: missing ? `there is no ${missing}` : false, timeout: 60000 };
+export const options = { skip: missing ? `missing: ${missing}` : false, timeout: 60000 };
 export const world = {}; // browser, server
 
 before(async () => {
@@ -31,11 +31,11 @@ after(async () => {
     world.server?.close();
 });
 
-// A page of its own, which must say nothing on the console.
+// Opens a separate page, which must not write to the console.
 export async function visited(url, { settings = {}, prepare, ready, use, expected = /willReadFrequently/ }) {
     const context = await world.browser.newContext({ viewport: { width: 1200, height: 800 }, ...settings });
     const page = await context.newPage(), said = [];
-    // That the tests read pixels is their own affair.
+    // Ignore the browser's advice about reading pixels often.
     page.on('console', message => expected.test(message.text()) || said.push(message.text()));
     page.on('pageerror', error => said.push(error.message));
     await prepare?.(page, context);
@@ -61,10 +61,10 @@ export async function seek(page, frame) {
     await atFrame(page, frame);
 }
 
-// A script's function that takes seconds and no memory, which would end it sooner.
+// A script with a function that takes seconds but no memory, which would be limited sooner.
 export const SLOW = 'func fib(n)\n    n if n<2 else fib(n-1)+fib(n-2)\n';
 
-// What a canvas shows, as a number.
+// Returns the sum of a canvas's bytes.
 export const pixels = (page, selector = '#picture') => page.locator(selector).first().evaluate(canvas => {
     const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
     let sum = 0;

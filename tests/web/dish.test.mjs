@@ -1,9 +1,9 @@
-// dish.test.mjs: how fast a dish runs and where it goes, by a clock and an engine of the test's own: no time is measured.
+// dish.test.mjs: speed and position of a dish, with a simulated clock and engine, so that no time is measured.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { Dish } from '../../src/web/page/dish.mjs';
 
-const TICK = 15.625; // ms: 64 a second, and all sums of them are exact
+const TICK = 15.625; // ms: 64 per second; all sums are exact
 
 // A dish with a display that ticks, and an engine that answers, when the test says so.
 function made() {
@@ -29,7 +29,7 @@ function made() {
     return world;
 }
 
-// All that waits for nothing but other promises has been done.
+// Waits until all promises that depend on nothing else are settled.
 const settled = () => new Promise(resolve => setImmediate(resolve));
 
 async function tick(world, ms = TICK) {
@@ -47,7 +47,7 @@ async function running(t) {
     return world;
 }
 
-test('a second has as many frames as the speed says, whatever the display does', async t => {
+test('the speed determines the frames per second, whatever the display rate', async t => {
     const world = await running(t), { dish } = world;
     for (const [speed, ticks, ms] of [[1, 64, TICK], [0.25, 64, TICK], [0.5, 64, TICK], [2, 64, TICK], [4, 64, TICK], [1, 16, 4 * TICK]]) {
         dish.speed = speed;
@@ -58,7 +58,7 @@ test('a second has as many frames as the speed says, whatever the display does',
     }
 });
 
-test('a script that is too slow falls behind, and does not make up for it', async t => {
+test('a slow script falls behind and does not catch up', async t => {
     const world = await running(t), { dish } = world;
     await tick(world, 5000);
     assert.deepEqual(world.asked, [8]);
@@ -68,9 +68,9 @@ test('a script that is too slow falls behind, and does not make up for it', asyn
     assert.equal(dish.frame, 9);
 });
 
-test('what is paused and run again while a frame is made runs once', async t => {
+test('pausing and resuming while a frame is computed does not run twice', async t => {
     const world = await running(t), { dish } = world;
-    const heldTicks = async () => { // the questions of two ticks, the first of which is not answered before the second
+    const heldTicks = async () => { // the requests of two ticks; the first is not answered before the second
         world.holds = true;
         world.asked.length = 0;
         await tick(world, 4 * TICK);
@@ -91,7 +91,7 @@ test('what is paused and run again while a frame is made runs once', async t => 
     await answered();
 });
 
-test('while the time line is dragged, only where it has come to is asked for', async t => {
+test('while the time line is dragged, only the last position is requested', async t => {
     const world = await running(t), { dish } = world;
     world.holds = true;
     for (const frame of [5, 9, 30, 12])

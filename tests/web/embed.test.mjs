@@ -1,4 +1,4 @@
-// embed.test.mjs: <petri-dish> in pages that come from elsewhere and know nothing of petri.
+// embed.test.mjs: <petri-dish> in pages of other servers.
 import assert from 'node:assert/strict';
 import { createServer } from 'node:http';
 import { readFileSync } from 'node:fs';
@@ -10,7 +10,7 @@ const DISH = readFileSync(join(root, 'samples/dish.fl'), 'utf8');
 const SQUARE = '!window size=64;32\n    !canvas\n        !rect point=0;0 size=64;32 color=1;(frame/100);0 fill=true\n';
 let other, html = '';
 
-// A server as anybody has: no headers of petri's.
+// An ordinary server, without petri's headers.
 before(() => new Promise(resolve => {
     other = createServer((request, response) => {
         const served = { '/folder/dish.fl': ['text/plain', DISH], '/m.fl': ['text/plain', 'let N=7\n'], '/': ['text/html', html] };
@@ -20,7 +20,7 @@ before(() => new Promise(resolve => {
 }));
 after(() => other.close());
 
-// A page with this in it; each element must have come to its first picture.
+// Opens a page with this content and waits for the first picture of each element.
 function embedded(body, use, how = {}) {
     html = `<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><title>t</title>
 <style>button, canvas, input { border: 9px solid red !important; width: 3px } p { color: rgb(1, 2, 3) }</style>
@@ -33,7 +33,7 @@ function embedded(body, use, how = {}) {
 const within = selector => `petri-dish >> ${selector}`;
 const shown = (page, frame) => page.waitForFunction(wanted => document.querySelector('petri-dish').frame === wanted, frame);
 
-test('a script in a page from elsewhere, by src and between the tags, with controls', options, () => embedded(
+test('a script from src or from the content runs with controls in a page of another server', options, () => embedded(
     `<petri-dish src="folder/dish.fl" controls></petri-dish><petri-dish class="b"><script type="text/plain">
         ${SQUARE.replaceAll('\n', '\n        ')}
     </script></petri-dish>`, async page => {
@@ -56,7 +56,7 @@ test('a script in a page from elsewhere, by src and between the tags, with contr
         assert.ok(await page.locator('petri-dish.b >> #run').isHidden());
     }));
 
-test('a page looks as without it, and it looks as without the page', options, () => embedded(
+test('styles of the page and of the element do not affect each other', options, () => embedded(
     `<petri-dish src="folder/dish.fl" controls></petri-dish>`, async page => {
         const style = (selector, name) => page.locator(selector).first().evaluate((element, of) => getComputedStyle(element)[of], name);
         assert.equal(await style('#text', 'color'), 'rgb(1, 2, 3)');
@@ -68,7 +68,7 @@ test('a page looks as without it, and it looks as without the page', options, ()
         assert.deepEqual(added, ['t', 5, 0]);
     }));
 
-test('a script that the reader changes, and a link to the page with what it has become', options, () => embedded(
+test('the reader can change the script and gets a link to the changed one', options, () => embedded(
     `<petri-dish controls editor frame="7"><pre>${SQUARE}</pre></petri-dish>`, async (page, context) => {
         await shown(page, 7);
         const text = page.locator(within('#text'));
@@ -88,7 +88,7 @@ test('a script that the reader changes, and a link to the page with what it has 
         assert.equal(await linked.evaluate(() => document.getElementById('picture').width), 40);
     }));
 
-test('a page commands it and hears of it', options, () => embedded(
+test('a page can control the element and receives its events', options, () => embedded(
     `<petri-dish src="nothing.fl"></petri-dish><script>
         globalThis.heard = [];
         for (const type of ['petri-ready', 'petri-frame', 'petri-error'])
@@ -116,7 +116,7 @@ test('a page commands it and hears of it', options, () => embedded(
         await page.evaluate(() => document.querySelector('petri-dish').remove());
     }, { ready: () => document.querySelector('petri-dish'), expected: /404|willReadFrequently/ }));
 
-test('the page of petri itself may have it, too', options, () => opened('', {
+test('the page of petri itself can contain the element', options, () => opened('', {
     use: async page => {
         await page.evaluate(async () => {
             await import('./petri-dish.js');
@@ -126,7 +126,7 @@ test('the page of petri itself may have it, too', options, () => opened('', {
     },
 }));
 
-test('who can change the script is told what petri warns of, others are not', options, () => embedded(
+test('warnings are only shown to readers who can edit the script', options, () => embedded(
     ['editor', ''].map((given, i) =>
         `<petri-dish id="d${i}" ${given}><pre>!window size=9;9\n    !canvas\n        !rect sice=9\n</pre></petri-dish>`).join(''),
     async page => {
@@ -139,7 +139,7 @@ test('who can change the script is told what petri warns of, others are not', op
         assert.equal(await message(0), '');
     }));
 
-test('what is not drawn without WebGL 2 is told below the picture', options, () => embedded(
+test('nodes that need WebGL 2 are reported below the picture', options, () => embedded(
     '<petri-dish><pre>!window size=64;32\n    !bloom radius=2\n        !canvas\n</pre></petri-dish>', async page => {
         assert.equal(await page.textContent(within('#message')), 'Not supported in this browser (no WebGL 2): bloom.');
     }, {
@@ -152,7 +152,7 @@ test('what is not drawn without WebGL 2 is told below the picture', options, () 
     }));
 
 for (const reducedMotion of ['no-preference', 'reduce'])
-    test(`autoplay, and motion: ${reducedMotion}`, options, () => embedded(
+    test(`autoplay respects the preference for motion: ${reducedMotion}`, options, () => embedded(
         `<petri-dish autoplay label="what it is"><pre>${SQUARE}</pre></petri-dish>`, async page => {
             assert.equal(await page.locator(within('#picture')).getAttribute('aria-label'), 'what it is');
             if (reducedMotion === 'reduce') {
@@ -163,14 +163,14 @@ for (const reducedMotion of ['no-preference', 'reduce'])
             await page.waitForFunction(() => document.querySelector('petri-dish').frame > 5);
         }, { settings: { reducedMotion } }));
 
-test('without autoplay it waits to be started', options, () => embedded(`<petri-dish><pre>${SQUARE}</pre></petri-dish>`, async page => {
+test('without autoplay it waits for a click', options, () => embedded(`<petri-dish><pre>${SQUARE}</pre></petri-dish>`, async page => {
     await shown(page, 2);
     await page.waitForTimeout(300);
     assert.deepEqual(await page.evaluate(() => [document.querySelector('petri-dish').running, document.querySelector('petri-dish').frame]),
         [false, 2]);
 }));
 
-test('the engine is fetched once, starts when an element comes into view, and rests when it is out of it', options, async () => {
+test('the engine is loaded once, starts when an element comes into view, and pauses out of view', options, async () => {
     const asked = [];
     await embedded(`<petri-dish id="a"><pre>${SQUARE}</pre></petri-dish><div style="height: 5000px"></div>
         <petri-dish id="b"><pre>${SQUARE}</pre></petri-dish>`, async page => {

@@ -1,4 +1,4 @@
-// engine.test.mjs: the package for npm, as its README shows it and where things go wrong. PETRI_WEB is build/web.
+// engine.test.mjs: the npm package: the example of its README, and error cases. PETRI_WEB is build/web.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
@@ -19,15 +19,15 @@ const stepped = (session, count) => {
 };
 const DISH = read('samples/dish.fl');
 
-test('the package has the version of the project, and is small', () => {
+test('the package has the version of the project and is small', () => {
     const version = read('meson.build').match(/version: '([0-9.]+)'/)[1];
     assert.equal(engine.version, version);
     assert.equal(JSON.parse(read('src/web/engine/package.json')).version, version);
     assert.ok(gzipSync(readFileSync(join(folder, 'engine.wasm')), { level: 9 }).length <= 500e3);
 });
 
-// What is missing is no error of the linker (src/web/meson.build), and answers -52, which passes for an address.
-test('each function of OpenGL that the engine calls is there', async () => {
+// The linker accepts missing functions (src/web/meson.build); they return -52, which may be taken for an address.
+test('every OpenGL function that the engine calls is implemented', async () => {
     const { Screen } = await import(pathToFileURL(join(folder, 'webgl.mjs')));
     const { functions } = new Screen({});
     const module = new WebAssembly.Module(readFileSync(join(folder, 'engine.wasm')));
@@ -36,7 +36,7 @@ test('each function of OpenGL that the engine calls is there', async () => {
     assert.deepEqual(called.filter(name => !functions[name]), []);
 });
 
-test('the example of README', async () => {
+test('the example of README gives its values', async () => {
     const [, code] = read('src/web/engine/README.md').match(/```js\n([^]*?)```/);
     const act = code.replace("'petri'", JSON.stringify(pathToFileURL(join(folder, 'petri.mjs')).href));
     const shown = act.replace('session.hash();', 'globalThis.shown = [session.frame.number, session.state.get(":p;2"), '
@@ -52,7 +52,7 @@ test('the example of README', async () => {
     assert.match(hash, /^[0-9a-f]{64}$/);
 });
 
-test('types are there for each method, and no others', () => {
+test('petri.d.ts declares exactly the methods that exist', () => {
     const types = read('src/web/engine/petri.d.ts').match(/interface Session \{([^]*?)\n\}/)[1];
     const declared = [...types.matchAll(/^ {4}(?:readonly )?(\w+)[(:]/gm)].map(match => match[1]).sort();
     const session = engine.open();
@@ -63,7 +63,7 @@ test('types are there for each method, and no others', () => {
     session.close();
 });
 
-test('going back gives the same frames again', () => {
+test('rewind gives the same frames again', () => {
     const session = stepped(opened(DISH), 20), kept = session.snapshot();
     assert.ok(kept.bytes > 0);
     const hash = stepped(session, 10).hash();
@@ -75,7 +75,7 @@ test('going back gives the same frames again', () => {
     session.close();
 });
 
-test('an error is told at its place and leaves the script that runs', () => {
+test('an error has a position and leaves the running script unchanged', () => {
     const session = stepped(opened('!a x=frame\n'), 2);
     assert.throws(() => session.load('!a\n!b x=(\n', 'bad.fl'), error => {
         assert.ok(error instanceof PetriError);
@@ -91,7 +91,7 @@ test('an error is told at its place and leaves the script that runs', () => {
     session.close();
 });
 
-test('a script that asks for too much is given up, and the session goes on', () => {
+test('a frame that exceeds a limit is aborted, and the session continues', () => {
     const session = opened('let n=N or 3\nlet k=(1 for i in ..n for j in ..1000 for k in ..1000)\n!a x=len(k)\n', { memory: 64 << 20 });
     const told = status => error => error.status === status;
     session.load('!a x=sum(i*j for i in ..100000 for j in ..100000)\n');
@@ -102,7 +102,7 @@ test('a script that asks for too much is given up, and the session goes on', () 
     session.close();
 });
 
-test('what goes on for long is ended when the host wants it, and has changed nothing', () => {
+test('shouldInterrupt ends a long call, which changes nothing', () => {
     let asked = 0, wanted = false;
     const session = engine.open({ shouldInterrupt: () => (asked++, wanted) });
     session.load('!counter state=:c rate=1\n!a x=sum(i*j for i in ..3000 for j in ..(3000 if frame==2 else 1))\n').step().step();
@@ -117,7 +117,7 @@ test('what goes on for long is ended when the host wants it, and has changed not
     session.close();
 });
 
-test('an end that is wanted is met or forgotten: it never comes to the next call', () => {
+test('an interrupt does not affect the next call', () => {
     let wanted = false;
     const session = engine.open({ shouldInterrupt: () => wanted });
     const script = 'let N=N or 3\n!counter state=:c rate=1\n!physics state=:p dimensions=2 time=time\n    for i in ..2000\n'
@@ -150,7 +150,7 @@ test('an end that is wanted is met or forgotten: it never comes to the next call
     session.close();
 });
 
-test('recursion that is too deep is told, and the engine goes on', () => {
+test('deep recursion is reported, and the engine continues', () => {
     const names = Array.from({ length: 40 }, (_, i) => `f${i}`);
     const nested = '(1+' + '(2*'.repeat(150), end = ')'.repeat(151);
     const functions = names.map((name, i) => `func ${name}(fs, n)\n    ${nested}fs[${(i + 1) % 40}](fs, n-1)${end} if n>0 else 0\n`);
@@ -163,7 +163,7 @@ test('recursion that is too deep is told, and the engine goes on', () => {
     session.close();
 });
 
-test('parameters', () => {
+test('parameters are listed and can be set', () => {
     const session = opened('let SIZE=SIZE or 20 -- 1..100|5 how large\n!a x=SIZE\n').step();
     const [size] = session.parameters;
     assert.deepEqual([size.name, size.number, size.min, size.max, size.step, size.comment, size.settable],
@@ -176,7 +176,7 @@ test('parameters', () => {
     session.close();
 });
 
-test('files are those that are given', () => {
+test('scripts can read only the given files', () => {
     const session = engine.open({ files: { 'm.fl': 'let TEN=10\n', 'd/a.txt': 'été', 'd/b.txt': new Uint8Array([49]) } });
     session.load("import TEN from 'm.fl'\n!a x=TEN y=read('d/a.txt') z=glob('d/*') v=read('/etc/passwd')\n").step();
     assert.match(session.print('tree'), /^!a x=10 y='été' z='d\/a.txt';'d\/b.txt'$/m);
@@ -185,7 +185,7 @@ test('files are those that are given', () => {
     session.close();
 });
 
-test('values come in and out', () => {
+test('values are passed in and out', () => {
     const session = engine.open({ fps: 10 });
     session.setGlobal('GIVEN', [1, 2.5]);
     session.load('!a x=GIVEN t=time\n').step().step();
@@ -206,7 +206,7 @@ test('values come in and out', () => {
     session.close();
 });
 
-test('hands', () => {
+test('pointer and keys reach the script', () => {
     const session = opened('!window\n    !pointer state=:p\n    !key name=:space state=:k\n!a x=$(:p) y=$(:k)\n');
     session.step();
     session.pointer(true, 0.25, 0.5, 1).key('space', true);
@@ -216,7 +216,7 @@ test('hands', () => {
     session.close();
 });
 
-test('sessions go side by side, and all memory comes back', () => {
+test('sessions are independent, and closing them frees all memory', () => {
     const one = opened(DISH), two = opened('!a x=frame\n');
     stepped(one, 3);
     stepped(two, 5);

@@ -1,4 +1,4 @@
-// export.test.mjs: what the page saves: the text, pictures, films, tables.
+// export.test.mjs: files saved by the page: text, pictures, videos, tables.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
@@ -9,7 +9,7 @@ import { atFrame, opened, options, root, typed } from './browser.mjs';
 
 const petri = join(root, 'build/src/petri');
 
-// Exports by the dialog; the name and the path of what comes.
+// Exports with the dialog; returns the name and the path of the file.
 async function exported(page, kind, to) {
     await page.click('#save-as');
     await page.check(`#saving input[value=${kind}]`);
@@ -34,9 +34,9 @@ test('text, picture and state are saved as files', options, () => opened('', {
     },
 }));
 
-const beside = { ...options, skip: options.skip || (existsSync(petri) ? false : `there is no ${petri}`) };
+const beside = { ...options, skip: options.skip || (existsSync(petri) ? false : `missing: ${petri}`) };
 
-test('particles are saved as petri run --trajectory writes them', beside, () => opened('', {
+test('particles are saved as by petri run --trajectory', beside, () => opened('', {
     use: async page => {
         const scratch = mkdtempSync(join(tmpdir(), 'petri-')), way = join(scratch, 'run.csv');
         execFileSync(petri, ['run', join(root, 'samples/dish.fl'), '--frames', '25', '--trajectory', way, '--quiet', '--print', 'state']);
@@ -44,11 +44,11 @@ test('particles are saved as petri run --trajectory writes them', beside, () => 
         assert.equal(name, 'dish.csv');
         assert.equal(readFileSync(path, 'utf8'), readFileSync(way, 'utf8'));
         rmSync(scratch, { recursive: true });
-        await atFrame(page, 2); // where it was before
+        await atFrame(page, 2); // the frame before the export
     },
 }));
 
-test('a film has one frame for each of the script, and is in the right colours', options, () => opened('', {
+test('a video has one frame per frame of the script, with the right colours', options, () => opened('', {
     use: async (page, context) => {
         await typed(page, '%pragma fps 25\n!window size=101;51\n    !canvas\n'
             + '        !rect point=0;0 size=(frame+1);51 color=1;0.5;0 fill=true\n');
@@ -59,7 +59,7 @@ test('a film has one frame for each of the script, and is in the right colours',
         assert.equal(name, 'dish.webm');
         const film = readFileSync(path), blocks = film.toString('latin1').match(/\xa3\x01\0{5}[^]{2}\x81/g).length;
         assert.equal(blocks, 91);
-        // A browser plays it: at the middle of frame 49, of 25 a second, 50 columns are there.
+        // Played by the browser: the middle of frame 49 at 25 frames per second shows 50 columns.
         const cinema = await context.newPage();
         const seen = await cinema.evaluate(async text => {
             const video = document.createElement('video');
@@ -85,7 +85,7 @@ test('a film has one frame for each of the script, and is in the right colours',
     },
 }));
 
-test('a browser without WebCodecs is told to make no films, and goes on', options, () => opened('', {
+test('without WebCodecs, exporting a video is an error, and the page continues', options, () => opened('', {
     prepare: page => page.route('**/worker.js', async route => {
         const response = await route.fetch();
         await route.fulfill({ response, body: `delete globalThis.VideoEncoder;${await response.text()}` });
@@ -104,7 +104,7 @@ test('a browser without WebCodecs is told to make no films, and goes on', option
     },
 }));
 
-test('an export is given up', options, () => opened('', {
+test('an export can be cancelled', options, () => opened('', {
     use: async page => {
         await page.click('#save-as');
         await page.check('#saving input[value=particles]');
@@ -120,7 +120,7 @@ test('an export is given up', options, () => opened('', {
     },
 }));
 
-test('scripts, modules and images are opened, and dropped', options, () => opened('', {
+test('scripts, modules and images can be opened and dropped', options, () => opened('', {
     use: async page => {
         const script = "import WIDE from 'wide.fl'\n!window size=WIDE;20\n    !canvas\n"
             + "        !image filename='red.png' point=0;0 size=WIDE;20\n";
@@ -144,7 +144,7 @@ test('scripts, modules and images are opened, and dropped', options, () => opene
                 data.items.add(new File([text], name));
             document.dispatchEvent(new DragEvent('drop', { dataTransfer: data, cancelable: true }));
         }, files(50).slice(0, 1));
-        await wide(50); // the script that was open, with another module
+        await wide(50); // the open script with another module
         assert.deepEqual(await at(), [255, 0, 0, 255]);
         assert.match(await page.textContent('.cm-content'), /^import WIDE/);
     },

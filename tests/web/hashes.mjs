@@ -1,5 +1,5 @@
-// hashes.mjs ENGINE CORPORA EXPECTED: what the scripts of the conformance corpora come to in WebAssembly, against what
-// every other build comes to: tests/hashes/hashes.sh tells what a line of it is.
+// hashes.mjs ENGINE CORPORA EXPECTED: compares the results of the conformance scripts in WebAssembly with those of all other builds.
+// tests/hashes/hashes.sh describes the lines.
 import { createHash } from 'node:crypto';
 import { readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
@@ -8,7 +8,7 @@ import { loadEngine } from '../../src/web/engine/petri.mjs';
 const [, , wasm, corpora, expected] = process.argv;
 const engine = await loadEngine(readFileSync(wasm));
 
-// The options of a golden's first line.
+// Returns the options in the first line of a golden.
 function options(line) {
     const words = line.replace(/^# run /, '').trim().split(/ +/);
     const read = { frames: 1, every: 1, fps: 0, definitions: [] };

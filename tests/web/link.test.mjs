@@ -1,5 +1,4 @@
-// link.test.mjs: links from the page to `petri open`, and from `petri link` to the page. Skipped where petri is not built, or
-// without what links take.
+// link.test.mjs: links from the page to `petri open`, and from `petri link` to the page. Skipped without petri or the libraries for links.
 import assert from 'node:assert/strict';
 import { execFileSync, spawnSync } from 'node:child_process';
 import { join } from 'node:path';
@@ -10,7 +9,7 @@ const petri = join(root, 'build/petri'), tried = spawnSync(petri, ['open', '#'],
 const ways = { ...options, skip: options.skip || (tried.error || /built without/.test(tried.stderr) ? 'petri opens no links' : false) };
 const linked = (...words) => execFileSync(petri, ['link', join(root, 'samples/dish.fl'), ...words], { encoding: 'utf8' }).trim();
 
-test('links of petri open in the page, with the same state', ways, async () => {
+test('a link of petri opens in the page with the same state', ways, async () => {
     for (const [frame, words] of [[0, []], [12, ['-D', 'DROPS=9']]])
         await opened(linked('--frame', String(frame), ...words), {
             use: async page => {
@@ -22,7 +21,7 @@ test('links of petri open in the page, with the same state', ways, async () => {
         });
 });
 
-test('links of the page open in petri, with what was changed on the way', ways, () => opened(linked('-D', 'DROPS=9', '--frame', '5'), {
+test('a link of the page opens in petri with the changed parameters', ways, () => opened(linked('-D', 'DROPS=9', '--frame', '5'), {
     use: async page => {
         await atFrame(page, 5);
         await page.fill('#parameter-DROPS', '14');

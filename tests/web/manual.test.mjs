@@ -1,5 +1,5 @@
-// manual.test.mjs: the manual as a site: what its examples show is what WebAssembly gives, links lead somewhere, the search
-// finds, pages run their examples. Skipped where there is none, or no browser.
+// manual.test.mjs: the manual as a site: examples give the same results in WebAssembly, links and pictures exist, the search works, pages
+// run their examples. Skipped without the site or the browser.
 import assert from 'node:assert/strict';
 import { existsSync, readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
@@ -9,19 +9,19 @@ import { loadEngine } from '../../src/web/engine/petri.mjs';
 import { outcome } from '../../src/web/site/try.mjs';
 import { folder, options, pixels, root, visited, world } from './browser.mjs';
 
-const site = join(folder, 'manual'), built = { skip: existsSync(join(site, 'index.html')) ? false : 'there is no manual' };
+const site = join(folder, 'manual'), built = { skip: existsSync(join(site, 'index.html')) ? false : 'missing: the manual' };
 const pages = built.skip ? [] : readdirSync(site).filter(name => name.endsWith('.html'));
 const read = name => readFileSync(join(site, name), 'utf8');
 const AXE = join(root, 'src/web/page/node_modules/axe-core/axe.min.js');
 
-// Lines KEY = VALUE, in any order, among others; null for what is not there.
+// Compares lines KEY = VALUE in any order, among others; null: the key must not exist.
 function hasState(printed, wanted) {
     const lines = printed.split('\n');
     return wanted.trimEnd().split('\n').every(line => line.endsWith(' = null')
         ? !lines.some(other => other.startsWith(`${line.slice(0, -4)}`)) : lines.includes(line));
 }
 
-test('examples give in WebAssembly what the manual shows', built, async () => {
+test('examples give in WebAssembly the results of the manual', built, async () => {
     const engine = await loadEngine(readFileSync(join(folder, 'petri/engine.wasm'))), examples = JSON.parse(read('examples.json'));
     for (const example of examples) {
         const { page, kind, text, result, files } = example, where = `${page}: ${text}`;
@@ -51,7 +51,7 @@ test('examples give in WebAssembly what the manual shows', built, async () => {
     assert.ok(counts.dish > 40 && counts.eval > 20 && counts.tree > 30 && counts.state > 15, JSON.stringify(counts));
 });
 
-test('links lead somewhere, pictures are there', built, () => {
+test('links and pictures exist', built, () => {
     const idsOf = name => [...read(name).matchAll(/ id="([^"]+)"/g)].map(([, id]) => id);
     const ids = new Map(pages.map(name => [name, new Set(idsOf(name))]));
     let count = 0;
@@ -73,7 +73,7 @@ test('links lead somewhere, pictures are there', built, () => {
 const FORCES = ['distance', 'collision', 'gravity', 'electrostatic', 'adhesion', 'constant', 'random', 'field', 'drag', 'buoyancy',
     'barrier'];
 
-test('each node of physics has a formula or none, and an example that runs', built, () => {
+test('each physics node has an example that runs, and forces have a formula', built, () => {
     const { nodes } = JSON.parse(readFileSync(join(folder, '../web-tables.json'), 'utf8')), text = read('physics.html');
     for (const { name } of nodes.filter(({ area }) => area === 'physics')) {
         const part = text.split(`<h2 id="${name}">`)[1]?.split('<h2 ')[0];
@@ -88,7 +88,7 @@ const shown = page => page.waitForFunction(() => document.querySelector('petri-d
 
 const ways = { ...options, skip: options.skip || built.skip };
 
-test('the search finds, by keys alone, and pages show their examples', ways, () => visit('index.html', async page => {
+test('the search works with the keyboard, and pages show their examples', ways, () => visit('index.html', async page => {
     await shown(page);
     assert.ok((await pixels(page, 'petri-dish >> #picture')).all > 20);
     await page.keyboard.press('/');
@@ -112,7 +112,7 @@ test('the search finds, by keys alone, and pages show their examples', ways, () 
     await page.waitForFunction(() => document.getElementById('found').textContent === 'No results.');
 }));
 
-test('a reader changes an example, and sees what comes of it', ways, () => visit('language.html', async page => {
+test('a reader can change an example and sees the new result', ways, () => visit('language.html', async page => {
     const example = page.locator('.try[data-kind=eval]').first();
     await example.locator('button').click();
     await example.locator('textarea').fill('1+2\n..4\nnonsense(');
@@ -124,7 +124,7 @@ test('a reader changes an example, and sees what comes of it', ways, () => visit
         .test(document.querySelector('.try[data-kind=tree] .result').textContent));
 }));
 
-test('pages work for all, in light and dark, on a phone, and without a network', ways, async () => {
+test('pages are accessible, in light and dark, on a phone, and offline', ways, async () => {
     for (const [name, colorScheme] of [['physics.html', 'light'], ['language.html', 'dark']])
         await visit(name, async page => {
             await page.evaluate(readFileSync(AXE, 'utf8'));
@@ -146,7 +146,7 @@ test('pages work for all, in light and dark, on a phone, and without a network',
     }, { viewport: { width: 390, height: 800 } });
 });
 
-test('opened from a file, a page has its texts, pictures and search', ways, () => visited(`${pathToFileURL(join(site, 'physics.html'))}`, {
+test('a page opened from a file has text, pictures and search', ways, () => visited(`${pathToFileURL(join(site, 'physics.html'))}`, {
     expected: /CORS|Failed to load/, ready: () => document.readyState === 'complete', use: async page => {
         assert.ok(await page.isVisible('#served'));
         assert.match(await page.textContent('#collision + petri-dish > pre'), /!collision strength=STRENGTH/);

@@ -1,4 +1,4 @@
-// page.test.mjs: the page in headless Chromium, as a person uses it.
+// page.test.mjs: the page in headless Chromium, operated like a user.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
@@ -16,8 +16,8 @@ test('the page is small', options, () => {
     assert.ok(size <= 1.5e6, `${size} bytes`);
 });
 
-// The best of a few, as the machine may be busy with something else.
-test('a linked dish is seen within a second and a half, nothing being there before', options, async () => {
+// Takes the best of a few, because the machine may be busy.
+test('a linked dish is visible within 1.5 seconds, with nothing cached', options, async () => {
     const { packLink } = await import('../../src/web/page/link.mjs');
     const link = await packLink({ text: DISH, name: 'dish.fl', frame: 3 });
     let best = Infinity;
@@ -34,7 +34,7 @@ test('a linked dish is seen within a second and a half, nothing being there befo
     assert.ok(best <= 1500, `${best} ms`);
 });
 
-test('a picture is there, runs, goes back and forth to the same pictures', options, () => opened('', {
+test('going back and forth shows the same pictures again', options, () => opened('', {
     use: async page => {
         assert.equal(await frameOf(page), 2);
         const first = await pixels(page);
@@ -65,7 +65,7 @@ test('a picture is there, runs, goes back and forth to the same pictures', optio
 
 const centre = page => page.evaluate(() => [...document.getElementById('picture').getContext('2d').getImageData(32, 16, 1, 1).data]);
 
-test('a picture with effects takes the place of one without, of the same size, and the other way round', options, () => opened('', {
+test('pictures with and without effects can replace each other', options, () => opened('', {
     use: async page => {
         const flat = '!window size=64;32\n    !canvas\n        !rect size=64;32 color=1;0.5;0 fill=true\n';
         const effect = '!window size=64;32\n    !vignette inset=0\n        !canvas\n            !rect size=64;32 color=0;0;1 fill=true\n';
@@ -83,7 +83,7 @@ test('a picture with effects takes the place of one without, of the same size, a
     },
 }));
 
-test('the speed menu gives so many frames for the same ticks of the display', options, () => opened('', {
+test('the speed menu sets the number of frames per second', options, () => opened('', {
     use: async page => {
         await typed(page, '!window size=8;8\n    !canvas\n');
         await page.click('#reset');
@@ -93,7 +93,7 @@ test('the speed menu gives so many frames for the same ticks of the display', op
             let now = 1000;
             performance.now = () => now;
             globalThis.requestAnimationFrame = callback => waiting.push(callback);
-            // 64 ticks make a second, exactly; each comes when the frames of the one before are there.
+            // 64 ticks are exactly one second; a tick comes after the frames of the previous one.
             const tick = async () => {
                 while (waiting.length === 0)
                     await new Promise(resolve => setTimeout(resolve));
@@ -130,7 +130,7 @@ const withoutWebgl = page => page.route('**/worker.js', async route => {
     route.fulfill({ response, body: without + await response.text() });
 });
 
-test('without WebGL 2 the page says so and draws the rest', options, () => opened('', {
+test('without WebGL 2 the page reports it and draws the rest', options, () => opened('', {
     prepare: withoutWebgl,
     use: async page => {
         await typed(page, '!window size=64;32\n    !bloom radius=2\n        !canvas\n'
@@ -143,7 +143,7 @@ test('without WebGL 2 the page says so and draws the rest', options, () => opene
     },
 }));
 
-test('without WebGL 2 particles are seen flat where a script draws them in three dimensions', options, () => opened('', {
+test('without WebGL 2, a 3-D script shows its particles in two dimensions', options, () => opened('', {
     prepare: withoutWebgl,
     use: async page => {
         await typed(page, '!physics state=:world dimensions=2\n    !particle id=0 radius=9 position=0;0 velocity=90;0\n'
@@ -160,7 +160,7 @@ test('without WebGL 2 particles are seen flat where a script draws them in three
     },
 }));
 
-test('an error is shown at its place while one types', options, () => opened('', {
+test('an error is marked in the text while typing', options, () => opened('', {
     use: async page => {
         await typed(page, '!window size=100;100\n    !canvas\n        !rect size=coss(1) fill=true\n');
         await page.waitForSelector('.cm-lintRange-warning');
@@ -180,7 +180,7 @@ test('an error is shown at its place while one types', options, () => opened('',
     },
 }));
 
-test('a slider changes a parameter, and a link brings all of it back', options, () => opened('', {
+test('a slider changes a parameter, and a link restores everything', options, () => opened('', {
     use: async (page, context) => {
         const [slider] = await page.$$('#parameters input[type=range]');
         const before = (await pixels(page)).sum;
@@ -207,7 +207,7 @@ test('a slider changes a parameter, and a link brings all of it back', options, 
     },
 }));
 
-test('links that are none are told, and change nothing', options, async () => {
+test('an invalid link is reported and changes nothing', options, async () => {
     const { packLink, readLink } = await import('../../src/web/page/link.mjs');
     const link = await packLink({ text: DISH, name: 'dish.fl', frame: 3, hash: 'f'.repeat(64), changes: [[1, 'A', '2']] });
     assert.match(link, /^#[A-Za-z0-9_-]+$/);
@@ -228,7 +228,7 @@ test('links that are none are told, and change nothing', options, async () => {
     });
 });
 
-// How many pixels differ by more than 5 % of a colour from a PNG.
+// Returns how many pixels differ from a PNG by more than 5 % of a colour.
 const differing = (page, png) => page.evaluate(async url => {
     const image = new Image();
     image.src = url;
@@ -245,12 +245,12 @@ const differing = (page, png) => page.evaluate(async url => {
     return count / (width * height);
 }, `data:image/png;base64,${png.toString('base64')}`);
 
-// The frame that `petri render --frames 1` shows: the first where particles are where they will be.
+// The frame of `petri render --frames 1`: the first in which particles are at their positions.
 const PICTURES = { aquarium: 2, barriers: 0, beads: 2, clockwork: 0, dish: 2, hello: 2, springs: 2, terrain: 0, trails: 2 };
 const petri = join(root, 'build/src/petri-pictures');
-const drawn = { ...options, skip: options.skip || (existsSync(petri) ? false : `there is no ${petri}`) };
+const drawn = { ...options, skip: options.skip || (existsSync(petri) ? false : `missing: ${petri}`) };
 
-test('pictures of the samples are those of petri render but for edges', drawn, () => opened('', {
+test('pictures of the samples equal those of petri render, except at edges', drawn, () => opened('', {
     use: async page => {
         for (const [name, frame] of Object.entries(PICTURES)) {
             const scratch = join(mkdtempSync(join(tmpdir(), 'petri-')), 'a.png');
@@ -269,7 +269,7 @@ test('pictures of the samples are those of petri render but for edges', drawn, (
     },
 }));
 
-test('recursion that is too deep does not end the engine, in a worker, either', options, () => opened('', {
+test('deep recursion does not end the engine in a worker', options, () => opened('', {
     use: async page => {
         const names = Array.from({ length: 40 }, (_, i) => `f${i}`), nested = '(1+' + '(2*'.repeat(150), end = ')'.repeat(151);
         const functions = names.map((name, i) => `func ${name}(fs, n)\n    ${nested}fs[${(i + 1) % 40}](fs, n-1)${end} if n>0 else 0\n`);
@@ -280,7 +280,7 @@ test('recursion that is too deep does not end the engine, in a worker, either', 
     },
 }));
 
-test('axe finds nothing serious, dark or light', options, async () => {
+test('axe finds no serious problems, in dark and light', options, async () => {
     const axe = readFileSync(join(root, 'src/web/page/node_modules/axe-core/axe.min.js'), 'utf8');
     for (const colorScheme of ['light', 'dark'])
         await opened('', {
@@ -312,7 +312,7 @@ test('axe finds nothing serious, dark or light', options, async () => {
         });
 });
 
-test('what takes long is stopped, and goes on from the frame before', options, () => opened('', {
+test('a long frame can be stopped, and the script continues from the previous frame', options, () => opened('', {
     use: async page => {
         assert.ok(await page.evaluate(() => crossOriginIsolated));
         await typed(page, SLOW + 'let LONG=LONG or 1 -- 1..2\n!window size=64;8\n    !canvas\n        '
@@ -335,7 +335,7 @@ test('what takes long is stopped, and goes on from the frame before', options, (
     },
 }));
 
-test('what runs for ever is stopped, and the text stays', options, () => opened('', {
+test('an endless frame can be stopped, and the text is kept', options, () => opened('', {
     use: async page => {
         const text = `${SLOW}!a x=fib(frame+40)\n`;
         await typed(page, text);
@@ -352,7 +352,7 @@ test('what runs for ever is stopped, and the text stays', options, () => opened(
     },
 }));
 
-test('the prompt, samples, keyboard alone, dark and light, offline', options, () => opened('', {
+test('the prompt, samples, keyboard, themes and offline use work', options, () => opened('', {
     use: async (page, context) => {
         await page.fill('#line', '1+2');
         await page.press('#line', 'Enter');

@@ -1,4 +1,4 @@
-// panels.test.mjs: the prompt, the plot, the table, completion and help, and narrow screens.
+// panels.test.mjs: the prompt, plot and table, completion and help, and narrow screens.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { atFrame, opened, options, seek, typed } from './browser.mjs';
@@ -14,7 +14,7 @@ async function running(page, text) {
     await page.waitForFunction(() => document.getElementById('run').textContent === 'Run');
 }
 
-test('the prompt has definitions, errors, and lines from before', options, () => opened('', {
+test('the prompt has definitions, errors and a history', options, () => opened('', {
     use: async page => {
         const ask = async (text, answer) => {
             await page.fill('#line', text);
@@ -34,7 +34,7 @@ test('the prompt has definitions, errors, and lines from before', options, () =>
     },
 }));
 
-test('watched expressions are plotted, for frames before, too', options, () => opened('', {
+test('watched expressions are plotted, including earlier frames', options, () => opened('', {
     use: async page => {
         await running(page, NOW);
         await seek(page, 3);
@@ -64,7 +64,7 @@ test('watched expressions are plotted, for frames before, too', options, () => o
     },
 }));
 
-test('a state of a hundred thousand keys is filtered and sorted', options, () => opened('', {
+test('a state of 100000 keys is filtered and sorted', options, () => opened('', {
     use: async page => {
         await running(page, '!physics state=:p dimensions=2 time=time\n    for i in ..50000\n'
             + '        !particle id=i position=i;(0-i)\n!window size=8;8\n    !canvas\n');
@@ -89,13 +89,13 @@ test('a state of a hundred thousand keys is filtered and sorted', options, () =>
     },
 }));
 
-test('completion and help come from petri\'s tables', options, () => opened('', {
+test('completion and help use petri\'s tables', options, () => opened('', {
     use: async page => {
         await typed(page, 'let SPEEDY=3\n!physics state=:p\n    !particle radi');
         await page.waitForSelector('.cm-tooltip-autocomplete');
         const first = page.locator('.cm-tooltip-autocomplete li').first();
         assert.match(await first.textContent(), /^radius/);
-        await page.waitForTimeout(100); // the list takes no key at once
+        await page.waitForTimeout(100); // the list ignores keys at first
         await page.keyboard.press('Enter');
         assert.match(await page.textContent('.cm-content'), /!particle radius=$/);
         await page.keyboard.insertText('SPE');
@@ -107,7 +107,7 @@ test('completion and help come from petri\'s tables', options, () => opened('', 
     },
 }));
 
-test('a phone has the picture first, nothing is cut off, and fingers find the buttons', options, () => opened('', {
+test('on a phone, the picture is first, nothing is cut off, and buttons are large enough', options, () => opened('', {
     settings: { viewport: { width: 360, height: 740 }, hasTouch: true, isMobile: true },
     use: async page => {
         const box = selector => page.locator(selector).boundingBox();
@@ -126,7 +126,7 @@ test('a phone has the picture first, nothing is cut off, and fingers find the bu
     },
 }));
 
-test('all is done by the keyboard alone', options, () => opened('', {
+test('everything can be done with the keyboard', options, () => opened('', {
     use: async page => {
         const focused = () => page.evaluate(() => document.activeElement.id || document.activeElement.className);
         const tabTo = async (id, most = 40) => {
@@ -143,7 +143,7 @@ test('all is done by the keyboard alone', options, () => opened('', {
         await tabTo('theme');
         await page.keyboard.press('Tab');
         assert.match(await focused(), /cm-content/);
-        await page.keyboard.press('Escape'); // Tab then leaves the text
+        await page.keyboard.press('Escape'); // so that Tab leaves the text
         await tabTo('picture');
         await tabTo('step');
         await page.keyboard.press('Enter');
@@ -158,14 +158,14 @@ test('all is done by the keyboard alone', options, () => opened('', {
     },
 }));
 
-test('pointer and keys go to the script while the picture has the focus', options, () => opened('', {
+test('pointer and keys are passed to the script while the picture has the focus', options, () => opened('', {
     use: async page => {
         const keys = { Enter: 'enter', a: 'a', PageUp: 'page_up', F2: 'f2', Shift: 'left_shift', ';': 'semicolon', ArrowLeft: 'left' };
         const nodes = Object.values(keys).map(name => `    !key name=:${name} state=:${name}\n`).join('');
         await typed(page, `!window size=200;100\n    !pointer state=:at\n${nodes}    !canvas\n        !rect size=200;100 fill=true\n`);
         await page.keyboard.press('Control+Enter');
         await page.waitForFunction(() => document.getElementById('picture').width === 200);
-        const shows = async (expression, value) => { // in the next frame; neither pointer nor focus are taken for it
+        const shows = async (expression, value) => { // in the next frame, without changing pointer or focus
             await page.evaluate(() => document.getElementById('step').click());
             await page.evaluate(text => {
                 document.getElementById('line').value = text;
@@ -183,7 +183,7 @@ test('pointer and keys go to the script while the picture has the focus', option
         }
         await page.keyboard.down('a');
         await shows('$(:a)', '1');
-        await page.focus('#line'); // it is let go where the picture does not hear of it
+        await page.focus('#line'); // the key is released while the picture lacks the focus
         await page.keyboard.up('a');
         await shows('$(:a)', '0');
         const { x, y, width, height } = await page.locator('#picture').boundingBox();

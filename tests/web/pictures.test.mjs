@@ -1,6 +1,5 @@
-// pictures.test.mjs: browsers show what `petri render` draws: each byte within 2 of one within a pixel around, both ways,
-// but for corners of edges, which are covered otherwise. Skipped where npm's modules, the browser or a petri that draws
-// are not.
+// pictures.test.mjs: browsers show the pictures of `petri render`: each byte is within 2 of one in the neighbouring pixels, in both
+// directions, except at corners of edges, whose coverage differs. Skipped without npm's modules, the browser or a petri that can draw.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { cpSync, existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
@@ -14,12 +13,12 @@ const folder = process.env.PETRI_WEB, browserPath = '/usr/bin/chromium', petri =
 const modules = join(root, 'src/web/page/node_modules/playwright-core/index.mjs');
 const drawer = join(root, 'build/src/petri-pictures');
 const missing = [modules, browserPath, join(folder, 'page.js'), petri, drawer].find(path => !existsSync(path));
-const options = { skip: missing ? `there is no ${missing}` : false, timeout: 60000 };
+const options = { skip: missing ? `missing: ${missing}` : false, timeout: 60000 };
 const scratch = mkdtempSync(join(tmpdir(), 'petri-pictures-'));
 let browser, server, page;
 
 const FRAME = 12;
-// What share of the pixels may be otherwise; most of terrain is seams between shapes.
+// The fraction of pixels that may differ; in terrain, most are seams between shapes.
 const SHARE = 1e-3, SHARES = { terrain: 1e-2, garden: 2e-3, font_on: 6e-3 };
 
 before(async () => {
@@ -45,12 +44,12 @@ after(async () => {
     rmSync(scratch, { recursive: true });
 });
 
-// What is in the page: draws scripts by the package for npm, and compares what is drawn.
+// The code in the page: draws scripts with the npm package and compares the pictures.
 async function install() {
     const { loadEngine } = await import('/petri/petri.mjs'), { drawPicture, pictureSize } = await import('/petri/drawing.mjs');
     const engine = await loadEngine('/petri/engine.wasm');
     const bytesOf = text => Uint8Array.from(atob(text), c => c.charCodeAt(0));
-    // How many pixels are not what the other picture has around them.
+    // Returns how many pixels have no match around them in the other picture.
     const outside = (a, b, width, height) => {
         let count = 0;
         for (let y = 0; y < height; y++)
@@ -139,7 +138,7 @@ const SPHERE = `!window size=200;150
         !sphere size=1 color=1;0.3;0.1
 `;
 
-test('the page shows three dimensions', options, async () => {
+test('the page shows 3-D scenes', options, async () => {
     const script = written('sphere.fl', SPHERE);
     await page.evaluate(() => delete document.body.dataset.frame);
     await page.setInputFiles('#file', script);
@@ -150,27 +149,27 @@ test('the page shows three dimensions', options, async () => {
 
 const samples = join(root, 'samples'), pictures = join(root, 'tests/pictures');
 for (const name of readdirSync(samples).filter(file => file.endsWith('.fl')))
-    test(`the sample ${name}`, options, () => check(join(samples, name), FRAME, SHARES[name.slice(0, -3)],
+    test(`the sample ${name} equals that of petri render`, options, () => check(join(samples, name), FRAME, SHARES[name.slice(0, -3)],
         readdirSync(join(samples, 'lib')).map(file => `lib/${file}`).filter(file => file.endsWith('.fl'))));
 
-// Each effect, scenes with pictures of others, trails: those that are to be seen in frame 2.
+// All effects, scenes with pictures of other nodes, and trails, if they are visible in frame 2.
 for (const name of ['adjust', 'bloom', 'blur', 'chromakey', 'edges', 'feedback', 'flare', 'kaleid', 'noise', 'passes', 'shader', 'tonemap',
     'transform', 'vignette'])
-    test(`the effect ${name}`, options, () => check(join(pictures, `effect_${name}.fl`), 2, 5e-3));
+    test(`the effect ${name} equals the picture of petri render`, options, () => check(join(pictures, `effect_${name}.fl`), 2, 5e-3));
 for (const name of ['dots', 'lights', 'metal', 'translucency'])
-    test(`the scene ${name}`, options, () =>
+    test(`the scene ${name} equals the picture of petri render`, options, () =>
         check(join(pictures, `scenes/${name}.fl`), 2, 2e-3, name === 'metal' ? ['models/pyramid.obj'] : []));
-// All pictures of canvases, but for those that have tests of their own, that have nothing in them, or whose pixels are enlarged, or
-// covered by hundreds of lines each.
+// All pictures of canvases, except those with separate tests, empty ones, and those whose pixels are enlarged or covered by hundreds of
+// lines.
 const OTHERS = new Set(['canvas_wide', 'path_effects', 'gallery', 'window_default', 'window_size', 'canvas_size', 'image_id', 'long_path']);
 for (const name of readdirSync(pictures).filter(file => /^(?!effect_).*\.fl$/.test(file)).map(file => file.slice(0, -3))
     .filter(file => !OTHERS.has(file)))
-    test(`the picture ${name}`, options, () =>
+    test(`the picture ${name} equals that of petri render`, options, () =>
         check(join(pictures, `${name}.fl`), 2, SHARES[name] ?? 5e-3, ['images/small.png', 'images/small.jpg']));
-test('path effects but on text', options, () => check(written('path_effects.fl',
+test('path effects equal those of petri render, except on text', options, () => check(written('path_effects.fl',
     readFileSync(join(pictures, 'path_effects.fl'), 'utf8').replace(/^.*!text.*\n/m, '')), 2, 5e-3));
 
-// What a paint's alpha leaves of an image that repeats, and of those of others.
+// Repeated images, also of other nodes, with the alpha of a paint.
 const FADED = `!window size=64;48
     !canvas
         !rect size=64;48 fill=true color=0;0.6;0.2
@@ -181,9 +180,9 @@ const FADED = `!window size=64;48
             !pattern filename='images/small.png' scale=2
             !line points=10;40;58;10 stroke=true stroke_width=8
 `;
-test('patterns fade with their paint', options, () => check(written('faded.fl', FADED), 2, 5e-3, ['images/small.png']));
+test('patterns have the alpha of their paint', options, () => check(written('faded.fl', FADED), 2, 5e-3, ['images/small.png']));
 
-// Gradients that are no circles on lines and letters, patterns on letters.
+// Elliptical gradients on lines and text, patterns on text.
 const TURNED = `!window size=120;90
     !canvas font_family='DejaVu Sans' font_size=40
         !gradient radius=40;15 point=60;20 rotate=1/8
@@ -194,10 +193,10 @@ const TURNED = `!window size=120;90
         !pattern filename='images/small.png'
         !text text='word' point=60;75
 `;
-test('letters and lines have paints that follow another matrix', options, () =>
+test('paints of text and lines can have another transform', options, () =>
     check(written('turned.fl', TURNED), 2, 5e-3, ['images/small.png']));
 
-test('light beyond 1 is not there, and that is told', options, async () => {
+test('HDR values above 1 are not supported, which is reported', options, async () => {
     const script = join(pictures, 'canvas_wide.fl');
     const files = { 'images/small.png': readFileSync(join(pictures, 'images/small.png')).toString('base64') };
     const { unsupported } = await page.evaluate(given => window.draw(...given), [readFileSync(script, 'utf8'), 2, files, render(script, 2)]);

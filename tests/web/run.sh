@@ -1,6 +1,7 @@
 #!/bin/sh
-# run.sh FOLDER [--current]: tests what `./dev web` has made there, in Node.js and Chromium. --current, for `./dev test`: the
-# engine alone, which takes two seconds, and only if it is that of today's sources, for making it takes half a minute.
+# run.sh FOLDER [--current]: tests the output of `./dev web` in FOLDER, in Node.js and Chromium. --current, for `./dev
+# test`: only the engine, which takes two seconds, and only if it is up to date, because building it takes half a
+# minute.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
@@ -22,7 +23,7 @@ if [ "${2:-}" = --current ]; then
 fi
 node "$here/hashes.mjs" "$PETRI_WEB/petri/engine.wasm" "$root/tests/conformance" "$root/tests/hashes/corpora.txt"
 cd "$here"
-# shellcheck disable=SC2086 # files are words
+# shellcheck disable=SC2086 # the files are separate words
 node --test $tests >"$PETRI_WEB/tests.log" 2>&1 || {
     cat "$PETRI_WEB/tests.log"
     exit 1

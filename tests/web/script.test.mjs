@@ -1,5 +1,4 @@
-// script.test.mjs: what the page makes of a script: its colours, parameters, the automatic picture, the link that is copied,
-// and what is kept of it.
+// script.test.mjs: the page and the text of a script: colours, parameters, the automatic picture, copied links, saved scripts.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { readLink } from '../../src/web/page/link.mjs';
@@ -19,7 +18,7 @@ async function steps(page, end) {
     }
 }
 
-test('words of the language have colours by what they are', options, () => opened('', {
+test('tokens are coloured by their kind', options, () => opened('', {
     use: async page => {
         await typed(page, '-- said\nlet n=12\n!canvas a=n b="word" c=:symbol\n');
         const colours = await page.waitForFunction(() => {
@@ -34,13 +33,13 @@ test('words of the language have colours by what they are', options, () => opene
     },
 }));
 
-test('a comment gives range and step, a value changes what comes after, and that before stays', options, () => opened('', {
+test('a parameter has the range of its comment, and a change affects only later frames', options, () => opened('', {
     use: async page => {
         const script = 'let A=A or 20 -- 10..40|5 how wide\n    B=B or 3\n    C=C or "red"\n    D=5\n'
             + '!window size=64;8\n    !canvas\n        !rect size=A;8 color=((1;0;0) if C=="red" else (0;0;1)) fill=true\n';
         await shown(page, script);
         const slider = page.locator('#parameters input[type=range]');
-        assert.equal(await slider.count(), 1); // those without a range are fields, and what is no parameter is nothing
+        assert.equal(await slider.count(), 1); // parameters without a range are fields; other names are not shown
         assert.deepEqual(await slider.evaluate(({ min, max, step, value, title }) => [min, max, step, value, title]),
             ['10', '40', '5', '20', 'how wide']);
         assert.deepEqual(await page.locator('#parameters input:not([type=range])').evaluateAll(all =>
@@ -55,7 +54,7 @@ test('a comment gives range and step, a value changes what comes after, and that
         assert.equal(await page.inputValue('#parameter-A'), '25');
         await page.fill('#parameter-C', "'blue'");
         await page.press('#parameter-C', 'Enter');
-        await page.waitForFunction(() => document.getElementById('time').max === '3'); // what came after is forgotten
+        await page.waitForFunction(() => document.getElementById('time').max === '3'); // later frames were dropped
         await page.click('#step');
         await atFrame(page, 4);
         assert.deepEqual([await at(23), await at(27)], [[0, 0, 255, 255], [0, 0, 0, 255]]);
@@ -66,7 +65,7 @@ test('a comment gives range and step, a value changes what comes after, and that
     },
 }));
 
-test('a script that draws nothing has the automatic picture of its particles', options, () => opened('', {
+test('a script without a picture shows its particles', options, () => opened('', {
     use: async page => {
         const system = '!physics state=:world dimensions=2\n    !particle id=0 radius=9 position=0;0 velocity=90;0\n'
             + '    !particle id=1 radius=9 position=60;40\n';
@@ -81,7 +80,7 @@ test('a script that draws nothing has the automatic picture of its particles', o
     },
 }));
 
-test('the link that is copied has script, changes, frame and hash, and asks nobody for anything', options, () => {
+test('a copied link has script, changes, frame and hash, and needs no network', options, () => {
     const asked = [];
     return opened('', {
         settings: { permissions: ['clipboard-read', 'clipboard-write'] },
@@ -106,7 +105,7 @@ test('the link that is copied has script, changes, frame and hash, and asks nobo
     });
 });
 
-test('what is written is kept where there is little room, and older scripts make it', options, () => opened('', {
+test('with little storage, a script replaces older ones', options, () => opened('', {
     use: async page => {
         await page.evaluate(() => {
             const old = Array.from({ length: 11 }, (_, i) => ({ name: 'old.fl', text: `-- ${i}${' '.repeat(200000)}`, when: i }));
@@ -115,7 +114,7 @@ test('what is written is kept where there is little room, and older scripts make
                 try {
                     localStorage.setItem(`rest${size}`, 'x'.repeat(size - 16));
                 } catch {
-                    // that much is not left
+                    // not enough storage left
                 }
         });
         const text = `-- mine${'.'.repeat(3000)}\n!a\n`;

@@ -1,5 +1,5 @@
-// site.test.mjs: the manual page by page: what each must have, and that its dishes run in the page. manual.test.mjs has what
-// is the same for all of its pages.
+// site.test.mjs: the pages of the manual one by one: their content, and that their dishes run. manual.test.mjs tests what is common to all
+// pages.
 import assert from 'node:assert/strict';
 import { existsSync, readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
@@ -7,7 +7,7 @@ import { test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { folder, options, pixels, root, visited, world } from './browser.mjs';
 
-const site = join(folder, 'manual'), missing = existsSync(join(site, 'index.html')) ? false : 'there is no manual';
+const site = join(folder, 'manual'), missing = existsSync(join(site, 'index.html')) ? false : 'missing: the manual';
 const built = { skip: missing }, ways = { ...options, skip: options.skip || missing, timeout: 180000 };
 const read = name => readFileSync(join(site, name), 'utf8');
 const visit = (name, use) => visited(`${world.server.url}manual/${name}`, { ready: () => document.readyState === 'complete', use });
@@ -15,7 +15,7 @@ const visit = (name, use) => visited(`${world.server.url}manual/${name}`, { read
 const plain = html => html.replaceAll(/<[^>]*>/g, '').replaceAll('&lt;', '<').replaceAll('&gt;', '>').replaceAll('&quot;', '"')
     .replaceAll('&amp;', '&');
 
-// Each element of the page in turn, with what it says and its picture's bytes; more than a colour has more of them than two.
+// Visits each element of the page, with its message and its picture's bytes; one with several colours has more than two different values.
 async function eachDish(page, look, frames = 4) {
     const count = await page.locator('petri-dish').count();
     for (let i = 0; i < count; i++) {
@@ -46,7 +46,7 @@ function runsWell({ frame, message, label, colours }) {
     assert.ok(colours > 1, `${label}: all of one colour`);
 }
 
-test('the tutorial goes from one particle to a dish in ten steps, each of which runs', ways, () => visit('tutorial.html', async page => {
+test('the tutorial has ten steps from one particle to a dish, all of which run', ways, () => visit('tutorial.html', async page => {
     const steps = [...read('tutorial.html').matchAll(/<h2 id="[^"]*">(\d+)\. (.*?) <a[^]*?(?=<h2|<\/main>)/g)];
     assert.deepEqual(steps.map(([, number]) => Number(number)), [1, 2, 3, 4, 5, 6, 7, 8, 9, 10]);
     assert.match(steps[0][2], /particle/);
@@ -56,7 +56,7 @@ test('the tutorial goes from one particle to a dish in ten steps, each of which 
     assert.equal(await eachDish(page, runsWell), 10);
 }));
 
-test('each sample is in the gallery, draws, and has its script beside it', ways, () => visit('gallery.html', async page => {
+test('each sample is in the gallery, draws, and has its script', ways, () => visit('gallery.html', async page => {
     const samples = readdirSync(join(root, 'samples')).filter(name => name.endsWith('.fl')), seen = [];
     await eachDish(page, async what => {
         const { dish } = what, name = await dish.getAttribute('src');
@@ -72,7 +72,7 @@ test('each sample is in the gallery, draws, and has its script beside it', ways,
     assert.deepEqual(seen, samples);
 }));
 
-test('how petri differs from Flitter is told, from the first page on, and its example runs', ways, () => visit('index.html', async page => {
+test('the differences from Flitter are documented, and the example runs', ways, () => visit('index.html', async page => {
     await page.locator('main .cards a', { hasText: 'Flitter' }).click();
     await page.waitForURL(/flitter\.html$/);
     const text = await page.textContent('main');
@@ -84,9 +84,9 @@ test('how petri differs from Flitter is told, from the first page on, and its ex
     assert.deepEqual(told, [[`script.${warning}`, true]]);
 }));
 
-test('each node of physics has its attributes, in which units, and a dish that runs', ways, () => visit('physics.html', async page => {
+test('each physics node has its attributes with units, and a dish that runs', ways, () => visit('physics.html', async page => {
     const { nodes } = JSON.parse(readFileSync(join(folder, '../web-tables.json'), 'utf8')), all = read('nodes.html');
-    // Letters of the formulas, and what all is measured in.
+    // Symbols of the formulas, and units.
     assert.match(all, /in your units of mass·length\/time²/);
     const units = plain(read('physics.html').split('<h2 id="units-and-axes">')[1].split('<h2 ')[0]);
     for (const quantity of ['time', 'length', 'mass', 'charge', 'velocity', 'force'])
@@ -107,7 +107,7 @@ test('each node of physics has its attributes, in which units, and a dish that r
     await eachDish(page, runsWell);
 }));
 
-test('all other dishes of the manual run, and say what the page says that they do', ways, async () => {
+test('all other dishes run and show the documented results', ways, async () => {
     const done = ['tutorial', 'gallery', 'flitter', 'physics'];
     for (const name of readdirSync(site).filter(file => file.endsWith('.html') && !done.includes(file.slice(0, -5)))) {
         if (!read(name).includes('<petri-dish '))
@@ -122,7 +122,7 @@ test('all other dishes of the manual run, and say what the page says that they d
     }
 });
 
-test('each page is reached from the first, and named on each other', built, () => {
+test('each page is linked from the first page and from all others', built, () => {
     const pages = readdirSync(site).filter(name => name.endsWith('.html'));
     const links = name => [...read(name).matchAll(/<a href="([^"#]*)/g)].map(([, to]) => to);
     const reached = new Set(['index.html']);
@@ -140,7 +140,7 @@ test('each page is reached from the first, and named on each other', built, () =
 
 const INDEX = `${pathToFileURL(join(site, 'index.html'))}`;
 
-// Opened from a file, where no server is asked for anything.
+// Opened from a file, without a server.
 test('each page is found by its title, and each section is in the index', ways, () => visited(INDEX, {
     expected: /CORS|Failed to load/, ready: () => document.readyState === 'complete', use: async page => {
         const titles = [...read('index.html').split('class="cards"').slice(1).join('').matchAll(/<a href="([^"]*)">([^<]*)<\/a>/g)];

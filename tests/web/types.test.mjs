@@ -1,5 +1,5 @@
-// types.test.mjs: what petri.d.ts says is so: a program in TypeScript (use.ts) fits it, and what it is given is what the types
-// say, property by property. PETRI_WEB is build/web.
+// types.test.mjs: petri.d.ts is correct: a TypeScript program (use.ts) compiles and runs, and all values have the declared types, property
+// by property. PETRI_WEB is build/web.
 import assert from 'node:assert/strict';
 import { existsSync, readFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
@@ -9,10 +9,10 @@ import { fileURLToPath, pathToFileURL } from 'node:url';
 const here = dirname(fileURLToPath(import.meta.url));
 const folder = join(process.env.PETRI_WEB, 'petri');
 const compiler = join(here, '../../src/web/page/node_modules/typescript/lib/typescript.js');
-const options = { skip: existsSync(compiler) ? false : `there is no ${compiler}` };
+const options = { skip: existsSync(compiler) ? false : `missing: ${compiler}` };
 const ts = options.skip ? null : (await import(pathToFileURL(compiler))).default;
 
-// Of the program: what is wrong with it, and its JavaScript.
+// Returns the program's errors and its JavaScript.
 function compiled(path) {
     const files = { petri: ['petri.d.ts'], 'petri/drawing': ['drawing.d.ts'] };
     const paths = Object.fromEntries(Object.entries(files).map(([name, [file]]) => [name, [join(folder, file)]]));
@@ -30,7 +30,7 @@ function compiled(path) {
     return { program, wrong, code };
 }
 
-// What is not as a type says, as texts that begin with the place.
+// Returns the values that differ from their type, as texts that begin with their path.
 function misfits(checker, type, value, place) {
     const is = flag => (type.flags & flag) !== 0;
     const kind = value === null ? 'null' : typeof value;
@@ -66,7 +66,7 @@ function misfits(checker, type, value, place) {
         .map(key => `${place}.${key} is there, and no type says so`));
 }
 
-test('a program in TypeScript fits the types, runs, and is given what they say', options, async () => {
+test('a TypeScript program compiles, runs, and gets values of the declared types', options, async () => {
     const { program, wrong, code } = compiled(join(here, 'use.ts'));
     assert.deepEqual(wrong, []);
     const at = file => JSON.stringify(pathToFileURL(join(folder, file)).href);

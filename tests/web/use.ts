@@ -1,4 +1,4 @@
-// use.ts: what a program in TypeScript makes of the package; types.test.mjs checks its types, then runs it.
+// use.ts: a TypeScript program that uses the package; types.test.mjs checks its types and runs it.
 import { loadEngine, PetriError, STATUS } from 'petri';
 import type { Column, Diagnostic, Engine, Frame, Help, Options, Parameter, Picture, RenderedImage, Snapshot, Status, System, Token } from 'petri';
 import { pictureSize } from 'petri/drawing';
@@ -57,9 +57,9 @@ export async function run(wasm: Uint8Array<ArrayBuffer>): Promise<Record<string,
     const name: string | null = session.symbolName(session.symbol('world'));
     const kinds: boolean[] = [session.drawable, session.needsHistory, session.renderIfNeeded()];
 
-    // @ts-expect-error A view is read: the session has no setter for it.
+    // @ts-expect-error A view is a getter; the session has no setter for it.
     const wrong = () => { session.frame = frame; };
-    // @ts-expect-error There is no such part of a frame to print.
+    // @ts-expect-error No such section of a frame.
     const part = () => session.print('pictures');
     // @ts-expect-error A status is one of six words.
     status === 'fine';

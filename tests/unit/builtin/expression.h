@@ -1,5 +1,5 @@
-// expression.h: evaluates the small expressions in which the specification gives its examples, so that they can stand
-// in tests as they are: literals, operators, ranges, indexing and calls of built-ins.
+// expression.h: evaluates simple expressions, so that tests can contain the examples of the specification unchanged:
+// literals, operators, ranges, indexing and calls of built-ins.
 #ifndef PETRI_TESTS_BUILTIN_EXPRESSION_H
 #define PETRI_TESTS_BUILTIN_EXPRESSION_H
 
@@ -203,7 +203,7 @@ static Value evaluate(World *world, const char *text) {
     return v;
 }
 
-// `EXPRESSION => VALUE`, as in the check blocks of the specification; to the last bit and the sign of zero.
+// Checks `EXPRESSION => VALUE`, as in the check blocks of the specification, bit for bit, including the sign of zero.
 static bool check(World *world, const char *line) {
     Value actual = evaluate(world, line);
     Value expected = evaluate(world, strstr(line, " => ") + 4);

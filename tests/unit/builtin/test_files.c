@@ -1,4 +1,4 @@
-// test_files.c: the file functions, with files made for the purpose (spec builtins.md B13).
+// test_files.c: the file functions, with temporary files (spec builtins.md B13).
 #include "expression.h"
 
 #include <fcntl.h>
@@ -31,7 +31,7 @@ static void make_directory(const Place *place, const char *name) {
 
 static int place_setup(void **state) {
     static Place place;
-    // /tmp itself may be a link, and glob resolves links.
+    // /tmp may be a symbolic link, which glob resolves.
     strcpy(place.directory, "/tmp/petri-test-XXXXXX");
     assert_non_null(mkdtemp(place.directory));
     char resolved[4096];
@@ -52,7 +52,7 @@ static int place_teardown(void **state) {
     return system(command);
 }
 
-// How many faults an expression causes.
+// Returns how many errors an expression reports.
 static uint32_t faults_of(World *world, const char *text) {
     world->faults = 0;
     evaluate(world, text);
@@ -60,7 +60,7 @@ static uint32_t faults_of(World *world, const char *text) {
     return world->faults;
 }
 
-static void test_read(void **state) {
+static void test_read_returns_contents(void **state) {
     Place *place = *state;
     write_file(place, "plain.txt", "h\xc3\xa9llo\nthere\n");
     write_file(place, "lines.txt", "a\r\nb\rc\r\r\n\n");
@@ -85,8 +85,8 @@ static void test_read(void **state) {
     CHECK_ALL(place->world, lines);
 }
 
-// A warning when the attempt is made, and only then; the attempt is repeated when the file has changed.
-static void test_warnings(void **state) {
+// A failure is reported once, and again only if the file has changed.
+static void test_failures_are_reported_once(void **state) {
     Place *place = *state;
     World *world = place->world;
     make_directory(place, "folder");
@@ -115,14 +115,14 @@ static void test_warnings(void **state) {
     assert_int_equal(faults_of(world, "glob('*')"), 0);
 }
 
-static void test_changes(void **state) {
+static void test_changed_files_are_read_again(void **state) {
     Place *place = *state;
     World *world = place->world;
     write_file(place, "a.txt", "one");
     assert_true(check(world, "read('a.txt') => 'one'"));
     write_file(place, "a.txt", "three");
     assert_true(check(world, "read('a.txt') => 'three'"));
-    // The same size, told by the time alone.
+    // Same size, so that only the time differs.
     char path[200];
     snprintf(path, sizeof path, "%s/a.txt", place->directory);
     write_file(place, "a.txt", "seven");
@@ -133,14 +133,14 @@ static void test_changes(void **state) {
     assert_int_equal(faults_of(world, "read('a.txt')"), 1);
     write_file(place, "a.txt", "again");
     assert_true(check(world, "read('a.txt') => 'again'"));
-    // A value from before a change stays as it was.
+    // A value from before the change is not affected.
     Value before = evaluate(world, "read('a.txt')");
     write_file(place, "a.txt", "another text");
     evaluate(world, "read('a.txt')");
     assert_true(str_equal(before.as.items[0].as.string->text, STR("again")));
 }
 
-static void test_directories(void **state) {
+static void test_names_are_relative_to_script(void **state) {
     Place *place = *state;
     World *world = place->world;
     make_directory(place, "sub");
@@ -155,7 +155,7 @@ static void test_directories(void **state) {
     assert_true(check(world, line));
 }
 
-static void test_csv(void **state) {
+static void test_csv_rows(void **state) {
     Place *place = *state;
     write_file(place, "t.csv", "1,2,\"three\",4.5\n\n\"a \"\"q\"\" b\", 7 ,inf,nan,1_0,,\n,,\nx");
     write_file(place, "ragged.csv", "a\r\nb,c,d\re,,f\n\"x\ny\",\"1\"\n,\n1\n");
@@ -171,7 +171,7 @@ static void test_csv(void **state) {
                "1,2\n3\n");
     static const char *const lines[] = {
         "csv('t.csv',0) => 1;2;'three';4.5",
-        "csv('mark.csv',0);csv('mark.csv',1) => 1;2;3", // a byte-order mark is left out
+        "csv('mark.csv',0);csv('mark.csv',1) => 1;2;3", // without the byte order mark
         "csv('t.csv',1) => null",
         "csv('t.csv',2) => 'a \"q\" b';7;inf;nan;10",
         "csv('t.csv',3) => null",
@@ -199,7 +199,7 @@ static void test_csv(void **state) {
     CHECK_ALL(place->world, lines);
 }
 
-static void test_srt(void **state) {
+static void test_srt_lines(void **state) {
     Place *place = *state;
     write_file(place, "film.srt",
                "1\r\n00:00:01,000 --> 00:00:03,500\r\nFirst line\r\nsecond line\r\n\r\n"
@@ -231,7 +231,7 @@ static void test_srt(void **state) {
     assert_string_equal(place->world->text, "srt: cannot read 'lone.srt': it is not a subtitle file");
 }
 
-// Checks the paths that a pattern gives, relative to the place and joined by spaces.
+// Checks the paths that match a pattern, relative to the folder and joined by spaces.
 static void check_glob(const Place *place, const char *pattern, const char *expected) {
     World *world = place->world;
     Value name = value_string(&world->frame, str_from(pattern));
@@ -253,7 +253,7 @@ static void check_glob(const Place *place, const char *pattern, const char *expe
     arena_reset(&world->frame);
 }
 
-static void test_glob(void **state) {
+static void test_glob_finds_matches(void **state) {
     Place *place = *state;
     make_directory(place, "d");
     make_directory(place, "d/e");
@@ -297,8 +297,8 @@ static void test_glob(void **state) {
     assert_int_equal(faults_of(place->world, "glob(pattern='none')"), 0);
 }
 
-// Memory that runs out while a file is read leaves the cache usable.
-static void test_exhaustion(void **state) {
+// Running out of memory while a file is read leaves the cache usable.
+static void test_cache_survives_out_of_memory(void **state) {
     Place *place = *state;
     World *world = place->world;
     write_file(place, "a.txt", "some text that does not fit");
@@ -317,8 +317,8 @@ static void test_exhaustion(void **state) {
     assert_true(check(world, "read('a.txt') => 'some text that does not fit'"));
 }
 
-// More files than the cache keeps.
-static void test_many_names(void **state) {
+// More files than fit into the cache.
+static void test_cache_is_limited(void **state) {
     Place *place = *state;
     World *world = place->world;
     write_file(place, "a.txt", "text");
@@ -334,15 +334,15 @@ static void test_many_names(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_read, place_setup, place_teardown),
-        cmocka_unit_test_setup_teardown(test_warnings, place_setup, place_teardown),
-        cmocka_unit_test_setup_teardown(test_changes, place_setup, place_teardown),
-        cmocka_unit_test_setup_teardown(test_directories, place_setup, place_teardown),
-        cmocka_unit_test_setup_teardown(test_csv, place_setup, place_teardown),
-        cmocka_unit_test_setup_teardown(test_srt, place_setup, place_teardown),
-        cmocka_unit_test_setup_teardown(test_glob, place_setup, place_teardown),
-        cmocka_unit_test_setup_teardown(test_exhaustion, place_setup, place_teardown),
-        cmocka_unit_test_setup_teardown(test_many_names, place_setup, place_teardown),
+        cmocka_unit_test_setup_teardown(test_read_returns_contents, place_setup, place_teardown),
+        cmocka_unit_test_setup_teardown(test_failures_are_reported_once, place_setup, place_teardown),
+        cmocka_unit_test_setup_teardown(test_changed_files_are_read_again, place_setup, place_teardown),
+        cmocka_unit_test_setup_teardown(test_names_are_relative_to_script, place_setup, place_teardown),
+        cmocka_unit_test_setup_teardown(test_csv_rows, place_setup, place_teardown),
+        cmocka_unit_test_setup_teardown(test_srt_lines, place_setup, place_teardown),
+        cmocka_unit_test_setup_teardown(test_glob_finds_matches, place_setup, place_teardown),
+        cmocka_unit_test_setup_teardown(test_cache_survives_out_of_memory, place_setup, place_teardown),
+        cmocka_unit_test_setup_teardown(test_cache_is_limited, place_setup, place_teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,5 @@
-// test_hostile.c: every built-in with every kind of argument, in every number: a well-formed value, at most one fault.
+// test_hostile.c: calls every built-in with all kinds and numbers of arguments. The result must be well-formed, with at
+// most one error.
 #include "value/node.h"
 #include "world.h"
 
@@ -73,7 +74,7 @@ static void try_call(World *world, const Builtin *builtin, const Value *args, ui
     arena_reset(&world->frame);
 }
 
-static void test_one_kind(void **state) {
+static void test_equal_arguments(void **state) {
     World *world = *state;
     Samples samples = samples_new(world);
     for (uint32_t b = 0; b < builtin_table_count; b++)
@@ -86,7 +87,7 @@ static void test_one_kind(void **state) {
             }
 }
 
-static void test_pairs(void **state) {
+static void test_pairs_of_arguments(void **state) {
     World *world = *state;
     Samples samples = samples_new(world);
     for (uint32_t b = 0; b < builtin_table_count; b++)
@@ -95,8 +96,8 @@ static void test_pairs(void **state) {
                 try_call(world, &builtin_table[b], (Value[]){samples.values[s], samples.values[t]}, 2);
 }
 
-// All triples for what takes three arguments; random ones beyond.
-static void test_more_arguments(void **state) {
+// All triples for functions of three arguments, random arguments for more.
+static void test_three_and_more_arguments(void **state) {
     World *world = *state;
     Samples samples = samples_new(world);
     uint64_t random = 1;
@@ -113,8 +114,8 @@ static void test_more_arguments(void **state) {
     }
 }
 
-// A million elements in each place, the others being plain.
-static void test_long(void **state) {
+// A million elements in one argument, the others being short.
+static void test_long_arguments(void **state) {
     World *world = *state;
     Arena *arena = &world->session;
     Item *items = arena_alloc_array(arena, LONG, sizeof *items);
@@ -144,8 +145,8 @@ static void test_long(void **state) {
     }
 }
 
-// Both arguments long: nothing may take the product of the lengths.
-static void test_long_pairs(void **state) {
+// Two long arguments: the time must not grow with the product of the lengths.
+static void test_two_long_arguments(void **state) {
     World *world = *state;
     Value x = numbers(&world->session, LONG, 0, 1);
     for (uint32_t b = 0; b < builtin_table_count; b++)
@@ -170,7 +171,7 @@ static void test_sort_with_nan(void **state) {
     assert_true(check == sum);
 }
 
-static void test_names(void **state) {
+static void test_argument_names(void **state) {
     World *world = *state;
     const Symbol *names[3] = {symbol_intern(&world->symbols, STR("xs")), symbol_intern(&world->symbols, STR("value")),
                               symbol_intern(&world->symbols, STR(""))};
@@ -191,13 +192,13 @@ static void test_names(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_one_kind, world_setup, world_teardown),
-        cmocka_unit_test_setup_teardown(test_pairs, world_setup, world_teardown),
-        cmocka_unit_test_setup_teardown(test_more_arguments, world_setup, world_teardown),
-        cmocka_unit_test_setup_teardown(test_long, world_setup, world_teardown),
-        cmocka_unit_test_setup_teardown(test_long_pairs, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_equal_arguments, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_pairs_of_arguments, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_three_and_more_arguments, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_long_arguments, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_two_long_arguments, world_setup, world_teardown),
         cmocka_unit_test_setup_teardown(test_sort_with_nan, world_setup, world_teardown),
-        cmocka_unit_test_setup_teardown(test_names, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_argument_names, world_setup, world_teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 // test_registry.c: the table of built-ins and the matching of arguments (spec builtins.md B0).
 #include "world.h"
 
-// B0.6 and its neighbours, in the order of the index.
+// The functions of B0.6 and related rules, in the order of the index.
 static const char *const all_names[] = {
     "abs",           "accumulate", "acos",      "angle",     "asin",     "beta",    "bounce",       "ceil",
     "chr",           "clamp",      "colortemp", "concat",    "cos",      "count",   "cross",        "csv",
@@ -22,7 +22,7 @@ static bool is_one_of(const char *name, const char *const *names) {
     return *names != NULL;
 }
 
-static void test_names(void **state) {
+static void test_all_functions_exist(void **state) {
     (void)state;
     assert_int_equal(builtin_table_count, NAME_COUNT);
     for (uint32_t i = 0; i < NAME_COUNT; i++) {
@@ -36,8 +36,8 @@ static void test_names(void **state) {
     assert_null(builtin_find(STR("zz")));
 }
 
-// Sorted, as the look-up needs, and complete.
-static void test_rows(void **state) {
+// The table is sorted, as the look-up needs, and complete.
+static void test_table_is_sorted(void **state) {
     (void)state;
     static const char *const impure[] = {"debug", "sample", "glob", "csv", "read", "read_bytes", "srt", NULL};
     for (uint32_t i = 0; i < builtin_table_count; i++) {
@@ -51,8 +51,8 @@ static void test_rows(void **state) {
     }
 }
 
-// The parameter texts agree with the counts, and the required ones come first.
-static void test_parameters(void **state) {
+// The parameter texts agree with the counts, and required parameters come first.
+static void test_parameter_texts_match_counts(void **state) {
     (void)state;
     for (uint32_t i = 0; i < builtin_table_count; i++) {
         const Builtin *builtin = &builtin_table[i];
@@ -77,8 +77,8 @@ static void test_parameters(void **state) {
     }
 }
 
-// B0.3: which functions take arguments by name.
-static void test_named(void **state) {
+// The functions that accept arguments by name (B0.3).
+static void test_named_arguments_are_accepted(void **state) {
     (void)state;
     static const char *const also[] = {"debug", "glob", "read", "read_bytes", NULL};
     static const char *const never[] = {"hypot", "zip", NULL};
@@ -90,7 +90,7 @@ static void test_named(void **state) {
     }
 }
 
-static void test_constants(void **state) {
+static void test_constants_have_values(void **state) {
     (void)state;
     static const struct {
         const char *name;
@@ -115,8 +115,8 @@ static void test_constants(void **state) {
     assert_false(builtin_constant(STR(""), &v));
 }
 
-// A host without callbacks is valid and silent.
-static void test_silent_host(void **state) {
+// A context without callbacks is valid and reports nothing.
+static void test_host_without_callbacks(void **state) {
     World *world = *state;
     world->context.report_error = NULL;
     world->context.log = NULL;
@@ -127,12 +127,12 @@ static void test_silent_host(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_names),
-        cmocka_unit_test(test_rows),
-        cmocka_unit_test(test_parameters),
-        cmocka_unit_test(test_named),
-        cmocka_unit_test(test_constants),
-        cmocka_unit_test_setup_teardown(test_silent_host, world_setup, world_teardown),
+        cmocka_unit_test(test_all_functions_exist),
+        cmocka_unit_test(test_table_is_sorted),
+        cmocka_unit_test(test_parameter_texts_match_counts),
+        cmocka_unit_test(test_named_arguments_are_accepted),
+        cmocka_unit_test(test_constants_have_values),
+        cmocka_unit_test_setup_teardown(test_host_without_callbacks, world_setup, world_teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-// test_values.c: values of every built-in (spec builtins.md), mostly its own examples.
+// test_values.c: values of all built-ins (spec builtins.md), mostly the examples of the specification.
 #include "base/cpu.h"
 #include "expression.h"
 
@@ -229,13 +229,13 @@ static void test_text(void **state) {
     CHECK_ALL(*state, lines);
 }
 
-// Beyond the examples of the specification.
+// Cases beyond the examples of the specification.
 static void test_builtin_edge_cases(void **state) {
     static const char *const lines[] = {
         // B1
         "sin(inf);cos(nan);sin(-0);cos(0.5) => nan;nan;-0;-1",
         "sqrt(4);log2(8);log10(1000);exp(0);log(1) => 2;3;3;1;0",
-        // many numbers at once give what one gives
+        // arrays give the same values as single numbers
         "exp(-1000;-0.5;0;0.1;1;700;0.3)==(exp(-1000);exp(-0.5);exp(0);exp(0.1);exp(1);exp(700);exp(0.3)) => 1",
         "log(2;0;0.1;1;3;10;0.7)==(log(2);log(0);log(0.1);log(1);log(3);log(10);log(0.7)) => 1",
         "sin(-0.3;-0.25;0;0.1;0.5;9.4)==(sin(-0.3);sin(-0.25);sin(0);sin(0.1);sin(0.5);sin(9.4)) => 1",
@@ -348,7 +348,7 @@ static void test_builtin_edge_cases(void **state) {
     CHECK_ALL(*state, lines);
 }
 
-static void test_node_seeds(void **state) {
+static void test_nodes_as_seeds(void **state) {
     World *world = *state;
     Arena *arena = &world->frame;
     Value node = value_node(arena, node_new(arena, symbol_intern(&world->symbols, STR("a"))));
@@ -357,8 +357,8 @@ static void test_node_seeds(void **state) {
     assert_true(value_stream_item(stream, 0) == 0.8562539106701949);
 }
 
-// Silent nulls and bad calls (B0.1, B0.2): the number of faults of each call.
-static void test_faults(void **state) {
+// Calls that return null silently and bad calls (B0.1, B0.2), with their number of errors.
+static void test_error_counts(void **state) {
     World *world = *state;
     static const struct {
         const char *call;
@@ -409,8 +409,8 @@ static void test_faults(void **state) {
     }
 }
 
-// Results beyond the limit are refused before an element is read, so these vectors need none.
-static void test_too_long(void **state) {
+// Too long results are rejected before any element is read, so these vectors have no elements.
+static void test_too_long_results_are_rejected(void **state) {
     World *world = *state;
     double first[2] = {0, 0};
     const Value vast = {.len = VALUE_MAX_LEN, .as.numbers = first};
@@ -426,7 +426,7 @@ static void test_too_long(void **state) {
     }
 }
 
-static void test_messages(void **state) {
+static void test_error_messages(void **state) {
     World *world = *state;
     evaluate(world, "sin(1, 2)");
     assert_string_equal(world->text, "sin: too many arguments: 2 given to sin(x)");
@@ -445,8 +445,8 @@ static void test_messages(void **state) {
     assert_string_equal(world->text, "1.5;'a'");
 }
 
-// The cache changes nothing but time: also when a slot is used by many seeds.
-static void test_noise_cache(void **state) {
+// The cache does not change results, even if many seeds share a slot.
+static void test_noise_cache_keeps_results(void **state) {
     World *world = *state;
     NoiseCache *cache = world->context.noise;
     for (int seed = 0; seed < 300; seed++) {
@@ -462,8 +462,8 @@ static void test_noise_cache(void **state) {
     }
 }
 
-// Many points of the plane at once give the bits of each alone, with any vector instructions.
-static void test_noise_points(void **state) {
+// Arrays of points give the same bits as single points, at every instruction level.
+static void test_noise_arrays_equal_points(void **state) {
     World *world = *state;
     enum { COUNT = 4003 };
     double *x = malloc(3 * COUNT * sizeof *x), *y = x + COUNT, *found = y + COUNT;
@@ -497,8 +497,8 @@ static void test_noise_points(void **state) {
     free(x);
 }
 
-// The result for vectors is the vector of the results for their elements.
-static void test_each(void **state) {
+// The result for vectors consists of the results for their elements.
+static void test_element_wise_functions(void **state) {
     World *world = *state;
     enum { COUNT = 40 };
     double columns[3][COUNT];
@@ -544,13 +544,13 @@ int main(void) {
         cmocka_unit_test_setup_teardown(test_colours, world_setup, world_teardown),
         cmocka_unit_test_setup_teardown(test_text, world_setup, world_teardown),
         cmocka_unit_test_setup_teardown(test_builtin_edge_cases, world_setup, world_teardown),
-        cmocka_unit_test_setup_teardown(test_node_seeds, world_setup, world_teardown),
-        cmocka_unit_test_setup_teardown(test_faults, world_setup, world_teardown),
-        cmocka_unit_test_setup_teardown(test_too_long, world_setup, world_teardown),
-        cmocka_unit_test_setup_teardown(test_messages, world_setup, world_teardown),
-        cmocka_unit_test_setup_teardown(test_noise_cache, world_setup, world_teardown),
-        cmocka_unit_test_setup_teardown(test_noise_points, world_setup, world_teardown),
-        cmocka_unit_test_setup_teardown(test_each, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_nodes_as_seeds, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_error_counts, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_too_long_results_are_rejected, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_error_messages, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_noise_cache_keeps_results, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_noise_arrays_equal_points, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_element_wise_functions, world_setup, world_teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

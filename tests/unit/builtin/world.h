@@ -1,4 +1,4 @@
-// world.h: a context to call built-ins in, and assertions about values.
+// world.h: a context for calling built-ins, and assertions about values.
 #ifndef PETRI_TESTS_BUILTIN_WORLD_H
 #define PETRI_TESTS_BUILTIN_WORLD_H
 
@@ -24,7 +24,7 @@ typedef struct World {
     BuiltinContext context;
     uint32_t faults;
     uint32_t logs;
-    char text[400]; // the last fault or log line
+    char text[400]; // the last error or log line
 } World;
 
 static inline void world_note(World *world, Str text) {
@@ -84,7 +84,7 @@ static inline bool same_number(double a, double b) {
     return (a == b && signbit(a) == signbit(b)) || (isnan(a) && isnan(b));
 }
 
-// The same bits, but any two nans are the same.
+// Returns true if both numbers have the same bits or both are NaN.
 static inline bool same_value(Value a, Value b) {
     if (a.kind != b.kind || a.len != b.len)
         return false;
@@ -113,11 +113,11 @@ static inline void print_value(Value v) {
     fprintf(stderr, " (%u)\n", v.len);
 }
 
-// The invariants of value.h.
+// Checks the invariants of value.h.
 static inline void assert_well_formed(Value v) {
     if (v.kind == VALUE_NUMBERS || v.kind == VALUE_STREAM) {
         assert_true(v.kind == VALUE_NUMBERS || v.len == 0);
-        volatile double sum = 0; // reads every element, for the sanitizers
+        volatile double sum = 0; // read every element for the sanitizers
         for (uint32_t i = 0; i < v.len; i++)
             sum = sum + value_numbers(&v)[i];
         return;

@@ -1,4 +1,5 @@
-// The table of nodes agrees with itself, and the one reader follows its rows: defaults, limits, aliases, complaints.
+// test_schema_reader.c: the table of nodes is consistent, and the reader follows it: defaults, limits, aliases,
+// messages.
 #include "schema.h"
 
 #include <math.h>
@@ -9,7 +10,7 @@ typedef struct Given {
     double x;
 } Given;
 
-// Reads a node with these attributes in two dimensions; `told` is what was said.
+// Reads a node with these attributes in two dimensions; f->reported gets the messages.
 static void read_node(Fixture *f, NodeKind kind, const Given *given, uint32_t count, void *record) {
     Attr attrs[8];
     for (uint32_t i = 0; i < count; i++)
@@ -24,8 +25,8 @@ static void read_node(Fixture *f, NodeKind kind, const Given *given, uint32_t co
 #define READ(f, kind, record, ...)                                                                                     \
     read_node(f, kind, (const Given[]){__VA_ARGS__}, sizeof((const Given[]){__VA_ARGS__}) / sizeof(Given), record)
 
-// What help says of defaults is what is taken.
-static void test_texts(void **state) {
+// The defaults in the help texts equal those in use.
+static void test_help_shows_defaults(void **state) {
     (void)state;
     for (int i = 0; i < ROW_COUNT; i++) {
         const SchemaRow *row = &schema_rows[i];
@@ -46,16 +47,16 @@ static void test_texts(void **state) {
     }
 }
 
-static void test_rows(void **state) {
+static void test_rows_are_consistent(void **state) {
     (void)state;
     bool window = false;
     for (int kind = 0; kind < KIND_COUNT; kind++) {
-        assert_true(schema_kinds[kind].place >= PLACE_TOP || !window); // those of windows come last
+        assert_true(schema_kinds[kind].place >= PLACE_TOP || !window); // the kinds in windows come last
         window |= schema_kinds[kind].place >= PLACE_TOP;
     }
     for (int i = 0; i < ROW_COUNT; i++) {
         const SchemaRow *row = &schema_rows[i];
-        assert_true(i == 0 || row->kind >= schema_rows[i - 1].kind); // as schema_init takes them
+        assert_true(i == 0 || row->kind >= schema_rows[i - 1].kind); // schema_init needs this order
         assert_ptr_equal(schema_row(row->kind, row->name), row);
         if (!row->alias)
             continue;
@@ -68,7 +69,7 @@ static void test_rows(void **state) {
     assert_int_equal(schema_force(KIND_GROUP), PHYS_FORCE_KINDS);
 }
 
-static void test_limits(void **state) {
+static void test_values_are_limited(void **state) {
     (void)state;
     Fixture f;
     begin(&f);
@@ -89,7 +90,7 @@ static void test_limits(void **state) {
     end(&f);
 }
 
-static void test_vectors(void **state) {
+static void test_vectors_match_dimensions(void **state) {
     (void)state;
     Fixture f;
     begin(&f);
@@ -107,8 +108,8 @@ static void test_vectors(void **state) {
     end(&f);
 }
 
-// The other name counts only where the first is not given, in whatever order.
-static void test_aliases(void **state) {
+// An alias only has an effect if the main name is missing, in any order.
+static void test_main_names_override_aliases(void **state) {
     (void)state;
     Fixture f;
     begin(&f);
@@ -126,11 +127,11 @@ static void test_aliases(void **state) {
     end(&f);
 }
 
-static void test_complaints(void **state) {
+static void test_mistakes_are_reported(void **state) {
     (void)state;
     Fixture f;
     begin(&f);
-    BodyAttrs body = {0}; // no row of an anchor names its velocity
+    BodyAttrs body = {0}; // an anchor has no row for its velocity
     CounterAttrs counter;
     READ(&f, KIND_ANCHOR, &body, {"id", 7}, {"velocity", 1}, {"mss", 1});
     assert_string_equal(f.reported, "!anchor id=7 unknown attribute 'mss', did you mean 'mass'? [unknown-attribute]\n");
@@ -144,8 +145,9 @@ static void test_complaints(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_texts),   cmocka_unit_test(test_rows),    cmocka_unit_test(test_limits),
-        cmocka_unit_test(test_vectors), cmocka_unit_test(test_aliases), cmocka_unit_test(test_complaints),
+        cmocka_unit_test(test_help_shows_defaults),         cmocka_unit_test(test_rows_are_consistent),
+        cmocka_unit_test(test_values_are_limited),          cmocka_unit_test(test_vectors_match_dimensions),
+        cmocka_unit_test(test_main_names_override_aliases), cmocka_unit_test(test_mistakes_are_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
