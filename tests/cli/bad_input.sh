@@ -1,4 +1,4 @@
-# bad_input.sh: input that no script should be: one clear message each, never a crash. Part of run.sh.
+# bad_input.sh: tests of invalid input, which must give one clear message and never a crash. Part of run.sh.
 
 petri run missing.fl
 check "a missing file is one error" one_error
@@ -6,7 +6,7 @@ check "a missing file is named" has err "missing.fl"
 mkdir folder.fl
 petri run folder.fl
 check "a folder is one error" one_error
-check "a folder is called one" has err "directory"
+check "a folder is reported as a directory" has err "directory"
 if [ -e /proc/self/mem ]; then
     petri run /proc/self/mem # even root cannot read it
     check "a file that cannot be read is one error" one_error
@@ -22,7 +22,7 @@ chmod 600 locked.fl
 : >empty.fl
 petri run --frames 2 empty.fl
 check "an empty file is a script" status_is 0
-check "an empty file says nothing" empty err
+check "an empty file gives no message" empty err
 printf '\177ELF\002\001\001\000\000\000\200\377\n\000' >binary.fl
 petri run binary.fl
 check "a binary file is one error" one_error
@@ -30,25 +30,25 @@ check "a binary file does not reach the terminal" lacks err "$(printf '\177')"
 printf '!n a=1\n!n b="\377\376"\n' >utf8.fl
 petri run utf8.fl
 check "invalid UTF-8 is one error" one_error
-check "invalid UTF-8 is placed" has err "utf8.fl:2:7: error: "
+check "invalid UTF-8 is reported with its position" has err "utf8.fl:2:7: error: "
 
 printf '!n a=1\n' | iconv -t UTF-16 >utf16.fl 2>/dev/null || printf '\377\376!\0n\0\n\0' >utf16.fl
 petri run utf16.fl
 check "a UTF-16 file is one error" one_error
-check "UTF-16 is called so" has err "'utf16.fl' is UTF-16 text: save it as UTF-8"
+check "a UTF-16 file is reported as UTF-16" has err "'utf16.fl' is UTF-16 text: save it as UTF-8"
 printf '!a\0\n!b\0\n!c\0\n' >nul.fl
 petri check nul.fl
 check "NUL bytes are one error" one_error
-check "a file with NUL bytes is called binary" has err "'nul.fl' is a binary file"
+check "a file with NUL bytes is reported as binary" has err "'nul.fl' is a binary file"
 printf 'root:x:0:0:root:/root:/bin/bash\ndaemon:x:1:1:/bin/sh\n# end: x\nmail:x:8:8::/\n' >passwd
 petri run passwd
-check "a text that is no script is one error" one_error
+check "a text that is not a script is one error" one_error
 check "a text that is not a script is reported as such" has err "passwd:1:5: error: not a Flitter script? 4 of 4"
 petri check passwd
-check "check says it once, too" count_is err "error: " 1
+check "check also reports it once" count_is err "error: " 1
 cp passwd passwd.fl
 petri check passwd.fl
-check "what is named as a script gets all its errors" [ "$(grep -c 'error: ' err)" -ge 4 ]
+check "a text named as a script gives all its errors" [ "$(grep -c 'error: ' err)" -ge 4 ]
 mark=$(printf '\357\273\277')
 printf '%s!n a=1 b=x\n' "$mark" >mark.fl
 printf '%slet m=2\n' "$mark" >mark_module.fl
@@ -57,12 +57,12 @@ printf "%simport m from 'mark_module.fl'\n%%include 'mark_include.fl'\n!n a=m x\
 petri run --frames 1 --print tree mark.fl
 check "a byte-order mark is skipped" out_is "@0 time=0 beat=0
 !n a=1"
-check "columns are counted behind a byte-order mark" has err "mark.fl:1:10: warning: "
+check "columns are counted after a byte-order mark" has err "mark.fl:1:10: warning: "
 petri run --frames 1 marks.fl
-check "and in the first of several lines" has err "marks.fl:3:9: error: "
+check "columns are counted after a byte-order mark in a longer script" has err "marks.fl:3:9: error: "
 printf "%simport m from 'mark_module.fl'\n%%include 'mark_include.fl'\n!n a=m\n" "$mark" >marks.fl
 petri run --frames 1 --print tree marks.fl
-check "also in modules and includes" out_is "@0 time=0 beat=0
+check "byte-order marks in modules and includes are skipped" out_is "@0 time=0 beat=0
 !k
 !n a=2"
 
@@ -73,7 +73,7 @@ check "a line of 10 MB is a script" status_is 0
 petri run --frames 1 long.fl
 check "a mistake at the end of 10 MB is one error" one_error
 check "a mistake at the end of 10 MB has its column" has err "long.fl:1:10000008: error: "
-check "of 10 MB only a part is shown" [ "$(wc -c <err)" -lt 2000 ]
+check "a line of 10 MB is shown in part" [ "$(wc -c <err)" -lt 2000 ]
 rm -f long.fl
 { printf '!n a=' && repeat 100000 '(' && printf 1 && repeat 100000 ')' && echo; } >parentheses.fl
 petri run --frames 1 parentheses.fl
@@ -97,7 +97,7 @@ func f(x)
 END
 petri run --frames 3 --print tree endless.fl
 check "endless recursion ends" status_is 0
-check "endless recursion is told once" count_is err "warning: " 1
+check "endless recursion is reported once" count_is err "warning: " 1
 check "endless recursion is null" count_is out "!n" 3
 cat >mutual.fl <<'END'
 func f(x, g)
@@ -108,10 +108,10 @@ func h(x, g)
 END
 petri run --frames 3 --print tree mutual.fl
 check "endless recursion of two functions does not crash" [ "$status" -lt 2 ]
-check "endless recursion of two functions is told" grep -q . err
+check "endless recursion of two functions is reported" grep -q . err
 echo '!n a=..1e12' >range.fl
 petri run --frames 2 --print tree range.fl
-check "a range of 1e12 elements is told" has err "range.fl:1:6: warning: "
+check "a range of 1e12 elements is reported" has err "range.fl:1:6: warning: "
 check "a range of 1e12 elements is null" out_is "@0 time=0 beat=0
 !n
 @1 time=0.016666666666666666 beat=0.03333333333333333
@@ -119,7 +119,7 @@ check "a range of 1e12 elements is null" out_is "@0 time=0 beat=0
 echo '!n a=nowhere b=3(1)' >names.fl
 petri run --frames 2 --print tree names.fl
 check "an unbound name is null" has out "!n"
-check "an unbound name is told" has err "nowhere"
+check "an unbound name is reported" has err "nowhere"
 check "calling a number does not fail the run" status_is 0
 
 # check
@@ -134,11 +134,11 @@ petri check three.fl
 check "check exits with 1 when there are errors" status_is 1
 check "check prints nothing on stdout" empty out
 check "three mistakes are three errors" count_is err ": error: " 3
-check "the first is placed" has err "three.fl:1:12: error: "
-check "the second is placed" has err "three.fl:3:9: error: "
-check "the third is placed" has err "three.fl:5:12: error: "
+check "the first error has its position" has err "three.fl:1:12: error: "
+check "the second error has its position" has err "three.fl:3:9: error: "
+check "the third error has its position" has err "three.fl:5:12: error: "
 check "the source line is shown" has err "let y = * 4"
-check "a caret is below it" grep -Eq '^ +\^' err
+check "a caret marks the error" grep -Eq '^ +\^' err
 check "check ends with a summary" last_line_is err "petri: 1 file checked: 3 errors, 0 warnings"
 petri check plain.fl count.fl
 check "check of good files exits with 0" status_is 0
@@ -147,7 +147,7 @@ cp plain.fl tree/a.fl
 cp three.fl tree/below/b.fl
 echo 'not a script =' >tree/note.txt
 petri check tree
-check "check looks into folders" has err "tree/below/b.fl:3:9: error: "
+check "check searches folders" has err "tree/below/b.fl:3:9: error: "
 check "check counts the scripts of folders" has err "2 files checked: 3 errors"
 petri check missing
 check "check of a missing path fails" status_is 1

@@ -1,4 +1,4 @@
-# check.sh: what `petri check` says beyond faults. Part of run.sh.
+# check.sh: tests of the warnings of `petri check`. Part of run.sh.
 
 cat >lints.fl <<'END'
 %pragma temp 60
@@ -16,18 +16,18 @@ END
 petri check lints.fl
 check "warnings alone do not fail a check" status_is 0
 check "a check writes nothing to stdout" empty out
-check "an unknown pragma is told with the nearest name" has err "lints.fl:1:1: warning: unknown pragma 'temp'"
-check "… which is tempo" has err "did you mean tempo?"
-check "an unused let is told" has err "lints.fl:2:9: warning: unused let 'b'"
-check "a used let is not" lacks err "unused let 'a'"
-check "a name that hides a built-in is noted" has err "lints.fl:3:5: note: 'sin' shadows the built-in"
-check "unused parameters are told" count_is err "unused parameter" 2
-check "a missing argument is told" has err "lints.fl:6:6: warning: missing argument 'y'"
-check "surplus arguments are told" has err "too many arguments: 4; the function takes 3"
-check "an unknown named argument is told" has err "no parameter 'q'"
-check "the arguments of built-ins are counted" has err "too many arguments: 2 given to cos(x)"
-check "an else that is never reached is told" has err "lints.fl:7:4: warning: always true"
-check "an unbound name is told with the nearest name" has err "did you mean 'cos'?"
+check "check suggests the nearest name for an unknown pragma" has err "lints.fl:1:1: warning: unknown pragma 'temp'"
+check "the nearest name to temp is tempo" has err "did you mean tempo?"
+check "check reports an unused let" has err "lints.fl:2:9: warning: unused let 'b'"
+check "check does not report a used let" lacks err "unused let 'a'"
+check "check notes a name that shadows a built-in" has err "lints.fl:3:5: note: 'sin' shadows the built-in"
+check "check reports unused parameters" count_is err "unused parameter" 2
+check "check reports a missing argument" has err "lints.fl:6:6: warning: missing argument 'y'"
+check "check reports too many arguments" has err "too many arguments: 4; the function takes 3"
+check "check reports an unknown named argument" has err "no parameter 'q'"
+check "check counts the arguments of built-ins" has err "too many arguments: 2 given to cos(x)"
+check "check reports an else that is never reached" has err "lints.fl:7:4: warning: always true"
+check "check suggests the nearest name for an unbound name" has err "did you mean 'cos'?"
 check "the summary counts" last_line_is err "petri: 1 file checked: 0 errors, 10 warnings"
 petri check --werror lints.fl
 check "--werror makes warnings fail" status_is 1
@@ -43,7 +43,7 @@ for i in ..3
 END
 petri check --werror clean.fl
 check "a clean script passes --werror" status_is 0
-check "… and says so in one line" lines_are err 1
+check "a clean script gives only the summary" lines_are err 1
 cat >library.fl <<'END'
 let shared=1
 func helper(x)
@@ -52,7 +52,7 @@ END
 petri check --werror library.fl
 check "a file that only binds names is a module: none is unused" status_is 0
 
-# What stands in the tree: the first frame is made, and nothing of it is seen or kept.
+# Nodes: check evaluates the first frame without printing or storing anything.
 cat >nodes.fl <<'END'
 !window size=200;200
     !canvas
@@ -84,8 +84,8 @@ END
 petri check nodes.fl
 check "warnings of nodes do not fail a check" status_is 0
 check "a check prints nothing of the frame" empty out
-check "… nor what it logs" lacks err "> seen"
-check "… and draws no !record" [ ! -e out.png ]
+check "a check does not print what the first frame logs" lacks err "> seen"
+check "a check does not draw !record" [ ! -e out.png ]
 for told in "4:13: warning: !path: '!elipse' is not supported; ignored, did you mean '!ellipse'?" \
     "5:34: warning: !ellipse: unknown attribute 'radus', did you mean 'radius'?" \
     "6:9: warning: !canvas: '!fil' is not supported; ignored, did you mean '!fill'?" \
@@ -102,17 +102,17 @@ for told in "4:13: warning: !path: '!elipse' is not supported; ignored, did you 
     "25:10: warning: cannot include 'gone.fl'"; do
     check "check finds $told" count_is err "nodes.fl:$told" 1
 done
-check "… and nothing else" last_line_is err "petri: 1 file checked: 0 errors, 14 warnings"
+check "check finds nothing else" last_line_is err "petri: 1 file checked: 0 errors, 14 warnings"
 petri run --frames 2 nodes.fl
-check "a run tells of a misspelled node at the top, too" count_is err "did you mean '!physics'?" 1
+check "a run also reports a misspelled node at the top" count_is err "did you mean '!physics'?" 1
 
-# Other nodes may stand at the top, and what Flitter draws and petri does not is no mistake.
+# Other nodes at the top are allowed, and so are nodes that only Flitter draws.
 printf '!outer\n!windows3d\n!key\n!rect\n!window\n    !bloom\n        !canvas3d\n' >others.fl
 petri check --werror others.fl
-check "nodes that merely mean nothing are no mistake" status_is 0
-check "… and silent" lines_are err 1
+check "nodes without effect are not an error" status_is 0
+check "nodes without effect give only the summary" lines_are err 1
 
-# The systems are read and not simulated: ten million steps would take minutes.
+# Systems are read but not simulated: ten million steps would take minutes.
 cat >slow.fl <<'END'
 !physics state=:s dimensions=2 resolution=1n time=time+10
     for i in ..1000
@@ -127,7 +127,7 @@ check "a frame without end meets the limit" has err "limit.fl:2:"
 
 printf 'let n=SIZE\n!n a=n\n' >define.fl
 petri check --werror define.fl
-check "a name that nobody defines is told" status_is 1
+check "check reports a name without a definition" status_is 1
 petri check --werror -D SIZE=3 define.fl clean.fl
 check "-D defines it, for all scripts" status_is 0
 petri check -D SIZE define.fl
@@ -142,27 +142,27 @@ cat >order.fl <<'END'
     !particle
 END
 petri check order.fl
-check "what is said comes in the order of the text" [ "$(grep -o '^order.fl:[0-9]*' err | tr '\n' ' ')" = \
+check "diagnostics come in the order of the text" [ "$(grep -o '^order.fl:[0-9]*' err | tr '\n' ' ')" = \
     "order.fl:3 order.fl:4 order.fl:6 " ]
 
-# For programs.
+# Formats for programs.
 printf 'let \303\251=coz(1)\n!n a=\303\251 b="\\q"+1\n!pysics\nlet u=2\n' >told.fl
 petri check --format gcc told.fl
 check "--format gcc: a line each on standard output" lines_are out 4
-check "… with place, text, hint and code" \
+check "gcc output has position, text, hint and code" \
     has out "told.fl:1:7: warning: unbound name 'coz' is null; did you mean 'cos'? [unbound-name]"
-check "… and the summary on standard error" last_line_is err "petri: 1 file checked: 0 errors, 4 warnings"
+check "gcc output leaves the summary on standard error" last_line_is err "petri: 1 file checked: 0 errors, 4 warnings"
 petri check --format=json told.fl
 check "--format json: an array" [ "$(sed -n '1p;$p' out | tr -d '\n')" = "[]" ]
-check "… with places in characters, ends among them" has out '{"file": "told.fl", "level": "warning", "code": "unbound-name", "text": "unbound name '"'coz'"' is null", "hint": "did you mean '"'cos'"'?", "line": 1, "column": 7, "endLine": 1, "endColumn": 10}'
-check "… and no hint where there is none" has out '"hint": null'
+check "JSON output gives start and end in characters" has out '{"file": "told.fl", "level": "warning", "code": "unbound-name", "text": "unbound name '"'coz'"' is null", "hint": "did you mean '"'cos'"'?", "line": 1, "column": 7, "endLine": 1, "endColumn": 10}'
+check "JSON output has a null hint if there is no hint" has out '"hint": null'
 petri check --format=json clean.fl
-check "… empty if nothing is wrong" [ "$(cat out)" = "[]" ]
+check "JSON output is an empty array for a clean script" [ "$(cat out)" = "[]" ]
 cp told.fl "t\"o ld.fl"
 petri check --format=sarif "t\"o ld.fl" clean.fl
 check "--format sarif: a run of the tool" has out '"version": "2.1.0"'
-check "… with the rules" has out '"rules": [{"id": "unbound-name"}, {"id": "string-arithmetic"}'
-check "… places by URI" has out '{"artifactLocation": {"uri": "t%22o%20ld.fl"}, "region": {"startLine": 1, "startColumn": 7, "endLine": 1, "endColumn": 10}}'
-check "… with exit status 0" status_is 0
+check "SARIF output lists the rules" has out '"rules": [{"id": "unbound-name"}, {"id": "string-arithmetic"}'
+check "SARIF output gives positions by URI" has out '{"artifactLocation": {"uri": "t%22o%20ld.fl"}, "region": {"startLine": 1, "startColumn": 7, "endLine": 1, "endColumn": 10}}'
+check "SARIF output with warnings exits with 0" status_is 0
 petri check --format=json --werror told.fl
-check "--werror holds for them" status_is 1
+check "--werror also fails with --format" status_is 1

@@ -1,11 +1,10 @@
 #!/bin/sh
-# check_corpora.sh: `petri check` over every script of the project.
+# check_corpora.sh: test of `petri check` with every script of the project.
 # usage: tests/cli/check_corpora.sh PATH-OF-PETRI [--update]
 #
-# The rule: samples and benchmarks are good style, so nothing may be said of them. The scripts of tests/golden and
-# tests/conformance try the edges of the language, and for many of them a fault is the very thing that they try: which
-# kind of thing is said of which script stands in check_corpora.txt, one `FILE CODE` a line, and nothing else may be.
-# A script with a NAME.err must be rejected and has no line.
+# Samples and benchmarks must give no warnings. The scripts of tests/golden and tests/conformance test limits of the
+# language, and many contain mistakes on purpose. check_corpora.txt lists their expected diagnostics, one `FILE CODE` per
+# line; there must be no others. A script with a NAME.err must be rejected and is not listed.
 set -u
 LC_ALL=C
 export LC_ALL
@@ -22,7 +21,7 @@ failed=0
 for corpus in samples tests/bench/workloads; do
     "$petri" check --werror "$corpus" 2>"$work/err"
     if [ $? -ne 0 ] || [ "$(wc -l <"$work/err")" -ne 1 ]; then
-        echo "FAIL something is said of $corpus:"
+        echo "FAIL there are diagnostics for $corpus:"
         cat "$work/err"
         failed=1
     fi
@@ -46,9 +45,9 @@ grep -Fv -f "$work/patterns" "$work/all" >"$work/told"
 if [ "${2-}" = --update ]; then
     cp "$work/told" "$recorded"
 elif ! diff "$recorded" "$work/told" >"$work/diff"; then
-    echo "FAIL other things are said than $recorded has (<: are missing, >: are new):"
+    echo "FAIL diagnostics differ from $recorded (<: missing, >: new):"
     cat "$work/diff"
     failed=1
 fi
-[ "$failed" -eq 0 ] && echo "ok: $(wc -l <"$work/told") kinds of things are said, as recorded"
+[ "$failed" -eq 0 ] && echo "ok: $(wc -l <"$work/told") diagnostics, as recorded"
 exit "$failed"

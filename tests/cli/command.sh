@@ -1,4 +1,4 @@
-# command.sh: options, exit codes, what goes to which stream. Part of run.sh.
+# command.sh: tests of options, exit codes and output streams. Part of run.sh.
 
 cat >count.fl <<'END'
 debug(frame)
@@ -23,7 +23,7 @@ cp out overview
 petri help
 check "help is the same as --help" cmp -s out overview
 petri help run
-check "help run tells of its options" has out "--frames N"
+check "help run lists its options" has out "--frames N"
 cp out run_help
 petri run --help
 check "run --help is the same as help run" cmp -s out run_help
@@ -95,10 +95,10 @@ check "--runtime takes a time code" lines_are out 20
 petri run --runtime 2 --frames 3 -Dx=1 count.fl
 check "the smaller of --frames and --runtime ends the run" lines_are out 3
 petri run --frames 0 -Dx=1 count.fl
-check "no frames at all are possible" status_is 0
-check "no frames print nothing" empty out
+check "--frames 0 is accepted" status_is 0
+check "--frames 0 prints nothing" empty out
 petri run --frames 7 --every 3 --print tree --fps 4 -D 'x=1;:two;three' count.fl
-check "--every prints each K-th frame, --print the tree, -D a vector" out_is "@0 time=0 beat=0
+check "--every prints every K-th frame, --print the tree, -D a vector" out_is "@0 time=0 beat=0
 !n a=0 b=1;:two;'three'
 @3 time=0.75 beat=1.5
 !n a=3 b=1;:two;'three'
@@ -113,18 +113,18 @@ check "--print takes several sections" out_is "@0 time=0 beat=0
 > 0"
 printf '!counter state=:c initial=1\ndebug(frame)\n!n\n' >counter.fl
 petri run --frames 2 --every 2 --print hash,log,tree counter.fl
-check "--print hash is a line behind the other sections" out_is "@0 time=0 beat=0
+check "--print hash adds a line after the other sections" out_is "@0 time=0 beat=0
 !counter state=:c initial=1
 !n
 > 0
 = $(printf '$:c = 1\n$(:c;:time) = 0\n' | sha256sum | cut -d ' ' -f 1)"
 cp out both
 petri run --frames 2 --every 2 --print hash,log,tree,state counter.fl
-check "… the same with the state" [ "$(grep -v '^\$' out)" = "$(cat both)" ]
+check "--print hash adds a line after the state as well" [ "$(grep -v '^\$' out)" = "$(cat both)" ]
 petri run --realtime --frames 2 --fps 50 -D x=1 count.fl
 check "--realtime runs" lines_are out 2
 petri run --realtime --frames 1 --print tree -D x=1 count.fl
-check "… and its time, too, begins at 0" has out "@0 time=0 beat=0"
+check "time starts at 0 with --realtime" has out "@0 time=0 beat=0"
 petri run --threads 3 --neighbours always --nosimplify --lockstep --frames 1 -D x=1 count.fl
 check "--threads, --neighbours, --nosimplify and --lockstep are accepted" out_is "> 0"
 petri run --dump=ast plain.fl
@@ -143,56 +143,56 @@ for i in ..5
     let never=i
 END
 petri run --profile --frames 10 --print tree slow.fl
-check "--profile leaves the output alone" lines_are out 60
+check "--profile does not change the output" lines_are out 60
 check "--profile names frames" has err "a frame in 10 frames"
 check "--profile has the slowest line first" [ "$(sed -n 's/.*\(slow.fl:[0-9]*\).*/\1/p' err | head -n 1)" = slow.fl:3 ]
-check "--profile counts how often a line is come to" grep -Eq ' 5  slow.fl:6: !item a=twice\(many\+i\)$' err
+check "--profile counts how often a line runs" grep -Eq ' 5  slow.fl:6: !item a=twice\(many\+i\)$' err
 check "--profile counts a function's lines" grep -Eq ' 5  slow.fl:2: 2\*x$' err
 check "--profile counts physics and output" grep -Eq '[0-9] +physics$' err
 check "--profile counts output" grep -Eq '[0-9] +output$' err
-check "--profile adds up to the whole" awk '/%/ { sum += $1 } END { exit sum < 99 || sum > 101 }' err
+check "the times of --profile add up to the total" awk '/%/ { sum += $1 } END { exit sum < 99 || sum > 101 }' err
 petri run --frames 10 slow.fl
-check "without --profile there is none" empty err
+check "without --profile no profile is printed" empty err
 
-# how much is said
+# verbosity
 petri run --frames 2 warn.fl
 check "a warning does not fail the run" status_is 0
-check "a warning is told once however often it occurs" count_is err "warning: " 1
+check "a repeated warning is reported once" count_is err "warning: " 1
 check "a warning is not coloured without a terminal" lacks err "$(printf '\033')"
 petri run --frames 2 --color always warn.fl
 check "--color always colours" has err "$(printf '\033')"
 petri run --frames 2 --quiet warn.fl
-check "--quiet keeps warnings back" empty err
+check "--quiet suppresses warnings" empty err
 petri run --frames 2 --verbose plain.fl
 check "--verbose gives a summary" has err "petri: 2 frames in "
 petri run --frames 2 --trace plain.fl
-check "--trace tells of every frame" has err "petri: frame 1: "
+check "--trace reports every frame" has err "petri: frame 1: "
 petri run --frames 2 --quiet --verbose --quiet plain.fl
-check "the last word on verbosity counts" empty err
+check "the last verbosity option counts" empty err
 
 # streams
 { timeout 100 "$petri" run --frames 1000000 --print tree plain.fl 2>err; echo $? >code; } | head -n 1 >out
 status=$(cat code)
 check "a closed pipe ends the run" status_is 0
 check "a closed pipe ends it quietly" empty err
-check "what was read is right" out_is "@0 time=0 beat=0"
+check "output before a closed pipe is correct" out_is "@0 time=0 beat=0"
 if [ -c /dev/full ]; then
     for words in "run --print tree plain.fl" "help" "help builtins"; do
         # shellcheck disable=SC2086 # the words are words
         timeout 100 "$petri" $words >/dev/full 2>err </dev/null
         status=$?
         check "'$words' to a full device fails" status_is 1
-        check "'$words' to a full device says so" has err "No space left"
+        check "'$words' to a full device reports the reason" has err "No space left"
     done
 fi
 timeout 100 "$petri" run --frames 1 --print tree plain.fl >&- 2>err
 status=$?
 check "a closed stdout is an error" status_is 1
-rm out # that of the command before
+rm out # output of the previous command
 "$petri" run --frames 1000000000 --print tree --every 100 --verbose plain.fl >out 2>err &
 job=$!
 tries=0
-until [ -s out ] || [ $tries -ge 600 ]; do # it runs
+until [ -s out ] || [ $tries -ge 600 ]; do # waits until it runs
     sleep 0.1
     tries=$((tries + 1))
 done
@@ -200,8 +200,8 @@ kill -INT "$job"
 wait "$job"
 status=$?
 check "Ctrl-C exits with 130" status_is 130
-check "Ctrl-C still gives the summary" has err " frames in "
-# A bare container has no pseudo-terminals.
+check "Ctrl-C prints the summary" has err " frames in "
+# A minimal container has no pseudo-terminals.
 if script -qec true /dev/null >/dev/null 2>&1 </dev/null; then
     script -qec "$(quoted "$petri") run --frames 30 --realtime plain.fl" /dev/null >out 2>&1 </dev/null
     check "there is a progress line on a terminal" has out "/30 frames, "
@@ -215,9 +215,9 @@ if script -qec true /dev/null >/dev/null 2>&1 </dev/null; then
     check "NO_COLOR is honoured" lacks out "$(printf '\033[3')"
     check "NO_COLOR keeps the message" has out "warning: "
 fi
-ln -s "$petri" direct-petri # there are no blanks in a #! line
+ln -s "$petri" direct-petri # a #! line cannot contain a path with spaces
 printf '#!%s\n!n a=1\n' "$work/direct-petri" >direct.fl
 chmod +x direct.fl
 ./direct.fl --frames 1 --print tree >out 2>err
 status=$?
-check "a script with a #! line runs by itself" has out "!n a=1"
+check "a script with a #! line can be executed" has out "!n a=1"

@@ -1,12 +1,12 @@
-# golden.sh: the golden runner `petri test`. Part of run.sh.
+# golden.sh: tests of `petri test`. Part of run.sh.
 
 mkdir -p g/below
-# case_is NAME < golden: a case with this golden and a script that prints two frames.
+# case_is NAME < golden: creates a script that prints two frames, with this golden.
 case_is() {
     printf '!n a=frame/3 b=1;2;3 c="it" d=:sym\ndebug(1)\ndebug(2)\n' >"g/$1.fl"
     cat >"g/$1.golden"
 }
-# verdict NAME: runs that case alone.
+# verdict NAME: tests one script.
 verdict() { petri test "g/$1.fl"; }
 passes() { status_is 0 && last_line_is out "1 passed, 0 failed"; }
 fails() { status_is 1 && last_line_is out "0 passed, 1 failed" && has out "FAIL "; }
@@ -23,7 +23,7 @@ case_is same <<'END'
 > 2
 END
 verdict same
-check "what is the same passes" passes
+check "the same output passes" passes
 check "a pass is one line" has out "ok g/same.fl"
 case_is loose <<'END'
 # run --frames 2 --print tree,log
@@ -42,8 +42,8 @@ check "numbers count as numbers, strings by value, logs as a set" passes
 sed 's/3333333333333333 b/3333333333333334 b/' g/same.golden >digit
 case_is digit <digit
 verdict digit
-check "one digit in the last place fails" fails
-check "a failure tells frame, line, expected and got" \
+check "a different last digit fails" fails
+check "a failure shows frame, line, expected and got" \
     has out "FAIL g/digit.fl frame 1 line 7: expected !n a=0.3333333333333334 b=1;2;3 c='it' d=:sym got !n a=0.3333333333333333 b"
 sed 's/^# run.*/&\n# tolerance 1e-9/' digit >tolerance
 case_is tolerance <tolerance
@@ -104,14 +104,14 @@ printf '# run --frames 2 --print hash\n' >g/hash.golden
 petri test --update g/hash.fl
 verdict hash
 check "--update records hashes" passes
-# The second one is 869da8…, which begins with a number.
+# The second hash is 869da8..., which starts like a number.
 sed -i 's/^= 869da8/= 869.0da8/' g/hash.golden
-check "the test below is one" has g/hash.golden 869.0
+check "the golden contains a changed hash" has g/hash.golden 869.0
 verdict hash
-check "digits of a hash are no number" fails
+check "digits of a hash are not compared as a number" fails
 sed -i 's/^= 869.0da8/= 868da8/; s/^# run.*/&\n# tolerance 10/' g/hash.golden
 verdict hash
-check "a tolerance is nothing to a hash" fails
+check "a tolerance does not apply to hashes" fails
 printf '!n\n' >g/oops.fl
 for first in '# run --frames 1 --no-such-option' '# run "--frames 1' 'run' ''; do
     printf '%s\n@0 time=0 beat=0\n' "$first" >g/oops.golden
@@ -126,7 +126,7 @@ printf '!n a=read("beside.txt")\n' >g/beside.fl
 printf 'text' >g/beside.txt
 printf '# run --frames 1 --print tree\n@0 time=0 beat=0\n!n a="text"\n' >g/beside.golden
 verdict beside
-check "scripts run in their own folder" passes
+check "a script runs in its folder" passes
 echo '!n (' >g/broken.fl
 printf '# run --frames 1\n' >g/broken.golden
 verdict broken
@@ -147,11 +147,11 @@ verdict wrong
 check "a rejected script passes" passes
 echo 'line *' >g/wrong.err
 verdict wrong
-check "any line will do for *" passes
+check "'line *' accepts any line" passes
 echo 'line 1' >g/wrong.err
 verdict wrong
 check "another line fails" fails
-check "another line is told" has out "expected an error in line 1 got one in line 2"
+check "a rejection in another line is reported" has out "expected an error in line 1 got one in line 2"
 echo 'row 2' >g/wrong.err
 verdict wrong
 check "an unreadable .err fails" fails
@@ -177,7 +177,7 @@ ok g/b.fl
 FAIL g/below/d.fl frame 0 line 3: expected !n a=1 got !n a=0
 ok g/c.fl
 3 passed, 1 failed"
-check "one failure fails the whole" status_is 1
+check "one failure makes the suite fail" status_is 1
 petri test g/a.fl g/a.fl g/b.fl
 check "a script that is named twice runs once" last_line_is out "2 passed, 0 failed"
 petri test --filter below/ g
@@ -188,7 +188,7 @@ petri test --filter nothing-like-that g
 check "no script that fits is an error" status_is 1
 petri test bare
 check "no script at all is an error" status_is 1
-check "no script at all is told" has err "no script found"
+check "a folder without goldens is reported" has err "no script found"
 petri test
 check "test without a path is a wrong command line" status_is 2
 petri test missing g/a.fl
@@ -196,7 +196,7 @@ check "a missing path is an error" status_is 1
 check "a missing path does not keep others from running" last_line_is out "1 passed, 0 failed"
 petri test --junit results.xml g
 check "--junit counts" has results.xml '<testsuite name="petri" tests="4" failures="1"'
-check "--junit tells why" has results.xml 'message="frame 0 line 3: expected !n a=1'
+check "--junit gives the reason of a failure" has results.xml 'message="frame 0 line 3: expected !n a=1'
 petri test --junit nowhere/results.xml g/a.fl
 check "--junit to a folder that is not there fails" status_is 1
 timeout 100 "$petri" test g/a.fl >/dev/full 2>err
@@ -208,7 +208,7 @@ printf '# run --frames 1 --print tree\n# tolerance 1e-3\n# kept\n@0 time=0 beat=
 chmod 640 g/below/d.golden
 petri test --update g/below
 check "--update exits with 0" status_is 0
-check "--update tells what it rewrote" has out "ok g/below/d.fl (updated)"
+check "--update reports updated goldens" has out "ok g/below/d.fl (updated)"
 check "--update keeps the head and writes the output" [ "$(cat g/below/d.golden)" = "# run --frames 1 --print tree
 # tolerance 1e-3
 # kept
@@ -216,13 +216,13 @@ check "--update keeps the head and writes the output" [ "$(cat g/below/d.golden)
 !n a=0" ]
 check "--update keeps the permissions" [ "$(ls -l g/below/d.golden | cut -c 1-10)" = "-rw-r-----" ]
 petri test g
-check "after --update all is well" last_line_is out "4 passed, 0 failed"
+check "all scripts pass after --update" last_line_is out "4 passed, 0 failed"
 petri test --update g
-check "--update leaves alone what is right" lacks out "updated"
-check "--update leaves nothing else behind" [ "$(ls g/below | wc -l)" -eq 2 ]
+check "--update does not modify goldens that match" lacks out "updated"
+check "--update leaves no other files" [ "$(ls g/below | wc -l)" -eq 2 ]
 echo '# run --frames 1 --print tree' >g/lonely.golden
 petri test --update g/lonely.fl
-check "--update fills a golden that holds but its first line" [ "$(cat g/lonely.golden)" = "# run --frames 1 --print tree
+check "--update fills a golden that has only its first line" [ "$(cat g/lonely.golden)" = "# run --frames 1 --print tree
 @0 time=0 beat=0
 !n a=0" ]
 echo '!n (' >g/lonely.fl

@@ -1,66 +1,66 @@
-# new.sh: `petri new`. Part of run.sh.
+# new.sh: tests of `petri new`. Part of run.sh.
 
 petri new
 check "new without a name is a usage error" status_is 2
-check "… which says what is missing" has err "no name given: petri new NAME"
+check "new without a name reports what is missing" has err "no name given: petri new NAME"
 petri new one two
 check "new with two names is a usage error" status_is 2
 for name in '' . .. absent/ .fl; do
     petri new "$name"
     check "new '$name' is a usage error" status_is 2
-    check "… new '$name': told what is expected" has err "not a script name"
+    check "new '$name' reports an invalid name" has err "not a script name"
 done
 
 petri new newdish
-check "new starts a script" status_is 0
-check "… named as it was told" [ -s newdish.fl ]
-check "… says so" has err "created newdish.fl, a dish of drops"
-check "… and how to see it" has err " view newdish.fl"
-check "… and nothing on standard output" empty out
+check "new creates a script" status_is 0
+check "new uses the given name" [ -s newdish.fl ]
+check "new reports the created file" has err "created newdish.fl, a dish of drops"
+check "new shows the command to view the script" has err " view newdish.fl"
+check "new prints nothing on standard output" empty out
 petri check --werror newdish.fl
-check "petri check finds nothing to say" status_is 0
-check "… but that" lines_are err 1
-check "it has comments" [ "$(grep -c -e '--' newdish.fl)" -ge 8 ]
+check "the new script passes check" status_is 0
+check "the new script gives only the summary" lines_are err 1
+check "the new script has comments" [ "$(grep -c -e '--' newdish.fl)" -ge 8 ]
 petri run newdish.fl --frames 60 --print error,state --every 59
-check "it runs" status_is 0
-check "… without a message" lacks err "warning"
-check "… and its drops move" has out '$(:drops;0)'
+check "the new script runs" status_is 0
+check "the new script runs without warnings" lacks err "warning"
+check "the drops of the new script move" has out '$(:drops;0)'
 petri run newdish.fl -D DROPS=3 --frames 2 --print state
-check "its parameters can be set" lacks out '$(:drops;3)'
+check "the parameters of the new script can be set" lacks out '$(:drops;3)'
 petri render newdish.fl -o newdish.png --frames 1
 if [ "$status" -eq 0 ]; then
-    check "its picture has the window's size" [ "$(od -An -tu1 -j18 -N6 newdish.png | tr -s ' ')" = " 2 208 0 0 2 208" ]
-    # One colour would take less than a tenth of this.
-    check "… and something to see" [ "$(wc -c <newdish.png)" -gt 50000 ]
+    check "the picture of the new script has the window's size" [ "$(od -An -tu1 -j18 -N6 newdish.png | tr -s ' ')" = " 2 208 0 0 2 208" ]
+    # A picture of one colour would have less than a tenth of this size.
+    check "the picture of the new script is not of one colour" [ "$(wc -c <newdish.png)" -gt 50000 ]
 fi
 
 echo mine >mine.fl
 petri new mine
-check "a file that is there is left alone" status_is 1
-check "… to the letter" [ "$(cat mine.fl)" = mine ]
-check "… with one message" lines_are err 1
-check "… which names it" has err "mine.fl already exists"
+check "new does not overwrite a file" status_is 1
+check "new keeps the contents of an existing file" [ "$(cat mine.fl)" = mine ]
+check "an existing file gives one message" lines_are err 1
+check "the message names the existing file" has err "mine.fl already exists"
 ln -s nowhere.fl link.fl
 petri new link.fl
-check "so is a link that leads nowhere" status_is 1
-check "… and nothing is made behind it" [ ! -e nowhere.fl ]
+check "new does not follow a link that leads nowhere" status_is 1
+check "new creates no file through a link" [ ! -e nowhere.fl ]
 petri new absent/newdish
-check "a folder that is not there is an error" status_is 1
-check "… which names the file" has err "cannot write absent/newdish.fl: "
+check "new reports a missing folder" status_is 1
+check "the message about a missing folder names the file" has err "cannot write absent/newdish.fl: "
 mkdir -p folder
 petri new folder/newdish.fl
-check "a suffix and a folder may be given" [ -s folder/newdish.fl ]
+check "new accepts a suffix and a folder" [ -s folder/newdish.fl ]
 petri new -- -newdish
-check "a name may begin with a dash" [ -s ./-newdish.fl ]
-check "… and is shown so that it can be typed" has err " view ./-newdish.fl"
+check "new accepts a name that starts with a dash" [ -s ./-newdish.fl ]
+check "a name that starts with a dash is shown with ./" has err " view ./-newdish.fl"
 (
     trap '' XFSZ # the disk is full
     ulimit -f 1
     exec timeout 100 "$petri" new full >out 2>err </dev/null
 )
 status=$?
-check "a script that the disk cannot hold is an error" status_is 1
-check "… which says so" has err "cannot write full.fl: File too large"
-check "… and leaves no half of it" [ ! -e full.fl ]
+check "new fails if the disk is full" status_is 1
+check "new reports that the disk is full" has err "cannot write full.fl: File too large"
+check "new leaves no partial file" [ ! -e full.fl ]
 petri help
-check "help knows it" has out "  new      create a commented example"
+check "help lists new" has out "  new      create a commented example"

@@ -1,4 +1,4 @@
-# parameters.sh: what -D can set: `let NAME=NAME or VALUE`. Part of run.sh.
+# parameters.sh: tests of parameters (`let NAME=NAME or VALUE`) and -D. Part of run.sh.
 
 cat >cells.fl <<'END'
 let CELLS=CELLS or 200 -- 1..500 how many cells
@@ -13,24 +13,24 @@ let WIDE=WIDE or 3 -- 1..9 metres
 END
 
 petri check --werror cells.fl
-check "a parameter's name on the right is no unbound name" status_is 0
+check "a parameter's name on the right is not an unbound name in check" status_is 0
 petri run --frames 2 --print tree,error cells.fl
-check "… nor in a run" empty err
-check "… nor in a module, in any frame" out_is "@0 time=0 beat=0
+check "a parameter's name on the right is not an unbound name in a run" empty err
+check "a parameter's name on the right is not an unbound name in a module" out_is "@0 time=0 beat=0
 !n c=200 s=1.5 t='a dish' f=7 b=6
 @1 time=0.016666666666666666 beat=0.03333333333333333
 !n c=200 s=1.5 t='a dish' f=7 b=6"
 petri run --frames 1 --print tree -D CELLS=5 -D 'TITLE=b c' cells.fl
 check "-D sets parameters" out_is "@0 time=0 beat=0
 !n c=5 s=1.5 t='b c' f=7 b=6"
-check "… without a word" empty err
+check "setting parameters gives no message" empty err
 
 echo 'let N=N or 900 -- 1..500
 !n v=N' >outside.fl
 petri check outside.fl
-check "a default outside its own range is told" has err "outside.fl:1:5: warning: the default of 'N' is outside the range"
+check "check reports a default outside its range" has err "outside.fl:1:5: warning: the default of 'N' is outside the range"
 petri run --frames 1 outside.fl
-check "… by a check only" empty err
+check "a run does not report a default outside its range" empty err
 
 petri run --parameters cells.fl
 check "--parameters lists name, default, range and comment" out_is "CELLS  200       1..500  how many cells
@@ -44,31 +44,31 @@ check "--parameters does not run the script" lacks out "@0"
 petri run --parameters -D CELLS=5 cells.fl
 check "--parameters shows what -D has set" has out "CELLS  5 (default 200)  1..500  how many cells"
 petri run --parameters plain.fl
-check "a script without parameters has none" empty out
-check "… and how to make one is told" has err "plain.fl has no parameters"
+check "--parameters prints nothing for a script without parameters" empty out
+check "--parameters explains how to add a parameter" has err "plain.fl has no parameters"
 petri help run
 tr '\n' ' ' <out >joined # the help is wrapped
-check "help tells what a parameter is" has joined "let CELLS=CELLS or 200 -- 1..500"
-check "help tells of --parameters" has out "--parameters"
+check "help explains parameters" has joined "let CELLS=CELLS or 200 -- 1..500"
+check "help lists --parameters" has out "--parameters"
 
-# What a script does not take is told, with the place, and does not fail the run.
+# Definitions that a script does not accept are reported with a position and do not fail the run.
 petri run --frames 1 -D FIXED=8 cells.fl
 check "-D of a name that the script binds is a warning" has err "cells.fl:3:5: warning: unused definition 'FIXED'"
-check "… with a hint" has err 'with `let FIXED=FIXED or'
-check "… and no failure" status_is 0
+check "the warning about an unused definition has a hint" has err 'with `let FIXED=FIXED or'
+check "an unused definition does not fail the run" status_is 0
 petri run --frames 1 -D CELS=8 cells.fl
 check "-D of a name that is not read is a warning" has err "cells.fl:1:5: warning: unused definition 'CELS'"
-check "… with the nearest parameter" has err "did you mean 'CELLS'?"
+check "the warning about an unused definition suggests the nearest parameter" has err "did you mean 'CELLS'?"
 petri run --frames 1 -D WIDE=8 cells.fl
 check "-D of a module's parameter is a warning there" has err "cells_module.fl:1:5: warning: the definition of 'WIDE'"
 petri run --frames 1 -D CELLS=501 cells.fl
 check "-D outside the range is a warning" has err "cells.fl:1:5: warning: CELLS=501 is outside the range 1..500"
 petri run --frames 1 -D CELLS=0 cells.fl
-check "-D of 0 is told to count as none" has err "0 is false, so that \`or\` takes the default 200"
+check "-D of 0 is reported to mean the default" has err "0 is false, so that \`or\` takes the default 200"
 petri run --frames 1 --quiet -D CELLS=501 -D FIXED=8 -D CELS=8 cells.fl
-check "--quiet keeps all that back" empty err
+check "--quiet suppresses warnings about definitions" empty err
 
-# A malformed definition is a wrong command line.
+# A malformed definition is a usage error.
 for wrong in 5 =5 CELLS 5=5 'a b=5' CELLS=12x CELLS= CELLS=many; do
     petri run --frames 1 --print tree cells.fl -D "$wrong"
     check "-D '$wrong' is a wrong command line" status_is 2
@@ -76,15 +76,15 @@ for wrong in 5 =5 CELLS 5=5 'a b=5' CELLS=12x CELLS= CELLS=many; do
     check "-D '$wrong' runs nothing" empty out
 done
 petri render cells.fl -o never.png -D CELLS=12x
-check "render knows wrong definitions" status_is 2
+check "render rejects an invalid parameter value" status_is 2
 petri view --terminal cells.fl -D CELLS=12x
-check "view knows wrong definitions" status_is 2
+check "view rejects an invalid parameter value" status_is 2
 petri repl cells.fl -D CELLS=12x
-check "repl, too" status_is 2
+check "repl rejects an invalid parameter value" status_is 2
 petri repl cells.fl -D 5=5
-check "repl knows wrong definitions" status_is 2
+check "repl rejects an invalid definition" status_is 2
 
-# The tour's `console` blocks: what `$ petri …` writes, with the files that it names.
+# Extracts the `console` blocks of the language tour (grammar/README.md): commands `$ petri ...`, their files and output.
 # shellcheck disable=SC2016 # awk's dollars
 awk '/^```flitter .*\.fl$/ { file = $2; next }
      /^```console$/ { console = 1; next }
@@ -95,6 +95,6 @@ awk '/^```flitter .*\.fl$/ { file = $2; next }
 for words in tour*.words; do
     # shellcheck disable=SC2046 # the words are words
     petri $(cat "$words")
-    check "the tour is right about petri $(cat "$words")" cmp -s out "${words%.words}.wanted"
+    check "the output of petri $(cat "$words") in the language tour is correct" cmp -s out "${words%.words}.wanted"
 done
-check "the tour has such examples" test -s tour2.wanted
+check "the language tour has examples" test -s tour2.wanted

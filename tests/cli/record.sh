@@ -1,4 +1,4 @@
-# record.sh: `petri run --trajectory` and `--stats`. Part of run.sh.
+# record.sh: tests of `petri run --trajectory` and `--stats`. Part of run.sh.
 
 cat >pair.fl <<'END'
 %pragma fps 10
@@ -11,22 +11,22 @@ cat >pair.fl <<'END'
 END
 petri run pair.fl --frames 3 --trajectory run.csv
 check "a trajectory is written" status_is 0
-check "… as CSV, with a row for each particle and frame" lines_are run.csv 13
-check "… with a header" has run.csv "frame,time,system,id,anchor,x1,x2,v1,v2,radius,mass,charge"
-check "… ids quoted where they must be" has run.csv "0,0,:w,\"'a,\"\"b'\",1,1,2,0,0,0,1,0"
-check "… where they are and how fast" has run.csv "2,0.20000000000000001,:w,7,0,4,4,5,0,0.5,2,-3"
-check "… components that a system lacks left empty" has run.csv "0,0,:line,:p,0,0.10000000000000001,,0,,0,1,0"
-check "… and nothing beside it" [ -z "$(find . -name '*.tmp')" ]
+check "a CSV trajectory has a row for each particle and frame" lines_are run.csv 13
+check "a CSV trajectory has a header" has run.csv "frame,time,system,id,anchor,x1,x2,v1,v2,radius,mass,charge"
+check "CSV quotes ids that contain commas or quotes" has run.csv "0,0,:w,\"'a,\"\"b'\",1,1,2,0,0,0,1,0"
+check "CSV contains position and velocity" has run.csv "2,0.20000000000000001,:w,7,0,4,4,5,0,0.5,2,-3"
+check "CSV leaves missing components empty" has run.csv "0,0,:line,:p,0,0.10000000000000001,,0,,0,1,0"
+check "a trajectory leaves no temporary files" [ -z "$(find . -name '*.tmp')" ]
 petri run pair.fl --frames 5 --every 2 --trajectory run.xyz
-check "extended XYZ holds a block for each K-th frame" count_is run.xyz "Properties=species:S:1:pos:R:3:velo:R:3:" 3
-check "… all systems together" lines_are run.xyz 18
-check "… missing dimensions are 0" has run.xyz "X 5 4 0 5 0 0 0.5 2 -3 1 0 0"
+check "extended XYZ has a block for every K-th frame" count_is run.xyz "Properties=species:S:1:pos:R:3:velo:R:3:" 3
+check "an extended XYZ block contains all systems" lines_are run.xyz 18
+check "extended XYZ writes 0 for missing dimensions" has run.xyz "X 5 4 0 5 0 0 0.5 2 -3 1 0 0"
 petri run pair.fl --trajectory way.txt
-check "other kinds of trajectory are refused" status_is 2
-check "… naming those there are" has err "a file name that ends in .xyz, .csv or .h5"
+check "unknown trajectory formats are rejected" status_is 2
+check "the message lists the known trajectory formats" has err "a file name that ends in .xyz, .csv or .h5"
 petri run pair.fl --trajectory absent/run.csv
-check "a trajectory that cannot be made is an error" status_is 1
-check "… which names the file" has err "cannot write absent/run.csv"
+check "a missing folder for a trajectory is an error" status_is 1
+check "the message about the missing folder names the file" has err "cannot write absent/run.csv"
 cp run.csv before.csv
 (
     trap '' XFSZ # the disk is full
@@ -34,16 +34,16 @@ cp run.csv before.csv
     exec timeout 100 "$petri" run pair.fl --frames 5000 --trajectory run.csv >out 2>err </dev/null
 )
 status=$?
-check "a trajectory that the disk cannot hold is an error" status_is 1
-check "… told once" count_is err "cannot write run.csv: File too large" 1
-check "… the old file is left alone" cmp -s run.csv before.csv
-check "… and no half of a new one" [ -z "$(find . -name '*.tmp')" ]
+check "a full disk makes a trajectory fail" status_is 1
+check "a full disk is reported once" count_is err "cannot write run.csv: File too large" 1
+check "a full disk does not change the old trajectory" cmp -s run.csv before.csv
+check "a full disk leaves no partial trajectory" [ -z "$(find . -name '*.tmp')" ]
 
 petri run pair.fl --frames 11 --stats
-check "--stats closes with a table" has err "  frames            11"
-check "… of steps" has err "  simulation steps  20"
-check "… and of each system" has err "  system :w, 2-dimensional: 2 particles, 1 anchor"
-check "… its kinetic energy" has err "    kinetic energy    75"
-check "… its momentum" has err "    momentum          10;-10"
-check "… its fastest particle" has err "    fastest particle  8 at 10"
-check "… and nothing on standard output" empty out
+check "--stats prints a table with the number of frames" has err "  frames            11"
+check "--stats prints the number of steps" has err "  simulation steps  20"
+check "--stats prints the particles of each system" has err "  system :w, 2-dimensional: 2 particles, 1 anchor"
+check "--stats prints the kinetic energy" has err "    kinetic energy    75"
+check "--stats prints the momentum" has err "    momentum          10;-10"
+check "--stats prints the fastest particle" has err "    fastest particle  8 at 10"
+check "--stats prints nothing on standard output" empty out

@@ -1,4 +1,4 @@
-# render.sh: `petri render`: pictures, series, films, and what goes wrong. Part of run.sh.
+# render.sh: tests of `petri render`: pictures, series, films and errors. Part of run.sh.
 
 cat >disc.fl <<'END'
 !window size=40;30 title="disc"
@@ -7,38 +7,38 @@ cat >disc.fl <<'END'
 END
 
 petri help nodes
-check "help nodes lists what drives particles" has out "  !particle: "
-check "… and what draws" has out "  !ellipse: "
+check "help nodes lists physics nodes" has out "  !particle: "
+check "help nodes lists drawing nodes" has out "  !ellipse: "
 petri help '!stroke'
 check "help on a node lists its attributes" has out "stroke_cap"
-check "… and no other node" [ "$(grep -c '^!' out)" -eq 1 ]
+check "help on a node shows only that node" [ "$(grep -c '^!' out)" -eq 1 ]
 
 petri render
 check "render without a script is a usage error" status_is 2
 petri render disc.fl
 check "render without an output is a usage error" status_is 2
-check "… which names the option" has err "option '--output' is missing"
+check "render without an output names the option" has err "option '--output' is missing"
 petri render disc.fl -o disc.txt
-check "a suffix that is no picture's is a usage error" status_is 2
-check "… which names those there are" has err ".png, .svg, .pdf, .mp4, .webm or .gif"
+check "an unknown suffix is a usage error" status_is 2
+check "the message lists the known suffixes" has err ".png, .svg, .pdf, .mp4, .webm or .gif"
 for size in 0x10 10 -1x5 10x 1000000000x10; do
     petri render disc.fl -o disc.png --size $size
     check "--size $size is a usage error" status_is 2
-    check "… --size $size: told what is expected" has err "WIDTHxHEIGHT"
+    check "--size $size reports the expected format" has err "WIDTHxHEIGHT"
 done
 petri render disc.fl -o disc.png --scale 0
 check "--scale 0 is a usage error" status_is 2
 petri render disc.fl -o disc.mp4 --frame 3
-check "a film of one frame is a usage error" status_is 2
+check "a film of a single frame is a usage error" status_is 2
 petri render disc.fl -o absent/disc.png
-check "a folder that is not there is an error" status_is 1
-check "… known before anything is run" has err "cannot write 'absent/disc.png'"
+check "a missing folder for a picture is an error" status_is 1
+check "a missing folder is reported before the script runs" has err "cannot write 'absent/disc.png'"
 
 # can_draw: whether this build has Cairo.
 petri render disc.fl -o disc.png --frames 1
 if [ "$status" -ne 0 ]; then
-    check "a build that cannot draw says what it lacks" has err "libcairo2-dev"
-    check "… and writes nothing" [ ! -e disc.png ]
+    check "a build without Cairo names the missing library" has err "libcairo2-dev"
+    check "a build without Cairo writes no picture" [ ! -e disc.png ]
 else
     # width FILE, height FILE: from the head of a PNG file.
     width() { od -An -j16 -N4 -tu1 "$1" | awk '{ print $1 * 16777216 + $2 * 65536 + $3 * 256 + $4 }'; }
@@ -47,16 +47,16 @@ else
     nothing_beside() { [ -z "$(find . -name '*.tmp*')" ]; }
 
     check "a picture has the size of the window" sized disc.png 40x30
-    check "… and render says nothing else" empty out
+    check "render prints nothing on standard output" empty out
     cp disc.png first.png
     petri render disc.fl -o disc.png --frames 1
-    check "the same picture is the same file" cmp -s disc.png first.png
+    check "equal pictures give equal files" cmp -s disc.png first.png
     petri render disc.fl -o disc.png --frames 9 --frame 8 --size 80x60
     check "--size sets the size" sized disc.png 80x60
     petri render disc.fl -o scaled.png --frames 9 --scale 2
     check "--scale enlarges" cmp -s disc.png scaled.png
 
-    # What is loaded: OpenGL for effects and three dimensions alone, and nothing that draws for runs.
+    # Loaded libraries: OpenGL only for effects and 3-D, and no drawing libraries for run.
     cat >glowing.fl <<'END'
 !window size=8;8
     !bloom radius=2
@@ -67,47 +67,47 @@ END
     loads_no() { ! loads "$1"; }
     LD_DEBUG=files petri run glowing.fl --frames 3 --print tree
     check "run loads the C library" loads 'c\.so'
-    check "… and nothing that draws" loads_no 'EGL|GL|epoxy|cairo|pango'
+    check "run loads no drawing libraries" loads_no 'EGL|GL|epoxy|cairo|pango'
     LD_DEBUG=files petri render disc.fl -o loaded.png --frames 1
     check "render loads Cairo" loads cairo
-    check "… and no OpenGL where nothing needs it" loads_no 'EGL|GLES'
+    check "render loads no OpenGL without effects" loads_no 'EGL|GLES'
     LD_DEBUG=files petri render glowing.fl -o loaded.png --frames 1
-    check "… but for effects, where it has it" eval 'loads EGL || has err libepoxy-dev'
+    check "render loads OpenGL for effects, if it was built with it" eval 'loads EGL || has err libepoxy-dev'
 
     petri render disc.fl -o disc%03d.png --frames 7 --every 3
-    check "a series has a picture for each K-th frame" [ "$(echo disc0*.png)" = "disc000.png disc003.png disc006.png" ]
-    check "… the first is the first frame" cmp -s disc000.png first.png
-    check "… and others differ" eval '! cmp -s disc003.png first.png'
+    check "a series has a picture for every K-th frame" [ "$(echo disc0*.png)" = "disc000.png disc003.png disc006.png" ]
+    check "the first picture of a series is that of the first frame" cmp -s disc000.png first.png
+    check "pictures of a series differ" eval '! cmp -s disc003.png first.png'
     petri render disc.fl -o disc.svg --frames 1
     check "SVG is written" has disc.svg "<svg"
     petri render disc.fl -o disc.pdf --frames 1
     check "PDF is written" has disc.pdf "%PDF-"
     cp disc.pdf first.pdf
     petri render disc.fl -o disc.pdf --frames 1
-    check "the same PDF is the same file" cmp -s disc.pdf first.pdf
+    check "equal PDFs give equal files" cmp -s disc.pdf first.pdf
     petri render disc.fl -o none.png --frames 0
-    check "no frame, no picture" status_is 1
+    check "rendering zero frames is an error" status_is 1
     petri render disc.fl -o none.png --frame 5 --runtime 0.01
     check "a frame that is not reached is an error" status_is 1
-    check "… which names it" has err "not 5"
+    check "a frame that is not reached is named" has err "not 5"
 
     printf '!x\n' >nothing.fl
     petri render nothing.fl -o none.png --frames 1
-    check "a script that draws nothing is an error" one_error
-    check "… without a file" [ ! -e none.png ]
+    check "a script without a picture is an error" one_error
+    check "a script without a picture writes no file" [ ! -e none.png ]
     printf '!window size=60;40\n    !video\n!physics state=:w dimensions=3\n    !particle id=1\n' >solid.fl
     petri render solid.fl -o solid.png --frames 2
-    check "a window that petri cannot draw shows the particles" status_is 0
-    check "… in its size" sized solid.png 60x40
-    check "… and what is left out is told once" count_is err "'!video' is not supported" 1
+    check "a window with only unsupported nodes shows the particles" status_is 0
+    check "the picture of particles has the size of the window" sized solid.png 60x40
+    check "an unsupported node is reported once" count_is err "'!video' is not supported" 1
     printf '!physics state=:w dimensions=2\n    !particle id=1 radius=1\n' >bare.fl
     petri render bare.fl -o bare.png --frames 2
-    check "physics alone has a picture too" sized bare.png 1080x1080
+    check "physics without a window has a picture" sized bare.png 1080x1080
     printf '!physics state=:w dimensions=2\n    !particle id=0 velocity=60;30\n' >lone.fl
     petri render lone.fl -o lone%03d.png --frames 201 --every 40 --size 60x60
     check "a lone particle is not followed" eval '! cmp -s lone040.png lone080.png && ! cmp -s lone080.png lone120.png'
     petri render lone.fl -o lone.png --frame 200 --size 60x60
-    check "the picture of a frame does not depend on those that were drawn before" cmp -s lone.png lone200.png
+    check "a picture does not depend on previously drawn frames" cmp -s lone.png lone200.png
     petri render disc.fl -o none.png --frames 1 --auto
     check "--auto without physics is an error" one_error
 
@@ -119,21 +119,21 @@ END
             !rect size=10 fill=true
 END
     petri render record.fl -o last.png --frames 4
-    check "!record writes pictures of the frames that it is in" [ "$(echo frame*.png)" = "frame1.png frame3.png" ]
-    check "… as the output would be" cmp -s frame3.png last.png
+    check "!record writes pictures of the frames that contain it" [ "$(echo frame*.png)" = "frame1.png frame3.png" ]
+    check "!record writes the same picture as -o" cmp -s frame3.png last.png
     printf '!window size=300;300\n    !record filename="deep/er/same.png"\n        !canvas\n            !ellipse point=10+frame;50 radius=40 fill=true\n' >record.fl
     petri render record.fl -o first.png --frames 1
     rm -r deep
     petri render record.fl -o last.png --frames 60
-    check "!record may name the same file in each frame" status_is 0
-    check "… it is written once, and its folders are made" cmp -s deep/er/same.png first.png
+    check "!record can use the same file name in every frame" status_is 0
+    check "!record creates folders and replaces no file that it has written" cmp -s deep/er/same.png first.png
     petri run record.fl --frames 4
-    check "run leaves !record alone" status_is 0
+    check "run ignores !record" status_is 0
     printf '!window size=20;20\n    !record filename="x.txt"\n        !canvas\n' >record.fl
     petri render record.fl -o last.png --frames 4
-    check "!record to another kind of file is an error" one_error
+    check "!record to an unknown kind of file is an error" one_error
 
-    # frames before the systems have stored where the particles are: red where that cannot be seen
+    # frames before the systems have stored positions: red if there are none
     cat >early.fl <<'END'
 !physics state=:w dimensions=2
     !particle id=1 position=20;20 velocity=1;0
@@ -145,25 +145,25 @@ END
     printf '!window size=20;20\n    !canvas\n        !rect size=20 fill=true color=0;1;0\n' >green.fl
     petri render green.fl -o green.png --frames 1
     petri render early.fl -o early%02d.png --frames 3
-    check "a series begins with the first frame that shows its particles" [ "$(echo early0*.png)" = "early02.png early03.png early04.png" ]
-    check "… which they are seen in" cmp -s early02.png green.png
-    check "… !record waits, too" [ "$(echo early-*.png)" = "early-2.png early-3.png early-4.png" ]
+    check "a series starts with the first frame that shows its particles" [ "$(echo early0*.png)" = "early02.png early03.png early04.png" ]
+    check "the first picture of a series shows particles" cmp -s early02.png green.png
+    check "!record skips frames without particles" [ "$(echo early-*.png)" = "early-2.png early-3.png early-4.png" ]
     rm -f early*.png
     petri render early.fl -o early%02d.png --frames 7 --every 3
-    check "… with --every" [ "$(echo early0*.png)" = "early02.png early05.png early08.png" ]
+    check "--every counts from the first frame with particles" [ "$(echo early0*.png)" = "early02.png early05.png early08.png" ]
     petri render early.fl -o early.png --frames 1
-    check "one frame is one with particles" cmp -s early.png green.png
+    check "--frames 1 draws a frame with particles" cmp -s early.png green.png
     petri render early.fl -o early.png --runtime 0.01
-    check "… also by time" cmp -s early.png green.png
+    check "--runtime draws a frame with particles" cmp -s early.png green.png
     petri render early.fl -o early.png --frame 0
-    check "whoever asks for frame 0 gets it" eval '[ "$status" -eq 0 ] && ! cmp -s early.png green.png'
+    check "--frame 0 draws frame 0" eval '[ "$status" -eq 0 ] && ! cmp -s early.png green.png'
     petri run early.fl --frames 100 --state early.state
     rm -f early*.png
     petri render early.fl -o early%02d.png --frames 1 --state early.state
-    check "a state that is restored has particles at once" cmp -s early100.png green.png
+    check "a restored state has particles in its first frame" cmp -s early100.png green.png
     sed 's/dimensions=2/dimensions=2 time=0/' early.fl >stands.fl
     petri render stands.fl -o stands%d.png --frames 1
-    check "a system whose time stands still is not waited for" [ -e stands2.png ]
+    check "a system with constant time is not waited for" [ -e stands2.png ]
     petri render early.fl --auto -o auto%d.png --frames 1 --size 20x20
     check "the automatic picture shows particles in frame 0" [ -e auto0.png ]
 
@@ -173,13 +173,13 @@ END
         rm -f size.png
         petri render size.fl -o size.png --frames 3
         check "a window of size=$size is an error" one_error
-        check "… size=$size: without a file" [ ! -e size.png ]
+        check "a window of size=$size writes no file" [ ! -e size.png ]
     done
     head -c 700 "$here/../pictures/images/small.jpg" >half.jpg
     printf '!window size=40;40\n    !canvas\n        !image filename="half.jpg" size=40\n' >half.fl
     petri render half.fl -o half.png --frames 3
-    check "half a JPEG file is told once" count_is err "cannot read 'half.jpg': it is damaged" 1
-    # what is not finite is told once and left out
+    check "a damaged JPEG file is reported once" count_is err "cannot read 'half.jpg': it is damaged" 1
+    # invalid and non-finite attributes are reported once and their elements are omitted
     cat >wrong.fl <<'END'
 let nan=0/0
     big=1e308*10
@@ -205,7 +205,7 @@ let nan=0/0
             !text text="x" point=-50;-50
 END
     petri render wrong.fl -o wrong.png --frames 5
-    check "wrong attributes are no reason to stop" status_is 0
+    check "invalid attributes do not stop rendering" status_is 0
     for text in "!group: translate should be x;y, not nan;0" "!ellipse: point should be x;y, not inf;0" \
         "!ellipse: radius should be" "!line: points should be" "!rect: size should be" "!font: size should be" \
         "!text: point should be" "!paint: color should be grey" "!paint: stroke_width should be number, 0 or more" \
@@ -213,28 +213,28 @@ END
         "unknown attribute 'colour', did you mean 'color'?" "'!elipse' is not supported; ignored, did you mean '!ellipse'?" \
         "'!stop' has no effect here" "cannot read 'absent.png': No such file" "cannot read 'disc.fl': neither PNG nor JPEG" \
         "there is no font 'No Such Font'"; do
-        check "told once: $text" count_is err "$text" 1
+        check "reported once: $text" count_is err "$text" 1
     done
     printf '!window size=40;40\n    !canvas\n        !rect size=40 fill=true color=0;0;1\n' >blue.fl
     petri render blue.fl -o blue.png --frames 1
-    check "what is wrong is not drawn" cmp -s wrong.png blue.png
+    check "elements with invalid attributes are not drawn" cmp -s wrong.png blue.png
     printf '!window size=40;40\n    !canvas\n        !rect size=1e300 point=-1e299 fill=true color=0;0;1\n        !line points=1e9;5;1e9;7 stroke=true stroke_width=1e6\n' >far.fl
     petri render far.fl -o far.png --frames 1
-    check "what is far away is drawn as it should be" cmp -s far.png blue.png
+    check "distant elements are drawn correctly" cmp -s far.png blue.png
 
     # too much
     printf '!window size=1000;1000\n    !canvas\n        !line points=1000*uniform(:p)[..2000000] stroke=true\n' >points.fl
     rm -f points.png
     petri render points.fl -o points.png --frames 1
-    check "a million points all over the picture are refused" one_error
-    check "… with a reason" has err "path is too complex"
-    check "… without a file" [ ! -e points.png ]
+    check "a million points all over the picture are rejected" one_error
+    check "the message gives the reason" has err "path is too complex"
+    check "a rejected picture writes no file" [ ! -e points.png ]
     printf '!window size=1000;1000\n    !canvas\n        !line points=(..2000000)/2000 stroke=true color=0;1;0\n' >points.fl
     petri render points.fl -o points.png --frames 1
     check "a million points on a line are drawn" status_is 0
     printf '!window size=1000;1000\n    !canvas\n        for i in ..12000\n            !text text="." point=500;(i%%2)*990\n        !rect size=40\n        !fill\n' >texts.fl
     petri render texts.fl -o texts.png --frames 1
-    check "thousands of texts are no part of the path around them" status_is 0
+    check "thousands of texts are not part of the path around them" status_is 0
     nest='wrap(wrap(wrap(wrap(wrap(wrap(wrap(wrap(wrap(wrap(x))))))))))'
     cat >nest.fl <<END
 func wrap(x)
@@ -255,42 +255,42 @@ let x=(!rect size=40 fill=true color=0;0;1)
         $(echo "$nest" | sed 's/wrap/thousand/g')
 END
     petri render nest.fl -o nest.png --frames 1
-    check "10,000 clips in each other are drawn" status_is 0
-    check "… as if they were not there" cmp -s nest.png blue.png
+    check "10,000 nested clips are drawn" status_is 0
+    check "10,000 nested clips do not change the picture" cmp -s nest.png blue.png
     sed 's/!group/!layer size=1000/; /!path/d; /!ellipse/d; /!clip/d' nest.fl >layers.fl
     petri render layers.fl -o layers.png --frames 1
-    check "of 10,000 layers the innermost are drawn without" count_is err "too many or too large layers" 1
-    check "… and nothing is lost" cmp -s layers.png blue.png
+    check "the innermost of 10,000 nested layers are drawn without layers" count_is err "too many or too large layers" 1
+    check "10,000 nested layers do not change the picture" cmp -s layers.png blue.png
 
     # films
     if command -v ffmpeg >/dev/null; then
         for suffix in mp4 webm gif; do
             petri render disc.fl -o film.$suffix --frames 10
-            check "a film is written: $suffix" [ -s film.$suffix ]
+            check "render writes a film: $suffix" [ -s film.$suffix ]
             frames=$(ffprobe -v error -count_frames -show_entries stream=nb_read_frames -of csv=p=0 film.$suffix)
-            check "… with all frames: $suffix" [ "${frames%%,*}" = 10 ]
+            check "a film has all frames: $suffix" [ "${frames%%,*}" = 10 ]
         done
-        check "… and nothing beside them" nothing_beside
+        check "films leave no temporary files" nothing_beside
         petri render early.fl -o early.mp4 --frames 10
         frames=$(ffprobe -v error -count_frames -show_entries stream=nb_read_frames -of csv=p=0 early.mp4)
-        check "a film has as many frames as were asked for" [ "${frames%%,*}" = 10 ]
+        check "a film has the requested number of frames" [ "${frames%%,*}" = 10 ]
         ffmpeg -v error -i early.mp4 -frames:v 1 -pix_fmt rgb24 -f rawvideo - </dev/null | od -An -N3 -tu1 >colour
-        check "… and begins with one that shows its particles" awk '{ exit !($1 < 50 && $2 > 200) }' colour
+        check "a film starts with the first frame that shows its particles" awk '{ exit !($1 < 50 && $2 > 200) }' colour
         petri render disc.fl -o odd.mp4 --frames 2 --size 41x31
-        check "a film may have an odd size" status_is 0
+        check "a film can have an odd size" status_is 0
         for name in file:film.mp4 at:12.gif; do
             petri render disc.fl -o "$name" --frames 2
-            check "a colon in a film's name is part of it: $name" [ -s "$name" ]
+            check "a colon is part of a film's name: $name" [ -s "$name" ]
         done
-        check "… nothing else is written" nothing_beside
+        check "a colon in a film's name creates no other file" nothing_beside
         mkdir films
         : >films/last.mp4
         ln -s films/last.mp4 link.mp4
         petri render disc.fl -o link.mp4 --frames 2
-        check "a film's name may be a symbolic link, which stays" [ -L link.mp4 ]
-        check "… to what is written" [ -s films/last.mp4 ]
+        check "a film's name can be a symbolic link, which is kept" [ -L link.mp4 ]
+        check "a film is written through a symbolic link" [ -s films/last.mp4 ]
 
-        # render_small ARGUMENT...: with less memory than a frame of 16000x16000 takes, in kilobytes.
+        # render_small ARGUMENT...: renders with less memory than a frame of 16000x16000 needs. The unit is kilobytes.
         render_small() (
             ulimit -v 900000
             exec timeout 100 "$petri" render disc.fl "$@" >out 2>err </dev/null
@@ -298,13 +298,13 @@ END
         if render_small -o small.mp4 --frames 2; then # not with a sanitizer
             render_small -o large.mp4 --frames 2 --size 16000x16000
             status=$?
-            check "a frame that memory cannot hold is an error" status_is 1
-            check "… told" has err "out of memory"
-            check "… without a film or half of one" [ "$(echo large.mp4*)" = "large.mp4*" ]
+            check "a frame that exceeds memory is an error" status_is 1
+            check "a frame that exceeds memory is reported" has err "out of memory"
+            check "a frame that exceeds memory leaves no film" [ "$(echo large.mp4*)" = "large.mp4*" ]
         fi
 
         mkdir tools
-        # A stand-in that is killed half-way.
+        # A mock of ffmpeg that is killed while it reads.
         cat >tools/ffmpeg <<'END'
 #!/bin/sh
 for last; do :; done
@@ -314,29 +314,30 @@ END
         chmod +x tools/ffmpeg
         cp film.mp4 before.mp4
         PATH=$PWD/tools:$PATH petri render disc.fl -o film.mp4 --frames 50
-        check "ffmpeg that is killed half-way is an error" status_is 1
-        check "… told once" count_is err "ffmpeg was killed by signal 9" 1
-        check "… the old film is left alone" cmp -s film.mp4 before.mp4
-        check "… and no half of a new one" nothing_beside
+        check "a killed ffmpeg is an error" status_is 1
+        check "a killed ffmpeg is reported once" count_is err "ffmpeg was killed by signal 9" 1
+        check "a killed ffmpeg does not change the old film" cmp -s film.mp4 before.mp4
+        check "a killed ffmpeg leaves no partial film" nothing_beside
         printf '#!/bin/sh\nhead -c 9000 >/dev/null\nexit 0\n' >tools/ffmpeg
         PATH=$PWD/tools:$PATH petri render disc.fl -o film.mp4 --frames 50
-        check "ffmpeg that ends too early is an error" status_is 1
-        check "… told" has err "ffmpeg ended early"
+        check "an ffmpeg that ends early is an error" status_is 1
+        check "an ffmpeg that ends early is reported" has err "ffmpeg ended early"
         printf '#!/bin/sh\necho one >&2\necho two >&2\nexit 3\n' >tools/ffmpeg
         PATH=$PWD/tools:$PATH petri render disc.fl -o film.mp4 --frames 50
-        check "what ffmpeg says last is told" has err "ffmpeg failed with status 3: two"
+        check "the last message of ffmpeg is shown" has err "ffmpeg failed with status 3: two"
         rm -r tools
         (
             ulimit -f 16 # blocks of 512 bytes: as on a disk that is full
             exec timeout 100 "$petri" render disc.fl -o film.mp4 --frames 600 --size 600x600 >out 2>err </dev/null
         )
         status=$?
-        check "a film that the disk cannot hold is an error" status_is 1
-        check "… told once" count_is err "cannot write 'film.mp4'" 1
-        check "… the old film is left alone" cmp -s film.mp4 before.mp4
-        check "… and no half of a new one" nothing_beside
+        check "a full disk makes a film fail" status_is 1
+        check "a full disk is reported once for a film" count_is err "cannot write 'film.mp4'" 1
+        check "a full disk does not change the old film" cmp -s film.mp4 before.mp4
+        check "a full disk leaves no partial film" nothing_beside
         printf '!window size=200;200\n    !canvas\n        !ellipse point=frame%%200 radius=9 fill=true\n' >long.fl
-        # start_long ARGUMENT...: renders without end until there are frames; stop_long: waits for its end.
+        # start_long ARGUMENT...: starts rendering many frames and waits until some exist.
+        # stop_long: waits until the process ends.
         start_long() {
             "$petri" render long.fl --frames 1000000 "$@" >out 2>err </dev/null &
             job=$!
@@ -350,14 +351,14 @@ END
             wait "$job"
             status=$?
         }
-        # Others may be at work on this machine: ours is that in this folder.
+        # Prints the process id of our ffmpeg. Others may be running on this machine; ours runs in this folder.
         encoder() {
             for id in $(pgrep -x ffmpeg); do
                 [ "$(readlink "/proc/$id/cwd")" != "$work" ] || echo "$id"
             done
         }
         no_ffmpeg() { [ -z "$(encoder)" ]; }
-        # A film has no name before it is whole: what ffmpeg has read tells, 160 kB a frame.
+        # An unfinished film has no name, so progress is measured by what ffmpeg has read: 160 kB per frame.
         frames_there() {
             [ -z "$(find . -name 'long*.png' -size +0c)" ] || return 0
             awk '$1 == "rchar:" { read = $2 } END { exit read < 3e6 }' "/proc/$(encoder)/io" 2>/dev/null
@@ -366,42 +367,42 @@ END
             start_long -o long.$suffix
             kill -INT "$job"
             stop_long
-            check "Ctrl-C in a film ends with the signal's status: $suffix" status_is 130
+            check "Ctrl-C during a film exits with the signal's status: $suffix" status_is 130
             kept=$(sed -n "s/.*stopped; 'long.$suffix' is complete, with the \([0-9]*\) frames* drawn so far.*/\1/p" err)
             frames=$(ffprobe -v error -count_frames -show_entries stream=nb_read_frames -of csv=p=0 long.$suffix 2>&1)
-            check "… says how many frames are kept" [ "${kept:-0}" -gt 0 ]
-            check "… which can be played: ${frames%%,*}" [ "${frames%%,*}" = "$kept" ]
-            check "… nothing is beside them" nothing_beside
+            check "Ctrl-C during a film reports the number of kept frames" [ "${kept:-0}" -gt 0 ]
+            check "an interrupted film can be played: ${frames%%,*}" [ "${frames%%,*}" = "$kept" ]
+            check "an interrupted film leaves no temporary files" nothing_beside
             rm -f long.$suffix
         done
-        # What the picture needs is collected for longer than it is drawn: the signal comes while that is done.
+        # Building the display list takes longer than drawing, so the signal arrives during the former.
         cp long.fl even.fl
         printf '        for i in ..200000\n            !transform scale=1+i\n' >>long.fl
         start_long -o long.mp4
         kill -INT "$job"
         stop_long
-        check "Ctrl-C in the midst of a frame's list keeps the film: $(cat err)" ffprobe -v error long.mp4
+        check "Ctrl-C while a display list is built keeps the film: $(cat err)" ffprobe -v error long.mp4
         mv even.fl long.fl
         rm -f long.mp4
         start_long -o long%06d.png
         kill -TERM "$job"
         stop_long
-        check "SIGTERM in a series ends with the signal's status" status_is 143
+        check "SIGTERM during a series exits with the signal's status" status_is 143
         kept=$(sed -n "s/.*stopped; 'long%06d.png' has the \([0-9]*\) frames* drawn so far.*/\1/p" err)
-        check "… says how many pictures there are" [ "$(find . -name 'long*.png' | wc -l)" -eq "${kept:-0}" ]
-        check "… from the first to the last" [ -e "$(printf long%06d.png $((${kept:-0} - 1)))" ]
-        check "… none of them half" nothing_beside
+        check "an interrupted series reports its number of pictures" [ "$(find . -name 'long*.png' | wc -l)" -eq "${kept:-0}" ]
+        check "an interrupted series has consecutive pictures" [ -e "$(printf long%06d.png $((${kept:-0} - 1)))" ]
+        check "an interrupted series has no partial pictures" nothing_beside
         rm -f long0*.png
-        # While one picture takes long the others' are drawn.
+        # The first picture takes long; the others are drawn in the meantime.
         cp long.fl even.fl
         printf '!window size=200;200\n    !canvas\n        for i in ..(30000 if frame==0 else 1)\n            !ellipse point=200*uniform(:p;i)[..2] radius=20 stroke=true\n' >long.fl
         start_long -o long%06d.png
         kill -INT "$job"
         stop_long
         kept=$(sed -n "s/.*stopped; 'long%06d.png' has the \([0-9]*\) frames* drawn so far.*/\1/p" err)
-        check "a series of pictures of unlike work says how many there are" [ "$(find . -name 'long*.png' | wc -l)" -eq "${kept:-0}" ]
-        check "… without a gap" [ "$(find . -name 'long*.png' | sort | tail -n 1)" = "$(printf ./long%06d.png $((${kept:-0} - 1)))" ]
-        check "… none of them half" nothing_beside
+        check "an interrupted series with slow pictures reports its number of pictures" [ "$(find . -name 'long*.png' | wc -l)" -eq "${kept:-0}" ]
+        check "an interrupted series with slow pictures has no gaps" [ "$(find . -name 'long*.png' | sort | tail -n 1)" = "$(printf ./long%06d.png $((${kept:-0} - 1)))" ]
+        check "an interrupted series with slow pictures has no partial pictures" nothing_beside
         rm -f long0*.png
         mv even.fl long.fl
         cp film.mp4 long.mp4
@@ -414,16 +415,16 @@ END
             sleep 0.5
             kill -INT "$job" 2>/dev/null
             stop_long
-            check "a second Ctrl-C ends at once: $output" status_is 130
-            check "… and leaves nothing half: $output" nothing_beside
-            check "… no ffmpeg goes on" no_ffmpeg
+            check "a second Ctrl-C ends rendering at once: $output" status_is 130
+            check "a second Ctrl-C leaves no partial files: $output" nothing_beside
+            check "a second Ctrl-C ends ffmpeg" no_ffmpeg
         done
-        check "… the old film is left alone" cmp -s long.mp4 film.mp4
+        check "a second Ctrl-C does not change the old film" cmp -s long.mp4 film.mp4
         rm -f long.mp4
         timeout 1 "$petri" render long.fl --frames 1000000 -o long.mp4 >out 2>err </dev/null
-        check "timeout's signal, sent twice, keeps what is done" ffprobe -v error long.mp4
+        check "a signal from timeout that arrives twice keeps the film" ffprobe -v error long.mp4
     fi
-    # What a picture takes is charged before it is drawn, whatever it consists of.
+    # The cost of drawing is charged in advance for all kinds of elements.
     for many in '!ellipse point=50 radius=50 fill=true' '!ellipse point=50 radius=50 stroke=true stroke_width=50' \
         '!rect size=100 fill=true composite=:hue' '!text text="many" point=0;90 font_size=80 fill=true' \
         '!image filename="disc.png" size=100'; do
@@ -431,22 +432,22 @@ END
         petri render many.fl -o many.png --work 500k --scale 5
         check "drawing is charged: $many" has err "drawing exceeded the work limit (--work): the rest is left"
         petri render many.fl -o many.png
-        check "… but not for so few: $many" [ ! -s err ]
+        check "cheap drawing is below the limit: $many" [ ! -s err ]
     done
     printf '!physics state=:p dimensions=2\n    for i in ..1000\n        !particle id=i position=0 radius=1\n' >many.fl
     petri render many.fl -o many.png --work 500k
     check "drawing is charged: particles" has err "drawing exceeded the work limit (--work)"
     PATH='' "$petri" render disc.fl -o none.mp4 --frames 5 >out 2>err </dev/null
     status=$?
-    check "without ffmpeg a film is an error" status_is 1
-    check "… which says how to get it" has err "apt install ffmpeg"
+    check "a film without ffmpeg is an error" status_is 1
+    check "the message says how to install ffmpeg" has err "apt install ffmpeg"
     (
         ulimit -f 1
         exec timeout 100 "$petri" render disc.fl -o disc.png --frames 1 --size 2000x2000 >out 2>err </dev/null
     )
     status=$?
-    check "a picture that the disk cannot hold is an error" status_is 1
-    check "… told once" count_is err "cannot write 'disc.png': File too large" 1
-    check "… the old picture is left alone" cmp -s disc.png scaled.png
-    check "… and no half of a new one" nothing_beside
+    check "a full disk makes a picture fail" status_is 1
+    check "a full disk is reported once for a picture" count_is err "cannot write 'disc.png': File too large" 1
+    check "a full disk does not change the old picture" cmp -s disc.png scaled.png
+    check "a full disk leaves no partial picture" nothing_beside
 fi

@@ -1,4 +1,4 @@
-# state.sh: `petri run --state`: going on where another run ended. Part of run.sh.
+# state.sh: tests of `petri run --state`, which resumes an earlier run. Part of run.sh.
 
 cat >world.fl <<'END'
 %pragma tempo 90
@@ -16,21 +16,21 @@ END
 petri run world.fl --frames 200 --every 199 --print state
 cp out whole
 petri run world.fl --frames 100 --state half.state
-check "a run with --state ends well" status_is 0
-check "… and leaves the state behind" has half.state "petri-state 1"
+check "a run with --state succeeds" status_is 0
+check "a run with --state writes the state" has half.state "petri-state 1"
 petri run world.fl --frames 100 --every 199 --print state --state half.state
 sed -n '/^@199/,$p' whole >expected
-check "two runs of 100 frames are one of 200 to the last bit, time included" cmp -s out expected
+check "two runs of 100 frames equal one of 200 bit for bit, time included" cmp -s out expected
 cp half.state real.state
 petri run world.fl --frames 2 --realtime --print tree --state real.state
-check "in real time a restored run goes on from the frame's time" has out "@200 time=3.3333333333333335 beat=5"
+check "a restored run with --realtime continues at the frame's time" has out "@200 time=3.3333333333333335 beat=5"
 rm -f half.state
 petri run world.fl --frames 40 --state half.state
 petri run world.fl --frames 1 --print state --state half.state
-check "particles that vanish between two runs are forgotten" lacks out "(:w;5;'cell')"
+check "particles that disappear between two runs are removed" lacks out "(:w;5;'cell')"
 petri run world.fl --frames 3 --print state --state absent/half.state
-check "a state that cannot be written is an error" status_is 1
-check "… which names the file" has err "absent/half.state"
+check "a state that cannot be written makes the run fail" status_is 1
+check "the message names the state file" has err "absent/half.state"
 
 petri run world.fl --frames 10 --state good.state
 for damage in cut edited version other empty; do
@@ -43,16 +43,16 @@ for damage in cut edited version other empty; do
     esac
     cp bad.state before.state
     petri run world.fl --frames 2 --print state --state bad.state
-    check "a state file that is bad ($damage) makes the run fail" status_is 1
-    check "… is told in one error ($damage)" count_is err "error: cannot load the state from 'bad.state'" 1
-    check "… is left alone ($damage)" cmp -s bad.state before.state
-    check "… and the run starts fresh ($damage)" has out "@0 time=0"
+    check "a bad state file ($damage) makes the run fail" status_is 1
+    check "a bad state file ($damage) is reported once" count_is err "error: cannot load the state from 'bad.state'" 1
+    check "a bad state file ($damage) is not modified" cmp -s bad.state before.state
+    check "a run with a bad state file ($damage) starts at frame 0" has out "@0 time=0"
 done
-check "nothing is left beside the files" [ -z "$(find . -name '*.tmp')" ]
+check "states leave no temporary files" [ -z "$(find . -name '*.tmp')" ]
 petri run world.fl --frames 2 --state .
-check "a folder is no state file" status_is 1
+check "a folder is not accepted as a state file" status_is 1
 
-# a run that is killed leaves what --save-every says
+# --save-every saves the state of a run that is killed
 "$petri" run world.fl --frames 100000000 --state kept.state --save-every 2 --trace >out 2>err </dev/null &
 job=$!
 while kill -0 $job && [ "$(grep -c 'petri: frame' err)" -lt 6 ]; do :; done
@@ -60,12 +60,12 @@ kill -9 $job
 wait $job 2>/dev/null
 petri run world.fl --frames 1 --print state --state kept.state
 next=$(sed -n 's/^@\([0-9]*\) .*/\1/p' out)
-check "--save-every has kept each second frame" [ "${next:-0}" -ge 4 ]
+check "--save-every has saved every second frame" [ "${next:-0}" -ge 4 ]
 petri run world.fl --frames 1 --save-every 2
-check "--save-every alone has nothing to keep" status_is 2
-check "… and says what it needs" has err 'add --state FILE'
+check "--save-every without --state is a usage error" status_is 2
+check "--save-every without --state says what is missing" has err 'add --state FILE'
 
-# ids that are new in each frame must not fill the state
+# ids that are new in each frame must not accumulate in the state
 cat >fresh.fl <<'END'
 !physics state=:s dimensions=1
     for i in ..100
@@ -75,12 +75,12 @@ cat >fresh.fl <<'END'
     !particle id=:x velocity=1
 END
 petri run fresh.fl --frames 300 --every 299 --print state
-check "the state of particles with ever new ids holds the present ones only" [ "$(grep -c '^\$(:s;299;' out)" -eq 200 ]
-check "… and no former one" lacks out '(:s;298'
-check "… and those that stay" has out '$(:s;:stays) = '
-check "… with their systems" has out '$(:t;:iteration) = 299'
+check "the state contains only particles of the last frame" [ "$(grep -c '^\$(:s;299;' out)" -eq 200 ]
+check "the state contains no removed particles" lacks out '(:s;298'
+check "the state contains particles that exist in every frame" has out '$(:s;:stays) = '
+check "the state contains each system's iteration" has out '$(:t;:iteration) = 299'
 
-# many particles: the list of a system's particles grows while other things are read between
+# many particles: a state with a list of particles that grows while it is loaded
 cat >many.fl <<'END'
 !physics state=:s dimensions=1
     for i in ..20000
@@ -90,4 +90,4 @@ petri run many.fl --frames 6 --every 5 --print state
 sed -n '/^@5/,$p' out >expected
 petri run many.fl --frames 3 --state many.state
 petri run many.fl --frames 3 --every 5 --print state --state many.state
-check "a state of many particles is taken back whole" cmp -s out expected
+check "a state of many particles is restored completely" cmp -s out expected

@@ -1,10 +1,10 @@
-# streams.sh: scripts from standard input, pictures to standard output, logs alone. Part of run.sh.
+# streams.sh: tests of scripts from standard input, pictures to standard output, and --print log. Part of run.sh.
 
-# pour SCRIPT ARGUMENTS...: as petri, with the script on standard input.
+# pour SCRIPT ARGUMENTS...: like petri, with the script on standard input.
 pour() {
     script=$1
     shift
-    # shellcheck disable=SC2059 # its escapes are meant
+    # shellcheck disable=SC2059 # the script may contain escapes
     printf "$script" | timeout 100 "$petri" "$@" >out 2>err
     status=$?
 }
@@ -12,25 +12,25 @@ pour '!n a=1\n' run - --frames 1 --print tree
 check "a script from standard input runs" out_is "@0 time=0 beat=0
 !n a=1"
 pour '!n a=1\n' - --frames 1 --print tree
-check "without a command, too" has out "!n a=1"
+check "a script from standard input runs without a command" has out "!n a=1"
 pour '!n a=x\n' run - --frames 1
-check "it is called <stdin>" has err "<stdin>:1:6: warning: unbound name 'x'"
+check "standard input is called <stdin> in messages" has err "<stdin>:1:6: warning: unbound name 'x'"
 pour '!n a=(\n' run -
-check "what is wrong in it fails" status_is 1
-check "and is placed" has err "<stdin>:1:7: error: "
+check "an error in standard input fails" status_is 1
+check "an error in standard input has a position" has err "<stdin>:1:7: error: "
 pour '' run - --frames 1
-check "nothing at all is a script" status_is 0
+check "empty standard input is a script" status_is 0
 mkdir -p parts
 echo 'let part=5' >parts/part.fl
 pour "import part from 'parts/part.fl'\n!n a=part\n" run - --frames 1 --print tree
-check "it imports from the current folder" has out "!n a=5"
+check "standard input imports from the current folder" has out "!n a=5"
 pour '!n a=x y\n' check -
 check "check reads standard input" has err "<stdin>:1:9: error: "
-check "and counts it" last_line_is err "petri: 1 file checked: 1 error, 0 warnings"
+check "check counts standard input as a file" last_line_is err "petri: 1 file checked: 1 error, 0 warnings"
 pour '\377\376!\0n\0\n\0' run -
-check "UTF-16 is told there, too" has err "'<stdin>' is UTF-16 text"
+check "UTF-16 on standard input is reported" has err "'<stdin>' is UTF-16 text"
 pour 'a:b:c\nd:e:f\ng:h:i\n' run -
-check "a text that is no script is one error" one_error
+check "a text that is not a script is one error" one_error
 timeout 100 "$petri" run - >out 2>err <&-
 status=$?
 check "a closed standard input is one message" lines_are err 1
@@ -39,12 +39,12 @@ for words in "view -" "repl -" "test -"; do
     # shellcheck disable=SC2086 # the words are words
     pour '!n\n' $words
     check "petri $words is a wrong command line" status_is 2
-    check "petri $words says why in one line" lines_are err 1
+    check "petri $words gives the reason in one line" lines_are err 1
 done
-check "test says that there is no golden" has err "no golden"
+check "test reports that standard input has no golden" has err "no golden"
 echo '!n a=1' >./-
 petri run ./- --frames 1 --print tree
-check "a file of that name can be run" has out "!n a=1"
+check "a file called - can be run" has out "!n a=1"
 rm ./-
 
 # pictures
@@ -62,20 +62,20 @@ if command -v ffmpeg >/dev/null 2>&1; then
     petri render drawn.fl --frames 3 -o - --format gif
     check "--format gif writes a film" [ "$(head -c 6 out)" = GIF89a ]
     petri render drawn.fl --frames 3 -o - --format mp4
-    check "--format mp4, too" grep -aq ftyp out
+    check "--format mp4 writes a film" grep -aq ftyp out
 fi
 petri render drawn.fl --frames 1 -o - --format bmp
 check "an unknown format is a wrong command line" status_is 2
-check "and the formats are listed" has err "png, svg, pdf, mp4, webm or gif"
+check "the message lists the known formats" has err "png, svg, pdf, mp4, webm or gif"
 petri render drawn.fl --frames 1 -o x.png --format svg
 check "--format with a file is a wrong command line" status_is 2
 petri render nowhere.fl -o -
-check "no script, no picture" empty out
-check "nothing is left in the folder for such things" [ -z "$(ls -d "$TMPDIR"/petri.* 2>/dev/null)" ]
+check "a missing script writes no picture" empty out
+check "render -o - leaves no temporary files" [ -z "$(ls -d "$TMPDIR"/petri.* 2>/dev/null)" ]
 if script -qec true /dev/null >/dev/null 2>&1 </dev/null; then
     script -qec "$(quoted "$petri") render drawn.fl --frames 1 -o -" /dev/null >out 2>&1 </dev/null
-    check "no picture goes to a terminal" has out "standard output is a terminal"
-    check "and there is a word on what to do" has out ">FILE"
+    check "render -o - does not write to a terminal" has out "'-o -' cannot write to a terminal"
+    check "the message shows how to redirect the output" has out ">FILE"
 fi
 if [ -c /dev/full ]; then
     timeout 100 "$petri" render drawn.fl --frames 1 -o - >/dev/full 2>err </dev/null
@@ -83,23 +83,23 @@ if [ -c /dev/full ]; then
     check "a full device fails" status_is 1
 fi
 
-# logs alone
+# only logs
 printf 'debug(frame) if frame%%%%2==1\n!n a=sqrt(1;2, 3) if frame==3\n' | sed 's/%%/%/' >speaks.fl
 petri run --frames 5 --print log speaks.fl
-check "--print log leaves frames without logs out" out_is "@1 time=0.016666666666666666 beat=0.03333333333333333
+check "--print log omits frames without logs" out_is "@1 time=0.016666666666666666 beat=0.03333333333333333
 > 1
 @3 time=0.05 beat=0.1
 > 3"
 petri run --frames 5 --print error speaks.fl
-check "--print error leaves frames without errors out" [ "$(sed -n 's/^@\([0-9]*\).*/\1/p' out)" = 3 ]
-check "and prints errors" grep -q '^? ' out
+check "--print error omits frames without errors" [ "$(sed -n 's/^@\([0-9]*\).*/\1/p' out)" = 3 ]
+check "--print error prints errors" grep -q '^? ' out
 petri run --frames 5 --print log,error --every 3 speaks.fl
-check "--print log,error leaves out what has neither" [ "$(grep -c '^@' out)" = 1 ]
+check "--print log,error omits frames with neither" [ "$(grep -c '^@' out)" = 1 ]
 petri run --frames 5 --print tree,log speaks.fl
-check "with anything else all frames are printed" [ "$(grep -c '^@' out)" = 5 ]
+check "--print tree,log prints all frames" [ "$(grep -c '^@' out)" = 5 ]
 petri run --frames 5 --print log plain.fl
-check "nothing to log is nothing to print" empty out
+check "--print log without logs prints nothing" empty out
 printf '# run --frames 5 --print log\n' >speaks.golden
 petri test --update speaks.fl
 petri test speaks.fl
-check "a golden of logs alone" has out "1 passed"
+check "a golden can have only logs" has out "1 passed"

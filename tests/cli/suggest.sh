@@ -1,11 +1,11 @@
-# suggest.sh: what is typed wrong, and help on whatever word. Part of run.sh.
+# suggest.sh: tests of suggestions for mistyped command lines, and of help on words. Part of run.sh.
 
 echo '!n a=1' >dish.fl
 mkdir -p shelf
 cp dish.fl shelf/book.fl
 cp dish.fl shelf/lamp.fl
 
-# suggests WORD ARGUMENTS...: the command line is wrong (or the file missing) and the message names what was meant.
+# suggests WORD ARGUMENTS...: the command line is invalid (or the file missing) and the message suggests WORD.
 suggests() {
     word=$1
     shift
@@ -33,23 +33,23 @@ suggests 'petri help tempo' help tmpo
 suggests 'petri help dimensions' help dimension
 cp dish.fl dish.fl.bak
 petri run --frames 1 --print tree dish.fl.bak
-check "a script may be called anything" has out "!n a=1"
+check "a script can have any name" has out "!n a=1"
 petri run dish2
-check "a name like no other is one message" lines_are err 1
+check "an unknown name without a similar one gives one message" lines_are err 1
 petri run shelf
-check "a folder is told to be one" has err "'shelf': it is a directory"
-check "and what is in it" has err "choose a script in it: shelf/book.fl, shelf/lamp.fl"
+check "a folder is reported as a directory" has err "'shelf': it is a directory"
+check "a folder's scripts are suggested" has err "choose a script in it: shelf/book.fl, shelf/lamp.fl"
 petri run ''
 check "an empty name is a wrong command line" status_is 2
-check "an empty name is told" [ "$(cat err)" = "petri: the script name is empty" ]
+check "an empty script name is reported" [ "$(cat err)" = "petri: the script name is empty" ]
 petri ''
-check "also without a command" [ "$(cat err)" = "petri: the script name is empty" ]
+check "an empty script name without a command is reported" [ "$(cat err)" = "petri: the script name is empty" ]
 petri check ''
-check "also to be checked" has err "the script name is empty"
+check "check reports an empty script name" has err "the script name is empty"
 petri run -o x.png dish.fl
-check "another command's option is told to be that" has err "'petri run' has no option '-o', but 'petri render' has"
+check "an option of another command names that command" has err "'petri run' has no option '-o', but 'petri render' has"
 petri view --print tree dish.fl
-check "another command's long option, too" has err "'petri view' has no option '--print', but 'petri run' has"
+check "a long option of another command names that command" has err "'petri view' has no option '--print', but 'petri run' has"
 
 # version and help
 petri --version
@@ -63,7 +63,7 @@ done
 helps() {
     petri help "$2"
     check "help $2 exits with 0" status_is 0
-    check "help $2 says what it is" has out "$1"
+    check "help $2 shows its topic" has out "$1"
 }
 helps 'sin(x)' sin
 helps '!particle (physics)' particle
@@ -75,36 +75,36 @@ helps 'petri run' --frames
 helps '-D, --define' -D
 helps 'at the prompt of petri repl' .step
 petri help random
-check "a name that is a node only" has out "!random (physics)"
+check "help shows a name that is only a node" has out "!random (physics)"
 petri help no-such-thing
-check "no help on something is a wrong command line" status_is 2
+check "help on an unknown topic is a usage error" status_is 2
 # shellcheck disable=SC2013 # words
 for name in $(sed -n 's/^ENGINE_NAME([A-Z_]*, *"\([a-z_]*\)".*/\1/p' "$here/../../lib/program/engine_names.h"); do
     petri help "$name"
-    check "help $name tells of the value" status_is 0
+    check "help $name explains the value" status_is 0
 done
 
-# values that lack their option, options that lack their value
+# values without their option, and options without their value
 petri run dish.fl SIZE=5
-check "NAME=VALUE alone is taken for a definition" has err "'SIZE=5' is not a script; did you mean '-D SIZE=5'?"
+check "NAME=VALUE without -D suggests -D" has err "'SIZE=5' is not a script; did you mean '-D SIZE=5'?"
 petri render dish.fl dish.png
-check "a picture alone is taken for an output" has err "to write it, run: petri render dish.fl -o dish.png"
+check "a picture without -o suggests -o" has err "to write it, run: petri render dish.fl -o dish.png"
 petri view dish.png dish.fl
-check "in whatever order" has err "to write it, run: petri render dish.fl -o dish.png"
+check "a picture before the script suggests -o" has err "to write it, run: petri render dish.fl -o dish.png"
 petri run dish.fl shelf/book.fl
-check "two scripts are told to be two" has err "too many scripts: 'dish.fl' and 'shelf/book.fl'"
+check "a second script is reported" has err "too many scripts: 'dish.fl' and 'shelf/book.fl'"
 petri run dish.fl --frames
-check "an option tells what its value would do" has err "option '--frames' needs a value: N, stop after N frames"
+check "an option without its value shows its help" has err "option '--frames' needs a value: N, stop after N frames"
 petri nodes
-check "a list of help alone is found" has err "did you mean 'petri help nodes'?"
+check "a list of help as a command suggests help" has err "did you mean 'petri help nodes'?"
 petri list
-check "a word like no other suggests nothing" lacks err "did you mean"
+check "a word like no other gives no suggestion" lacks err "did you mean"
 petri test dish.fl
-check "a test without goldens tells where to read of them" has err "see 'petri help test'"
+check "test without goldens points to its help" has err "see 'petri help test'"
 petri
-check "nothing to do tells how to begin" has err "try 'petri new NAME'"
+check "petri without arguments suggests new" has err "try 'petri new NAME'"
 
-# help fits a screen that is not wide, and gives examples
+# help fits a narrow screen and has examples
 for command in run view render repl test check new help; do
     petri help "$command"
     check "help $command fits 112 columns" [ "$(awk 'length > 112' out | wc -l)" -eq 0 ]
@@ -117,9 +117,9 @@ done
 petri help test
 echo '!n a=frame' >made.fl
 sed -n "s/^  echo \\('.*'\\) >dish.golden/echo \\1 >made.golden/p" out >making.sh
-check "how to make a golden" [ "$(wc -l <making.sh)" -eq 1 ]
+check "help test shows one command that creates a golden" [ "$(wc -l <making.sh)" -eq 1 ]
 # shellcheck source=/dev/null
 . ./making.sh
 petri test --update made.fl
 petri test made.fl
-check "makes one" has out "1 passed"
+check "the command in help test creates a golden" has out "1 passed"

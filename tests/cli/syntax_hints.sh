@@ -1,4 +1,5 @@
-# syntax_hints.sh: each habit of syntax_hints.txt is answered with its hint, and what the hint proposes works. Part of run.sh.
+# syntax_hints.sh: tests that each mistake in syntax_hints.txt gets its hint, and that the proposed code works. Part of
+# run.sh.
 
 # hint_field NUMBER ROW
 hint_field() { printf '%s\n' "$2" | awk -F ' ~ ' -v n="$1" '{ print $n }'; }
@@ -13,12 +14,12 @@ while IFS= read -r row; do
     right=$(hint_field 4 "$row")
     printf '%b\n' "$wrong" >habit.fl
     petri check habit.fl
-    check "habit $syntax_hints is told" hint_is_reported "$(hint_field 2 "$row")"
-    check "habit $syntax_hints has its hint" hint_is_proposed "$(hint_field 3 "$row")"
+    check "mistake $syntax_hints is reported" hint_is_reported "$(hint_field 2 "$row")"
+    check "mistake $syntax_hints has its hint" hint_is_proposed "$(hint_field 3 "$row")"
     [ "$right" = - ] && continue
     printf '%b\n' "$right" >habit.fl
     petri check --werror habit.fl
-    check "habit $syntax_hints is right as it is proposed" status_is 0
-    check "habit $syntax_hints is right without a word" lines_are err 1
+    check "the proposed code for mistake $syntax_hints passes" status_is 0
+    check "the proposed code for mistake $syntax_hints has no warnings" lines_are err 1
 done <"$here/syntax_hints.txt"
-check "there are syntax_hints" [ "$syntax_hints" -gt 100 ]
+check "there are more than 100 syntax hints" [ "$syntax_hints" -gt 100 ]

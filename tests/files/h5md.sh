@@ -19,12 +19,12 @@ if frame != 2
 END
 "$work/bare/petri" run pair.fl --frames 2 --trajectory run.h5 >out 2>err </dev/null
 status=$?
-check "a petri without petri-hdf5 writes no H5MD" status_is 1
-check "… and says what it lacks" has err "built without HDF5 (Debian: libhdf5-dev)"
+check "petri without petri-hdf5 cannot write H5MD" status_is 1
+check "petri without petri-hdf5 names the missing library" has err "built without HDF5 (Debian: libhdf5-dev)"
 if [ -x "$(dirname "$petri")/petri-hdf5" ]; then
     petri run pair.fl --trajectory absent/run.h5
-    check "an H5MD file that cannot be made is an error" status_is 1
-    check "… which names the file" has err "cannot write absent/run.h5: No such file"
+    check "an H5MD file in a missing folder is an error" status_is 1
+    check "the message names the H5MD file" has err "cannot write absent/run.h5: No such file"
     echo old >full.h5
     (
         trap '' XFSZ # the disk is full
@@ -32,26 +32,26 @@ if [ -x "$(dirname "$petri")/petri-hdf5" ]; then
         exec timeout 100 "$petri" run pair.fl --frames 5000 --trajectory full.h5 >out 2>err </dev/null
     )
     status=$?
-    check "one that the disk cannot hold is an error" status_is 1
-    check "… told once" count_is err "cannot write full.h5: File too large" 1
-    check "… and nothing else" lines_are err 1
-    check "… the old file is left alone" [ "$(cat full.h5)" = old ]
-    check "… and no half of a new one" [ -z "$(find . -name '*.tmp')" ]
+    check "a full disk makes an H5MD file fail" status_is 1
+    check "a full disk is reported once" count_is err "cannot write full.h5: File too large" 1
+    check "a full disk gives no other message" lines_are err 1
+    check "a full disk does not change the old file" [ "$(cat full.h5)" = old ]
+    check "a full disk leaves no partial file" [ -z "$(find . -name '*.tmp')" ]
     for threads in 1 2; do
         petri run pair.fl --frames 12 --threads $threads --trajectory run$threads.h5
     done
-    check "the same run gives the same bytes" eval 'status_is 0 && cmp run1.h5 run2.h5'
-    check "nothing is left beside it" [ -z "$(find . -name '*.tmp')" ]
+    check "equal runs give equal H5MD files" eval 'status_is 0 && cmp run1.h5 run2.h5'
+    check "H5MD files leave no temporary files" [ -z "$(find . -name '*.tmp')" ]
 fi
 python=/usr/bin/python3
 if [ -x "$(dirname "$petri")/petri-hdf5" ] && $python -I -c 'import h5py' 2>err; then
     read_h5md() { $python -I "$here/../files/h5md.py" "$@" >out 2>err; }
     petri run pair.fl --frames 12 --trajectory run.csv
-    check "H5MD holds what CSV does, as h5py reads it" eval 'read_h5md run1.h5 run.csv || { cat err; false; }'
-    check "… of all systems" has out "3 systems, 20083 particles"
+    check "an H5MD file has the contents of CSV, read by h5py" eval 'read_h5md run1.h5 run.csv || { cat err; false; }'
+    check "an H5MD file contains all systems" has out "3 systems, 20083 particles"
     petri run pair.fl --frames 5 --every 2 --trajectory run.h5md
     petri run pair.fl --frames 5 --every 2 --trajectory run.csv
-    check "… each K-th frame, also as .h5md" eval 'read_h5md run.h5md run.csv || { cat err; false; }'
+    check "a .h5md file contains every K-th frame" eval 'read_h5md run.h5md run.csv || { cat err; false; }'
 
     # Whatever ends the run, the frames that are whole are there.
     printf '!physics state=:c dimensions=2\n    for i in ..300\n        !particle id=i velocity=1;i\n' >w.fl
@@ -72,7 +72,7 @@ if [ -x "$(dirname "$petri")/petri-hdf5" ] && $python -I -c 'import h5py' 2>err;
         wait $job
         status=$?
         check "SIG$signal ends a run" status_is $number
-        check "… whose H5MD file has its frames" kept
+        check "SIG$signal keeps the frames of an H5MD file" kept
         number=$((number == 129 ? 130 : 143))
     done
     mkfifo unread
@@ -95,7 +95,7 @@ if [ -x "$(dirname "$petri")/petri-hdf5" ] && $python -I -c 'import h5py' 2>err;
     status=$?
     exec 7>&-
     check "a second Ctrl-C ends a run at once" status_is 130
-    check "… whose H5MD file has the frames that are whole" kept
+    check "a second Ctrl-C keeps the complete frames of an H5MD file" kept
     stuck
     kill -9 $job
     wait $job 2>/dev/null
@@ -106,5 +106,5 @@ if [ -x "$(dirname "$petri")/petri-hdf5" ] && $python -I -c 'import h5py' 2>err;
         tries=$((tries + 1))
         sleep 0.01
     done
-    check "kill -9 keeps them as well" eval 'status_is 137 && kept'
+    check "kill -9 keeps the complete frames of an H5MD file" eval 'status_is 137 && kept'
 fi

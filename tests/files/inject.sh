@@ -54,7 +54,7 @@ sweep() {
     rm -f target/.petri*
     timeout 100 "$petri" "$@" >out 2>err </dev/null
     status=$?
-    check "$what: and the next run works" eval 'status_is 0 && $good "target/$file"'
+    check "$what: the run after the failures succeeds" eval 'status_is 0 && $good "target/$file"'
 }
 # What stands in the file after a call has failed: the old bytes, which is told, or the new ones.
 judge() {
@@ -66,7 +66,7 @@ judge() {
     check "$1: $now" eval '[ $now = new ] || { [ $now = old ] && [ "$status" -ne 0 ] && [ $told = yes ]; }'
     # The loader of programs does not try again, and nobody expects it of what only looks.
     if [ $error = EINTR ] && [ $call != close ] && [ $call != newfstatat ] && lacks err "shared libraries"; then
-        check "$1, which does not matter" eval '[ $now = new ] && status_is 0'
+        check "$1: EINTR does not affect the run" eval '[ $now = new ] && status_is 0'
     fi
 }
 

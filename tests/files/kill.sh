@@ -32,7 +32,7 @@ kill_often() {
     timeout 100 "$petri" "$@" >out 2>err </dev/null
     status=$?
     span=$((($(date +%s%N) - start) / 1000000))
-    check "$what: undisturbed" eval 'status_is 0 && $good "$file"'
+    check "$what: an undisturbed run succeeds" eval 'status_is 0 && $good "$file"'
     damaged=0
     i=0
     while [ $i -lt $(((kills + 4) / 5)) ]; do
@@ -45,10 +45,10 @@ kill_often() {
         cmp -s "$old" "$file" || $good "$file" || damaged=$((damaged + 1))
         i=$((i + 1))
     done
-    check "$what: killed, it is the old one or the new one" [ $damaged -eq 0 ]
+    check "$what: a killed run leaves the old or the new file" [ $damaged -eq 0 ]
     timeout 100 "$petri" "$@" >out 2>err </dev/null
     status=$?
-    check "$what: and the next run works" eval 'status_is 0 && $good "$file"'
+    check "$what: the run after the killed ones succeeds" eval 'status_is 0 && $good "$file"'
 }
 
 petri run w.fl --frames 3 --state old.state
@@ -67,4 +67,4 @@ if [ "$status" -eq 0 ]; then
         kill_often film a.mp4 old good_film render few.fl --frames 20 -o a.mp4
     fi
 fi
-check "nothing is left" [ -z "$(find . -name '*.tmp')" ]
+check "killed runs leave no temporary files" [ -z "$(find . -name '*.tmp')" ]

@@ -20,8 +20,8 @@ reads() {
     [ "$(sed -n 2p out)" = "!n${wanted:+ a=$wanted}" ]
 }
 check "a script reads below its folder" reads "read('sub/below.txt')" "'below\\n'"
-check "… through a link that stays there" reads "read('inside.txt')" "'below\\n'"
-check "… by an absolute name" reads "read('$work/home/mine.txt')" "'mine\\n'"
+check "a script reads through a link that stays below its folder" reads "read('inside.txt')" "'below\\n'"
+check "a script reads an absolute path below its folder" reads "read('$work/home/mine.txt')" "'mine\\n'"
 mkdir cwd
 echo here >cwd/here.txt
 ln -s ../home cwd/home
@@ -31,37 +31,37 @@ for file in ../away/secret.txt link.txt folder/secret.txt /etc/passwd sub/../../
     printf '!n a=read("%s")\n' "$file" >home/read.fl
     petri run home/read.fl --frames 1 --print tree
     check "a script does not read $file" grep -qx '!n' out
-    check "… which names the place" grep -q 'read.fl:1:6: warning: .*scripts may not read there' err
+    check "the warning has a position and the reason: $file" grep -q 'read.fl:1:6: warning: .*scripts may not read there' err
     folder=$(sed -n "s/.*allow it with '--allow-read \([^']*\)'.*/\1/p" err | sed 's:/proc/.*:/proc:')
     petri run home/read.fl --frames 1 --print tree --allow-read "$folder"
-    check "… unless it may: --allow-read $folder" grep -q '^!n a=' out
+    check "the folder in the hint allows reading: --allow-read $folder" grep -q '^!n a=' out
     petri run home/read.fl --frames 1 --print tree --allow-read all
-    check "… or all may be read" grep -q '^!n a=' out
+    check "--allow-read all allows reading $file" grep -q '^!n a=' out
 done
 printf '!n a=read("../cwd/here.txt")\n' >home/read.fl
 petri run home/read.fl --frames 1 --print tree
-check "the current folder may be read" grep -q '^!n a=' out
+check "a script reads below the current folder" grep -q '^!n a=' out
 mkdir far
 cd far || exit 1
 printf '!n a=glob("../*.txt") b=glob("folder/*") c=csv("../cwd/here.txt",0)\n' >../home/glob.fl
 petri run ../home/glob.fl --frames 2 --print tree
-check "neither glob nor csv look further" grep -qx '!n' out
-check "… each told once" [ "$(grep -c 'scripts may not read there' err)" -eq 3 ]
+check "glob and csv are limited to the allowed folders" grep -qx '!n' out
+check "each denied read is reported once" [ "$(grep -c 'scripts may not read there' err)" -eq 3 ]
 printf 'import y from "../cwd/here.fl"\n%%include "../cwd/here.fl"\n!n a=y\n' >../home/import.fl
 echo 'let y=4' >../here.fl
 petri run ../home/import.fl --frames 1 --print tree
-check "neither import nor include" grep -qx '!n' out
-check "… told" [ "$(grep -c 'scripts may not read there' err)" -eq 2 ]
+check "import and include are limited to the allowed folders" grep -qx '!n' out
+check "each denied import is reported" [ "$(grep -c 'scripts may not read there' err)" -eq 2 ]
 petri run ../home/import.fl --frames 1 --print tree --allow-read ..
-check "… unless they may" grep -qx '!n a=4' out
+check "--allow-read allows import and include" grep -qx '!n a=4' out
 printf '!n a=read("mine.txt") b=glob("*")\n%%include "glob.fl"\n' >../home/none.fl
 petri run ../home/none.fl --frames 1 --print tree --no-files
-check "--no-files: none at all" grep -qx '!n' out
-check "… told" [ "$(grep -c 'file access is disabled (--no-files)' err)" -eq 3 ]
+check "--no-files disables all reading" grep -qx '!n' out
+check "--no-files is reported for each read" [ "$(grep -c 'file access is disabled (--no-files)' err)" -eq 3 ]
 petri run ../home/none.fl --allow-read /no/such/folder
-check "--allow-read wants a folder" status_is 2
+check "--allow-read rejects a missing folder" status_is 2
 petri check ../home/glob.fl
-check "petri check tells as well" [ "$(grep -c 'scripts may not read there' err)" -eq 3 ]
+check "check reports denied reads" [ "$(grep -c 'scripts may not read there' err)" -eq 3 ]
 if command -v strace >/dev/null && strace -qq -o trace true 2>/dev/null; then
     # file_without_openat2 FILE: read on a system that has no such call.
     file_without_openat2() {
@@ -70,9 +70,9 @@ if command -v strace >/dev/null && strace -qq -o trace true 2>/dev/null; then
             --print tree >out 2>err
     }
     file_without_openat2 sub/below.txt
-    check "without openat2 it is the same" eval 'grep -q "a=.below" out && has trace INJECTED'
+    check "reading works without openat2" eval 'grep -q "a=.below" out && has trace INJECTED'
     file_without_openat2 ../cwd/here.txt
-    check "… and so is what is refused" grep -qx '!n' out
+    check "denied reads are denied without openat2" grep -qx '!n' out
 fi
 cd "$work" || exit 1
 
@@ -95,36 +95,36 @@ if [ "$status" -eq 0 ]; then # this build has Cairo
         sub/../../away/new.png folder/back/new.png; do
         record "$file"
         check "a script does not write $file" status_is 1
-        check "… told once with its place, and what would allow it" \
+        check "the error has a position and the option that allows it: $file" \
             [ "$(grep -c "record.fl:2:1[0-9]: error: !record: cannot write .*allow it with '--allow-write $work[/a-z]*'" err)" -eq 1 ]
         ls -l away >after
-        check "… and nothing is written" eval 'cmp -s before after && [ ! -e new.png ]'
+        check "nothing is written outside the folder: $file" eval 'cmp -s before after && [ ! -e new.png ]'
     done
     record pipe.png
-    check "nor a pipe" eval 'status_is 1 && [ -p home/pipe.png ]'
+    check "a script does not write to a pipe" eval 'status_is 1 && [ -p home/pipe.png ]'
     record ../away/new.png --allow-read "$work/away"
-    check "--allow-read is none to write" status_is 1
+    check "--allow-read does not allow writing" status_is 1
     for file in own.png sub/own.png stays.png; do
         record "$file"
         check "a script writes below its folder: $file" eval 'status_is 0 && [ -s "home/$file" ]'
     done
-    check "… where a link leads that stays there" eval '[ -L home/stays.png ] && [ -s home/sub/there.png ]'
+    check "a script writes through a link that stays below its folder" eval '[ -L home/stays.png ] && [ -s home/sub/there.png ]'
     record ../away/new.png --allow-write away
-    check "… and where it may: --allow-write" eval 'status_is 0 && [ -s away/new.png ]'
+    check "--allow-write allows writing" eval 'status_is 0 && [ -s away/new.png ]'
     record link.png --allow-write away
-    check "… through a link, which stays" eval 'status_is 0 && [ -L home/link.png ] && grep -q PNG away/keep.png'
+    check "--allow-write allows writing through a link, which is kept" eval 'status_is 0 && [ -L home/link.png ] && grep -q PNG away/keep.png'
     record own.png --no-files
-    check "--no-files: nothing is written" status_is 1
+    check "--no-files disables writing" status_is 1
     petri render home/record.fl --frames 1 -o away/named.png --no-files
-    check "… but what the command line names" status_is 1
+    check "--no-files makes the run fail if the script writes" status_is 1
     petri render disc.fl --frames 1 -o away/named.png --no-files
-    check "… is written anywhere" eval 'status_is 0 && [ -s away/named.png ]'
+    check "--no-files does not limit the output of the command line" eval 'status_is 0 && [ -s away/named.png ]'
     printf '!window size=40\n    !canvas\n        !image filename="../disc.png"\n        !rect size=5\n' >home/image.fl
     cd cwd || exit 1
     petri render ../home/image.fl --frames 1 -o image.png
-    check "an image out of reach is left out" eval 'status_is 0 && grep -q "image.fl:3:16: warning: !image: cannot read" err'
+    check "an image outside the allowed folders is not drawn" eval 'status_is 0 && grep -q "image.fl:3:16: warning: !image: cannot read" err'
     petri render ../home/image.fl --frames 1 -o allowed.png --allow-read ..
-    check "… and drawn where it may be" eval 'status_is 0 && empty err && ! cmp -s image.png allowed.png'
+    check "--allow-read allows an image" eval 'status_is 0 && empty err && ! cmp -s image.png allowed.png'
     cd "$work" || exit 1
 fi
 
@@ -137,11 +137,11 @@ for options in '--trajectory ../elsewhere/victim.csv' '--state ../elsewhere/new.
     printf '# run --frames 2 %s\n' "$options" >golden/t.golden
     petri test golden/t.fl
     check "a golden with $options fails" status_is 1
-    check "… and says why" has out "is not allowed in goldens: tests write no files"
+    check "a rejected golden gives the reason: $options" has out "is not allowed in goldens: tests write no files"
     petri test --update golden/t.fl
-    check "… is not updated either" status_is 1
-    check "… and writes nothing" eval '[ "$(cat elsewhere/*)" = keep ]'
+    check "--update rejects a golden with $options" status_is 1
+    check "a rejected golden writes no files: $options" eval '[ "$(cat elsewhere/*)" = keep ]'
 done
 printf '# run --frames 1 -D a=--state --allow-read .. --print tree\n@0 time=0 beat=0\n!n\n' >golden/t.golden
 petri test golden/t.fl
-check "a golden may have those that read, and values like them" status_is 0
+check "a golden can have options that read, and values that look like other options" status_is 0

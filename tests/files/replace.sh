@@ -9,18 +9,18 @@ printf '# run --frames 1 --print tree\n@0 time=0 beat=0\n!n a=0\n' >g/t.golden
 for device in null full; do
     before=$(ls -l /dev/$device)
     petri test --junit /dev/$device g
-    check "--junit /dev/$device leaves the device" [ "$before" = "$(ls -l /dev/$device)" ]
+    check "--junit /dev/$device keeps the device" [ "$before" = "$(ls -l /dev/$device)" ]
 done
-check "… and tells that it is full" eval 'status_is 1 && has err "cannot write /dev/full: No space left on device"'
+check "--junit reports a full device" eval 'status_is 1 && has err "cannot write /dev/full: No space left on device"'
 petri test --junit /dev/stdout g
-check "--junit /dev/stdout goes to standard output" eval 'status_is 0 && has out "<testsuite" && has out "1 passed"'
+check "--junit /dev/stdout writes to standard output" eval 'status_is 0 && has out "<testsuite" && has out "1 passed"'
 timeout 100 "$petri" test --junit /dev/stdout g 2>err </dev/null | cat >out
-check "… to a pipe as well" eval 'has out "<testsuite" && has out "1 passed"'
+check "--junit /dev/stdout writes to a pipe" eval 'has out "<testsuite" && has out "1 passed"'
 mkfifo pipe
 cat pipe >got &
 petri test --junit pipe g
 wait
-check "--junit to a pipe with a name" eval '[ -p pipe ] && has got "<testsuite"'
+check "--junit writes to a named pipe" eval '[ -p pipe ] && has got "<testsuite"'
 mkdir folder
 petri test --junit folder g
 check "--junit to a folder is an error" eval 'status_is 1 && has err "Is a directory" && [ -d folder ]'
@@ -28,16 +28,16 @@ echo old >real
 chmod 640 real
 ln -s real link
 petri test --junit link g
-check "a symbolic link stays one" eval '[ -L link ] && has real "<testsuite"'
-check "permissions stay" [ "$(mode_of real)" = -rw-r----- ]
+check "a symbolic link is kept" eval '[ -L link ] && has real "<testsuite"'
+check "permissions are kept" [ "$(mode_of real)" = -rw-r----- ]
 ln -s nowhere dangling
 petri test --junit dangling g
-check "… one that leads nowhere as well" eval '[ -L dangling ] && has nowhere "<testsuite"'
+check "a dangling symbolic link is kept and its target is created" eval '[ -L dangling ] && has nowhere "<testsuite"'
 ln -s round round
 petri test --junit round g
-check "links in a circle are told" eval 'status_is 1 && has err "Too many levels of symbolic links"'
+check "links in a circle are reported" eval 'status_is 1 && has err "Too many levels of symbolic links"'
 (umask 077 && timeout 100 "$petri" test --junit private g >out 2>err)
-check "new files have the permissions of the umask" [ "$(mode_of private)" = -rw------- ]
+check "new files get the permissions of the umask" [ "$(mode_of private)" = -rw------- ]
 if [ "$(id -u)" -eq 0 ] && chown 12:34 real 2>/dev/null; then
     petri test --junit real g
     check "root keeps the owner" eval 'ls -ln real | grep -q " 12 *34 "'
@@ -55,29 +55,29 @@ printf '!n a=2\n' >g/t.fl
     ulimit -f 0
     exec timeout 100 "$petri" test --update g/t.fl >out 2>err </dev/null
 )
-check "a golden that the disk cannot hold stays as it was" has g/recorded "!n a=1"
+check "a full disk does not change a golden" has g/recorded "!n a=1"
 
 petri run g/t.fl --frames 3 --state link.state
 ln -s s.state link2.state
 petri run g/t.fl --frames 3 --state link2.state
-check "a state is kept through a link" eval '[ -L link2.state ] && has s.state petri-state'
+check "a state is written through a link" eval '[ -L link2.state ] && has s.state petri-state'
 chmod 600 s.state
 petri run g/t.fl --frames 3 --state link2.state
-check "… with its permissions" [ "$(mode_of s.state)" = -rw------- ]
+check "a state keeps its permissions" [ "$(mode_of s.state)" = -rw------- ]
 printf '!physics state=:c dimensions=2\n    !particle id=1 velocity=1\n' >p.fl
 mkfifo run.csv
 cat run.csv >got &
 petri run p.fl --frames 3 --trajectory run.csv
 wait
-check "a trajectory may go to a pipe" eval 'status_is 0 && [ -p run.csv ] && lines_are got 4'
+check "a trajectory can be written to a pipe" eval 'status_is 0 && [ -p run.csv ] && lines_are got 4'
 petri new g/t
-check "petri new leaves what is there" eval 'status_is 1 && has g/t.fl "!n a=2"'
-check "nothing is left" nothing_beside
+check "petri new does not overwrite a file" eval 'status_is 1 && has g/t.fl "!n a=2"'
+check "replaced files leave no temporary files" nothing_beside
 # What a run that was killed has left goes with the next file; what is not ours, or not left, stays.
 mkdir left
 : >left/.petri-0123456789abcdef.tmp
 : >left/.petri-mine.tmp
 echo old >left/results
 petri test --junit left/results g
-check "what was left behind is cleared away" eval '[ "$(ls -A left | tr "\n" " ")" = ".petri-mine.tmp results " ]'
+check "temporary files of a killed run are removed, and no others" eval '[ "$(ls -A left | tr "\n" " ")" = ".petri-mine.tmp results " ]'
 rm left/.petri-mine.tmp

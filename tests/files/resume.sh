@@ -45,39 +45,39 @@ for format in $formats; do
         petri run w.fl --frames $frames --state s --trajectory $way
     done
     rest $way
-    check "$format: five runs that go on make one trajectory" eval 'status_is 0 && empty err && same $way'
+    check "$format: five consecutive runs make one trajectory" eval 'status_is 0 && empty err && same $way'
     petri run w.fl --frames 0 --state s --trajectory $way
-    check "$format: no further frame changes nothing" eval 'status_is 0 && same $way'
+    check "$format: a run of 0 frames changes nothing" eval 'status_is 0 && same $way'
     cp $way longer.$format
 
     # A state from before: what is later is made again.
     rm -f s
     petri run w.fl --frames 33 --state s --trajectory short.$format
     rest longer.$format
-    check "$format: what is later than the state is made again" eval 'status_is 0 && same longer.$format'
+    check "$format: frames later than the state are computed again" eval 'status_is 0 && same longer.$format'
     rm -f s
     rest short.$format
-    check "$format: without a state a trajectory begins" eval 'status_is 0 && same short.$format'
+    check "$format: a run without a state starts a new trajectory" eval 'status_is 0 && same short.$format'
 
     # From a file that stopped before, which is told.
     rm -f s
     petri run w.fl --frames 3 --state s --trajectory $way
     petri run w.fl --frames 4 --state s
     petri run w.fl --frames 4 --state s --trajectory $way
-    check "$format: frames that are missing are told" has err "frames 3 to 6 are missing in $way, which continues with frame 7"
+    check "$format: missing frames are reported" has err "frames 3 to 6 are missing in $way, which continues with frame 7"
     petri run w.fl --frames 5 --every 5 --state s --trajectory $way
-    check "… not those that --every leaves out" empty err
+    check "$format: frames that --every omits are not reported as missing" empty err
 
     echo something else >other.$format
     petri run w.fl --frames 2 --state s --trajectory other.$format
-    check "$format: a file of another kind is refused" status_is 1
-    check "… which is told" has err "cannot continue other.$format: not a file that --trajectory writes"
-    check "… left alone" [ "$(cat other.$format)" = "something else" ]
+    check "$format: a file of another kind is rejected" status_is 1
+    check "$format: a file of another kind is reported" has err "cannot continue other.$format: not a file that --trajectory writes"
+    check "$format: a file of another kind is not modified" [ "$(cat other.$format)" = "something else" ]
     echo bad >bad.state
     petri run w.fl --frames 2 --state bad.state --trajectory $way.copy.$format
     cp $way before
     petri run w.fl --frames 2 --state bad.state --trajectory $way
-    check "$format: with a state that cannot be read it is left alone" eval 'status_is 1 && cmp before $way'
+    check "$format: an unreadable state leaves the trajectory unchanged" eval 'status_is 1 && cmp before $way'
 
     # Killed: petri alone, or with petri-hdf5, at any moment.
     rm -f s $way
@@ -93,8 +93,8 @@ for format in $formats; do
         i=$((i + 1))
     done 2>/dev/null
     rest $way
-    check "$format: killed, and gone on to the end, it is the same" eval 'status_is 0 && empty err && same $way'
-    check "… and nothing is left beside it" [ -z "$(find . -name '*.tmp' -o -name '*.part')" ]
+    check "$format: a run that is killed and resumed gives the same trajectory" eval 'status_is 0 && empty err && same $way'
+    check "$format: killed runs leave no temporary files" [ -z "$(find . -name '*.tmp' -o -name '*.part')" ]
 done
 if [ -x "$h5md" ] && [ -e /proc/$$/task/$$/children ]; then
     rm -f s run.h5
@@ -104,10 +104,10 @@ if [ -x "$h5md" ] && [ -e /proc/$$/task/$$/children ]; then
     kill -9 $(cat /proc/$job/task/*/children)
     wait $job
     status=$?
-    check "without petri-hdf5 the run ends" status_is 1
-    check "… which is told" has err "petri-hdf5, which writes the file, was ended by signal 9"
+    check "the run ends if petri-hdf5 is killed" status_is 1
+    check "the end of petri-hdf5 is reported" has err "petri-hdf5, which writes the file, was ended by signal 9"
     petri run w.fl --frames 1 --state s --trajectory run.h5
-    check "… and the next goes on" eval 'status_is 0 && empty err'
+    check "the next run resumes after petri-hdf5 was killed" eval 'status_is 0 && empty err'
 fi
 rm -f s
 (
@@ -116,8 +116,8 @@ rm -f s
     exec timeout 100 "$petri" run w.fl --frames 100 --state s --save-every 3 --trajectory full.csv >out 2>err </dev/null
 )
 status=$?
-check "a trajectory that the disk cannot hold ends the run" status_is 1
-check "… and no state is later than it" eval '[ "$(made)" -gt 3 ] && [ "$(made)" -lt 100 ]'
+check "a full disk ends a run with a trajectory" status_is 1
+check "no saved state is later than the trajectory" eval '[ "$(made)" -gt 3 ] && [ "$(made)" -lt 100 ]'
 rest full.csv
-check "… the same command goes on when there is room" eval 'status_is 0 && same full.csv'
+check "the same command resumes after a full disk" eval 'status_is 0 && same full.csv'
 cd "$work" || exit 1

@@ -11,32 +11,32 @@ check "a program with libpetri links" [ $? -eq 0 ]
 LD_LIBRARY_PATH=$(dirname "$PKG_CONFIG_PATH") # where it is installed the loader knows
 export LD_LIBRARY_PATH
 version=$("$prefix/bin/petri" --version | sed 's/petri //')
-check "and runs" [ "$(./app)" = "$version" ]
+check "a program with libpetri runs" [ "$(./app)" = "$version" ]
 LC_ALL=C readelf -d app >out
-check "with the shared one" has out "Shared library: [libpetri.so.0.3]"
+check "a program with libpetri uses the shared library" has out "Shared library: [libpetri.so.0.3]"
 # shellcheck disable=SC2046 # options are words
 cc app.c -o app_static $(pkg-config --cflags petri) -L"$LD_LIBRARY_PATH" -l:libpetri.a -lm -lpthread >out 2>&1
 check "a program with the static libpetri links" [ $? -eq 0 ]
-check "and runs alone" [ "$(env -u LD_LIBRARY_PATH ./app_static)" = "$version" ]
+check "a program with the static libpetri runs without other libraries" [ "$(env -u LD_LIBRARY_PATH ./app_static)" = "$version" ]
 # The samples, as their first lines say.
 embed="$prefix/share/petri/samples/embed"
 # shellcheck disable=SC2046 # options are words
 cc -std=c11 -Wall -Wextra -Werror "$embed/speed.c" -o speed $(pkg-config --cflags --libs petri) -lm >out 2>&1
 check "the sample in C compiles" [ $? -eq 0 ]
 ./speed >out 2>&1
-check "runs" [ $? -eq 0 ]
-check "moves its particles" [ "$(grep -c -e '^  0: 1000 particles, age 0, mean speed 0.00$' \
+check "the sample in C runs" [ $? -eq 0 ]
+check "the sample in C moves its particles" [ "$(grep -c -e '^  0: 1000 particles, age 0, mean speed 0.00$' \
     -e '^120: 1000 particles, age 2, mean speed [1-9][0-9]*\.[0-9][0-9]$' out)" -eq 2 ]
 if command -v c++ >/dev/null; then
     # shellcheck disable=SC2046 # options are words
     c++ -std=c++17 -Wall -Wextra -Werror "$embed/steer.cpp" -o steer $(pkg-config --cflags --libs petri) >out 2>&1
     check "the sample in C++ compiles" [ $? -eq 0 ]
-    check "and steers" [ "$(./steer 2>&1 | tail -n 1)" = "240:  -0.333  25.463" ]
+    check "the sample in C++ steers its particles" [ "$(./steer 2>&1 | tail -n 1)" = "240:  -0.333  25.463" ]
 else
     echo "skipped: the sample in C++, for which there is no compiler"
 fi
 pkg-config --libs petri >out
-check "without what draws" [ "$(grep -c -e pango -e cairo -e jpeg -e draw out)" -eq 0 ]
+check "linking libpetri needs no drawing libraries" [ "$(grep -c -e pango -e cairo -e jpeg -e draw out)" -eq 0 ]
 cat >draws.c <<'EOF'
 #include <petri-draw.h>
 int main(void) {
@@ -60,7 +60,7 @@ cc draws.c -o draws $(pkg-config --cflags --libs petri-draw) >out 2>&1
 check "a program with libpetri-draw links" [ $? -eq 0 ]
 ./draws
 status=$?
-check "and draws, if it can" [ $status -eq "$([ "$2" = draws ] && echo 0 || echo 2)" ]
+check "a program with libpetri-draw draws, or reports that it cannot" [ $status -eq "$([ "$2" = draws ] && echo 0 || echo 2)" ]
 if command -v cmake >/dev/null; then
     cat >CMakeLists.txt <<'EOF'
 cmake_minimum_required(VERSION 3.16)
@@ -72,13 +72,13 @@ add_executable(draws draws.c)
 target_link_libraries(draws petri::draw)
 EOF
     { cmake -S . -B cmake -DCMAKE_PREFIX_PATH="$prefix" && cmake --build cmake; } >out 2>&1
-    check "CMake builds them" [ $? -eq 0 ]
-    check "and the program runs" [ "$(env -u LD_LIBRARY_PATH cmake/app)" = "$version" ]
+    check "CMake builds programs with libpetri and libpetri-draw" [ $? -eq 0 ]
+    check "the program that CMake built runs" [ "$(env -u LD_LIBRARY_PATH cmake/app)" = "$version" ]
     ./cmake/draws
-    check "and draws like the other" [ $? -eq $status ]
+    check "the program that CMake built draws" [ $? -eq $status ]
     sed -i 's/petri 0.3/petri 0.2/' CMakeLists.txt
     cmake -S . -B cmake >out 2>&1
-    check "but not where another version is wanted" has out 'requested version "0.2"'
+    check "CMake rejects another minor version" has out 'requested version "0.2"'
 else
     echo "skipped: CMake, which is not there"
 fi

@@ -20,27 +20,27 @@ quiet_pages() {
 lint() { mandoc -T lint -W warning "$1" >&2; }
 formatted() { man --warnings -E UTF-8 -l -Tutf8 "$1"; }
 if command -v mandoc >/dev/null; then
-    check "mandoc finds nothing wrong" quiet_pages lint
+    check "mandoc reports nothing" quiet_pages lint
     # shows PAGE TEXT: the page has it when it is read.
     shows() { mandoc -T utf8 -O width=200 "$share/man/$1" | sed 's/.\x08//g' >out && has out "$2"; }
-    check "a command's page has its options" shows man1/petri-run.1 "--trajectory FILE"
-    check "with their help" shows man1/petri-run.1 "print and record each K-th frame"
-    check "and examples" shows man1/petri-run.1 "petri run dish.fl -D DROPS=50 --frames 100"
-    check "that of the prompt has its commands" shows man1/petri-repl.1 ".until EXPR"
-    check "that of the language has words" shows man5/petri.5 "%pragma tempo N"
-    check "and functions" shows man5/petri.5 "uniform(value=null)"
-    check "and nodes" shows man5/petri.5 "!electrostatic"
-    check "and attributes" shows man5/petri.5 "max_distance"
+    check "the page of a command has its options" shows man1/petri-run.1 "--trajectory FILE"
+    check "the page of a command has the help of options" shows man1/petri-run.1 "print and record every K-th frame"
+    check "the page of a command has examples" shows man1/petri-run.1 "petri run dish.fl -D DROPS=50 --frames 100"
+    check "the page of the prompt has its commands" shows man1/petri-repl.1 ".until EXPR"
+    check "the page of the language has words" shows man5/petri.5 "%pragma tempo N"
+    check "the page of the language has functions" shows man5/petri.5 "uniform(value=null)"
+    check "the page of the language has nodes" shows man5/petri.5 "!electrostatic"
+    check "the page of the language has attributes" shows man5/petri.5 "max_distance"
     for name in $(sed -n 's/^\(.*[ *]\)\{0,1\}\(petri_[a-z_]*\)(.*/\2/p' "$prefix/include/petri.h"); do
         grep -q "$(echo "$name" | sed 's/-/\\\\-/g')(" "$share/man/man3/petri.h.3" || echo "$name"
     done >out
-    check "that of the header has all functions" empty out
-    check "and what they promise" shows man3/petri.h.3 "A session is used by one thread at a time"
+    check "the page of the header has all functions" empty out
+    check "the page of the header has its comments" shows man3/petri.h.3 "A session is used by one thread at a time"
 else
     without "the pages" mandoc
 fi
 if command -v man >/dev/null && command -v groff >/dev/null; then
-    check "man has no warning" quiet_pages formatted
+    check "man gives no warning" quiet_pages formatted
 else
     without "the pages once more" "man or groff"
 fi
@@ -55,16 +55,16 @@ touch one.fl two.txt
 mkdir -p folder
 if command -v bash >/dev/null; then
     check "bash completes commands" [ "$(completes petri re)" = "render repl" ]
-    check "options" [ "$(completes petri run --traj)" = --trajectory ]
-    check "of this command only" [ -z "$(completes petri check --traj)" ]
-    check "and of a script without command" [ "$(completes petri one.fl --traj)" = --trajectory ]
-    check "words" [ "$(completes petri run --neighbours n)" = never ]
-    check "lists of words" [ "$(completes petri run --print tree,h)" = tree,hash ]
-    check "words behind an equals sign" [ "$(completes petri run --color = al)" = always ]
-    check "folders" [ "$(completes petri run --allow-read fol)" = folder ]
-    check "scripts" [ "$(completes petri run o)" = one.fl ]
-    check "no other files" [ -z "$(completes petri run tw)" ]
-    check "topics of help" [ "$(completes petri help electro)" = electrostatic ]
+    check "bash completes options" [ "$(completes petri run --traj)" = --trajectory ]
+    check "bash completes only options of the command" [ -z "$(completes petri check --traj)" ]
+    check "bash completes options of run after a script" [ "$(completes petri one.fl --traj)" = --trajectory ]
+    check "bash completes option values" [ "$(completes petri run --neighbours n)" = never ]
+    check "bash completes lists of values" [ "$(completes petri run --print tree,h)" = tree,hash ]
+    check "bash completes values after an equals sign" [ "$(completes petri run --color = al)" = always ]
+    check "bash completes folders" [ "$(completes petri run --allow-read fol)" = folder ]
+    check "bash completes scripts" [ "$(completes petri run o)" = one.fl ]
+    check "bash completes no other files as scripts" [ -z "$(completes petri run tw)" ]
+    check "bash completes topics of help" [ "$(completes petri help electro)" = electrostatic ]
 else
     without "its completion" bash
 fi
@@ -72,11 +72,11 @@ fish_completion=$share/fish/vendor_completions.d/petri.fish
 offers() { HOME=$work fish --no-config -c "source '$fish_completion'; complete -C '$1'" 2>&1 | cut -f 1 | xargs; }
 if command -v fish >/dev/null; then
     check "fish completes commands" [ "$(offers 'petri re')" = "render repl" ]
-    check "options" [ "$(offers 'petri run --traj')" = --trajectory ]
-    check "of this command only" [ -z "$(offers 'petri check --traj')" ]
-    check "words" [ "$(offers 'petri run --neighbours n')" = never ]
-    check "lists of words" [ "$(offers 'petri run --print tree,h')" = tree,hash ]
-    check "topics of help" [ "$(offers 'petri help electro')" = electrostatic ]
+    check "fish completes options" [ "$(offers 'petri run --traj')" = --trajectory ]
+    check "fish completes only options of the command" [ -z "$(offers 'petri check --traj')" ]
+    check "fish completes option values" [ "$(offers 'petri run --neighbours n')" = never ]
+    check "fish completes lists of values" [ "$(offers 'petri run --print tree,h')" = tree,hash ]
+    check "fish completes topics of help" [ "$(offers 'petri help electro')" = electrostatic ]
 else
     without "its completion" fish
 fi

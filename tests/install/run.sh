@@ -11,28 +11,28 @@ export SHELL
 helps() { "$1" help 2>&1 | tee out | grep -q 'usage: petri'; }
 
 DESTDIR=$work/made meson install -C "$build" --no-rebuild >log 2>&1
-check "meson install" [ $? -eq 0 ]
+check "meson install succeeds" [ $? -eq 0 ]
 binary=$(find made -path '*/bin/petri')
 [ -n "$binary" ] || { cat log; echo "FAIL nothing is installed"; exit 1; }
 mkdir "with blanks"
 mv "$(dirname "$(dirname "$binary")")" "with blanks/prefix"
 prefix="$work/with blanks/prefix"
-check "the command runs" sh -c "'$prefix/bin/petri' run --frames 1 '$prefix/share/petri/samples/hello.fl' >out 2>&1"
-check "it finds what draws, though it was moved" helps "$prefix/bin/petri"
+check "a moved petri runs scripts" sh -c "'$prefix/bin/petri' run --frames 1 '$prefix/share/petri/samples/hello.fl' >out 2>&1"
+check "a moved petri finds petri-pictures" helps "$prefix/bin/petri"
 mkdir links
 ln -s "$prefix/bin/petri" links/dish
-check "and so does a link to it" helps links/dish
-check "nothing but petri is in the way of other commands" [ "$(ls "$prefix/bin")" = petri ]
+check "petri finds petri-pictures if it is called through a link" helps links/dish
+check "only petri is installed in bin" [ "$(ls "$prefix/bin")" = petri ]
 
 mkdir lone
 cp "$prefix/bin/petri" lone
-check "a lone copy runs scripts" lone/petri run --frames 1 "$prefix/share/petri/samples/petri.fl"
+check "a copy of petri alone runs scripts" lone/petri run --frames 1 "$prefix/share/petri/samples/petri.fl"
 lone/petri view x.fl >out 2>&1
-check "but cannot show them" [ $? -eq 1 ]
-check "it names what it lacks" has out petri-pictures
-check "and where it has to be" has out "$work/lone/"
-check "or may be" has out "$work/libexec"
-check "in one line" [ "$(wc -l <out)" -eq 1 ]
+check "a copy of petri alone cannot show scripts" [ $? -eq 1 ]
+check "the message names petri-pictures" has out petri-pictures
+check "the message names the folder of the copy" has out "$work/lone/"
+check "the message names the libexec folder" has out "$work/libexec"
+check "the message is one line" [ "$(wc -l <out)" -eq 1 ]
 
 # hint PATH [NAME=VALUE]: how the petri that is called so says, at a terminal, that a picture is kept.
 hint() {
@@ -47,16 +47,16 @@ if [ "$2" = draws ] && script -qec true /dev/null >/dev/null 2>&1 </dev/null; th
     cp "$build/src/petri" "$build/src/petri-pictures" build/src
     ln -s src/petri build/petri
     for way in build/petri ./build/petri "$work/build/petri" "$prefix/bin/petri" links/dish; do
-        check "the hint of $way works" sh_works "$(hint "$way")"
+        check "the hint for $way works" sh_works "$(hint "$way")"
     done
-    check "of a build folder it is short" [ "$(hint "$work/build/petri")" = "build/petri render dish.fl -o OUT.png" ]
+    check "the hint for a build folder is a relative path" [ "$(hint "$work/build/petri")" = "build/petri render dish.fl -o OUT.png" ]
     cd build/src || exit 1
     cp ../../dish.fl .
-    check "also beside the program" [ "$(hint "$work/build/src/petri")" = "./petri render dish.fl -o OUT.png" ]
+    check "the hint in the folder of the program is a relative path" [ "$(hint "$work/build/src/petri")" = "./petri render dish.fl -o OUT.png" ]
     cd "$work" || exit 1
     PATH="$prefix/bin:$PATH"
-    check "of an installed petri it is the name" [ "$(hint petri)" = "petri render dish.fl -o OUT.png" ]
-    check "which works" sh_works "$(hint petri)"
+    check "the hint for an installed petri is its name" [ "$(hint petri)" = "petri render dish.fl -o OUT.png" ]
+    check "the hint for an installed petri works" sh_works "$(hint petri)"
     cp dish.fl "it's a dish.fl"
     script -qec "petri run --frames 1 \"it's a dish.fl\"" /dev/null </dev/null 2>/dev/null | tr -d '\r' >out
     check "the script's name is quoted" has out "petri view 'it'\\''s a dish.fl'"
