@@ -1,12 +1,12 @@
 #!/bin/sh
-# formulas.sh PETRI ROOT: are the formulas of ROOT/lib/physics/README.md what the engine does? And do the facts of
-# facts.fl hold, in nodes `!fact name=… holds=1`?
+# formulas.sh PETRI ROOT: compares the formulas of ROOT/lib/physics/README.md with the engine. Also checks the facts of
+# facts.fl: each node `!fact name=… holds=1` is one that holds.
 #
 # ```formula NAME ARGUMENTS    belongs to ROOT/tests/docs/figures/NAME.fl, which measures a force and compares it with
-#                              its `func formula(ARGUMENTS)`, in a node `!compared values=N difference=PART`
-# The script is run as it is, and once more with a formula that is made from the text of the block: lines `NAME = EXPR`
-# are intermediate results, lines `F = EXPR if CONDITION` the cases of the result, with or without `if` in the last.
-# Scripts without a block are run as they are.
+#                              its `func formula(ARGUMENTS)`, in a node `!compared values=N difference=FRACTION`
+# The script is run unchanged, and again with a formula made from the block: lines `NAME = EXPR` are intermediate
+# results, lines `F = EXPR if CONDITION` the cases of the result. The last case may have no `if`. Scripts without a block
+# are only run unchanged.
 set -u
 LC_ALL=C.UTF-8
 export LC_ALL
@@ -17,10 +17,10 @@ work=$(mktemp -d "${TMPDIR:-/tmp}/petri-formulas.XXXXXX") || exit 1
 trap 'rm -rf "$work"' EXIT
 trap 'exit 1' INT TERM HUP
 cp -R "$figures/." "$work"
-least=13       # formulas
-least_facts=18
+min_formulas=13
+min_facts=18
 
-# One file NAME.formula for each block, in Flitter.
+# Writes each block as Flitter code to NAME.formula.
 sed -e '/^```formula/,/^```$/{
         s/₀/0/g; s/₁/1/g; s/₂/2/g
         s/·/*/g; s/−/-/g; s/²/**2/g; s/\^/**/g; s/≤/<=/g; s/≥/>=/g; s/√(/sqrt(/g; s/½/0.5/g; s/μ/mu/g; s/δ/delta/g
@@ -51,14 +51,15 @@ sed -e '/^```formula/,/^```$/{
 
 passed=0
 failed=0
-judge() { # NAME WHICH
+# judge NAME WHICH: runs a script and checks the differences that it reports.
+judge() {
     got=$("$petri" run --frames 3 --every 2 --print tree "$work/$1.fl" 2>&1 | grep -E '^!compared|warning:|error:' | tail -n 1)
     if echo "$got" | awk '{ sub(/.*values=/, ""); split($0, part, " difference=")
                             exit !(part[1] >= 5 && part[2] != "" && part[2] <= 1e-12) }'; then
         passed=$((passed + 1))
     else
         failed=$((failed + 1))
-        echo "$1: the formula of $2 is not what the engine does: $got"
+        echo "$1: the engine differs from the formula of $2: $got"
     fi
 }
 
@@ -77,32 +78,32 @@ done
 for formula in "$work"/*.formula; do
     [ -f "${formula%.formula}.fl" ] || {
         failed=$((failed + 1))
-        echo "$(basename "$formula" .formula): no script measures this formula"
+        echo "$(basename "$formula" .formula): no script checks this formula"
     }
 done
-# What `petri help` says of the forces, and the manual and editors, is that text.
+# `petri help`, the manual and editors must show the same formulas.
 "$petri" help nodes | sed -n 's/^  !\([a-z]*\): .*/@\1/p; s/^    \([^ !].*\)/\1/p' >"$work/help"
 awk '/^```formula/ && $2 !~ /^(stability|ease)$/ { print "@" $2; on = 1; next } /^```/ { on = 0 } on' "$reference" |
     awk '/^@/ { name = $0; next } { print name, $0 }' | sort >"$work/wanted"
-awk '/^@/ { name = $0; next } { print name, $0 }' "$work/help" | sort >"$work/said"
-if cmp -s "$work/wanted" "$work/said" && [ "$(cut -d" " -f 1 "$work/said" | uniq | wc -l)" -ge 11 ]; then
+awk '/^@/ { name = $0; next } { print name, $0 }' "$work/help" | sort >"$work/printed"
+if cmp -s "$work/wanted" "$work/printed" && [ "$(cut -d" " -f 1 "$work/printed" | uniq | wc -l)" -ge 11 ]; then
     passed=$((passed + 1))
 else
     failed=$((failed + 1))
-    echo "petri help nodes has other formulas: $(diff "$work/wanted" "$work/said" | head -n 3)"
+    echo "petri help nodes has other formulas: $(diff "$work/wanted" "$work/printed" | head -n 3)"
 fi
 "$petri" run --frames 3 --every 2 --print tree "$2/tests/docs/facts.fl" >"$work/facts" 2>&1
 sed '1,/^@2 /d' "$work/facts" >"$work/last"
 facts=$(grep -c '^!fact .* holds=1$' "$work/last")
 passed=$((passed + facts))
 wrong=$(grep '^!fact ' "$work/last" | grep -v ' holds=1$')
-if [ -n "$wrong" ] || [ "$facts" -lt $least_facts ]; then
+if [ -n "$wrong" ] || [ "$facts" -lt $min_facts ]; then
     failed=$((failed + 1))
-    echo "facts.fl: $facts of at least $least_facts facts hold: $(head -n 1 "$work/facts")"
+    echo "facts.fl: $facts facts hold, expected at least $min_facts: $(head -n 1 "$work/facts")"
     echo "$wrong"
 fi
-if [ $formulas -lt $least ]; then
-    echo "found $formulas formulas, expected at least $least: has the form of the blocks changed?"
+if [ $formulas -lt $min_formulas ]; then
+    echo "found $formulas formulas, expected at least $min_formulas; has the form of the blocks changed?"
     failed=$((failed + 1))
 fi
 echo "$passed passed, $failed failed"

@@ -1,11 +1,10 @@
 #!/bin/sh
-# nodes.sh PETRI ROOT: do the references have each node, attribute and default that `petri help nodes` tells of, and no
-# others?
+# nodes.sh PETRI ROOT: checks that the references have exactly the nodes, attributes and defaults of `petri help nodes`.
 #
-# A node has a heading of its own, "## `!kind`" of any level; two may share one. Below it stand
-#   | `attribute` | default | …     one row for each attribute, or for several of the same default; "–" for no default
-#   Also: [text](#heading), …       all attributes of the tables under those headings, and of what these have also
-# Rows under other headings count for nodes that name them only.
+# A node has a heading "## `!kind`" of any level, which two nodes may share. Below it are
+#   | `attribute` | default | …     a row for each attribute, or for several with the same default; "–" means no default
+#   Also: [text](#heading), …       adds the attributes of the tables under those headings, and of their "Also:" lines
+# Rows under other headings count only for nodes that refer to them.
 set -u
 LC_ALL=C.UTF-8
 COLUMNS=1000
@@ -18,7 +17,7 @@ work=$(mktemp -d "${TMPDIR:-/tmp}/petri-nodes.XXXXXX") || exit 1
 trap 'rm -rf "$work"' EXIT
 trap 'exit 1' INT TERM HUP
 
-# Lines `kind`, and `kind attribute default` for each area.
+# Writes lines `kind` and `kind attribute default` to AREA.help.
 "$1" help nodes | awk -v work="$work" '
     /^[a-z]/ { area = $1 }
     /^  !/ { kind = $1; sub(/:$/, "", kind); print kind > (work "/" area ".help") }
@@ -26,7 +25,7 @@ trap 'exit 1' INT TERM HUP
         name = $1
         line = $0
         sub(/^ +[^ ]+ +/, "", line)
-        # The type may hold no parenthesis; what follows the default is its meaning.
+        # The type contains no parenthesis. The default, in parentheses, precedes the explanation.
         fallback = "–"
         if (match(line, /^[^(:]*(:[a-z]+[^(:]*)*\(/)) {
             rest = substr(line, RLENGTH + 1)
@@ -38,7 +37,7 @@ trap 'exit 1' INT TERM HUP
         print kind, name, fallback > (work "/" area ".help")
     }'
 
-# For awk: what a heading is linked by.
+# An awk function that returns the anchor of a heading.
 slug='
     function slug(text) {
         text = tolower(text)
@@ -47,8 +46,8 @@ slug='
         return text
     }'
 
-# The same from a document.
-read_document() { # FILES, as if they were one
+# Prints the same lines from a document.
+read_document() { # FILE..., which are treated as one document
     awk "$slug"'
         /^```/ { code = !code }
         code { next }
@@ -107,19 +106,19 @@ failed=0
 checked=0
 compare() { # AREA ROOT DOCUMENT [ANOTHER]
     sort "$work/$1.help" >"$work/help"
-    read_document "$2/$3" ${4:+"$2/$4"} | sort >"$work/told"
+    read_document "$2/$3" ${4:+"$2/$4"} | sort >"$work/documented"
     checked=$((checked + $(wc -l <"$work/help")))
-    comm -23 "$work/help" "$work/told" >"$work/missing"
-    comm -13 "$work/help" "$work/told" >"$work/surplus"
-    sed "s|^|$3: help has, and the reference has not: |" "$work/missing"
-    sed "s|^|$3: the reference has, and help has not: |" "$work/surplus"
+    comm -23 "$work/help" "$work/documented" >"$work/missing"
+    comm -13 "$work/help" "$work/documented" >"$work/surplus"
+    sed "s|^|$3: missing in the reference: |" "$work/missing"
+    sed "s|^|$3: missing in petri help: |" "$work/surplus"
     failed=$((failed + $(cat "$work/missing" "$work/surplus" | wc -l)))
 }
 compare physics "$2" lib/physics/README.md
 compare canvas "$2" lib/canvas/README.md lib/gl/README.md
 compare canvas3d "$2" lib/gl/SCENE.md
 
-# Excerpts "```flitter NAME.png" of the scripts of pictures: their lines follow each other in tests/pictures/NAME.fl.
+# Excerpts "```flitter NAME.png" must be consecutive lines of tests/pictures/NAME.fl.
 awk -v work="$work" '
     /^```flitter [a-z_]+\.png$/ { name = $2; sub(/\.png$/, "", name); file = work "/" ++count "." name ".excerpt"; next }
     /^```$/ { file = "" }
@@ -145,7 +144,7 @@ for excerpt in "$work"/*.excerpt; do
     }
 done
 
-# What the references link to beside them must be there.
+# Files that the references link to must exist.
 for document in lib/physics/README.md lib/canvas/README.md lib/gl/README.md lib/gl/SCENE.md; do
     folder=$2/$(dirname "$document")
     for target in $(grep -o '](\([^)#]*\)' "$2/$document" | sed 's/^](//' | sort -u); do
@@ -156,7 +155,7 @@ for document in lib/physics/README.md lib/canvas/README.md lib/gl/README.md lib/
         }
     done
 done
-# … and so must headings that they name.
+# Headings that the references link to must exist.
 for document in lib/physics/README.md lib/canvas/README.md lib/gl/README.md lib/gl/SCENE.md; do
     awk -v document="$document" "$slug"'
         /^```/ { code = !code }
@@ -177,7 +176,7 @@ done >"$work/anchors"
 cat "$work/anchors"
 failed=$((failed + $(wc -l <"$work/anchors")))
 if [ $checked -lt 250 ]; then
-    echo "found $checked nodes, attributes and links, expected at least 250: has the form changed?"
+    echo "found $checked nodes, attributes and links, expected at least 250; has the form changed?"
     failed=$((failed + 1))
 fi
 echo "$((checked - failed)) passed, $failed failed"

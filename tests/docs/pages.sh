@@ -4,26 +4,26 @@
 #
 # Each page is read from top to bottom in a separate folder. For a page of samples/ it contains the samples; for other
 # pages it contains samples, lib and build, as the project's root does.
-#   ```flitter NAME.fl          a script of that name is written; `petri check --werror` must have nothing to say, nor a
-#                               run of three frames
-#   ```flitter NAME.fl warns    a script with warnings is written, and not checked
-#   ```c NAME.c                 a file of that name is written
-#   ```console                  lines `$ COMMAND` are run; the lines after one are what it writes (a line `...` stands
-#                               for any number of lines)
-#   ![…](PATH/NAME.png)         if a command before made NAME.png, it must have the size of the stored picture and about
-#                               as much in it; --update stores what was made
-#   [text](PATH#HEADING)        there is such a file with such a heading
-# A failure is a line with the place in the page. Too few examples are also a failure.
+#   ```flitter NAME.fl          writes a script of that name; `petri check --werror` and a run of three frames must print
+#                               no diagnostics
+#   ```flitter NAME.fl warns    writes a script that has warnings and is not checked
+#   ```c NAME.c                 writes a file of that name
+#   ```console                  runs lines `$ COMMAND`; the following lines are the expected output, in which a line
+#                               `...` matches any number of lines
+#   ![…](PATH/NAME.png)         if an earlier command made NAME.png, it must have the size in pixels of the stored picture
+#                               and about its file size; --update stores the new picture
+#   [text](PATH#HEADING)        the file and the heading must exist
+# A failure is a line with the position in the page. Too few examples are also a failure.
 #
-# Videos took nine tenths of the time, so they have only 13 frames, and only their size is compared. PAGES=whole makes
-# complete ones; CI does.
+# Videos would take nine tenths of the time, so they have only 13 frames, and only their size is compared. PAGES=whole
+# makes complete videos, as in CI.
 set -u
 LC_ALL=C.UTF-8
 export LC_ALL
 
 pages='README.md CONTRIBUTING.md src/README.md samples/README.md samples/TUTORIAL.md samples/RECIPES.md
     samples/TROUBLESHOOTING.md tests/README.md tests/bench/README.md tests/bench/PEERS.md src/web/README.md'
-least=600
+min_examples=600
 
 [ $# -ge 2 ] || { echo "usage: pages.sh PETRI ROOT [--update]" >&2 && exit 2; }
 petri=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
@@ -48,7 +48,7 @@ petri render "$work/empty.fl" --frames 1 -o "$work/empty.png" >"$work/out" 2>&1 
 can_film=yes
 command -v ffmpeg >/dev/null || can_film=
 
-# A library with sanitizers in it takes options that the page does not have.
+# Linking a library with sanitizers would need options that the pages do not show.
 build=$(dirname "$(dirname "$(readlink -f "$petri")")")
 can_link=
 if ! nm "$build/lib/session/libpetri.a" 2>/dev/null | grep -q -e __asan -e __ubsan; then
@@ -63,7 +63,7 @@ bad() { # PLACE TEXT
     echo "$1: $2"
 }
 
-# Splits a page into steps: lines `LINE KIND N WORDS…`, in order; N.text has a script, N.command and N.want a command.
+# Splits a page into steps, lines `LINE KIND N WORDS…` in order. N.text has a script, N.command and N.want a command.
 split() { # PAGE FOLDER
     awk -v folder="$2" '
         function step(kind, words) { print NR, kind, ++count, words > (folder "/steps") }
@@ -116,7 +116,7 @@ split() { # PAGE FOLDER
         END { if (fence != "") step("fault", "the block of line " opened " is not closed") }' "$1"
 }
 
-# The first line in which a command's output differs from what the page shows; nothing if it does not.
+# Prints the first difference between the output of a command and the page; nothing if they agree.
 difference() { # WANT GOT
     awk 'FILENAME == ARGV[1] { want[++wants] = $0; next }
          { sub(/[ \t]+$/, ""); got[++gots] = $0 }
@@ -146,9 +146,9 @@ run_script() { # PLACE TEXT NAME WARNS
     cp "$2" "$3"
     [ -z "${4:-}" ] || return 0
     if ! petri check --werror "$3" >out 2>&1 </dev/null; then
-        bad "$1" "petri check says: $(head -n 1 out)"
+        bad "$1" "petri check: $(head -n 1 out)"
     elif ! timeout 60 petri run --frames 3 --print error "$3" >out 2>&1 </dev/null || grep -q ': warning: ' out; then
-        bad "$1" "petri run says: $(grep -m 1 warning out || head -n 1 out)"
+        bad "$1" "petri run: $(grep -m 1 warning out || head -n 1 out)"
     else
         good
     fi
@@ -171,7 +171,7 @@ run_command() { # PLACE COMMAND WANT
     if [ -n "$fault" ]; then bad "$1" "$fault"; else good; fi
 }
 
-# Width and height, as bytes, of a PNG or GIF file.
+# Prints the bytes of width and height of a PNG or GIF file.
 size_of() {
     case $1 in
     *.gif) od -An -tu1 -j6 -N4 "$1" ;;
@@ -183,7 +183,7 @@ compare_picture() { # PLACE LINK FOLDER-OF-PAGE
     stored=$3/$2
     made=${2##*/}
     if [ ! -e "$made" ]; then
-        if [ -e "$stored" ]; then good; else bad "$1" "there is no $2, and no command makes it"; fi
+        if [ -e "$stored" ]; then good; else bad "$1" "no such picture: $2; no command makes it"; fi
         return
     fi
     if [ "$update" = --update ]; then
@@ -205,7 +205,7 @@ compare_picture() { # PLACE LINK FOLDER-OF-PAGE
     fi
 }
 
-# The headings of a page as links name them.
+# Prints the headings of a page in the form of links.
 headings() { # PAGE
     sed -n '/^```/,/^```/d; s/^##* //p' "$1" | tr '[:upper:] ' '[:lower:]-' | tr -d '!-,./:-@[-^`{-~'
 }
@@ -214,9 +214,9 @@ follow_link() { # PLACE PAGE LINK
     target=$(dirname "$2")/${3%%#*}
     [ "${3%%#*}" ] || target=$2
     if [ ! -e "$target" ]; then
-        bad "$1" "there is no $3"
+        bad "$1" "no such file: $3"
     elif [ "${3#*#}" != "$3" ] && ! headings "$target" | grep -qxF -e "${3#*#}"; then
-        bad "$1" "no heading is called $3"
+        bad "$1" "no such heading: $3"
     else
         good
     fi
@@ -250,7 +250,7 @@ for page in $pages; do
     done <"$folder/steps.d/steps"
 done
 
-# Other tests run the examples of these pages.
+# Only links are checked here; other tests run the examples of these pages.
 for page in $linked; do
     folder=$work/linked/$page
     mkdir -p "$folder"
@@ -261,8 +261,8 @@ for page in $linked; do
     done <"$folder/steps"
 done
 
-if [ $((passed + failed)) -lt $least ]; then
-    echo "found $((passed + failed)) examples, expected at least $least: has the form of the blocks changed?"
+if [ $((passed + failed)) -lt $min_examples ]; then
+    echo "found $((passed + failed)) examples, expected at least $min_examples; has the form of the blocks changed?"
     [ -z "$can_draw$can_film" ] || failed=$((failed + 1))
 fi
 echo "$passed passed, $failed failed"

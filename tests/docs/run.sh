@@ -1,23 +1,22 @@
 #!/bin/sh
 # run.sh PETRI ROOT: runs the examples of the documents below ROOT that are listed here, and of src/manual/.
 #
-# Fenced blocks that are read:
+# Fenced blocks:
 #   ```flitter-eval       lines `EXPRESSION => RESULT`; RESULT is the printed value, or `error` if it must be rejected
-#   ```flitter            a script; the block that follows it is
-#   ```tree [FRAME]       its printed tree (for frame 0 unless a frame is named), or `error` if it must be rejected
-#   ```state FRAME        what is in the state after that frame: lines KEY = VALUE as `petri run --print state` has them, or
-#                         KEY = null for what is not there; keys that are not named are not compared. Warnings are not
-#                         allowed.
-#   ```flitter NAME.fl    a file of that name, for other examples to import or include
-#   ```flitter NAME.png   an excerpt of a script, which nodes.sh looks after
-# A failure is one line with the place in the document. Too few examples are a failure too: a broken extraction passes
-# everything it does not find.
+#   ```flitter            a script, followed by one of the next two blocks
+#   ```tree [FRAME]       the printed tree of the frame (default: 0), or `error` if the script must be rejected
+#   ```state FRAME        the state after the frame: lines KEY = VALUE of `petri run --print state`, or KEY = null for a
+#                         missing key; other keys are not compared; warnings are not allowed
+#   ```flitter NAME.fl    a file of that name, which other examples import or include
+#   ```flitter NAME.png   an excerpt of a script, which nodes.sh checks
+# A failure is a line with the position in the document. Too few examples are also a failure, because a broken extraction
+# would find none.
 set -u
 LC_ALL=C.UTF-8
 export LC_ALL
 
 documents="grammar/README.md README.md lib/physics/README.md lib/canvas/README.md lib/gl/README.md lib/gl/SCENE.md"
-least=100
+min_examples=100
 if [ $# -ne 2 ]; then
     echo "usage: run.sh PETRI ROOT" >&2
     exit 2
@@ -33,8 +32,8 @@ work=$(mktemp -d "${TMPDIR:-/tmp}/petri-docs.XXXXXX") || exit 1
 trap 'rm -rf "$work"' EXIT
 trap 'exit 1' INT TERM HUP
 
-# Splits one document into $work/N.fl, $work/N.want and a line `N PLACE FRAME KIND` in $work/cases for each example. What is
-# wrong with the document itself becomes a line of $work/faults.
+# Splits a document. Each example becomes $work/N.fl, $work/N.want and a line `N POSITION FRAME KIND` in $work/cases. Errors
+# in the document become lines of $work/faults.
 extract() { # FILE NAME FIRST
     awk -v name="$2" -v work="$work" -v count="$3" '
         function fault(line, text) { print name ":" line ": " text >> (work "/faults") }
@@ -56,7 +55,7 @@ extract() { # FILE NAME FIRST
             want = substr(text, at + 4)
             if (want != "error")
                 want = want == "null" ? "!value" : "!value is=" want
-            # The closing parenthesis has a line of its own: the expression may end in a comment.
+            # The closing parenthesis is on the next line, because the expression may end with a comment.
             add(line, "!value is=(" substr(text, 1, at - 1) "\n)\n", want "\n", 0, "tree")
         }
         function unpaired() {
@@ -99,7 +98,7 @@ extract() { # FILE NAME FIRST
         }' "$1"
 }
 
-# Runs a script to a frame; what it prints (of that frame alone) goes to $work/last.
+# Runs a script to a frame and writes the output of that frame to $work/last.
 play() { # N FRAME KIND
     "$petri" run --print "$3" --frames $(($2 + 1)) --every $(($2 > 0 ? $2 : 1)) "$work/$1.fl" >"$work/out" 2>"$work/err"
     status=$?
@@ -107,7 +106,7 @@ play() { # N FRAME KIND
     return $status
 }
 
-# What the state has for each key that is wanted, and the first warning.
+# Prints the state of each expected key, and the first warning.
 run_state() { # N FRAME
     play "$1" "$2" state || echo "exit status $?"
     grep -m 1 -E ': (warning|error): ' "$work/err"
@@ -116,7 +115,7 @@ run_state() { # N FRAME
          { print key($0) in state ? state[key($0)] : key($0) " = null" }' "$work/last" "$work/$1.want"
 }
 
-# The tree of the last frame printed, or `error` if the script was rejected as it should be.
+# Prints the tree of the last frame, or `error` if the script was rejected with a diagnostic.
 run_tree() { # N FRAME
     play "$1" "$2" tree
     status=$?
@@ -129,7 +128,7 @@ run_tree() { # N FRAME
     fi
 }
 
-# The first line in which two texts differ.
+# Prints the first difference between two texts.
 explain() { # WANT GOT
     awk 'FILENAME == ARGV[1] { want[FNR] = $0; wants = FNR; next }
          { got[FNR] = $0; gots = FNR }
@@ -162,8 +161,8 @@ while read -r number place frame kind; do
     fi
 done <"$work/cases"
 
-if [ $((passed + failed)) -lt $least ]; then
-    echo "found $((passed + failed)) examples, expected at least $least: has the form of the blocks changed?"
+if [ $((passed + failed)) -lt $min_examples ]; then
+    echo "found $((passed + failed)) examples, expected at least $min_examples; has the form of the blocks changed?"
     failed=$((failed + 1))
 fi
 echo "$passed passed, $failed failed"

@@ -1,6 +1,6 @@
 #!/bin/sh
-# samples.sh PETRI ROOT: what all samples have in common: `petri check` has nothing to say, there are parameters, each of
-# which says what it is and from where to where it goes, and at both ends of each the sample runs without a message.
+# samples.sh PETRI ROOT: checks all samples: `petri check` prints nothing, every parameter has a comment and a range, and
+# the sample runs without messages at both ends of the range.
 set -u
 LC_ALL=C.UTF-8
 export LC_ALL
@@ -23,11 +23,11 @@ check() { # NAME COMMAND...
         echo "FAIL $name: $(head -n 2 "$work/out")"
     fi
 }
-silent() { # COMMAND...: succeeds without a word
+silent() { # COMMAND...: succeeds without output
     "$@" && [ ! -s "$work/out" ]
 }
 
-check "petri check is silent" "$petri" check --werror samples
+check "petri check prints nothing" "$petri" check --werror samples
 for script in samples/*.fl; do
     "$petri" run --parameters "$script" </dev/null >"$work/parameters" 2>"$work/err"
     check "$script has parameters" [ -s "$work/parameters" ]
@@ -38,7 +38,7 @@ for script in samples/*.fl; do
         *) check "$script: $parameter has a range" false ;;
         esac
         for end in "${range%%..*}" "${range##*..}"; do
-            check "$script with $parameter=$end" \
+            check "$script runs silently with $parameter=$end" \
                 silent "$petri" run --frames 5 -D "$parameter=$end" "$script" --print error
         done
         check "$script: the default of $parameter is within its range" \
@@ -47,6 +47,6 @@ for script in samples/*.fl; do
     done <"$work/parameters"
 done
 
-[ $passed -ge 100 ] || check "there are samples and parameters enough: $passed checks" false
+[ $passed -ge 100 ] || check "at least 100 checks were made, not $passed" false
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]

@@ -1,9 +1,9 @@
 #!/bin/bash
-# hashes.sh [--check] COMMAND...: what the scripts of both conformance corpora come to, one line each: the first 16
-# digits of the SHA-256 of what `COMMAND run` prints, which is tree, log and the hash of the state in the golden's frames.
+# hashes.sh [--check] COMMAND...: prints a result hash for each script of both conformance corpora: the first 16 digits
+# of the SHA-256 of the output of `COMMAND run`, that is, tree, log and state hash of the golden's frames.
 #
-# COMMAND is a petri of any build, in an emulator or not: all must print the same lines. --check compares them with
-# corpora.txt, which `./dev hashes --update` writes, and names the scripts that differ.
+# COMMAND is any build of petri, perhaps in an emulator; all builds must print the same lines. --check compares them with
+# corpora.txt, which `./dev hashes --update` writes, and lists the scripts that differ.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 mode=print
@@ -15,20 +15,20 @@ fi
     echo "usage: $0 [--check] COMMAND..." >&2
     exit 2
 }
-# It is run in another folder.
+# Paths in COMMAND become absolute, because it is run in another folder.
 command=()
 for word; do
     [ "${word#/}" != "$word" ] || [ ! -f "$word" ] || word=$PWD/$word
     command+=("$word")
 done
 cd "$here/../conformance"
-"${command[@]}" --version >/dev/null # rather than a failure for each script
+"${command[@]}" --version >/dev/null # fails once instead of for each script
 
-# hash_of FOLDER/NAME: the line of that script.
+# hash_of FOLDER/NAME: prints the line of a script.
 hash_of() {
     local first hash
     read -r first <"$1.golden"
-    eval "set -- $1 ${first#\# run}" # the quotes in a golden are those of a shell
+    eval "set -- $1 ${first#\# run}" # options in a golden are quoted for a shell
     if hash=$(cd "${1%/*}" && "${command[@]}" run --threads 1 "${@:2}" --print tree,log,hash "${1##*/}.fl" 2>/dev/null |
         sha256sum); then
         echo "$1.fl ${hash:0:16}"
@@ -37,7 +37,7 @@ hash_of() {
     fi
 }
 
-# As many scripts at a time as there are processors.
+# Runs as many scripts in parallel as there are processors.
 all_hashes() {
     local goldens=(*/*.golden) jobs job i
     jobs=$(nproc)
@@ -55,7 +55,7 @@ fi
 differing=$(all_hashes | LC_ALL=C comm -3 - "$here/corpora.txt" | awk '{ print $1 }' | uniq)
 count=$(grep -c . <<<"$differing") || true
 if [ "$count" -gt 0 ]; then
-    echo "other than in tests/hashes/corpora.txt; if that is meant: ./dev hashes --update"
+    echo "different from tests/hashes/corpora.txt; if intended, run: ./dev hashes --update"
     echo "$differing"
 fi
 echo "hashes: $(wc -l <"$here/corpora.txt") scripts, $count differ"

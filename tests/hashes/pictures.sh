@@ -1,5 +1,5 @@
 #!/bin/sh
-# pictures.sh: the same pixels from each build and at each level of processor on this machine, OpenGL's among them.
+# pictures.sh: checks that all builds draw the same pixels at each processor level of this machine, also with OpenGL.
 # usage: tests/hashes/pictures.sh PATH-OF-PETRI... (builds by different compilers, each with its petri-pictures)
 # shellcheck source=tests/support/check.sh
 . "$(dirname "$0")/../support/check.sh"
@@ -21,10 +21,10 @@ for petri; do
         PETRI_CPU=$cpu "$petri" render "$here/picture.fl" --frames 9 -o "$number.png" >out 2>err
         status=$?
         check "$petri draws at $cpu" status_is 0
-        [ "$number" -eq 1 ] || check "$petri at $cpu: the same bytes" cmp 1.png "$number.png"
+        [ "$number" -eq 1 ] || check "$petri draws the same bytes at $cpu" cmp 1.png "$number.png"
     done
 done
-# What is drawn is none of those that are left out, and no black square.
+# Reports if nodes that need OpenGL were omitted, and checks that the picture is not empty.
 lacks err needs-gpu || echo "without OpenGL"
-check "there is something to see" eval '[ "$(wc -c <1.png)" -gt 8000 ]'
+check "the picture is not empty" eval '[ "$(wc -c <1.png)" -gt 8000 ]'
 finish

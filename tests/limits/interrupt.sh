@@ -1,20 +1,20 @@
 #!/bin/sh
-# interrupt.sh PETRI: Ctrl-C in the middle of what takes long is answered soon. The times are printed; what is checked
-# is generous, for the machine may have much else to do.
+# interrupt.sh PETRI: checks that Ctrl-C soon ends long operations. Prints the times; the limits are generous, because
+# the machine may be busy.
 set -u
 # shellcheck source=tests/support/check.sh
 . "$(dirname "$0")/../support/check.sh"
 petri=$(program "$1") || exit 2
 scratch
 
-# interrupted NAME SCRIPT [ARGUMENTS...]: a run of a script without limits, or what the arguments say, ended by Ctrl-C
-# in its midst. Without a script, that of before.
+# interrupted NAME SCRIPT [ARGUMENTS...]: runs a script without limits (default: `run --frames 3`) and interrupts it.
+# With SCRIPT '', uses the previous script.
 interrupted() {
     name=$1
     [ -z "$2" ] || printf '%b\n' "$2" >long.fl
     shift 2
     [ $# -gt 0 ] || set -- run --frames 3
-    # What a script starts in the background ignores SIGINT unless told otherwise.
+    # Background processes of a script ignore SIGINT by default.
     env --default-signal=INT "$petri" "$@" --work 1000T --memory 3G --threads "$threads" --quiet long.fl >out 2>err </dev/null &
     job=$!
     sleep 0.4
@@ -59,7 +59,7 @@ for threads in 1 2; do
         interrupted "a drawing" "$window        for i in ..1e6\n            !rect size=3000 point=i;0\n            !fill color=1;0;0;0.1" \
             render --frame 0 -o picture.png
         ! command -v ffmpeg >/dev/null || interrupted "a film's frame" "" render --frames 9 -o picture.mp4
-        check "a drawing leaves nothing" [ -z "$(ls -A | grep picture)" ]
+        check "an interrupted drawing leaves no files" [ -z "$(ls -A | grep picture)" ]
         interrupted "a series" "" render --frames 1000 -o picture%d.png
         interrupted "a save" '!window size=8000\n    !canvas\n        !rect size=4000\n        !fill color=1;0;0' \
             render --frame 0 -o picture.png
@@ -70,5 +70,5 @@ for threads in 1 2; do
 done
 sort -n times | awk '{ t[NR] = $1 } END { print "median " t[int((NR + 1) / 2)] " ms, worst " t[NR] " ms"; exit t[NR] > 5000 }'
 status=$?
-check "each is answered" status_is 0
+check "each interrupt is answered within 5 s" status_is 0
 finish

@@ -1,22 +1,22 @@
 #!/bin/sh
-# limits.sh PETRI: scripts that ask for more than there is, by few words: each ends, within 3 GiB, with a diagnostic that
-# tells where, and status 1; or it is found a way to do it. A quarter of what a script may take without options is told
-# in the same way, and sooner; with LIMITS=whole there are no options, as in .ci/run.
+# limits.sh PETRI: short scripts that need too much work or memory. Each must end within 3 GiB of address space with a
+# diagnostic that has a position and with status 1, or must succeed. To save time, the limits are a quarter of the default
+# ones; LIMITS=whole uses the defaults, as .ci/run does.
 set -u
 # shellcheck source=tests/support/check.sh
 . "$(dirname "$0")/../support/check.sh"
 petri=$(program "$1") || exit 2
 scratch
 cp "$here"/*.fl .
-# The address sanitizer takes terabytes of addresses for itself.
+# The address sanitizer reserves terabytes of address space.
 limit=3145728
 (ulimit -v $limit && "$petri" --version) >/dev/null 2>&1 || limit=unlimited
 
-# runs KIBIBYTES ARGUMENTS...: status and output are kept. The seconds are for a machine that has much else to do.
+# runs KIBIBYTES ARGUMENTS...: runs petri and sets `status`; the output is in out and err. The timeout is for a busy machine.
 runs() {
-    most=$1
+    max=$1
     shift
-    (ulimit -v "$most" && exec timeout -s KILL 100 "$petri" "$@") >out 2>err </dev/null
+    (ulimit -v "$max" && exec timeout -s KILL 100 "$petri" "$@") >out 2>err </dev/null
     status=$?
 }
 quarter() {
@@ -25,24 +25,24 @@ quarter() {
     *) [ "$1" = work-limit ] && echo "--work 256M" || echo "--memory 512M" ;;
     esac
 }
-# refused SCRIPT CODE ARGUMENTS...
+# refused SCRIPT CODE ARGUMENTS...: checks that the run fails with the diagnostic CODE and a position.
 refused() {
     script=$1
     code=$2
     shift 2
     # shellcheck disable=SC2046 # an option and its value, or none
     runs $limit "$@" $(quarter "$code")
-    check "$script is given up" status_is 1
-    check "$script: the place is told" grep -Eq "^$script\.fl:[0-9]+:[0-9]+: error: .*\[$code\]" err
+    check "$script is aborted" status_is 1
+    check "$script: the diagnostic has a position" grep -Eq "^$script\.fl:[0-9]+:[0-9]+: error: .*\[$code\]" err
 }
-# fits KIBIBYTES SCRIPT ARGUMENTS...
+# fits KIBIBYTES SCRIPT ARGUMENTS...: checks that the run succeeds.
 fits() {
-    most=$1
+    max=$1
     script=$2
     shift 2
-    [ $limit = unlimited ] && most=unlimited
-    runs "$most" "$@"
-    check "$script is done" status_is 0
+    [ $limit = unlimited ] && max=unlimited
+    runs "$max" "$@"
+    check "$script succeeds" status_is 0
 }
 
 for script in in_quadratic group_dag steps gravity noise octnoise random collide; do
@@ -53,30 +53,30 @@ for script in state_memory concat counters particles systems sorts debug_dag; do
 done
 refused gradient work-limit render --frame 0 gradient.fl -o picture.png
 refused canvas_dag memory-limit render --frame 0 canvas_dag.fl -o picture.png
-check "nothing is written" [ ! -e picture.png ]
+check "an aborted drawing writes no file" [ ! -e picture.png ]
 refused print_dag memory-limit run --frames 1 --print tree print_dag.fl
 fits $limit eq_dag run --frames 1 eq_dag.fl
 fits $limit seed_dag run --frames 1 seed_dag.fl
 fits 1000000 system_leak run --frames 20000 system_leak.fl
 
-# A chain of modules has an end, and so has what is looked up on the way.
+# A chain of imports has a maximum length.
 i=0
 while [ $i -lt 3000 ]; do
     echo "import a from 'm$((i + 1)).fl'" >m$i.fl
     i=$((i + 1))
 done
 fits $limit imports run --frames 2 m0.fl
-check "nested imports are told" has err "imports nested too deeply"
+check "too deeply nested imports are reported" has err "imports nested too deeply"
 
-# The limits can be set.
+# Options set the limits.
 echo '!a x=len(i for i in ..(1000+frame))' >loop.fl
 runs $limit run --frames 1 --work 500 loop.fl
 check "--work lowers the limit" has err "the frame exceeded its limit of 500 work units"
 runs $limit run --frames 1 --work 1G in_quadratic.fl
-check "--work raises it" has err "its limit of 1073741824 work units"
+check "--work raises the limit" has err "its limit of 1073741824 work units"
 echo '!a x=len((..2e7)+frame)' >power.fl
 runs $limit run --frames 1 --memory 100M power.fl
 check "--memory lowers the limit" has err "the frame exceeded its memory limit of 100 MiB"
 runs $limit run --frames 1 --memory none loop.fl
-check "--memory none is refused" status_is 2
+check "--memory none is rejected" status_is 2
 finish

@@ -1,4 +1,4 @@
-// check.h: cmocka with the headers it needs, and assertions that name the row of the table that failed.
+// check.h: cmocka with the headers it needs, and assertions that name the failed row of a table.
 #ifndef PETRI_TESTS_CHECK_H
 #define PETRI_TESTS_CHECK_H
 
@@ -22,7 +22,7 @@ static inline void check_text(const char *row, const char *found, const char *wa
     _fail(file, line);
 }
 
-// The same number: equal with the same sign, or both nan.
+// Checks that two numbers are equal and have the same sign, or that both are NaN.
 static inline void check_number(const char *row, double found, double wanted, const char *file, int line) {
     if ((found == wanted && signbit(found) == signbit(wanted)) || (isnan(found) && isnan(wanted)))
         return;
@@ -37,7 +37,7 @@ static inline void check_claim(const char *row, bool holds, const char *claim, c
     _fail(file, line);
 }
 
-// `row` is a text that tells the row of the table.
+// `row`: text that identifies the row of the table.
 #define assert_text(row, found, wanted) check_text(row, found, wanted, __FILE__, __LINE__)
 #define assert_number(row, found, wanted) check_number(row, found, wanted, __FILE__, __LINE__)
 #define assert_claim(row, claim) check_claim(row, claim, #claim, __FILE__, __LINE__)

@@ -1,15 +1,15 @@
-# check.sh: checks that are counted, for tests in shell. Sourced; `here` is the folder of the test, `root` the project.
+# check.sh: counted checks for shell tests. Sourced. Sets `here`, the folder of the test, and `root`, the project.
 unset CDPATH
 here=$(cd "$(dirname "$0")" && pwd)
 root=${here%/tests/*}
-# A test that is started by hand gets the environment that meson gives it.
+# A test started by hand restarts itself in the environment that meson provides.
 [ "${PETRI_TESTS:-}" = clean ] || exec "$root/.ci/clean-env" "$here/$(basename "$0")" "$@"
 passed=0
 failed=0
 failures=
 status=
 
-# check NAME COMMAND...: the command must succeed. `status` is told if the test keeps exit statuses there.
+# check NAME COMMAND...: checks that the command succeeds. On failure prints `status` if the test has set it.
 check() {
     name=$1
     shift
@@ -26,21 +26,21 @@ check() {
     fi
 }
 
-# print_details: what helps to see why a check has failed; tests may have one of their own.
+# print_details: prints the start of the files out and err after a failure. Tests may replace it.
 print_details() {
     for output_file in out err; do
         [ ! -s "$output_file" ] || head -c 600 "$output_file" | sed "s/^/  $output_file: /"
     done
 }
 
-# finish: what failed once more, since of a long log only the end is kept; the last line, and the status of the test.
+# finish: prints the failures again, since only the end of a long log is shown, and the summary. Returns the status.
 finish() {
     printf '%s' "$failures"
     echo "$passed passed, $failed failed"
     [ "$failed" -eq 0 ]
 }
 
-# scratch: goes into a new folder, `work`, which is gone when the test ends.
+# scratch: changes to a new folder, `work`, which is removed when the test ends.
 scratch() {
     work=$(mktemp -d) || exit 1
     trap 'chmod -R u+rwx "$work"; rm -rf "$work"' EXIT
@@ -48,7 +48,7 @@ scratch() {
     cd "$work" || exit 1
 }
 
-# program PATH: the same from the root; ends the test if there is no such program.
+# program PATH: prints the absolute path of a program. Exits with 2 if it does not exist.
 program() {
     if [ ! -x "$1" ]; then
         echo "usage: $0 PATH-OF-PETRI ..." >&2
@@ -67,5 +67,5 @@ empty() { [ ! -s "$1" ]; }
 exists() { [ -e "$1" ]; }
 count_is() { [ "$(grep -Fc -e "$2" "$1")" -eq "$3" ]; }
 lines_are() { [ "$(wc -l <"$1")" -eq "$2" ]; }
-# repeat COUNT TEXT
+# repeat COUNT TEXT: prints the text COUNT times.
 repeat() { awk -v n="$1" -v s="$2" 'BEGIN { for (i = 0; i < n; i++) printf "%s", s }'; }

@@ -12,7 +12,7 @@
 
 typedef struct Folder {
     char path[200];
-    char file[600]; // the last path given out
+    char file[600]; // last path returned
     int version;
 } Folder;
 
@@ -23,13 +23,13 @@ static inline void folder_open(Folder *folder) {
     folder->version = 0;
 }
 
-// Path of a file in the folder. Valid until the next call.
+// Returns the path of a file in the folder. Valid until the next call.
 static inline const char *folder_file(Folder *folder, const char *name) {
     snprintf(folder->file, sizeof folder->file, "%s/%s", folder->path, name);
     return folder->file;
 }
 
-// Writes a file. Each writing has a modification time of its own, however fast they follow each other.
+// Writes a file. Every write has a different modification time.
 static inline void folder_write(Folder *folder, const char *name, const char *text) {
     FILE *file = fopen(folder_file(folder, name), "wb");
     assert_non_null(file);

@@ -1,5 +1,5 @@
-// heap.h: allocations that fail at will. The test is linked with --wrap for malloc, calloc, realloc, aligned_alloc and
-// arena_alloc_slow: in sanitizer and stress builds (nearly) every allocation in an arena comes there.
+// heap.h: simulated allocation failures. The test is linked with --wrap for malloc, calloc, realloc, aligned_alloc and
+// arena_alloc_slow, which nearly all arena allocations use in sanitizer and stress builds.
 #ifndef PETRI_TESTS_HEAP_H
 #define PETRI_TESTS_HEAP_H
 
@@ -20,20 +20,20 @@ void *__real_arena_alloc_slow(Arena *arena, size_t size);
 void *__wrap_arena_alloc_slow(Arena *arena, size_t size);
 
 typedef struct Heap {
-    bool counts;  // allocations are those of libpetri, not of the test
-    bool all;     // … and those after it fail, too
-    long fail_at; // the number of the allocation that fails
-    long count;
+    bool counts;  // true while allocations are counted; false for allocations of the test
+    bool all;     // true if all allocations from fail_at on fail; false if only that one fails
+    long fail_at; // number of the allocation that fails, from 0
+    long count;   // number of allocations so far
 } Heap;
 
 static Heap heap;
 
-// From now on allocations are counted from 0, and that of a number fails, or all from there on.
+// Starts counting allocations from 0. Allocation `number` fails, and with `all` every later one.
 static inline void heap_fail(long number, bool all) {
     heap = (Heap){.counts = true, .all = all, .fail_at = number};
 }
 
-// Allocations are as usual again.
+// Stops simulating failures.
 static inline void heap_restore(void) {
     heap.counts = false;
 }

@@ -1,4 +1,4 @@
-// nodes.h: nodes and values of them, made one by one. Programs make theirs in lists (vm/construct.c).
+// nodes.h: functions that make single nodes and values of nodes. The library makes them in lists (vm/construct.c).
 #ifndef PETRI_TESTS_NODES_H
 #define PETRI_TESTS_NODES_H
 
@@ -8,7 +8,7 @@ static inline Value value_node(Arena *arena, const Node *node) {
     return value_item(arena, (Item){ITEM_NODE, .as.node = node});
 }
 
-// Appends the nodes of `children`. NULL if the tree would be too high.
+// Appends the nodes of `children`. Returns NULL if the tree would be too deep.
 static inline Node *node_append(Arena *arena, const Node *node, Value children) {
     NodeList list = node_list(arena, children);
     return node_append_list(arena, node, &list);

@@ -1,4 +1,4 @@
-// player.h: a session with a notebook: loads scripts, makes frames, keeps diagnostics and printed text.
+// player.h: a session for tests, which loads scripts, makes frames and records diagnostics and printed text.
 #ifndef PETRI_TESTS_PLAYER_H
 #define PETRI_TESTS_PLAYER_H
 
@@ -24,10 +24,10 @@ static inline bool note(void *user_data, const char *text, size_t len) {
 
 typedef struct Player {
     PetriSession *session;
-    // `level file:line:column text [code]`, one line each; the place only if there is one, and not of what is said of a
-    // node by its name, which tests look at apart (test_session_host).
+    // Lines `level file:line:column text [code]`. The position is omitted if there is none or if the text begins with a
+    // node's name; test_session_host checks those positions.
     Notebook diagnostics;
-    Notebook printed; // what was printed last
+    Notebook printed; // last printed text
 } Player;
 
 static inline void player_report(void *user_data, const PetriDiagnostic *diagnostic) {
@@ -73,13 +73,13 @@ static inline PetriStatus player_load(Player *player, const char *script) {
     return petri_load_text(player->session, "t.fl", script, PETRI_NUL_TERMINATED);
 }
 
-// A fresh session with other options.
+// Replaces the session by a new one with other options.
 static inline void player_reopen(Player *player, const PetriOptions *options) {
     player_close(player);
     player_open_with(player, options);
 }
 
-// A fresh session whose frames come in real time.
+// Replaces the session by a new one that runs in real time.
 static inline void player_realtime(Player *player, double fps) {
     PetriOptions options = player_options(player);
     options.realtime = true;
@@ -87,7 +87,7 @@ static inline void player_realtime(Player *player, double fps) {
     player_reopen(player, &options);
 }
 
-// What has been told since this was asked last. Valid until the next diagnostic.
+// Returns the diagnostics since the last call. Valid until the next diagnostic.
 static inline const char *player_diagnostics(Player *player) {
     player->diagnostics.len = 0;
     return player->diagnostics.text;
@@ -98,7 +98,7 @@ static inline void player_forget(Player *player) {
     player->diagnostics.text[0] = 0;
 }
 
-// Sections of the frame, without the `@` line.
+// Returns printed sections of the frame without the `@` line. Valid until the next call.
 static inline const char *player_print(Player *player, unsigned sections) {
     player->printed.len = 0;
     assert_int_equal(petri_print(player->session, sections, note, &player->printed), PETRI_OK);
@@ -118,7 +118,7 @@ static inline void player_step(Player *player, int frames) {
         assert_int_equal(petri_step(player->session), PETRI_OK);
 }
 
-// Loads a script that must be accepted and makes frames.
+// Loads a script, which must succeed, and makes frames.
 static inline void player_run(Player *player, const char *script, int frames) {
     if (player_load(player, script) != PETRI_OK) {
         print_error("%s\n%s", script, player_diagnostics(player));
@@ -147,7 +147,7 @@ typedef struct ScriptRow {
     const char *wanted;
 } ScriptRow;
 
-// The tree of the last of `frames` frames of each script, which is the same without the simplifier.
+// Runs each script for `frames` frames, with and without the simplifier, and compares the tree of the last frame.
 static inline void check_trees(Player *player, const ScriptRow *rows, size_t count, int frames) {
     for (int simplify = 1; simplify >= 0; simplify--) {
         PetriOptions options = player_options(player);

@@ -1,4 +1,4 @@
-// scripts.h: a test of every script in the folders that the command line names.
+// scripts.h: tests of every script in the folders named on the command line.
 #ifndef PETRI_TESTS_SCRIPTS_H
 #define PETRI_TESTS_SCRIPTS_H
 
@@ -14,7 +14,7 @@ static char **script_folders;
 static int script_folder_count;
 static VisitScript *visit_script;
 
-// Not nftw: the memory sanitizer does not see what that writes.
+// Does not use nftw, which the memory sanitizer does not support.
 static inline void scripts_walk(const char *folder) {
     DIR *entries = opendir(folder);
     assert_non_null(entries);
@@ -33,7 +33,7 @@ static inline void scripts_walk(const char *folder) {
     closedir(entries);
 }
 
-// Calls `visit` for each `.fl` file in the folders and below.
+// Calls `visit` for each `.fl` file in or below the folders.
 static inline void scripts_each(VisitScript *visit) {
     visit_script = visit;
     for (int i = 0; i < script_folder_count; i++)

@@ -1,4 +1,4 @@
-// values.h: values written as text, for the tests of lib/value and lib/state.
+// values.h: conversion of values from and to text, for the tests of lib/value and lib/state.
 #ifndef PETRI_TESTS_VALUES_H
 #define PETRI_TESTS_VALUES_H
 
@@ -63,7 +63,7 @@ static inline Value read_element(World *world, const char *text) {
     return strcmp(text, "null") == 0 ? VALUE_NULL : value_number(strtod(text, NULL));
 }
 
-// `;`-separated numbers, 'strings', :symbols, !kinds, null, and streams as uniform:KEY, beta:KEY, normal:KEY.
+// Parses `;`-separated numbers, 'strings', :symbols, !kinds, null, and streams (uniform:KEY, beta:KEY, normal:KEY).
 static inline Value read_value(World *world, const char *text) {
     Vector vector = vector_new(&world->arena);
     char *copy = str_to_c(&world->arena, str_from(text));
@@ -80,7 +80,7 @@ static inline const char *text_c(const Text *text) {
     return str_to_c(text->arena, text_str(text));
 }
 
-// The printed form (L18.1).
+// Returns the printed form (L18.1).
 static inline const char *show(World *world, Value v) {
     Text text = text_new(&world->arena);
     format_value(&text, &world->symbols, v);
