@@ -15,7 +15,7 @@
 
 static PetriSession *volatile watched;
 static volatile sig_atomic_t alarms;
-static volatile size_t seen; // so that nothing that is read is left out
+static volatile size_t seen; // keeps the compiler from removing reads
 
 void fuzz_fail(const char *format, ...) {
     va_list list;
@@ -31,7 +31,7 @@ int fuzz_interrupt_limit = 80;
 static void on_alarm(int number) {
     (void)number;
     if (++alarms > fuzz_interrupt_limit) {
-        static const char text[] = "it does not react to petri_interrupt\n";
+        static const char text[] = "petri_interrupt has no effect: the session does not react\n";
         (void)!write(STDERR_FILENO, text, sizeof text - 1);
         abort();
     }
@@ -61,7 +61,7 @@ static void on_diagnostic(void *host, const PetriDiagnostic *reported) {
     (void)host;
     seen += strlen(reported->rendered) + strlen(reported->text) + (reported->code ? strlen(reported->code) : 0);
     if (reported->level != PETRI_NOTE && reported->file && (reported->line == 0 || reported->column == 0))
-        fuzz_fail("a diagnostic without a place: %s", reported->rendered);
+        fuzz_fail("a diagnostic without a position: %s", reported->rendered);
 }
 
 PetriOptions fuzz_options(void) {
@@ -79,7 +79,7 @@ PetriSession *fuzz_open(const PetriOptions *options) {
     PetriOptions usual = fuzz_options();
     PetriSession *session = petri_open(options ? options : &usual);
     if (!session)
-        fuzz_fail("no session");
+        fuzz_fail("cannot open a session");
     fuzz_watch(session);
     return session;
 }
@@ -91,7 +91,7 @@ void fuzz_close(PetriSession **session) {
 
 void fuzz_load(PetriSession *session, const char *script) {
     if (petri_load_text(session, fuzz_file("fuzz.fl"), script, PETRI_NUL_TERMINATED) != PETRI_OK)
-        fuzz_fail("the harness's own script is wrong");
+        fuzz_fail("the harness's script does not load");
 }
 
 void fuzz_check_frame(PetriSession *session) {
@@ -147,7 +147,7 @@ static bool is_finite(const char *element, size_t length) {
     return true;
 }
 
-// The value in a line of the state; what has texts in it is left out.
+// Checks the numbers in a line of the printed state. Accepts lines with texts unchecked.
 static bool is_good_line(const char *line, size_t length) {
     const char *end = line + length, *value = line;
     if (line[0] != '$' || memchr(line, '\'', length) || memchr(line, '"', length))
@@ -170,7 +170,7 @@ void fuzz_check_state(PetriSession *session) {
     for (const char *line = text.bytes; line && *line; line += strspn(line, "\n")) {
         size_t length = strcspn(line, "\n");
         if (!is_good_line(line, length))
-            fuzz_fail("the state holds what is not finite: %.*s", (int)length, line);
+            fuzz_fail("a value in the state is not finite: %.*s", (int)length, line);
         line += length;
     }
     free(text.bytes);
@@ -194,7 +194,7 @@ const char *fuzz_file(const char *name) {
         const char *place = getenv("TMPDIR");
         snprintf(folder, sizeof folder, "%s/petri-fuzz.XXXXXX", place && strlen(place) < 40 ? place : "/tmp");
         if (!mkdtemp(folder))
-            fuzz_fail("no folder for files");
+            fuzz_fail("cannot make a temporary folder");
         atexit(remove_folder);
     }
     char *out = path[turn++ % 4];

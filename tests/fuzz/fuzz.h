@@ -1,5 +1,5 @@
-// fuzz.h: what the harnesses share. Each is a file of its own with libFuzzer's entry, which one input is given; what is
-// found ends the process: a sanitizer does that, or fuzz_fail.
+// fuzz.h: functions shared by the fuzzing harnesses. Each harness is a file with libFuzzer's entry point, which handles
+// one input. A finding aborts the process, through a sanitizer or fuzz_fail.
 #ifndef PETRI_TESTS_FUZZ_H
 #define PETRI_TESTS_FUZZ_H
 
@@ -11,29 +11,31 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-// Says what is wrong and aborts.
+// Prints a message and aborts.
 __attribute__((format(printf, 1, 2), noreturn)) void fuzz_fail(const char *format, ...);
 
-// How many times 50 ms of the processor's time may pass until an interrupt is answered.
+// Time in which an interrupt must take effect, in units of 50 ms of processor time.
 extern int fuzz_interrupt_limit;
 
-// A session with little memory and stack whose diagnostics are looked at. After two seconds of processor time it is
-// interrupted, again and again, and Ctrl-C is typed (SIGINT); one that goes on for four seconds more is a finding.
+// Returns options with little memory and stack, whose callback checks diagnostics.
 PetriOptions fuzz_options(void);
+// Opens a session with these options (NULL: fuzz_options) and watches it. fuzz_close ends the watch.
 PetriSession *fuzz_open(const PetriOptions *options);
-// Such a watch without a session: only Ctrl-C. fuzz_end_watch ends a watch and tells whether it had to interrupt.
+// Starts a watch. After two seconds of processor time, the session is interrupted repeatedly; without a session (NULL),
+// SIGINT is raised instead. If that has no effect within fuzz_interrupt_limit, it is a finding.
 void fuzz_watch(PetriSession *session);
+// Ends the watch. Returns true if it had to interrupt.
 bool fuzz_end_watch(void);
 void fuzz_close(PetriSession **session);
 
-// Loads a text that must be a good script.
+// Loads a script, which must succeed.
 void fuzz_load(PetriSession *session, const char *script);
-// Looks at each particle, force and parameter of the last frame.
+// Reads particles, forces and parameters of the last frame.
 void fuzz_check_frame(PetriSession *session);
-// The state holds nothing but finite numbers, symbols and texts.
+// Checks that the state contains only finite numbers, symbols and texts.
 void fuzz_check_state(PetriSession *session);
 
-// A PetriWriteCallback that reads what it is given, and one that keeps it.
+// PetriWriteCallbacks: fuzz_sink reads the text, fuzz_append appends it to a FuzzText.
 bool fuzz_sink(void *host, const char *text, size_t length);
 typedef struct FuzzText {
     char *bytes;
@@ -43,10 +45,11 @@ typedef struct FuzzText {
 bool fuzz_append(void *text, const char *bytes, size_t length);
 bool fuzz_texts_equal(const FuzzText *a, const FuzzText *b);
 
-// The path of a file in this process's own folder, which is in memory and is the current one; and puts bytes there.
+// Returns the path of a file in this process's temporary folder. Valid for the next three calls.
 const char *fuzz_file(const char *name);
+// Writes a file in that folder.
 void fuzz_put(const char *name, const void *bytes, size_t length);
-// Likewise a state file: the text, and the line that vouches for it.
+// Writes a state file: the text and a line with its checksum.
 void fuzz_put_state(const char *name, const void *text, size_t length);
 
 #endif

@@ -1,11 +1,11 @@
-// fuzz_arguments.c: the input is a command line, its words parted by NUL, for a session that is opened as it says.
+// fuzz_arguments.c: fuzzes command lines. The input is a list of words, separated by NUL, that opens a session.
 #include "cli/options.h"
 #include "fuzz.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-static Command commands[4]; // the real ones, which here do nothing but open a session
+static Command commands[4]; // copies of the real ones that only open a session and make a frame
 const Command *const COMMANDS[] = {&commands[0], &commands[1], &commands[2], &commands[3], NULL};
 
 const Command *command_find(const char *name) {

@@ -1,5 +1,5 @@
-// fuzz_clock.c: the input is what becomes of the clock: rates from 1e-300 to 1e300, frame numbers beyond 2^53, machines
-// that sleep for years. Each piece is a byte that says what, and a double.
+// fuzz_clock.c: fuzzes the clock: rates from 1e-300 to 1e300, frame numbers above 2^53, pauses of years. The input is a
+// sequence of actions: a byte that selects the action, and a double.
 #include "fuzz.h"
 
 #include <math.h>
@@ -7,7 +7,7 @@
 #include <string.h>
 #include <time.h>
 
-// What the machine's clocks show; the linker puts these in the place of the C library's (meson.build).
+// Time in seconds of the simulated clock. The linker uses these functions instead of the C library's (meson.build).
 static double now;
 int __wrap_clock_gettime(clockid_t clock, struct timespec *time);
 int __wrap_nanosleep(const struct timespec *pause, struct timespec *left);

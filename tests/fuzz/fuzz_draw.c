@@ -1,4 +1,4 @@
-// fuzz_draw.c: the input is a script, whose frames are drawn as it says and as the automatic picture.
+// fuzz_draw.c: fuzzes drawing. The input is a script, whose frames are drawn with its nodes and automatically.
 #include "fuzz.h"
 #include "petri-draw.h"
 
@@ -20,10 +20,10 @@ static void draw_picture(PetriSession *session, PetriPainter *painter, PetriAuto
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    static PetriPainter *painter; // fonts take long to find
+    static PetriPainter *painter; // kept, because finding fonts takes long
     painter = painter ? painter : petri_painter_open();
-    // Drawing one path is one call of Cairo: up to some seconds (MOST_WORK in lib/draw/cairo_paint.c), and longer with
-    // sanitizers.
+    // A path is drawn in one call of Cairo, which cannot be interrupted. It takes up to a few seconds (MAX_WORK in
+    // lib/draw/cairo_paint.c), and longer with sanitizers.
     fuzz_interrupt_limit = 600;
     PetriSession *session = fuzz_open(NULL);
     if (petri_load_text(session, fuzz_file("fuzz.fl"), (const char *)data, size) == PETRI_OK)

@@ -1,4 +1,4 @@
-// fuzz_files.c: the input is a file that a script reads; its first byte says with which function.
+// fuzz_files.c: fuzzes reading files. The input is a file that a script reads; its first byte selects the script.
 #include "fuzz.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {

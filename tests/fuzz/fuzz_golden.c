@@ -1,11 +1,11 @@
-// fuzz_golden.c: the input is a golden and, behind a byte 30, what it is compared with.
+// fuzz_golden.c: fuzzes goldens. The input is a golden and, after a byte 30, the output to compare it with.
 #include "cli/cli.h"
 #include "fuzz.h"
 #include "golden/golden.h"
 
 #include <string.h>
 
-// What help would list, which no golden asks for.
+// The list of commands, which the library needs for help.
 const Command *const COMMANDS[] = {&RUN_COMMAND, NULL};
 
 const Command *command_find(const char *name) {
@@ -17,13 +17,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     const uint8_t *part = memchr(data, 30, size);
     size_t length = part ? (size_t)(part - data) : size;
     Golden golden;
-    ByteBuffer trouble = {0}, output = {0};
+    ByteBuffer error_text = {0}, output = {0};
     fuzz_put("fuzz.golden", data, length);
     byte_buffer_add(&output, part ? (const char *)part + 1 : "", part ? size - length - 1 : 0);
-    if (golden_read(&golden, fuzz_file("fuzz.golden"), &trouble))
-        golden_compare(&golden, &output, &trouble);
+    if (golden_read(&golden, fuzz_file("fuzz.golden"), &error_text))
+        golden_compare(&golden, &output, &error_text);
     golden_free(&golden);
-    byte_buffer_free(&trouble);
+    byte_buffer_free(&error_text);
     byte_buffer_free(&output);
     return 0;
 }

@@ -1,4 +1,4 @@
-// fuzz_image.c: the input is an image file that is drawn.
+// fuzz_image.c: fuzzes images. The input is an image file, which is drawn.
 #include "fuzz.h"
 #include "petri-draw.h"
 
@@ -14,7 +14,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         session = fuzz_open(NULL);
         fuzz_load(session, "!window size=32\n    !canvas\n        !image filename='image' size=32\n");
         if (petri_step(session) != PETRI_OK || petri_picture(session, &options, &picture) != PETRI_OK)
-            fuzz_fail("no picture");
+            fuzz_fail("cannot make a picture");
     }
     fuzz_watch(session);
     PetriPainter *painter = petri_painter_open();

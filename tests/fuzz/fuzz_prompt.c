@@ -1,5 +1,6 @@
-// fuzz_prompt.c: the input is what a host does with a session, in pieces that a byte 30 parts. The first byte of a
-// piece says what; the rest of it is text for that. Anything but a control character is typed at the prompt.
+// fuzz_prompt.c: fuzzes the functions that a host calls. The input is a sequence of actions, separated by a byte 30.
+// The first byte selects the action, the rest is its text. If it is not a control character, all is typed at the
+// prompt.
 #include "fuzz.h"
 
 #include <string.h>
@@ -17,7 +18,7 @@ static const char SCRIPT[] = "%pragma tempo 60\n"
                              "!window\n"
                              "    !key state=:k name='space'\n"
                              "!s a=A\n";
-enum { SNAPSHOTS = 4, MAX_PIECES = 40 };
+enum { SNAPSHOTS = 4, MAX_ACTIONS = 40 };
 
 typedef struct Host {
     PetriSession *session;
@@ -120,7 +121,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     const char *at = (const char *)data, *end = at + size;
     fuzz_load(host.session, SCRIPT);
     host.config = petri_config_get(host.session);
-    for (int i = 0; at < end && i < MAX_PIECES; i++) {
+    for (int i = 0; at < end && i < MAX_ACTIONS; i++) {
         const char *part = memchr(at, 30, (size_t)(end - at));
         perform_action(&host, at, (size_t)((part ? part : end) - at));
         at = part ? part + 1 : end;

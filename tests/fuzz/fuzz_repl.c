@@ -1,5 +1,5 @@
-// fuzz_repl.c: the input is what is typed at `petri repl`. What would write outside of the harness's folder is left
-// out.
+// fuzz_repl.c: fuzzes `petri repl`. The input is the typed text. Skips inputs that could write outside the harness's
+// folder.
 #include "cli/cli.h"
 #include "fuzz.h"
 
@@ -23,7 +23,7 @@ static const char SCRIPT[] = "let SIZE=SIZE or 2 -- 1..9 how many\n"
                              "!counter state=:n rate=60\n"
                              "!shape size=SIZE at=$:n\n";
 
-// A line that begins with a dot, and names another folder.
+// Returns true if a command, a line that begins with a dot, may name another folder.
 static bool leaves_folder(const uint8_t *data, size_t size) {
     bool command = false, start = true;
     for (size_t i = 0; i < size; i++) {
@@ -43,7 +43,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     fuzz_put("fuzz.fl", SCRIPT, sizeof SCRIPT - 1);
     fuzz_put("typed", data, size);
     if (chdir(fuzz_file("")) != 0 || !freopen(fuzz_file("typed"), "rb", stdin))
-        fuzz_fail("no input");
+        fuzz_fail("cannot redirect the input");
     setenv("EDITOR", "true", 1);
     setenv("VISUAL", "true", 1);
     struct sigaction before;

@@ -1,4 +1,4 @@
-// fuzz_script.c: the input is a script: three frames of it, all that they show, and its syntax tree and code.
+// fuzz_script.c: fuzzes scripts. Runs three frames, prints everything, and dumps the syntax tree and the code.
 #include "fuzz.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {

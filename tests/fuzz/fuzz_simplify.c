@@ -1,5 +1,5 @@
-// fuzz_simplify.c: the input is a script, whose frames must be the same with the simplifier and without it. Without it
-// rounds of loops are run one by one, too, as when profiling.
+// fuzz_simplify.c: fuzzes the simplifier. The frames of the input, a script, must be the same with and without it.
+// The run without it also has profiling, which executes loop iterations one by one instead of in batches.
 #include "fuzz.h"
 
 #include <stdlib.h>
@@ -7,7 +7,7 @@
 typedef struct Run {
     FuzzText frames;
     PetriStatus loaded;
-    bool aborted; // by a limit, which simplifying may well avoid
+    bool aborted; // true if a limit was exceeded, which the simplifier may avoid
 } Run;
 
 static Run run_script(const uint8_t *data, size_t size, bool simplify) {

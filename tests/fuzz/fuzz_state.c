@@ -1,5 +1,5 @@
-// fuzz_state.c: the input is a state file, to which the line that vouches for it is added unless it begins with '#'.
-// What is accepted is what is saved again, and goes on alike.
+// fuzz_state.c: fuzzes state files. A line with the checksum is added unless the input begins with '#'. An accepted
+// state must be the same after saving and restoring it, and the next frames must agree.
 #include "fuzz.h"
 
 #include <stdlib.h>
@@ -22,7 +22,7 @@ static void check_round_trip(PetriSession *first) {
     PetriSession *second = petri_open(&options);
     fuzz_load(second, SCRIPT);
     if (petri_save(first, fuzz_file("saved")) != PETRI_OK || petri_restore(second, fuzz_file("saved")) != PETRI_OK)
-        fuzz_fail("what was saved cannot be restored");
+        fuzz_fail("cannot restore a saved state");
     for (int i = 0; i < 2 && good; i++) {
         good = petri_step(first) == PETRI_OK && petri_step(second) == PETRI_OK;
         petri_print(first, PETRI_PRINT_STATE, fuzz_append, &one);

@@ -1,4 +1,4 @@
-// replay.c: runs a harness once for each file that is named, for builds without libFuzzer.
+// replay.c: runs a harness once for each file on the command line, for builds without libFuzzer.
 #include "fuzz.h"
 
 #include <stdio.h>

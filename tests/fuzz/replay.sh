@@ -1,5 +1,5 @@
 #!/bin/sh
-# replay.sh BUILD SOURCE: each harness takes its seeds and what it once found (crashes/NAME) without complaint.
+# replay.sh BUILD SOURCE: runs each harness on its seeds and on earlier findings (crashes/NAME), without fuzzing.
 set -eu
 build=$1 source=$2
 folder=$(mktemp -d "${TMPDIR:-/tmp}/petri-fuzz-XXXXXX")
@@ -15,7 +15,7 @@ for seeds in "$folder"/seeds/*/; do
         [ ! -f "$found" ] || set -- "$@" "$found"
     done
     [ -f "$1" ] || {
-        echo "not ok - $name: there are no seeds"
+        echo "not ok - $name: no seeds"
         failed=1
         continue
     }

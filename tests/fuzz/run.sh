@@ -1,7 +1,7 @@
 #!/bin/sh
-# run.sh BUILD SOURCE SECONDS [NAME ...]: fuzzes with each harness (all of them) for so long, as many at a time as there are
-# processors. Inputs are kept in BUILD/fuzz/NAME and grow from run to run; what is found is made as small as it goes and
-# kept in tests/fuzz/crashes/NAME, where replay.sh takes it from then on. Status 1 if anything was found.
+# run.sh BUILD SOURCE SECONDS [NAME ...]: runs the harnesses (default: all) for SECONDS each, as many in parallel as there
+# are processors. Inputs are collected in BUILD/fuzz/NAME from run to run. Findings are minimised and stored in
+# tests/fuzz/crashes/NAME, where replay.sh uses them. Exits with 1 if anything was found.
 set -eu
 build=$(cd "$1" && pwd) source=$(cd "$2" && pwd) seconds=$3
 shift 3
@@ -10,7 +10,7 @@ work=$build/fuzz
 seed() {
     "$build/tests/fuzz/fuzz_seeds" "$work"
     find "$source/tests/golden" "$source/tests/conformance" "$source/tests/pictures" "$source/samples" \
-        -name '*.fl' -size -4k -exec cp {} "$work/script" \; # one at a time, for names come twice
+        -name '*.fl' -size -4k -exec cp {} "$work/script" \; # one at a time, because file names occur twice
     cp "$work"/script/*.fl "$work/simplify/"
     cp "$source"/tests/pictures/*.fl "$work/draw/"
     cp "$source"/tests/pictures/images/small.jpg "$work/image/"
@@ -19,23 +19,23 @@ seed() {
     done
 }
 
-# minimise NAME FILE
+# minimise NAME FILE: minimises a finding and stores it.
 minimise() {
-    kept=$source/tests/fuzz/crashes/$1/$(sha1sum <"$2" | cut -c -12)
-    mkdir -p "${kept%/*}"
-    cp "$2" "$kept"
+    stored=$source/tests/fuzz/crashes/$1/$(sha1sum <"$2" | cut -c -12)
+    mkdir -p "${stored%/*}"
+    cp "$2" "$stored"
     case $2 in
     *-crash-* | *-leak-*)
         "$build/tests/fuzz/fuzz_$1" -minimize_crash=1 -max_total_time=60 -exact_artifact_path="$work/small" "$2" \
             >/dev/null 2>&1 || true
-        [ ! -s "$work/small" ] || mv "$work/small" "$kept"
+        [ ! -s "$work/small" ] || mv "$work/small" "$stored"
         ;;
     esac
-    echo "$1: found something, kept in ${kept#"$source"/}; to see it again: build-sanitizers/tests/fuzz/fuzz_$1 ${kept#"$source"/}"
+    echo "$1: stored a finding in ${stored#"$source"/}; to repeat, run: build-sanitizers/tests/fuzz/fuzz_$1 ${stored#"$source"/}"
 }
 
 fuzz_one() {
-    name=$1 quiet=0 # these three write what the command writes
+    name=$1 quiet=0 # hides the output of harnesses that run commands
     case $name in
     arguments | golden | repl) quiet=3 ;;
     esac
@@ -61,7 +61,7 @@ if [ "${PETRI_FUZZ_ONE:-}" ]; then
     fuzz_one "$1"
     exit
 fi
-# libFuzzer ends without tidying up.
+# libFuzzer exits without removing temporary files.
 TMPDIR=$(mktemp -d "$([ -w /dev/shm ] && echo /dev/shm || echo /tmp)/fuzz-XXXXXX")
 export TMPDIR
 trap 'rm -rf "$TMPDIR"' EXIT

@@ -1,5 +1,5 @@
-// seeds.c: writes what the fuzzers begin with, from petri's own tables: FOLDER/dictionary, and inputs for each harness
-// in FOLDER/NAME. `fuzz_seeds FOLDER`.
+// seeds.c: writes the first inputs of the fuzzers, made from petri's tables. usage: fuzz_seeds FOLDER
+// FOLDER/dictionary is libFuzzer's dictionary; FOLDER/NAME contains inputs for harness NAME.
 #include "cli/cli.h"
 #include "petri-draw.h"
 #include "petri.h"
@@ -107,7 +107,7 @@ static void write_builtins(void) {
              builtin.name, builtin.name, builtin.name, builtin.name);
 }
 
-// Each attribute once, in a node where nodes of its kind may stand.
+// Writes a script for each kind of node, with each attribute, at a position where such nodes are allowed.
 static void write_nodes(void) {
     static const char *const values[] = {"1;2", ":a", "frame/3", "'x'", "0.5", "1e308;0", "0"};
     PetriNodeKind kind;
@@ -176,7 +176,7 @@ static void write_others(void) {
          "\x1e@0 time=0 beat=0\n$:a = 1;2.0000001\n");
 }
 
-// A picture of our own making, since what is read is PNG and JPEG.
+// Draws a PNG file, because the input is an encoded image.
 static void write_image(void) {
     PetriOptions options = petri_default_options();
     PetriPictureOptions how = petri_default_picture_options();

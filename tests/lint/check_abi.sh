@@ -1,6 +1,6 @@
 #!/bin/sh
-# check_abi.sh SOURCE_ROOT BUILD_ROOT: what the libraries show is what abi.txt lists, and nothing else: a name that vanishes
-# breaks programs that are compiled already, and a new one has to be kept from then on.
+# check_abi.sh SOURCE_ROOT BUILD_ROOT: the libraries export exactly the functions of abi.txt. A removed function breaks
+# compiled programs, and a new one must be kept in later versions.
 set -eu
 listed=$1/tests/lint/abi.txt
 headers=$1/lib/include
@@ -9,19 +9,19 @@ faults=0
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
-# compare NAME WANTED FOUND
+# compare NAME WANTED FOUND: reports differences between two lists.
 compare() {
     if ! diff "$2" "$3" >"$scratch/diff"; then
-        sed -n -e "s|^< |$1 lacks |p" -e "s|^> |$1 shows |p" "$scratch/diff"
+        sed -n -e "s|^< |$1 lacks |p" -e "s|^> |$1 has, but abi.txt has not: |p" "$scratch/diff"
         faults=1
     fi
 }
 
-# check NAME LIBRARY nm-options...: the linker's own names and the sanitizers' are nobody's.
+# check NAME LIBRARY nm-options...: compares exported names, except those of the linker and of sanitizers.
 check() {
     name=$1 library=$2
     shift 2
-    [ -e "$library" ] || { echo "skipped: $library, which this build does not make"; return; }
+    [ -e "$library" ] || { echo "skipped: this build has no $library"; return; }
     nm "$@" --defined-only "$library" | awk 'NF == 3 && $3 !~ /^_|^\.|@/ { print $3 }' | sort -u >"$scratch/found"
     compare "$library" "$scratch/$name" "$scratch/found"
 }

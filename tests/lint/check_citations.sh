@@ -1,6 +1,6 @@
 #!/bin/sh
-# check_citations.sh SOURCE_ROOT: what comments cite as `spec PAGE.md` is a page of lib/spec, and the sections of
-# language.md (L…) and builtins.md (B…) that they name are there.
+# check_citations.sh SOURCE_ROOT: pages that comments cite as `spec PAGE.md` exist in lib/spec, and so do the cited
+# sections of language.md (L…) and builtins.md (B…).
 set -eu
 cd "$1"
 scratch=$(mktemp -d)
@@ -13,7 +13,7 @@ xargs grep -noE '\b(spec|language\.md|builtins\.md)\b.*\b[LB][0-9]+(\.[0-9]+)?' 
     sed -E 's/^([^:]*:[0-9]+:)/\1 /' >"$scratch/lines" || true
 
 [ -s "$scratch/pages" ] || {
-    echo "no citation found: the pattern of this check is wrong"
+    echo "no citations found: the pattern of this check is wrong"
     exit 1
 }
 faults=0
@@ -25,7 +25,7 @@ while IFS= read -r line; do
     }
 done <"$scratch/pages"
 
-# The sections that there are: headings and bold numbers.
+# Lists the sections: headings and bold numbers.
 cat lib/spec/language.md lib/spec/builtins.md | grep -oE '^(#+ |\*\*|- \*\*)[LB][0-9]+(\.[0-9]+)?' | grep -oE '[LB][0-9.]+' |
     sort -u >"$scratch/sections"
 while IFS= read -r line; do

@@ -1,5 +1,5 @@
 #!/bin/sh
-# check_commits.sh SOURCE_ROOT: subjects of commits since the rule was made are imperative and have at most 72 characters.
+# check_commits.sh SOURCE_ROOT: commit subjects are imperative and have at most 72 characters, since the rule was made.
 # The form is "area: verb ..."; merges and a checkout without that commit are not checked.
 set -eu
 cd "$1"

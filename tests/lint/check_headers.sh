@@ -1,6 +1,6 @@
 #!/bin/sh
-# check_headers.sh SOURCE_ROOT BUILD_ROOT: each header compiles alone, as C17 and, for those in lib/include, as C++ too if there is a
-# compiler for it. Lists of rows (X-macros) are no headers of their own.
+# check_headers.sh SOURCE_ROOT BUILD_ROOT: each header compiles alone as C17. Those in lib/include also compile as C++, if
+# there is a C++ compiler. Lists of rows (X-macros, *_list.h) are not checked.
 set -eu
 build=$2
 cd "$1"
@@ -10,23 +10,23 @@ trap 'rm -rf "$scratch"' EXIT
 
 for header in lib/*/*.h src/*/*.h tests/support/*.h; do
     case $header in *_list.h | */engine_names.h) continue ;; esac
-    # What takes a library is for builds that have it.
+    # Headers that need a library are checked only if it is installed.
     isa=
     case $header in
     lib/draw/draw.h | lib/draw/hdr_composite.h | lib/draw/hdr_paint.h | lib/draw/float_image.h)
         pkg-config --exists pangocairo 2>/dev/null || continue
         isa=$(pkg-config --cflags pangocairo)
         ;;
-    src/web/*) continue ;; # of WebAssembly
+    src/web/*) continue ;; # for WebAssembly only
     src/hdf5/*)
         pkg-config --exists hdf5 2>/dev/null || continue
         isa=$(pkg-config --cflags hdf5)
         ;;
     lib/gl/internal.h) pkg-config --exists epoxy 2>/dev/null || continue ;;
     esac
-    # Included from a file, so that nothing is taken for a main file with unused definitions.
+    # Includes the header in a file, because compilers report unused definitions in a main file.
     printf '#include "%s"\n' "$PWD/$header" >"$scratch/alone.c"
-    # shellcheck disable=SC2086 # no option is no word
+    # shellcheck disable=SC2086 # $isa may be empty
     if ! ${CC:-cc} $isa -std=c17 -D_XOPEN_SOURCE=700 -D_DEFAULT_SOURCE -fsyntax-only -Wall -Wextra -Wno-unused-variable \
         -Wno-unused-const-variable -Wno-unused-function -Werror -Ilib -Ilib/include -Isrc -Itests/support \
         -I"$build/grammar" "$scratch/alone.c"; then
@@ -38,7 +38,7 @@ done
 if command -v "${CXX:-c++}" >/dev/null 2>&1; then
     printf '#include "petri-draw.h"\nint main() { return petri_version() == nullptr || petri_picture_can_save(""); }\n' >"$scratch/alone.cc"
     if ! "${CXX:-c++}" -std=c++17 -fsyntax-only -Wall -Wextra -Werror -Ilib/include "$scratch/alone.cc"; then
-        echo "petri-draw.h, with petri.h in it, does not compile as C++"
+        echo "petri-draw.h or petri.h does not compile as C++"
         faults=1
     fi
 fi

@@ -1,6 +1,7 @@
 #!/bin/sh
-# check_libm.sh SOURCE_ROOT BUILD_ROOT: lib/ calls no function of the C library whose bits are the library's choice. What
-# IEEE 754 defines exactly (sqrt, floor, fmod, frexp …) may be called. NM reads objects for another processor.
+# check_libm.sh SOURCE_ROOT BUILD_ROOT: lib/ calls no function of the C library whose result may differ between C
+# libraries. Functions that IEEE 754 defines exactly (sqrt, floor, fmod, frexp …) are allowed. NM: the nm to use, for
+# objects of another processor.
 set -eu
 cd "$2"
 inexact='acos asin atan atan2 cos sin tan sincos acosh asinh atanh cosh sinh tanh exp exp2 exp10 expm1 log log10 log1p log2

@@ -1,9 +1,9 @@
 #!/bin/sh
-# check_style.sh SOURCE_ROOT: no trailing blanks, no tabs in C, no file over 700 lines but generated tables, each file
-# ends its last line, and nothing is left marked as to be done.
+# check_style.sh SOURCE_ROOT: sources have no trailing blanks, no tabs in C, at most 700 lines (except generated tables), a
+# line feed at the end, and no reminders of unfinished work.
 set -eu
 cd "$1"
-longest=700
+max_lines=700
 faults=0
 
 complain() {
@@ -11,7 +11,7 @@ complain() {
     faults=1
 }
 
-# Recorded outputs and scripts of tests are what they are.
+# Recorded outputs and scripts of tests are not checked.
 for file in $(find lib grammar src tests samples -name node_modules -prune -o -name '*.c' -o -name '*.h' -o -name '*.re' -o -name '*.y' \
     -o -name '*.sh' -o -name meson.build -o -name '*.md'); do
     [ -f "$file" ] || continue
@@ -20,10 +20,10 @@ for file in $(find lib grammar src tests samples -name node_modules -prune -o -n
         complain "$file: blanks at the end of a line"
     fi
     if [ -n "$(tail -c 1 "$file")" ]; then
-        complain "$file: the last line has no end"
+        complain "$file: no line feed at the end"
     fi
     if grep -n 'TO''DO\|FIX''ME' "$file"; then
-        complain "$file: something is left to be done"
+        complain "$file: a reminder of unfinished work"
     fi
     case $file in
     *.c | *.h | *.re | *.y)
@@ -33,7 +33,7 @@ for file in $(find lib grammar src tests samples -name node_modules -prune -o -n
         case $file in
         lib/* | src/*)
             if grep -n '== NULL' "$file"; then
-                complain "$file: write !p in place of p == NULL"
+                complain "$file: write !p instead of p == NULL"
             fi
             ;;
         esac
@@ -41,8 +41,8 @@ for file in $(find lib grammar src tests samples -name node_modules -prune -o -n
         case $file in
         *_tables.h) ;;
         *)
-            if [ "$lines" -gt $longest ]; then
-                complain "$file: $lines lines, more than $longest"
+            if [ "$lines" -gt $max_lines ]; then
+                complain "$file: $lines lines, at most $max_lines"
             fi
             ;;
         esac
