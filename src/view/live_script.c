@@ -156,7 +156,7 @@ static void update_picture(LiveScript *live) {
         record_frame(live);
 }
 
-void world_set_detail(LiveScript *live, double detail) {
+void live_script_set_detail(LiveScript *live, double detail) {
     bool changed = detail != live->detail;
     live->detail = detail;
     // A picture that uses earlier frames is always in full detail, and is not made twice.

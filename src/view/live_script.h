@@ -55,7 +55,7 @@ void live_script_close(LiveScript *live);
 void live_script_begin(LiveScript *live);
 // Sets the number of pixels per unit of the script's size for future pictures: at most 1, the default. Screenshots
 // always use 1.
-void world_set_detail(LiveScript *live, double detail);
+void live_script_set_detail(LiveScript *live, double detail);
 // Computes one frame and its picture, and writes the files that the script records. Returns false if the frame failed.
 bool live_script_step(LiveScript *live);
 // Returns true for PETRI_OK. Reports, once, that there was not enough memory for a picture.

@@ -209,7 +209,7 @@ static void choose_detail(View *view) {
     if (!view->kind->coarse || !view->kind->coarse(view->display))
         return;
     view->kind->size(view->display, view->width, view->height, &width, &height);
-    world_set_detail(&view->live, width > 0 && width < view->width ? (double)width / view->width : 1);
+    live_script_set_detail(&view->live, width > 0 && width < view->width ? (double)width / view->width : 1);
 }
 
 // Replaces transparency by black, as there is nothing behind the picture.
