@@ -1,6 +1,6 @@
-"""h5md.py WAY.h5 WAY.csv: whether a trajectory in H5MD holds what the same run has written as CSV, to the last bit.
-h5md.py --frames WAY.h5: how many frames it has.
-h5md.py --same WAY.h5 OTHER.h5: whether they hold the same."""
+"""h5md.py RUN.h5 RUN.csv: checks that an H5MD trajectory has bit for bit the contents of the CSV of the same run.
+h5md.py --frames RUN.h5: prints the number of frames.
+h5md.py --same RUN.h5 OTHER.h5: checks that both files have the same contents."""
 
 import csv
 import math
@@ -11,7 +11,7 @@ import numpy
 
 
 def rows_of(group):
-    """The row of each frame that the group is in."""
+    """Returns a mapping from the frame number to the row, for each frame that contains the group."""
     return {int(step): row for row, step in enumerate(group["position/step"])}
 
 
@@ -88,7 +88,7 @@ def frames(path):
 
 
 def contents(path):
-    """All that is there: attributes, and the bytes of arrays."""
+    """Returns all attributes of a file, and the bytes of its arrays."""
     found = {}
 
     def look(name, item):

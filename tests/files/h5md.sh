@@ -1,4 +1,4 @@
-# h5md.sh: `petri run --trajectory FILE.h5`. Part of ../cli/run.sh.
+# h5md.sh: tests of `petri run --trajectory FILE.h5`. Part of ../cli/run.sh.
 
 mkdir bare
 cp "$petri" bare/petri
@@ -53,9 +53,9 @@ if [ -x "$(dirname "$petri")/petri-hdf5" ] && $python -I -c 'import h5py' 2>err;
     petri run pair.fl --frames 5 --every 2 --trajectory run.csv
     check "a .h5md file contains every K-th frame" eval 'read_h5md run.h5md run.csv || { cat err; false; }'
 
-    # Whatever ends the run, the frames that are whole are there.
+    # The complete frames must be in the file, whatever ends the run.
     printf '!physics state=:c dimensions=2\n    for i in ..300\n        !particle id=i velocity=1;i\n' >w.fl
-    # at_work FRAMES [OPTION...]: starts it, until it has made so many.
+    # at_work FRAMES [OPTION...]: starts a run and waits until it has computed FRAMES frames.
     at_work() {
         least=$(($1 - 1))
         shift
@@ -76,7 +76,7 @@ if [ -x "$(dirname "$petri")/petri-hdf5" ] && $python -I -c 'import h5py' 2>err;
         number=$((number == 129 ? 130 : 143))
     done
     mkfifo unread
-    # Starts it, until it waits because nobody takes what it prints.
+    # stuck: starts a run and waits until it blocks because its output is not read.
     stuck() {
         exec 7<>unread
         at_work 3 --print state >unread

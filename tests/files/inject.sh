@@ -1,7 +1,7 @@
-# inject.sh: each system call that has to do with a file fails in its turn. Part of ../cli/run.sh.
+# inject.sh: tests in which each file system call fails in turn. Part of ../cli/run.sh.
 #
-# strace makes the N-th call fail, for every N there is; the file must be the old or the new one, the run must say what
-# is wrong, and the next one must work. EINTR must not be noticed at all.
+# strace makes the N-th call fail, for every N. The file must then be the old or the new one, the run must report the
+# error, and the next run must succeed. EINTR must have no effect.
 
 cat >w.fl <<'END'
 !physics state=:c dimensions=2
@@ -11,9 +11,9 @@ END
 printf '!n a=1\n' >g.fl
 printf '# run --frames 1 --print tree\nold\n' >old.golden
 
-# Of each kind, the first so many calls. PETRI_INJECT=all tries as many of files that are written alike.
+# The values of N. Fewer are used for files that are written by the same code, unless PETRI_INJECT=all.
 tried='1 2 3 4 5 6 7 8 9 10'
-# What there is before each run, which needs a script or a state beside the file.
+# prepare: creates the files that exist before a run: the old file and, if needed, a script or state beside it.
 prepare() {
     mkdir -p target
     rm -f target/* target/.petri*
@@ -23,12 +23,12 @@ prepare() {
     resumed*) cp old.state target/s ;;
     esac
 }
-# sweep NAME FILE OLD GOOD COMMAND...: GOOD is a command that is true of the new file.
+# sweep NAME FILE OLD GOOD COMMAND...: runs COMMAND with each failure. GOOD is a command that succeeds for the new file.
 sweep() {
     what=$1 file=$2 old=$3 good=$4
     shift 4
     for call in openat openat2 newfstatat close read write fsync flock linkat renameat fchmod ftruncate; do
-        # Of calls that all programs make many of, those for the folder's files.
+        # Calls that every program makes many times fail only for files in the folder.
         case $call in
         openat | newfstatat | close) paths="-P $work/target -P $work/target/$file" ;;
         *) paths= ;;
@@ -40,7 +40,7 @@ sweep() {
             esac
             for n in $tried; do
                 prepare
-                # A process that strace looks at cannot look for its own leaks.
+                # The leak sanitizer does not work under strace.
                 # shellcheck disable=SC2086
                 ASAN_OPTIONS="$ASAN_OPTIONS:detect_leaks=0" timeout 100 strace -f -qq -o trace $paths -e trace=$call -e inject=$call:error=$error:when=$n \
                     "$petri" "$@" >out 2>err </dev/null
@@ -56,7 +56,7 @@ sweep() {
     status=$?
     check "$what: the run after the failures succeeds" eval 'status_is 0 && $good "target/$file"'
 }
-# What stands in the file after a call has failed: the old bytes, which is told, or the new ones.
+# judge NAME: checks the file after a failed call: it has the old contents and the error was reported, or the new ones.
 judge() {
     now=damaged
     ! $good "target/$file" || now=new
@@ -64,7 +64,7 @@ judge() {
     told=yes
     ! empty err || ! empty out || grep -q 'write(2,.*INJECTED' trace || told=no
     check "$1: $now" eval '[ $now = new ] || { [ $now = old ] && [ "$status" -ne 0 ] && [ $told = yes ]; }'
-    # The loader of programs does not try again, and nobody expects it of what only looks.
+    # The dynamic loader does not retry after EINTR. close and newfstatat need not retry either.
     if [ $error = EINTR ] && [ $call != close ] && [ $call != newfstatat ] && lacks err "shared libraries"; then
         check "$1: EINTR does not affect the run" eval '[ $now = new ] && status_is 0'
     fi
@@ -74,7 +74,7 @@ good_state() { tail -n 1 "$1" | grep -q '^end [0-9a-f]*$'; }
 good_csv() { [ "$(wc -l <"$1")" -eq 61 ]; }
 good_golden() { grep -qx '!n a=1' "$1"; }
 good_png() { tail -c 8 "$1" | grep -q IEND; }
-# The process that makes a run may fail, which is told in its row.
+# If the process of a sweep's run fails, its row has an error.
 good_table() { [ "$(sed 's/,0,,\(the process\|crashed\).*/,1,2,/; s/^1,1,1,2,/1,1,1,1,/' "$1")" = "run,A,frame,x,error
 1,1,1,1,
 2,2,1,2," ]; }
@@ -89,15 +89,15 @@ if command -v strace >/dev/null && strace -qq -o trace true 2>/dev/null; then
     [ "${PETRI_INJECT:-}" = all ] || tried="1 3"
     kinds=$tried
     [ "${PETRI_INJECT:-}" = all ] || tried=1
-    # A run that goes on lengthens its trajectory.
-    go_on() { petri run w.fl --frames "$1" --threads 1 --state old.state --trajectory "old.$2"; }
+    # A resumed run extends its trajectory.
+    resume_run() { petri run w.fl --frames "$1" --threads 1 --state old.state --trajectory "old.$2"; }
     for format in csv h5; do
         [ $format = csv ] || [ -x "$(dirname "$petri")/petri-hdf5" ] || continue
         rm -f old.state old.$format
-        go_on 2 $format
+        resume_run 2 $format
         cp old.state first.state
         cp old.$format first.$format
-        go_on 1 $format
+        resume_run 1 $format
         cp old.$format good.$format
         cp first.state old.state
         sweep resumed_$format a.$format first.$format is_good run w.fl --frames 1 --threads 1 --state target/s --trajectory target/a.$format

@@ -1,4 +1,4 @@
-# replace.sh: files are replaced as a whole; what is no regular file is written to. Part of ../cli/run.sh.
+# replace.sh: tests that regular files are replaced as a whole and others are written to. Part of ../cli/run.sh.
 
 nothing_beside() { [ -z "$(find . -name '*.tmp')" ]; }
 mode_of() { ls -ld "$1" | cut -c1-10; }
@@ -73,7 +73,7 @@ check "a trajectory can be written to a pipe" eval 'status_is 0 && [ -p run.csv 
 petri new g/t
 check "petri new does not overwrite a file" eval 'status_is 1 && has g/t.fl "!n a=2"'
 check "replaced files leave no temporary files" nothing_beside
-# What a run that was killed has left goes with the next file; what is not ours, or not left, stays.
+# The next file written removes temporary files of a killed run, but no other files.
 mkdir left
 : >left/.petri-0123456789abcdef.tmp
 : >left/.petri-mine.tmp

@@ -1,10 +1,10 @@
-# resume.sh: `petri run --state FILE --trajectory FILE`, again and again. Part of ../cli/run.sh.
+# resume.sh: tests of repeated runs of `petri run --state FILE --trajectory FILE`. Part of ../cli/run.sh.
 #
-# Whatever ends a run, the same command goes on, and the trajectory is that of a run that nothing has ended. PETRI_KILLS
-# is how many runs of kill.sh are killed (20 if it is not set), here a fifth of them for each format.
+# After any end of a run, the same command resumes it, and the trajectory equals that of an uninterrupted run. A fifth of
+# PETRI_KILLS (default: 20) runs are killed for each format.
 
 kills=$(((${PETRI_KILLS:-20} + 4) / 5))
-# Each state goes to the disk, which takes its time and is not what is looked at here.
+# Writing states to disk takes long and is not tested here, so the files are in shared memory.
 if shared=$(mktemp -d /dev/shm/petri.XXXXXX 2>/dev/null); then
     trap 'rm -rf "$work" "$shared"' EXIT
     cd "$shared" || exit 1
@@ -14,7 +14,7 @@ h5md=$(dirname "$petri")/petri-hdf5
 if [ -x "$h5md" ] && /usr/bin/python3 -I -c 'import h5py' 2>err; then
     formats="$formats h5"
 fi
-# Systems, particles and texts come and go.
+# The numbers of systems, particles and text ids change over time.
 cat >w.fl <<'END2'
 !physics state=:c dimensions=2
     for i in ..(20 if frame < 30 else 300 if frame < 70 else 5)
@@ -27,7 +27,7 @@ if frame > 60
     !physics state=:last dimensions=1
         !particle id='u' position=frame
 END2
-# Whether a file has what one of an unbroken run has.
+# same FILE: succeeds if FILE equals the trajectory of an uninterrupted run.
 same() {
     case $1 in
     *.h5) /usr/bin/python3 -I "$here/../files/h5md.py" --same whole.h5 "$1" >out 2>&1 || { cat out; false; } ;;
@@ -50,7 +50,7 @@ for format in $formats; do
     check "$format: a run of 0 frames changes nothing" eval 'status_is 0 && same $way'
     cp $way longer.$format
 
-    # A state from before: what is later is made again.
+    # The state is older than the trajectory: later frames are computed again.
     rm -f s
     petri run w.fl --frames 33 --state s --trajectory short.$format
     rest longer.$format
@@ -59,7 +59,7 @@ for format in $formats; do
     rest short.$format
     check "$format: a run without a state starts a new trajectory" eval 'status_is 0 && same short.$format'
 
-    # From a file that stopped before, which is told.
+    # The trajectory ends before the state: the missing frames are reported.
     rm -f s
     petri run w.fl --frames 3 --state s --trajectory $way
     petri run w.fl --frames 4 --state s
@@ -79,7 +79,7 @@ for format in $formats; do
     petri run w.fl --frames 2 --state bad.state --trajectory $way
     check "$format: an unreadable state leaves the trajectory unchanged" eval 'status_is 1 && cmp before $way'
 
-    # Killed: petri alone, or with petri-hdf5, at any moment.
+    # petri is killed at any moment, alone or with petri-hdf5.
     rm -f s $way
     i=0
     while [ $i -lt $kills ]; do

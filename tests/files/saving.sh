@@ -1,4 +1,4 @@
-# saving.sh: saving never gives up, and never silently. Part of ../cli/run.sh.
+# saving.sh: tests that failures to save are reported and retried. Part of ../cli/run.sh.
 
 cat >w.fl <<'END'
 !counter state=:n rate=1
@@ -50,11 +50,11 @@ if [ "$(id -u)" -eq 0 ] && mkdir small && mount -t tmpfs -o size=256k tmpfs smal
     umount small
 fi
 
-# A trajectory keeps its whole frames, whatever ends the run.
+# A trajectory keeps its complete frames, whatever ends the run.
 whole_frames() { [ $(($(wc -l <w.csv) % 300)) -eq 1 ] && [ "$(tail -n 1 w.csv | tr -cd , | wc -c)" -eq 11 ]; }
 number=129
 for signal in HUP INT TERM; do
-    # Whoever started this test may ignore SIGHUP, as nohup does.
+    # The parent of this test may ignore SIGHUP, as nohup does.
     env --default-signal=HUP,INT,TERM "$petri" run w.fl --frames 100000000 --trajectory w.csv >out 2>err </dev/null &
     job=$!
     sleep 1

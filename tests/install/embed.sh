@@ -1,14 +1,14 @@
-# embed.sh: sourced by run.sh: programs of embedders, built with what is installed in `prefix`, by pkg-config and by CMake.
+# embed.sh: tests of programs that embed petri, built against `prefix` with pkg-config and CMake. Sourced by run.sh.
 # shellcheck shell=sh disable=SC2154 # check.sh and run.sh set them
 printf '#include <petri.h>\n#include <stdio.h>\nint main(void) {\n    return puts(petri_version()) < 0;\n}\n' >app.c
 ln -s "$prefix" moved
 PKG_CONFIG_PATH=$(dirname "$(find moved/ -name petri.pc)")
 export PKG_CONFIG_PATH
-sed -i "s|^prefix=.*|prefix=$work/moved|" "$PKG_CONFIG_PATH"/petri*.pc # it is in another place now
+sed -i "s|^prefix=.*|prefix=$work/moved|" "$PKG_CONFIG_PATH"/petri*.pc # the installation was moved
 # shellcheck disable=SC2046 # options are words
 cc app.c -o app $(pkg-config --cflags --libs petri) >out 2>&1
 check "a program with libpetri links" [ $? -eq 0 ]
-LD_LIBRARY_PATH=$(dirname "$PKG_CONFIG_PATH") # where it is installed the loader knows
+LD_LIBRARY_PATH=$(dirname "$PKG_CONFIG_PATH") # a real installation does not need this
 export LD_LIBRARY_PATH
 version=$("$prefix/bin/petri" --version | sed 's/petri //')
 check "a program with libpetri runs" [ "$(./app)" = "$version" ]
@@ -18,7 +18,7 @@ check "a program with libpetri uses the shared library" has out "Shared library:
 cc app.c -o app_static $(pkg-config --cflags petri) -L"$LD_LIBRARY_PATH" -l:libpetri.a -lm -lpthread >out 2>&1
 check "a program with the static libpetri links" [ $? -eq 0 ]
 check "a program with the static libpetri runs without other libraries" [ "$(env -u LD_LIBRARY_PATH ./app_static)" = "$version" ]
-# The samples, as their first lines say.
+# The samples, compiled as their first lines say.
 embed="$prefix/share/petri/samples/embed"
 # shellcheck disable=SC2046 # options are words
 cc -std=c11 -Wall -Wextra -Werror "$embed/speed.c" -o speed $(pkg-config --cflags --libs petri) -lm >out 2>&1
@@ -33,7 +33,7 @@ if command -v c++ >/dev/null; then
     check "the sample in C++ compiles" [ $? -eq 0 ]
     check "the sample in C++ steers its particles" [ "$(./steer 2>&1 | tail -n 1)" = "240:  -0.333  25.463" ]
 else
-    echo "skipped: the sample in C++, for which there is no compiler"
+    echo "skipped: the sample in C++: no compiler"
 fi
 pkg-config --libs petri >out
 check "linking libpetri needs no drawing libraries" [ "$(grep -c -e pango -e cairo -e jpeg -e draw out)" -eq 0 ]
@@ -80,5 +80,5 @@ EOF
     cmake -S . -B cmake >out 2>&1
     check "CMake rejects another minor version" has out 'requested version "0.2"'
 else
-    echo "skipped: CMake, which is not there"
+    echo "skipped: CMake is not installed"
 fi

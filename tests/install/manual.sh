@@ -1,19 +1,19 @@
-# manual.sh: sourced by run.sh: the pages of the manual, the completions, what desktops read, as they are installed in
-# `prefix`. What has no tool here to look with is named.
+# manual.sh: tests of the manual pages, completions and desktop files in `prefix`. Tests whose tool is missing are
+# reported as skipped. Sourced by run.sh.
 # shellcheck shell=sh disable=SC2154 # check.sh and run.sh set them
 share=$prefix/share
-without() { echo "skipped: $1, for there is no $2"; }
+without() { echo "skipped: $1: no $2"; }
 
 pages="man1/petri.1 man5/petri.5 man3/petri.h.3 man3/petri-draw.h.3"
 for name in $("$prefix/bin/petri" help | sed -n 's/^  \([a-z]*\) .*/\1/p'); do
     pages="$pages man1/petri-$name.1"
 done
 check "each command has a page" [ "$(echo "$pages" | wc -w)" -ge 12 ]
-# quiet_pages COMMAND...: it has nothing to say of any page, but that none has a date.
+# quiet_pages COMMAND...: succeeds if COMMAND prints no warning for any page, except that the date is missing.
 quiet_pages() {
     for page in $pages; do
         "$@" "$share/man/$page" 2>&1 >/dev/null | grep -v -e 'missing date' || true
-        [ -s "$share/man/$page" ] || echo "$page is not there"
+        [ -s "$share/man/$page" ] || echo "$page is missing"
     done >out
     empty out
 }
@@ -21,7 +21,7 @@ lint() { mandoc -T lint -W warning "$1" >&2; }
 formatted() { man --warnings -E UTF-8 -l -Tutf8 "$1"; }
 if command -v mandoc >/dev/null; then
     check "mandoc reports nothing" quiet_pages lint
-    # shows PAGE TEXT: the page has it when it is read.
+    # shows PAGE TEXT: succeeds if the formatted page contains TEXT.
     shows() { mandoc -T utf8 -O width=200 "$share/man/$1" | sed 's/.\x08//g' >out && has out "$2"; }
     check "the page of a command has its options" shows man1/petri-run.1 "--trajectory FILE"
     check "the page of a command has the help of options" shows man1/petri-run.1 "print and record every K-th frame"
@@ -42,11 +42,11 @@ fi
 if command -v man >/dev/null && command -v groff >/dev/null; then
     check "man gives no warning" quiet_pages formatted
 else
-    without "the pages once more" "man or groff"
+    without "the pages with man" "man or groff"
 fi
 
 bash_completion=$share/bash-completion/completions/petri
-# completes "OPTIONS" WORD...: what bash offers for the last of these words, in a line.
+# completes WORD...: prints the completions of bash for the last word, on one line.
 completes() {
     bash -c 'compopt() { :; }; . "$0" && COMP_WORDS=("$@") && COMP_CWORD=$(($# - 1)) && _petri && echo "${COMPREPLY[*]}"' \
         "$bash_completion" "$@"
@@ -81,7 +81,7 @@ else
     without "its completion" fish
 fi
 if command -v zsh >/dev/null; then
-    # A terminal of zsh's own, in which Tab is pressed; the line that stands there then is given back.
+    # Presses Tab in a pseudo-terminal of zsh and prints the resulting lines.
     zsh -f "$here/complete.zsh" "$share/zsh/site-functions" >out 2>&1
     check "zsh completes" [ "$(xargs <out)" = \
         "petri render petri run --trajectory= petri run --neighbours=never petri one.fl --trajectory= petri help electrostatic" ]

@@ -1,12 +1,12 @@
 #!/bin/sh
-# run.sh BUILD draws|none SANITIZERS: installs what BUILD holds into a folder, moves that elsewhere, and tries it: the
-# command and the program that it starts, the hints that it gives, the library, the manual and the completions.
+# run.sh BUILD draws|none SANITIZERS: tests an installation of BUILD that was moved to another folder: the command, its
+# helper programs, its hints, the library, the manual and the completions.
 set -u
 # shellcheck source=tests/support/check.sh
 . "$(dirname "$0")/../support/check.sh"
 build=$(cd "$1" && pwd)
 scratch
-SHELL=/bin/sh # that of `script`
+SHELL=/bin/sh # shell of `script`
 export SHELL
 helps() { "$1" help 2>&1 | tee out | grep -q 'usage: petri'; }
 
@@ -34,13 +34,13 @@ check "the message names the folder of the copy" has out "$work/lone/"
 check "the message names the libexec folder" has out "$work/libexec"
 check "the message is one line" [ "$(wc -l <out)" -eq 1 ]
 
-# hint PATH [NAME=VALUE]: how the petri that is called so says, at a terminal, that a picture is kept.
+# hint PATH [NAME=VALUE]: prints the command in the hint to save a picture, if petri is started as PATH in a terminal.
 hint() {
     env ${2:+"$2"} TERM=dumb script -qec "'$1' run --frames 2 dish.fl" /dev/null 2>/dev/null </dev/null |
         tr -d '\r' | tee out | sed -n 's/.*to save a picture of it: \(.*\) (or OUT.mp4)/\1/p'
 }
 sh_works() { rm -f OUT.png && sh -c "$1" >out 2>&1 && [ -s OUT.png ]; }
-# A bare container has no pseudo-terminals.
+# A minimal container has no pseudo-terminals.
 if [ "$2" = draws ] && script -qec true /dev/null >/dev/null 2>&1 </dev/null; then
     cp "$prefix/share/petri/samples/petri.fl" dish.fl
     mkdir -p build/src
@@ -61,10 +61,10 @@ if [ "$2" = draws ] && script -qec true /dev/null >/dev/null 2>&1 </dev/null; th
     script -qec "petri run --frames 1 \"it's a dish.fl\"" /dev/null </dev/null 2>/dev/null | tr -d '\r' >out
     check "the script's name is quoted" has out "petri view 'it'\\''s a dish.fl'"
 else
-    echo "skipped: the hints, for petri does not draw or there are no pseudo-terminals"
+    echo "skipped: the hints: petri does not draw or there are no pseudo-terminals"
 fi
 
-# The sanitizers' own libraries are none of an embedder's business.
+# Embedding is not tested with sanitizers, because programs would need their libraries.
 if [ "$3" = none ] && command -v cc >/dev/null; then
     # shellcheck source=tests/install/embed.sh
     . "$here/embed.sh"

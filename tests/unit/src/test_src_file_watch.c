@@ -1,4 +1,4 @@
-// test_src_file_watch.c: changes on disk are told once, however an editor makes them, and not before they are whole.
+// test_src_file_watch.c: tests that complete changes on disk are reported once, however an editor makes them.
 #include "cli/file_watch.h"
 #include "folder.h"
 
@@ -35,7 +35,7 @@ static long milliseconds(void) {
     return time.tv_sec * 1000 + time.tv_nsec / 1000000;
 }
 
-// Waits as a host does, by poll where that is possible, until a change is told; false after `limit`.
+// Waits like a host, with poll if possible, until a change is reported. Returns false after `limit` milliseconds.
 static bool wait_changed(FileWatch *watch, long limit) {
     long end = milliseconds() + limit;
     for (long left = limit; left > 0; left = end - milliseconds()) {
@@ -48,24 +48,24 @@ static bool wait_changed(FileWatch *watch, long limit) {
     return false;
 }
 
-static void write_plainly(Folder *folder, const char *name, const char *text) {
+static void write_file(Folder *folder, const char *name, const char *text) {
     FILE *file = fopen(folder_file(folder, name), "wb");
     assert_non_null(file);
     assert_true(fputs(text, file) >= 0);
     assert_int_equal(fclose(file), 0);
 }
 
-static void test_nothing_changes(void **state) {
+static void test_unchanged_file_is_not_reported(void **state) {
     Site *site = *state;
     assert_false(file_watch_changed(site->watch));
     folder_write(&site->folder, "a.fl", "1");
     file_watch_add(site->watch, folder_file(&site->folder, "a.fl"));
     assert_false(wait_changed(site->watch, QUIET_MS));
-    write_plainly(&site->folder, "b.fl", "a neighbour");
+    write_file(&site->folder, "b.fl", "a neighbour");
     assert_false(wait_changed(site->watch, QUIET_MS));
 }
 
-static void test_written_in_place(void **state) {
+static void test_write_in_place_is_reported_once(void **state) {
     Site *site = *state;
     folder_write(&site->folder, "a.fl", "1");
     file_watch_add(site->watch, folder_file(&site->folder, "a.fl"));
@@ -76,7 +76,7 @@ static void test_written_in_place(void **state) {
     }
 }
 
-static void test_replaced_by_rename(void **state) {
+static void test_rename_is_reported_once(void **state) {
     Site *site = *state;
     char to[600];
     folder_write(&site->folder, "a.fl", "1");
@@ -90,7 +90,7 @@ static void test_replaced_by_rename(void **state) {
     }
 }
 
-static void test_removed_and_made_again(void **state) {
+static void test_recreated_file_is_reported(void **state) {
     Site *site = *state;
     folder_write(&site->folder, "a.fl", "1");
     file_watch_add(site->watch, folder_file(&site->folder, "a.fl"));
@@ -100,8 +100,8 @@ static void test_removed_and_made_again(void **state) {
     assert_true(wait_changed(site->watch, PATIENCE_MS));
 }
 
-// What is not a file cannot be read again: to open a pipe waits for someone who writes.
-static void test_pipe_in_its_place(void **state) {
+// A pipe in the file's place must not be reported, because opening it would wait for a writer.
+static void test_pipe_is_not_reported(void **state) {
     Site *site = *state;
     folder_write(&site->folder, "a.fl", "1");
     file_watch_add(site->watch, folder_file(&site->folder, "a.fl"));
@@ -110,7 +110,7 @@ static void test_pipe_in_its_place(void **state) {
     assert_false(wait_changed(site->watch, QUIET_MS));
 }
 
-static void test_made_later(void **state) {
+static void test_new_file_is_reported(void **state) {
     Site *site = *state;
     file_watch_add(site->watch, folder_file(&site->folder, "later.fl"));
     assert_false(wait_changed(site->watch, QUIET_MS));
@@ -118,7 +118,7 @@ static void test_made_later(void **state) {
     assert_true(wait_changed(site->watch, PATIENCE_MS));
 }
 
-static void test_folder_made_again(void **state) {
+static void test_file_in_recreated_folder_is_reported(void **state) {
     Site *site = *state;
     char folder[600], file[700];
     snprintf(folder, sizeof folder, "%s", folder_file(&site->folder, "inner"));
@@ -133,11 +133,11 @@ static void test_folder_made_again(void **state) {
     }
 }
 
-// A writer that has not closed its file is waited for, though it pauses for longer than the usual quiet.
-static void test_half_written(void **state) {
+// A change is not reported while its writer keeps the file open, even if it pauses for longer than usual.
+static void test_open_file_is_reported_after_close(void **state) {
     Site *site = *state;
     if (file_watch_descriptor(site->watch) < 0)
-        skip(); // a look by time cannot know that the file is still open
+        skip(); // polling cannot detect that the file is still open
     folder_write(&site->folder, "a.fl", "1");
     file_watch_add(site->watch, folder_file(&site->folder, "a.fl"));
     FILE *file = fopen(folder_file(&site->folder, "a.fl"), "wb");
@@ -149,7 +149,7 @@ static void test_half_written(void **state) {
     assert_false(wait_changed(site->watch, QUIET_MS));
 }
 
-static void test_link(void **state) {
+static void test_target_of_link_is_watched(void **state) {
     Site *site = *state;
     Folder other;
     folder_open(&other);
@@ -161,41 +161,41 @@ static void test_link(void **state) {
     folder_close(&other);
 }
 
-static void test_several_files_at_once(void **state) {
+static void test_several_changes_are_reported(void **state) {
     Site *site = *state;
     static const char *const names[] = {"a.fl", "b.fl", "c.fl"};
     for (int i = 0; i < 3; i++) {
         folder_write(&site->folder, names[i], "1");
         file_watch_add(site->watch, folder_file(&site->folder, names[i]));
-        file_watch_add(site->watch, folder_file(&site->folder, names[i])); // twice is once
+        file_watch_add(site->watch, folder_file(&site->folder, names[i])); // a second call is ignored
     }
     for (int i = 0; i < 3; i++)
         folder_write(&site->folder, names[i], "2");
     assert_true(wait_changed(site->watch, PATIENCE_MS));
-    while (wait_changed(site->watch, QUIET_MS)) // a slow machine may tell them one by one
+    while (wait_changed(site->watch, QUIET_MS)) // on a slow machine, the changes may be reported separately
         ;
     folder_write(&site->folder, names[1], "3");
     assert_true(wait_changed(site->watch, PATIENCE_MS));
 }
 
-static void test_free_nothing(void **state) {
+static void test_free_ignores_null(void **state) {
     (void)state;
     file_watch_free(NULL);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_nothing_changes, site_open, site_close),
-        cmocka_unit_test_setup_teardown(test_written_in_place, site_open, site_close),
-        cmocka_unit_test_setup_teardown(test_replaced_by_rename, site_open, site_close),
-        cmocka_unit_test_setup_teardown(test_removed_and_made_again, site_open, site_close),
-        cmocka_unit_test_setup_teardown(test_pipe_in_its_place, site_open, site_close),
-        cmocka_unit_test_setup_teardown(test_made_later, site_open, site_close),
-        cmocka_unit_test_setup_teardown(test_folder_made_again, site_open, site_close),
-        cmocka_unit_test_setup_teardown(test_half_written, site_open, site_close),
-        cmocka_unit_test_setup_teardown(test_link, site_open, site_close),
-        cmocka_unit_test_setup_teardown(test_several_files_at_once, site_open, site_close),
-        cmocka_unit_test(test_free_nothing),
+        cmocka_unit_test_setup_teardown(test_unchanged_file_is_not_reported, site_open, site_close),
+        cmocka_unit_test_setup_teardown(test_write_in_place_is_reported_once, site_open, site_close),
+        cmocka_unit_test_setup_teardown(test_rename_is_reported_once, site_open, site_close),
+        cmocka_unit_test_setup_teardown(test_recreated_file_is_reported, site_open, site_close),
+        cmocka_unit_test_setup_teardown(test_pipe_is_not_reported, site_open, site_close),
+        cmocka_unit_test_setup_teardown(test_new_file_is_reported, site_open, site_close),
+        cmocka_unit_test_setup_teardown(test_file_in_recreated_folder_is_reported, site_open, site_close),
+        cmocka_unit_test_setup_teardown(test_open_file_is_reported_after_close, site_open, site_close),
+        cmocka_unit_test_setup_teardown(test_target_of_link_is_watched, site_open, site_close),
+        cmocka_unit_test_setup_teardown(test_several_changes_are_reported, site_open, site_close),
+        cmocka_unit_test(test_free_ignores_null),
     };
     return cmocka_run_group_tests_name("watch", tests, NULL, NULL);
 }

@@ -1,11 +1,11 @@
-// test_src_history.c: going back and forth in the frames of a session: the same bits, in bounded memory.
+// test_src_history.c: tests that going back and forth in a session gives the same bits in bounded memory.
 #include "cli/cli.h"
 #include "cli/history.h"
 #include "player.h"
 
 #include <stdarg.h>
 
-// What the command says is of no interest here.
+// Messages of the command are ignored.
 void message(const char *format, ...) {
     (void)format;
 }
@@ -18,7 +18,7 @@ static const char *const SCRIPT = "%pragma tempo 60\n"
                                   "    !random strength=10\n"
                                   "    !drag strength=0.1\n";
 
-static uint64_t hash_of(Player *player) {
+static uint64_t state_hash(Player *player) {
     uint64_t hash = UINT64_C(14695981039346656037);
     player->printed.len = 0;
     assert_int_equal(petri_print(player->session, PETRI_PRINT_STATE, note, &player->printed), PETRI_OK);
@@ -35,11 +35,11 @@ static uint64_t hashes[FRAMES];
 static void step(Player *player, int frames) {
     for (int i = 0; i < frames; i++) {
         assert_int_equal(history_step(&history, player->session), PETRI_OK);
-        hashes[petri_frame(player->session).number] = hash_of(player);
+        hashes[petri_frame(player->session).number] = state_hash(player);
     }
 }
 
-static void go(Player *player, int64_t frame) {
+static void go_to(Player *player, int64_t frame) {
     ByteBuffer why = {0};
     PetriStatus status = history_goto(&history, player->session, frame, &why);
     if (status != PETRI_OK)
@@ -47,11 +47,11 @@ static void go(Player *player, int64_t frame) {
     assert_int_equal(status, PETRI_OK);
     assert_int_equal(petri_frame(player->session).number, frame);
     if (frame >= 0)
-        assert_true(hash_of(player) == hashes[frame]);
+        assert_true(state_hash(player) == hashes[frame]);
     byte_buffer_free(&why);
 }
 
-static void begin(Player *player) {
+static void start_history(Player *player) {
     PetriOptions options = player_options(player);
     options.rollback_frames = true;
     player_reopen(player, &options);
@@ -59,21 +59,21 @@ static void begin(Player *player) {
     assert_true(history_start(&history, player->session, NULL));
 }
 
-static void test_any_frame(void **state) {
+static void test_goto_any_frame_gives_same_bits(void **state) {
     Player *player = *state;
     uint64_t random = 1;
-    begin(player);
+    start_history(player);
     step(player, FRAMES);
     assert_true(history.keyframe_count <= HISTORY_MAX);
     assert_true(history.bytes <= HISTORY_BYTES);
     for (int i = 0; i < 40; i++) {
         random = random * UINT64_C(6364136223846793005) + 1;
-        go(player, (int64_t)((random >> 33) % FRAMES));
+        go_to(player, (int64_t)((random >> 33) % FRAMES));
     }
-    go(player, -1);
-    go(player, 0);
-    go(player, FRAMES - 1);
-    // The way back is short for what was just now, and never long.
+    go_to(player, -1);
+    go_to(player, 0);
+    go_to(player, FRAMES - 1);
+    // Keyframes are dense for recent frames, and gaps are limited relative to their age.
     for (size_t i = 1; i < history.keyframe_count; i++) {
         int64_t gap = history.keyframes[i].frame - history.keyframes[i - 1].frame;
         int64_t age = history.last - history.keyframes[i - 1].frame;
@@ -82,11 +82,11 @@ static void test_any_frame(void **state) {
     history_free(&history);
 }
 
-// What is changed counts from there on; frames before it are made again as they were.
-static void test_changes(void **state) {
+// A change applies only to later frames; earlier frames are recomputed without it.
+static void test_change_applies_to_later_frames(void **state) {
     Player *player = *state;
     PetriPromptResult done;
-    begin(player);
+    start_history(player);
     step(player, 50);
     assert_int_equal(petri_prompt(player->session, "!counter state=:typed", PETRI_NUL_TERMINATED, NULL, NULL, &done),
                      PETRI_OK);
@@ -96,42 +96,42 @@ static void test_changes(void **state) {
     assert_int_equal(history.epoch_count, 3);
     static const int64_t way[] = {20, 149, 49, 50, 99, 100, 3, 120, 60, 149};
     for (size_t i = 0; i < sizeof way / sizeof way[0]; i++)
-        go(player, way[i]);
-    // Another future begins where one steps on under other settings.
-    go(player, 30);
+        go_to(player, way[i]);
+    // Stepping under other settings replaces the later frames.
+    go_to(player, 30);
     assert_float_equal(petri_frame(player->session).tempo, 90, 0);
     step(player, 40);
     assert_int_equal(history.last, 70);
     assert_int_equal(history.epoch_count, 2);
     static const int64_t again[] = {29, 30, 31, 70, 10, 45, 70};
     for (size_t i = 0; i < sizeof again / sizeof again[0]; i++)
-        go(player, again[i]);
-    // Under the same settings it is the same future.
-    go(player, 50);
+        go_to(player, again[i]);
+    // Stepping under the same settings keeps the later frames.
+    go_to(player, 50);
     step(player, 5);
     assert_int_equal(history.last, 70);
-    go(player, 70);
+    go_to(player, 70);
     history_free(&history);
 }
 
-static void test_refused(void **state) {
+static void test_goto_before_start_is_rejected(void **state) {
     Player *player = *state;
     ByteBuffer why = {0};
-    begin(player);
+    start_history(player);
     step(player, 30);
     assert_true(history_start(&history, player->session, "for a reason"));
     step(player, 30);
     assert_int_equal(history_goto(&history, player->session, 12, &why), PETRI_INVALID);
-    assert_non_null(strstr(why.data, "begins with frame 29: for a reason"));
+    assert_non_null(strstr(why.data, "starts at frame 29: for a reason"));
     assert_int_equal(petri_frame(player->session).number, 59);
-    go(player, 30);
+    go_to(player, 30);
     assert_int_equal(history_reset(&history, player->session), PETRI_OK);
     assert_int_equal(petri_frame(player->session).number, 29);
     byte_buffer_free(&why);
     history_free(&history);
 }
 
-// What an interrupted step leaves: the state of the frame before, and nothing else of it.
+// Drops everything but the state of the current frame, as after an interrupted step.
 static void lose_systems(Player *player) {
     PetriSystem system;
     PetriSnapshot *snapshot = petri_snapshot(player->session);
@@ -140,14 +140,14 @@ static void lose_systems(Player *player) {
     assert_false(petri_system(player->session, 0, &system));
 }
 
-// A frame of which only the state is there is made again whole, under the settings that it was made with.
-static void test_remade(void **state) {
+// A frame with only its state is recomputed completely, with the settings of its epoch.
+static void test_recompute_restores_whole_frame(void **state) {
     Player *player = *state;
     PetriSystem system;
-    begin(player);
+    start_history(player);
     step(player, 50);
     for (int64_t frame = 49; frame > 30; frame -= 3) {
-        go(player, frame);
+        go_to(player, frame);
         lose_systems(player);
         assert_int_equal(petri_set_tempo(player->session, 90 + (double)frame), PETRI_OK);
         uint64_t config = petri_config_revision(player->session);
@@ -155,7 +155,7 @@ static void test_remade(void **state) {
         assert_true(petri_system(player->session, 0, &system));
         assert_int_equal(system.particle_count, 4);
         assert_int_equal(petri_frame(player->session).number, frame);
-        assert_true(hash_of(player) == hashes[frame]);
+        assert_true(state_hash(player) == hashes[frame]);
         assert_true(petri_config_revision(player->session) == config);
     }
     lose_systems(player);
@@ -163,19 +163,19 @@ static void test_remade(void **state) {
     petri_interrupt(player->session);
     assert_int_equal(history_recompute(&history, player->session), PETRI_INTERRUPTED);
     assert_int_equal(petri_frame(player->session).number, frame);
-    assert_true(hash_of(player) == hashes[frame]);
-    go(player, -1);
-    assert_int_equal(history_recompute(&history, player->session), PETRI_OK); // there is nothing to make
+    assert_true(state_hash(player) == hashes[frame]);
+    go_to(player, -1);
+    assert_int_equal(history_recompute(&history, player->session), PETRI_OK); // nothing to recompute
     assert_int_equal(petri_frame(player->session).number, -1);
     history_free(&history);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_any_frame),
-        PLAYER_TEST(test_changes),
-        PLAYER_TEST(test_refused),
-        PLAYER_TEST(test_remade),
+        PLAYER_TEST(test_goto_any_frame_gives_same_bits),
+        PLAYER_TEST(test_change_applies_to_later_frames),
+        PLAYER_TEST(test_goto_before_start_is_rejected),
+        PLAYER_TEST(test_recompute_restores_whole_frame),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,8 @@
-// test_src_overlay_text.c: what a script or a file name says reaches the picture as plain text that fits.
+// test_src_overlay_text.c: tests that overlay texts are plain, valid UTF-8 and fit the picture.
 #include "check.h"
 #include "view/overlay_text.h"
 
-static void test_set(void **state) {
+static void test_set_removes_control_sequences(void **state) {
     static const struct {
         const char *from;
         const char *wanted;
@@ -18,10 +18,10 @@ static void test_set(void **state) {
         {"\xC2\x9B"
          "31m",
          "31m"},                        // a control character of two bytes
-        {"\xFF\xC3+\xE2\x82", "??+??"}, // no UTF-8
+        {"\xFF\xC3+\xE2\x82", "??+??"}, // invalid UTF-8
         {"\xED\xA0\x80 \xC0\x80 \xF4\x90\x80\x80", "???"
                                                    " ?? ?"
-                                                   "???"}, // surrogate, overlong, beyond
+                                                   "???"}, // surrogate, overlong, beyond U+10FFFF
         {"\033", ""},
         {"\033[", ""},
         {"\033[31", ""},
@@ -31,20 +31,20 @@ static void test_set(void **state) {
         char text[100] = "before";
         assert_claim(rows[i].from, overlay_set(text, sizeof text, rows[i].from));
         assert_text(rows[i].from, text, rows[i].wanted);
-        assert_claim(rows[i].from, !overlay_set(text, sizeof text, rows[i].from)); // the same again
+        assert_claim(rows[i].from, !overlay_set(text, sizeof text, rows[i].from)); // unchanged text
     }
 }
 
-static void test_set_cuts(void **state) {
+static void test_set_truncates_between_characters(void **state) {
     char text[8] = "";
     (void)state;
     assert_true(overlay_set(text, sizeof text, "0123456789"));
     assert_string_equal(text, "0123456");
-    assert_true(overlay_set(text, sizeof text, "01234\xE2\x80\xA6 more")); // never within a character
+    assert_true(overlay_set(text, sizeof text, "01234\xE2\x80\xA6 more")); // does not split a character
     assert_string_equal(text, "01234");
 }
 
-static void test_fit(void **state) {
+static void test_fit_wraps_and_truncates_lines(void **state) {
     static const struct {
         const char *text;
         int columns;
@@ -60,7 +60,7 @@ static void test_fit(void **state) {
         {"    ^~~~", 10, "    ^~~~"},
         {"a.fl:1:2: error: what\n    !rect size=100;100\n    ^", 10, "a.fl:1:2:\nerror:\nwhat\n    !rect…\n    ^"},
         {"\xC3\xA4\xC3\xB6\xC3\xBC \xC3\xA4\xC3\xB6\xC3\xBC", 5, "\xC3\xA4\xC3\xB6\xC3\xBC\n\xC3\xA4\xC3\xB6\xC3\xBC"},
-        {"abc", -5, "ab\nc"}, // no room at all
+        {"abc", -5, "ab\nc"}, // a width below 1
         {"a\n\nb", 10, "a\n\nb"},
     };
     (void)state;
@@ -71,7 +71,7 @@ static void test_fit(void **state) {
     }
 }
 
-static void test_fit_in_bytes(void **state) {
+static void test_fit_never_exceeds_buffer(void **state) {
     (void)state;
     for (size_t size = 1; size < 40; size++) {
         char out[40];
@@ -81,7 +81,7 @@ static void test_fit_in_bytes(void **state) {
     }
 }
 
-static void test_measures(void **state) {
+static void test_lines_and_columns_are_counted(void **state) {
     (void)state;
     assert_int_equal(overlay_lines(""), 0);
     assert_int_equal(overlay_lines("a"), 1);
@@ -92,8 +92,9 @@ static void test_measures(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_set),          cmocka_unit_test(test_set_cuts), cmocka_unit_test(test_fit),
-        cmocka_unit_test(test_fit_in_bytes), cmocka_unit_test(test_measures),
+        cmocka_unit_test(test_set_removes_control_sequences), cmocka_unit_test(test_set_truncates_between_characters),
+        cmocka_unit_test(test_fit_wraps_and_truncates_lines), cmocka_unit_test(test_fit_never_exceeds_buffer),
+        cmocka_unit_test(test_lines_and_columns_are_counted),
     };
     return cmocka_run_group_tests_name("overlay_text", tests, NULL, NULL);
 }

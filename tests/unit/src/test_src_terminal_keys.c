@@ -1,4 +1,4 @@
-// test_src_terminal_keys.c: what terminals send, as events.
+// test_src_terminal_keys.c: tests that the byte sequences of terminals are decoded to events.
 #include "check.h"
 #include "petri.h"
 #include "view/terminal_keys.h"
@@ -6,7 +6,7 @@
 #include <time.h>
 #include <unistd.h>
 
-// Sends a text through a pipe.
+// Sends bytes through a pipe.
 static void send(TerminalInput *input, const char *text, size_t length) {
     int ends[2];
     assert_int_equal(pipe(ends), 0);
@@ -26,7 +26,7 @@ static void check_tap(const char *row, const Event *event, const char *key, bool
     assert_claim(row, event->control == control);
 }
 
-static void test_keys(void **state) {
+static void test_sequence_gives_key(void **state) {
     static const struct {
         const char *text;
         const char *key;
@@ -63,7 +63,7 @@ static void test_keys(void **state) {
     }
 }
 
-static void test_meaningless(void **state) {
+static void test_unknown_sequence_is_ignored(void **state) {
     static const char *const rows[] = {"\xC3\xA4", "\001\033[99~", "\033[1;2Y", "\033[?1;2c", "\033OZ", "!"};
     (void)state;
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
@@ -76,8 +76,8 @@ static void test_meaningless(void **state) {
     }
 }
 
-// An escape by itself is a key once nothing follows it.
-static void test_escape(void **state) {
+// An escape is the Escape key if no bytes follow it for a while.
+static void test_lone_escape_is_a_key(void **state) {
     TerminalInput input = {0};
     (void)state;
     send_text(&input, "\033");
@@ -87,7 +87,7 @@ static void test_escape(void **state) {
     check_tap("escape", &event, "escape", false);
 }
 
-static void test_in_pieces(void **state) {
+static void test_split_sequence_is_decoded(void **state) {
     static const char text[] = "\033[<0;12;5M";
     TerminalInput input = {0};
     (void)state;
@@ -108,7 +108,7 @@ static void check_pointer(TerminalInput *input, const char *text, double x, doub
     assert_claim(text, event.buttons == buttons);
 }
 
-static void test_mouse(void **state) {
+static void test_mouse_sequences_give_pointer(void **state) {
     TerminalInput input = {0};
     (void)state;
     check_pointer(&input, "\033[<35;1;1M", 0.5, 0.5, 0); // moved
@@ -118,15 +118,15 @@ static void test_mouse(void **state) {
     check_pointer(&input, "\033[<0;10;4m", 9.5, 3.5, PETRI_BUTTON_RIGHT);
     check_pointer(&input, "\033[<18;10;4m", 9.5, 3.5, 0); // with Control
     send_text(&input, "\033[<64;10;4M\033[<0;0;0M\033[<M\033[<99999999999999999999;1;1M");
-    assert_int_equal(terminal_input_next(&input).kind, EVENT_NONE); // the wheel, and nonsense
+    assert_int_equal(terminal_input_next(&input).kind, EVENT_NONE); // the wheel, and invalid sequences
     send_text(&input, "\033[<1;2;3M\033[O");
     assert_int_equal(terminal_input_next(&input).buttons, PETRI_BUTTON_MIDDLE);
     assert_int_equal(terminal_input_next(&input).kind, EVENT_FOCUS_LOST);
     check_pointer(&input, "\033[<35;2;3M", 1.5, 2.5, 0);
 }
 
-// A sequence without an end takes no more than its room, and keys are understood again after it.
-static void test_flood(void **state) {
+// A sequence without an end does not exceed the buffer, and keys after it are decoded.
+static void test_endless_sequence_is_bounded(void **state) {
     char text[200];
     TerminalInput input = {0};
     (void)state;
@@ -142,10 +142,10 @@ static void test_flood(void **state) {
         ;
     send_text(&input, "q");
     Event event = terminal_input_next(&input);
-    check_tap("after", &event, "q", false);
+    check_tap("key after the sequence", &event, "q", false);
 }
 
-static void test_closed(void **state) {
+static void test_end_of_input_closes(void **state) {
     TerminalInput input = {0};
     (void)state;
     send(&input, "", 0);
@@ -154,9 +154,10 @@ static void test_closed(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_keys),      cmocka_unit_test(test_meaningless), cmocka_unit_test(test_escape),
-        cmocka_unit_test(test_in_pieces), cmocka_unit_test(test_mouse),       cmocka_unit_test(test_flood),
-        cmocka_unit_test(test_closed),
+        cmocka_unit_test(test_sequence_gives_key),           cmocka_unit_test(test_unknown_sequence_is_ignored),
+        cmocka_unit_test(test_lone_escape_is_a_key),         cmocka_unit_test(test_split_sequence_is_decoded),
+        cmocka_unit_test(test_mouse_sequences_give_pointer), cmocka_unit_test(test_endless_sequence_is_bounded),
+        cmocka_unit_test(test_end_of_input_closes),
     };
     return cmocka_run_group_tests_name("terminal_keys", tests, NULL, NULL);
 }

@@ -1,10 +1,10 @@
-// test_src_terminal_picture.c: pictures as text, by what the environment tells of the terminal.
+// test_src_terminal_picture.c: tests of pictures as text, in the format that the environment selects.
 #include "check.h"
 #include "view/terminal_picture.h"
 
 #include <stdlib.h>
 
-static TerminalPicture *way_for(const char *term, const char *locale, bool colour) {
+static TerminalPicture *new_picture_for(const char *term, const char *locale, bool colour) {
     static const char *const names[] = {"LC_CTYPE",     "LANG",          "TMUX",         "COLORTERM",
                                         "TERM_PROGRAM", "KITTY_PID",     "WINDOWID",     "VTE_VERSION",
                                         "MLTERM",       "XTERM_VERSION", "TERMINAL_NAME"};
@@ -12,12 +12,12 @@ static TerminalPicture *way_for(const char *term, const char *locale, bool colou
         unsetenv(names[i]);
     setenv("TERM", term, 1);
     setenv("LC_ALL", locale, 1);
-    TerminalPicture *renderer = terminal_picture_new(-1, colour); // no terminal: cells are taken to be 8 by 16
+    TerminalPicture *renderer = terminal_picture_new(-1, colour); // not a terminal: assumes cells of 8 by 16 pixels
     assert_non_null(renderer);
     return renderer;
 }
 
-static void test_fit(void **state) {
+static void test_fit_keeps_aspect_ratio(void **state) {
     static const struct {
         int columns;
         int rows;
@@ -30,7 +30,7 @@ static void test_fit(void **state) {
         {80, 24, 1, 1, 48, 24},     {80, 24, 1, 10000, 1, 24},    {1, 1, 500, 500, 1, 1},
     };
     (void)state;
-    TerminalPicture *renderer = way_for("xterm-256color", "C.UTF-8", true);
+    TerminalPicture *renderer = new_picture_for("xterm-256color", "C.UTF-8", true);
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         TerminalCells cells =
             terminal_picture_fit(renderer, rows[i].columns, rows[i].rows, rows[i].width, rows[i].height);
@@ -41,8 +41,8 @@ static void test_fit(void **state) {
     terminal_picture_free(renderer);
 }
 
-// A picture whose left half is white and whose right half is black.
-static char *halves(TerminalPicture *renderer, const TerminalCells *cells) {
+// Returns the text of a picture whose left half is white and whose right half is black.
+static char *draw_halves(TerminalPicture *renderer, const TerminalCells *cells) {
     uint32_t *pixels = calloc((size_t)cells->width * (size_t)cells->height, sizeof *pixels);
     assert_non_null(pixels);
     for (int i = 0; i < cells->width * cells->height; i++)
@@ -62,25 +62,25 @@ static int count(const char *text, char wanted) {
     return found;
 }
 
-static void test_cells(void **state) {
+static void test_cells_are_coloured_lines(void **state) {
     (void)state;
-    TerminalPicture *renderer = way_for("xterm-256color", "C.UTF-8", true);
+    TerminalPicture *renderer = new_picture_for("xterm-256color", "C.UTF-8", true);
     assert_false(terminal_picture_is_graphics(renderer));
     TerminalCells cells = terminal_picture_fit(renderer, 20, 5, 320, 160);
-    char *text = halves(renderer, &cells);
+    char *text = draw_halves(renderer, &cells);
     assert_int_equal(count(text, '\n'), cells.rows - 1);
     assert_non_null(strstr(text, "\033[")); // coloured
     free(text);
     terminal_picture_free(renderer);
 }
 
-static void test_ascii(void **state) {
+static void test_other_locales_give_ascii(void **state) {
     static const char *const locales[] = {"C", "POSIX", "de_DE.ISO-8859-1", "xx"};
     (void)state;
     for (size_t i = 0; i < COUNT_OF(locales); i++) {
-        TerminalPicture *renderer = way_for("xterm-256color", locales[i], false);
+        TerminalPicture *renderer = new_picture_for("xterm-256color", locales[i], false);
         TerminalCells cells = terminal_picture_fit(renderer, 20, 5, 320, 160);
-        char *text = halves(renderer, &cells);
+        char *text = draw_halves(renderer, &cells);
         for (const char *at = text; *at; at++)
             assert_claim(locales[i], (unsigned char)*at < 128);
         free(text);
@@ -88,36 +88,36 @@ static void test_ascii(void **state) {
     }
 }
 
-static void test_graphics(void **state) {
+static void test_graphics_protocol_by_terminal(void **state) {
     (void)state;
-    TerminalPicture *renderer = way_for("xterm-kitty", "C.UTF-8", true);
+    TerminalPicture *renderer = new_picture_for("xterm-kitty", "C.UTF-8", true);
     assert_true(terminal_picture_is_graphics(renderer));
     TerminalCells cells = terminal_picture_fit(renderer, 20, 5, 320, 160);
-    char *text = halves(renderer, &cells);
+    char *text = draw_halves(renderer, &cells);
     assert_non_null(strstr(text, "\033_G"));
     free(text);
     terminal_picture_free(renderer);
-    renderer = way_for("mlterm", "C.UTF-8", true);
+    renderer = new_picture_for("mlterm", "C.UTF-8", true);
     assert_true(terminal_picture_is_graphics(renderer));
-    text = halves(renderer, &cells);
+    text = draw_halves(renderer, &cells);
     assert_non_null(strstr(text, "\033P"));
     free(text);
     terminal_picture_free(renderer);
-    renderer = way_for("xterm-kitty", "C.UTF-8", false); // NO_COLOR
+    renderer = new_picture_for("xterm-kitty", "C.UTF-8", false); // NO_COLOR
     assert_false(terminal_picture_is_graphics(renderer));
     terminal_picture_free(renderer);
-    renderer = way_for("screen-256color", "C.UTF-8", true);
+    renderer = new_picture_for("screen-256color", "C.UTF-8", true);
     assert_false(terminal_picture_is_graphics(renderer));
     terminal_picture_free(renderer);
 }
 
-static void test_odd_environments(void **state) {
+static void test_unknown_terminals_work(void **state) {
     static const char *const terms[] = {"", "dumb", "no such terminal", "linux", "vt100"};
     (void)state;
     for (size_t i = 0; i < COUNT_OF(terms); i++) {
-        TerminalPicture *renderer = way_for(terms[i], "C.UTF-8", true);
+        TerminalPicture *renderer = new_picture_for(terms[i], "C.UTF-8", true);
         TerminalCells cells = terminal_picture_fit(renderer, 20, 5, 320, 160);
-        free(halves(renderer, &cells));
+        free(draw_halves(renderer, &cells));
         terminal_picture_free(renderer);
     }
     terminal_picture_free(NULL);
@@ -125,11 +125,9 @@ static void test_odd_environments(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_fit),
-        cmocka_unit_test(test_cells),
-        cmocka_unit_test(test_ascii),
-        cmocka_unit_test(test_graphics),
-        cmocka_unit_test(test_odd_environments),
+        cmocka_unit_test(test_fit_keeps_aspect_ratio),   cmocka_unit_test(test_cells_are_coloured_lines),
+        cmocka_unit_test(test_other_locales_give_ascii), cmocka_unit_test(test_graphics_protocol_by_terminal),
+        cmocka_unit_test(test_unknown_terminals_work),
     };
     if (!terminal_picture_possible()) {
         print_message("built without libchafa\n");
