@@ -16,14 +16,14 @@ struct CachedImage {
     char *version;            // version of the file when it was read
     cairo_surface_t *surface; // NULL: cannot be read
     char *problem;            // why it cannot be read
-    Budget *meter;            // charged for the pixels
+    Budget *budget;           // charged for the pixels
     size_t charged;
 };
 
 static void cached_image_free(CachedImage *picture) {
     if (picture->surface)
         cairo_surface_destroy(picture->surface);
-    budget_release(picture->meter, picture->charged);
+    budget_release(picture->budget, picture->charged);
     heap_free(picture->path);
     heap_free(picture->version);
     heap_free(picture->problem);
@@ -96,8 +96,8 @@ static cairo_surface_t *decode_image(Str bytes, const char **problem) {
 static bool charge_image(CachedImage *picture) {
     size_t bytes = (size_t)cairo_image_surface_get_stride(picture->surface) *
                    (size_t)cairo_image_surface_get_height(picture->surface);
-    if (!budget_reserve(picture->meter, bytes)) {
-        picture->meter->memory_refused = false;
+    if (!budget_reserve(picture->budget, bytes)) {
+        picture->budget->memory_refused = false;
         return false;
     }
     picture->charged = bytes;
@@ -114,7 +114,7 @@ static CachedImage *load_image(PetriPainter *painter, const FileAccess *reach, c
         arena_exhausted(&painter->arena);
     picture->path = heap_strndup(path, strlen(path));
     picture->version = heap_strndup(version.bytes, version.len);
-    picture->meter = &painter->meter;
+    picture->budget = &painter->budget;
     if (read)
         picture->surface = decode_image(bytes, &problem);
     if (picture->surface && !charge_image(picture)) {

@@ -14,7 +14,7 @@ typedef struct LayerComposite {
     Sampler sampler;
     int bits;  // bits per channel: 8, 16 or 32
     bool srgb; // true if 8-bit channels are sRGB-encoded
-    Budget *meter;
+    Budget *budget;
 } LayerComposite;
 
 // Returns a new picture, or another reference to the only input if the result would equal it. Returns NULL if out of

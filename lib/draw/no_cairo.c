@@ -86,9 +86,9 @@ PetriStatus draw_canvas(PetriPainter *painter, const CanvasPicture *picture, con
                         int height, Texture *texture, DiagSink *faults) {
     (void)width; // backends always draw at full detail
     (void)height;
-    Texture *bytes = texture->bytes ? texture : texture_new(&painter->meter, texture->width, texture->height, false);
+    Texture *bytes = texture->bytes ? texture : texture_new(&painter->budget, texture->width, texture->height, false);
     if (!bytes)
-        return painter->meter.memory_refused ? draw_report_limit(faults) : PETRI_OUT_OF_MEMORY;
+        return painter->budget.memory_refused ? draw_report_limit(faults) : PETRI_OUT_OF_MEMORY;
     PetriStatus status = draw_with_backend(&(BackendDrawing){.painter = painter,
                                                              .picture = picture,
                                                              .canvas = node,

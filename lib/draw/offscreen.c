@@ -3,14 +3,14 @@
 #include "draw/float_image.h"
 
 bool draw_reserve(Canvas *canvas, size_t bytes) {
-    if (!budget_reserve(&canvas->painter->meter, bytes))
+    if (!budget_reserve(&canvas->painter->budget, bytes))
         return false;
     canvas->charged += bytes;
     return true;
 }
 
 void draw_release(Canvas *canvas, size_t bytes) {
-    budget_release(&canvas->painter->meter, bytes);
+    budget_release(&canvas->painter->budget, bytes);
     canvas->charged -= bytes;
 }
 
@@ -18,9 +18,9 @@ const char draw_omitted[] = "the rest is left out";
 
 bool draw_charge(Canvas *canvas, const Origin *place, double work, const char *outcome) {
     static const double UNIT = 10; // nanoseconds per unit (budget.h)
-    Budget *meter = &canvas->painter->meter;
-    if (work / UNIT <= (double)(meter->work_limit - meter->work)) {
-        meter->work += (uint64_t)(work / UNIT);
+    Budget *budget = &canvas->painter->budget;
+    if (work / UNIT <= (double)(budget->work_limit - budget->work)) {
+        budget->work += (uint64_t)(work / UNIT);
         return true;
     }
     draw_report_canvas_at(canvas, place, DIAG_WARNING, "drawing-limit", "drawing exceeded the work limit (--work): %s",
@@ -67,12 +67,12 @@ void draw_pop_offscreen(Canvas *canvas) {
 }
 
 void draw_report_degraded(Canvas *canvas, const Origin *place, const char *what, bool lacking) {
-    Budget *meter = &canvas->painter->meter;
+    Budget *budget = &canvas->painter->budget;
     if (!lacking)
         return;
-    if (!meter->memory_refused)
+    if (!budget->memory_refused)
         arena_exhausted(&canvas->painter->arena);
-    meter->memory_refused = false;
+    budget->memory_refused = false;
     draw_report_canvas_at(canvas, place, DIAG_WARNING, "memory-limit",
                           "drawing exceeded the memory limit (--memory); drawn without %s", what);
 }

@@ -12,8 +12,8 @@ typedef struct TextContext TextContext; // defined in text.c
 typedef struct CachedImage CachedImage; // an image file; defined in images.c
 
 struct PetriPainter {
-    Arena arena;  // reset for each picture
-    Budget meter; // memory and work limits of drawing
+    Arena arena;   // reset for each picture
+    Budget budget; // memory and work limits of drawing
     TextContext *text_context;
     DisplayListSizes sizes; // array lengths of the last list
     CachedImage *images;

@@ -219,7 +219,7 @@ void petri_picture_follow(PetriSession *session, const PetriPictureOptions *opti
         return;
     Arena arena;
     arena_init(&arena, "picture", access.memory_limit);
-    arena.budget = access.meter;
+    arena.budget = access.budget;
     session_protect(session, &arena, follow_protected, &arena); // if out of memory, the view does not change
     arena_free(&arena);
 }
@@ -295,7 +295,7 @@ PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *opti
     if (!picture)
         return session_report_abort(session, PETRI_OUT_OF_MEMORY, "the picture");
     arena_init(&picture->arena, "picture", access.memory_limit);
-    picture->arena.budget = access.meter;
+    picture->arena.budget = access.budget;
     Request request = {.shown = access, .options = &wanted, .picture = picture, .status = PETRI_INVALID};
     PetriStatus status = PETRI_OK;
     picture->picture.beat = petri_frame(session).beat;
@@ -304,8 +304,8 @@ PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *opti
                                       "the picture");
     else
         request.problem = "nothing to draw: no frame yet";
-    size_t left = access.meter->memory_limit - access.meter->memory;
-    picture->picture.work = access.meter->work_limit;
+    size_t left = access.budget->memory_limit - access.budget->memory;
+    picture->picture.work = access.budget->work_limit;
     picture->picture.memory = left < access.memory_limit ? left : access.memory_limit;
     arena_detach_budget(&picture->arena); // because another thread may free the picture
     if (status == PETRI_OK)

@@ -175,7 +175,7 @@ static Texture *report_no_memory(Walk *walk, const DrawNode *node, int width, in
 static Texture *make_canvas(Walk *walk, const DrawNode *node, int width, int height) {
     bool linear = draw_flag(node, ATTR_LINEAR), wide = linear && bits_of(node, 8) > 8;
     double detail = walk->picture->detail;
-    Texture *texture = texture_new(&walk->painter->meter, render_graph_pixels(width, detail),
+    Texture *texture = texture_new(&walk->painter->budget, render_graph_pixels(width, detail),
                                    render_graph_pixels(height, detail), wide);
     if (!texture)
         return report_no_memory(walk, node, width, height);
@@ -185,7 +185,7 @@ static Texture *make_canvas(Walk *walk, const DrawNode *node, int width, int hei
     }
     if (!linear || wide)
         return texture;
-    Texture *converted = texture_from_linear_bytes(&walk->painter->meter, texture);
+    Texture *converted = texture_from_linear_bytes(&walk->painter->budget, texture);
     texture_free(texture);
     return converted ? converted : report_no_memory(walk, node, width, height);
 }
@@ -201,7 +201,7 @@ static Texture *composite_on_cpu(Walk *walk, const DrawNode *node, Texture *cons
                           .sampler = sampler_of(node),
                           .bits = bits_of(node, walk->bits),
                           .srgb = node->kind == KIND_RECORD,
-                          .meter = &walk->painter->meter};
+                          .budget = &walk->painter->budget};
     if (mix.how == MIX_UNKNOWN && count > 1)
         return NULL;
     Texture *texture = layer_composite(&mix);
@@ -215,7 +215,7 @@ static Gl *open_gpu(Walk *walk) {
     if (!painter->gl && !problem)
         painter->gl = gl_open(&problem);
     if (painter->gl)
-        gl_charge(painter->gl, &painter->meter);
+        gl_charge(painter->gl, &painter->budget);
     if (!painter->gl && !problem)
         arena_exhausted(&walk->frame->arena);
     if (painter->gl && (walk->gpu || gl_enter(painter->gl, &problem))) {
@@ -262,9 +262,9 @@ static Texture *run_effect(Walk *walk, const DrawNode *node, const GraphNode *pa
                        .format = node->kind == KIND_RECORD ? GL_FORMAT_SRGB8 : gl_format(gl, bits_of(node, walk->bits)),
                        .frame = &frame};
     GlImage image = gl_effect(gl, &walk->frame->arena, &effect, walk->faults);
-    if (!image.texture && walk->painter->meter.memory_refused)
+    if (!image.texture && walk->painter->budget.memory_refused)
         return report_no_memory(walk, node, width, height);
-    Texture *texture = image.texture ? texture_from_image(&walk->painter->meter, gl, image) : NULL;
+    Texture *texture = image.texture ? texture_from_image(&walk->painter->budget, gl, image) : NULL;
     if (image.texture && !texture)
         arena_exhausted(&walk->frame->arena);
     return texture;
@@ -286,7 +286,7 @@ static GlImage find_texture(void *user_data, Str id) {
     Texture *found = find_known(walk->frame, id);
     found = found ? found : find_known(walk->before, id);
     if (found && !texture_upload(walk->painter->gl, found)) {
-        if (!walk->painter->meter.memory_refused)
+        if (!walk->painter->budget.memory_refused)
             arena_exhausted(&walk->frame->arena);
         found = NULL; // the scene is left out as well
     }
@@ -306,11 +306,11 @@ static Texture *make_view(Walk *walk, const Scene *scene, const SceneCamera *cam
     if (!is_good_size(walk, (NodeKind)camera->node->kind, camera->node->origin, camera->width, camera->height))
         return NULL;
     GlImage image = gl_scene(gl, scene, camera, &(ScenePictures){walk, find_texture});
-    if (walk->painter->meter.memory_refused) {
+    if (walk->painter->budget.memory_refused) {
         gl_image_free(gl, image);
         return report_no_memory(walk, camera->node, camera->width, camera->height);
     }
-    Texture *texture = image.texture ? texture_from_image(&walk->painter->meter, gl, image) : NULL;
+    Texture *texture = image.texture ? texture_from_image(&walk->painter->budget, gl, image) : NULL;
     if (image.texture && !texture)
         arena_exhausted(&walk->frame->arena);
     return texture;

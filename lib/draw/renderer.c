@@ -11,9 +11,9 @@ PetriPainter *petri_painter_open(void) {
     if (!painter)
         return NULL;
     arena_init(&painter->arena, "painter", SIZE_MAX);
-    painter->meter.memory_limit = SIZE_MAX;
-    budget_begin(&painter->meter, UINT64_MAX, NULL);
-    painter->arena.budget = &painter->meter;
+    painter->budget.memory_limit = SIZE_MAX;
+    budget_begin(&painter->budget, UINT64_MAX, NULL);
+    painter->arena.budget = &painter->budget;
     painter->render_graph = render_graph_new();
     if (painter->render_graph)
         return painter;
@@ -57,9 +57,9 @@ void draw_report(DiagSink *faults, const Origin *place, DiagLevel level, const c
 
 bool draw_report_refused(PetriPainter *painter, const Origin *place, const char *node, int width, int height,
                          DiagSink *faults) {
-    if (!painter->meter.memory_refused)
+    if (!painter->budget.memory_refused)
         return false;
-    painter->meter.memory_refused = false;
+    painter->budget.memory_refused = false;
     draw_report(faults, place, DIAG_WARNING, "memory-limit",
                 "%s: a picture of %d x %d pixels exceeds the memory limit (--memory); it is left out", node, width,
                 height);
@@ -74,8 +74,8 @@ double draw_fit(double width, double height, double box_width, double box_height
 }
 
 void draw_limit(PetriPainter *painter, const CanvasPicture *picture) {
-    painter->meter.memory_limit = picture->memory;
-    budget_begin(&painter->meter, picture->work / 4 * 3, NULL); // not charged to the frame
+    painter->budget.memory_limit = picture->memory;
+    budget_begin(&painter->budget, picture->work / 4 * 3, NULL); // not charged to the frame
 }
 
 static void report_limit(void *faults) {
@@ -175,7 +175,7 @@ Texture *draw_sized_image(PetriPainter *painter, const DrawNode *node, const uin
         return NULL;
     }
     Texture *texture =
-        resize_pixels(&painter->meter, pixels, width, height, stride, alpha, wide, high, draw_word(node, ATTR_FLIP));
+        resize_pixels(&painter->budget, pixels, width, height, stride, alpha, wide, high, draw_word(node, ATTR_FLIP));
     if (!texture && !draw_report_refused(painter, &node->origin, "!image", wide, high, faults))
         arena_exhausted(&painter->arena);
     return texture;

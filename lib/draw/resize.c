@@ -63,16 +63,16 @@ static uint32_t pack_pixel(const float *in) {
     return pixel;
 }
 
-Texture *resize_pixels(Budget *meter, const uint32_t *pixels, int width, int height, size_t stride, bool alpha,
+Texture *resize_pixels(Budget *budget, const uint32_t *pixels, int width, int height, size_t stride, bool alpha,
                        int new_width, int new_height, int flip) {
     size_t max_pixels =
         (size_t)(width > new_width ? width : new_width) * (size_t)(height > new_height ? height : new_height);
     size_t bytes = 2 * max_pixels * 4 * sizeof(float); // temporary
-    if (!budget_reserve(meter, bytes))
+    if (!budget_reserve(budget, bytes))
         return NULL;
     float *one = heap_alloc(bytes / 2), *other = heap_alloc(bytes / 2);
     float *weights = heap_alloc((2 * (size_t)(width > height ? width : height) + 8) * sizeof *weights);
-    Texture *texture = one && other && weights ? texture_new(meter, new_width, new_height, false) : NULL;
+    Texture *texture = one && other && weights ? texture_new(budget, new_width, new_height, false) : NULL;
     if (texture) {
         unpack_pixels(pixels, width, height, stride, alpha, one);
         resize_lines(one, other, height, width, new_width, false, weights);
@@ -88,6 +88,6 @@ Texture *resize_pixels(Budget *meter, const uint32_t *pixels, int width, int hei
     heap_free(one);
     heap_free(other);
     heap_free(weights);
-    budget_release(meter, bytes);
+    budget_release(budget, bytes);
     return texture;
 }

@@ -10,17 +10,17 @@
 
 static void *alloc_pixels(Texture *texture, size_t each, bool cleared) {
     size_t count = (size_t)texture->width * (size_t)texture->height;
-    if (!budget_reserve(texture->meter, count * each))
+    if (!budget_reserve(texture->budget, count * each))
         return NULL;
     texture->charged += count * each;
     return cleared ? heap_calloc(count, each) : heap_alloc(count * each);
 }
 
-Texture *texture_new(Budget *meter, int width, int height, bool linear) {
+Texture *texture_new(Budget *budget, int width, int height, bool linear) {
     Texture *texture = heap_calloc(1, sizeof *texture);
     if (!texture)
         return NULL;
-    *texture = (Texture){.references = 1, .width = width, .height = height, .meter = meter};
+    *texture = (Texture){.references = 1, .width = width, .height = height, .budget = budget};
     if (linear)
         texture->linear = alloc_pixels(texture, 4 * sizeof(float), true);
     else
@@ -31,13 +31,13 @@ Texture *texture_new(Budget *meter, int width, int height, bool linear) {
     return NULL;
 }
 
-Texture *texture_from_image(Budget *meter, Gl *gl, GlImage image) {
+Texture *texture_from_image(Budget *budget, Gl *gl, GlImage image) {
     Texture *texture = heap_calloc(1, sizeof *texture);
     if (!texture)
         gl_image_free(gl, image);
     else
         *texture = (Texture){
-            .references = 1, .width = image.width, .height = image.height, .image = image, .gl = gl, .meter = meter};
+            .references = 1, .width = image.width, .height = image.height, .image = image, .gl = gl, .budget = budget};
     return texture;
 }
 
@@ -79,7 +79,7 @@ void texture_free(Texture *texture) {
         gl_image_free(texture->gl, texture->image);
     heap_free(texture->bytes);
     heap_free(texture->linear);
-    budget_release(texture->meter, texture->charged);
+    budget_release(texture->budget, texture->charged);
     heap_free(texture);
 }
 
@@ -242,8 +242,8 @@ void texture_copy_linear(const Texture *bytes, float *linear) {
             linear[4 * i + k] = (float)(bytes->bytes[i] >> (k < 3 ? 16 - 8 * k : 24) & 255) / 255;
 }
 
-Texture *texture_from_linear_bytes(Budget *meter, const Texture *bytes) {
-    Texture *texture = texture_new(meter, bytes->width, bytes->height, true);
+Texture *texture_from_linear_bytes(Budget *budget, const Texture *bytes) {
+    Texture *texture = texture_new(budget, bytes->width, bytes->height, true);
     if (texture)
         texture_copy_linear(bytes, texture->linear);
     return texture;

@@ -13,15 +13,15 @@ typedef struct Texture {
     uint32_t *bytes; // sRGB picture: ARGB32, rows from the top, as Cairo has it
     float *linear;   // linear light: r, g, b, a, rows from the top
     GlImage image;
-    Gl *gl;        // context of `image`; NULL: not on the GPU
-    Budget *meter; // charged for its memory
+    Gl *gl;         // context of `image`; NULL: not on the GPU
+    Budget *budget; // charged for its memory
     size_t charged;
 } Texture;
 
 // Returns a cleared picture with one reference; NULL if out of memory. The budget must outlive it.
-Texture *texture_new(Budget *meter, int width, int height, bool linear);
+Texture *texture_new(Budget *budget, int width, int height, bool linear);
 // Returns a picture that is only on the GPU and takes ownership of the image. Returns NULL if out of memory.
-Texture *texture_from_image(Budget *meter, Gl *gl, GlImage image);
+Texture *texture_from_image(Budget *budget, Gl *gl, GlImage image);
 // Ensures that the picture is on the GPU, whose context is current. Returns false if out of memory.
 bool texture_upload(Gl *gl, Texture *texture);
 // Ensures that the picture is in memory: an sRGB picture in `bytes`, others in `linear`. Returns false if out of
@@ -51,7 +51,7 @@ void texture_linear_row(const Texture *texture, int y, uint32_t *row);
 uint32_t texture_linear_pixel(uint32_t pixel);
 // Convert pixels of linear bytes to floats, and to a new picture; it is NULL if out of memory.
 void texture_copy_linear(const Texture *bytes, float *linear);
-Texture *texture_from_linear_bytes(Budget *meter, const Texture *bytes);
+Texture *texture_from_linear_bytes(Budget *budget, const Texture *bytes);
 
 // How a picture is sampled between its pixels and beyond its edges (pictures.md 1.5).
 typedef struct Sampler {

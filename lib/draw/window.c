@@ -13,7 +13,7 @@ PetriStatus petri_painter_use_gl(PetriPainter *painter) {
     painter->gl = gl_adopt(&problem);
     painter->on_window = painter->gl;
     if (painter->gl)
-        gl_charge(painter->gl, &painter->meter);
+        gl_charge(painter->gl, &painter->budget);
     return painter->gl ? PETRI_OK : problem ? PETRI_UNSUPPORTED : PETRI_OUT_OF_MEMORY;
 }
 

@@ -73,8 +73,8 @@ void gl_close(Gl *gl) {
     heap_free(gl);
 }
 
-void gl_charge(Gl *gl, Budget *meter) {
-    gl->meter = meter;
+void gl_charge(Gl *gl, Budget *budget) {
+    gl->budget = budget;
 }
 
 int gl_max_size(const Gl *gl) {

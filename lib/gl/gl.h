@@ -20,7 +20,7 @@ Gl *gl_open(const char **problem);
 Gl *gl_adopt(const char **problem);
 // Charges the GPU memory of pictures and scenes to this budget from now on. The budget must outlive the Gl. If it
 // refuses memory, allocations fail as if the GPU were out of memory, and `memory_refused` is set.
-void gl_charge(Gl *gl, Budget *meter);
+void gl_charge(Gl *gl, Budget *budget);
 void gl_close(Gl *gl); // NULL is ignored; not between gl_enter and gl_leave
 // Returns false, with the reason, if the context was lost.
 bool gl_enter(Gl *gl, const char **problem);

@@ -40,7 +40,7 @@ static void free_model(bool lost, CachedModel *model_entry) {
 }
 
 static void free_target(Gl *gl, SceneTarget *target) {
-    budget_release(gl->meter, target->charged);
+    budget_release(gl->budget, target->charged);
     if (!gl->lost) {
         glDeleteFramebuffers(1, &target->framebuffer);
         glDeleteRenderbuffers(1, &target->color);
@@ -190,12 +190,12 @@ static bool charge_target(Gl *gl, SceneTarget *target) {
     size_t pixel = 4 + (target->samples > 0 ? gl_pixel_size(target->format) : 0); // depth, and colour if multisampled
     size_t bytes =
         (size_t)target->width * (size_t)target->height * pixel * (size_t)(target->samples > 0 ? target->samples : 1);
-    bool known = gl_is_refused(gl), taken = budget_reserve(gl->meter, bytes);
+    bool known = gl_is_refused(gl), taken = budget_reserve(gl->budget, bytes);
     for (int i = 0; !taken && i < SCENE_TARGETS; i++)
         if (&gl->cache->targets[i] != target)
             free_target(gl, &gl->cache->targets[i]);
-    if (!taken && (taken = budget_reserve(gl->meter, bytes)))
-        gl->meter->memory_refused = known;
+    if (!taken && (taken = budget_reserve(gl->budget, bytes)))
+        gl->budget->memory_refused = known;
     target->charged = taken ? bytes : 0;
     return taken;
 }

@@ -43,7 +43,7 @@ static void free_spare(Gl *gl) {
     size_t spare = 0;
     for (int i = 0; i < gl->spare_count; i++)
         spare += size_of(gl->spare[i]);
-    while (gl->meter && gl->spare_count > 0 && spare > gl->meter->memory_limit - gl->meter->memory) {
+    while (gl->budget && gl->spare_count > 0 && spare > gl->budget->memory_limit - gl->budget->memory) {
         spare -= size_of(gl->spare[0]);
         drop_oldest(gl);
     }
@@ -51,7 +51,7 @@ static void free_spare(Gl *gl) {
 
 GlImage gl_image_new(Gl *gl, int width, int height, GlFormat format) {
     GlImage image = {.width = width, .height = height, .format = format};
-    if (!budget_reserve(gl->meter, size_of(image)))
+    if (!budget_reserve(gl->budget, size_of(image)))
         return image;
     for (int i = gl->spare_count; i-- > 0;)
         if (is_like(gl->spare[i], width, height, format)) {
@@ -71,7 +71,7 @@ GlImage gl_image_new(Gl *gl, int width, int height, GlFormat format) {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     if (glGetError() != GL_NO_ERROR) {
         glDeleteTextures(1, &image.texture);
-        budget_release(gl->meter, size_of(image));
+        budget_release(gl->budget, size_of(image));
         image.texture = 0;
     }
     return image;
@@ -80,7 +80,7 @@ GlImage gl_image_new(Gl *gl, int width, int height, GlFormat format) {
 void gl_image_free(Gl *gl, GlImage image) {
     if (!image.texture)
         return;
-    budget_release(gl->meter, size_of(image));
+    budget_release(gl->budget, size_of(image));
     if (gl->spare_count == GL_SPARE_IMAGES)
         drop_oldest(gl);
     gl->spare[gl->spare_count++] = image;

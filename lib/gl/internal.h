@@ -33,7 +33,7 @@ struct Gl {
     bool retains_fences; // keeps fences, see gl_after_draw
     int fence_count;
     GLsync fences[GL_MAX_FENCES]; // of recent drawing, oldest first
-    Budget *meter;                // NULL: not charged
+    Budget *budget;               // NULL: not charged
     GlImage spare[GL_SPARE_IMAGES];
     int spare_count;
     GlProgram *programs;
@@ -56,7 +56,7 @@ void gl_images_close(Gl *gl);
 size_t gl_pixel_size(GlFormat format);
 // Returns true if the budget has refused memory, which its owner reports.
 static inline bool gl_is_refused(const Gl *gl) {
-    return gl->meter && gl->meter->memory_refused;
+    return gl->budget && gl->budget->memory_refused;
 }
 void gl_programs_close(Gl *gl);
 void gpu_cache_close(Gl *gl);

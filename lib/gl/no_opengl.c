@@ -11,8 +11,8 @@ Gl *gl_adopt(const char **problem) {
     return gl_open(problem);
 }
 
-void gl_charge(Gl *gl, Budget *meter) {
-    (void)gl, (void)meter;
+void gl_charge(Gl *gl, Budget *budget) {
+    (void)gl, (void)budget;
 }
 
 void gl_close(Gl *gl) {

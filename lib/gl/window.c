@@ -50,11 +50,11 @@ bool gl_present_image(Gl *gl, Arena *arena, GlImage image, const GlBox *box, int
 }
 
 bool gl_present_pixels(Gl *gl, Arena *arena, const uint32_t *pixels, int x, int y, int width, int height, bool over) {
-    Budget *meter = gl->meter;
-    gl->meter = NULL; // the window's pixels are not charged to the script
+    Budget *budget = gl->budget;
+    gl->budget = NULL; // the window's pixels are not charged to the script
     GlImage image = gl_image_new(gl, width, height, GL_FORMAT_RGBA8);
     gl_image_free(gl, image); // for reuse, but not before this function returns
-    gl->meter = meter;
+    gl->budget = budget;
     if (!image.texture)
         return false;
     // The position of alpha depends on the byte order of the machine.

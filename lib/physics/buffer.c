@@ -26,7 +26,7 @@ bool phys_buffer_reserve(PhysSystem *system, Buffer *buffer, uint64_t retained, 
         capacity = needed;
     Buffer larger = {.capacity = capacity, .shown = buffer->shown};
     arena_init(&larger.arena, "physics", SIZE_MAX);
-    larger.arena.budget = system->options.meter;
+    larger.arena.budget = system->options.budget;
     // The arena's only block, so nothing must be freed on failure.
     larger.bytes = arena_try_alloc(&larger.arena, (size_t)capacity);
     if (!larger.bytes) {

@@ -52,7 +52,7 @@ static Domain *get_domain(PhysSystem *system) {
     PhysOptions options = system->options;
     options.neighbours = PHYS_NEIGHBOURS_ALWAYS;
     options.pool = system->threads;
-    options.meter = NULL; // phys_domain_step charges the same on all ranks
+    options.budget = NULL; // phys_domain_step charges the same on all ranks
     options.ranks = (PhysRanks){.rank_count = 0};
     if (!system->threads)
         options.threads = 1;

@@ -173,17 +173,17 @@ static inline double *phys_row(const PhysSystem *system, uint32_t particle) {
 
 // Charges work to the system's budget. Returns false if the step must be aborted. For the main thread only.
 static inline bool phys_charge(const PhysSystem *system, uint64_t units) {
-    return budget_charge(system->options.meter, units) == BUDGET_OK;
+    return budget_charge(system->options.budget, units) == BUDGET_OK;
 }
 
 // Returns true if the budget is not exceeded and the frame is not interrupted.
 static inline bool phys_may_continue(const PhysSystem *system) {
-    return !system->options.meter || budget_check(system->options.meter) == BUDGET_OK;
+    return !system->options.budget || budget_check(system->options.budget) == BUDGET_OK;
 }
 
 // Returns the flag that threads poll to stop early, or NULL.
 static inline const atomic_bool *phys_stop(const PhysSystem *system) {
-    return system->options.meter ? system->options.meter->interrupt : NULL;
+    return system->options.budget ? system->options.budget->interrupt : NULL;
 }
 
 // buffer.c: reserves memory for `count` elements of `size` bytes and keeps the first `retained` bytes. Returns false

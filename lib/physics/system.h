@@ -126,7 +126,7 @@ typedef struct PhysOptions {
     CpuLevel cpu; // instruction set; limited to cpu_detected.level
     PhysNeighbours neighbours;
     PhysThreads *pool; // shared pool, which must outlive the system; NULL: the system creates its own
-    Budget *meter;     // charged for work and memory; must outlive the system; NULL: none
+    Budget *budget;    // charged for work and memory; must outlive the system; NULL: none
     bool keep_forces;  // fill PhysColumns.force; costs one store per particle and step
     PhysRanks ranks;   // rank_count 0: one process
 } PhysOptions;

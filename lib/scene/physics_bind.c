@@ -38,7 +38,7 @@ static PhysicsSystem *known_system(const Scene *scene, StateSlot start, uint32_t
 }
 
 static PhysicsSystem *new_system(Scene *scene, StateSlot start, uint32_t occurrence, const SceneFrame *frame) {
-    PhysicsSystem *system = budget_reserve(scene->meter, PHYSICS_SYSTEM_BYTES) ? heap_calloc(1, sizeof *system) : NULL;
+    PhysicsSystem *system = budget_reserve(scene->budget, PHYSICS_SYSTEM_BYTES) ? heap_calloc(1, sizeof *system) : NULL;
     if (!system)
         return NULL;
     *scene->systems_end = system;
@@ -53,7 +53,7 @@ static PhysicsSystem *new_system(Scene *scene, StateSlot start, uint32_t occurre
         .clock = state_slot(frame->state, scene_key(frame->arena, prefix, VALUE_NULL, scene->key_clock)),
         .last = state_slot(frame->state, scene_key(frame->arena, prefix, VALUE_NULL, scene->key_last)),
         .engine = phys_new(),
-        .meter = scene->meter,
+        .budget = scene->budget,
     };
     if (system->engine)
         phys_set_options(system->engine, &scene->physics);
@@ -173,7 +173,7 @@ static double simulate_system(PhysicsTree *tree, const Reader *reader, const Sys
     else if (result.status == PHYS_DROPPED_TIME)
         reader_report(reader, "step-limit", "", STR("more than 1000000 steps in one frame; rest skipped"));
     else if (result.status == PHYS_STOPPED)
-        tree->scene->stopped = budget_check(tree->scene->meter);
+        tree->scene->stopped = budget_check(tree->scene->budget);
     tree->out_of_memory |= result.status == PHYS_NO_MEMORY;
     mirror_store(tree, result.status == PHYS_OK || result.status == PHYS_DROPPED_TIME);
     return result.clock;

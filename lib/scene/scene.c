@@ -10,10 +10,10 @@
 Scene *scene_new(Arena *arena, Schema *schema) {
     SymbolTable *symbols = schema->symbols;
     Scene *scene = arena_alloc(arena, sizeof *scene);
-    *scene = (Scene){.schema = schema, .meter = arena->budget};
+    *scene = (Scene){.schema = schema, .budget = arena->budget};
     physics_read_defaults(scene);
     input_init(&scene->input, symbols);
-    scene->physics = (PhysOptions){.threads = 1, .cpu = cpu_detected.level, .meter = scene->meter};
+    scene->physics = (PhysOptions){.threads = 1, .cpu = cpu_detected.level, .budget = scene->budget};
     scene->systems_end = &scene->systems;
     scene->key_run = symbol_register(symbols, STR("run"));
     scene->key_iteration = symbol_register(symbols, STR("iteration"));
@@ -27,12 +27,12 @@ Scene *scene_new(Arena *arena, Schema *schema) {
 void scene_set_physics(Scene *scene, const PhysOptions *options) {
     phys_threads_free(scene->physics.pool);
     scene->physics = *options;
-    scene->physics.meter = scene->meter;
+    scene->physics.budget = scene->budget;
     scene->physics.pool = options->threads == 1 ? NULL : phys_threads_new(options->threads);
 }
 
 static void free_system(PhysicsSystem *system) {
-    budget_release(system->meter, PHYSICS_SYSTEM_BYTES + system->mirror.id_capacity * sizeof *system->mirror.ids);
+    budget_release(system->budget, PHYSICS_SYSTEM_BYTES + system->mirror.id_capacity * sizeof *system->mirror.ids);
     phys_free(system->engine);
     mirror_free(&system->mirror);
     heap_free(system->nodes);
@@ -171,7 +171,7 @@ uint64_t scene_update(Scene *scene, Value tree, const SceneFrame *frame) {
         NodeKind kind = item->type == ITEM_NODE ? schema_kind(scene->schema, item->as.node) : KIND_COUNT;
         if (kind != KIND_PHYSICS && kind != KIND_COUNTER)
             continue;
-        scene->stopped = budget_charge(scene->meter, NODE_WORK);
+        scene->stopped = budget_charge(scene->budget, NODE_WORK);
         if (scene->stopped != BUDGET_OK)
             break;
         scene->schema->current_node = item->as.node;
@@ -224,16 +224,16 @@ static bool reserve_ids(PhysicsSystem *system, uint32_t count) {
     Mirror *mirror = &system->mirror;
     if (count <= mirror->id_capacity)
         return true;
-    budget_release(system->meter, mirror->id_capacity * sizeof *mirror->ids);
+    budget_release(system->budget, mirror->id_capacity * sizeof *mirror->ids);
     heap_free(mirror->ids);
     mirror->ids = NULL;
     mirror->id_capacity = 0;
-    if (!budget_reserve(system->meter, count * sizeof *mirror->ids))
+    if (!budget_reserve(system->budget, count * sizeof *mirror->ids))
         return false;
     mirror->ids = heap_alloc(count * sizeof *mirror->ids);
     mirror->id_capacity = mirror->ids ? count : 0;
     if (!mirror->ids)
-        budget_release(system->meter, count * sizeof *mirror->ids);
+        budget_release(system->budget, count * sizeof *mirror->ids);
     return mirror->ids;
 }
 

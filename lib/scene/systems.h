@@ -30,7 +30,7 @@ struct PhysicsSystem {
     StateSlot clock;
     StateSlot last;
     PhysSystem *engine;
-    Budget *meter; // charged for the memory of this struct, not of the engine
+    Budget *budget; // charged for the memory of this struct, not of the engine
     Mirror mirror;
     uint64_t steps;      // made in the last update
     bool had_simulated;  // it had made steps before the last update, so the script could see its particles
@@ -58,7 +58,7 @@ struct Scene {
     ForceAttrs force_defaults[PHYS_FORCE_KINDS];
     bool exhausted; // out of memory (scene_clear_exhausted)
     BudgetOutcome stopped;
-    Budget *meter;
+    Budget *budget;
     Input input;
     PhysicsSystem *systems;
     PhysicsSystem **systems_end;  // link where the next system is added

@@ -208,7 +208,7 @@ static void run_fill(PetriSession *session, void *context) {
     const Filling *filling = context;
     Incoming *incoming = filling->incoming;
     incoming->bindings.arena.escape = incoming->arena.escape;
-    incoming->state = state_new(&session->meter);
+    incoming->state = state_new(&session->budget);
     if (!incoming->state)
         arena_exhausted(&incoming->arena);
     filling->fill(session, incoming, filling->context);

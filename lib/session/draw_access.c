@@ -13,7 +13,7 @@ DrawAccess session_draw_access(PetriSession *session) {
                         .directory = program ? program->source->directory : STR(""),
                         .reach = &session->reach,
                         .memory_limit = session->options.memory_limit,
-                        .meter = &session->meter};
+                        .budget = &session->budget};
 }
 
 uint32_t session_frame_numbers(PetriSession *session, Arena *arena, const char *names[], double numbers[],

@@ -17,7 +17,7 @@ typedef struct DrawAccess {
     Str directory;           // folder that relative file names start from
     const FileAccess *reach; // file access of the script
     size_t memory_limit;     // bytes that a copy may hold
-    Budget *meter;           // charged for copying
+    Budget *budget;          // charged for copying
 } DrawAccess;
 
 // Returns access to the last frame.

@@ -215,7 +215,7 @@ static void preview(PetriSession *session, void *context) {
     State **before = context;
     diag_sink_free(&session->frame.log); // the evaluation writes it again
     if (session->undo_of_frame) {
-        *before = state_new(&session->meter);
+        *before = state_new(&session->budget);
         if (!*before)
             arena_exhausted(&session->frame.arena);
         checkpoint_read_state(&session->undo, &session->frame.arena, *before);
@@ -328,13 +328,13 @@ static PetriStatus evaluate_frame(PetriSession *session) {
 // Updates the systems of an evaluated frame.
 static PetriStatus update_frame(PetriSession *session) {
     SessionFrame *frame = &session->frame;
-    session->spent = session->meter.work; // evaluation and systems share one budget
+    session->spent = session->budget.work; // evaluation and systems share one budget
     PetriStatus status = session_protect(session, NULL, update_systems, NULL);
     bool exhausted = scene_clear_exhausted(session->scene);
     exhausted |= state_clear_exhausted(session->state);
     if (exhausted && status == PETRI_OK) {
         session->last_outcome = ARENA_MEMORY_LIMIT;
-        status = session->meter.memory_refused ? PETRI_LIMIT_EXCEEDED : PETRI_OUT_OF_MEMORY;
+        status = session->budget.memory_refused ? PETRI_LIMIT_EXCEEDED : PETRI_OUT_OF_MEMORY;
     }
     if (status == PETRI_OK && scene_clear_stopped(session->scene, &session->last_outcome))
         status = session->last_outcome == ARENA_WORK_LIMIT ? PETRI_LIMIT_EXCEEDED : PETRI_INTERRUPTED;

@@ -74,12 +74,12 @@ static const Parsed *find_parsed(const Unit *unit, Str name, Str path, Str versi
 }
 
 static const Ast *cache_parsed(PetriSession *session, Unit *cache, const Source *source, Str version) {
-    uint64_t before = session->meter.work;
+    uint64_t before = session->budget.work;
     const Ast *ast = parse_source(session, cache, &cache->arena, source);
     if (!ast)
         return NULL;
     Parsed *parsed = arena_alloc(&cache->arena, sizeof *parsed);
-    *parsed = (Parsed){cache->parsed, source, ast, session->meter.work - before, str_copy(&cache->arena, version)};
+    *parsed = (Parsed){cache->parsed, source, ast, session->budget.work - before, str_copy(&cache->arena, version)};
     cache->parsed = parsed;
     return ast;
 }
@@ -152,18 +152,18 @@ static void evaluate_static(PetriSession *session, void *context) {
 static bool host_evaluate(void *host, const Code *code, Value *value) {
     PetriSession *session = host;
     Arena *arena = &session->loader.compiling->arena;
-    size_t budget = arena->limit;
+    size_t limit = arena->limit;
     StaticEvaluation evaluation = {.code = code};
     if (arena->limit - arena->used > STATIC_BUDGET)
         arena->limit = arena->used + STATIC_BUDGET;
-    Budget *meter = &session->meter, saved = *meter;
+    Budget *budget = &session->budget, saved = *budget;
     uint64_t left = session->loader.static_work < MAX_STATIC_WORK ? MAX_STATIC_WORK - session->loader.static_work : 0;
-    budget_begin(meter, left < STATIC_WORK ? left : STATIC_WORK, meter->interrupt);
+    budget_begin(budget, left < STATIC_WORK ? left : STATIC_WORK, budget->interrupt);
     PetriStatus status = session_protect(session, arena, evaluate_static, &evaluation);
-    arena->limit = budget;
-    session->loader.static_work += meter->work;
-    budget_begin(meter, saved.work_limit, saved.interrupt);
-    meter->work = saved.work;
+    arena->limit = limit;
+    session->loader.static_work += budget->work;
+    budget_begin(budget, saved.work_limit, saved.interrupt);
+    budget->work = saved.work;
     if (status == PETRI_OUT_OF_MEMORY || status == PETRI_INTERRUPTED)
         arena_escape(arena, status == PETRI_OUT_OF_MEMORY ? ARENA_OUT_OF_MEMORY : ARENA_INTERRUPTED);
     bool done = status == PETRI_OK && evaluation.done;
@@ -258,9 +258,9 @@ static void make_parse_cache(PetriSession *session, Unit *unit) {
     Unit *cache = unit->parse_cache;
     Arena *arena = unit_arena(session, cache);
     cache->source = source_new(arena, unit->source->name, unit->path, unit->source->text);
-    uint64_t before = session->meter.work;
+    uint64_t before = session->budget.work;
     cache->ast = parse_source(session, cache, arena, cache->source);
-    cache->work = session->meter.work - before;
+    cache->work = session->budget.work - before;
 }
 
 Unit *unit_reload(PetriSession *session, Unit *unit) {

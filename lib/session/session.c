@@ -112,9 +112,9 @@ PetriStatus session_protect(PetriSession *session, Arena *extra, SessionCall *ca
     if (session->rollback_pending && !session_rollback(session))
         return PETRI_OUT_OF_MEMORY;
     if (session->call_depth++ == 0) {
-        budget_begin(&session->meter, session->options.work_limit,
+        budget_begin(&session->budget, session->options.work_limit,
                      session->uninterruptible ? NULL : &session->interrupt);
-        session->meter.work = session->spent;
+        session->budget.work = session->spent;
         session->spent = 0;
         session->vm.at = NULL;
         session->schema.current_node = NULL;
@@ -153,10 +153,10 @@ PetriStatus session_report_abort(PetriSession *session, PetriStatus status, cons
         diag.source = place.source;
         diag.span = place.span;
     }
-    size_t limit = session->meter.memory_limit;
-    session->meter.memory_limit = SIZE_MAX; // the report itself needs memory
+    size_t limit = session->budget.memory_limit;
+    session->budget.memory_limit = SIZE_MAX; // the report itself needs memory
     session_report(session, &diag);
-    session->meter.memory_limit = limit;
+    session->budget.memory_limit = limit;
     return status;
 }
 
@@ -174,7 +174,7 @@ static void init_components(PetriSession *session, void *context) {
     const PetriOptions *options = &session->options;
     schema_init(&session->schema, &session->symbols, (SchemaSink){session, report_scene});
     session->scene = scene_new(&session->arena, &session->schema);
-    session->state = state_new(&session->meter);
+    session->state = state_new(&session->budget);
     session->files = file_cache_new();
     session->noise = noise_cache_new();
     session->vm.profile = options->profile ? vm_profile_new() : NULL;
@@ -199,9 +199,9 @@ static void init_components(PetriSession *session, void *context) {
     scene_set_physics(session->scene, &physics);
 }
 
-void session_arena(PetriSession *session, Arena *arena, const char *name, size_t budget) {
-    arena_init(arena, name, budget);
-    arena->budget = &session->meter;
+void session_arena(PetriSession *session, Arena *arena, const char *name, size_t limit) {
+    arena_init(arena, name, limit);
+    arena->budget = &session->budget;
 }
 
 PetriSession *petri_open(const PetriOptions *options) {
@@ -214,11 +214,11 @@ PetriSession *petri_open(const PetriOptions *options) {
         return NULL;
     SessionFrame *frame = &session->frame;
     session->options = *options;
-    session->meter.memory_limit =
+    session->budget.memory_limit =
         options->memory_limit < SIZE_MAX - OWN_BYTES ? options->memory_limit + OWN_BYTES : SIZE_MAX;
-    session->meter.should_interrupt = options->should_interrupt;
-    session->meter.user_data = options->user_data;
-    budget_begin(&session->meter, options->work_limit, NULL);
+    session->budget.should_interrupt = options->should_interrupt;
+    session->budget.user_data = options->user_data;
+    budget_begin(&session->budget, options->work_limit, NULL);
     session_arena(session, &session->arena, "session", SIZE_MAX);
     session_arena(session, &session->text_arena, "text", SIZE_MAX);
     session_arena(session, &session->view_arena, "view", SIZE_MAX);
@@ -270,7 +270,7 @@ void petri_close(PetriSession **handle) {
                        &session->key_arena,   &session->prompt.arena,        &session->arena};
     for (size_t i = 0; i < sizeof arenas / sizeof *arenas; i++)
         arena_free(arenas[i]);
-    arena_free_retained(&session->meter);
+    arena_free_retained(&session->budget);
     heap_free(session);
 }
 

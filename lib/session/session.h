@@ -82,7 +82,7 @@ struct PetriSession {
     Vm static_vm; // folds constant expressions at load time
     atomic_bool interrupt;
     uint64_t spent;            // work units already charged to the next protected call
-    Budget meter;              // work and memory of the script
+    Budget budget;             // work and memory of the script
     uint32_t call_depth;       // nesting depth of protected calls
     bool uninterruptible;      // the current operation must not be interrupted
     ArenaOutcome last_outcome; // reason for which the last protected call was aborted
@@ -106,7 +106,7 @@ struct PetriSession {
 };
 
 // Initialises an arena that is charged to the session.
-void session_arena(PetriSession *session, Arena *arena, const char *name, size_t budget);
+void session_arena(PetriSession *session, Arena *arena, const char *name, size_t limit);
 
 // Rolls back an aborted frame. Returns false if out of memory; rollback_pending is then set, to try again later.
 bool session_rollback(PetriSession *session);

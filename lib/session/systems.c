@@ -65,9 +65,9 @@ static void find_system(PetriSession *session, void *context) {
 void petri_keep_columns(PetriSession *session, bool keep) {
     if (!session)
         return;
-    session->meter.retains = keep;
+    session->budget.retains = keep;
     if (!keep)
-        arena_free_retained(&session->meter);
+        arena_free_retained(&session->budget);
 }
 
 bool petri_system(PetriSession *session, size_t number, PetriSystem *system) {

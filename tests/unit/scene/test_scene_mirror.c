@@ -47,9 +47,9 @@ static Value system_of(World *world, int count, double force) {
 }
 
 // Updates the scene for one frame. Returns false if the update was aborted.
-static bool update_scene(Stage *stage, Value tree, size_t budget) {
+static bool update_scene(Stage *stage, Value tree, size_t limit) {
     volatile bool whole = false;
-    arena_init(&stage->arena, "frame", budget);
+    arena_init(&stage->arena, "frame", limit);
     stage->arena.escape = &stage->escape;
     stage->time += 1;
     if (setjmp(stage->escape) == 0) {
@@ -72,15 +72,15 @@ static bool has_entry(const Stage *stage, const char *key) {
 
 // Runs frames of `first`, `second`, which may be aborted, and `third`. Returns false if it was aborted. Budget 0 skips
 // `second`.
-static bool run_frames(Stage *stage, World *world, Value first, Value second, Value third, size_t budget) {
+static bool run_frames(Stage *stage, World *world, Value first, Value second, Value third, size_t limit) {
     *stage = (Stage){.world = world, .state = state_new(NULL)};
     schema_init(&stage->schema, &world->symbols, (SchemaSink){NULL, ignore_report});
     stage->scene = scene_new(&world->arena, &stage->schema);
     assert_true(update_scene(stage, first, SIZE_MAX));
     assert_true(update_scene(stage, first, SIZE_MAX));
     assert_true(has_entry(stage, ":s;1") && has_entry(stage, ":s;2") && has_entry(stage, ":s;2;:velocity"));
-    bool whole = budget > 0 && update_scene(stage, second, budget);
-    if (budget == 0)
+    bool whole = limit > 0 && update_scene(stage, second, limit);
+    if (limit == 0)
         stage->time += 1;
     assert_true(update_scene(stage, third, SIZE_MAX));
     return whole;
@@ -98,9 +98,9 @@ static void test_vanished(void **state) {
     World *world = *state;
     Value two = system_of(world, 2, 1), one = system_of(world, 1, 1), three = system_of(world, 3, 1);
     int broken = 0;
-    for (size_t budget = 1; budget < MAX_BUDGET; budget += BY) {
+    for (size_t limit = 1; limit < MAX_BUDGET; limit += BY) {
         Stage stage;
-        broken += !run_frames(&stage, world, two, three, one, budget);
+        broken += !run_frames(&stage, world, two, three, one, limit);
         assert_true(has_entry(&stage, ":s;1"));
         assert_false(has_entry(&stage, ":s;2") || has_entry(&stage, ":s;2;:velocity") || has_entry(&stage, ":s;3"));
         free_stage(&stage);
@@ -115,9 +115,9 @@ static void test_forces(void **state) {
     Stage expected;
     run_frames(&expected, world, pushed, pulled, pushed, 0);
     int broken = 0;
-    for (size_t budget = 1; budget < MAX_BUDGET; budget += BY) {
+    for (size_t limit = 1; limit < MAX_BUDGET; limit += BY) {
         Stage stage;
-        if (!run_frames(&stage, world, pushed, pulled, pushed, budget)) {
+        if (!run_frames(&stage, world, pushed, pulled, pushed, limit)) {
             broken++;
             assert_true(value_equal(NULL, get_entry(&stage, ":s;1"), get_entry(&expected, ":s;1")));
             assert_true(value_equal(NULL, get_entry(&stage, ":s;2;:velocity"), get_entry(&expected, ":s;2;:velocity")));
@@ -142,27 +142,27 @@ static void test_ids_are_charged(void **state) {
     Stage stage;
     SceneView view;
     const double *ids;
-    Budget meter = {.memory_limit = SIZE_MAX};
-    budget_begin(&meter, UINT64_MAX, NULL);
-    world->arena.budget = &meter;
+    Budget budget = {.memory_limit = SIZE_MAX};
+    budget_begin(&budget, UINT64_MAX, NULL);
+    world->arena.budget = &budget;
     size_t of_world = arena_bytes(&world->arena);
     run_frames(&stage, world, two, two, two, 0);
     world->arena.budget = NULL;
     assert_true(scene_view(stage.scene, stage.state, 0, &view));
-    size_t before = meter.memory;
+    size_t before = budget.memory;
     assert_true(scene_view_ids(stage.state, &view, &ids));
     assert_true(ids[0] == 1 && ids[1] == 2);
-    assert_int_equal(meter.memory, before + 2 * sizeof *ids);
+    assert_int_equal(budget.memory, before + 2 * sizeof *ids);
     assert_true(update_scene(&stage, three, SIZE_MAX));
     assert_true(scene_view(stage.scene, stage.state, 0, &view));
-    meter.memory_limit = meter.memory;
+    budget.memory_limit = budget.memory;
     assert_false(scene_view_ids(stage.state, &view, &ids));
     assert_null(ids);
-    meter.memory_limit = SIZE_MAX;
+    budget.memory_limit = SIZE_MAX;
     assert_true(scene_view_ids(stage.state, &view, &ids));
     assert_true(ids[2] == 3);
     scene_reset(stage.scene);
-    assert_int_equal(meter.memory, arena_bytes(&world->arena) - of_world);
+    assert_int_equal(budget.memory, arena_bytes(&world->arena) - of_world);
     free_stage(&stage);
 }
 

@@ -102,13 +102,13 @@ static void test_bytes(void **state) {
     PetriOptions options = player_options(player);
     options.threads = 1;
     player_reopen(player, &options);
-    size_t before = player->session->meter.memory;
+    size_t before = player->session->budget.memory;
     player_run(
         player,
         "!physics state=:p dimensions=2 time=time resolution=1/60\n    for i in ..100000\n        !particle id=i "
         "radius=0.5 position=i%300;i//300 velocity=normal(:x)[i];normal(:y)[i]\n    !collision strength=100\n",
         3);
-    size_t bytes = player->session->meter.memory - before;
+    size_t bytes = player->session->budget.memory - before;
     if (bytes > (size_t)COUNT * EACH)
         print_error("%zu bytes a particle\n", bytes / COUNT);
     assert_true(bytes > (size_t)COUNT * 100 && bytes <= (size_t)COUNT * EACH);

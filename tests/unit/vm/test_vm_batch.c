@@ -131,16 +131,16 @@ static void test_errors_keep_their_order(void **state) {
 // A batch is charged about the same work as iteration-by-iteration execution.
 static void test_work_matches(void **state) {
     Runner *runner = *state;
-    Budget meter = {.memory_limit = SIZE_MAX};
+    Budget budget = {.memory_limit = SIZE_MAX};
     uint64_t work[2];
     for (int i = 0; i < 2; i++) {
         uint64_t iterations;
         runner->frame.budget = NULL;
-        budget_begin(&meter, UINT64_MAX / 2, NULL);
-        runner->frame.budget = &meter;
+        budget_begin(&budget, UINT64_MAX / 2, NULL);
+        runner->frame.budget = &budget;
         run_loop(runner, i ? few_form : many_form, "!p a=sin(i+z) b=hsv(i;z;1) c=i**3", &iterations);
         runner->frame.budget = NULL;
-        work[i] = meter.work;
+        work[i] = budget.work;
     }
     assert_in_range(work[0], work[1] * 3 / 4, work[1] * 5 / 4);
 }

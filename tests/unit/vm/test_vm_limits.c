@@ -87,12 +87,12 @@ static void make_frame(void *runner) {
 
 // Returns how a frame of a script ends with a limit of work.
 static ArenaOutcome run_with_budget(Runner *runner, const char *script, uint64_t work, atomic_bool *interrupt) {
-    Budget meter = {.memory_limit = SIZE_MAX};
+    Budget budget = {.memory_limit = SIZE_MAX};
     Arena *frame = &runner->frame;
-    budget_begin(&meter, work, interrupt);
+    budget_begin(&budget, work, interrupt);
     assert_true(runner_load(runner, script));
     arena_free(frame);
-    frame->budget = &meter;
+    frame->budget = &budget;
     ArenaOutcome end = arena_protect(&frame, 1, make_frame, runner);
     arena_free(frame);
     frame->budget = NULL;
