@@ -34,7 +34,7 @@ extern "C" {
 
 // Version of this header. petri_version_number returns that of the library, which may be newer.
 #define PETRI_VERSION_MAJOR 0
-#define PETRI_VERSION_MINOR 2
+#define PETRI_VERSION_MINOR 3
 #define PETRI_VERSION_PATCH 0
 #define PETRI_VERSION_NUMBER (PETRI_VERSION_MAJOR * 10000 + PETRI_VERSION_MINOR * 100 + PETRI_VERSION_PATCH)
 
@@ -829,7 +829,7 @@ PETRI_API bool petri_host_function(const PetriSession *session, size_t number, P
 // if the text is not a number.
 PETRI_API bool petri_parse_number(const char *text, double *x);
 
-// Returns the version of the library as text, such as "0.2.0". Lives as long as the library.
+// Returns the version of the library as text, such as "0.3.0". Lives as long as the library.
 PETRI_API const char *petri_version(void);
 
 // Returns the version of the library as a number, like PETRI_VERSION_NUMBER.
