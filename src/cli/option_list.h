@@ -4,7 +4,7 @@
 // OPTION(commands, "name", 'letter' or 0, "VALUE" or NULL, reader, field, "help"): an option. The readers are in
 // options.c. FOR_GOLDEN marks options that a golden may contain, because they write no files.
 // clang-format off
-FIELD(const char *, output,       NULL)           // render, open: output file
+FIELD(const char *, output,       NULL)           // render, open, sweep: output file
 FIELD(const char *, format,       NULL)           // render: format for `-o -`; NULL: not given
 FIELD(int64_t,      frame,        -1)             // render, link: frame number; -1: not given
 FIELD(bool,         terminal,     false)          // view: show in the terminal
@@ -96,7 +96,7 @@ OPTION(FOR_RUN | FOR_GOLDEN | FOR_RENDER, "frames", 0, "N", WHOLE(0, INT64_MAX),
 OPTION(FOR_VIEW, "frames", 0, "N", WHOLE(0, INT64_MAX), frames, "close after N frames")
 OPTION(FOR_RUN | FOR_GOLDEN | FOR_RENDER, "runtime", 0, "T", read_time, run_time, "stop after T seconds or a time code (m:s, h:m:s)")
 OPTION(FOR_VIEW, "runtime", 0, "T", read_time, run_time, "close after T seconds or a time code (m:s, h:m:s)")
-OPTION(FOR_RENDER, "every", 0, "K", WHOLE(1, INT64_MAX), every, "draw every K-th frame, starting with frame 0")
+OPTION(FOR_RENDER, "every", 0, "K", WHOLE(1, INT64_MAX), every, "draw every K-th frame, starting with the first")
 OPTION(FOR_RENDER, "size", 0, "WxH", read_size, size, "set the picture size in pixels (default: that of the script's window)")
 OPTION(FOR_RENDER, "scale", 0, "S", read_positive, scale, "draw S pixels per unit of the window's size (default: 1)")
 OPTION(FOR_RENDER, "auto", 0, NULL, read_flag, automatic, "draw the particles instead of the script's canvas")

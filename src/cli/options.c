@@ -232,7 +232,7 @@ static bool read_operand(const Args *args) {
         script_report_second(options->script, args->value);
         return false;
     } else if (args->value[0] == '\0' && command->options != 0) {
-        message("the name of the script is empty");
+        message("the script name is empty");
         return false;
     }
     options->script = args->value;

@@ -169,7 +169,7 @@ static void run_cases(Suite *suite) {
             end_case(suite, item, status);
             running--;
         } else if (pid < 0) {
-            message("lost a process: %s", strerror(errno));
+            message("cannot wait for a process: %s", strerror(errno));
             return;
         }
         report_done(suite, started);

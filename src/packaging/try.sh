@@ -1,6 +1,6 @@
 #!/bin/sh
-# try.sh FOLDER: installs the Debian packages in FOLDER on this machine and tests them. It runs on the minimal machine of
-# ./dev package --test. Exits with 0 if all tests pass.
+# try.sh FOLDER: installs the Debian packages in FOLDER on this machine and tests them. It runs on the minimal machine
+# of ./dev package --test. Exits with 0 if all tests pass.
 set -eu
 [ "$(id -u)" -eq 0 ] && [ -e /root/petri ] || {
     echo "try.sh must run on the machine of ./dev package --test" >&2

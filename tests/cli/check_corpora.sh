@@ -3,8 +3,8 @@
 # usage: tests/cli/check_corpora.sh PATH-OF-PETRI [--update]
 #
 # Samples and benchmarks must give no warnings. The scripts of tests/golden and tests/conformance test limits of the
-# language, and many contain mistakes on purpose. check_corpora.txt lists their expected diagnostics, one `FILE CODE` per
-# line; there must be no others. A script with a NAME.err must be rejected and is not listed.
+# language, and many contain mistakes on purpose. check_corpora.txt lists their expected diagnostics, one `FILE CODE`
+# per line; there must be no others. A script with a NAME.err must be rejected and is not listed.
 set -u
 LC_ALL=C
 export LC_ALL

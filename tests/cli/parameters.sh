@@ -84,7 +84,7 @@ check "repl rejects an invalid parameter value" status_is 2
 petri repl cells.fl -D 5=5
 check "repl rejects an invalid definition" status_is 2
 
-# Extracts the `console` blocks of the language tour (grammar/README.md): commands `$ petri ...`, their files and output.
+# Extracts the `console` blocks of the language tour (grammar/README.md): commands, their files and their output.
 # shellcheck disable=SC2016 # awk's dollars
 awk '/^```flitter .*\.fl$/ { file = $2; next }
      /^```console$/ { console = 1; next }

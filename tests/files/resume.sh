@@ -1,7 +1,7 @@
 # resume.sh: tests of repeated runs of `petri run --state FILE --trajectory FILE`. Part of ../cli/run.sh.
 #
-# After any end of a run, the same command resumes it, and the trajectory equals that of an uninterrupted run. A fifth of
-# PETRI_KILLS (default: 20) runs are killed for each format.
+# After any end of a run, the same command resumes it, and the trajectory equals that of an uninterrupted run. A fifth
+# of PETRI_KILLS (default: 20) runs are killed for each format.
 
 kills=$(((${PETRI_KILLS:-20} + 4) / 5))
 # Writing states to disk takes long and is not tested here, so the files are in shared memory.
