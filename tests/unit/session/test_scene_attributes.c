@@ -1,7 +1,7 @@
-// test_scene_attributes.c: reading the attributes of `!physics` nodes (physics.md section 1): shapes and complaints.
+// test_scene_attributes.c: tests attributes of `!physics` nodes (physics.md section 1): shapes and diagnostics.
 #include "player.h"
 
-// What is told in three frames of a system with these lines in it.
+// Returns the diagnostics of three frames of a system that contains these lines.
 static const char *reports_of(Player *player, const char *lines) {
     PetriOptions options = player_options(player);
     player_reopen(player, &options);
@@ -21,7 +21,7 @@ static void check_reported(Player *player, const ScriptRow *rows, size_t count) 
 
 #define BAD(node, text) "warning " node ": " text " [bad-attribute]\n"
 
-static void test_shapes(void **state) {
+static void test_malformed_attributes_are_reported(void **state) {
     static const ScriptRow rows[] = {
         {"!particle id=2 position=1;2 velocity=3 force=0 ease=1 radius=1 mass=2 charge=-1", ""},
         {"!particle id=2 position=1;2;3",
@@ -33,7 +33,7 @@ static void test_shapes(void **state) {
         {"!particle id=2 position=null", ""},
         {"!particle id=2 mass=1;2", BAD("!particle id=2", "mass should be one number, not 1;2")},
         {"!particle id=2 mass=0/0", BAD("!particle id=2", "mass should be one number, not nan")},
-        {"!particle id=2 mass=1/0 radius=-3", ""}, // infinities are used, clamps are no faults
+        {"!particle id=2 mass=1/0 radius=-3", ""}, // infinities are used; clamping is not reported
         {"!particle id=2 radius='big' charge=!a", BAD("!particle id=2", "radius should be one number, not 'big'")
                                                       BAD("!particle id=2", "charge should be one number, not (!a)")},
         {"!particle id=:a;3 mass=..20", BAD("!particle id=:a;3", "mass should be one number, not 20 elements")},
@@ -51,7 +51,7 @@ static void test_shapes(void **state) {
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         const char *reported = reports_of(*state, rows[i].script);
-        // In whatever order the attributes are read.
+        // Independent of the order of attributes.
         size_t len = 0;
         for (const char *line = rows[i].wanted; *line; line = strchr(line, '\n') + 1) {
             char part[300];
@@ -65,14 +65,15 @@ static void test_shapes(void **state) {
     }
 }
 
-static void test_unknown(void **state) {
+static void test_unknown_attributes_are_reported(void **state) {
     static const ScriptRow rows[] = {
         {"!particle id=2 mas=3",
          "warning !particle id=2: unknown attribute 'mas', did you mean 'mass'? [unknown-attribute]\n"},
         {"!particle id=2 colour=1;0;0", "warning !particle id=2: unknown attribute 'colour' [unknown-attribute]\n"},
         {"!drag strenght=3",
          "warning !drag: unknown attribute 'strenght', did you mean 'strength'? [unknown-attribute]\n"},
-        {"!gravity power=2", "warning !gravity: unknown attribute 'power' [unknown-attribute]\n"}, // not of this node
+        {"!gravity power=2",
+         "warning !gravity: unknown attribute 'power' [unknown-attribute]\n"}, // attribute of another node
         {"!distance from=1 to=1 max_distance=3",
          "warning !distance: unknown attribute 'max_distance' [unknown-attribute]\n"},
         {"!partikel id=2",
@@ -134,16 +135,16 @@ static void test_skipped_systems(void **state) {
         snprintf(script, sizeof script, "!physics %s\n    !particle id=1 velocity=1\n", rows[i][0]);
         snprintf(wanted, sizeof wanted, "!physics%s%s", rows[i][1][0] == ':' ? "" : " ", rows[i][1]);
         player_run(player, script, 3);
-        assert_text(script, player_state(player), ""); // a skipped frame changes nothing
+        assert_text(script, player_state(player), ""); // a skipped system changes nothing
         const char *reported = player_diagnostics(player);
         const char *found = strstr(reported, "[invalid-system]\n");
         assert_claim(script, strstr(reported, wanted) != NULL);
-        assert_claim(script, found && !strstr(found + 1, "[invalid-system]")); // once
+        assert_claim(script, found && !strstr(found + 1, "[invalid-system]")); // reported once
     }
 }
 
-// Dimensions and run are floored; the resolution's default is one frame.
-static void test_floored(void **state) {
+// Dimensions and run are rounded down; the default resolution is one frame.
+static void test_dimensions_and_run_are_floored(void **state) {
     Player *player = *state;
     player_run(player, "%pragma fps 10\n!physics state=:s dimensions=2.9 run=3.7\n    !particle id=1 velocity=1\n", 2);
     assert_text("floored", player_state(player),
@@ -151,8 +152,8 @@ static void test_floored(void **state) {
                 "$(:s;1) = 0.1;0.1\n$(:s;1;:velocity) = 1;1\n");
 }
 
-// Where the first particle, at rest in 0, is after one step of length 1.
-static void test_defaults(void **state) {
+// Positions of the first particle, at rest at 0, after one step of length 1.
+static void test_default_values(void **state) {
     Player *player = *state;
     static const struct {
         const char *lines, *position;
@@ -169,7 +170,8 @@ static void test_defaults(void **state) {
         {"!anchor id=:a position=1;0\n    !distance from=1 to=:a min=3", "-2;0"},
         {"!anchor id=:a position=1;0\n    !distance from=1 to=:a min=3 minimum=2", "-1;0"},
         {"!anchor id=:a position=1;0\n    !distance from=1 to=:a min=3 minimum='x'", "-2;0"},
-        {"!anchor id=:a position=1;0\n    !distance from=1 to=:a min=5 max=6 fixed=3", "-2;0"}, // fixed wins over all
+        {"!anchor id=:a position=1;0\n    !distance from=1 to=:a min=5 max=6 fixed=3",
+         "-2;0"}, // fixed overrides the others
         {"!anchor id=:a position=1;0\n    !distance from=1 to=:a min=0", "0;0"},
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
@@ -189,8 +191,12 @@ static void test_defaults(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_shapes),          PLAYER_TEST(test_unknown), PLAYER_TEST(test_ids),
-        PLAYER_TEST(test_skipped_systems), PLAYER_TEST(test_floored), PLAYER_TEST(test_defaults),
+        PLAYER_TEST(test_malformed_attributes_are_reported),
+        PLAYER_TEST(test_unknown_attributes_are_reported),
+        PLAYER_TEST(test_ids),
+        PLAYER_TEST(test_skipped_systems),
+        PLAYER_TEST(test_dimensions_and_run_are_floored),
+        PLAYER_TEST(test_default_values),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,8 @@
-// test_scene_counters.c: `!counter` (spec counters.md): value₀ = clamp(initial), then clamp((time − last)·rate +
+// test_scene_counters.c: tests `!counter` (spec counters.md): value₀ = clamp(initial), then clamp((time − last)·rate +
 // value).
 #include "player.h"
 
-// The state lines of `:c` after `frames` frames of ten a second, without the `:time` line.
+// Returns the state lines of `:c` after `frames` frames at 10 fps, without the `:time` line.
 static const char *counter(Player *player, const char *script, int frames) {
     PetriOptions options = player_options(player);
     options.fps = 10;
@@ -25,30 +25,30 @@ typedef struct CounterRow {
 static void test_values(void **state) {
     static const CounterRow rows[] = {
         {"", 1, "0"},
-        {"", 3, "0"}, // it stands unless it is told to grow
+        {"", 3, "0"}, // without a rate it does not change
         {"rate=1", 1, "0"},
         {"rate=1", 2, "0.1"},
         {"rate=1", 3, "0.2"},
         {"initial=5", 1, "5"},
         {"initial=5 rate=-2", 3, "4.6"},
         {"rate=0", 5, "0"},
-        // Element by element, the shorter repeated.
+        // Element by element; the shorter vector is repeated.
         {"rate=1 initial=1;2;3", 2, "1.1;2.1;3.1"},
         {"rate=1;10", 3, "0.2;2"},
         {"initial=0;1;2;3 rate=1;-1", 2, "0.1;0.9;2.1;2.9"},
-        // The first value is `initial`: the other attributes do not make it longer, except for the clamps.
+        // The first value is `initial`; only the clamps can make it longer.
         {"rate=1;2", 1, "0"},
         {"rate=1;2", 2, "0.1;0.2"},
         {"initial=7 time=frame;frame*2", 1, "7"},
         {"initial=7 reset=0;1", 1, "7"},
         {"minimum=1;2", 1, "1;2"},
         {"rate=1 time=((0;1) if frame==0 else 5)", 2, "5;4"}, // the last time may be longer than the value
-        // After that, `initial` counts only where `reset` is true.
+        // Later, `initial` is used only where `reset` is true.
         {"rate=1 initial=(0 if frame==0 else (1;2))", 2, "0.1"},
         {"rate=1 initial=(0 if frame==0 else (1;2)) reset=0", 2, "0.1"},
         {"rate=1 initial=(0 if frame==0 else (1;2)) reset=frame==1", 2, "1;2"},
         {"rate=1 initial=(0 if frame==0 else (1;2;3)) reset=0;1", 2, "0.1;2;0.1"},
-        // Clamps, also of the initial value; first from below, then from above.
+        // Clamps also apply to the initial value; first from below, then from above.
         {"initial=5 maximum=3", 1, "3"},
         {"initial=-5 minimum=-3", 1, "-3"},
         {"minimum=5 maximum=3", 1, "3"},
@@ -56,18 +56,18 @@ static void test_values(void **state) {
         {"rate=-100 minimum=-4", 3, "-4"},
         {"rate=100 max=4", 3, "4"},
         {"rate=-100 min=-4", 3, "-4"},
-        {"rate=100 max=4 maximum=5", 3, "5"}, // the long name wins
+        {"rate=100 max=4 maximum=5", 3, "5"}, // the long name has precedence
         {"rate=-100 min=-4 minimum=-5", 3, "-5"},
-        {"rate=100 max=4 maximum='x'", 3, "4"}, // malformed: the next
+        {"rate=100 max=4 maximum='x'", 3, "4"}, // malformed: the short name is used
         {"rate=100;-100 maximum=4 minimum=-4", 3, "4;-4"},
         {"initial=0;0 rate=100 maximum=1;2", 2, "1;2"},
         {"maximum=0 rate=1", 3, "0"},
-        // Its own time.
+        // Attribute `time`.
         {"rate=1 time=frame*5", 3, "10"},
         {"time=frame*5 rate=2", 3, "20"},
         {"rate=1 time=10-frame", 3, "-2"},
         {"rate=1 time=frame;frame*2", 3, "2;4"},
-        // Reset: initial again, as long as and where it is true.
+        // Reset restores `initial` as long as and where it is true.
         {"rate=1 initial=7 reset=frame==2", 3, "7"},
         {"rate=1 initial=7 reset=frame==2", 4, "7.1"},
         {"rate=1 initial=7 reset=1", 4, "7"},
@@ -75,13 +75,13 @@ static void test_values(void **state) {
         {"rate=1 initial=7;8 reset=0;1", 2, "7.1;8"},
         {"rate=1 initial=7 reset=0;-1;0", 2, "7.1;7;7.1"},
         {"rate=1 initial=frame reset=frame==2", 3, "2"},
-        {"rate=1 initial=frame", 3, "0.2"}, // else only the first frame's counts
-        // Attributes that are not numeric are missing.
+        {"rate=1 initial=frame", 3, "0.2"}, // otherwise only the value of the first frame is used
+        // Attributes that are not numeric are ignored.
         {"initial='x' rate=!a", 2, "0"},
         {"initial='x' rate=1", 2, "0.1"},
         {"rate=1 time='x'", 2, "0.1"},
         {"rate=1 initial=7 reset='x'", 2, "7.1"},
-        // A bad frame is lost and no more: the last value stays, and the last time.
+        // A frame that is not finite is skipped: the last value and time are kept.
         {"rate=inf", 3, "0"},
         {"rate=nan", 3, "0"},
         {"rate=(inf if frame==1 else 1)", 3, "0.1"},
@@ -91,7 +91,7 @@ static void test_values(void **state) {
         {"rate=1 time=(nan if frame==0 else frame)", 2, "0"},
         {"rate=1 time=(nan if frame==0 else frame)", 3, "1"},
         {"rate=1 time=(-1.7e308 if frame==0 else 1.7e308 if frame==1 else 1.6e308)", 3, "-9.999999999999996e+306"},
-        {"rate=1e309 maximum=4", 3, "4"}, // what is stored is finite
+        {"rate=1e309 maximum=4", 3, "4"}, // stored values are finite
         {"initial=1e308 rate=1e308 time=frame*10", 3, "1e+308"},
         {"initial=(inf if frame==0 else 3) rate=1", 3, "3.1"},
     };
@@ -121,24 +121,24 @@ static void test_read_in_the_next_frame(void **state) {
     assert_text("third", player_tree(player), "!counter state=:c initial=1 rate=1\n!a v=1.1 t=0.1\n");
 }
 
-// A rate that changes counts for the time that has passed since the last frame.
-static void test_rate_changes(void **state) {
+// A changed rate applies to the time since the last frame.
+static void test_changed_rate_applies_to_last_frame(void **state) {
     assert_text("rate", counter(*state, "!counter state=:c rate=frame\n", 4), "0.6");
 }
 
-// A counter that is absent keeps its value; when it returns the time between counts.
-static void test_absence(void **state) {
+// An absent counter keeps its value; when it returns, the time in between is added.
+static void test_absent_counter_keeps_value(void **state) {
     static const char script[] = "if frame<2 or frame>3\n    !counter state=:c rate=1\n";
     assert_text("absent", counter(*state, script, 4), "0.1");
     assert_text("back", counter(*state, script, 5), "0.4");
 }
 
-static void test_two_of_one_key(void **state) {
-    // The second sees what the first has written: no time has passed for it.
+static void test_two_counters_of_one_key(void **state) {
+    // The second reads the time that the first has written, so no time has passed for it.
     assert_text("two", counter(*state, "!counter state=:c rate=1\n!counter state=:c rate=100\n", 3), "0.2");
 }
 
-static void test_complaints(void **state) {
+static void test_invalid_counters_are_reported(void **state) {
     Player *player = *state;
     static const ScriptRow rows[] = {
         {"!counter\n", "warning !counter: no usable state key; the counter is skipped [invalid-system]\n"},
@@ -169,9 +169,13 @@ static void test_complaints(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_values),       PLAYER_TEST(test_keys),    PLAYER_TEST(test_read_in_the_next_frame),
-        PLAYER_TEST(test_rate_changes), PLAYER_TEST(test_absence), PLAYER_TEST(test_two_of_one_key),
-        PLAYER_TEST(test_complaints),
+        PLAYER_TEST(test_values),
+        PLAYER_TEST(test_keys),
+        PLAYER_TEST(test_read_in_the_next_frame),
+        PLAYER_TEST(test_changed_rate_applies_to_last_frame),
+        PLAYER_TEST(test_absent_counter_keeps_value),
+        PLAYER_TEST(test_two_counters_of_one_key),
+        PLAYER_TEST(test_invalid_counters_are_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

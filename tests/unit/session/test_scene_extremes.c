@@ -1,5 +1,5 @@
-// test_scene_extremes.c: scripts made at random of extreme numbers: whatever they say, nothing that is not finite
-// reaches the state, and a session goes on. The same scripts each time; PETRI_EXTREMES=COUNT,SEED makes others.
+// test_scene_extremes.c: tests random scripts with extreme numbers: the state contains only finite numbers, and the
+// session continues. The scripts are the same in each run; PETRI_EXTREMES=COUNT,SEED generates others.
 #include "player.h"
 
 #include <math.h>
@@ -73,7 +73,7 @@ static const char *number(Author *author) {
     return numbers[below(author, COUNT_OF(numbers))];
 }
 
-// Half of the attributes of a list, with a blank behind each; those in capitals are vectors.
+// Selects half of the attributes of a list, with a space after each. Names in capitals are vectors.
 static void add_attributes(Author *author, const char *names, unsigned n) {
     for (const char *at = names; *at;) {
         size_t len = strcspn(at, " ");
@@ -150,7 +150,7 @@ static void write_script(Author *author) {
     }
 }
 
-// Nothing in the values is an infinity or no number; keys are symbols and whole numbers here.
+// Returns true if all values are finite. The keys here are symbols and integers.
 static bool is_finite_state(const char *state) {
     for (const char *at = state; (at = strstr(at, " = ")) != NULL;) {
         at += 3;
@@ -164,7 +164,7 @@ static bool is_finite_state(const char *state) {
     return true;
 }
 
-static void test_extremes(void **state) {
+static void test_state_stays_finite(void **state) {
     Player *player = *state;
     Author author = {.state = 1};
     unsigned long count = SCRIPTS, seed = 1;
@@ -189,6 +189,6 @@ static void test_extremes(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {PLAYER_TEST(test_extremes)};
+    const struct CMUnitTest tests[] = {PLAYER_TEST(test_state_stays_finite)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-// test_scene_input.c: `!pointer` and `!key` inside a `!window`: what the host reports, as a script reads it.
+// test_scene_input.c: tests `!pointer` and `!key` in a `!window`: input that the host reports, as a script reads it.
 #include "player.h"
 
 static const char *const POINTER = "!window size=100;100\n    !pointer state=:m\n!see at=$:m left=$(:m;:left) "
@@ -7,7 +7,7 @@ static const char *const KEY = "!window\n    !key name=:space state=:k\n!see dow
                                "at=$(:k;:pushed;:beat) released=$(:k;:released) until=$(:k;:released;:beat) "
                                "toggled=$(:k;:toggled)\n";
 
-// The `!see` line of the next frame.
+// Returns the `!see` line of the next frame.
 static const char *next_tree_line(Player *player) {
     player_step(player, 1);
     const char *line = strstr(player_tree(player), "!see");
@@ -26,16 +26,16 @@ static void press_key(Player *player, const char *key, bool down) {
 
 static void open_slow(Player *player) {
     PetriOptions options = player_options(player);
-    options.fps = 2; // one frame a beat
+    options.fps = 2; // one frame per beat
     player_reopen(player, &options);
 }
 
-// Without a host that has hands the nodes are accepted and write nothing.
-static void test_silent(void **state) {
+// If the host never reports input, the nodes are accepted and write nothing.
+static void test_without_reports_nothing_is_written(void **state) {
     Player *player = *state;
     player_run(player, "!window\n    !pointer state=:m\n    !key name=:a state=:k\n", 5);
     assert_text("state", player_state(player), "");
-    assert_text("told", player_diagnostics(player), "");
+    assert_text("diagnostics", player_diagnostics(player), "");
 }
 
 static void test_pointer(void **state) {
@@ -64,7 +64,7 @@ static void test_click_between_frames(void **state) {
     assert_text("after", next_tree_line(player), "!see at=0;0 left=0 right=0\n");
 }
 
-static void test_not_finite(void **state) {
+static void test_positions_that_are_not_finite_are_rejected(void **state) {
     static const double bad[][2] = {{NAN, 0}, {0, NAN}, {INFINITY, 0}, {0, -INFINITY}};
     Player *player = *state;
     player_run(player, POINTER, 1);
@@ -74,7 +74,7 @@ static void test_not_finite(void **state) {
         assert_int_equal(petri_report_pointer(player->session, &pointer), PETRI_INVALID);
         assert_text("unchanged", next_tree_line(player), "!see at=0.5;0.5 left=0 right=0\n");
     }
-    const PetriPointer outside = {.inside = false, .x = NAN, .y = NAN}; // do not count
+    const PetriPointer outside = {.inside = false, .x = NAN, .y = NAN}; // x and y are ignored
     assert_int_equal(petri_report_pointer(player->session, &outside), PETRI_OK);
     assert_text("outside", next_tree_line(player), "!see left=0 right=0\n");
 }
@@ -83,15 +83,15 @@ static void test_key(void **state) {
     Player *player = *state;
     open_slow(player);
     player_run(player, KEY, 1);
-    assert_text("nothing heard", next_tree_line(player), "!see\n");
-    press_key(player, "a", true); // not asked for
+    assert_text("no input", next_tree_line(player), "!see\n");
+    press_key(player, "a", true); // not bound
     assert_text("up", next_tree_line(player), "!see down=0 pushed=0 released=1 toggled=0\n");
     press_key(player, "space", true);
     assert_text("down", next_tree_line(player), "!see down=1 pushed=1 at=3 released=0 toggled=1\n");
     press_key(player, "space", true); // repeated by the keyboard
     assert_text("held", next_tree_line(player), "!see down=1 pushed=1 at=3 released=0 toggled=1\n");
     press_key(player, "space", false);
-    assert_text("let go", next_tree_line(player), "!see down=0 pushed=0 at=3 released=1 until=5 toggled=1\n");
+    assert_text("released", next_tree_line(player), "!see down=0 pushed=0 at=3 released=1 until=5 toggled=1\n");
     press_key(player, "space", true);
     press_key(player, "space", false);
     assert_text("tapped", next_tree_line(player), "!see down=1 pushed=1 at=6 released=0 until=5 toggled=0\n");
@@ -100,7 +100,7 @@ static void test_key(void **state) {
     assert_text("down", next_tree_line(player), "!see down=1 pushed=1 at=8 released=0 until=7 toggled=1\n");
     press_key(player, "space", false);
     press_key(player, "space", true);
-    assert_text("anew", next_tree_line(player), "!see down=1 pushed=1 at=9 released=0 until=7 toggled=0\n");
+    assert_text("pressed again", next_tree_line(player), "!see down=1 pushed=1 at=9 released=0 until=7 toggled=0\n");
     petri_report_pointer(player->session, NULL);
     assert_text("away", next_tree_line(player), "!see down=0 pushed=0 at=9 released=1 until=10 toggled=0\n");
 }
@@ -121,8 +121,8 @@ static void test_names_of_keys(void **state) {
     assert_non_null(strstr(player_state(player), "$:zed = 1\n"));
 }
 
-// The last of the long names and the first of the short ones.
-static void test_keys_differ(void **state) {
+// The last long name and the first short one.
+static void test_keys_are_distinct(void **state) {
     Player *player = *state;
     player_run(player, "!window\n    !key name=:menu state=:m\n    !key name=:a state=:a\n!see m=$:m a=$:a\n", 1);
     press_key(player, "menu", true);
@@ -132,10 +132,10 @@ static void test_keys_differ(void **state) {
     assert_text("a", next_tree_line(player), "!see m=0 a=1\n");
 }
 
-static void test_mistakes(void **state) {
+static void test_invalid_nodes_are_reported(void **state) {
     static const struct {
         const char *script;
-        const char *told;
+        const char *reported;
     } rows[] = {
         {"!window\n    !pointer\n", "warning !pointer: no usable state key; skipped [invalid-input-node]\n"},
         {"!window\n    !pointer state=(!a)\n",
@@ -152,12 +152,12 @@ static void test_mistakes(void **state) {
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         player_forget(player);
         player_run(player, rows[i].script, 3);
-        assert_text(rows[i].script, player_diagnostics(player), rows[i].told);
+        assert_text(rows[i].script, player_diagnostics(player), rows[i].reported);
     }
 }
 
-// Only windows have hands; keys of several elements and several nodes for one key are fine.
-static void test_places(void **state) {
+// Nodes outside windows get no input. State keys of several elements and several nodes for one key are allowed.
+static void test_nodes_work_only_in_windows(void **state) {
     Player *player = *state;
     player_run(player,
                "!pointer state=:top\n!group\n    !pointer state=:inner\n!window\n    !pointer state=:a;1\n"
@@ -172,7 +172,7 @@ static void test_places(void **state) {
                 "$'c' = 1;0\n$('c';:left) = 0\n$('c';:middle) = 0\n$('c';:right) = 0\n");
 }
 
-// A node that is gone leaves what it wrote; one that is back goes on. A reloaded script keeps what is pressed.
+// A removed node leaves its values in the state, and continues when it returns. A reload keeps pressed keys.
 static void test_input_nodes_can_disappear(void **state) {
     Player *player = *state;
     player_run(player, "!window\n    if frame%2==0\n        !key name=:a state=:k\n", 1);
@@ -191,10 +191,16 @@ static void test_input_nodes_can_disappear(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_silent),      PLAYER_TEST(test_pointer), PLAYER_TEST(test_click_between_frames),
-        PLAYER_TEST(test_not_finite),  PLAYER_TEST(test_key),     PLAYER_TEST(test_names_of_keys),
-        PLAYER_TEST(test_mistakes),    PLAYER_TEST(test_places),  PLAYER_TEST(test_input_nodes_can_disappear),
-        PLAYER_TEST(test_keys_differ),
+        PLAYER_TEST(test_without_reports_nothing_is_written),
+        PLAYER_TEST(test_pointer),
+        PLAYER_TEST(test_click_between_frames),
+        PLAYER_TEST(test_positions_that_are_not_finite_are_rejected),
+        PLAYER_TEST(test_key),
+        PLAYER_TEST(test_names_of_keys),
+        PLAYER_TEST(test_invalid_nodes_are_reported),
+        PLAYER_TEST(test_nodes_work_only_in_windows),
+        PLAYER_TEST(test_input_nodes_can_disappear),
+        PLAYER_TEST(test_keys_are_distinct),
     };
     return cmocka_run_group_tests_name("input", tests, NULL, NULL);
 }

@@ -1,8 +1,8 @@
-// test_scene_particles.c: systems from frame to frame: runs, particles that come and go, several systems
-// (physics.md sections 2 and 3). Eight frames a second, so that all sums are exact.
+// test_scene_particles.c: tests systems over several frames: runs, particles that appear and vanish, several systems
+// (physics.md sections 2 and 3). At 8 fps, so that all sums are exact.
 #include "player.h"
 
-// The state after `frames` frames, without the clock keys of systems.
+// Returns the state after `frames` frames, without the clock keys of systems.
 static const char *state_after(Player *player, const char *script, int frames) {
     PetriOptions options = player_options(player);
     options.fps = 8;
@@ -46,7 +46,8 @@ static void test_first_frames(void **state) {
         {SYSTEM "    !particle id=1 position=5 velocity=8\n", 2, "$:s = 0\n$(:s;1) = 6\n$(:s;1;:velocity) = 8\n"},
         {SYSTEM "    !particle id=1 position=5 velocity=8\n", 4, "$:s = 0\n$(:s;1) = 8\n$(:s;1;:velocity) = 8\n"},
         {SYSTEM "    !particle id=1 position=frame velocity=0\n", 3, "$:s = 0\n$(:s;1) = 1\n$(:s;1;:velocity) = 0\n"},
-        {SYSTEM "    !particle id=1 position=1/0\n", 2, "$:s = 0\n$(:s;1;:velocity) = 0\n"}, // only what is finite
+        {SYSTEM "    !particle id=1 position=1/0\n", 2,
+         "$:s = 0\n$(:s;1;:velocity) = 0\n"}, // only finite values are stored
         {SYSTEM "    !particle id=:a;1\n    !particle id='s'\n", 2,
          "$:s = 0\n$(:s;:a;1) = 0\n$(:s;:a;1;:velocity) = 0\n$(:s;'s') = 0\n$(:s;'s';:velocity) = 0\n"},
     };
@@ -59,8 +60,8 @@ static void test_anchors(void **state) {
          "$:s = 0\n$(:s;1) = 5\n$(:s;1;:velocity) = 0\n"},
         {SYSTEM "    !anchor id=1 position=frame velocity=9\n    !particle id=2\n", 3,
          "$:s = 0\n$(:s;1) = 2\n$(:s;1;:velocity) = 0\n$(:s;2) = 0\n$(:s;2;:velocity) = 0\n"},
-        // A system of anchors alone stores them when it simulates: so the recorded language cases have it
-        // (state-lookup-anchor-position and others), where spec physics.md 2.6 has no such exception.
+        // A system that contains only anchors stores them when it simulates. This follows the recorded language cases
+        // (state-lookup-anchor-position and others); spec physics.md 2.6 does not have this exception.
         {SYSTEM "    !anchor id=1 position=5\n", 1, "$:s = 0\n"},
         {SYSTEM "    !anchor id=1 position=5\n", 2, "$:s = 0\n$(:s;1) = 5\n$(:s;1;:velocity) = 0\n"},
         {SYSTEM "    !anchor id=1 position=5\n    !constant force=3\n", 3,
@@ -69,22 +70,22 @@ static void test_anchors(void **state) {
     check_states(*state, rows, COUNT_OF(rows));
 }
 
-static void test_coming_and_going(void **state) {
+static void test_particles_appear_and_vanish(void **state) {
     static const StateRow rows[] = {
         // 2 appears in frame 2 and starts from its attributes.
         {SYSTEM "    !particle id=1 velocity=8\n    if frame>=2\n        !particle id=2 position=5 velocity=8\n", 4,
          "$:s = 0\n$(:s;1) = 3\n$(:s;1;:velocity) = 8\n$(:s;2) = 7\n$(:s;2;:velocity) = 8\n"},
-        // 1 vanishes in frame 2, and its keys with it.
+        // 1 vanishes in frame 2 together with its keys.
         {SYSTEM "    if frame<2\n        !particle id=1 velocity=8\n    !particle id=2\n", 3,
          "$:s = 0\n$(:s;2) = 0\n$(:s;2;:velocity) = 0\n"},
-        // It comes back as new.
+        // A particle that returns is new.
         {SYSTEM "    if frame!=2\n        !particle id=1 position=frame velocity=8\n    !particle id=2\n", 4,
          "$:s = 0\n$(:s;1) = 4\n$(:s;1;:velocity) = 8\n$(:s;2) = 0\n$(:s;2;:velocity) = 0\n"},
-        // Another order is the same particles.
+        // Particles keep their identity in another order.
         {SYSTEM "    (!particle id=i velocity=i*8) for i in (1;2;3 if frame%2 else 3;1;2)\n", 4,
          "$:s = 0\n$(:s;1) = 3\n$(:s;1;:velocity) = 8\n$(:s;2) = 6\n$(:s;2;:velocity) = 16\n$(:s;3) = 9\n"
          "$(:s;3;:velocity) = 24\n"},
-        // A particle that turns into an anchor keeps its key.
+        // A particle that becomes an anchor keeps its key.
         {SYSTEM "    if frame<2\n        !particle id=1 velocity=8\n    else\n        !anchor id=1 position=-1\n", 3,
          "$:s = 0\n$(:s;1) = -1\n$(:s;1;:velocity) = 0\n"},
     };
@@ -93,7 +94,7 @@ static void test_coming_and_going(void **state) {
 
 #define PAUSED "!physics state=:s dimensions=1 time=(0;1;1;2)[frame]/8\n" // in frame 2
 
-// Keys of living particles stay when a particle that shares them vanishes, also in a frame that does not simulate.
+// Keys that a vanished particle shares with others are kept, also in a frame without simulation.
 static void test_vanished_particle_leaves_shared_keys(void **state) {
     static const char velocity_vanishes[] = PAUSED "    !particle id=0 position=5 velocity=8\n"
                                                    "    if frame<2\n"
@@ -110,7 +111,7 @@ static void test_vanished_particle_leaves_shared_keys(void **state) {
     check_states(*state, rows, COUNT_OF(rows));
 }
 
-static void test_runs(void **state) {
+static void test_changed_run_restarts_system(void **state) {
     static const StateRow rows[] = {
         // The frame in which run changes starts from the attributes and simulates its own delta.
         {"!physics state=:s dimensions=1 run=frame>=3\n    !particle id=1 velocity=8\n", 3,
@@ -133,7 +134,7 @@ static void test_runs(void **state) {
                 "$(:r;1) = 2\n$(:r;1;:velocity) = 8\n");
 }
 
-static void test_time(void **state) {
+static void test_time_attribute(void **state) {
     static const StateRow rows[] = {
         {"!physics state=:s dimensions=1 time=5+frame*2 resolution=1\n    !particle id=1 velocity=1\n", 3,
          "$:s = 5\n$(:s;1) = 4\n$(:s;1;:velocity) = 1\n"},
@@ -149,22 +150,22 @@ static void test_time(void **state) {
     assert_non_null(strstr(player_state(player), "$(:s;:clock) = 0\n"));
 }
 
-static void test_absent_systems(void **state) {
+static void test_absent_system_keeps_state(void **state) {
     static const StateRow rows[] = {
-        // It goes on from its state when it returns: the time between counts.
+        // A system that returns continues from its state, and simulates the time in between.
         {"if frame!=2\n    !physics state=:s dimensions=1\n        !particle id=1 velocity=8\n", 3,
          "$:s = 0\n$(:s;1) = 1\n$(:s;1;:velocity) = 8\n"},
         {"if frame!=2\n    !physics state=:s dimensions=1\n        !particle id=1 velocity=8\n", 4,
          "$:s = 0\n$(:s;1) = 3\n$(:s;1;:velocity) = 8\n"},
-        // Particle 2 was in no tree of the frame before: its keys stay.
+        // Particle 2 was not in the tree of the frame before, so its keys are kept.
         {"if frame!=2\n    !physics state=:s dimensions=1\n        !particle id=1 velocity=8\n"
          "        if frame<2\n            !particle id=2 velocity=8\n",
          4, "$:s = 0\n$(:s;1) = 3\n$(:s;1;:velocity) = 8\n$(:s;2) = 1\n$(:s;2;:velocity) = 8\n"},
-        // A change of run after an absence removes no keys either; those in the tree start from their attributes.
+        // A change of run after an absence also keeps keys; particles in the tree start from their attributes.
         {"if frame!=2\n    !physics state=:s dimensions=1 run=frame>2\n        !particle id=1 velocity=8\n"
          "        if frame<2\n            !particle id=2 velocity=8\n",
          4, "$:s = 0.375\n$(:s;1) = 2\n$(:s;1;:velocity) = 8\n$(:s;2) = 1\n$(:s;2;:velocity) = 8\n"},
-        // A skipped frame is no absence: the system keeps its list of particles.
+        // In a skipped frame the system is not absent: it keeps its list of particles.
         {"!physics state=:s dimensions=frame!=2\n    !particle id=1 velocity=8\n    if frame<2\n        !particle "
          "id=2\n",
          4, "$:s = 0\n$(:s;1) = 3\n$(:s;1;:velocity) = 8\n"},
@@ -187,14 +188,13 @@ static void test_several_systems(void **state) {
     player_run(
         player,
         "!physics state=:z dimensions=1\n    !particle id=1\n!physics state=:z dimensions=1\n    !particle id=2\n", 3);
-    assert_text("told", player_diagnostics(player),
+    assert_text("diagnostics", player_diagnostics(player),
                 "warning !physics state=:z: another system has the same state prefix [duplicate-prefix]\n");
-    assert_non_null(
-        strstr(player_state(player), "$(:z;:iteration) = 5\n")); // updated twice a frame, one after the other
+    assert_non_null(strstr(player_state(player), "$(:z;:iteration) = 5\n")); // updated twice per frame
 }
 
-// Each has its own past, in whatever order they come; two of one prefix keep theirs.
-static void test_order_of_systems(void **state) {
+// Systems keep their own state in any order, even two with the same prefix.
+static void test_systems_keep_state_in_any_order(void **state) {
     Player *player = *state;
     static const char systems[] = "let a=((!physics state=:a dimensions=1) << (!particle id=1 velocity=8))\n"
                                   "let b=((!physics state=:b dimensions=1) << (!particle id=1 velocity=16))\n"
@@ -211,16 +211,16 @@ static void test_order_of_systems(void **state) {
     assert_text("another order", player_state(player), wanted);
 }
 
-// Systems and counters in document order (spec counters.md): a later one sees what an earlier wrote.
+// Systems and counters are updated in document order (spec counters.md): later ones read values of earlier ones.
 static void test_update_order(void **state) {
     Player *player = *state;
-    // The counter of :s feeds the prefix that the system reads: `$:s` not a single number becomes t.
+    // The counter of :s writes the key of the system's clock: if `$:s` is not a single number, it becomes t.
     static const StateRow rows[] = {
         {"!counter state=:s initial=42 rate=0\n!physics state=:s dimensions=1\n", 1, "$:s = 42\n$(:s;:time) = 0\n"},
         {"!physics state=:s dimensions=1\n!counter state=:s initial=42 rate=0\n", 1, "$:s = 0\n$(:s;:time) = 0\n"},
         {"!counter state=:c initial=1\n!physics state=:s dimensions=1\n!counter state=:c initial=2 reset=1\n", 1,
          "$:c = 2\n$(:c;:time) = 0\n$:s = 0\n"},
-        // Two counters of one key round a system that writes it in between.
+        // Two counters of one key, with a system between them that writes it.
         {"!counter state=:s initial=1;1\n!physics state=:s dimensions=1\n!counter state=:s initial=2;2 reset=1\n", 1,
          "$:s = 2;2\n$(:s;:time) = 0\n"},
         {"!physics state=:s dimensions=1\n!counter state=:s rate=1;1\n", 1, "$:s = 0;0\n$(:s;:time) = 0\n"},
@@ -228,8 +228,8 @@ static void test_update_order(void **state) {
     check_states(player, rows, COUNT_OF(rows));
 }
 
-// Storing an equal value leaves the stored one: 0 is not replaced by -0.
-static void test_signed_zero(void **state) {
+// Storing an equal value keeps the stored one: 0 is not replaced by -0.
+static void test_equal_value_is_not_replaced(void **state) {
     static const StateRow rows[] = {
         {SYSTEM "    !anchor id=1 position=(0 if frame==0 else -0)\n    !particle id=2\n", 3,
          "$:s = 0\n$(:s;1) = 0\n$(:s;1;:velocity) = 0\n$(:s;2) = 0\n$(:s;2;:velocity) = 0\n"},
@@ -259,15 +259,15 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_first_frames),
         PLAYER_TEST(test_anchors),
-        PLAYER_TEST(test_coming_and_going),
+        PLAYER_TEST(test_particles_appear_and_vanish),
         PLAYER_TEST(test_vanished_particle_leaves_shared_keys),
-        PLAYER_TEST(test_runs),
-        PLAYER_TEST(test_time),
-        PLAYER_TEST(test_absent_systems),
+        PLAYER_TEST(test_changed_run_restarts_system),
+        PLAYER_TEST(test_time_attribute),
+        PLAYER_TEST(test_absent_system_keeps_state),
         PLAYER_TEST(test_several_systems),
-        PLAYER_TEST(test_order_of_systems),
+        PLAYER_TEST(test_systems_keep_state_in_any_order),
         PLAYER_TEST(test_update_order),
-        PLAYER_TEST(test_signed_zero),
+        PLAYER_TEST(test_equal_value_is_not_replaced),
         PLAYER_TEST(test_steps_are_counted),
         PLAYER_TEST(test_step_limit),
     };

@@ -1,4 +1,4 @@
-// test_scene_warm.c: a frame like those before it takes no memory from the heap.
+// test_scene_warm.c: tests that a frame similar to the previous ones allocates nothing from the heap.
 #include "player.h"
 
 static int allocations;
@@ -28,9 +28,9 @@ void *__wrap_realloc(void *bytes, size_t size) {
 #define LINE "!physics state=:s dimensions=1\n"
 #define FORCES "    !collision strength=9\n    !random strength=2\n    !drag strength=0.1\n"
 
-static void test_warm_frames(void **state) {
+static void test_similar_frames_allocate_nothing(void **state) {
     static const char *const worlds[] = {
-        // a tree that is kept, one whose numbers change, one whose particles change places
+        // a constant tree, one with changing numbers, one with changing order of particles
         SYSTEM "    !anchor id=:a\n    for i in ..300\n        !particle id=i position=i;i%7 radius=0.5\n"
                "        !distance from=i to=:a max=9\n" FORCES,
         SYSTEM "    !anchor id=:a position=frame;0\n    for i in ..300\n        !particle id=i position=i;i%7 "
@@ -53,7 +53,7 @@ static void test_warm_frames(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_warm_frames),
+        PLAYER_TEST(test_similar_frames_allocate_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-// test_session_allocations.c: a warm frame does not touch the heap: everything that it needs has its place
-// from the frames before. The allocator of glibc is wrapped to count; other builds and sanitizers go without this test.
+// test_session_allocations.c: tests that a frame similar to the previous ones allocates nothing, because all memory is
+// reused. The allocator of glibc is wrapped to count calls; other C libraries and sanitizers skip this test.
 #include "player.h"
 #include "session/session.h"
 
@@ -57,12 +57,12 @@ static const Row rows[] = {
      "        !inner x=$(:nothing;i) y=split('1,2,3', ',') z=(sort(names))\n!counter state=:c rate=2\n"},
 };
 
-// A host that reads all that there is of the systems.
+// Reads all data of the systems, as a host might do.
 static void look_up_everything(PetriSession *session) {
     PetriSystem system;
     PetriValue key, value = {0};
     for (uint32_t at = 0; petri_state_next(session, &at, &key, &value);) {
-        assert_ptr_equal(petri_state_get(session, key).numbers, value.numbers); // nothing is copied
+        assert_ptr_equal(petri_state_get(session, key).numbers, value.numbers); // not a copy
         assert_int_equal(petri_state_set(session, key, value), PETRI_OK);
     }
     assert_int_equal(petri_set_global(session, "given", value), PETRI_OK);
@@ -76,8 +76,8 @@ static void look_up_everything(PetriSession *session) {
     }
 }
 
-// No system changes what it is, so the first frames bring everything to its size.
-static void test_warm_frames(void **state) {
+// The systems do not change, so all buffers reach their size in the first frames.
+static void test_similar_frames_allocate_nothing(void **state) {
     Player *player = *state;
     PetriOptions options = player_options(player);
     options.threads = 2;
@@ -87,9 +87,9 @@ static void test_warm_frames(void **state) {
             player_reopen(player, &options);
             player_run(player, rows[i].script, 5);
             look_up_everything(player->session);
-            look_up_everything(player->session); // two values of a name are kept
+            look_up_everything(player->session); // two buffers of a global name are used in turn
             size_t before = allocations;
-            assert_true(before > 0); // they are counted at all
+            assert_true(before > 0); // counting works
             for (int frame = 0; frame < 20; frame++) {
                 petri_step(player->session);
                 look_up_everything(player->session);
@@ -99,6 +99,6 @@ static void test_warm_frames(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {PLAYER_TEST(test_warm_frames)};
+    const struct CMUnitTest tests[] = {PLAYER_TEST(test_similar_frames_allocate_nothing)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-// test_session_allocator.c: a host's own heap (petri_set_allocator): all that libpetri and libpetri-draw hold comes
-// from it and goes back to it, whichever of its blocks cannot be had.
+// test_session_allocator.c: tests petri_set_allocator: libpetri and libpetri-draw allocate all memory from the host's
+// functions and release all of it, whichever allocation fails.
 #include "folder.h"
 #include "petri-draw.h"
 #include "player.h"
@@ -8,7 +8,7 @@
 #include <stdatomic.h>
 #include <stdint.h>
 
-// In front of each block; what is given back without it was never given out, or twice.
+// Header of each block. A released block without it was never allocated, or was released twice.
 typedef struct Head {
     size_t bytes;
     uint64_t mark;
@@ -18,11 +18,11 @@ static const uint64_t ALLOCATED = 0x7065747269, RELEASED = 1;
 
 typedef struct Host {
     atomic_long asked;
-    atomic_long blocks; // that are out
+    atomic_long blocks; // number of allocated blocks
     atomic_long bytes;
-    atomic_bool strayed; // a block came back that was not out, or a size of 0 was asked for
+    atomic_bool strayed; // an unknown block was released, or a size of 0 was requested
     long fail_at;        // the number of the call that fails; 0: none
-    bool all;            // … and those after it
+    bool all;            // all later calls fail as well
 } Host;
 
 static bool should_fail(Host *host, size_t bytes) {
@@ -53,7 +53,7 @@ static void *host_allocate(void *context, size_t bytes) {
     if (!head)
         return NULL;
     host->blocks++;
-    memset(head + 1, JUNK, bytes); // nobody may think that blocks are clear
+    memset(head + 1, JUNK, bytes); // blocks must not be assumed to be zeroed
     return record_allocation(host, head, bytes);
 }
 
@@ -94,7 +94,7 @@ static void use_host(void) {
     assert_int_equal(petri_set_allocator(&allocator), PETRI_OK);
 }
 
-// All is back, and nothing came that was not out.
+// Checks that all blocks were released, each once.
 static void check_all_released(const char *when) {
     assert_number(when, (double)host.blocks, 0);
     assert_number(when, (double)host.bytes, 0);
@@ -118,7 +118,7 @@ static const char *const SCRIPT =
     "        !shadow radius=2\n            !text text='text' point=20;30\n"
     "            !image filename='missing.jpg' point=0;0\n";
 
-// What a host does, from one end to the other. True if nothing was short of memory.
+// Uses all parts of the interface. Returns true if no allocation failed.
 typedef struct Life {
     Folder *folder;
     bool simplify;
@@ -167,7 +167,7 @@ static void use_session(Life *life, PetriSession *session) {
     petri_snapshot_free(snapshot);
 }
 
-// Pictures and painters may outlive the session.
+// Pictures and painters may live longer than the session.
 static void use_picture(Life *life, PetriSession **session) {
     static uint32_t pixels[40 * 40];
     PetriPictureOptions options = petri_default_picture_options();
@@ -217,8 +217,8 @@ static void test_everything_is_released(void **state) {
     free(theirs.written.text);
 }
 
-// So many are tried in each way; all of them with TRIES=1000000.
-static void test_each_fails(void **state) {
+// Tries a sample of allocations in each way; all with TRIES=1000000.
+static void test_failing_allocation_leaks_nothing(void **state) {
     const char *tries = getenv("TRIES");
     Life life = {.folder = *state, .simplify = true};
     use_host();
@@ -239,8 +239,8 @@ static void test_each_fails(void **state) {
     free(life.written.text);
 }
 
-// Blocks go back to where they come from: nothing is changed while one is out.
-static void test_refusals(void **state) {
+// The allocator cannot be changed while a block is allocated.
+static void test_allocator_in_use_is_not_replaced(void **state) {
     (void)state;
     Host other;
     PetriAllocator allocator = allocator_of(&other), wrong = allocator;
@@ -275,7 +275,7 @@ static void test_refusals(void **state) {
     assert_int_equal(other.asked, asked);
 }
 
-// Sessions of several threads have the heap in common.
+// Sessions of several threads share the heap.
 static void *run_in_thread(void *context) {
     Player player;
     player_open(&player);
@@ -286,7 +286,7 @@ static void *run_in_thread(void *context) {
     return context;
 }
 
-static void test_threads(void **state) {
+static void test_threads_share_allocator(void **state) {
     (void)state;
     pthread_t threads[4];
     use_host();
@@ -312,7 +312,7 @@ static int tear_down(void **state) {
     return 0;
 }
 
-// What the heap of one test has given out is back before the next one's.
+// Restores the default allocator after each test.
 static int restore_heap(void **state) {
     (void)state;
     return petri_set_allocator(NULL) == PETRI_OK ? 0 : -1;
@@ -321,9 +321,9 @@ static int restore_heap(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(test_everything_is_released, restore_heap),
-        cmocka_unit_test_teardown(test_each_fails, restore_heap),
-        cmocka_unit_test_teardown(test_refusals, restore_heap),
-        cmocka_unit_test_teardown(test_threads, restore_heap),
+        cmocka_unit_test_teardown(test_failing_allocation_leaks_nothing, restore_heap),
+        cmocka_unit_test_teardown(test_allocator_in_use_is_not_replaced, restore_heap),
+        cmocka_unit_test_teardown(test_threads_share_allocator, restore_heap),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

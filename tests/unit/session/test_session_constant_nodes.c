@@ -1,4 +1,4 @@
-// test_session_constant_nodes.c: what does not change from frame to frame keeps its address, and only that says so.
+// test_session_constant_nodes.c: tests that only constant nodes keep their address between frames and are marked.
 #include "player.h"
 #include "session/session.h"
 
@@ -8,8 +8,8 @@ static const Node *top_node(const Player *player) {
     return tree.as.items[0].as.node;
 }
 
-// A node whose attributes change and whose children do not.
-static void test_static_children(void **state) {
+// A node with changing attributes and constant children.
+static void test_constant_children_keep_address(void **state) {
     Player *player = *state;
     static const char *const scripts[] = {
         "!physics state=:a time=frame\n    for i in ..3\n        !particle id=i position=i;2*i\n    !drag strength=1\n",
@@ -37,7 +37,7 @@ static void test_static_children(void **state) {
     }
 }
 
-static void test_changing_children(void **state) {
+static void test_changing_children_are_not_marked(void **state) {
     Player *player = *state;
     static const char script[] = "!physics time=frame\n    !group\n        !particle id=1\n    !particle id=frame\n";
     player_run(player, script, 1);
@@ -50,8 +50,8 @@ static void test_changing_children(void **state) {
     assert_number("changed", top_node(player)->children[1]->attrs[0].value.as.number, 1);
 }
 
-// Another program may lie where this one did.
-static void test_generation(void **state) {
+// Another program may be allocated at the same address.
+static void test_new_program_changes_generation(void **state) {
     Player *player = *state;
     uint64_t generation = player->session->loader.generation;
     player_run(player, "!a\n", 2);
@@ -63,9 +63,9 @@ static void test_generation(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_static_children),
-        PLAYER_TEST(test_changing_children),
-        PLAYER_TEST(test_generation),
+        PLAYER_TEST(test_constant_children_keep_address),
+        PLAYER_TEST(test_changing_children_are_not_marked),
+        PLAYER_TEST(test_new_program_changes_generation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-// test_session_expressions.c: every `check` line of language.md, through the whole interpreter.
+// test_session_expressions.c: tests every `check` line of language.md with the complete interpreter.
 #include "player.h"
 
 typedef struct Check {
@@ -26,13 +26,13 @@ static void check_all(Player *player, bool simplify, const Check *checks, size_t
         free(script.text);
         const char *found = strstr(player_tree(player), "!v");
         char wanted[1000];
-        bool null = strcmp(checks[i].value, "null") == 0; // no attribute at all
+        bool null = strcmp(checks[i].value, "null") == 0; // the attribute is omitted
         snprintf(wanted, sizeof wanted, null ? "!v\n" : "!v v=%s\n", checks[i].value);
         assert_text(checks[i].expression, found, wanted);
     }
 }
 
-static void test_checks(void **state) {
+static void test_examples_of_specification(void **state) {
     static const Check checks[] = {
         {"10m", "0.01"},
         {"5u", "4.9999999999999996e-06"},
@@ -141,7 +141,7 @@ static void test_checks(void **state) {
     check_all(*state, false, checks, COUNT_OF(checks));
 }
 
-// What the text says beside its examples.
+// Statements of language.md without examples.
 static void test_expression_edge_cases(void **state) {
     static const Check checks[] = {
         {"x<=x where x=(0/0;1)", "1"}, // the same object (L5.5 rule 1)
@@ -155,7 +155,7 @@ static void test_expression_edge_cases(void **state) {
         {"null!=uniform(:a)", "0"},
         {"uniform(:a)<1", "1"},
         {"-uniform(:a)", "null"},
-        {"(null)(1);3(1);uniform(:a)(1)", "null"}, // called in silence
+        {"(null)(1);3(1);uniform(:a)(1)", "null"}, // without a diagnostic
         {"$(:a;1;2);$:nothing;$(!a);$sin", "null"},
         {"$(0-0)", "null"},
         {"(!a x=1 y=2)==(!a y=2 x=1);(!a x=1 x=null)==!a;!a==(!a #t)", "1;1;0"},
@@ -169,13 +169,14 @@ static void test_expression_edge_cases(void **state) {
         {"(x;y) where x;y=uniform(1)", "0.3236437711805903;0.5057062674373606"},
         {"len(..3 for i in ..2)", "6"},
         {"(a;b;c) for a;b;c in ..4", "0;1;2;3"},
-        {"x where x;x=(1;2)", "2"}, // a name twice: the last
+        {"x where x;x=(1;2)", "2"}, // repeated name: the last one
     };
     check_all(*state, true, checks, COUNT_OF(checks));
     check_all(*state, false, checks, COUNT_OF(checks));
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {PLAYER_TEST(test_checks), PLAYER_TEST(test_expression_edge_cases)};
+    const struct CMUnitTest tests[] = {PLAYER_TEST(test_examples_of_specification),
+                                       PLAYER_TEST(test_expression_edge_cases)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

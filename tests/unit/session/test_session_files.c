@@ -1,4 +1,4 @@
-// test_session_files.c: scripts, modules and includes in files (language.md L13, L14).
+// test_session_files.c: tests scripts, modules and includes in files (language.md L13, L14).
 #include "folder.h"
 #include "player.h"
 
@@ -43,25 +43,26 @@ static void check_run(Desk *desk, const char *script, const char *tree) {
 static void check_reported(Desk *desk, const char *part) {
     const char *reported = player_diagnostics(&desk->player);
     if (!strstr(reported, part))
-        assert_text("told", reported, part);
+        assert_text("diagnostics", reported, part);
 }
 
 static void test_import(void **state) {
     Desk *desk = *state;
     folder_write(&desk->folder, "m.fl", "%pragma fps 3\nlet a=1 b=2\nfunc twice(x)\n    x*k\nlet k=2 a=10\n!ignored\n");
-    check_run(desk, "import a;b from 'm.fl'\n!x v=a;b f=fps\n", "!x v=10;2 f=60\n"); // the last binding, and no pragmas
-    check_run(desk, "let k=5\nimport twice from 'm.fl'\n!x v=twice(2)\n", "!x\n");   // k comes after it there
+    check_run(desk, "import a;b from 'm.fl'\n!x v=a;b f=fps\n",
+              "!x v=10;2 f=60\n"); // the last binding is used, and pragmas of modules are ignored
+    check_run(desk, "let k=5\nimport twice from 'm.fl'\n!x v=twice(2)\n", "!x\n"); // k is bound later in the module
     check_run(desk, "for n in 'm';'none'\n    import a from n;'.fl'\n    !x v=a\n", "!x v=10\n!x\n");
     check_reported(desk, "cannot import");
     check_run(desk, "import a;c from 'm.fl'\n!x v=a;c\n", "!x v=10\n");
     check_reported(desk, "[unknown-import]");
-    folder_write(&desk->folder, "n.fl", "import a from 'm.fl'\nlet z=a+1\n"); // names that it imports are its own
+    folder_write(&desk->folder, "n.fl", "import a from 'm.fl'\nlet z=a+1\n"); // imported names are not exported
     check_run(desk, "import a;z from 'n.fl'\n!x v=a;z\n", "!x v=10;11\n");
 }
 
-// A script reads below its own folder, the current one and those that are named; what a script before it has read is no
-// way round.
-static void test_reach(void **state) {
+// A script may read in its folder, the current directory and the allowed folders. Files that a previous script has
+// read are not accessible.
+static void test_only_allowed_folders_are_read(void **state) {
     Desk *desk = *state;
     char script[900];
     folder_write(&desk->folder, "m.fl", "let a=1\n");
@@ -92,8 +93,8 @@ static void test_reach(void **state) {
     check_reported(desk, "file access is disabled (--no-files)");
 }
 
-// A module sees built-ins only; its functions see the caller's state.
-static void test_module_names(void **state) {
+// A module sees only built-ins; its functions see the caller's state.
+static void test_module_sees_only_builtins(void **state) {
     Desk *desk = *state;
     folder_write(&desk->folder, "m.fl", "let v=frame;d;$:c w=sin(0.25)\nfunc look(k)\n    $k\n");
     assert_int_equal(petri_define(desk->player.session, "d=3"), PETRI_OK);
@@ -103,7 +104,7 @@ static void test_module_names(void **state) {
     check_reported(desk, "m.fl:1:7 unbound name 'frame' is null [unbound-name]");
 }
 
-static void test_changed_module(void **state) {
+static void test_changed_module_is_reloaded(void **state) {
     Desk *desk = *state;
     folder_write(&desk->folder, "m.fl", "let a=1\n");
     load(desk, "import a from 'm.fl'\n!x v=a\n");
@@ -123,7 +124,7 @@ static void test_changed_module(void **state) {
     assert_text("gone", player_tree(&desk->player), "!x\n");
 }
 
-static void test_cycles(void **state) {
+static void test_circular_imports_are_reported(void **state) {
     Desk *desk = *state;
     folder_write(&desk->folder, "a.fl", "import y from 'b.fl'\nlet x=1;y\n");
     folder_write(&desk->folder, "b.fl", "import x from 'a.fl'\nlet y=2;x\n");
@@ -136,7 +137,7 @@ static void test_cycles(void **state) {
     check_reported(desk, "circular import");
 }
 
-static void test_import_of_what_is_no_script(void **state) {
+static void test_invalid_modules_are_reported(void **state) {
     Desk *desk = *state;
     static const char *const files[] = {"'none.fl'", "''", "null", "'.'", "!a", "'bad.fl'", "'dir'"};
     folder_write(&desk->folder, "bad.fl", "let a=\xff\n");
@@ -172,7 +173,7 @@ static void test_include(void **state) {
     check_reported(desk, "bad.fl:1:4 unexpected ')'");
     check_run(desk, "import k from 'j.fl'\n!a k=k\n", "!a\n");
     folder_write(&desk->folder, "k.fl", "let k=77\n!k\n");
-    folder_write(&desk->folder, "j.fl", "let k=3\n%include 'k.fl'\n"); // names bound in it are not visible after it
+    folder_write(&desk->folder, "j.fl", "let k=3\n%include 'k.fl'\n"); // names bound in an included file are local
     check_run(desk, "import k from 'j.fl'\n!a k=k\n", "!a k=3\n");
 }
 
@@ -183,7 +184,7 @@ static void test_define_names_an_include(void **state) {
     check_run(desk, "%include which\n", "!i\n");
 }
 
-static void test_what_cannot_be_loaded(void **state) {
+static void test_invalid_scripts_are_rejected(void **state) {
     Desk *desk = *state;
     PetriSession *session = desk->player.session;
     assert_int_equal(petri_load(session, folder_file(&desk->folder, "none.fl")), PETRI_INVALID);
@@ -215,13 +216,13 @@ static void test_check(void **state) {
     player_forget(&desk->player);
     assert_int_equal(petri_check(session, folder_file(&desk->folder, "frame.fl")), PETRI_OK);
     check_reported(desk, "unknown attribute 'mas'");
-    player_step(&desk->player, 1); // the loaded script runs on
-    assert_text("no state of the other's frame", player_state(&desk->player), "");
+    player_step(&desk->player, 1); // the loaded script continues
+    assert_text("state of the other session is not used", player_state(&desk->player), "");
     assert_text("still", player_tree(&desk->player), "!a\n");
     assert_int_equal(petri_frame(session).number, 1);
 }
 
-// --- files that the host gives
+// --- files provided by the host
 
 typedef struct Given {
     const char *name;
@@ -244,7 +245,7 @@ static const char *read_shelf_file(void *host, const char *name, size_t *length)
     return NULL;
 }
 
-static void test_files_of_the_host(void **state) {
+static void test_host_provides_files(void **state) {
     Desk *desk = *state;
     Player *player = &desk->player;
     Shelf shelf = {.files = {{"dish/main.fl", "import f from 'lib/../m.fl'\n%include './part.fl'\n"
@@ -264,7 +265,7 @@ static void test_files_of_the_host(void **state) {
     assert_string_equal(petri_source_file(player->session, 0), "dish/main.fl");
     assert_string_equal(petri_source_file(player->session, 1), "dish/part.fl");
     assert_string_equal(petri_source_file(player->session, 2), "dish/m.fl");
-    // Another text of the same length is another file; nothing is compiled or read as long as it is the same.
+    // Another text of the same length is another file. Unchanged files are not read or compiled again.
     shelf.files[1].text = "func f(x)\n    x*11\n";
     shelf.files[3].text = "zwei W..";
     player_step(player, 1);
@@ -274,7 +275,7 @@ static void test_files_of_the_host(void **state) {
     assert_string_equal(player_diagnostics(player), "");
 }
 
-static void test_folders_of_the_host(void **state) {
+static void test_host_provides_folders(void **state) {
     Desk *desk = *state;
     Player *player = &desk->player;
     Shelf shelf = {.files = {{"main.fl", "!a x=glob('*.txt') y=glob('d/*') z=glob('**/n.dat') w=glob('d/../d/m.dat') "
@@ -296,8 +297,8 @@ static void test_folders_of_the_host(void **state) {
     assert_string_equal(player_diagnostics(player), "");
 }
 
-// What the host does not give is not there, whatever is on the disk.
-static void test_no_other_files(void **state) {
+// Files that the host does not provide do not exist, even if they are on disk.
+static void test_only_host_files_exist(void **state) {
     Desk *desk = *state;
     Player *player = &desk->player;
     char script[800];
@@ -326,8 +327,8 @@ static const char *read_unsaved(void *host, const char *name, size_t *length) {
     return read_shelf_file(shelf, slash + 1, length);
 }
 
-// What an editor has not saved stands for files that scripts import and include, if these are there and within reach.
-static void test_unsaved_files(void **state) {
+// Unsaved texts of an editor replace files that scripts import and include, if these exist and are allowed.
+static void test_unsaved_text_replaces_file(void **state) {
     Desk *desk = *state;
     Player *player = &desk->player;
     char script[800];
@@ -362,19 +363,19 @@ static void test_unsaved_files(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         DESK_TEST(test_import),
-        DESK_TEST(test_reach),
-        DESK_TEST(test_module_names),
-        DESK_TEST(test_changed_module),
-        DESK_TEST(test_cycles),
-        DESK_TEST(test_import_of_what_is_no_script),
+        DESK_TEST(test_only_allowed_folders_are_read),
+        DESK_TEST(test_module_sees_only_builtins),
+        DESK_TEST(test_changed_module_is_reloaded),
+        DESK_TEST(test_circular_imports_are_reported),
+        DESK_TEST(test_invalid_modules_are_reported),
         DESK_TEST(test_include),
         DESK_TEST(test_define_names_an_include),
-        DESK_TEST(test_what_cannot_be_loaded),
+        DESK_TEST(test_invalid_scripts_are_rejected),
         DESK_TEST(test_check),
-        DESK_TEST(test_files_of_the_host),
-        DESK_TEST(test_folders_of_the_host),
-        DESK_TEST(test_no_other_files),
-        DESK_TEST(test_unsaved_files),
+        DESK_TEST(test_host_provides_files),
+        DESK_TEST(test_host_provides_folders),
+        DESK_TEST(test_only_host_files_exist),
+        DESK_TEST(test_unsaved_text_replaces_file),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

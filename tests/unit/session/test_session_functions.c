@@ -1,14 +1,14 @@
-// test_session_functions.c: built-in functions of the host's own.
+// test_session_functions.c: tests host functions (petri_add_function).
 #include "player.h"
 
 typedef struct Calls {
     int count;
     uint32_t last_count;
-    PetriSession *session; // for what must not be done
+    PetriSession *session; // for calls that must be rejected
     PetriStatus stepped;
 } Calls;
 
-// Adds up all numbers.
+// Returns the sum of all numbers.
 static PetriValue sum(PetriCall *call, void *host, const PetriValue *arguments, uint32_t count) {
     Calls *calls = host;
     double *result = petri_call_alloc_numbers(call, 1);
@@ -29,14 +29,14 @@ static PetriValue sum(PetriCall *call, void *host, const PetriValue *arguments, 
     return (PetriValue){.length = 1, .numbers = result};
 }
 
-// The text of its first argument twice, from memory that is the host's.
+// Returns the text of its first argument twice, from memory of the host.
 static PetriValue twice(PetriCall *call, void *host, const PetriValue *arguments, uint32_t count) {
     static PetriItem items[2];
     (void)call;
     (void)host;
     assert_int_equal(count, 1);
     if (!arguments[0].items)
-        return (PetriValue){.length = 3}; // no value at all
+        return (PetriValue){.length = 3}; // not a valid value
     items[0] = items[1] = arguments[0].items[0];
     return (PetriValue){.length = 2, .items = items};
 }
@@ -60,7 +60,7 @@ static void test_calls(void **state) {
     assert_string_equal(player_diagnostics(player), "");
 }
 
-static void test_faults(void **state) {
+static void test_errors_are_reported(void **state) {
     Player *player = *state;
     Calls calls = {0};
     assert_int_equal(add_function(player, "total", "x, y=0", false, sum, &calls), PETRI_OK);
@@ -79,8 +79,8 @@ static void test_faults(void **state) {
     assert_non_null(strstr(first.rendered, "did you mean 'total'?"));
 }
 
-// What is pure is called once, when the script is loaded; never so without the simplifier.
-static void test_pure(void **state) {
+// A pure function is called once at load time, unless the simplifier is off.
+static void test_pure_calls_are_folded(void **state) {
     Player *player = *state;
     Calls calls = {0};
     assert_int_equal(add_function(player, "total", "x, y=0", true, sum, &calls), PETRI_OK);
@@ -90,7 +90,7 @@ static void test_pure(void **state) {
     assert_int_equal(calls.last_count, 2);
 }
 
-// A check calls it, too, in a session of its own; nothing that is going on may be stepped from within.
+// petri_check also calls host functions, in a separate session. A function cannot step a session that is in use.
 static void test_step_within_call_fails(void **state) {
     Player *player = *state;
     Calls calls = {.session = player->session};
@@ -134,8 +134,8 @@ static void test_invalid_functions_are_rejected(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_calls),
-        PLAYER_TEST(test_faults),
-        PLAYER_TEST(test_pure),
+        PLAYER_TEST(test_errors_are_reported),
+        PLAYER_TEST(test_pure_calls_are_folded),
         PLAYER_TEST(test_step_within_call_fails),
         PLAYER_TEST(test_invalid_functions_are_rejected),
     };

@@ -1,4 +1,4 @@
-// test_session_host.c: what petri.h promises to the host.
+// test_session_host.c: tests guarantees of petri.h.
 #include "player.h"
 
 static void test_options(void **state) {
@@ -11,9 +11,9 @@ static void test_options(void **state) {
     assert_null(petri_open(NULL));
     options = petri_default_options();
     options.size++;
-    assert_null(petri_open(&options)); // those of a later petri.h
+    assert_null(petri_open(&options)); // those of a newer petri.h
     options.size = offsetof(PetriOptions, cpu);
-    options.cpu = (const char *)1; // what follows the shorter struct of an earlier one
+    options.cpu = (const char *)1; // memory after the shorter struct of an older petri.h
     PetriSession *earlier = petri_open(&options);
     assert_non_null(earlier);
     petri_close(&earlier);
@@ -29,7 +29,7 @@ static void test_options(void **state) {
     assert_int_equal(petri_diagnostic_count(session, PETRI_ERROR), 1);
     petri_close(&session);
     assert_null(session);
-    petri_close(&session); // NULL already: fine
+    petri_close(&session); // NULL is ignored
 }
 
 static void test_without_a_script(void **state) {
@@ -55,7 +55,7 @@ static void test_text_lengths(void **state) {
 }
 
 #define STATE "$(:c;'k') = 1.25;2.25\n$(:c;'k';:time) = 0.25\n$\"it's\" = :a\n$(\"it's\";:time) = 0.25\n"
-// printf of that | sha256sum
+// Result of printf STATE | sha256sum.
 #define STATE_HASH "= 1d40801a6533593b67849dffa0352f51200276585fe3c23a3c9adf4ccb34336d\n"
 
 static void test_print(void **state) {
@@ -103,7 +103,7 @@ static void test_writer_can_stop(void **state) {
     int calls = 0;
     assert_int_equal(petri_print(player->session, PETRI_PRINT_TREE, stop_writing, &calls), PETRI_INVALID);
     assert_int_equal(calls, 1);
-    assert_true(strlen(player_tree(player)) > 200000); // and all of it to one that goes on
+    assert_true(strlen(player_tree(player)) > 200000); // complete output if the writer does not stop
 }
 
 static void test_dumps(void **state) {
@@ -123,7 +123,7 @@ static void note_token(void *host, const PetriToken *token) {
     note(host, line, (size_t)len);
 }
 
-// One letter for the kind of each, and where it is. Words are keywords where they are keywords.
+// Each token is written as a letter for its kind and its range. Words are keywords only where the grammar has one.
 static void test_tokens(void **state) {
     static const struct {
         const char *text;
@@ -160,9 +160,9 @@ static void note_name(void *host, const PetriBinding *name) {
     note(host, line, (size_t)len);
 }
 
-// Each name with what binds it, or where it is visible (language.md L8.2): the rules of the compiler, and where a
-// statement breaks off that one alone is missing.
-static void test_names(void **state) {
+// Each name is written with its binding, or with its scope (language.md L8.2). After a syntax error, only the names of
+// that statement are missing.
+static void test_bindings(void **state) {
     static const struct {
         const char *text;
         const char *names;
@@ -190,15 +190,15 @@ static void test_names(void **state) {
 
 static const char profiled_script[] = "let a=frame\n\n!b x=a\n!counter state=:c rate=1\n";
 
-// A row for each line that was evaluated; what is evaluated when the script is loaded takes no time later.
-static void test_profile(void **state) {
+// There is a row for each line that was evaluated in a frame; folded lines have none.
+static void test_profile_has_row_per_line(void **state) {
     Player *player = *state;
     player_run(player, profiled_script, 3);
     assert_int_equal(petri_profile(player->session, 0, note, &player->printed), PETRI_INVALID);
     PetriOptions options = player_options(player);
     options.profile = true;
     player_reopen(player, &options);
-    for (int round = 0; round < 2; round++) { // a script that is loaded again starts anew
+    for (int load = 0; load < 2; load++) { // a load clears the measurements
         player_run(player, profiled_script, 3);
         player->printed.len = 0;
         assert_int_equal(petri_profile(player->session, 0.5, note, &player->printed), PETRI_OK);
@@ -228,11 +228,11 @@ static void test_failed_load_keeps_the_script(void **state) {
         player_step(player, 1);
         assert_int_equal(petri_frame(player->session).number, 3 + i);
     }
-    assert_text("goes on", player_tree(player), "!a v=7\n!counter state=:c rate=1\n");
+    assert_text("continues", player_tree(player), "!a v=7\n!counter state=:c rate=1\n");
 }
 
-// Each thing once per place and load.
-static void test_once_per_place_and_load(void **state) {
+// Each diagnostic is reported once per position and load.
+static void test_diagnostics_are_reported_once_per_load(void **state) {
     Player *player = *state;
     static const char script[] = "!a v='s'(1);nothing\n!physics state=:s dimensions=1 colour=1\n";
     static const char wanted[] = "warning t.fl:1:13 unbound name 'nothing' is null [unbound-name]\n"
@@ -242,19 +242,19 @@ static void test_once_per_place_and_load(void **state) {
     assert_text("first load", player_diagnostics(player), wanted);
     player_forget(player);
     player_step(player, 5);
-    assert_text("no more", player_diagnostics(player), "");
+    assert_text("not repeated", player_diagnostics(player), "");
     player_run(player, script, 5);
     assert_text("second load", player_diagnostics(player), wanted);
     for (int i = 0; i < 2; i++) {
         player_forget(player);
         assert_int_equal(player_load(player, "!a )\n"), PETRI_INVALID);
-        assert_text("an error is told at every try", player_diagnostics(player),
+        assert_text("an error is reported at every attempt", player_diagnostics(player),
                     "error t.fl:1:4 unexpected ')', expected end of line or '<<' [syntax]\n");
     }
 }
 
-// Two texts at one place are two things (language.md L15.1).
-static void test_several_texts_at_one_place(void **state) {
+// Two texts at one position are two diagnostics (language.md L15.1).
+static void test_texts_at_one_position_are_distinct(void **state) {
     Player *player = *state;
     player_run(player, "!a v=(read(f) for f in ('missing1';'missing2'))\n", 1);
     assert_text("frame", player_print(player, PETRI_PRINT_ERROR),
@@ -262,8 +262,8 @@ static void test_several_texts_at_one_place(void **state) {
                 "? read: cannot read 'missing2': no such file (t.fl:1)\n");
 }
 
-// Between a load and its first frame nothing of the old script is left, neither shown nor read.
-static void test_print_after_load(void **state) {
+// After a load, nothing of the old script is printed or read.
+static void test_load_clears_output(void **state) {
     Player *player = *state;
     player_run(player, "!a v='s'(1)\ndebug('old')\n", 1);
     assert_int_equal(player_load(player, "!b\n"), PETRI_OK);
@@ -271,7 +271,7 @@ static void test_print_after_load(void **state) {
     assert_text("nothing", player->printed.text, "@-1 time=0 beat=0\n");
 }
 
-static void test_no_more_than_a_thousand(void **state) {
+static void test_diagnostics_are_limited(void **state) {
     Player *player = *state;
     Notebook script = {0};
     for (int i = 0; i < 300; i++) {
@@ -289,14 +289,14 @@ static void test_no_more_than_a_thousand(void **state) {
         note(&script, line, (size_t)len);
     }
     player_run(player, script.text, 2);
-    assert_non_null(strstr(player_diagnostics(player), "no more are shown"));
+    assert_non_null(strstr(player_diagnostics(player), "further ones are not shown"));
     count = petri_diagnostic_count(player->session, PETRI_WARNING);
     player_step(player, 1);
     assert_int_equal(petri_diagnostic_count(player->session, PETRI_WARNING), count);
     free(script.text);
 }
 
-static void test_two_sessions(void **state) {
+static void test_sessions_are_independent(void **state) {
     Player *first = *state, second;
     player_open(&second);
     assert_int_equal(petri_define(first->session, "d=1"), PETRI_OK);
@@ -308,9 +308,9 @@ static void test_two_sessions(void **state) {
     }
     assert_text("first", player_tree(first), "!a v=6;10;1\n!counter state=:c rate=1\n");
     assert_text("second", player_tree(&second), "!b v=3;60\n");
-    assert_text("told", player_diagnostics(first), "");
+    assert_text("diagnostics", player_diagnostics(first), "");
     assert_non_null(strstr(player_diagnostics(&second), "unbound name 'd'"));
-    // A symbol known to one session only is a number in the other.
+    // A symbol that is known only to one session is a number in the other.
     player_run(first, "!a v=:spring\n", 1);
     player_run(&second, "!a v=:sprung+0\n", 1);
     assert_text("symbol", player_tree(first), "!a v=:spring\n");
@@ -318,7 +318,7 @@ static void test_two_sessions(void **state) {
     player_step(first, 1);
 }
 
-static void test_rendered(void **state) {
+static void test_colour_is_only_in_rendered(void **state) {
     (void)state;
     Player player;
     PetriOptions options = player_options(&player);
@@ -330,12 +330,12 @@ static void test_rendered(void **state) {
     player_close(&player);
 }
 
-// What is said of a node tells where the node stands, whether it was made ahead, in a loop or by a function.
 static void store_position(void *host, const PetriDiagnostic *diagnostic) {
     snprintf(host, 100, "%s:%u:%u", diagnostic->file ? diagnostic->file : "", diagnostic->line, diagnostic->column);
 }
 
-static void test_places_of_nodes(void **state) {
+// Diagnostics of a node have its position, whether it was folded, or created in a loop or by a function.
+static void test_diagnostics_have_node_positions(void **state) {
     (void)state;
     static const struct {
         const char *script, *wanted;
@@ -345,7 +345,7 @@ static void test_places_of_nodes(void **state) {
         {"func cell(r)\n    !particle id=1 radious=r\n!physics state=:s dimensions=1\n    cell(frame)\n", "t.fl:2:20"},
         {"!physics dimensions=1\n    !particle id=1\n", "t.fl:1:1"},
         {"!physics state=:s dimensions=1\n    !particle id=1\n    !distance from=1 to=2\n", "t.fl:3:22"},
-        // An attribute that was written elsewhere: the node.
+        // An attribute that was added elsewhere has the position of the node.
         {"let cell=!particle id=1\n!physics state=:s dimensions=1\n    cell radious=2\n", "t.fl:1:10"},
         {"!physics state=:s dimensions=1\n    !partikel id=1\n", "t.fl:2:5"},
         {"!a\n!pysics\n", "t.fl:2:1"},
@@ -365,8 +365,8 @@ static void test_places_of_nodes(void **state) {
         }
 }
 
-// A loop that makes many nodes with one mistake has one mistake; the same mistake on two lines is two.
-static void test_one_place_is_reported_once(void **state) {
+// An error in many nodes of one loop is reported once; the same error on two lines is reported twice.
+static void test_loop_error_is_reported_once(void **state) {
     (void)state;
     Player player;
     player_open(&player);
@@ -378,7 +378,7 @@ static void test_one_place_is_reported_once(void **state) {
     player_close(&player);
 }
 
-static void test_helpers(void **state) {
+static void test_builtins_and_numbers(void **state) {
     (void)state;
     PetriBuiltin builtin;
     size_t count = 0;
@@ -398,7 +398,7 @@ static void test_helpers(void **state) {
     assert_true(strlen(petri_version()) > 0);
 }
 
-static void test_nodes(void **state) {
+static void test_node_kinds_and_attributes(void **state) {
     (void)state;
     PetriNodeKind kind;
     PetriNodeAttribute attribute;
@@ -411,13 +411,13 @@ static void test_nodes(void **state) {
             rects += strcmp(kind.name, "rect") == 0 && strcmp(attribute.name, "radius") == 0;
         }
     }
-    assert_int_equal(groups, 3); // of physics, of the canvas and of three dimensions
+    assert_int_equal(groups, 3); // for physics, canvas and canvas3d
     assert_int_equal(rects, 1);
     assert_false(petri_node_kind(kinds + 1000, &kind));
     assert_false(petri_node_attribute(kinds, 0, &attribute));
 }
 
-// The last diagnostics stay with the session, in order, copied.
+// The session retains copies of the last diagnostics, in order.
 static void test_retained_diagnostics(void **state) {
     Player *player = *state;
     PetriDiagnostic kept;
@@ -437,7 +437,7 @@ static void test_retained_diagnostics(void **state) {
         assert_non_null(strstr(kept.rendered, kept.text));
     }
     assert_false(petri_diagnostic(player->session, 3, &kept));
-    // Of more than there is room for the first ones go.
+    // If there are more than 100, the oldest are dropped.
     petri_clear_diagnostics(player->session);
     for (int load = 0; load < 3; load++) {
         char script[4000] = "!a";
@@ -456,7 +456,7 @@ static void test_retained_diagnostics(void **state) {
     assert_true(strstr(player_diagnostics(player), kept.text) > first);
 }
 
-static void test_words(void **state) {
+static void test_version_and_status_texts(void **state) {
     (void)state;
     char version[40];
     snprintf(version, sizeof version, "%d.%d.%d", PETRI_VERSION_MAJOR, PETRI_VERSION_MINOR, PETRI_VERSION_PATCH);
@@ -472,27 +472,27 @@ static void test_words(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_retained_diagnostics),
-        PLAYER_TEST(test_words),
+        PLAYER_TEST(test_version_and_status_texts),
         cmocka_unit_test(test_options),
         PLAYER_TEST(test_without_a_script),
         PLAYER_TEST(test_text_lengths),
         PLAYER_TEST(test_print),
         PLAYER_TEST(test_writer_can_stop),
         PLAYER_TEST(test_dumps),
-        PLAYER_TEST(test_profile),
+        PLAYER_TEST(test_profile_has_row_per_line),
         PLAYER_TEST(test_failed_load_keeps_the_script),
-        PLAYER_TEST(test_once_per_place_and_load),
-        PLAYER_TEST(test_several_texts_at_one_place),
-        PLAYER_TEST(test_no_more_than_a_thousand),
-        PLAYER_TEST(test_two_sessions),
-        PLAYER_TEST(test_nodes),
-        cmocka_unit_test(test_rendered),
+        PLAYER_TEST(test_diagnostics_are_reported_once_per_load),
+        PLAYER_TEST(test_texts_at_one_position_are_distinct),
+        PLAYER_TEST(test_diagnostics_are_limited),
+        PLAYER_TEST(test_sessions_are_independent),
+        PLAYER_TEST(test_node_kinds_and_attributes),
+        cmocka_unit_test(test_colour_is_only_in_rendered),
         PLAYER_TEST(test_tokens),
-        PLAYER_TEST(test_names),
-        cmocka_unit_test(test_places_of_nodes),
-        cmocka_unit_test(test_one_place_is_reported_once),
-        cmocka_unit_test(test_helpers),
-        PLAYER_TEST(test_print_after_load), // last: it used to read freed memory
+        PLAYER_TEST(test_bindings),
+        cmocka_unit_test(test_diagnostics_have_node_positions),
+        cmocka_unit_test(test_loop_error_is_reported_once),
+        cmocka_unit_test(test_builtins_and_numbers),
+        PLAYER_TEST(test_load_clears_output), // last, because it used to read freed memory
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

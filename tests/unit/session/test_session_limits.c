@@ -1,8 +1,8 @@
-// test_session_limits.c: a frame that hits a limit of work or memory is given up and changes nothing.
+// test_session_limits.c: tests that a frame which exceeds a limit of work or memory is aborted without effect.
 #include "player.h"
 
-// Loops that never end in practice: the frame's work is limited.
-static void test_work(void **state) {
+// Loops that would practically never end exceed the work limit.
+static void test_work_limit_aborts_frame(void **state) {
     Player *player = *state;
     PetriOptions options = player_options(player);
     options.work_limit = 1 << 27;
@@ -15,7 +15,7 @@ static void test_work(void **state) {
                            "the frame exceeded its limit of 134217728 work units and was aborted [work-limit]"));
     assert_text("state", player_state(player), "");
     player_run(player, "!a v=1\n", 1);
-    assert_text("goes on", player_tree(player), "!a v=1\n");
+    assert_text("continues", player_tree(player), "!a v=1\n");
 }
 
 static void open_small(Player *player, size_t memory_bytes) {
@@ -24,29 +24,29 @@ static void open_small(Player *player, size_t memory_bytes) {
     player_reopen(player, &options);
 }
 
-static void test_memory(void **state) {
+static void test_memory_limit_aborts_frame(void **state) {
     Player *player = *state;
     open_small(player, 1 << 20);
     assert_int_equal(player_load(player, "!counter state=:c rate=1\n!a v=len(..1e6+frame) if frame==1\n"), PETRI_OK);
     player_step(player, 1);
     assert_text("before", player_state(player), "$:c = 0\n$(:c;:time) = 0\n");
     assert_int_equal(petri_step(player->session), PETRI_LIMIT_EXCEEDED);
-    assert_text("told", player_diagnostics(player),
+    assert_text("diagnostics", player_diagnostics(player),
                 "error t.fl:2:10 the frame exceeded its memory limit of 1 MiB and was aborted [memory-limit]\n");
     assert_text("unchanged", player_state(player), "$:c = 0\n$(:c;:time) = 0\n");
     assert_text("no tree", player_tree(player), "");
     assert_int_equal(petri_frame(player->session).number, 1);
-    assert_int_equal(petri_step(player->session), PETRI_OK); // the next frame fits again
+    assert_int_equal(petri_step(player->session), PETRI_OK); // the next frame is within the limit
     assert_text("after", player_state(player), "$:c = 0.03333333333333333\n$(:c;:time) = 0.03333333333333333\n");
 }
 
-// Wherever in a frame the memory runs out, nothing has changed: systems do not draw on the script's budget.
-static void test_memory_anywhere(void **state) {
+// Nothing changes wherever in a frame the memory limit is exceeded, because systems do not use the script's budget.
+static void test_abort_leaves_state_unchanged(void **state) {
     Player *player = *state;
     static const char script[] = "!counter state=:c rate=1\n"
                                  "!physics state=:p dimensions=2\n"
                                  "    !random strength=5\n"
-                                 "    for i in ..400+0*frame\n" // made anew in each frame
+                                 "    for i in ..400+0*frame\n" // created in each frame
                                  "        !particle id=i position=i;1 velocity=1;2\n"
                                  "!physics state=:q dimensions=20\n"
                                  "    for i in ..40\n"
@@ -76,8 +76,8 @@ static void test_memory_anywhere(void **state) {
     assert_true(done > 20);
 }
 
-// Nothing is kept from frame to frame that grows.
-static void test_frames_do_not_add_up(void **state) {
+// Memory does not grow from frame to frame.
+static void test_memory_does_not_grow(void **state) {
     Player *player = *state;
     open_small(player, 64 << 10);
     player_run(player, "!a v=debug(..100);(x*2 for x in ..100)\n!b v=nothing(..50);'s'(3)\n!counter state=:c rate=1\n",
@@ -87,10 +87,10 @@ static void test_frames_do_not_add_up(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_work),
-        PLAYER_TEST(test_memory),
-        PLAYER_TEST(test_memory_anywhere),
-        PLAYER_TEST(test_frames_do_not_add_up),
+        PLAYER_TEST(test_work_limit_aborts_frame),
+        PLAYER_TEST(test_memory_limit_aborts_frame),
+        PLAYER_TEST(test_abort_leaves_state_unchanged),
+        PLAYER_TEST(test_memory_does_not_grow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-// test_session_memory.c: each allocation of each public function fails in turn. Nothing aborts or leaks (sanitizers
-// see that), what returns a failure has changed nothing, and the same call then gives what it gives elsewhere.
+// test_session_memory.c: lets each allocation of each public function fail in turn. Nothing crashes or leaks (checked
+// by sanitizers), a failed call changes nothing, and repeating it gives the normal result.
 #include "folder.h"
 #include "heap.h"
 #include "petri-draw.h"
@@ -28,12 +28,12 @@ typedef struct Stage {
     Player player;
     PetriSnapshot *early;
     PetriConfig *config;
-    Notebook written; // by the act
+    Notebook written; // output of the act
 } Stage;
 
 typedef PetriStatus Act(Stage *stage);
 
-// Whether a run goes on in the same way is seen from its next frames, too.
+// The next frames are also compared, to see whether the session continues in the same way.
 static void write_frame(Stage *stage, Notebook *book) {
     char line[100];
     PetriFrame frame = petri_frame(stage->player.session);
@@ -97,13 +97,13 @@ static void clear_written(Stage *stage) {
 
 static bool write_text(void *host, const char *text, size_t len) {
     bool counts = heap.counts;
-    heap.counts = false; // the notebook's allocations are not libpetri's
+    heap.counts = false; // allocations of the notebook are not counted
     note(host, text, len);
     heap.counts = counts;
     return true;
 }
 
-// --- the acts
+// --- acts: calls of public functions
 
 static PetriStatus of_pointer(const void *pointer) {
     return pointer ? PETRI_OK : PETRI_OUT_OF_MEMORY;
@@ -278,7 +278,7 @@ static PetriStatus act_prompt_check(Stage *stage) {
     uint64_t errors = petri_diagnostic_count(stage->player.session, PETRI_ERROR);
     if (petri_prompt_check(stage->player.session, "area(1;", PETRI_NUL_TERMINATED) == PETRI_INCOMPLETE)
         return PETRI_OK;
-    assert_true(petri_diagnostic_count(stage->player.session, PETRI_ERROR) > errors); // it is said
+    assert_true(petri_diagnostic_count(stage->player.session, PETRI_ERROR) > errors); // reported
     return PETRI_OUT_OF_MEMORY;
 }
 
@@ -343,7 +343,7 @@ static PetriStatus act_print_log(Stage *stage) {
     return petri_print_log(stage->player.session, write_text, &stage->written);
 }
 
-// Seconds are written that differ each time.
+// Discards the output, because it contains times.
 static PetriStatus act_profile(Stage *stage) {
     Notebook seconds = {0};
     PetriStatus status = petri_profile(stage->player.session, 0, write_text, &seconds);
@@ -361,7 +361,7 @@ static PetriStatus act_records(Stage *stage) {
         assert_true(ready && !records);
         PetriPainter *painter = petri_painter_open();
         PetriRecord record;
-        assert_false(painter && petri_picture_record(picture, painter, 0, &record)); // it has not been made
+        assert_false(painter && petri_picture_record(picture, painter, 0, &record)); // not rendered
         petri_painter_close(&painter);
         petri_picture_report(stage->player.session, picture);
     }
@@ -369,7 +369,7 @@ static PetriStatus act_records(Stage *stage) {
     return status;
 }
 
-// Cairo and what it takes allocate by themselves; only petri's own calls fail.
+// Only allocations of petri fail, not those inside Cairo and its libraries.
 static PetriStatus act_paint(Stage *stage) {
     static uint32_t pixels[100 * 100];
     PetriPicture *picture;
@@ -439,7 +439,7 @@ static const Row rows[] = {
     {"paint", act_paint, false},
 };
 
-// What the act has written, the session after it, and the two frames that follow.
+// Records the output of the act, the session after it, and the next two frames.
 static char *outcome(Stage *stage) {
     Notebook book = stage->written;
     write_frame(stage, &book);
@@ -452,7 +452,7 @@ static char *outcome(Stage *stage) {
     return book.text;
 }
 
-// One allocation fails, or all from there on.
+// Lets one allocation fail, or also all later ones.
 static void check_failure(Stage *stage, const Row *row, long number, bool all, const char *wanted) {
     char name[100];
     Notebook before = {0}, after = {0};
@@ -477,13 +477,13 @@ static void check_failure(Stage *stage, const Row *row, long number, bool all, c
     close_stage(stage);
 }
 
-// So many allocations of an act are tried; all of them with TRIES=1000000.
+// Tries a sample of the allocations of an act; all with TRIES=1000000.
 static long max_tries(void) {
     const char *tries = getenv("TRIES");
     return tries ? strtol(tries, NULL, 10) : 50;
 }
 
-static void test_failures(void **state) {
+static void test_failed_allocations_change_nothing(void **state) {
     Stage *stage = *state;
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         open_stage(stage, rows[i].interruptible);
@@ -500,9 +500,9 @@ static void test_failures(void **state) {
     }
 }
 
-// Without a copy of the state, systems that were updated before the memory was used up stay so, and the frame counts;
-// the session goes on.
-static void test_plain_step(void **state) {
+// Without rollback_frames, systems that were updated before memory ran out keep their new state, and the frame counts.
+// The session continues.
+static void test_step_without_rollback_continues(void **state) {
     Stage *stage = *state;
     for (long number = 0, total = 1; number < total; number++) {
         open_stage(stage, false);
@@ -541,8 +541,8 @@ static int tear_down(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_failures, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_plain_step, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_failed_allocations_change_nothing, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_step_without_rollback_continues, set_up, tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

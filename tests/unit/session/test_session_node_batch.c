@@ -1,11 +1,11 @@
-// test_session_node_batch.c: what a loop makes under a node may be kept as rows of numbers (lib/value/node_batch.h):
-// nothing shows it but the memory that it takes.
+// test_session_node_batch.c: tests that nodes which loops create as batches (lib/value/node_batch.h) behave like single
+// nodes, and use less memory.
 #include "player.h"
 #include "session/session.h"
 
 enum { VARIANTS = 4, LOOPS = 7 };
 
-// What is made in each round.
+// Nodes that each iteration creates.
 static const char *const nodes[] = {
     "!particle id=i position=i;2*i mass=3",
     "!particle #one #two id=i position=(i;1) radius=i*2 mass=1/(i-7)",
@@ -23,7 +23,7 @@ static const char *const nodes[] = {
 static const char *const loops[LOOPS] = {"..40", "(5;..40)",  "..20|0.5",    "(x/3 for x in ..100)",
                                          "..3",  "(..40)*-1", "(-0;(1..40))"};
 
-// A script with loops under nodes, or with the vector of what such a loop makes, which has no rows.
+// Writes a script with loops below nodes, or with vectors of the loops' nodes, which are not batched.
 static const char *make_script(char *text, size_t size, bool in_place, bool dynamic, const char *node,
                                const char *loop) {
     const char *factor = dynamic ? "*(1+0*frame)" : ""; // keeps the sign of zero
@@ -52,7 +52,7 @@ static const char *run_variant(Player *player, bool in_place, bool dynamic, int 
     return player_print(player, PETRI_PRINT_TREE | PETRI_PRINT_LOG);
 }
 
-// Where nodes are rows and where they are not, trees are the same.
+// Trees with batched and with single nodes are equal.
 static void test_batched_nodes_match_single_nodes(void **state) {
     Player *player = *state;
     for (int node = 0; node < (int)COUNT_OF(nodes); node++)
@@ -65,7 +65,7 @@ static void test_batched_nodes_match_single_nodes(void **state) {
         }
 }
 
-// Adds up what petri_tree_* shows of a node.
+// Adds up the numbers of a node, read with petri_tree_*.
 static void count_nodes(const PetriNode *node, int *kinds, double *sum) {
     PetriValue v = petri_tree_get(node, "id");
     *kinds += strcmp(petri_tree_kind(node), "particle") == 0;
@@ -75,8 +75,8 @@ static void count_nodes(const PetriNode *node, int *kinds, double *sum) {
         count_nodes(child, kinds, sum);
 }
 
-// A host sees nodes, each with its own numbers; systems go on from frame to frame whether it looks or not.
-static void test_host(void **state) {
+// A host sees single nodes with their own numbers. Systems continue normally whether the host reads the tree or not.
+static void test_host_sees_single_nodes(void **state) {
     Player *player = *state;
     player_run(player,
                "!physics state=:p dimensions=1\n    !group\n        for i in ..1000\n            !particle id=i "
@@ -95,8 +95,8 @@ static void test_host(void **state) {
     assert_true(strstr(player_state(player), "$(:p;999) = 999.05\n") != NULL);
 }
 
-// All that a session holds, script, state and engine, by particle.
-static void test_bytes(void **state) {
+// Limits the memory of a session per particle: script, state and engine.
+static void test_memory_per_particle(void **state) {
     enum { COUNT = 100000, EACH = 380 };
     Player *player = *state;
     PetriOptions options = player_options(player);
@@ -117,8 +117,8 @@ static void test_bytes(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_batched_nodes_match_single_nodes),
-        PLAYER_TEST(test_host),
-        PLAYER_TEST(test_bytes),
+        PLAYER_TEST(test_host_sees_single_nodes),
+        PLAYER_TEST(test_memory_per_particle),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

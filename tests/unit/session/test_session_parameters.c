@@ -1,10 +1,9 @@
-// test_session_parameters.c: the names that a script leaves to its host (`let NAME=NAME or DEFAULT`), and what is said
-// of definitions that it does not take.
+// test_session_parameters.c: tests parameters (`let NAME=NAME or DEFAULT`), and warnings about unused definitions.
 #include "folder.h"
 #include "player.h"
 #include "session/session.h"
 
-// One line each: `NAME value (default) number least..most|step 'comment' place`.
+// Lists the parameters, one per line: `NAME value (default) number min..max|step 'comment' position`.
 static const char *list(Player *player) {
     PetriParameter row;
     player->printed.len = 0;
@@ -25,7 +24,7 @@ static const char *list_of(Player *player, const char *script) {
     return list(player);
 }
 
-static void test_which_lets(void **state) {
+static void test_parameters_are_recognised(void **state) {
     static const struct {
         const char *script, *wanted;
         bool quiet;
@@ -44,9 +43,9 @@ static void test_which_lets(void **state) {
         {"let N=N or (1;\n  2)\n", "N 1;2 ((1; 2)) nan/nan -inf..inf|0 '' 1:5\n", true},
         {"let N=N or beat -- a\033[31m\tb\302\233c\n", "N beat (beat) nan/nan -inf..inf|0 'a [31m b c' 1:5\n", true},
         {"let N=N or false -- 0..1\n", "N 0 (false) 0/0 0..1|0 '' 1:5\n", true},
-        // The second has a value to begin with.
+        // The second name is already bound.
         {"let N=N or 1\nlet N=N or 2\n", "N 1 (1) 1/1 -inf..inf|0 '' 1:5\n", true},
-        // None of these.
+        // None of these are parameters.
         {"let k=3\nlet k=k or 2\n", "", true},
         {"let beat=beat or 2\n", "", true},
         {"let sin=sin or 2\n", "", true},
@@ -61,9 +60,9 @@ static void test_which_lets(void **state) {
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         assert_text(rows[i].script, list_of(*state, rows[i].script), rows[i].wanted);
-        const char *told = player_diagnostics(*state);
-        assert_claim(rows[i].script, rows[i].quiet == (told[0] == 0));
-        assert_claim(rows[i].script, rows[i].quiet || strstr(told, "[unbound-name]") != NULL);
+        const char *reported = player_diagnostics(*state);
+        assert_claim(rows[i].script, rows[i].quiet == (reported[0] == 0));
+        assert_claim(rows[i].script, rows[i].quiet || strstr(reported, "[unbound-name]") != NULL);
     }
 }
 
@@ -74,11 +73,11 @@ static void test_comments(void **state) {
         {"-- 1..500 how many cells", "1..500|0 'how many cells'"},
         {"--1..500", "1..500|0 ''"},
         {"--- 1..500: cells ", "1..500|0 'cells'"},
-        {"-- -1..1,charge", "-inf..inf|0 '-1..1,charge'"}, // no blank, no range
+        {"-- -1..1,charge", "-inf..inf|0 '-1..1,charge'"}, // not a range without a space after it
         {"-- -1..1, charge", "-1..1|0 'charge'"},
         {"-- 0.5..2.5|0.25 speed", "0.5..2.5|0.25 'speed'"},
         {"-- 0.. not negative", "0..inf|0 'not negative'"},
-        {"-- ..9 at the most", "-inf..9|0 'at the most'"},
+        {"-- ..9 at most", "-inf..9|0 'at most'"},
         {"-- 1k..2k hertz", "1000..2000|0 'hertz'"},
         {"-- .. anything", "-inf..inf|0 '.. anything'"},
         {"-- 5..1 wrong way round", "-inf..inf|0 '5..1 wrong way round'"},
@@ -97,11 +96,11 @@ static void test_comments(void **state) {
     }
 }
 
-// Values are those of the language: a definition that is true goes over the default, and folding changes nothing.
+// A true definition overrides the default, with and without the simplifier.
 static void test_values(void **state) {
     Player *player = *state;
     static const struct {
-        const char *definition, *tree, *told;
+        const char *definition, *tree, *reported;
     } rows[] = {
         {"X=1", "!a v=3;2\n",
          "warning unused definition 'X': t.fl does not read it; "
@@ -122,14 +121,14 @@ static void test_values(void **state) {
             assert_int_equal(petri_define(player->session, rows[i].definition), PETRI_OK);
             player_run(player, "let N=N or 3 -- 1..10\n!a v=N;2\n", 1);
             assert_text(rows[i].definition, player_tree(player), rows[i].tree);
-            assert_text(rows[i].definition, player_diagnostics(player), rows[i].told);
+            assert_text(rows[i].definition, player_diagnostics(player), rows[i].reported);
         }
 }
 
-// A definition that does nothing is told, with the place where that is decided.
-static void test_unused(void **state) {
+// An unused definition is reported, with the position of the reason.
+static void test_unused_definitions_are_reported(void **state) {
     static const struct {
-        const char *definition, *script, *told;
+        const char *definition, *script, *reported;
     } rows[] = {
         {"CELLS=5", "!b\nlet CELLS=200\n!a v=CELLS\n",
          "warning t.fl:2:5 unused definition 'CELLS': the script binds this name itself "
@@ -141,7 +140,7 @@ static void test_unused(void **state) {
          "warning t.fl:1:5 unused definition 'CELL': t.fl does not read it [unknown-parameter]\n"},
         {"fps=5", "!a v=fps\n", "warning unused definition 'fps': petri sets this name itself [unused-definition]\n"},
         {"FOO=5", "!a\n", "warning unused definition 'FOO': t.fl does not read it [unread-definition]\n"},
-        // Read, be it only at one place, before the script has its own.
+        // Used, even if only before the script binds the name itself.
         {"CELLS=5", "!a v=CELLS\nlet CELLS=200\n!a v=CELLS\n", ""},
         {"CELLS=5", "let CELLS=CELLS*2\n!a v=CELLS\n", ""},
         {"CELLS=5", "func f()\n    CELLS\n!a v=f()\n", ""},
@@ -153,22 +152,22 @@ static void test_unused(void **state) {
         player_reopen(player, &options);
         assert_int_equal(petri_define(player->session, rows[i].definition), PETRI_OK);
         player_run(player, rows[i].script, 1);
-        assert_text(rows[i].script, player_diagnostics(player), rows[i].told);
+        assert_text(rows[i].script, player_diagnostics(player), rows[i].reported);
     }
-    Player *player = *state; // of several the last counts, and only that one is spoken of
+    Player *player = *state; // of repeated definitions, only the last is used and reported
     assert_int_equal(petri_define(player->session, "N=77"), PETRI_OK);
     assert_int_equal(petri_define(player->session, "N=3"), PETRI_OK);
     player_run(player, "let N=N or 2 -- 1..9\n!a v=N;sin\n", 1);
     assert_text("last", player_diagnostics(player), "");
 }
 
-// Hints are a line of the rendered text.
+// Hints are lines of the rendered text.
 static void store_rendered(void *host, const PetriDiagnostic *diagnostic) {
     Player *player = host;
     note(&player->diagnostics, diagnostic->rendered, strlen(diagnostic->rendered));
 }
 
-static void test_rendered(void **state) {
+static void test_hints_are_rendered(void **state) {
     Player *player = *state;
     PetriOptions options = player_options(player);
     options.on_diagnostic = store_rendered;
@@ -189,11 +188,11 @@ static void test_rendered(void **state) {
                 "    write `let DISH=DISH or …` to use the definition\n");
 }
 
-// Where the default is made of numbers, so must be the definition.
-static void test_wrong_values(void **state) {
+// If the default consists of numbers, the definition must as well.
+static void test_invalid_definitions_are_rejected(void **state) {
     Player *player = *state;
     static const struct {
-        const char *definition, *fallback, *told;
+        const char *definition, *fallback, *reported;
     } rows[] = {
         {"N=12x", "3",
          "error t.fl:1:5 '12x' is not a number, and 'N' takes numbers: its default is 3 [bad-definition]\n"},
@@ -214,9 +213,9 @@ static void test_wrong_values(void **state) {
         snprintf(script, sizeof script, "let N=N or %s\n!a v=N\n", rows[i].fallback);
         player_reopen(player, &options);
         assert_int_equal(petri_define(player->session, rows[i].definition), PETRI_OK);
-        bool wrong = rows[i].told[0] != 0;
+        bool wrong = rows[i].reported[0] != 0;
         assert_int_equal(player_load(player, script), wrong ? PETRI_INVALID : PETRI_OK);
-        assert_text(rows[i].definition, player_diagnostics(player), rows[i].told);
+        assert_text(rows[i].definition, player_diagnostics(player), rows[i].reported);
     }
     static const char *const bad[] = {"5=3", "a b=3", " a=3", "a-b=3", "'=3", "a'b=3"};
     for (size_t i = 0; i < COUNT_OF(bad); i++)
@@ -232,20 +231,20 @@ static const char DISH[] = "let N=N or 3 -- 1..5|2 rounds\n"
                            "!a v=N;S f=frame\n"
                            "!counter state=:c rate=60\n";
 
-// Another value, while the world goes on.
-static void test_set(void **state) {
+// Sets a parameter while the simulation continues.
+static void test_set_parameter(void **state) {
     Player *player = *state;
-    assert_int_equal(petri_set_parameter(player->session, "N", "4"), PETRI_INVALID); // nothing is loaded
+    assert_int_equal(petri_set_parameter(player->session, "N", "4"), PETRI_INVALID); // no script is loaded
     player_run(player, DISH, 3);
     player_forget(player);
     assert_int_equal(petri_set_parameter(player->session, "N", "5"), PETRI_OK);
-    assert_text("what was told stays told", player_diagnostics(player), "");
+    assert_text("diagnostics are not repeated", player_diagnostics(player), "");
     assert_text("set", list(player),
                 "N 5 (3) 5/3 1..5|2 'rounds' 1:5 defined\nS 'a' ('a') nan/nan -inf..inf|0 '' 2:5\n");
     player_step(player, 1);
     assert_text("it is there in the next frame", player_tree(player),
                 "!unbound\n!a v=5;'a' f=3\n!counter state=:c rate=60\n");
-    assert_text("the state goes on", player_state(player), "$:c = 3\n$(:c;:time) = 0.05\n");
+    assert_text("the state continues", player_state(player), "$:c = 3\n$(:c;:time) = 0.05\n");
     assert_int_equal(petri_set_parameter(player->session, "S", "b c"), PETRI_OK);
     assert_int_equal(petri_set_parameter(player->session, "N", NULL), PETRI_OK);
     player_step(player, 1);
@@ -261,14 +260,14 @@ static void test_set(void **state) {
     player_step(player, 1);
     assert_text("a failure changes nothing", player_tree(player),
                 "!unbound\n!a v=3;'b c' f=5\n!counter state=:c rate=60\n");
-    // The value stays while the script is changed.
+    // A reload keeps the value.
     assert_int_equal(petri_set_parameter(player->session, "N", "4"), PETRI_OK);
     player_run(player, DISH, 1);
     assert_text("reloaded", player_tree(player), "!unbound\n!a v=4;'b c' f=0\n!counter state=:c rate=60\n");
 }
 
-// Going back takes the value back as well.
-static void test_rewind(void **state) {
+// Rewinding also restores the value.
+static void test_rewind_restores_parameter(void **state) {
     Player *player = *state;
     player_run(player, DISH, 2);
     PetriSnapshot *before = petri_snapshot(player->session);
@@ -280,8 +279,8 @@ static void test_rewind(void **state) {
     petri_snapshot_free(before);
 }
 
-// Modules see no definitions (L13.2); what is included is the script.
-static void test_files(void **state) {
+// Modules do not see definitions (L13.2); included files do.
+static void test_modules_do_not_see_definitions(void **state) {
     Player *player = *state;
     Folder folder;
     folder_open(&folder);
@@ -296,9 +295,9 @@ static void test_files(void **state) {
     assert_int_equal(petri_define(player->session, "PART=8"), PETRI_OK);
     assert_int_equal(petri_define(player->session, "SIZE=4"), PETRI_OK);
     assert_int_equal(petri_load(player->session, folder_file(&folder, "main.fl")), PETRI_OK);
-    const char *told = player_diagnostics(player);
-    assert_non_null(strstr(told, "m.fl:2:5 unused definition 'SIZE': modules do not see definitions"));
-    assert_null(strstr(told, "PART"));
+    const char *reported = player_diagnostics(player);
+    assert_non_null(strstr(reported, "m.fl:2:5 unused definition 'SIZE': modules do not see definitions"));
+    assert_null(strstr(reported, "PART"));
     assert_text("files", list(player),
                 "PART 8 (7) 8/7 -inf..inf|0 'in a part' 1:5 defined\n"
                 "N 2 (2) 2/2 -inf..inf|0 '' 4:5\n"
@@ -308,13 +307,13 @@ static void test_files(void **state) {
     player_forget(player);
     player_step(player, 2);
     assert_text("values", player_tree(player), "!part v=8\n!a v=6\n");
-    assert_null(strstr(player_diagnostics(player), "unbound")); // SIZE on the right is null, and meant so
+    assert_null(strstr(player_diagnostics(player), "unbound")); // SIZE on the right may be unbound
     folder_close(&folder);
 }
 
-// With other definitions a script is compiled anew, and parsed no more, nor what it includes unless that was changed;
-// as petri sweep has it, from a configuration that is taken back before each run, too.
-static void test_parsed_once(void **state) {
+// Changed definitions recompile a script without parsing it or unchanged included files again, also after
+// petri_config_apply, as petri sweep does before each run.
+static void test_recompiling_does_not_parse(void **state) {
     Player *player = *state;
     PetriSession *session = player->session;
     Folder folder;
@@ -349,10 +348,16 @@ static void test_parsed_once(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_which_lets),  PLAYER_TEST(test_comments), PLAYER_TEST(test_values),
-        PLAYER_TEST(test_unused),      PLAYER_TEST(test_rendered), PLAYER_TEST(test_wrong_values),
-        PLAYER_TEST(test_set),         PLAYER_TEST(test_rewind),   PLAYER_TEST(test_files),
-        PLAYER_TEST(test_parsed_once),
+        PLAYER_TEST(test_parameters_are_recognised),
+        PLAYER_TEST(test_comments),
+        PLAYER_TEST(test_values),
+        PLAYER_TEST(test_unused_definitions_are_reported),
+        PLAYER_TEST(test_hints_are_rendered),
+        PLAYER_TEST(test_invalid_definitions_are_rejected),
+        PLAYER_TEST(test_set_parameter),
+        PLAYER_TEST(test_rewind_restores_parameter),
+        PLAYER_TEST(test_modules_do_not_see_definitions),
+        PLAYER_TEST(test_recompiling_does_not_parse),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

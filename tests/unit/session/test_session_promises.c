@@ -1,4 +1,4 @@
-// test_session_promises.c: what petri.h says of lifetimes and of what decides how a session goes on.
+// test_session_promises.c: tests lifetimes, snapshots and NULL arguments as petri.h documents them.
 #include "folder.h"
 #include "player.h"
 
@@ -12,7 +12,6 @@ static const char *const KEYS = "!physics state=:a dimensions=2 time=beat\n    !
                                 "!physics state=:b dimensions=1 time=beat\n    !particle id=1\n"
                                 "!window\n    !key name=:space state=:space\n    !pointer state=:mouse\n";
 
-// Texts live as long as petri.h says, whatever else is asked meanwhile.
 static void ignore_name(void *host, const PetriBinding *name) {
     (void)host;
     (void)name;
@@ -23,7 +22,8 @@ static void ignore_token(void *host, const PetriToken *token) {
     (void)token;
 }
 
-static void test_lifetimes(void **state) {
+// Texts live as long as petri.h documents, whatever functions are called meanwhile.
+static void test_texts_stay_valid(void **state) {
     Player *player = *state;
     PetriSession *session = player->session;
     Folder folder;
@@ -66,7 +66,7 @@ static char *next_state(Player *player) {
     return strdup(player_state(player));
 }
 
-// A toggle is as it was, and so is what is pressed.
+// Rewinding restores toggles and pressed keys.
 static void test_toggles_rewind(void **state) {
     Player *player = *state;
     player_run(player, KEYS, 2);
@@ -87,7 +87,7 @@ static void test_toggles_rewind(void **state) {
     free(wanted);
 }
 
-// Real time: what a script sees of it goes back, too.
+// Rewinding restores `performance` in real time.
 static void test_performance_rewinds(void **state) {
     Player *player = *state;
     player_realtime(player, 500);
@@ -106,8 +106,8 @@ static void test_performance_rewinds(void **state) {
     petri_snapshot_free(snapshot);
 }
 
-// NULL in any place is answered.
-static void test_null(void **state) {
+// All functions accept NULL.
+static void test_null_arguments_are_accepted(void **state) {
     Player *player = *state;
     PetriSession *none = NULL, *session = player->session;
     PetriSnapshot *snapshot = petri_snapshot(session);
@@ -120,7 +120,7 @@ static void test_null(void **state) {
     double x;
     player_run(player, KEYS, 2);
     const PetriStatus statuses[] = {
-        petri_set_allocator(NULL), // while there is a session
+        petri_set_allocator(NULL), // a session is open
         petri_define(none, "A=1"),
         petri_define(session, NULL),
         petri_load(none, "s.fl"),
@@ -233,8 +233,8 @@ static void test_null(void **state) {
     petri_snapshot_free(snapshot);
 }
 
-// No such level has been told of.
-static void test_levels(void **state) {
+// Invalid levels have no diagnostics.
+static void test_invalid_levels_have_no_diagnostics(void **state) {
     Player *player = *state;
     assert_int_equal(player_load(player, "!a x=(\n"), PETRI_INVALID);
     assert_true(petri_diagnostic_count(player->session, PETRI_ERROR) > 0);
@@ -243,7 +243,7 @@ static void test_levels(void **state) {
     assert_int_equal(petri_diagnostic_count(player->session, (PetriLevel)1000000), 0);
 }
 
-// A child has none of the threads that it would have to wait for.
+// After fork, the child has no worker threads, and petri_close must not wait for them.
 static void test_close_after_fork(void **state) {
     Player *player = *state;
     PetriOptions options = player_options(player);
@@ -262,11 +262,11 @@ static void test_close_after_fork(void **state) {
     int status = -1;
     assert_int_equal(waitpid(child, &status, 0), child);
     assert_int_equal(status, 0);
-    player_step(player, 1); // the parent has lost nothing
+    player_step(player, 1); // the parent continues
 }
 
-// A script that was read from a file is not read again from a pipe, where one would wait for somebody to write.
-static void test_pipe(void **state) {
+// A reload rejects a pipe, which could block.
+static void test_reload_rejects_pipe(void **state) {
     Player *player = *state;
     Folder folder;
     folder_open(&folder);
@@ -285,9 +285,13 @@ static void test_pipe(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_lifetimes), PLAYER_TEST(test_toggles_rewind), PLAYER_TEST(test_performance_rewinds),
-        PLAYER_TEST(test_null),      PLAYER_TEST(test_levels),         PLAYER_TEST(test_close_after_fork),
-        PLAYER_TEST(test_pipe),
+        PLAYER_TEST(test_texts_stay_valid),
+        PLAYER_TEST(test_toggles_rewind),
+        PLAYER_TEST(test_performance_rewinds),
+        PLAYER_TEST(test_null_arguments_are_accepted),
+        PLAYER_TEST(test_invalid_levels_have_no_diagnostics),
+        PLAYER_TEST(test_close_after_fork),
+        PLAYER_TEST(test_reload_rejects_pipe),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-// test_session_prompt.c: statements and expressions at a prompt, through petri.h.
+// test_session_prompt.c: tests statements and expressions at the prompt.
 #include "player.h"
 
 static const char *const SCRIPT = "%pragma tempo 120\n"
@@ -9,7 +9,7 @@ static const char *const SCRIPT = "%pragma tempo 120\n"
                                   "!counter state=:c rate=1\n"
                                   "!shape n=COUNT\n";
 
-// What the prompt writes for a text.
+// Returns the output of the prompt for a text.
 static const char *typed(Player *player, const char *text, PetriStatus wanted) {
     PetriPromptResult done;
     player->printed.len = 0;
@@ -78,7 +78,7 @@ static void test_statements_persist(void **state) {
 }
 
 // Names of the prompt are evaluated in the state after the frame, names and nodes of the script in the state before it,
-// however the frame came to be evaluated.
+// whatever caused the evaluation of the frame.
 static void test_frame_values(void **state) {
     static const char *const values = "x;y;$(:b;0);seen;n;tempo";
     Player *player = *state;
@@ -114,7 +114,7 @@ static void test_frame_values(void **state) {
 }
 
 // A system typed at the prompt simulates like one of the script.
-static void test_typed_physics(void **state) {
+static void test_typed_system_simulates(void **state) {
     static const char *const system = "!physics state=:p dimensions=1 time=time\n"
                                       "    !particle id=0 position=1 velocity=COUNT\n"
                                       "    !constant force=2\n";
@@ -131,12 +131,12 @@ static void test_typed_physics(void **state) {
     free(wanted);
 }
 
-static void test_faults(void **state) {
+static void test_errors_are_reported(void **state) {
     Player *player = *state;
     assert_int_equal(player_load(player, SCRIPT), PETRI_OK);
     static const char *const wrong[] = {"1+", "let x", "%pragma tempo 3\n", "!a x=", "'"};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
-        for (int twice = 0; twice < 2; twice++) { // what is typed again is told again
+        for (int twice = 0; twice < 2; twice++) { // repeated input repeats diagnostics
             typed(player, wrong[i], PETRI_INVALID);
             assert_non_null(strstr(player_diagnostics(player), "error prompt:1:"));
             player_forget(player);
@@ -147,7 +147,7 @@ static void test_faults(void **state) {
     assert_string_equal(typed(player, "COUNT", PETRI_OK), "3\n");
 }
 
-static void test_input(void **state) {
+static void test_completeness(void **state) {
     Player *player = *state;
     static const struct {
         const char *text;
@@ -172,7 +172,7 @@ static void test_input(void **state) {
         {"'''abc\ndef'''\n", PETRI_COMPLETE},
         {"1 + \\\n", PETRI_INCOMPLETE},
         {"1 + \\\n2\n", PETRI_COMPLETE},
-        {"1+\n", PETRI_COMPLETE},   // wrong, whatever follows
+        {"1+\n", PETRI_COMPLETE},   // invalid, whatever follows
         {")(\n", PETRI_COMPLETE},   //
         {"'abc\n", PETRI_COMPLETE}, //
         {"\xff\n", PETRI_COMPLETE}, //
@@ -204,14 +204,14 @@ static void test_evaluate(void **state) {
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
         assert_int_equal(petri_evaluate(player->session, wrong[i], PETRI_NUL_TERMINATED, &result, NULL, NULL),
                          PETRI_INVALID);
-    // Nothing of it is kept, whatever the number of evaluations.
+    // Evaluations retain no memory.
     for (int i = 0; i < 3000; i++)
         assert_int_equal(petri_evaluate(player->session, "COUNT;..1000", PETRI_NUL_TERMINATED, &result, NULL, NULL),
                          PETRI_OK);
     assert_null(petri_prompt_statement(player->session, 0));
 }
 
-static void test_names(void **state) {
+static void test_visible_names(void **state) {
     Player *player = *state;
     bool found[3] = {false};
     static const char *const wanted[] = {"COUNT", "DEFINED", "beat"};
@@ -224,8 +224,8 @@ static void test_names(void **state) {
     assert_true(found[0] && found[1] && found[2]);
 }
 
-// Without a script there is nothing to evaluate in.
-static void test_no_script(void **state) {
+// Without a script, the prompt returns PETRI_INVALID.
+static void test_prompt_needs_script(void **state) {
     Player *player = *state;
     typed(player, "1", PETRI_INVALID);
     assert_int_equal(petri_preview(player->session), PETRI_INVALID);
@@ -236,11 +236,15 @@ static void test_no_script(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_values),       PLAYER_TEST(test_statements_persist),
-        PLAYER_TEST(test_frame_values), PLAYER_TEST(test_typed_physics),
-        PLAYER_TEST(test_faults),       PLAYER_TEST(test_input),
-        PLAYER_TEST(test_evaluate),     PLAYER_TEST(test_names),
-        PLAYER_TEST(test_no_script),
+        PLAYER_TEST(test_values),
+        PLAYER_TEST(test_statements_persist),
+        PLAYER_TEST(test_frame_values),
+        PLAYER_TEST(test_typed_system_simulates),
+        PLAYER_TEST(test_errors_are_reported),
+        PLAYER_TEST(test_completeness),
+        PLAYER_TEST(test_evaluate),
+        PLAYER_TEST(test_visible_names),
+        PLAYER_TEST(test_prompt_needs_script),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

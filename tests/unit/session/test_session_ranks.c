@@ -1,5 +1,5 @@
-// test_session_ranks.c: several sessions that share their work come to the bits of one. Here ranks are threads, and
-// numbers go between them through queues. argv[1..]: folders of scripts to go through.
+// test_session_ranks.c: tests that several ranks give the same results as one process, bit for bit. The ranks are
+// threads here and communicate through queues. argv[1..]: folders of scripts.
 #include "player.h"
 #include "scripts.h"
 
@@ -7,7 +7,7 @@
 
 enum { FRAMES = 6, SILENT_FRAMES = 4, MAX_RANKS = 5 };
 
-// Numbers on their way.
+// A message in a queue.
 typedef struct Message {
     struct Message *next;
     size_t count;
@@ -22,13 +22,13 @@ typedef struct Queue {
 typedef struct World {
     pthread_mutex_t mutex;
     pthread_cond_t arrived;
-    Queue queues[MAX_RANKS][MAX_RANKS]; // from, to
+    Queue queues[MAX_RANKS][MAX_RANKS]; // by sender and receiver
     int count;
-    const char *file; // or, if NULL:
+    const char *file; // NULL: use the following text
     const char *text;
     int frames;
-    bool silent;    // hashes of large worlds take longer than the frames
-    double *common; // memory
+    bool silent;    // do not hash the states, because hashes of large systems are slow
+    double *common; // shared memory
 } World;
 
 typedef struct Rank {
@@ -36,7 +36,7 @@ typedef struct Rank {
     int number;
     Notebook output;
     uint64_t sent;
-    PetriRankStats traffic; // of the first system
+    PetriRankStats stats; // statistics of the first system
 } Rank;
 
 static void send(void *host, int to, const double *numbers, size_t runs, size_t length, size_t stride) {
@@ -67,7 +67,7 @@ static void receive(void *host, int from, double *numbers, size_t runs, size_t l
         queue->end = &queue->first;
     pthread_mutex_unlock(&rank->world->mutex);
     if (parcel->count != runs * length)
-        abort(); // the ranks are at different places
+        abort(); // the ranks execute different operations
     for (size_t k = 0; k < runs; k++)
         memcpy(numbers + k * stride, parcel->numbers + k * length, length * sizeof *numbers);
     free(parcel);
@@ -104,11 +104,11 @@ static void allreduce_max(void *host, double *numbers, size_t count) {
     free(others);
 }
 
-// New memory each time: nothing of the frame before is in it.
+// Allocates new memory each time, without data of the frame before.
 static double *alloc_shared(void *host, size_t count) {
     const Rank *rank = host;
     double all = 0, address = 0;
-    allreduce_max(host, &all, 1); // nobody reads the memory before
+    allreduce_max(host, &all, 1); // no rank may read the memory before
     if (rank->number == 0) {
         free(rank->world->common);
         rank->world->common = malloc(count * sizeof *rank->world->common);
@@ -117,9 +117,9 @@ static double *alloc_shared(void *host, size_t count) {
     return rank->world->common;
 }
 
-static bool in_common; // ranks have memory in common
+static bool in_common; // ranks share memory
 
-// The forces of the last step, as one number.
+// Returns a checksum of the forces in the last step.
 static void note_forces(PetriSession *session, Notebook *book) {
     PetriSystem system;
     uint64_t sum = 0;
@@ -155,14 +155,14 @@ static void *run_rank(void *context) {
             petri_print(player.session, PETRI_PRINT_HASH, note, &rank->output);
     }
     note_forces(player.session, &rank->output);
-    petri_rank_stats(player.session, 0, &rank->traffic);
+    petri_rank_stats(player.session, 0, &rank->stats);
     player_close(&player);
     return NULL;
 }
 
-static PetriRankStats regions; // of the last run, summed over its ranks
+static PetriRankStats regions; // statistics of the last run, summed over its ranks
 
-// Runs the script on so many ranks; returns what the first came to, and in *sent how many parcels there were.
+// Runs the script on `count` ranks. Returns the results of the first rank, and the number of messages in *sent.
 static Notebook run_world(const char *file, const char *text, int count, int frames, uint64_t *sent) {
     World world = {.mutex = PTHREAD_MUTEX_INITIALIZER,
                    .arrived = PTHREAD_COND_INITIALIZER,
@@ -189,14 +189,14 @@ static Notebook run_world(const char *file, const char *text, int count, int fra
         pthread_join(threads[i], NULL);
         *sent += ranks[i].sent;
         regions.decomposition =
-            ranks[i].traffic.decomposition == PETRI_DOMAIN_DECOMPOSED ? regions.decomposition : PETRI_REPLICATED;
-        regions.steps = ranks[i].traffic.steps;
-        regions.reductions = ranks[i].traffic.reductions;
-        regions.step_bytes += ranks[i].traffic.step_bytes;
-        regions.step_messages += ranks[i].traffic.step_messages;
-        regions.frame_bytes += ranks[i].traffic.frame_bytes;
-        regions.own += ranks[i].traffic.own;
-        regions.halo += ranks[i].traffic.halo;
+            ranks[i].stats.decomposition == PETRI_DOMAIN_DECOMPOSED ? regions.decomposition : PETRI_REPLICATED;
+        regions.steps = ranks[i].stats.steps;
+        regions.reductions = ranks[i].stats.reductions;
+        regions.step_bytes += ranks[i].stats.step_bytes;
+        regions.step_messages += ranks[i].stats.step_messages;
+        regions.frame_bytes += ranks[i].stats.frame_bytes;
+        regions.own += ranks[i].stats.own;
+        regions.halo += ranks[i].stats.halo;
         assert_string_equal(ranks[i].output.text, ranks[0].output.text);
         if (i > 0)
             free(ranks[i].output.text);
@@ -234,7 +234,7 @@ static void check_script(const char *path) {
     }
 }
 
-static void test_corpus(void **state) {
+static void test_scripts_match_single_process(void **state) {
     (void)state;
     scripts_each(check_script);
     assert_true(scripts > 50);
@@ -242,8 +242,8 @@ static void test_corpus(void **state) {
     assert_true(message_count > 1000);
 }
 
-// Many blocks, a last one that is not full, one and several forces, particles without a source, in a triangle and in
-// rectangles with either side longer.
+// Many blocks, a last block that is not full, one or several forces, particles without a source; triangles of pairs,
+// and rectangles with either side longer.
 static void test_ranks_match_single_rank(void **state) {
     (void)state;
     static const char *const forces[] = {
@@ -273,9 +273,9 @@ static void test_ranks_match_single_rank(void **state) {
         }
 }
 
-// Worlds whose forces all have a reach, in which particles go far within a frame.
+// Systems in which all forces have a limited range, and particles move far within a frame.
 static const char *const reaching[] = {
-    // all that there is: groups, ancestors, links that are longer than any reach, a few large ones, own forces
+    // all features: groups, ancestors, links longer than any range, a few large particles, single-particle forces
     "!physics state=:a dimensions=2 resolution=1/400\n"
     "    for i in ..500\n"
     "        !particle id=i position=60*uniform(:p)[2*i..2*i+2] velocity=20*normal(:v)[2*i..2*i+2] radius=1 mass=i%4 "
@@ -305,7 +305,7 @@ static const char *const reaching[] = {
     "    !barrier position=0;0 normal=0;1 min=1 strength=30\n"
     "    !barrier position=60;60 normal=-1;0\n"
     "    !barrier position=60;60 normal=0;-1\n",
-    // in three dimensions, forces that begin and end, others' radii
+    // three dimensions, forces that start and end, changing radii
     "!physics state=:a dimensions=3 resolution=1/300\n"
     "    for i in ..900\n"
     "        !particle id=i position=20*uniform(:p)[3*i..3*i+3] velocity=30*normal(:v)[3*i..3*i+3] "
@@ -318,7 +318,7 @@ static const char *const reaching[] = {
     "        if frame > 1\n"
     "            !gravity strength=5 max_distance=1\n"
     "    !constant acceleration=0;0;-9\n",
-    // a line; some are nowhere, some come to be, speeds are limited
+    // one dimension; some positions are not finite, some particles appear, speeds are limited
     "!physics state=:a dimensions=1 resolution=1/500 speed_of_light=300\n"
     "    for i in ..800\n"
     "        !particle id=i position=3*normal(:p)[i]*(i%100+1) velocity=(1/0 if i%90==7 else 50*normal(:v)[i]) "
@@ -327,7 +327,7 @@ static const char *const reaching[] = {
     "        !particle id=1000+i position=0/0 radius=i\n"
     "    !collision strength=100 power=1.5\n"
     "    !buoyancy density=0.3\n",
-    // more groups than there are lists; those without are fast; a frame without reach
+    // more groups than neighbour lists; groups without a list are fast; a frame without a range
     "!physics state=:a dimensions=2 resolution=1/240\n"
     "    for g in ..10\n"
     "        !group\n"
@@ -336,7 +336,7 @@ static const char *const reaching[] = {
     "velocity=(g>4)*200*normal(:v)[2*i..2*i+2]\n"
     "            !adhesion strength=9\n"
     "    !gravity strength=3 max_distance=(0 if frame == 3 else 3)\n",
-    // columns in the order of lists: until a large particle comes, and while nothing asks for the order of all
+    // columns in the order of neighbour lists, until a large particle appears or the global order is needed
     "!physics state=:a dimensions=2 resolution=1/300\n"
     "    for i in ..700\n"
     "        !particle id=i position=40*uniform(:p)[2*i..2*i+2] velocity=(15+i%5)*normal(:v)[2*i..2*i+2] mass=1+i%3 "
@@ -351,14 +351,14 @@ static const char *const reaching[] = {
     "    if frame == 5\n"
     "        !distance from=1 to=600 fixed=3 strength=4\n"
     "    !barrier position=0;0 normal=1;0\n",
-    // likewise, all alike
+    // columns in the order of neighbour lists, all particles equal
     "!physics state=:a dimensions=3 resolution=1/300\n"
     "    for i in ..800\n"
     "        !particle id=i position=15*uniform(:p)[3*i..3*i+3] velocity=40*normal(:v)[3*i..3*i+3] radius=0.6\n"
     "    !collision strength=300\n"
     "    if frame == 3\n"
     "        !random strength=9\n",
-    // in a plane, whose steps are made in one go
+    // two dimensions, with steps in a single pass
     "!physics state=:a dimensions=2 resolution=1/300\n"
     "    for i in ..1200\n"
     "        !particle id=i position=30*uniform(:p)[2*i..2*i+2] velocity=3*normal(:v)[2*i..2*i+2] radius=0.4 "
@@ -369,7 +369,7 @@ static const char *const reaching[] = {
     "    !barrier position=30;0 normal=-1;0\n",
 };
 
-static void test_regions(void **state) {
+static void test_domains_match_single_process(void **state) {
     (void)state;
     for (size_t i = 0; i < sizeof reaching / sizeof *reaching; i++) {
         uint64_t sent, halo = 0;
@@ -382,7 +382,7 @@ static void test_regions(void **state) {
             assert_string_equal(alone.text, together.text);
             assert_int_equal(regions.decomposition, PETRI_DOMAIN_DECOMPOSED);
             assert_int_equal(in_common, regions.frame_bytes == 0);
-            assert_true(regions.reductions > regions.steps + FRAMES); // particles have moved house within a frame
+            assert_true(regions.reductions > regions.steps + FRAMES); // particles have migrated within a frame
             halo += regions.halo;
             free(together.text);
         }
@@ -392,8 +392,8 @@ static void test_regions(void **state) {
     }
 }
 
-// What ranks send in a step grows with the surface of their regions, not with the number of particles.
-static void test_surface(void **state) {
+// The bytes sent per step grow with the surface of the regions, not with the number of particles.
+static void test_traffic_grows_with_surface(void **state) {
     (void)state;
     static const int usual[] = {100, 200, 300}, all[] = {100, 316, 1000}; // discs along an edge
     const int *sides = getenv("SIZES") ? all : usual;
@@ -412,7 +412,7 @@ static void test_surface(void **state) {
         free(came.text);
         double steps = (double)regions.steps, halo = (double)regions.halo / steps;
         double bytes = (double)regions.step_bytes / steps, messages = (double)regions.step_messages / steps;
-        // Each rank has a quarter, two edges of which it shares, and sees over them by a diameter and a skin.
+        // Each rank owns a quarter and shares two edges. Its halo has the width of a diameter and a skin.
         double surface = RANKS * sides[i] * 1.3 / 0.97;
         print_message("%7d discs on %d ranks: %.0f in halos, %.0f bytes and %.1f messages a step\n",
                       sides[i] * sides[i], RANKS, halo, bytes, messages);
@@ -426,7 +426,8 @@ static void test_surface(void **state) {
 
 int main(int argc, char **argv) {
     scripts_set_folders(argc, argv);
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_corpus), cmocka_unit_test(test_ranks_match_single_rank),
-                                       cmocka_unit_test(test_regions), cmocka_unit_test(test_surface)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_scripts_match_single_process), cmocka_unit_test(test_ranks_match_single_rank),
+        cmocka_unit_test(test_domains_match_single_process), cmocka_unit_test(test_traffic_grows_with_surface)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

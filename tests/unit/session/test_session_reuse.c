@@ -1,6 +1,5 @@
-// test_session_reuse.c: a session that has run a script, as petri sweep uses it for run after run, comes to what a new
-// one comes to: tree, state and log of each frame. (That a file is missing is told when it is first looked for.)
-// argv[1..]: the folders to go through.
+// test_session_reuse.c: tests that a reused session, as in petri sweep, gives the same tree, state and log of each
+// frame as a new one. (A missing file is reported only when it is first read.) argv[1..]: folders of scripts.
 #include "player.h"
 #include "scripts.h"
 
@@ -17,7 +16,7 @@ static Notebook record(PetriSession *session) {
     return all;
 }
 
-// The run before has other definitions, and is longer.
+// The previous run has other definitions and more frames.
 static bool run_again(Player *player, const char *file, Notebook *all) {
     PetriSession *session = player->session;
     if (petri_load(session, file) != PETRI_OK)

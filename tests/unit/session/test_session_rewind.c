@@ -1,11 +1,11 @@
-// test_session_rewind.c: snapshots, configurations, interrupts, reloading and clocks changed by hand, through petri.h.
+// test_session_rewind.c: tests snapshots, configurations, interrupts, reloading and changes of the clock.
 #include "folder.h"
 #include "player.h"
 
 #include <pthread.h>
 #include <time.h>
 
-// Everything that a system keeps: random forces, a system that comes and goes, particles likewise, text in keys.
+// All data that systems keep: random forces, systems and particles that appear and vanish, text in keys.
 static const char *const SCRIPT = "%pragma tempo 60\n"
                                   "let N=12 if frame%7 < 3 else 9\n"
                                   "!physics state=:cells dimensions=2 time=beat resolution=0.01 run=frame//20\n"
@@ -30,7 +30,7 @@ static char *frame_text(Player *player) {
 
 enum { FRAMES = 45 };
 
-static void test_snapshots(void **state) {
+static void test_snapshot_restores_session(void **state) {
     Player *player = *state;
     PetriSnapshot *snapshots[FRAMES + 1];
     char *texts[FRAMES];
@@ -60,8 +60,8 @@ static void test_snapshots(void **state) {
     petri_snapshot_free(NULL);
 }
 
-// A snapshot brings its script with it; a configuration brings a script without its state.
-static void test_configs(void **state) {
+// A snapshot restores its script and state; a configuration restores only the script.
+static void test_config_restores_script(void **state) {
     Player *player = *state;
     PetriPromptResult done;
     player_run(player, "!counter state=:c rate=1\n!old c=$:c", 4);
@@ -96,7 +96,7 @@ static void *interrupt_soon(void *session) {
     return NULL;
 }
 
-// Makes a frame that would go on for minutes, and has it interrupted.
+// Interrupts a frame that would take minutes.
 static void check_interrupted(Player *player) {
     pthread_t thread;
     char *before = frame_text(player);
@@ -119,7 +119,7 @@ static bool stop_after_polls(void *host) {
     return polls_left > 0 && --polls_left == 0;
 }
 
-// A host without another thread is asked meanwhile: of a frame that it ends nothing is left.
+// should_interrupt is polled during a frame; an interrupted frame has no effect.
 static void test_should_interrupt(void **state) {
     Player *player = *state;
     PetriOptions options = player_options(player);
@@ -142,7 +142,7 @@ static void test_should_interrupt(void **state) {
     free(before);
 }
 
-static void test_interrupts(void **state) {
+static void test_interrupt_rolls_back(void **state) {
     Player *player = *state;
     PetriOptions options = player_options(player);
     options.rollback_frames = true;
@@ -152,7 +152,7 @@ static void test_interrupts(void **state) {
                "!counter state=:c rate=1\n!a x=(f(26) if frame==3 else 0)",
                3);
     check_interrupted(player);
-    // The second system is interrupted when the first has been updated.
+    // The second system is interrupted after the first was updated.
     player_run(player,
                "!physics state=:a dimensions=1 time=time\n    !particle id=0 velocity=1\n"
                "!physics state=:b dimensions=2 time=time resolution=(1e-7 if frame==3 else 0.01)\n"
@@ -179,7 +179,7 @@ static void test_interrupts(void **state) {
     pthread_join(thread, NULL);
 }
 
-static void test_reload(void **state) {
+static void test_reload_keeps_clock(void **state) {
     Player *player = *state;
     Folder folder;
     folder_open(&folder);
@@ -192,7 +192,7 @@ static void test_reload(void **state) {
     double beat = petri_frame(player->session).beat;
     folder_write(&folder, "s.fl", "!v x=\n");
     assert_int_equal(petri_reload(player->session, file), PETRI_INVALID);
-    player_step(player, 1); // the old one goes on
+    player_step(player, 1); // the old script continues
     assert_string_equal(player_tree(player), "!counter state=:c rate=1\n!v x=1\n");
     folder_write(&folder, "s.fl", "%pragma tempo 180\n!counter state=:c rate=1\n!v x=2\n");
     assert_int_equal(petri_reload(player->session, file), PETRI_OK);
@@ -202,7 +202,7 @@ static void test_reload(void **state) {
     assert_int_equal(petri_frame(player->session).number, 7);
     assert_float_equal(petri_frame(player->session).time, 7 / 60.0, 1e-12);
     assert_float_equal(petri_frame(player->session).beat, beat + 1 / 60.0 + 3 / 60.0, 1e-12);
-    // Definitions count when the text at hand is compiled anew.
+    // Recompiling the loaded text applies new definitions.
     folder_write(&folder, "s.fl", "!v x=N\n");
     assert_int_equal(petri_load(player->session, file), PETRI_OK);
     player_step(player, 2);
@@ -215,7 +215,7 @@ static void test_reload(void **state) {
     folder_close(&folder);
 }
 
-static void test_clock(void **state) {
+static void test_clock_changes_do_not_jump(void **state) {
     Player *player = *state;
     player_run(player, "%pragma tempo 60\n!a t=time b=beat", 61);
     assert_float_equal(petri_frame(player->session).beat, 1, 1e-12);
@@ -241,8 +241,9 @@ static void test_clock(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_snapshots),        PLAYER_TEST(test_configs), PLAYER_TEST(test_interrupts),
-        PLAYER_TEST(test_should_interrupt), PLAYER_TEST(test_reload),  PLAYER_TEST(test_clock),
+        PLAYER_TEST(test_snapshot_restores_session), PLAYER_TEST(test_config_restores_script),
+        PLAYER_TEST(test_interrupt_rolls_back),      PLAYER_TEST(test_should_interrupt),
+        PLAYER_TEST(test_reload_keeps_clock),        PLAYER_TEST(test_clock_changes_do_not_jump),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

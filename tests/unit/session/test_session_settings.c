@@ -1,4 +1,4 @@
-// test_session_settings.c: pragmas, -D definitions and engine names (language.md L12, L16).
+// test_session_settings.c: tests pragmas, definitions (-D) and names of the engine (language.md L12, L16).
 #include "player.h"
 
 #include <math.h>
@@ -29,13 +29,13 @@ static void test_pragmas(void **state) {
 static void test_pragma_warnings(void **state) {
     Player *player = *state;
     player_run(player, "%pragma fps 0\n%pragma tempo 'x'\n%pragma quantum !a\n%pragma other 'y'\n!a\n", 2);
-    assert_text("told", player_diagnostics(player),
+    assert_text("diagnostics", player_diagnostics(player),
                 "warning t.fl:1:1 this pragma's value must be a number above 0; ignored [bad-pragma]\n"
                 "warning t.fl:2:1 this pragma's value must be a number above 0; ignored [bad-pragma]\n"
                 "warning t.fl:3:1 this pragma's value must be a number; ignored [bad-pragma]\n");
 }
 
-// L16.3
+// Definitions as in L16.3.
 static void test_definitions(void **state) {
     Player *player = *state;
     static const struct {
@@ -56,7 +56,7 @@ static void test_definitions(void **state) {
         {"d=it's", "!a d=\"it's\"\n"},
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
-        assert_int_equal(petri_define(player->session, rows[i].definition), PETRI_OK); // the last one counts
+        assert_int_equal(petri_define(player->session, rows[i].definition), PETRI_OK); // the last one is used
         player_run(player, "!a d=d\n", 1);
         assert_text(rows[i].definition, player_tree(player), rows[i].wanted);
     }
@@ -67,8 +67,8 @@ static void test_definitions(void **state) {
     assert_text("as it was", player_tree(player), "!a d=\"it's\"\n");
 }
 
-// Engine names, then -D names, then built-ins; let goes over all of them.
-static void test_precedence(void **state) {
+// Names of the engine have precedence over definitions, and these over built-ins; `let` shadows all.
+static void test_precedence_of_names(void **state) {
     Player *player = *state;
     assert_int_equal(petri_define(player->session, "fps=1"), PETRI_OK);
     assert_int_equal(petri_define(player->session, "sin=2"), PETRI_OK);
@@ -122,7 +122,7 @@ static void test_options(void **state) {
     assert_text("frame 0", player_tree(player), "!a v=0;0;1\n");
 }
 
-static void test_load_starts_again(void **state) {
+static void test_load_restarts_clock(void **state) {
     Player *player = *state;
     player_run(player, "%pragma fps 10\n!a v=frame;fps\n!counter state=:c rate=1\n", 5);
     assert_text("fifth", player_print(player, PETRI_PRINT_STATE), "$:c = 0.4\n$(:c;:time) = 0.4\n");
@@ -130,12 +130,12 @@ static void test_load_starts_again(void **state) {
     assert_text("pragmas are the script's own, the state stays", player_tree(player), "!a v=0;60;0;0.4\n");
 }
 
-// A host that pauses takes the time in between out of the script's time.
-static void test_resync_clock(void **state) {
+// A host that pauses can exclude the pause from the script's time.
+static void test_resync_drops_elapsed_time(void **state) {
     Player *player = *state;
     player_run(player, "!a\n", 3);
     assert_number("lockstep", petri_seconds_until_due(player->session), 0);
-    petri_resync_clock(player->session); // nothing to hold
+    petri_resync_clock(player->session); // no effect
     player_step(player, 1);
     assert_number("lockstep", petri_frame(player->session).time, 3.0 / 60);
 
@@ -149,14 +149,14 @@ static void test_resync_clock(void **state) {
     petri_resync_clock(player->session);
     player_step(player, 1);
     double passed = petri_frame(player->session).time - before;
-    assert_claim("held", passed > 0.0999 && passed < 1.9);
+    assert_claim("the pause is excluded", passed > 0.0999 && passed < 1.9);
 }
 
 static void sleep_seconds(double seconds) {
     nanosleep(&(struct timespec){.tv_sec = (time_t)seconds, .tv_nsec = (long)(fmod(seconds, 1) * 1e9)}, NULL);
 }
 
-// In real time, too, frame 0 has time 0, and what passed before it does not count; a host may take its time.
+// In real time, frame 0 also has time 0, whatever time passed before.
 static void assert_starts(Player *player, const char *what) {
     player_step(player, 1);
     PetriFrame frame = petri_frame(player->session);
@@ -170,7 +170,7 @@ static void assert_starts(Player *player, const char *what) {
     assert_number(what, frame.beat, frame.time / (60 / frame.tempo));
 }
 
-static void test_wall_clock_starts(void **state) {
+static void test_wall_clock_starts_at_0(void **state) {
     Player *player = *state;
     player_realtime(player, 60);
     player_run(player, "%pragma fps 100\n!a v=time;beat\n", 0);
@@ -187,8 +187,8 @@ static void test_wall_clock_starts(void **state) {
     assert_claim("reloaded", petri_frame(player->session).time > before);
 }
 
-// Where a session goes back to, its time goes back to as well, and on from there as if nothing had been in between.
-static void test_wall_clock_goes_back(void **state) {
+// Rewinding also restores the time, from which the clock then continues.
+static void test_wall_clock_is_rewound(void **state) {
     Player *player = *state;
     player_realtime(player, 20);
     player_run(player, "!a v=time\n", 0);
@@ -209,8 +209,8 @@ static void test_wall_clock_goes_back(void **state) {
     petri_snapshot_free(second);
 }
 
-// The host's own clock; petri_step goes on from where it is.
-static void test_host_clock(void **state) {
+// A time set by the host with petri_step_at, from which petri_step continues.
+static void test_step_at_sets_clock(void **state) {
     Player *player = *state;
     for (int realtime = 0; realtime < 2; realtime++) {
         PetriOptions options = player_options(player);
@@ -233,7 +233,7 @@ static void test_host_clock(void **state) {
         PetriSystem system;
         assert_true(petri_system(player->session, 0, &system));
         assert_number("x", system.position.data[0], 2.5);
-        assert_int_equal(petri_step_at(player->session, 90, 3), PETRI_OK); // back, where systems rest
+        assert_int_equal(petri_step_at(player->session, 90, 3), PETRI_OK); // earlier time: systems are not advanced
         assert_true(petri_system(player->session, 0, &system));
         assert_number("x", system.position.data[0], 2.5);
         assert_int_equal(petri_step_at(player->session, NAN, 3), PETRI_INVALID);
@@ -241,20 +241,27 @@ static void test_host_clock(void **state) {
         assert_int_equal(petri_frame(player->session).number, 2);
         petri_step(player->session);
         if (!realtime) {
-            assert_number("time goes on", petri_frame(player->session).time, 90.25);
-            assert_number("beat goes on", petri_frame(player->session).beat, 3.25);
+            assert_number("time continues", petri_frame(player->session).time, 90.25);
+            assert_number("beat continues", petri_frame(player->session).beat, 3.25);
         } else {
-            assert_claim("time goes on", petri_frame(player->session).time >= 90);
+            assert_claim("time continues", petri_frame(player->session).time >= 90);
         }
     }
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_pragmas),           PLAYER_TEST(test_pragma_warnings),      PLAYER_TEST(test_definitions),
-        PLAYER_TEST(test_precedence),        PLAYER_TEST(test_engine_names),         PLAYER_TEST(test_options),
-        PLAYER_TEST(test_load_starts_again), PLAYER_TEST(test_resync_clock),         PLAYER_TEST(test_host_clock),
-        PLAYER_TEST(test_wall_clock_starts), PLAYER_TEST(test_wall_clock_goes_back),
+        PLAYER_TEST(test_pragmas),
+        PLAYER_TEST(test_pragma_warnings),
+        PLAYER_TEST(test_definitions),
+        PLAYER_TEST(test_precedence_of_names),
+        PLAYER_TEST(test_engine_names),
+        PLAYER_TEST(test_options),
+        PLAYER_TEST(test_load_restarts_clock),
+        PLAYER_TEST(test_resync_drops_elapsed_time),
+        PLAYER_TEST(test_step_at_sets_clock),
+        PLAYER_TEST(test_wall_clock_starts_at_0),
+        PLAYER_TEST(test_wall_clock_is_rewound),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,11 +1,11 @@
-// test_session_simplifier.c: every script of the tests and samples does the same with and without the simplifier, frame
-// by frame: tree, state, log, errors and diagnostics. argv[1..]: the folders to go through.
+// test_session_simplifier.c: tests that every script of the tests and samples gives the same tree, state, log, errors
+// and diagnostics with and without the simplifier, frame by frame. argv[1..]: folders of scripts.
 #include "player.h"
 #include "scripts.h"
 
 enum { FRAMES = 3, ALL_SECTIONS = 15 };
 
-// What a script does, as text.
+// Returns the results of a script as text.
 static Notebook record(const char *file, bool simplify) {
     Player player = {0};
     PetriOptions options = player_options(&player);

@@ -1,5 +1,5 @@
-// test_session_state.c: what petri_restore takes of a state file. Each has the line at its end that vouches for it, as
-// a file has that was made on purpose.
+// test_session_state.c: tests petri_restore with invalid state files. Each has a valid hash, so that its contents are
+// read.
 #include "base/hash_index.h"
 #include "folder.h"
 #include "player.h"
@@ -10,10 +10,10 @@ static const char SCRIPT[] =
     "!physics state=:s dimensions=1\n    !particle id=1 velocity=1\n!counter state=:n rate=60\n";
 
 typedef struct StateRow {
-    const char *body; // behind the first line
+    const char *body; // after the first line
     PetriStatus status;
-    const char *state; // after the next frame
-    const char *told;
+    const char *state; // state after the next frame
+    const char *reported;
 } StateRow;
 
 static PetriStatus restore_text(Player *player, Folder *folder, const char *body) {
@@ -28,7 +28,7 @@ static PetriStatus restore_text(Player *player, Folder *folder, const char *body
     return petri_restore(player->session, folder_file(folder, "s.state"));
 }
 
-// The message without the file's folder, which is another each time.
+// Returns the diagnostics without the folder, which differs in each run.
 static const char *report_text(Player *player) {
     static char text[400];
     const char *quote = strchr(player->diagnostics.text, '\''), *slash = quote ? strrchr(quote, '/') : NULL;
@@ -40,22 +40,22 @@ static const char *report_text(Player *player) {
     return text;
 }
 
-static void test_files(void **state) {
+static void test_invalid_state_files_are_rejected(void **state) {
     static const char damaged[] =
         "error cannot load the state from 's.state': file is truncated or corrupt [state-file]\n";
     static const StateRow rows[] = {
         {"frame 9\n$(:n) = 7\n$(:n;:time) = 0\n", PETRI_OK, "$:n = 17\n", ""},
         {"frame 9\n$(:t) = 'caf\xc3\xa9'\n", PETRI_OK, "$:t = 'caf\xc3\xa9'\n", ""},
-        // Text that is no UTF-8: in a value, in a key, as a symbol.
+        // Text that is not valid UTF-8: in a value, in a key, as a symbol.
         {"frame 9\n$(:t) = 'caf\xe9'\n", PETRI_INVALID, "", damaged},
         {"frame 9\n$('\xf0\x28\x8c\x28') = 1\n", PETRI_INVALID, "", damaged},
         {"frame 9\n$(:\xa0\xa0) = 1\n", PETRI_INVALID, "", damaged},
-        // Nothing that is not finite reaches the state; what depends on it starts anew.
+        // Values that are not finite are ignored; their particles start from their attributes.
         {"frame 9\n$(:n) = inf\n$(:n;:time) = 0\n", PETRI_OK, "$:n = 0\n",
          "warning values in 's.state' are not finite: 1 ignored [state-file]\n"},
         {"frame 9\n$(:n) = 1\n$(:n;:time) = nan\n$(:s;:clock) = -inf\n$(:x) = 1;nan\n", PETRI_OK, "$:n = 1\n",
          "warning values in 's.state' are not finite: 3 ignored [state-file]\n"},
-        // Numbers of frames that no int and no double can count.
+        // Frame numbers that exceed int and double.
         {"frame 2147483647\n", PETRI_OK, "$(:n;:time) = 35791394.13333333\n", ""},
         {"frame 4503599627370496\n", PETRI_OK, "$(:n;:time) = 75059993789508.28\n", ""},
         {"frame 9007199254740993\n", PETRI_OK, "$(:n;:time) = 150119987579016.56\n", ""},
@@ -71,7 +71,7 @@ static void test_files(void **state) {
     folder_open(&folder);
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         assert_int_equal(restore_text(player, &folder, rows[i].body), rows[i].status);
-        assert_text(rows[i].body, report_text(player), rows[i].told);
+        assert_text(rows[i].body, report_text(player), rows[i].reported);
         player_step(player, 1);
         const char *found = player_state(player);
         if (!strstr(found, rows[i].state))
@@ -82,8 +82,8 @@ static void test_files(void **state) {
     folder_close(&folder);
 }
 
-// Frames count on where a double cannot, and are saved so.
-static void test_frame_numbers(void **state) {
+// Frame numbers that a double cannot represent are counted and saved correctly.
+static void test_large_frame_numbers(void **state) {
     Player *player = *state;
     Folder folder;
     folder_open(&folder);
@@ -97,6 +97,7 @@ static void test_frame_numbers(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {PLAYER_TEST(test_files), PLAYER_TEST(test_frame_numbers)};
+    const struct CMUnitTest tests[] = {PLAYER_TEST(test_invalid_state_files_are_rejected),
+                                       PLAYER_TEST(test_large_frame_numbers)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-// test_session_systems.c: what petri.h shows of the particle systems.
+// test_session_systems.c: tests access to particle systems through petri.h.
 #include "player.h"
 
 static const char *const SCRIPT = "%pragma fps 10\n"
@@ -33,7 +33,7 @@ static void test_systems(void **state) {
     assert_string_equal(system.name, ":b");
     assert_int_equal(system.dimensions, 1);
     assert_false(petri_system(player->session, 2, &system));
-    player_run(player, "!a", 1); // a system that is gone is shown no more
+    player_run(player, "!a", 1); // a removed system is not listed
     assert_false(petri_system(player->session, 0, &system));
 }
 
@@ -73,17 +73,17 @@ static void test_particles(void **state) {
         if (keep) {
             assert_number("fx", particle_numbers(a.force, 2)[0], 6);
             assert_number("fy", particle_numbers(a.force, 2)[1], 8);
-            assert_number("on what the group does not hold", particle_numbers(a.force, 0)[0], 0);
+            assert_number("on a particle outside the group", particle_numbers(a.force, 0)[0], 0);
             assert_number("on an anchor", particle_numbers(a.force, 1)[1], 0);
         }
-        assert_null(system_of(player, 1).force.data); // no step was made
+        assert_null(system_of(player, 1).force.data); // no simulation step
         assert_int_equal(petri_particle_id(player->session, 0, 3).length, 0);
         assert_int_equal(petri_particle_id(player->session, 2, 0).length, 0);
     }
 }
 
-// Enough particles for the vector kernels, which need not store forces by themselves.
-static void test_forces_of_many(void **state) {
+// Enough particles for the vector kernels, which do not store forces by default.
+static void test_forces_of_vector_kernels(void **state) {
     Player *player = *state;
     open_keeping(player, true);
     player_run(player,
@@ -97,7 +97,7 @@ static void test_forces_of_many(void **state) {
     }
 }
 
-// A frame in which no time passes has no forces, though the tree is the same.
+// A frame in which no time passes has no forces, although the tree is unchanged.
 static void test_forces_only_after_a_step(void **state) {
     Player *player = *state;
     open_keeping(player, true);
@@ -109,8 +109,8 @@ static void test_forces_only_after_a_step(void **state) {
     }
 }
 
-// The columns are the engine's own numbers, which a frame with the same particles leaves where they are.
-static void test_no_copies(void **state) {
+// The columns are the engine's arrays, whose addresses do not change while the particles stay the same.
+static void test_columns_are_not_copied(void **state) {
     Player *player = *state;
     player_run(player,
                "!physics state=:a dimensions=2 time=time\n"
@@ -134,8 +134,8 @@ static PetriValue id_value(const double *id) {
     return (PetriValue){.length = 1, .numbers = id};
 }
 
-// What a host still looks at stays where it is, and counts, until it says that it does not.
-static void test_retained_columns(void **state) {
+// Retained columns stay readable and count towards the memory limit until they are released.
+static void test_retained_columns_stay_readable(void **state) {
     Player *player = *state;
     PetriOptions options = player_options(player);
     options.keep_forces = true;
@@ -159,15 +159,15 @@ static void test_retained_columns(void **state) {
         assert_number("mass", before.mass.data[i * before.mass.stride], 1 + i);
         assert_false(before.anchor[i * before.anchor_stride]);
     }
-    player_step(player, 2); // the system is gone
+    player_step(player, 2); // the system is removed
     assert_number("charge", after.charge.data[99 * after.charge.stride], 99);
     petri_keep_columns(player->session, false);
     petri_keep_columns(player->session, true);
     player_run(player, SCRIPT, 2);
-    player_run(player, "!a", 1); // closing gives back what is kept now
+    player_run(player, "!a", 1); // closing the session releases retained memory
 }
 
-static void test_ids(void **state) {
+static void test_particle_ids(void **state) {
     Player *player = *state;
     player_run(player, SCRIPT, 2);
     double top = petri_symbol(player->session, "top"), seven = 7;
@@ -180,26 +180,26 @@ static void test_ids(void **state) {
     assert_int_equal(find_particle(player, (PetriValue){.length = 2, .items = items}), 0);
     assert_int_equal(find_particle(player, (PetriValue){.length = 1, .items = items}), 999);
     assert_int_equal(find_particle(player, (PetriValue){0}), 999);
-    assert_int_equal(find_particle(player, (PetriValue){.length = 1}), 999); // no value at all
+    assert_int_equal(find_particle(player, (PetriValue){.length = 1}), 999); // not a valid value
     assert_null(petri_particle_ids(player->session, 0).data);
     for (uint32_t i = 0; i < 3; i++)
         assert_int_equal(find_particle(player, petri_particle_id(player->session, 0, i)), i);
-    // Others, in another order and of a prefix with text, whose numbers are none in the key.
+    // Other ids, in another order, and with a prefix that contains text, so that the key is not numeric.
     player_run(player, "!physics state='s';1 dimensions=2 time=time\n    for i in 4;3;5\n        !particle id=i\n", 1);
     for (int frame = 0; frame < 3; frame++, player_step(player, 1)) {
         PetriColumn ids = petri_particle_ids(player->session, 0);
         assert_number("first id", ids.data[0], 4);
         assert_number("last id", ids.data[2 * ids.stride], 5);
-        assert_number("the second alone", petri_particle_id(player->session, 0, 1).numbers[0], 3);
+        assert_number("the second id", petri_particle_id(player->session, 0, 1).numbers[0], 3);
         assert_int_equal(find_particle(player, petri_particle_id(player->session, 0, 1)), 1);
     }
     player_run(player, "!physics state='s';1 dimensions=2 time=time\n    !particle id=frame\n", 8);
-    assert_number("a new one in each frame", petri_particle_ids(player->session, 0).data[0], 7);
+    assert_number("a new id in each frame", petri_particle_ids(player->session, 0).data[0], 7);
     player_step(player, 1);
-    assert_number("a new one in each frame", petri_particle_ids(player->session, 0).data[0], 8);
+    assert_number("a new id in each frame", petri_particle_ids(player->session, 0).data[0], 8);
 }
 
-static void test_forces(void **state) {
+static void test_force_appliers(void **state) {
     Player *player = *state;
     player_run(player, SCRIPT, 2);
     PetriForce force;
@@ -219,10 +219,14 @@ static void test_forces(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_systems),        PLAYER_TEST(test_particles),
-        PLAYER_TEST(test_forces_of_many), PLAYER_TEST(test_forces_only_after_a_step),
-        PLAYER_TEST(test_no_copies),      PLAYER_TEST(test_ids),
-        PLAYER_TEST(test_forces),         PLAYER_TEST(test_retained_columns),
+        PLAYER_TEST(test_systems),
+        PLAYER_TEST(test_particles),
+        PLAYER_TEST(test_forces_of_vector_kernels),
+        PLAYER_TEST(test_forces_only_after_a_step),
+        PLAYER_TEST(test_columns_are_not_copied),
+        PLAYER_TEST(test_particle_ids),
+        PLAYER_TEST(test_force_appliers),
+        PLAYER_TEST(test_retained_columns_stay_readable),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

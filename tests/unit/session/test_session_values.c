@@ -1,4 +1,4 @@
-// test_session_values.c: values of the language in a host's hands: the state, names that it gives, the frame's tree.
+// test_session_values.c: tests values in the host interface: the state, global names, and the tree of the frame.
 #include "player.h"
 
 #include <math.h>
@@ -19,7 +19,7 @@ static const PetriString name = {"käse", 5};
 static const PetriItem mixed[] = {{PETRI_STRING, {.string = &name}}, {PETRI_NUMBER, {.number = 2.5}}};
 static const PetriItem only_numbers[] = {{PETRI_NUMBER, {.number = 1}}, {PETRI_NUMBER, {.number = 2}}};
 
-static void test_texts(void **state) {
+static void test_printed_values(void **state) {
     Player *player = *state;
     double some[] = {1, petri_symbol(player->session, "cells"), 0.1};
     assert_string_equal(text(player, numbers(some, 3)), "1;:cells;0.1");
@@ -36,7 +36,7 @@ static void test_texts(void **state) {
     assert_true(isnan(petri_symbol(player->session, "")));
 }
 
-static void test_state(void **state) {
+static void test_state_access(void **state) {
     Player *player = *state;
     PetriSession *session = player->session;
     player_run(player, "!counter state=:c rate=1 time=frame\n!look at=$(:c) own=$('käse';2.5)", 3);
@@ -76,7 +76,7 @@ static void test_iteration(void **state) {
     assert_string_equal(all, ":p=0 :p;:run=0 :p;:iteration=1 :p;:clock=1 :p;:last=1 :p;1=3;4 :p;1;:velocity=0;0 ");
 }
 
-// A particle goes on from where the host has put it.
+// A particle continues from the position that the host sets.
 static void test_moved_particle(void **state) {
     Player *player = *state;
     PetriSession *session = player->session;
@@ -94,7 +94,7 @@ static const char *heat(Player *player) {
     return text(player, petri_tree_get(petri_tree(player->session).items[0].as.node, "heat"));
 }
 
-static void test_names(void **state) {
+static void test_globals(void **state) {
     Player *player = *state;
     PetriSession *session = player->session;
     double one = 1, many[] = {4, 5, 6};
@@ -105,11 +105,11 @@ static void test_names(void **state) {
     uint64_t number = petri_config_revision(session);
     assert_int_equal(petri_set_global(session, "warmth", numbers(many, 3)), PETRI_OK);
     assert_int_equal(petri_set_global(session, "other", items(mixed, 2)), PETRI_OK);
-    many[0] = 1000;                         // it was copied
-    assert_string_equal(heat(player), "2"); // as long as it is the same frame
+    many[0] = 1000;                         // a copy is used
+    assert_string_equal(heat(player), "2"); // while the frame is the same
     player_step(player, 1);
     assert_string_equal(heat(player), "8;10;12;'käse';2.5");
-    assert_int_equal(petri_config_revision(session), number); // nothing was compiled
+    assert_int_equal(petri_config_revision(session), number); // not recompiled
     PetriEvaluation result;
     assert_int_equal(petri_evaluate(session, "warmth[0]+twice[0]", PETRI_NUL_TERMINATED, &result, NULL, NULL),
                      PETRI_OK);
@@ -131,8 +131,8 @@ static void test_names(void **state) {
     assert_string_equal(player_diagnostics(player), "");
 }
 
-// What is checked sees the names, and that a script does not use one is no fault of its.
-static void test_names_checked(void **state) {
+// petri_check knows the global names, and does not report unused ones.
+static void test_check_knows_globals(void **state) {
     Player *player = *state;
     double one = 1;
     assert_int_equal(petri_set_global(player->session, "used", numbers(&one, 1)), PETRI_OK);
@@ -169,8 +169,8 @@ static void test_tree(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_texts),          PLAYER_TEST(test_state), PLAYER_TEST(test_iteration),
-        PLAYER_TEST(test_moved_particle), PLAYER_TEST(test_names), PLAYER_TEST(test_names_checked),
+        PLAYER_TEST(test_printed_values), PLAYER_TEST(test_state_access), PLAYER_TEST(test_iteration),
+        PLAYER_TEST(test_moved_particle), PLAYER_TEST(test_globals),      PLAYER_TEST(test_check_knows_globals),
         PLAYER_TEST(test_tree),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
