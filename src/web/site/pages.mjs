@@ -17,7 +17,7 @@ export const GROUPS = [
     ['To look up', [
         { name: 'language', title: 'The language', about: 'Vectors, names, nodes, functions, the state; each example can be changed',
             parts: [['grammar/README.md']] },
-        { name: 'pitfalls', title: 'Pitfalls', about: 'Scripts that do something else than they seem to', parts: [['src/manual/pitfalls.md']] },
+        { name: 'pitfalls', title: 'Pitfalls', about: 'Scripts that do not do what they seem to do', parts: [['src/manual/pitfalls.md']] },
         { name: 'functions', title: 'All functions and words', about: 'One line for each', made: 'functions' },
         { name: 'physics', title: 'Physics', about: 'Each force with formula, limits and a dish to change',
             parts: [['lib/physics/README.md']] },
@@ -48,6 +48,9 @@ export const GROUPS = [
         { name: 'research', title: 'For research', about: 'Reproducible runs, recording, speed', parts: [['src/manual/research.md']] },
         { name: 'security', title: 'Untrusted scripts', about: 'What a script can do, and its limits', parts: [['src/manual/security.md']] },
         { name: 'migrating', title: 'Migrating to 0.3', about: 'Names that changed', parts: [['src/manual/migrating.md']] },
+    ]],
+    ['To contribute', [
+        { name: 'parser', title: 'The parser', about: 'Tokens, layout, soft keywords, error recovery', parts: [['src/manual/parser.md']] },
     ]],
 ];
 export const PAGES = GROUPS.flatMap(([, pages]) => pages);
