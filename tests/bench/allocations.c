@@ -1,4 +1,4 @@
-// allocations.c: see allocations.h. The names are the linker's: a call of malloc arrives at __wrap_malloc.
+// allocations.c: see allocations.h. The linker redirects calls of malloc to __wrap_malloc.
 #include "allocations.h"
 
 #include <stdatomic.h>
@@ -17,7 +17,7 @@ int __real_posix_memalign(void **block, size_t alignment, size_t size);
 int __wrap_posix_memalign(void **block, size_t alignment, size_t size);
 // clang-format on
 
-// Worker threads may allocate too.
+// Atomic, because worker threads also allocate.
 static atomic_uint_fast64_t count;
 
 static void count_allocation(void) {

@@ -1,12 +1,13 @@
-// allocations.h: how many blocks libpetri has asked the heap for.
+// allocations.h: the number of heap allocations by libpetri.
 //
-// The bench is linked with --wrap for malloc and its kin, so every call from libpetri's own code is counted; what the C
-// library and thread start-up take for themselves is not.
+// The bench is linked with --wrap for malloc and similar functions, so every call by libpetri is counted. Allocations
+// by the C library, including those for new threads, are not.
 #ifndef TESTS_BENCH_ALLOCATIONS_H
 #define TESTS_BENCH_ALLOCATIONS_H
 
 #include <stdint.h>
 
+// Returns the number of allocations since the start of the process.
 uint64_t allocations_so_far(void);
 
 #endif

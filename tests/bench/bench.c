@@ -1,5 +1,5 @@
-// bench.c: how fast petri is: whole scripts through petri.h, beside our limit kernels, LAMMPS and another build.
-// README.md tells what is measured and how; `bench --help` lists the options.
+// bench.c: the benchmark of petri. Runs scripts through petri.h and compares with limit kernels, LAMMPS and another
+// build. README.md explains what is measured; `bench --help` lists the options.
 #include "base/cpu.h"
 #include "machine.h"
 #include "measure.h"
@@ -19,17 +19,16 @@
 
 static const char usage[] =
     "usage: bench [options]\n"
-    "  --quick            small sizes and few rounds: 20 seconds\n"
-    "  --only NAME        only workloads whose name begins with these words, such as dish or dish 200\n"
-    "  --threads N        compare one thread with N (as many as processors, at most 2)\n"
-    "  --rounds N         rounds that the medians are taken over (7)\n"
-    "  --peers            run LAMMPS beside petri\n"
-    "  --busy N           beside N processes that compute all the time\n"
-    "  --against BENCH    take turns with another build: the path of its bench executable\n"
-    "  --csv FILE         also write the table of workloads as CSV; the other tables go to "
-    "FILE-targets.csv and so on\n"
+    "  --quick            use small sizes and few rounds (takes 20 seconds)\n"
+    "  --only NAME        run only workloads whose name begins with these words, such as dish or dish 200\n"
+    "  --threads N        compare one thread with N (default: number of processors, at most 2)\n"
+    "  --rounds N         take medians over N rounds (default: 7)\n"
+    "  --peers            compare with LAMMPS\n"
+    "  --busy N           keep N other processes busy during the run\n"
+    "  --against BENCH    compare with another build: the path of its bench executable\n"
+    "  --csv FILE         also write the table of workloads as CSV; other tables go to FILE-targets.csv and so on\n"
     "  --markdown FILE    also write all tables as Markdown\n"
-    "  --tiny             only show that everything works; the figures mean nothing\n";
+    "  --tiny             only test the bench; the figures mean nothing\n";
 
 typedef struct Bench {
     Plan plan;
@@ -41,7 +40,7 @@ typedef struct Bench {
     char lammps[128];
 } Bench;
 
-// A number of at least 1, or 0.
+// Parses an integer from 1 to 1024. Returns 0 if it is invalid.
 static int read_count(const char *text) {
     char *end;
     long n = strtol(text, &end, 10);
@@ -95,7 +94,7 @@ static bool read_options(Bench *bench, int argc, char **argv) {
         if (read_flag(bench, argv[i]))
             continue;
         if (i + 1 >= argc || !read_value(bench, argv[i], argv[i + 1])) {
-            fprintf(stderr, "bench: cannot make sense of '%s'\n%s", argv[i], usage);
+            fprintf(stderr, "bench: invalid option or value: '%s'\n%s", argv[i], usage);
             return false;
         }
         i++;
@@ -116,7 +115,7 @@ static void fill_plan(Bench *bench) {
     plan->max_particles = bench->quick ? 20000 : UINT32_MAX;
 }
 
-// The path of this executable, which is started again for the workers.
+// Finds the path of this executable, which is also the worker's.
 static bool find_self(Bench *bench) {
     ssize_t length = readlink("/proc/self/exe", bench->self, sizeof bench->self - 1);
     if (length < 0)
@@ -130,14 +129,14 @@ static Results measure_all(const Bench *bench) {
     const Plan *plan = &bench->plan;
     Results results = {.figures = calloc(case_count, sizeof *results.figures), .ratios = {{NAN, NAN}, {NAN, NAN}}};
     if (!results.figures) {
-        fputs("bench: no memory\n", stderr);
+        fputs("bench: out of memory\n", stderr);
         exit(1);
     }
     for (size_t i = 0; i < case_count; i++)
         if (measure_wanted(plan, &cases[i])) {
             fprintf(stderr, "bench: %s", cases[i].name);
             results.figures[i] = measure_case(plan, &cases[i]);
-            fprintf(stderr, ": %.4g us a frame, %.4g us on %d threads\n", results.figures[i].frame * 1e6,
+            fprintf(stderr, ": %.4g us per frame, %.4g us on %d threads\n", results.figures[i].frame * 1e6,
                     results.figures[i].frame_threads * 1e6, plan->threads);
         }
     for (int k = 0; k < 2 && !plan->tiny && !plan->only; k++)
@@ -167,7 +166,7 @@ typedef struct NamedTable {
     Table table;
 } NamedTable;
 
-// FILE for the first table, FILE-NAME.csv for the others, where FILE is without its ending.
+// Writes the first table to FILE.csv and the others to FILE-NAME.csv.
 static void write_csv(const char *csv, const NamedTable *tables, size_t count) {
     for (size_t i = 0; i < count; i++) {
         char name[4200];
@@ -185,11 +184,9 @@ static void write_csv(const char *csv, const NamedTable *tables, size_t count) {
 }
 
 static const char notes[] =
-    "Medians of rounds, in turns, on one thread unless it says threads. The reference implementation's figures, and "
-    "the\n"
-    "published ones of LAMMPS on 2 ranks, are from tests/bench/PEERS.md, measured on a like machine (Zen 4, 3.7 "
-    "GHz,\n"
-    "2 processors); all others are from this run. tests/bench/README.md tells what each column means.\n";
+    "Medians over rounds, on one thread unless the column says threads. The figures of the reference implementation\n"
+    "and the published ones of LAMMPS on 2 ranks are from tests/bench/PEERS.md, measured on a similar machine (Zen 4,\n"
+    "3.7 GHz, 2 processors); all others are from this run. tests/bench/README.md explains the columns.\n";
 
 static void write_markdown(const Bench *bench, const NamedTable *tables, size_t count) {
     FILE *file = open_file(bench->markdown);
@@ -200,7 +197,7 @@ static void write_markdown(const Bench *bench, const NamedTable *tables, size_t 
     close_file(file, bench->markdown);
 }
 
-// Figures from a busy machine must not pass for good ones.
+// Warns if figures are too high because the machine was busy.
 static void warn_if_busy(const Results *results) {
     int rows = 0, disturbed = 0;
     for (size_t i = 0; i < case_count; i++)
@@ -244,7 +241,7 @@ static void run_bench(const Bench *bench) {
     free(results.figures);
 }
 
-// Processes that compute until this one ends, whichever way.
+// Starts processes that compute until this one ends.
 static void start_busy(int count) {
     for (pid_t parent = getpid(); count > 0; count--)
         if (fork() == 0) {

@@ -1,5 +1,5 @@
-// embed.c: what a host of petri.h takes beside `petri run`: embed SCRIPT FRAMES steps a script and takes the mean speed
-// of all particles from the views after each frame. embed.sh runs both in turns.
+// embed.c: a host of petri.h, for comparison with `petri run` by embed.sh. `embed SCRIPT FRAMES` runs a script and
+// computes the mean speed of all particles after each frame from the library's columns.
 #include "petri.h"
 
 #include <math.h>

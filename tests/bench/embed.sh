@@ -1,7 +1,7 @@
 #!/bin/sh
-# embed.sh PETRI EMBED [PARTICLES FRAMES ROUNDS]: how much longer a host takes that reads all velocities after each frame
-# than `petri run` of the same script: seconds of each round, in turns, and the ratio of the least of both, which is to
-# stay below 1.02 with 1000000 particles and 100 frames.
+# embed.sh PETRI EMBED [PARTICLES FRAMES ROUNDS]: compares a host that reads all velocities after each frame with `petri
+# run` of the same script. Prints the seconds of each round and the ratio of the minimum times, which must be below 1.02
+# with 1000000 particles and 100 frames.
 set -eu
 petri=$1 embed=$2 particles=${3:-1000000} frames=${4:-100} rounds=${5:-5}
 scratch=$(mktemp -d)
@@ -23,7 +23,7 @@ round=0
 while [ $round -lt "$rounds" ]; do
     run=$(seconds "$petri" run "$scratch/gas.fl" --frames "$frames" --memory 8G --work 100G)
     host=$(seconds "$embed" "$scratch/gas.fl" "$frames")
-    grep -q '^[0-9.]*[1-9]' "$scratch/out" || { echo "the host has measured nothing" && exit 1; }
+    grep -q '^[0-9.]*[1-9]' "$scratch/out" || { echo "the host printed no speed" && exit 1; }
     echo "petri run $run s, host $host s"
     round=$((round + 1))
 done | tee "$scratch/rounds"

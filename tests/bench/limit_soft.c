@@ -1,8 +1,8 @@
-// limit_soft.c: soft discs and spheres with kept neighbour lists, as fast as this processor can with the right bits.
+// limit_soft.c: the limit kernel for soft discs and spheres with neighbour lists; see limit.h.
 //
 // n = side² discs (side³ spheres) of diameter 1 and mass 1 in a box with reflecting walls: the workloads "soft discs",
-// at area fraction 0.84, and "soft spheres", at volume fraction 0.60. Arrays are kept sorted by cell; id[] is a
-// particle's own number, which fixes the order of summation. test_limit.c compares the bits with those of lib/physics.
+// at area fraction 0.84, and "soft spheres", at volume fraction 0.60. Arrays are sorted by cell; id[] is the number of
+// a particle, which determines the order of summation. test_limit.c compares the bits with those of lib/physics.
 #include "limit.h"
 
 #if defined(__x86_64__)
@@ -35,7 +35,7 @@ static double normal(void) {
     return sqrt(-2 * log(1 - uniform())) * cos(6.283185307179586 * uniform());
 }
 
-/* Zeroed memory, at a cache line; large pieces in huge pages where the system has them. */
+/* Returns zeroed memory aligned to a cache line. Large blocks use huge pages if the system has them. */
 static void *zeroed(size_t bytes) {
     size_t align = bytes >= 4 << 20 ? 2 << 20 : 64;
     void *p = aligned_alloc(align, bytes = (bytes + 64 + align - 1) / align * align);
@@ -49,19 +49,19 @@ static void *zeroed(size_t bytes) {
 }
 
 #define STIFFNESS 1000.0
-#define MAX_NEIGHBOURS(dim) ((dim) == 2 ? 24 : 48) /* room for neighbours in a list */
+#define MAX_NEIGHBOURS(dim) ((dim) == 2 ? 24 : 48) /* capacity of a neighbour list */
 #define INLINE AVX512 static inline __attribute__((always_inline))
 
 typedef struct {
     int n, blocks, columns, dim;
-    double low, high; /* walls; low is 0 or out of reach */
+    double low, high; /* positions of the walls; low: 0, or unreachable for no walls */
     double step, skin, cell;
-    double *p[3], *u[3], *r, *f[3], *p0[3]; /* sorted by cell; [n..] are far dummies */
+    double *p[3], *u[3], *r, *f[3], *p0[3]; /* sorted by cell; elements n and up are distant dummies */
     double *spare[7];
-    double *quad; /* place and radius side by side, for loads by number */
+    double *quad; /* position and radius of a particle, adjacent for fast loads */
     int *id, *spare_id, *cell_of, *start;
-    int *list, *max_length; /* per block of 8: [k][8] neighbours, and their largest count */
-    size_t *at;             /* where a block's list begins */
+    int *list, *max_length; /* per block of 8 particles: [k][8] neighbours, and the longest length */
+    size_t *at;             /* start of a block's list */
     long rebuilds;
 } Box;
 
@@ -116,7 +116,7 @@ static void box_free(Box *b) {
         free(all[i]);
 }
 
-/* Sort all arrays by cell (stable counting sort). The grid has one rim of empty cells. */
+/* Sorts all arrays by cell (stable counting sort). The grid has a border of empty cells. */
 INLINE void box_sort(Box *b, int dim) {
     int n = b->n, wide = b->columns + 2, cells = cells_of(b);
     memset(b->start, 0, 4 * (size_t)(cells + 2));
@@ -151,7 +151,7 @@ INLINE void box_sort(Box *b, int dim) {
     b->id = b->spare_id, b->spare_id = old;
 }
 
-/* Who is nearer to i than the reach, in no order: how many. */
+/* Stores the particles within reach of i in `raw`, unordered. Returns their number. */
 INLINE int box_near(const Box *b, int dim, int c, int i, int *raw) {
     __m512i lanes = _mm512_set_epi64(7, 6, 5, 4, 3, 2, 1, 0);
     double reach = 1 + b->skin;
@@ -183,7 +183,8 @@ INLINE int box_near(const Box *b, int dim, int c, int i, int *raw) {
     return count;
 }
 
-/* Neighbour lists within contact distance + skin, each in ascending order of id, eight particles side by side. */
+/* Builds the neighbour lists, for contact distance + skin, in ascending order of id, interleaved for eight particles.
+ */
 INLINE void box_lists(Box *b, int dim) {
     box_sort(b, dim);
     int n = b->n, count[8], found[8][MAX_NEIGHBOURS(3)], raw[MAX_NEIGHBOURS(3) + 8];
@@ -200,13 +201,13 @@ INLINE void box_lists(Box *b, int dim) {
             mine[m] = j;
         }
         if ((i & 7) == 7 || i == n - 1) {
-            int most = 0, block = i >> 3, *list = b->list + used;
+            int max = 0, block = i >> 3, *list = b->list + used;
             for (int m = 0; m <= (i & 7); m++)
-                most = count[m] > most ? count[m] : most;
-            for (int k = 0; k < most; k++)
+                max = count[m] > max ? count[m] : max;
+            for (int k = 0; k < max; k++)
                 for (int m = 0; m < 8; m++)
                     list[k * 8 + m] = m <= (i & 7) && k < count[m] ? found[m][k] : b->blocks * 8;
-            b->max_length[block] = most, b->at[block] = used, used += (size_t)most * 8;
+            b->max_length[block] = max, b->at[block] = used, used += (size_t)max * 8;
         }
     }
     for (int m = 0; m < dim; m++)
@@ -219,7 +220,7 @@ INLINE void box_lists(Box *b, int dim) {
     b->rebuilds++;
 }
 
-/* Move by the forces, reflect at the walls; returns the largest squared move since the lists were built. */
+/* Moves the particles and reflects them at walls. Returns the largest squared displacement since the last rebuild. */
 INLINE double box_move(Box *b, int dim) {
     __m512d step = _mm512_set1_pd(b->step), zero = _mm512_setzero_pd(), far = zero, high = _mm512_set1_pd(b->high);
     __m512d wall[] = {_mm512_set1_pd(b->low), _mm512_set1_pd(2 * b->high)};
@@ -248,7 +249,7 @@ INLINE double box_move(Box *b, int dim) {
     return _mm512_reduce_max_pd(far);
 }
 
-/* Places and radii of eight particles: eight loads and a transposition. */
+/* Loads positions and radii of eight particles: eight loads and a transposition. */
 INLINE void box_quads(const Box *b, int dim, const int *j, __m512d *out) {
 #define QUAD(m) _mm256_load_pd(b->quad + 4 * (size_t)j[m])
     __m512d a = _mm512_insertf64x4(_mm512_castpd256_pd512(QUAD(0)), QUAD(4), 1); /* x0 y0 z0 r0 x4 y4 z4 r4 */
@@ -264,7 +265,7 @@ INLINE void box_quads(const Box *b, int dim, const int *j, __m512d *out) {
         out[3] = _mm512_permutex2var_pd(ya, high, yb);
 }
 
-/* Forces from the lists: eight particles in the lanes. */
+/* Computes forces from the lists, for eight particles at a time. */
 INLINE void box_forces(Box *b, int dim) {
     for (int block = 0; block < b->blocks; block++) {
         int i = block * 8, *list = b->list + b->at[block];
@@ -279,7 +280,7 @@ INLINE void box_forces(Box *b, int dim) {
                 d2 = m ? _mm512_add_pd(d2, _mm512_mul_pd(d[m], d[m])) : _mm512_mul_pd(d[m], d[m]);
             }
             __m512d R = _mm512_add_pd(ri, other[dim]);
-            /* A filter without the square root first, a hair too wide, then the exact condition. */
+            /* First a slightly too wide test without a square root, then the exact condition. */
             __mmask8 touch =
                 _mm512_cmp_pd_mask(d2, _mm512_mul_pd(_mm512_mul_pd(R, R), _mm512_set1_pd(1 + 0x1p-48)), _CMP_LT_OQ);
             if (!touch)

@@ -1,7 +1,7 @@
-// limit_tile.h: all pairs, each once, in transposed tiles of WIDTH x WIDTH; included once per WIDTH.
+// limit_tile.h: forces of all pairs, each computed once, in tiles of WIDTH x WIDTH. Included once per WIDTH.
 //
-// The terms of a tile are added to the row's particles as they come (ascending partner), then transposed and added to
-// the column's particles (ascending too). No checks, one force, one sign: less than petri has to do.
+// The terms of a tile are added to the row's particles in ascending order of partners, then transposed and added to the
+// column's particles, also in ascending order. Without checks and with one force only, it does less work than petri.
 #if WIDTH == 8
 #define TARGET __attribute__((target("avx512f,avx512dq,avx512vl,avx512bw,avx2")))
 #define V __m512d
@@ -42,7 +42,7 @@ INLINE void NAME(transpose)(V *r) {
 #endif
 }
 
-// The terms f[] of WIDTH pairs: d[] from the first to the second, R the sum of radii, c the strength times charges.
+// Computes the terms f[] of WIDTH pairs. d[]: difference of positions, R: sum of radii, c: strength times charges.
 INLINE void NAME(terms)(V *d, V R, V c, int dim, V *f) {
     V square = F(mul)(d[0], d[0]);
     for (int m = 1; m < dim; m++)
@@ -75,7 +75,7 @@ INLINE void NAME(tile)(const Cloud *c, int dim, int t, int s, const V *here, V *
     }
 }
 
-// The tiles on the diagonal, 1 / WIDTH of all, are left out.
+// Omits the tiles on the diagonal, a fraction WIDTH / n of all.
 INLINE void NAME(all)(const Cloud *c, int dim) {
     for (int t = 0; t < c->n; t += WIDTH) {
         V here[3], sum[3];

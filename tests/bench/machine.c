@@ -14,7 +14,7 @@
 #define COMPILER "gcc "
 #endif
 
-// The value of a line of /proc/cpuinfo, such as "model name".
+// Reads the value of a line of /proc/cpuinfo, such as "model name".
 static void processor_line(const char *name, char *value, size_t size) {
     FILE *file = fopen("/proc/cpuinfo", "r");
     char line[512];

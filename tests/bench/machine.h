@@ -1,10 +1,10 @@
-// machine.h: which machine and which build the figures are from.
+// machine.h: a description of the machine and the build, for reports.
 #ifndef TESTS_BENCH_MACHINE_H
 #define TESTS_BENCH_MACHINE_H
 
 #include <stddef.h>
 
-// One line: processor, vector level, compiler, how busy the machine is.
+// Writes one line: processor, vector level, threads, compiler, load.
 void machine_describe(char *text, size_t size, int threads);
 
 #endif

@@ -15,7 +15,7 @@
 
 enum { VARIANTS = 3, STARTS_MAX = 8 };
 
-// Whole words: "soft discs 10000" is not "soft discs 1000000", but has the row of ten steps.
+// Compares whole words: "soft discs 10000" matches "soft discs 10000 x10", but not "soft discs 1000000".
 static bool begins_with_words(const char *name, const char *words) {
     size_t length = strlen(words);
     return !strncmp(name, words, length) && (name[length] == '\0' || name[length] == ' ');
@@ -43,7 +43,7 @@ bool measure_clean(const Sample *round) {
     return round->cpu_share >= 0.97;
 }
 
-// The median over rounds of the member at this offset. Rounds that are not clean count only if none is.
+// Returns the median over rounds of the member at this offset. Disturbed rounds count only if all are disturbed.
 static double median_of(const Sample *rounds, int count, size_t member) {
     double values[ROUNDS_MAX];
     int clean = 0, kept = 0;
@@ -66,7 +66,7 @@ Worker measure_warm_worker(const Plan *plan, const Case *c, const char *executab
     char path[4096];
     snprintf(path, sizeof path, "%s/%s", plan->scripts, c->script);
     Worker worker = worker_start(executable, path, threads, c->fps);
-    // The first frame makes no step. Very slow ones are not waited for.
+    // The first frame makes no step. Stops the warm-up after 15 s.
     double start = clock_now();
     worker_run(&worker, 2, false);
     for (int steps = c->steps; steps < plan->warm_steps && clock_now() - start < 15; steps += 5 * c->steps)
@@ -74,7 +74,7 @@ Worker measure_warm_worker(const Plan *plan, const Case *c, const char *executab
     return worker;
 }
 
-// Neighbour lists are rebuilt every 10 to 15 steps: a round must hold several rebuilds.
+// A round must include several rebuilds of neighbour lists, which happen every 10 to 15 steps.
 int measure_round_frames(Worker *worker, const Case *c, double budget) {
     int min = c->unit == PER_STEP ? (30 + c->steps - 1) / c->steps : 3, max = 2000;
     double frame = worker_run(worker, 3, false).frame, frames = ceil(budget / frame);
@@ -128,7 +128,7 @@ typedef struct Rounds {
     double starts[ROUNDS_MAX * STARTS_MAX];
     int start_count;
     double limit;
-    int done, clean; // rounds; those clean for all variants
+    int done, clean; // number of rounds, and of those that are clean for all variants
 } Rounds;
 
 static void run_round(const Plan *plan, const Case *c, Rounds *r, int frames) {
@@ -170,7 +170,7 @@ static Figures figures_of(const Case *c, Rounds *r) {
     f.steps = median_of(one, rounds, offsetof(Sample, steps));
     f.fastest = fastest_frame(one, rounds);
     f.load = one[0].load;
-    // Later rounds have written text.
+    // From the first round only, because writing text increases the peak of later ones.
     f.peak = one[0].peak;
     f.per_particle = (one[0].peak - one[0].base) / c->n;
     if (r->present[1]) {
@@ -198,7 +198,7 @@ Figures measure_case(const Plan *plan, const Case *c) {
         if (r.present[k])
             r.workers[k] = measure_warm_worker(plan, c, executables[k], k == 0 ? 1 : plan->threads);
     int frames = measure_round_frames(&r.workers[0], c, plan->budget);
-    // More rounds than wanted if some were disturbed.
+    // Runs more rounds if some were disturbed.
     int max = 3 * rounds < ROUNDS_MAX ? 3 * rounds : ROUNDS_MAX;
     do
         run_round(plan, c, &r, frames);
@@ -209,7 +209,7 @@ Figures measure_case(const Plan *plan, const Case *c) {
     return figures_of(c, &r);
 }
 
-// Both sides run on this thread only, so its own time tells the least disturbed figure.
+// Both kernels run on this thread only, so its processor time is the least disturbed measure.
 KernelFigures measure_kernel(const Plan *plan, int dimensions) {
     enum { N = 4000, STEPS = 5 };
     PhysOptions options = {.threads = 1};

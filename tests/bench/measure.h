@@ -1,4 +1,4 @@
-// measure.h: the figures of one whole script: medians over rounds in which its variants take turns.
+// measure.h: measurement of one script: medians over rounds, in which its variants take turns.
 #ifndef TESTS_BENCH_MEASURE_H
 #define TESTS_BENCH_MEASURE_H
 
@@ -9,61 +9,61 @@
 
 typedef struct Plan {
     int rounds;
-    double budget;   // seconds that a variant runs in one round, at least
-    int warm_steps;  // before anything is measured
+    double budget;   // minimum seconds that a variant runs in a round
+    int warm_steps;  // steps before the measurement
     int starts;      // processes started per round
-    double patience; // seconds after which a row makes do with the rounds that it has
-    int threads;     // of the variant that is compared with one thread
+    double patience; // seconds after which no further rounds are started
+    int threads;     // number of threads that is compared with one thread
     uint32_t max_particles;
-    bool tiny;           // only what shows that everything works
-    const char *only;    // the first words of the wanted rows, or NULL
-    const char *self;    // this executable
-    const char *scripts; // folder
-    const char *petri;   // the command
-    const char *other;   // the bench executable of another build, or NULL
+    bool tiny;           // true: minimal run, which only tests the bench
+    const char *only;    // first words of the requested rows; NULL: all rows
+    const char *self;    // path of this executable
+    const char *scripts; // folder of scripts
+    const char *petri;   // path of the petri command
+    const char *other;   // path of the bench executable of another build; NULL: none
 } Plan;
 
-// Seconds per frame unless said otherwise; NaN where nothing was measured.
+// Seconds per frame unless stated otherwise; NaN: not measured.
 typedef struct Figures {
     bool done;
     // On one thread.
     double evaluation, physics, frame, output;
-    double fastest;     // the frame of the fastest round
-    int rounds, clean;  // how many there were, and in how many no variant had to share its processor
-    double steps;       // of simulation per frame
+    double fastest;     // frame of the fastest round
+    int rounds, clean;  // number of rounds, and of those in which no variant shared its processor
+    double steps;       // simulation steps per frame
     double allocations; // per frame
     double load;
     double peak, per_particle; // bytes
     // On plan->threads.
     double physics_threads, frame_threads;
     double evaluation_threads;
-    double other_evaluation, other_physics, other_frame; // the other build, on plan->threads too
-    double fastest_start, start_median;                  // of the process `petri run --frames 1`
-    double limit;                                        // nanoseconds, as limit.h has them
+    double other_evaluation, other_physics, other_frame; // other build, on plan->threads
+    double fastest_start, start_median;                  // seconds of `petri run --frames 1`
+    double limit;                                        // nanoseconds, see limit.h
 } Figures;
 
 bool measure_wanted(const Plan *plan, const Case *c);
 Figures measure_case(const Plan *plan, const Case *c);
 
-// Seconds per pair of the engine's own kernel and of the limit, on one core, for electrostatic forces in 2 dimensions
-// or gravity in 3; the limit is 0 where there is none.
+// Seconds per pair of the engine's kernel and of the limit kernel, on one core, for electrostatic forces in 2
+// dimensions or gravity in 3. limit: 0 without a limit kernel.
 typedef struct KernelFigures {
     double ours, limit;
 } KernelFigures;
 KernelFigures measure_kernel(const Plan *plan, int dimensions);
 
-// Seconds from start to end of the petri command, silent; `words` begin with its path, its subcommand and the script,
-// and end in NULL. Ends the bench if the command fails.
+// Returns the seconds that a petri command runs, without output. `words` are its path, subcommand and script, further
+// arguments and NULL. Ends the bench if the command fails.
 double measure_command(const Plan *plan, const char *const *words);
 
-// The same helpers serve the comparison with LAMMPS.
-// Starts a worker and lets it run until it is warm.
+// These functions are also used for the comparison with LAMMPS.
+// Starts a worker and runs the warm-up steps.
 Worker measure_warm_worker(const Plan *plan, const Case *c, const char *executable, int threads);
-// How many frames make a round of `budget` seconds.
+// Returns the number of frames in a round of `budget` seconds.
 int measure_round_frames(Worker *worker, const Case *c, double budget);
-// Whether the worker had a processor for itself in this round.
+// Returns true if the worker did not share its processor in this round.
 bool measure_clean(const Sample *round);
-// Sorts the values.
+// Returns the median. Sorts the values.
 double measure_median(double *values, int count);
 
 enum { ROUNDS_MAX = 31 };

@@ -11,7 +11,7 @@ enum { STYLES = 2 };
 
 static const char *const styles[STYLES] = {"harmonic", "hooke"};
 
-// Million particle-steps per second on two ranks: tests/bench/PEERS.md, section 2 (newer LAMMPS, another machine).
+// Million particle-steps per second on two ranks, from tests/bench/PEERS.md, section 2 (newer LAMMPS, another machine).
 static const struct {
     const char *peer;
     int side;
@@ -21,11 +21,11 @@ static const struct {
     {"soft3d", 22, {18.5, 13.4}},  {"soft3d", 46, {15.6, 8.65}},  {"soft3d", 100, {13.8, 7.66}},
 };
 
-// One run of LAMMPS, or a round of petri.
+// A run of LAMMPS, or a round of petri.
 typedef struct PeerRun {
-    char style[16];   // the one used; empty for petri
+    char style[16];   // force style that was used; empty for petri
     double rate;      // particle-steps per second
-    double cpu_share; // of a processor that each rank or the script's thread had, in percent
+    double cpu_share; // percent of a processor that each rank or the script's thread used
 } PeerRun;
 
 static FILE *open_command(const char *folder, const char *arguments) {
@@ -56,13 +56,13 @@ static PeerRun run_peer(const char *folder, const Case *c, const char *style, co
     FILE *pipe = open_command(folder, arguments);
     int found = fscanf(pipe, "%15s %lf %lf", run.style, &run.rate, &run.cpu_share);
     if (pclose(pipe) != 0 || found != 3) {
-        fputs("bench: LAMMPS did not run; leave out --peers to measure petri alone\n", stderr);
+        fputs("bench: LAMMPS failed; omit --peers to measure petri only\n", stderr);
         exit(1);
     }
     return run;
 }
 
-// Runs that shared their processors with others count only if there are no clean ones.
+// Returns the median rate. Runs that shared their processors count only if there are no clean ones.
 static double clean_median(const PeerRun *runs, int count, int *clean) {
     double values[ROUNDS_MAX];
     *clean = 0;
@@ -94,14 +94,14 @@ static double published_rate(const Case *c, int style) {
     return NAN;
 }
 
-static void keep_ratio(PeerRatios *ratios, const Case *c, int ten, double ratio) {
+static void store_ratio(PeerRatios *ratios, const Case *c, int ten, double ratio) {
     if (!strcmp(c->peer, "soft2d") && c->side == 316)
         ratios->discs_1e5[ten] = ratio;
     if (!strcmp(c->peer, "soft2d") && c->side == 1000)
         ratios->discs_1e6[ten] = ratio;
 }
 
-// c[0] has frames of one step, c[1] of ten.
+// Measures a workload. c[0] has frames of one step, c[1] frames of ten steps.
 static void measure_peer(const Plan *plan, const char *folder, const Case *c, Table *table, PeerRatios *ratios) {
     Worker workers[2];
     int frames[2];
@@ -137,15 +137,16 @@ static void measure_peer(const Plan *plan, const char *folder, const Case *c, Ta
             row[8] = cell_number(done);
             row[9] = cell_number(published_rate(c, style));
             if (style == 0)
-                keep_ratio(ratios, c, k, mine / theirs);
+                store_ratio(ratios, c, k, mine / theirs);
         }
 }
 
 Table peers_measure(const Plan *plan, const char *folder, PeerRatios *ratios) {
-    Table table = table_new("Particle-steps per second beside LAMMPS", columns, sizeof columns / sizeof *columns);
+    Table table =
+        table_new("Particle-steps per second compared with LAMMPS", columns, sizeof columns / sizeof *columns);
     for (size_t i = 0; i < case_count; i++)
         if (cases[i].peer && cases[i].steps == 1 && measure_wanted(plan, &cases[i])) {
-            fprintf(stderr, "bench: %s beside LAMMPS\n", cases[i].name);
+            fprintf(stderr, "bench: %s compared with LAMMPS\n", cases[i].name);
             measure_peer(plan, folder, &cases[i], &table, ratios);
         }
     return table;

@@ -1,10 +1,10 @@
-// bench.c: the speed of lib/physics on the workloads of the specification, against the limit of this processor.
+// physics.c: the benchmark of lib/physics alone, compared with the limit kernels.
 //
 //   bench_physics [--csv] [--quick] [--cpu=scalar|avx2|avx512] [--neighbours=auto|never|always] [--threads=N]
 //                 [--only=NAME]
 //
-// All ratios come from one run. The hash at the end of a row stands for the bits of all positions: it must not depend
-// on anything but the workload.
+// Both sides of a ratio are measured in the same run. The hash at the end of a row covers the bits of all positions and
+// must depend on the workload only.
 #include "base/cpu.h"
 #include "limit.h"
 #include "workloads.h"
@@ -17,7 +17,7 @@
 typedef struct Case {
     WorkloadKind kind;
     uint32_t n;
-    int side; // of the square or cube that the limit is measured with; 0: the limit is that of pairs, or none
+    int side; // particles along an edge for limit_soft; 0: limit_pair or no limit is used
 } Case;
 
 static const Case cases[] = {
@@ -28,7 +28,7 @@ static const Case cases[] = {
 
 typedef struct Settings {
     bool csv, quick;
-    int threads; // 0: measure with 1 and with 2
+    int threads; // 0: measures with 1 and with 2
     const char *only;
     PhysOptions options;
 } Settings;
@@ -44,7 +44,7 @@ static int by_value(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-// Median seconds of a frame of so many steps.
+// Returns the median seconds of a frame of `steps` steps.
 static double measure_steps(Workload *w, int steps, double budget) {
     enum { MAX_SAMPLES = 101 };
     double taken[MAX_SAMPLES], start = seconds();
@@ -80,7 +80,7 @@ static void run_case(const Case *c, const Settings *settings, int threads, doubl
     options.threads = threads;
     Workload w = workload_open(c->kind, c->n, &options);
     double budget = settings->quick ? 0.1 : 0.5;
-    // Bits are compared after a fixed number of steps; the frames before also fill caches and lists.
+    // The hash is taken after a fixed number of steps. These frames also warm up caches and neighbour lists.
     int warm = c->n > 100000 ? 3 : 20;
     for (int i = 0; i < warm; i++)
         workload_frame(&w, 1);
@@ -129,7 +129,7 @@ int main(int argc, char **argv) {
         puts("workload,n,threads,us_frame,us_step_of_10,ns_pair,ns_particle_step,limit_ns,ratio,hash");
     else
         printf(
-            "%s, 1 and 2 threads of %d processors; medians; the limit is one core's\n\n"
+            "%s, 1 and 2 threads of %d processors; medians; the limit is for one core\n\n"
             "| workload | n | threads | us per frame of 1 step | us per step, frames of 10 | ns per pair "
             "| ns per particle-step | limit, ns | limit / ours | bits |\n|---|---|---|---|---|---|---|---|---|---|\n",
             cpu_name(settings.options.cpu), cpu_count());

@@ -1,7 +1,7 @@
-"""What Python costs beside the C calls: python.py SCRIPT [ROUNDS] writes microseconds, the least of so many rounds.
+"""Overhead of the Python module. python.py SCRIPT [ROUNDS] prints microseconds, the minimum over the rounds.
 
-The first two rows are to stay below 5 and 1 with 200 cells. The first asks for no frame: beside hundreds of
-microseconds of physics, whose time varies by more, what Python takes could not be seen.
+With 200 cells, the first two rows must be below 5 and 1. The first row makes no frame, because the physics of a frame
+takes hundreds of microseconds and varies by more than the overhead.
 """
 
 import sys
@@ -10,7 +10,7 @@ import time
 import petri
 
 
-def least(function, rounds, calls=500):
+def min_time(function, rounds, calls=500):
     best = float("inf")
     for _ in range(rounds):
         start = time.perf_counter()
@@ -37,10 +37,10 @@ def main(script, rounds=40):
         "frame": lambda: session.frame,
         'evaluate("1")': lambda: session.evaluate("1"),
     }.items():
-        print(f"{least(function, int(rounds)):8.2f} µs  {what}")
+        print(f"{min_time(function, int(rounds)):8.2f} µs  {what}")
     start = time.perf_counter()
     session.step(200)
-    print(f"{5e3 * (time.perf_counter() - start):8.0f} µs  a frame")
+    print(f"{5e3 * (time.perf_counter() - start):8.0f} µs  per frame")
 
 
 if __name__ == "__main__":

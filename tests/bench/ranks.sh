@@ -1,14 +1,15 @@
 #!/bin/sh
-# ranks.sh: what ranks gain and what they send. `./dev bench --ranks` runs it on a quiet machine.
-# usage: ranks.sh PATH-OF-PETRI [ROUNDS [SIDE]]: rounds of the times (3); discs along an edge (1000).
+# ranks.sh: measures the speed-up by MPI ranks and their communication. `./dev bench --ranks` runs it.
+# usage: ranks.sh PATH-OF-PETRI [ROUNDS [SIDE]]
+#   ROUNDS: rounds of the timing (default: 3); SIDE: discs along an edge (default: 1000)
 #
-# 1. Two ranks of one thread and one rank of two threads take turns; a figure is the median over the rounds,
-#    of frames after the first three.
-# 2. What is sent: by soft discs of three sizes on four ranks, and of one size on up to 16 (they need not run at once).
-# 3. A model of both: a step on R ranks takes N c / R, twice log2 R latencies for each decision, a latency for each
-#    message, its halo's bytes over the bandwidth; a frame besides what each rank does for all N, and 36 N bytes.
-#    LATENCY (microseconds) and BANDWIDTH (GB/s) say for what networks (two of them, if not given), STEP_NS and FRAME_NS
-#    what a particle takes, if that is not to be measured.
+# 1. Timing: two ranks with one thread and one rank with two threads take turns. Figures are medians over the rounds, of
+#    frames after the first three.
+# 2. Communication of soft discs: three sizes on four ranks, and one size on up to 16 ranks (more than processors).
+# 3. A model of both. A step on R ranks takes N c / R, 2 log2 R latencies per reduction, a latency per message, and the
+#    bytes of the halo over the bandwidth. A frame also takes the work that each rank does for all N, and 36 N bytes.
+#    LATENCY (microseconds) and BANDWIDTH (GB/s) describe the networks (default: two). STEP_NS and FRAME_NS are the
+#    nanoseconds per particle; they are measured if not given.
 set -eu
 petri=$1 rounds=${2:-3} side=${3:-1000}
 workloads=$(cd "$(dirname "$0")" && pwd)/workloads
@@ -23,7 +24,7 @@ discs() { # SIDE
     echo "$work/soft$1.fl"
 }
 
-# milliseconds COMMAND...: of a frame, without output.
+# milliseconds COMMAND...: prints the milliseconds per frame without output.
 milliseconds() {
     "$@" --stats 2>&1 | awk '/^  (evaluation|physics) /{ sum += $2 } END { print sum }'
 }
@@ -32,7 +33,7 @@ median() {
     sort -n | awk '{ v[NR] = $1 } END { print (v[int((NR + 1) / 2)] + v[int(NR / 2) + 1]) / 2 }'
 }
 
-# steady FRAMES COMMAND...: of a frame among so many that come after the first three, in which all is made.
+# steady FRAMES COMMAND...: prints the milliseconds per frame of FRAMES frames after the first three, which are slower.
 steady() {
     frames=$1
     shift
@@ -41,7 +42,7 @@ steady() {
         awk -v start="$start" -v n="$frames" '{ print ($1 * (n + 3) - start * 3) / n }'
 }
 
-# compare NAME FRAMES SCRIPT OPTIONS...
+# compare NAME FRAMES SCRIPT OPTIONS...: times two threads and two ranks and prints a row.
 compare() {
     name=$1 frames=$2
     shift 2
@@ -56,13 +57,13 @@ compare() {
         'BEGIN { printf "%-32s %10.2f %10.2f %8.2f\n", name, one, two, one / two }'
 }
 
-echo "milliseconds a frame              2 threads    2 ranks    ratio"
+echo "milliseconds per frame            2 threads    2 ranks    ratio"
 soft=$(discs "$side")
 compare "soft discs $((side * side)) x10" 20 "$soft" --fps 5
 compare "gravity 4000" 120 "$workloads/gravity_n4000.fl"
 
-# traffic SIDE RANKS: own particles, those of others, bytes and messages of a step, decisions, bytes of a frame: of the
-# rank that has most.
+# traffic SIDE RANKS: prints owned particles, halo particles, bytes and messages per step, reductions per step, and bytes
+# per frame; each is the maximum over the ranks.
 traffic() {
     PETRI_NO_SHARED_MEMORY=1 mpirun -n "$2" "$petri" run "$(discs "$1")" --fps 5 --frames 4 --stats 2>&1 | tr -d , | awk '
         $1 == "particles" { own = $4; halo = $11 }
@@ -72,7 +73,7 @@ traffic() {
 }
 
 echo
-echo "sent by a rank                 particles  of others  bytes a step  of halo  messages  decisions  bytes a frame"
+echo "maximum per rank               particles       halo    bytes/step  of halo  messages reductions    bytes/frame"
 for size in "$((side / 10)) 4" "$((side * 10 / 32)) 4" "$side 4" "$((side * 10 / 32)) 2" "$((side * 10 / 32)) 8" "$((side * 10 / 32)) 16"; do
     # shellcheck disable=SC2086 # two numbers
     traffic $size >"$work/row"
@@ -82,26 +83,26 @@ for size in "$((side / 10)) 4" "$((side * 10 / 32)) 4" "$side 4" "$((side * 10 /
         printf "soft discs %7d, %2d ranks %12.0f %10.0f %13.0f %8.2f %9.1f %10.2f %14.0f\n",
             n, ranks, $1, $2, $3, ($2 > 0 ? $3 / (16 * $2) : 0), $4, $5, $6 }' "$work/row"
 done
-read -r own _ bytes messages agreed _ <"$work/row" # of 16 ranks, most of which have others on all sides
+read -r own _ bytes messages agreed _ <"$work/row" # of 16 ranks, most of which have neighbours on all sides
 
 if [ -z "${STEP_NS:-}" ]; then
     each=$(steady 20 mpirun -n 2 "$petri" run "$soft" --fps 5 --threads 1)
     frame=$(steady 60 mpirun -n 2 "$petri" run "$soft" --fps 25 --threads 1)
-    # A frame at 5 fps has ten steps, one at 25 has two.
+    # A frame has ten steps at 5 fps, and two at 25 fps.
     STEP_NS=$(echo "$each $frame $side" | awk '{ print ($1 - $2) / 8 / $3 / $3 * 2e6 }')
     FRAME_NS=$(echo "$each $frame $side" | awk '{ f = (10 * $2 - 2 * $1) / 8 / $3 / $3 * 1e6; print (f > 0 ? f : 0) }')
 fi
 echo
 awk -v c="$STEP_NS" -v f="${FRAME_NS:-0}" -v own="$own" -v bytes="$bytes" -v messages="$messages" -v agreed="$agreed" \
     -v latency="${LATENCY:-2 25}" -v bandwidth="${BANDWIDTH:-10 1}" '
-    # Nanoseconds of a step on so many ranks.
+    # Nanoseconds of a step on `ranks` ranks.
     function step(n, ranks, steps, us, gb,   log2) {
         if (ranks == 1) return n * c + n * f / steps
         log2 = log(ranks) / log(2)
         return n * c / ranks + (messages + 2 * agreed * log2) * us * 1000 + sent * sqrt(n / ranks) / gb \
             + (n * f + 36 * n / gb + 2 * log2 * us * 1000) / steps
     }
-    # The most ranks up to which each doubling makes a step 1.4 times as fast, and how fast it is then.
+    # The largest number of ranks up to which each doubling speeds a step up by 1.4, and the total speed-up.
     function gain(n, steps, us, gb,   ranks) {
         for (ranks = 1; ranks < 65536 && step(n, 2 * ranks, steps, us, gb) * 1.4 <= step(n, ranks, steps, us, gb); )
             ranks *= 2
@@ -109,10 +110,10 @@ awk -v c="$STEP_NS" -v f="${FRAME_NS:-0}" -v own="$own" -v bytes="$bytes" -v mes
     }
     BEGIN {
         sent = bytes / sqrt(own)
-        printf "A particle takes %.1f ns a step and %.1f ns a frame; a rank of n particles sends %.0f sqrt(n) bytes.\n\n", c, f, sent
+        printf "A particle takes %.1f ns per step and %.1f ns per frame; a rank of n particles sends %.0f sqrt(n) bytes.\n\n", c, f, sent
         networks = split(latency, us, " ")
         split(bandwidth, gb, " ")
-        head = "| discs | steps a frame |"
+        head = "| discs | steps per frame |"
         rule = "|---|---|"
         for (k = 1; k <= networks; k++) {
             head = head " ranks and gain at " us[k] " µs, " gb[k] " GB/s |"

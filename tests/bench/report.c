@@ -35,7 +35,7 @@ static double unit_seconds(const Case *c, const Figures *f) {
     return f->physics / f->steps / (c->unit == PER_PAIR ? pairs : c->n);
 }
 
-// What grows: the script's whole frame where the script does the work, else the physics.
+// Returns the time whose growth is reported: the frame if most of the work is in the script, else the physics.
 static double growing(const Case *c, const Figures *f) {
     return c->unit == PER_PARTICLE ? f->frame : f->physics;
 }
@@ -101,12 +101,13 @@ static const Column build_columns[] = {
 };
 
 Table report_builds(const Results *results) {
-    Table table = table_new("Beside the other build", build_columns, sizeof build_columns / sizeof *build_columns);
+    Table table =
+        table_new("Comparison with the other build", build_columns, sizeof build_columns / sizeof *build_columns);
     for (size_t i = 0; i < case_count; i++) {
         const Figures *f = &results->figures[i];
         if (!f->done)
             continue;
-        // With one thread there is no variant of its own.
+        // With plan->threads == 1 there is no separate variant.
         double physics = isnan(f->physics_threads) ? f->physics : f->physics_threads;
         double frame = isnan(f->frame_threads) ? f->frame : f->frame_threads;
         double evaluation = isnan(f->evaluation_threads) ? f->evaluation : f->evaluation_threads;
@@ -127,7 +128,7 @@ Table report_builds(const Results *results) {
 
 // ---- targets
 
-// What a target is about; the workload is named beside it.
+// The quantity of a target.
 typedef enum Measure {
     FRAME_MS,
     PHYSICS_MS,
@@ -150,8 +151,8 @@ typedef struct Target {
     const char *unit;
     const char *workload; // NULL: none of cases.c
     Measure measure;
-    double reference; // 0: there is none
-    double must, aim; // aim 0: none
+    double reference; // of the reference implementation; 0: none
+    double must, aim; // required value; desired value, 0: none
 } Target;
 
 // The reference implementation's figures were published with the workloads (tests/bench/PEERS.md, section 1).
@@ -161,10 +162,10 @@ static const Target targets[] = {
     {"packed box 4000: whole frame", "ms", "packed box 4000", FRAME_MS, 90.7, 0.6, 0.3},
     {"gravity 4000: physics", "ms", "gravity 4000", PHYSICS_MS, 147, 9, 6.5},
     {"soft discs 1e4: physics", "ms", "soft discs 10000", PHYSICS_MS, 647, 0.4, 0.12},
-    {"soft discs 1e5: one step beside LAMMPS", "times", NULL, PEER_1E5, 0, 1.2, 3},
-    {"soft discs 1e6: one step beside LAMMPS", "times", NULL, PEER_1E6, 0, 1.2, 3},
-    {"soft discs 1e5: ten steps beside LAMMPS", "times", NULL, PEER_1E5_X10, 0, 2, 4},
-    {"soft discs 1e6: ten steps beside LAMMPS", "times", NULL, PEER_1E6_X10, 0, 2, 4},
+    {"soft discs 1e5: one step compared with LAMMPS", "times", NULL, PEER_1E5, 0, 1.2, 3},
+    {"soft discs 1e6: one step compared with LAMMPS", "times", NULL, PEER_1E6, 0, 1.2, 3},
+    {"soft discs 1e5: ten steps compared with LAMMPS", "times", NULL, PEER_1E5_X10, 0, 2, 4},
+    {"soft discs 1e6: ten steps compared with LAMMPS", "times", NULL, PEER_1E6_X10, 0, 2, 4},
     {"script 2000: evaluation", "ms", "script 2000", EVALUATION_MS, 11.5, 1.2, 0.7},
     {"dish 200: start to first frame", "ms", "dish 200", START_MS, 315, 10, 4},
     {"electrostatic pairs: rate of the limit", "%", NULL, KERNEL_2D, 0, 75, 95},
@@ -180,7 +181,8 @@ static double on_threads(double threads, double one) {
     return isnan(threads) ? one : threads;
 }
 
-// Least-squares slope of log time over log n, up to this row of its family; all of the family must be there.
+// Returns the least-squares slope of log time over log n for this row and the smaller ones of its family. Returns NaN
+// if one of them was not measured.
 static double growth_of(const Results *results, size_t last) {
     double count = 0, x = 0, y = 0, xx = 0, xy = 0;
     for (size_t i = last; i != case_count; i = case_before(i)) {
@@ -192,7 +194,7 @@ static double growth_of(const Results *results, size_t last) {
     return (count * xy - x * y) / (count * xx - x * x);
 }
 
-// A frame of one step costs B + S, one of ten B + 10 S: seconds of B.
+// A frame of one step takes B + S seconds, one of ten steps B + 10 S. Returns B.
 static double beyond_step(const Results *results, size_t index) {
     const Figures *one = &results->figures[index], *ten = one + 1;
     if (!ten->done)
@@ -246,18 +248,18 @@ static double ours_of(const Results *results, const Target *t) {
 }
 
 static const Column target_columns[] = {
-    {"target", "issue 5 asks for", ""}, {"petri", "petri", ""}, {"unit", "", ""},   {"reference", "reference", ""},
-    {"ratio", "times", "faster"},       {"must", "must", ""},   {"aim", "aim", ""}, {"met", "met", ""},
+    {"target", "target", ""},     {"petri", "petri", ""}, {"unit", "", ""},   {"reference", "reference", ""},
+    {"ratio", "times", "faster"}, {"must", "must", ""},   {"aim", "aim", ""}, {"met", "met", ""},
 };
 
 Table report_targets(const Results *results, bool all) {
-    Table table = table_new("What issue 5 asks for", target_columns, sizeof target_columns / sizeof *target_columns);
+    Table table = table_new("Targets (issue 5)", target_columns, sizeof target_columns / sizeof *target_columns);
     for (size_t i = 0; i < sizeof targets / sizeof *targets; i++) {
         const Target *t = &targets[i];
         double ours = ours_of(results, t);
         if (isnan(ours) && !all)
             continue;
-        // Rates must be high, all else low.
+        // Rates must be high, all other quantities low.
         bool high = t->measure >= KERNEL_2D;
         bool must = high ? ours >= t->must : ours <= t->must, aim = high ? ours >= t->aim : ours <= t->aim;
         char wanted[TABLE_TEXT];

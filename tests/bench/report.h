@@ -1,4 +1,4 @@
-// report.h: the measured figures as tables.
+// report.h: tables of the measured figures.
 #ifndef TESTS_BENCH_REPORT_H
 #define TESTS_BENCH_REPORT_H
 
@@ -6,7 +6,7 @@
 #include "peers.h"
 #include "table.h"
 
-// All that a run has measured; figures[i] belongs to cases[i].
+// All figures of a run; figures[i] belongs to cases[i].
 typedef struct Results {
     Figures *figures;
     KernelFigures kernels[2]; // electrostatic in 2 dimensions, gravity in 3; 0: not measured
@@ -14,9 +14,9 @@ typedef struct Results {
 } Results;
 
 Table report_workloads(const Results *results);
-// What issue 5 asks for: figure, reference implementation, target. `all`: with the rows that were not measured.
+// Returns the table of targets of issue 5. `all`: includes rows that were not measured.
 Table report_targets(const Results *results, bool all);
-// This build beside the other one.
+// Returns the table that compares this build with the other one.
 Table report_builds(const Results *results);
 
 #endif

@@ -1,5 +1,5 @@
-// sweeps.c: see sweeps.h. The fastest round counts: what disturbs the machine can only make it slower, and does so most
-// when all processors are to be used.
+// sweeps.c: see sweeps.h. The fastest round is reported, because disturbances only make rounds slower, most of all when
+// all processors are in use.
 #include "sweeps.h"
 
 #include <math.h>

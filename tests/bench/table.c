@@ -17,7 +17,7 @@ void table_free(Table *table) {
 Cell *table_row(Table *table) {
     void *grown = realloc(table->rows, (table->row_count + 1) * sizeof *table->rows);
     if (!grown) {
-        fputs("bench: no memory\n", stderr);
+        fputs("bench: out of memory\n", stderr);
         exit(1);
     }
     table->rows = grown;
@@ -37,7 +37,7 @@ Cell cell_text(const char *text) {
     return cell;
 }
 
-// Three digits for the eye; whole numbers without a point.
+// Returns the text of a cell: about three digits, integers without a decimal point.
 static const char *shown(const Cell *cell, char buffer[TABLE_TEXT]) {
     double x = cell->number, size = fabs(x);
     if (cell->text[0])
@@ -100,7 +100,7 @@ void table_write_markdown(const Table *table, FILE *file) {
     }
 }
 
-// Texts hold no commas and no quotes.
+// Does not quote, because texts contain no commas and no quotes.
 void table_write_csv(const Table *table, FILE *file) {
     for (size_t k = 0; k < table->column_count; k++)
         fprintf(file, "%s%s", k ? "," : "", table->columns[k].name);

@@ -1,4 +1,4 @@
-// table.h: a table of figures, written as aligned text, Markdown or CSV.
+// table.h: tables of figures, which are written as aligned text, Markdown or CSV.
 #ifndef TESTS_BENCH_TABLE_H
 #define TESTS_BENCH_TABLE_H
 
@@ -6,14 +6,14 @@
 #include <stdio.h>
 
 typedef struct Column {
-    const char *name; // in CSV
-    const char *top;  // the two lines of its heading
-    const char *bottom;
+    const char *name;   // heading in CSV
+    const char *top;    // first line of the heading in text
+    const char *bottom; // second line
 } Column;
 
 enum { TABLE_CELLS = 24, TABLE_TEXT = 64 };
 
-// A cell holds a text, or a number if the text is empty; NaN stands for a figure that there is not.
+// A cell contains a text, or a number if the text is empty. NaN: no figure.
 typedef struct Cell {
     char text[TABLE_TEXT]; // without commas and quotes
     double number;
@@ -29,7 +29,7 @@ typedef struct Table {
 
 Table table_new(const char *title, const Column *columns, size_t column_count);
 void table_free(Table *table);
-// A new row, to be filled with the functions below; it moves when the next one is made.
+// Adds a row of empty cells. Valid until the next table_row.
 Cell *table_row(Table *table);
 Cell cell_number(double x);
 Cell cell_text(const char *text);

@@ -32,7 +32,7 @@ static void exit_with_error(const char *what) {
     exit(1);
 }
 
-// ---- the worker's side
+// ---- in the worker
 
 static void show_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     (void)host;
@@ -45,8 +45,8 @@ static bool count_bytes(void *host, const char *text, size_t length) {
     return true;
 }
 
-// The kernel's figure `name` for this process, such as VmHWM, in bytes. Unlike getrusage's it does not begin with what
-// the parent had in use.
+// Returns a memory figure of this process, such as VmHWM, in bytes. Unlike the one of getrusage, it does not include
+// the parent's memory.
 static double memory_figure(const char *name) {
     FILE *file = fopen("/proc/self/status", "r");
     char line[256];
@@ -66,7 +66,7 @@ static bool run_frames(PetriSession *session, int frames, Sample *sum) {
         uint64_t before = allocations_so_far();
         double begin = clock_now();
         if (petri_step(session) != PETRI_OK) {
-            fputs("bench: the script reached a limit\n", stderr);
+            fputs("bench: the script exceeded a limit\n", stderr);
             return false;
         }
         sum->frame += clock_now() - begin;
@@ -85,7 +85,7 @@ static bool run_frames(PetriSession *session, int frames, Sample *sum) {
     return true;
 }
 
-// Seconds of writing the state once, of several times if that is short.
+// Returns the seconds for writing the state once, averaged over 5 ms.
 static double time_output(PetriSession *session) {
     double begin = clock_now(), spent;
     int times = 0;
@@ -130,12 +130,12 @@ int worker_main(int argc, char **argv) {
     return status;
 }
 
-// ---- the other side
+// ---- in the bench
 
-// A pipe that a later worker does not inherit: each worker must see the end of its own input.
+// Opens a pipe that later workers do not inherit, so that each worker sees the end of its input.
 static void open_pipe(int ends[2]) {
     if (pipe(ends) || fcntl(ends[0], F_SETFD, FD_CLOEXEC) < 0 || fcntl(ends[1], F_SETFD, FD_CLOEXEC) < 0)
-        exit_with_error("cannot talk to a worker");
+        exit_with_error("cannot communicate with a worker");
 }
 
 Worker worker_start(const char *executable, const char *script, int threads, double fps) {
@@ -159,7 +159,7 @@ Worker worker_start(const char *executable, const char *script, int threads, dou
     close(up[1]);
     Worker worker = {.process = process, .to = fdopen(down[1], "w"), .from = fdopen(up[0], "r")};
     if (!worker.to || !worker.from)
-        exit_with_error("cannot talk to a worker");
+        exit_with_error("cannot communicate with a worker");
     return worker;
 }
 
@@ -169,7 +169,7 @@ Sample worker_run(Worker *worker, int frames, bool with_output) {
     fflush(worker->to);
     if (fscanf(worker->from, "%lf %lf %lf %lf %lf %lf %lf %lf %lf %lf", &s.frame, &s.evaluation, &s.physics, &s.output,
                &s.steps, &s.cpu_share, &s.allocations, &s.load, &s.base, &s.peak) != 10) {
-        fputs("bench: a worker ended before its time\n", stderr);
+        fputs("bench: a worker ended unexpectedly\n", stderr);
         exit(1);
     }
     return s;

@@ -60,7 +60,7 @@ static void start_gravity(Workload *w) {
     }
 }
 
-// Thermal soft discs or spheres of diameter 1 on a grid: the workloads that LAMMPS runs too.
+// Thermal soft discs or spheres of diameter 1 on a grid: the workloads that are compared with LAMMPS.
 static void start_soft(Workload *w) {
     uint32_t side = (uint32_t)lround(w->dimensions == 2 ? sqrt(w->n) : cbrt(w->n));
     double pitch = w->dimensions == 2 ? PITCH : 0.95551; // volume fraction 0.60
@@ -81,7 +81,7 @@ Workload workload_open(WorkloadKind kind, uint32_t n, const PhysOptions *options
     w.bodies = calloc(n, sizeof *w.bodies);
     w.system = phys_new();
     if (!w.bodies || !w.system) {
-        fputs("bench: no memory\n", stderr);
+        fputs("bench: out of memory\n", stderr);
         exit(1);
     }
     phys_set_options(w.system, options);
@@ -179,7 +179,7 @@ void workload_frame(Workload *w, int steps) {
     time.now = w->clock + steps * w->delta;
     PhysResult result = phys_simulate(w->system, &time);
     if (result.status != PHYS_OK) {
-        fputs("bench: the system was refused\n", stderr);
+        fputs("bench: the system was rejected\n", stderr);
         exit(1);
     }
     w->clock = result.clock;

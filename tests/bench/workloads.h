@@ -1,4 +1,4 @@
-// workloads.h: the systems that are measured, those of the scripts that `petri` is compared with.
+// workloads.h: the systems of the benchmark scripts, built directly for lib/physics.
 #ifndef TESTS_BENCH_WORKLOADS_H
 #define TESTS_BENCH_WORKLOADS_H
 
@@ -8,7 +8,7 @@
 
 typedef enum WorkloadKind { DISH, BOX, GRAVITY, DISCS, SPHERES, CHARGES, WORKLOAD_KINDS } WorkloadKind;
 
-// What a particle starts from. Between frames the bench keeps position and velocity here, as the scene does.
+// A particle. Between frames, the bench stores position and velocity here, as lib/scene does.
 typedef struct Body {
     double position[3];
     double velocity[3];
@@ -19,11 +19,11 @@ typedef struct Body {
 
 typedef struct Workload {
     WorkloadKind kind;
-    uint32_t n;          // bodies, the dish's hub not counted
+    uint32_t n;          // number of bodies, without the hub of the dish
     uint32_t dimensions; // 2 or 3
-    double delta;        // length of a step
+    double delta;        // length of a step in time units
     double clock;
-    double width; // side of the box or radius of the dish
+    double width; // edge of the box or radius of the dish
     uint64_t frame;
     Body *bodies;
     PhysSystem *system;
@@ -31,7 +31,7 @@ typedef struct Workload {
 
 Workload workload_open(WorkloadKind kind, uint32_t n, const PhysOptions *options);
 void workload_close(Workload *workload);
-// Describes the system anew and simulates `steps` steps.
+// Describes the system again, as each frame does, and simulates `steps` steps.
 void workload_frame(Workload *workload, int steps);
 const char *workload_name(WorkloadKind kind);
 

@@ -1,10 +1,10 @@
 #!/bin/sh
-# lammps.sh: runs soft.lmp once with LAMMPS and tells how fast it was.
+# lammps.sh: runs soft.lmp once with LAMMPS and prints its speed.
 # usage: lammps.sh DIMENSIONS SIDE STEPS STYLE RANKS
-#   STYLE: harmonic or hooke (soft.lmp says what they are). Where this LAMMPS lacks harmonic/cut, table stands in for it.
-# Prints: STYLE-USED PARTICLE-STEPS-PER-SECOND CPU-SHARE-OF-A-RANK-IN-PERCENT STEPS-PER-LIST. LAMMPS' own time of its
-# second run is taken: set-up and the first hundred steps are outside of it.
-# usage: lammps.sh version: prints which LAMMPS there is, or says on stderr why there is none (exit status 1).
+#   STYLE: harmonic or hooke, see soft.lmp; table is used instead of harmonic if this LAMMPS has no harmonic/cut
+# Prints: STYLE-USED PARTICLE-STEPS-PER-SECOND CPU-SHARE-OF-A-RANK-IN-PERCENT STEPS-PER-LIST. The time is what LAMMPS
+# reports for its second run, without set-up and the first hundred steps.
+# usage: lammps.sh version: prints the version of LAMMPS; without LAMMPS, prints a message and exits with 1.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 
@@ -14,8 +14,8 @@ fail() {
 }
 
 for command in lmp mpirun; do
-    command -v $command >/dev/null || fail "there is no LAMMPS here ($command is missing); Debian's packages are lammps" \
-        "and openmpi-bin, and './dev bench --peers' installs them"
+    command -v $command >/dev/null || fail "LAMMPS is not installed ($command is missing; Debian packages lammps and" \
+        "openmpi-bin); to install it, run: ./dev bench --peers"
 done
 if [ "${1:-}" = version ]; then
     lmp -h | awk '/Massively Parallel Simulator/ { sub(/.*Simulator *-? */, ""); print; exit }'
@@ -41,7 +41,7 @@ if [ "$style" = harmonic ] && ! lmp -h | tr -s ' \t' '\n' | grep -qx harmonic/cu
     }' >soft.table
 fi
 
-# One process needs no mpirun; several may run as root, and more of them than there are processors.
+# mpirun is only needed for several processes. They may run as root, and there may be more than processors.
 run=lmp
 [ "$5" -eq 1 ] || run="mpirun --oversubscribe -np $5 lmp"
 export OMP_NUM_THREADS=1 OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
@@ -61,5 +61,5 @@ awk -v style="$style" '
         printf "%s %.6g %g %.3g\n", style, particles * steps / seconds, share, every
     }' out || {
     tail -n 5 out >&2
-    fail "LAMMPS said nothing of its time"
+    fail "cannot read the time in LAMMPS' output"
 }
