@@ -1,9 +1,9 @@
-// fail_nth.c: to be preloaded: of the allocations that the program's own code asks for, the N-th fails (FAIL_AT=N), or
-// all from the N-th on (FAIL_FROM=N). Their number goes into the file COUNT_FILE at exit; with FAIL_TELL set, where the
-// one that fails is called from goes to standard error, for addr2line.
+// fail_nth.c: preloaded library that lets allocations of the program fail: the N-th one (FAIL_AT=N), or all from the
+// N-th on (FAIL_FROM=N). Their number is written to the file COUNT_FILE at exit. With FAIL_TELL, the return address of
+// each failed allocation is printed to stderr, for addr2line.
 //
-// What libraries ask for is left alone: some of them end the process (GLib below Pango does), and petri cannot help
-// that. Which calls are the program's own is seen from the address to which they return.
+// Allocations of other libraries never fail, because some libraries (GLib below Pango) then end the process. Calls of
+// the program are recognised by their return address.
 #define _GNU_SOURCE
 #include <dirent.h>
 #include <dlfcn.h>
@@ -15,13 +15,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The C library's own allocator, under the names that it has when somebody else takes the usual ones.
+// The allocator of the C library, under the names that remain when the usual ones are replaced.
 void *__libc_malloc(size_t size);
 void *__libc_calloc(size_t count, size_t size);
 void *__libc_realloc(void *bytes, size_t size);
 void *__libc_memalign(size_t alignment, size_t size);
 
-static uintptr_t base, first, last; // where the program is, and its code; nothing is counted before they are known
+static uintptr_t base, first, last; // base address and code range of the program; 0 until known
 static long fail_at, fail_from;
 static atomic_long count;
 
@@ -34,7 +34,7 @@ static int find_program(struct dl_phdr_info *program, size_t size, void *context
             first = base + program->dlpi_phdr[i].p_vaddr;
             last = first + program->dlpi_phdr[i].p_memsz;
         }
-    return 1; // the program itself comes first
+    return 1; // the program is the first entry
 }
 
 static long number_of(const char *name) {
@@ -45,7 +45,7 @@ static long number_of(const char *name) {
 __attribute__((constructor)) static void begin(void) {
     fail_at = number_of("FAIL_AT");
     fail_from = number_of("FAIL_FROM");
-    unsetenv("LD_PRELOAD"); // programs that this one starts are not meant
+    unsetenv("LD_PRELOAD"); // not for programs that this one starts
     dl_iterate_phdr(find_program, NULL);
 }
 
@@ -74,7 +74,7 @@ static int fails(const void *caller) {
 
 #define FAILS fails(__builtin_return_address(0))
 
-// What stands here takes the place of the C library's own.
+// The following functions replace those of the C library.
 #pragma GCC visibility push(default)
 
 void *malloc(size_t size) {
@@ -93,7 +93,7 @@ void *aligned_alloc(size_t alignment, size_t size) {
     return FAILS ? NULL : __libc_memalign(alignment, size);
 }
 
-// What allocates inside the C library.
+// Functions that allocate inside the C library.
 
 char *strdup(const char *text) {
     size_t size = strlen(text) + 1;
@@ -101,8 +101,8 @@ char *strdup(const char *text) {
     return copy ? memcpy(copy, text, size) : NULL;
 }
 
-char *strndup(const char *text, size_t most) {
-    size_t length = strnlen(text, most);
+char *strndup(const char *text, size_t max_length) {
+    size_t length = strnlen(text, max_length);
     char *copy = FAILS ? NULL : __libc_malloc(length + 1);
     if (!copy)
         return NULL;
@@ -110,7 +110,7 @@ char *strndup(const char *text, size_t most) {
     return memcpy(copy, text, length);
 }
 
-// The same function, as the C library has it.
+// Looks up the C library's version of a function.
 #define REAL(function, real)                                                                                           \
     __typeof__(function) *real;                                                                                        \
     *(void **)&real = dlsym(RTLD_NEXT, #function)

@@ -1,9 +1,8 @@
 #!/bin/sh
-# run.sh: a failed allocation is a value: each allocation that a command makes fails in turn, alone and with all that come
-# after it. The command then does all that it was asked for, or it says that memory is used up and ends with status 1;
-# files that it writes are the old ones or the new ones.
-# usage: tests/memory/run.sh PATH-OF-PETRI PATH-OF-PETRI-PICTURES FAIL_NTH.SO [ACT...]. So many allocations of each act
-# are tried in each of the two ways (TRIES, 12); all of them with TRIES=all.
+# run.sh: lets each allocation of a command fail in turn, alone and with all later ones. The command must then succeed
+# completely, or report that it is out of memory and exit with status 1. Its files must be the old or the new ones.
+# usage: tests/memory/run.sh PATH-OF-PETRI PATH-OF-PETRI-PICTURES FAIL_NTH.SO [ACT...]. Tries TRIES allocations of each
+# act in each of the two ways (default: 12); TRIES=all tries all of them.
 
 # shellcheck source=tests/support/check.sh
 . "$(dirname "$0")/../support/check.sh"
@@ -16,7 +15,7 @@ tries=${TRIES:-12}
 [ "$tries" != all ] || tries=1000000
 
 scratch
-cp "$library" fail_nth.so # LD_PRELOAD splits its value at blanks
+cp "$library" fail_nth.so # LD_PRELOAD splits its value at spaces
 unset NO_COLOR
 TMPDIR=$work
 TERM=xterm
@@ -81,24 +80,25 @@ cp "$root/tests/pictures/images/small.jpg" i.jpg
 mkdir g
 cp s.fl module.fl table.csv g
 
-# run N WAY PROGRAM...: the command with the N-th allocation failing, WAY being FAIL_AT or FAIL_FROM.
+# run N WAY PROGRAM...: runs the command with the N-th allocation failing; WAY is FAIL_AT or FAIL_FROM.
 run() {
     n=$1 way=$2
     shift 2
     rm -rf new
     mkdir new
     cp -r old/. new
-    # shellcheck disable=SC2086 # a program, or nothing
+    # shellcheck disable=SC2086 # $terminal may be empty
     timeout 60 $terminal env LD_PRELOAD="$work/fail_nth.so" "$way=$n" COUNT_FILE=count "$@" >out 2>err <"$input"
     status=$?
 }
 
-# Whether it told of it: status 1, and in words.
-# A run of a sweep that fails is a row of its table.
-told() { { status_is 1 || grep -qs -e 'memory for' -e 'the process ended' new/t.table; } && grep -qi 'memory' out err; }
-# Whether it did what it does otherwise, in the same words.
+# Succeeds if the failure was reported: with status 1, or as the row of a failed run in the table of a sweep.
+is_reported() {
+    { status_is 1 || grep -qs -e 'out of memory' -e 'the process ended' new/t.table; } && grep -qi 'memory' out err
+}
+# Succeeds if status, output and files are those of a run without failures.
 same() { [ "$status" -eq "$good" ] && same_output && same_files; }
-# What a terminal sees tells times, too; but it sees the picture.
+# The output in a terminal contains times, so that only the picture is checked.
 same_output() {
     if [ "$terminal" ]; then
         grep -q '48;5;29m' out
@@ -111,7 +111,7 @@ same_files() {
         [ ! -e "$file" ] || cmp -s "$file" "new/$(basename "$file")" || return 1
     done
 }
-# Whether each file is the old one or a whole one, perhaps of fewer frames, and no other is left.
+# Succeeds if each file is the old one or complete, possibly with fewer frames, and there are no other files.
 whole() {
     for file in new/* new/.[!.]*; do
         [ -e "$file" ] || continue
@@ -120,24 +120,24 @@ whole() {
             case $base in
             *.state) head -n 1 "$file" | grep -qx 'petri-state 1' && tail -n 1 "$file" | grep -q '^end [0-9a-f]*$' ;;
             *.table) awk -F, 'NR == 1 { n = NF } NF != n { bad = 1 } END { exit bad || NR > 4 }' "$file" ;;
-            *.table.runs | *.table.part) ;; # the same command goes on from there
+            *.table.runs | *.table.part) ;; # the same command resumes from these
             *.csv) awk -F, 'NR == 1 { n = NF } NF != n { bad = 1 } END { exit bad || NR % 7 != 1 }' "$file" ;;
             *) false ;;
             esac || return 1
     done
 }
-is_acceptable() { same || { told && whole; }; }
+is_acceptable() { same || { is_reported && whole; }; }
 
 print_details() { tail -n 3 out err | sed 's/^/  /'; }
 
-# fail NAME COMMAND...: for each allocation; `input` is its standard input.
+# fail NAME COMMAND...: tests the command with failing allocations; `input` is its standard input.
 fail() {
     act=$1
     shift
     [ -z "$wanted" ] || case " $wanted " in *" $act "*) ;; *) return ;; esac
     run 0 FAIL_AT "$@"
     total=$(cat count)
-    # Fewer, and it is the counting that does not work.
+    # With fewer allocations, the counting does not work.
     cp out good.out
     check "$act: $total allocations" eval 'same_output && status_is "$good" && [ "$total" -ge 20 ]'
     rm -rf good.new
@@ -173,7 +173,7 @@ let A=A or 1
     !particle id=1 position=A velocity=A
 DONE
 fail sweep "$plain" sweep runs.fl -D 'A=1;2;3' --frames 2 --metric 'x=$(:cells;1)' --jobs 1 -o new/t.table --summary new/u.table
-# Starting OpenGL takes long: only by name.
+# Only if requested by name, because starting OpenGL is slow.
 if [ "$wanted" = scene ]; then
     printf 'v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n' >m.obj
     cat >scene.fl <<'END'
@@ -281,7 +281,7 @@ if command -v script >/dev/null; then
     printf '#!/bin/sh\nexec script -qec "$*" /dev/null\n' >in_terminal
     chmod +x in_terminal
     ln -s "$pictures" petri-pictures # in_terminal does not quote its arguments
-    # Frame 0 is not shown, and no more than 30 others a second.
+    # Frame 0 is not shown, and at most 30 others per second.
     fail view "$work/petri-pictures" view --terminal --frames 6 s.fl
 fi
 finish
