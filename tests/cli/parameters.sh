@@ -60,7 +60,7 @@ petri run --frames 1 -D CELS=8 cells.fl
 check "-D of a name that is not read is a warning" has err "cells.fl:1:5: warning: unused definition 'CELS'"
 check "the warning about an unused definition suggests the nearest parameter" has err "did you mean 'CELLS'?"
 petri run --frames 1 -D WIDE=8 cells.fl
-check "-D of a module's parameter is a warning there" has err "cells_module.fl:1:5: warning: the definition of 'WIDE'"
+check "-D of a module's parameter is a warning there" has err "cells_module.fl:1:5: warning: unused definition 'WIDE'"
 petri run --frames 1 -D CELLS=501 cells.fl
 check "-D outside the range is a warning" has err "cells.fl:1:5: warning: CELLS=501 is outside the range 1..500"
 petri run --frames 1 -D CELLS=0 cells.fl
