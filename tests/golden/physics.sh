@@ -1,15 +1,15 @@
 #!/bin/sh
-# physics.sh PETRI FOLDER OPTION...: `petri test` on the scripts of a folder that have physics in them; how it is
-# computed is nothing to the others.
+# physics.sh PETRI FOLDER OPTION...: runs `petri test` with the options on the scripts with physics in a folder. The
+# options do not affect other scripts.
 set -eu
-least=60 # a search that finds nothing would pass
+min_scripts=60 # detects a broken search, which would find none
 petri=$1
 folder=$2
 shift 2
 search() { grep -r --include='*.fl' -F '!physics' "$@" "$folder"; }
 count=$(search -l | grep -c .)
-if [ "$count" -lt $least ]; then
-    echo "found $count scripts with physics, expected at least $least"
+if [ "$count" -lt $min_scripts ]; then
+    echo "found $count scripts with physics, expected at least $min_scripts"
     exit 1
 fi
 search -lZ | xargs -0 "$petri" test "$@"
