@@ -113,7 +113,7 @@ static void report_unknown(const Reader *reader, const Symbol *name) {
     Text out = text_new(reader->arena);
     text_add_format(&out, "unknown attribute '%.*s'", STR_ARGS(name->name));
     if (nearest.found.len)
-        text_add_format(&out, ", did you mean '%.*s'?", STR_ARGS(nearest.found));
+        text_add_format(&out, "; did you mean '%.*s'?", STR_ARGS(nearest.found));
     report_symbol(reader, "unknown-attribute", name, text_str(&out));
 }
 
@@ -123,14 +123,14 @@ void schema_add_nearest_kind(Text *out, Str kind, PlaceKind place, const char *b
         if (schema_can_contain((NodeKind)i, place) || (place == PLACE_TOP && is_in_window(schema_kinds[i].place)))
             str_try_nearest(&nearest, str_from(schema_kinds[i].name));
     if (nearest.found.len)
-        text_add_format(out, ", did you mean %s%.*s%s?", before, STR_ARGS(nearest.found), after);
+        text_add_format(out, "; did you mean %s%.*s%s?", before, STR_ARGS(nearest.found), after);
 }
 
 static void add_hex(Text *out, Value found) {
     Text colour = text_new(out->arena);
     if (found.len == 1 && found.kind == VALUE_MIXED && found.as.items[0].type == ITEM_STRING &&
         text_add_hex_colour(&colour, found.as.items[0].as.string->text))
-        text_add_format(out, ", did you mean %.*s?", STR_ARGS(colour));
+        text_add_format(out, "; did you mean %.*s?", STR_ARGS(colour));
 }
 
 static void add_expected(Text *out, const Reader *reader, const TypeRow *type) {

@@ -73,7 +73,7 @@ void reader_report(const Reader *reader, const char *code, const char *key, Str 
 void reader_report_attr(const Reader *reader, const char *code, AttrName name, Str text);
 // Like reader_report, but at a given origin.
 void reader_report_at(const Reader *reader, const char *code, Origin place, Str key, Str text);
-// Adds ", did you mean …?" if a kind that is accepted at `place` has a name similar to `kind`. PLACE_TOP also accepts
+// Adds "; did you mean …?" if a kind that is accepted at `place` has a name similar to `kind`. PLACE_TOP also accepts
 // every kind that can be in a window.
 void schema_add_nearest_kind(Text *out, Str kind, PlaceKind place, const char *before, const char *after);
 

@@ -86,17 +86,17 @@ check "warnings of nodes do not fail a check" status_is 0
 check "a check prints nothing of the frame" empty out
 check "a check does not print what the first frame logs" lacks err "> seen"
 check "a check does not draw !record" [ ! -e out.png ]
-for told in "4:13: warning: !path: '!elipse' is not supported; ignored, did you mean '!ellipse'?" \
-    "5:34: warning: !ellipse: unknown attribute 'radus', did you mean 'radius'?" \
-    "6:9: warning: !canvas: '!fil' is not supported; ignored, did you mean '!fill'?" \
+for told in "4:13: warning: !path: '!elipse' is not supported; ignored; did you mean '!ellipse'?" \
+    "5:34: warning: !ellipse: unknown attribute 'radus'; did you mean 'radius'?" \
+    "6:9: warning: !canvas: '!fil' is not supported; ignored; did you mean '!fill'?" \
     "8:1: warning: '!pysics' does nothing" \
     "9:1: warning: !physics: no state prefix" \
     "12:5: warning: !particle: no id; ignored" \
-    "13:5: warning: !partcle id=1: no such node inside !physics; ignored, did you mean !particle?" \
-    "15:24: warning: !particle id=0: unknown attribute 'poistion', did you mean 'position'?" \
-    "16:23: warning: !particle id=:far: unknown attribute 'positoin', did you mean 'position'?" \
+    "13:5: warning: !partcle id=1: no such node inside !physics; ignored; did you mean !particle?" \
+    "15:24: warning: !particle id=0: unknown attribute 'poistion'; did you mean 'position'?" \
+    "16:23: warning: !particle id=:far: unknown attribute 'positoin'; did you mean 'position'?" \
     "17:16: warning: !collision: strength should be one number, not 'much'" \
-    "20:15: warning: !rect: unknown attribute 'piont', did you mean 'point'?" \
+    "20:15: warning: !rect: unknown attribute 'piont'; did you mean 'point'?" \
     "21:1: warning: cannot import 'nowhere.fl': no such file" \
     "23:5: warning: cannot import 'neither.fl': no such file" \
     "25:10: warning: cannot include 'gone.fl'"; do

@@ -210,7 +210,7 @@ END
         "!ellipse: radius should be" "!line: points should be" "!rect: size should be" "!font: size should be" \
         "!text: point should be" "!paint: color should be grey" "!paint: stroke_width should be number, 0 or more" \
         "!paint: stroke_join should be :miter, :round or :bevel, not :rond" "!paint: composite should be a word such as :over" \
-        "unknown attribute 'colour', did you mean 'color'?" "'!elipse' is not supported; ignored, did you mean '!ellipse'?" \
+        "unknown attribute 'colour'; did you mean 'color'?" "'!elipse' is not supported; ignored; did you mean '!ellipse'?" \
         "'!stop' has no effect here" "cannot read 'absent.png': No such file" "cannot read 'disc.fl': neither PNG nor JPEG" \
         "there is no font 'No Such Font'"; do
         check "reported once: $text" count_is err "$text" 1

@@ -83,14 +83,14 @@ static void test_bad_attributes_are_reported(void **state) {
          1,
          {1},
          true,
-         "!group unknown attribute 'rotat', did you mean 'rotate'? [unknown-attribute]\n"},
+         "!group unknown attribute 'rotat'; did you mean 'rotate'? [unknown-attribute]\n"},
         {"group", "size", 1, {1}, true, "!group unknown attribute 'size' [unknown-attribute]\n"},
         {"grup",
          "rotate",
          1,
          {1},
          false,
-         "!canvas '!grup' is not supported; ignored, did you mean '!group'? [unknown-node]\n"},
+         "!canvas '!grup' is not supported; ignored; did you mean '!group'? [unknown-node]\n"},
         {"stop", "offset", 1, {1}, false, "!canvas '!stop' has no effect here; ignored [misplaced-node]\n"},
         {"canvas", "size", 1, {1}, false, "!canvas '!canvas' has no effect here; ignored [misplaced-node]\n"},
         {"font",
@@ -137,7 +137,7 @@ static void test_unsupported_nodes(void **state) {
     assert_string_equal(f.reported, "!canvas '!video' is not supported; ignored [unsupported-node]\n");
     assert_null(read_one(&f, "canvaz", "size", value_number(1)));
     assert_string_equal(f.reported,
-                        "!canvas '!canvaz' is not supported; ignored, did you mean '!canvas'? [unknown-node]\n");
+                        "!canvas '!canvaz' is not supported; ignored; did you mean '!canvas'? [unknown-node]\n");
     end(&f);
 }
 

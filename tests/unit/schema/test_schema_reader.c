@@ -134,7 +134,7 @@ static void test_mistakes_are_reported(void **state) {
     BodyAttrs body = {0}; // an anchor has no row for its velocity
     CounterAttrs counter;
     READ(&f, KIND_ANCHOR, &body, {"id", 7}, {"velocity", 1}, {"mss", 1});
-    assert_string_equal(f.reported, "!anchor id=7 unknown attribute 'mss', did you mean 'mass'? [unknown-attribute]\n");
+    assert_string_equal(f.reported, "!anchor id=7 unknown attribute 'mss'; did you mean 'mass'? [unknown-attribute]\n");
     assert_null(body.numbers.velocity);
     READ(&f, KIND_COUNTER, &counter, {"qqqqqq", 1});
     assert_string_equal(f.reported, "!counter unknown attribute 'qqqqqq' [unknown-attribute]\n");

@@ -68,16 +68,16 @@ static void test_malformed_attributes_are_reported(void **state) {
 static void test_unknown_attributes_are_reported(void **state) {
     static const ScriptRow rows[] = {
         {"!particle id=2 mas=3",
-         "warning !particle id=2: unknown attribute 'mas', did you mean 'mass'? [unknown-attribute]\n"},
+         "warning !particle id=2: unknown attribute 'mas'; did you mean 'mass'? [unknown-attribute]\n"},
         {"!particle id=2 colour=1;0;0", "warning !particle id=2: unknown attribute 'colour' [unknown-attribute]\n"},
         {"!drag strenght=3",
-         "warning !drag: unknown attribute 'strenght', did you mean 'strength'? [unknown-attribute]\n"},
+         "warning !drag: unknown attribute 'strenght'; did you mean 'strength'? [unknown-attribute]\n"},
         {"!gravity power=2",
          "warning !gravity: unknown attribute 'power' [unknown-attribute]\n"}, // attribute of another node
         {"!distance from=1 to=1 max_distance=3",
          "warning !distance: unknown attribute 'max_distance' [unknown-attribute]\n"},
         {"!partikel id=2",
-         "warning !partikel id=2: no such node inside !physics; ignored, did you mean !particle? [unknown-node]\n"},
+         "warning !partikel id=2: no such node inside !physics; ignored; did you mean !particle? [unknown-node]\n"},
         {"!qqqqqqqq", "warning !qqqqqqqq: no such node inside !physics; ignored [unknown-node]\n"},
         {"!physics state=:t dimensions=1",
          "warning !physics state=:t: no such node inside !physics; ignored [unknown-node]\n"},

@@ -147,7 +147,7 @@ static void test_invalid_counters_are_reported(void **state) {
         {"!counter state=!a\n",
          "warning !counter state=(!a): no usable state key; the counter is skipped [invalid-system]\n"},
         {"!counter state=:c rat=2\n",
-         "warning !counter state=:c: unknown attribute 'rat', did you mean 'rate'? [unknown-attribute]\n"},
+         "warning !counter state=:c: unknown attribute 'rat'; did you mean 'rate'? [unknown-attribute]\n"},
         {"!counter state=:c zzzzz=2\n", "warning !counter state=:c: unknown attribute 'zzzzz' [unknown-attribute]\n"},
         {"!counter state=:c rate='x'\n",
          "warning !counter state=:c: rate should be any numbers, not 'x' [bad-attribute]\n"},

@@ -146,7 +146,7 @@ static void test_invalid_nodes_are_reported(void **state) {
         {"!window\n    !key name=5 state=:k\n",
          "warning !key state=:k: no such key: 5; skipped [invalid-input-node]\n"},
         {"!window\n    !key name=:a state=:k nmae=:b\n",
-         "warning !key state=:k: unknown attribute 'nmae', did you mean 'name'? [unknown-attribute]\n"},
+         "warning !key state=:k: unknown attribute 'nmae'; did you mean 'name'? [unknown-attribute]\n"},
     };
     Player *player = *state;
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
