@@ -113,8 +113,9 @@ typedef enum PetriNeighbours {
 // the work of large systems.
 //
 // The functions transfer `count` blocks of `block_length` doubles; consecutive blocks start `stride` doubles apart, as
-// in MPI_Type_vector. Messages between two ranks arrive in the order sent. After petri_interrupt was called on all
-// ranks, the functions need not wait any longer; numbers that were not received are 0 then.
+// in MPI_Type_vector. Messages between two ranks must arrive in the order in which they were sent. After
+// petri_interrupt was called on all ranks, the functions need not wait any longer; numbers that were not received are
+// then set to 0.
 typedef struct PetriRanks {
     int rank;       // number of this process, from 0
     int rank_count; // number of processes
@@ -254,9 +255,9 @@ PETRI_API PetriStatus petri_check_text(PetriSession *session, const char *name, 
 // Computes the next frame, starting with frame 0: evaluates the script, then advances its particle systems. In real
 // time, waits until the frame is due. Returns PETRI_INVALID if no script is loaded, or within a callback.
 //
-// If the frame is aborted, the session is as before the call with PetriOptions.rollback_frames. Without it, there are
-// two exceptions. If evaluation exceeds a limit, the frame is counted, but the systems are not advanced. If the frame
-// is aborted while systems are advanced, it is counted, and each system has either finished the frame or not started
+// An aborted frame leaves the session as it was before the call. If PetriOptions.rollback_frames is false, there are
+// two exceptions. If the evaluation exceeds a limit, frame number and time advance, but the systems do not. If the
+// frame is aborted while systems are advanced, the frame counts, and each system has either finished it or not started
 // it.
 PETRI_API PetriStatus petri_step(PetriSession *session);
 
