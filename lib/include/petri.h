@@ -361,8 +361,9 @@ PETRI_API PetriStatus petri_set_tempo(PetriSession *session, double tempo);
 // is positive and finite.
 PETRI_API PetriStatus petri_set_fps(PetriSession *session, double fps);
 
-// Sets the maximum simulation step of all systems, in seconds of the script, which replaces the systems' own
-// `resolution`. 0 (the default) uses their own. Returns PETRI_INVALID if it is negative or not finite.
+// Sets the maximum simulation step of all systems, which replaces the `resolution` that systems set themselves. The
+// unit is that of the system's time: seconds, unless it sets `time`. 0 (the default) uses the systems' own. Returns
+// PETRI_INVALID if it is negative or not finite.
 PETRI_API PetriStatus petri_set_resolution(PetriSession *session, double resolution);
 
 // Returns the value set by petri_set_resolution.
