@@ -245,7 +245,7 @@ static bool run_restore(Repl *repl, const char *rest) {
     if (!repl_status(repl, petri_restore(repl->session, rest)))
         return false;
     repl_note(repl, "restored the state after frame %" PRId64, petri_frame(repl->session).number);
-    return history_start(&repl->history, repl->session, "a state was restored there") ||
+    return history_start(&repl->history, repl->session, "a state was restored") ||
            repl_status(repl, PETRI_OUT_OF_MEMORY);
 }
 

@@ -192,7 +192,7 @@ static bool run_back(Repl *repl, const char *rest) {
         return go_to(repl, petri_frame(repl->session).number - count);
     SCOPED_BYTE_BUFFER start = {0}; // why the history starts at its first frame
     const char *why = repl->history.why;
-    byte_buffer_format(&start, !why ? "this is the start" : "the history begins here (%s)", why);
+    byte_buffer_format(&start, !why ? "this is the start" : "the history starts here (%s)", why);
     if (ago > 0)
         repl_note(repl, "only %" PRId64 " frames in the history: %s", ago, start.data);
     else

@@ -26,8 +26,8 @@ enum { XYZ_DIMENSIONS = 3 };
 
 static bool report_error(Trajectory *trajectory, int error) {
     // petri-hdf5 has reported its error and ended; ECONNRESET if it had not read all input.
-    bool told = trajectory->format == TRAJECTORY_H5MD && (error == EPIPE || error == ECONNRESET);
-    if (!trajectory->failed && !told)
+    bool reported = trajectory->format == TRAJECTORY_H5MD && (error == EPIPE || error == ECONNRESET);
+    if (!trajectory->failed && !reported)
         message("cannot write %s: %s", trajectory->path, strerror(error));
     trajectory->failed = true;
     return false;

@@ -171,9 +171,9 @@ typedef struct ConditionDiagnostics {
 } ConditionDiagnostics;
 
 static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
-    ConditionDiagnostics *told = host;
-    told->any = true;
-    if (told->shown)
+    ConditionDiagnostics *diagnostics = host;
+    diagnostics->any = true;
+    if (diagnostics->shown)
         fputs(diagnostic->rendered, stderr);
 }
 
@@ -201,24 +201,24 @@ static void report_condition_error(PetriSession *session, const Design *design, 
 }
 
 static bool filter_runs(Design *design, const char *where, const CommandContext *host) {
-    ConditionDiagnostics told = {0};
+    ConditionDiagnostics diagnostics = {0};
     bool good = true;
     PetriOptions wanted = petri_default_options();
     wanted.stack_limit = host->stack_bytes;
     wanted.no_files = true;
     wanted.on_diagnostic = on_diagnostic;
-    wanted.user_data = &told;
+    wanted.user_data = &diagnostics;
     PetriSession *session = petri_open(&wanted);
     good = session && petri_load_text(session, "--where", "", 0) == PETRI_OK;
     size_t left = 0, width = design->axis_count;
     for (size_t run = 0; good && run < design->run_count; run++) {
         PetriEvaluation result = {0};
-        good = evaluate_condition(session, design, run, where, &result) && !told.any;
+        good = evaluate_condition(session, design, run, where, &result) && !diagnostics.any;
         if (good && result.is_true) {
             memmove(&design->value_indices[left++ * width], &design->value_indices[run * width],
                     width * sizeof *design->value_indices);
         } else if (!good) {
-            told.shown = true;
+            diagnostics.shown = true;
             report_condition_error(session, design, run, where);
         }
     }
