@@ -223,9 +223,9 @@ PETRI_API void petri_close(PetriSession **session);
 // without an equals sign, or if the name is not valid. Loading a script warns about definitions that it does not use.
 PETRI_API PetriStatus petri_define(PetriSession *session, const char *definition);
 
-// Loads a script from a file and continues with frame 0. The state dictionary is kept; petri_reset clears it. `file` is
+// Loads a script from a file. The next frame is frame 0. The state dictionary is kept; petri_reset clears it. `file` is
 // used in messages, and relative file names in the script start from its folder. Returns PETRI_INVALID if the file
-// cannot be read or is not a valid script, or within a callback.
+// cannot be read or is not a valid script, and within a callback.
 PETRI_API PetriStatus petri_load(PetriSession *session, const char *file);
 
 // Like petri_load, but loads the script from memory. `name` is used in messages, and its folder for relative file
@@ -369,7 +369,7 @@ PETRI_API PetriStatus petri_set_resolution(PetriSession *session, double resolut
 // Returns the value set by petri_set_resolution.
 PETRI_API double petri_resolution(const PetriSession *session);
 
-// Clears the state dictionary and continues with frame 0 of the loaded script.
+// Clears the state dictionary. The next frame is frame 0 of the loaded script.
 PETRI_API void petri_reset(PetriSession *session);
 
 // A configuration of a session: script, definitions, statements of the prompt, fps, tempo and resolution. It is shared
