@@ -51,6 +51,8 @@ export const GROUPS = [
     ]],
     ['To contribute', [
         { name: 'parser', title: 'The parser', about: 'Tokens, layout, soft keywords, error recovery', parts: [['src/manual/parser.md']] },
+        { name: 'drawing-code', title: 'Drawing code', about: 'Files of the 2-D drawing, effects and scenes; how to add nodes',
+            parts: [['src/manual/drawing-code.md']] },
     ]],
 ];
 export const PAGES = GROUPS.flatMap(([, pages]) => pages);
