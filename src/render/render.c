@@ -80,7 +80,7 @@ static bool read_output(Render *render) {
         render->kind = find_number(options->output, &end) ? OUTPUT_SERIES : OUTPUT_PICTURE;
     }
     if (options->frame >= 0 && render->kind == OUTPUT_FILM) {
-        message("option '--frame' is for pictures; '%s' is a film", render->display_name);
+        message("option '--frame' is for images; '%s' is a video", render->display_name);
         return false;
     }
     if (options->frame >= 0)
