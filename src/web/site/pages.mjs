@@ -51,6 +51,8 @@ export const GROUPS = [
     ]],
     ['To contribute', [
         { name: 'parser', title: 'The parser', about: 'Tokens, layout, soft keywords, error recovery', parts: [['src/manual/parser.md']] },
+        { name: 'physics-engine', title: 'The physics engine', about: 'Data, kernels, neighbour lists, threads, ranks',
+            parts: [['src/manual/physics-engine.md']] },
         { name: 'drawing-code', title: 'Drawing code', about: 'Files of the 2-D drawing, effects and scenes; how to add nodes',
             parts: [['src/manual/drawing-code.md']] },
     ]],
