@@ -50,6 +50,9 @@ export const GROUPS = [
         { name: 'migrating', title: 'Migrating to 0.3', about: 'Names that changed', parts: [['src/manual/migrating.md']] },
     ]],
     ['To contribute', [
+        { name: 'extending', title: 'Extending petri', about: 'New forces, nodes, functions, options',
+            parts: [['src/manual/extending.md']] },
+        { name: 'dependencies', title: 'Dependencies', about: 'Packages and their purposes', parts: [['src/manual/dependencies.md']] },
         { name: 'parser', title: 'The parser', about: 'Tokens, layout, soft keywords, error recovery', parts: [['src/manual/parser.md']] },
         { name: 'physics-engine', title: 'The physics engine', about: 'Data, kernels, neighbour lists, threads, ranks',
             parts: [['src/manual/physics-engine.md']] },
