@@ -111,12 +111,12 @@ static void open_scratch(PetriSession *session, CheckLog *log) {
     options.on_diagnostic = log_diagnostic;
     options.user_data = log;
     log->scratch = petri_open(&options);
-    if (log->scratch)
-        log->scratch->reach = session->reach; // shares lists that live longer
-    if (log->scratch)
+    if (log->scratch) {
+        log->scratch->budget.user_data = session->options.user_data; // for the host's should_interrupt
+        log->scratch->reach = session->reach;                        // shares lists that live longer
         session_copy_host_globals(session, log->scratch);
-    if (log->scratch)
         log->scratch->functions = session->functions;
+    }
     for (uint32_t i = 0; log->scratch && i < session->config.define_count; i++)
         if (petri_define(log->scratch, session->config.defines[i].text) == PETRI_OUT_OF_MEMORY)
             petri_close(&log->scratch);

@@ -140,6 +140,11 @@ static void test_should_interrupt(void **state) {
     player_step(player, 1);
     assert_int_equal(petri_frame(player->session).number, 3);
     free(before);
+
+    static const char loop[] = "!a x=sum(i*j for i in ..1000 for j in ..1000)";
+    asked_host = NULL; // a check polls with the host's pointer as well
+    assert_int_equal(petri_check_text(player->session, "loop.fl", loop, PETRI_NUL_TERMINATED), PETRI_OK);
+    assert_ptr_equal(asked_host, options.user_data);
 }
 
 static void test_interrupt_rolls_back(void **state) {
