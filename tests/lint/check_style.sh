@@ -1,6 +1,6 @@
 #!/bin/sh
-# check_style.sh SOURCE_ROOT: sources have no trailing blanks, no tabs in C, at most 700 lines (except generated tables), a
-# line feed at the end, and no reminders of unfinished work.
+# check_style.sh SOURCE_ROOT: sources have no trailing blanks, no tabs in C, at most 700 lines (except generated tables and
+# petri.h, the reference of the interface), a line feed at the end, and no reminders of unfinished work.
 set -eu
 cd "$1"
 max_lines=700
@@ -39,7 +39,7 @@ for file in $(find lib grammar src tests samples -name node_modules -prune -o -n
         esac
         lines=$(wc -l <"$file")
         case $file in
-        *_tables.h) ;;
+        *_tables.h | lib/include/petri.h) ;;
         *)
             if [ "$lines" -gt $max_lines ]; then
                 complain "$file: $lines lines, at most $max_lines"
