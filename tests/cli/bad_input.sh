@@ -45,7 +45,7 @@ petri run passwd
 check "a text that is not a script is one error" one_error
 check "a text that is not a script is reported as such" has err "passwd:1:5: error: not a Flitter script? 4 of 4"
 petri check passwd
-check "check also reports it once" count_is err "error: " 1
+check "check reports a text that is not a script once" count_is err "error: " 1
 cp passwd passwd.fl
 petri check passwd.fl
 check "a text named as a script gives all its errors" [ "$(grep -c 'error: ' err)" -ge 4 ]
@@ -72,7 +72,7 @@ check "a line of 10 MB is a script" status_is 0
 { printf '!n a=0' && repeat 5000000 ';1' && echo ' ='; } >long.fl
 petri run --frames 1 long.fl
 check "a mistake at the end of 10 MB is one error" one_error
-check "a mistake at the end of 10 MB has its column" has err "long.fl:1:10000008: error: "
+check "a mistake at the end of 10 MB is reported with its column" has err "long.fl:1:10000008: error: "
 check "a line of 10 MB is shown in part" [ "$(wc -c <err)" -lt 2000 ]
 rm -f long.fl
 { printf '!n a=' && repeat 100000 '(' && printf 1 && repeat 100000 ')' && echo; } >parentheses.fl
@@ -88,7 +88,7 @@ check "3000 levels of indentation are one error" one_error
 check "the limit of indentation is named" has err "1000"
 awk 'BEGIN { for (i = 0; i < 300; i++) printf "%*s!n\n", i, "" }' >deep.fl
 petri run --frames 1 --print tree deep.fl
-check "300 levels of indentation are fine" lines_are out 301
+check "300 levels of indentation are accepted" lines_are out 301
 
 cat >endless.fl <<'END'
 func f(x)
@@ -98,7 +98,7 @@ END
 petri run --frames 3 --print tree endless.fl
 check "endless recursion ends" status_is 0
 check "endless recursion is reported once" count_is err "warning: " 1
-check "endless recursion is null" count_is out "!n" 3
+check "endless recursion evaluates to null" count_is out "!n" 3
 cat >mutual.fl <<'END'
 func f(x, g)
     g(x, g)
@@ -112,13 +112,13 @@ check "endless recursion of two functions is reported" grep -q . err
 echo '!n a=..1e12' >range.fl
 petri run --frames 2 --print tree range.fl
 check "a range of 1e12 elements is reported" has err "range.fl:1:6: warning: "
-check "a range of 1e12 elements is null" out_is "@0 time=0 beat=0
+check "a range of 1e12 elements evaluates to null" out_is "@0 time=0 beat=0
 !n
 @1 time=0.016666666666666666 beat=0.03333333333333333
 !n"
 echo '!n a=nowhere b=3(1)' >names.fl
 petri run --frames 2 --print tree names.fl
-check "an unbound name is null" has out "!n"
+check "an unbound name evaluates to null" has out "!n"
 check "an unbound name is reported" has err "nowhere"
 check "calling a number does not fail the run" status_is 0
 

@@ -20,7 +20,7 @@ check "check suggests the nearest name for an unknown pragma" has err "lints.fl:
 check "the nearest name to temp is tempo" has err "did you mean tempo?"
 check "check reports an unused let" has err "lints.fl:2:9: warning: unused let 'b'"
 check "check does not report a used let" lacks err "unused let 'a'"
-check "check notes a name that shadows a built-in" has err "lints.fl:3:5: note: 'sin' shadows the built-in"
+check "check reports a name that shadows a built-in" has err "lints.fl:3:5: note: 'sin' shadows the built-in"
 check "check reports unused parameters" count_is err "unused parameter" 2
 check "check reports a missing argument" has err "lints.fl:6:6: warning: missing argument 'y'"
 check "check reports too many arguments" has err "too many arguments: 4; the function takes 3"
@@ -28,7 +28,7 @@ check "check reports an unknown named argument" has err "no parameter 'q'"
 check "check counts the arguments of built-ins" has err "too many arguments: 2 given to cos(x)"
 check "check reports an else that is never reached" has err "lints.fl:7:4: warning: always true"
 check "check suggests the nearest name for an unbound name" has err "did you mean 'cos'?"
-check "the summary counts" last_line_is err "petri: 1 file checked: 0 errors, 10 warnings"
+check "the summary counts errors and warnings" last_line_is err "petri: 1 file checked: 0 errors, 10 warnings"
 petri check --werror lints.fl
 check "--werror makes warnings fail" status_is 1
 petri run --frames 1 lints.fl
@@ -50,7 +50,7 @@ func helper(x)
     x+1
 END
 petri check --werror library.fl
-check "a file that only binds names is a module: none is unused" status_is 0
+check "a file that only binds names is a module, whose names count as used" status_is 0
 
 # Nodes: check evaluates the first frame without printing or storing anything.
 cat >nodes.fl <<'END'
@@ -86,7 +86,7 @@ check "warnings of nodes do not fail a check" status_is 0
 check "a check prints nothing of the frame" empty out
 check "a check does not print what the first frame logs" lacks err "> seen"
 check "a check does not draw !record" [ ! -e out.png ]
-for told in "4:13: warning: !path: '!elipse' is not supported; ignored; did you mean '!ellipse'?" \
+for diagnostic in "4:13: warning: !path: '!elipse' is not supported; ignored; did you mean '!ellipse'?" \
     "5:34: warning: !ellipse: unknown attribute 'radus'; did you mean 'radius'?" \
     "6:9: warning: !canvas: '!fil' is not supported; ignored; did you mean '!fill'?" \
     "8:1: warning: '!pysics' does nothing" \
@@ -100,9 +100,9 @@ for told in "4:13: warning: !path: '!elipse' is not supported; ignored; did you 
     "21:1: warning: cannot import 'nowhere.fl': no such file" \
     "23:5: warning: cannot import 'neither.fl': no such file" \
     "25:10: warning: cannot include 'gone.fl'"; do
-    check "check finds $told" count_is err "nodes.fl:$told" 1
+    check "check finds $diagnostic" count_is err "nodes.fl:$diagnostic" 1
 done
-check "check finds nothing else" last_line_is err "petri: 1 file checked: 0 errors, 14 warnings"
+check "check gives no other diagnostics" last_line_is err "petri: 1 file checked: 0 errors, 14 warnings"
 petri run --frames 2 nodes.fl
 check "a run also reports a misspelled node at the top" count_is err "did you mean '!physics'?" 1
 
@@ -123,13 +123,13 @@ petri check --werror slow.fl
 check "a check simulates nothing" status_is 0
 printf 'func f(x)\n    f(x+1) + f(x+1)\n!n a=f(frame)\n' >limit.fl
 petri check --work 1M limit.fl
-check "a frame without end meets the limit" has err "limit.fl:2:"
+check "check reports a first frame that exceeds the work limit" has err "limit.fl:2:"
 
 printf 'let n=SIZE\n!n a=n\n' >define.fl
 petri check --werror define.fl
 check "check reports a name without a definition" status_is 1
 petri check --werror -D SIZE=3 define.fl clean.fl
-check "-D defines it, for all scripts" status_is 0
+check "-D defines the name for all scripts" status_is 0
 petri check -D SIZE define.fl
 check "-D without a value is a wrong command line" status_is 2
 
@@ -146,23 +146,23 @@ check "diagnostics come in the order of the text" [ "$(grep -o '^order.fl:[0-9]*
     "order.fl:3 order.fl:4 order.fl:6 " ]
 
 # Formats for programs.
-printf 'let \303\251=coz(1)\n!n a=\303\251 b="\\q"+1\n!pysics\nlet u=2\n' >told.fl
-petri check --format gcc told.fl
-check "--format gcc: a line each on standard output" lines_are out 4
+printf 'let \303\251=coz(1)\n!n a=\303\251 b="\\q"+1\n!pysics\nlet u=2\n' >codes.fl
+petri check --format gcc codes.fl
+check "--format gcc prints one line per diagnostic on standard output" lines_are out 4
 check "gcc output has position, text, hint and code" \
-    has out "told.fl:1:7: warning: unbound name 'coz' is null; did you mean 'cos'? [unbound-name]"
+    has out "codes.fl:1:7: warning: unbound name 'coz' is null; did you mean 'cos'? [unbound-name]"
 check "gcc output leaves the summary on standard error" last_line_is err "petri: 1 file checked: 0 errors, 4 warnings"
-petri check --format=json told.fl
-check "--format json: an array" [ "$(sed -n '1p;$p' out | tr -d '\n')" = "[]" ]
-check "JSON output gives start and end in characters" has out '{"file": "told.fl", "level": "warning", "code": "unbound-name", "text": "unbound name '"'coz'"' is null", "hint": "did you mean '"'cos'"'?", "line": 1, "column": 7, "endLine": 1, "endColumn": 10}'
+petri check --format=json codes.fl
+check "--format json prints an array" [ "$(sed -n '1p;$p' out | tr -d '\n')" = "[]" ]
+check "JSON output gives start and end in characters" has out '{"file": "codes.fl", "level": "warning", "code": "unbound-name", "text": "unbound name '"'coz'"' is null", "hint": "did you mean '"'cos'"'?", "line": 1, "column": 7, "endLine": 1, "endColumn": 10}'
 check "JSON output has a null hint if there is no hint" has out '"hint": null'
 petri check --format=json clean.fl
 check "JSON output is an empty array for a clean script" [ "$(cat out)" = "[]" ]
-cp told.fl "t\"o ld.fl"
-petri check --format=sarif "t\"o ld.fl" clean.fl
-check "--format sarif: a run of the tool" has out '"version": "2.1.0"'
+cp codes.fl "co\"d es.fl"
+petri check --format=sarif "co\"d es.fl" clean.fl
+check "--format sarif prints a log of version 2.1.0" has out '"version": "2.1.0"'
 check "SARIF output lists the rules" has out '"rules": [{"id": "unbound-name"}, {"id": "string-arithmetic"}'
-check "SARIF output gives positions by URI" has out '{"artifactLocation": {"uri": "t%22o%20ld.fl"}, "region": {"startLine": 1, "startColumn": 7, "endLine": 1, "endColumn": 10}}'
+check "SARIF output gives positions by URI" has out '{"artifactLocation": {"uri": "co%22d%20es.fl"}, "region": {"startLine": 1, "startColumn": 7, "endLine": 1, "endColumn": 10}}'
 check "SARIF output with warnings exits with 0" status_is 0
-petri check --format=json --werror told.fl
-check "--werror also fails with --format" status_is 1
+petri check --format=json --werror codes.fl
+check "--werror makes warnings fail with --format as well" status_is 1

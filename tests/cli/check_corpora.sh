@@ -41,13 +41,13 @@ while read -r script; do
     fi
 done <"$work/rejected"
 sed 's/$/ /' "$work/rejected" >"$work/patterns"
-grep -Fv -f "$work/patterns" "$work/all" >"$work/told"
+grep -Fv -f "$work/patterns" "$work/all" >"$work/diagnostics"
 if [ "${2-}" = --update ]; then
-    cp "$work/told" "$recorded"
-elif ! diff "$recorded" "$work/told" >"$work/diff"; then
+    cp "$work/diagnostics" "$recorded"
+elif ! diff "$recorded" "$work/diagnostics" >"$work/diff"; then
     echo "FAIL diagnostics differ from $recorded (<: missing, >: new):"
     cat "$work/diff"
     failed=1
 fi
-[ "$failed" -eq 0 ] && echo "ok: $(wc -l <"$work/told") diagnostics, as recorded"
+[ "$failed" -eq 0 ] && echo "ok: $(wc -l <"$work/diagnostics") diagnostics, as recorded"
 exit "$failed"

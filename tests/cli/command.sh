@@ -31,9 +31,9 @@ check "run --help is the same as help run" cmp -s out run_help
 fits() { ! grep -Eq ".{$(($1 + 1))}" out; }
 for topic in '' view sweep particle builtins --frames; do
     petri help $topic
-    check "help${topic:+ $topic} is wrapped at 80 columns where there is no terminal" fits 80
+    check "help${topic:+ $topic} is wrapped at 80 columns without a terminal" fits 80
 done
-check "wrapped lines of a list begin below its text" grep -Eq '^ {30}[a-z]' run_help
+check "wrapped lines of a list are indented to the column of its texts" grep -Eq '^ {30}[a-z]' run_help
 petri test --help
 check "test has help" has out "--update"
 petri check --help
@@ -41,7 +41,7 @@ check "check has help" has out "usage: petri check"
 petri help builtins
 check "help builtins lists functions" grep -q '^sin(' out
 petri help nonsense
-check "help on something unknown is a wrong command line" status_is 2
+check "help on an unknown topic is a wrong command line" status_is 2
 
 # wrong command lines
 petri
@@ -56,13 +56,13 @@ petri run --frame 3 plain.fl
 check "an unknown option is a wrong command line" status_is 2
 check "an unknown option names the nearest one" has err "did you mean '--frames'"
 petri run --evrey=3 plain.fl
-check "a mistyped option with a value too" has err "did you mean '--every'"
+check "a mistyped option with a value names the nearest one" has err "did you mean '--every'"
 petri run --zzzzzz plain.fl
-check "an option like no other points to help" has err "petri help run"
+check "an option unlike any other names the help command" has err "petri help run"
 petri --quite plain.fl
 check "options without a command are those of run" has err "did you mean '--quiet'"
 petri test --updat .
-check "test knows its own options" has err "did you mean '--update'"
+check "test suggests its own options" has err "did you mean '--update'"
 petri chek plain.fl
 check "an unknown command is a wrong command line" status_is 2
 check "an unknown command names the nearest one" has err "petri check"
@@ -87,7 +87,7 @@ check "petri SCRIPT.fl runs the script" out_is "> 0
 > 1
 > 2"
 petri run -D x=1 count.fl
-check "600 frames are the default" lines_are out 600
+check "a run makes 600 frames by default" lines_are out 600
 petri run --runtime 0.5 --fps 10 -Dx=1 count.fl
 check "--runtime counts seconds" lines_are out 5
 petri run --runtime 0:02 --fps=10 -Dx=1 count.fl
@@ -120,7 +120,7 @@ check "--print hash adds a line after the other sections" out_is "@0 time=0 beat
 = $(printf '$:c = 1\n$(:c;:time) = 0\n' | sha256sum | cut -d ' ' -f 1)"
 cp out both
 petri run --frames 2 --every 2 --print hash,log,tree,state counter.fl
-check "--print hash adds a line after the state as well" [ "$(grep -v '^\$' out)" = "$(cat both)" ]
+check "--print hash adds its line after the state" [ "$(grep -v '^\$' out)" = "$(cat both)" ]
 petri run --realtime --frames 2 --fps 50 -D x=1 count.fl
 check "--realtime runs" lines_are out 2
 petri run --realtime --frames 1 --print tree -D x=1 count.fl
@@ -144,7 +144,7 @@ for i in ..5
 END
 petri run --profile --frames 10 --print tree slow.fl
 check "--profile does not change the output" lines_are out 60
-check "--profile names frames" has err "a frame in 10 frames"
+check "--profile prints the number of frames" has err "a frame in 10 frames"
 check "--profile has the slowest line first" [ "$(sed -n 's/.*\(slow.fl:[0-9]*\).*/\1/p' err | head -n 1)" = slow.fl:3 ]
 check "--profile counts how often a line runs" grep -Eq ' 5  slow.fl:6: !item a=twice\(many\+i\)$' err
 check "--profile counts a function's lines" grep -Eq ' 5  slow.fl:2: 2\*x$' err
@@ -168,17 +168,17 @@ check "--verbose gives a summary" has err "petri: 2 frames in "
 petri run --frames 2 --trace plain.fl
 check "--trace reports every frame" has err "petri: frame 1: "
 petri run --frames 2 --quiet --verbose --quiet plain.fl
-check "the last verbosity option counts" empty err
+check "the last verbosity option takes effect" empty err
 
 # streams
 { timeout 100 "$petri" run --frames 1000000 --print tree plain.fl 2>err; echo $? >code; } | head -n 1 >out
 status=$(cat code)
 check "a closed pipe ends the run" status_is 0
-check "a closed pipe ends it quietly" empty err
+check "a closed pipe gives no message" empty err
 check "output before a closed pipe is correct" out_is "@0 time=0 beat=0"
 if [ -c /dev/full ]; then
     for words in "run --print tree plain.fl" "help" "help builtins"; do
-        # shellcheck disable=SC2086 # the words are words
+        # shellcheck disable=SC2086 # split into words
         timeout 100 "$petri" $words >/dev/full 2>err </dev/null
         status=$?
         check "'$words' to a full device fails" status_is 1
@@ -192,7 +192,7 @@ rm out # output of the previous command
 "$petri" run --frames 1000000000 --print tree --every 100 --verbose plain.fl >out 2>err &
 job=$!
 tries=0
-until [ -s out ] || [ $tries -ge 600 ]; do # waits until it runs
+until [ -s out ] || [ $tries -ge 600 ]; do # waits for its first output
     sleep 0.1
     tries=$((tries + 1))
 done
@@ -212,7 +212,7 @@ if script -qec true /dev/null >/dev/null 2>&1 </dev/null; then
     check "help is wrapped at the terminal's width" fits 60
     check "help fills the terminal's width" grep -Eq '.{55}' out
     NO_COLOR=1 script -qec "$(quoted "$petri") run --frames 1 warn.fl" /dev/null >out 2>&1 </dev/null
-    check "NO_COLOR is honoured" lacks out "$(printf '\033[3')"
+    check "NO_COLOR disables colours" lacks out "$(printf '\033[3')"
     check "NO_COLOR keeps the message" has out "warning: "
 fi
 ln -s "$petri" direct-petri # a #! line cannot contain a path with spaces

@@ -12,16 +12,16 @@ layout() {
     check "fmt does not change its own output: $3" status_is 0
 }
 
-layout 'let a = 1\nlet b=2 +3\n' 'let a=1\nlet b=2 + 3\n' "no spaces around the = of a name, but in a sum"
+layout 'let a = 1\nlet b=2 +3\n' 'let a=1\nlet b=2 + 3\n' "a = has no spaces around it, a sum has"
 layout 'let x=a  *b+ c*-d - -e\n' 'let x=a*b + c*-d - -e\n' "operators of higher precedence have no spaces"
 layout '!n x=a + b y=a+b*c z=f( a + b ,c )[ i - 1 ]\n' '!n x=a+b y=a + b*c z=f(a+b, c)[i-1]\n' \
     "a simple sum in an attribute or in brackets has no spaces"
 layout 'for i in 0 .. n - 1|2 , j in ..3\n  !a\n' 'for i in 0..n-1|2, j in ..3\n    !a\n' "ranges have no spaces"
 layout 'if a<b and not(c==d)\n\t!a\nelse\n\t!b\n' 'if a < b and not (c == d)\n    !a\nelse\n    !b\n' \
     "comparisons and keywords have spaces, tabs become four spaces"
-layout '!a #t x = ( 1 ; 2 ) <<!b\n' '!a #t x=(1;2) << !b\n' "tags, vectors and appending"
+layout '!a #t x = ( 1 ; 2 ) <<!b\n' '!a #t x=(1;2) << !b\n' "tags and vectors have no spaces, << has"
 layout 'let f = func (x)(x+1)\n!n a=f (2) b=$ :k c=- -1\n@ f x = 1\n' \
-    'let f=func(x) (x+1)\n!n a=f(2) b=$:k c=- -1\n@f x=1\n' "calls, look-ups, signs, templates"
+    'let f=func(x) (x+1)\n!n a=f(2) b=$:k c=- -1\n@f x=1\n' "calls, look-ups, signs and templates have no spaces"
 layout '%pragma   fps 20\n\n\n\n\n!a\n  !b\n\n\n  !c\n\n' '%pragma fps 20\n\n\n!a\n    !b\n\n    !c\n' \
     "at most two empty lines, one in blocks, none at the end"
 layout 'let A=1 -- one\n    LONG=22-- two\n-- alone   \n' 'let A=1      -- one\n    LONG=22  -- two\n-- alone\n' \
@@ -38,16 +38,16 @@ layout '\357\273\277let a=1\r\n!n  b=a\r\n' 'let a=1\n!n b=a\n' "line ends becom
 layout '' '' "an empty script stays empty"
 
 printf 'let a = 1\n!n  b=a\n' >loose.fl
-printf 'let a=1\n!n b=a\n' >laid.fl
+printf 'let a=1\n!n b=a\n' >formatted.fl
 chmod 640 loose.fl
-petri fmt --check loose.fl laid.fl
+petri fmt --check loose.fl formatted.fl
 check "--check exits with 1 if a file is not formatted" status_is 1
 check "--check names unformatted files" has err "petri: loose.fl is not formatted"
-check "--check does not name formatted files" lacks err "laid.fl"
+check "--check does not name formatted files" lacks err "formatted.fl"
 check "--check does not modify files" has loose.fl "let a = 1"
-petri fmt loose.fl laid.fl
+petri fmt loose.fl formatted.fl
 check "fmt formats files" status_is 0
-check "fmt writes the standard format to the file" cmp -s loose.fl laid.fl
+check "fmt writes the standard format to the file" cmp -s loose.fl formatted.fl
 check "fmt keeps permissions" [ "$(stat -c %a loose.fl)" = 640 ]
 check "fmt counts formatted and unchanged files" last_line_is err "petri: 2 files: 1 formatted, 1 unchanged"
 printf '!a x=  \n' >wrong.fl
@@ -66,8 +66,8 @@ petri fmt --check "$root/samples"
 check "all samples are formatted" status_is 0
 grep -v '^#' "$root/tests/layouts.txt" | sed "s|^\\([^ ]*\\) .*|$root/\\1|" >listed
 tr '\n' '\0' <listed | xargs -0 "$petri" fmt --check 2>&1 >/dev/null |
-    sed -n 's/^petri: \(.*\) is not formatted$/\1/p; s/^\(.*\.fl\):[0-9:]* error: .*/\1/p' >unlike
-check "exactly the scripts in tests/layouts.txt are unformatted (./dev format checks all others)" cmp -s listed unlike
+    sed -n 's/^petri: \(.*\) is not formatted$/\1/p; s/^\(.*\.fl\):[0-9:]* error: .*/\1/p' >unformatted
+check "exactly the scripts in tests/layouts.txt are unformatted (./dev format checks all others)" cmp -s listed unformatted
 
 # Every seventh script of the corpora (FMT_STEP=1: all), with two spaces per level and more spaces between tokens.
 mkdir corpus

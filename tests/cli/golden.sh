@@ -24,10 +24,10 @@ case_is same <<'END'
 END
 verdict same
 check "the same output passes" passes
-check "a pass is one line" has out "ok g/same.fl"
+check "a script that passes gives one line" has out "ok g/same.fl"
 case_is loose <<'END'
 # run --frames 2 --print tree,log
-# a remark that means nothing
+# a comment that is ignored
 @0 time=0 beat=0
 !n a=-0 b=1.0;2e0;3 c="\x69\u0074" d=:sym
 > 2
@@ -38,7 +38,7 @@ case_is loose <<'END'
 > 2
 END
 verdict loose
-check "numbers count as numbers, strings by value, logs as a set" passes
+check "numbers and strings are compared by value, logs in any order" passes
 sed 's/3333333333333333 b/3333333333333334 b/' g/same.golden >digit
 case_is digit <digit
 verdict digit
@@ -48,57 +48,57 @@ check "a failure shows frame, line, expected and got" \
 sed 's/^# run.*/&\n# tolerance 1e-9/' digit >tolerance
 case_is tolerance <tolerance
 verdict tolerance
-check "a tolerance lets one digit pass" passes
+check "a difference within the tolerance passes" passes
 sed 's/0.3333333333333334/0.33334/' tolerance | case_is beyond
 verdict beyond
-check "a tolerance has an end" fails
+check "a difference beyond the tolerance fails" fails
 sed 's/0.3333333333333334/0.33334/; s/^# tol.*/&\n# horizon 1 strict 0/' tolerance | case_is strict
 verdict strict
-check "after strict the comparison is loose" passes
+check "after the frame of strict, numbers are compared loosely" passes
 sed 's/^!n a=0.3333333333333334.*/!m/; s/^# tol.*/&\n# horizon 0/' tolerance | case_is horizon
 verdict horizon
-check "after the horizon only headers count" passes
+check "after the horizon, only frame headers are compared" passes
 sed 's/^@1.*/@2/; s/^# tol.*/&\n# horizon 0/' tolerance | case_is header
 verdict header
-check "after the horizon headers do count" fails
+check "after the horizon, a different frame header fails" fails
 sed 's/^# run.*/&\n# horizon 0/' digit | case_is exact
 verdict exact
-check "a horizon without a tolerance changes nothing" fails
+check "a horizon without a tolerance has no effect" fails
 sed '$d' g/same.golden | case_is extra
 verdict extra
-check "an extra log fails" fails
+check "a log line that is not in the golden fails" fails
 sed 's/^> 2/> 3/' g/same.golden | case_is log
 verdict log
-check "another log fails" fails
+check "a different log line fails" fails
 sed 's/=:sym/=:other/' g/same.golden | case_is symbol
 verdict symbol
-check "another symbol fails" fails
+check "a different symbol fails" fails
 sed 's/^!n/    !n/' g/same.golden | case_is indent
 verdict indent
-check "another depth fails" fails
+check "a node at a different depth fails" fails
 sed '/^@1/,$d' g/same.golden | case_is short
 verdict short
-check "an extra frame fails" fails
+check "a frame that is not in the golden fails" fails
 { cat g/same.golden && echo '@2 time=1 beat=2'; } | case_is more
 verdict more
 check "a missing frame fails" fails
 printf '!n a=nowhere\n' >g/error.fl
 printf '# run --frames 1 --print tree,error\n@0 time=0 beat=0\n!n\n' >g/error.golden
 verdict error
-check "errors of a frame do not count if the golden has none" passes
+check "errors of a frame are ignored if the golden has none" passes
 echo '? something else' >>g/error.golden
 verdict error
-check "errors of a frame count if the golden has some" fails
+check "errors of a frame are compared if the golden has some" fails
 
 # hashes of the state
 printf '!counter state=:c\n' >g/hash.fl
 hash=$(printf '$:c = 0\n$(:c;:time) = 0\n' | sha256sum | cut -d ' ' -f 1)
 printf '# run --frames 1 --print hash\n@0 time=0 beat=0\n= %s\n' "$hash" >g/hash.golden
 verdict hash
-check "a hash is that of the state's text" passes
+check "a hash is the SHA-256 of the state's text" passes
 sed -i 's/= ./= x/' g/hash.golden
 verdict hash
-check "another hash fails" fails
+check "a different hash fails" fails
 printf '!counter state=:c initial=1 rate=1\n' >g/hash.fl
 printf '# run --frames 2 --print hash\n' >g/hash.golden
 petri test --update g/hash.fl
@@ -138,7 +138,7 @@ printf '# run --frames 1000000000000\n' >g/endless.golden
 petri_limited() { (ulimit -t 1 && timeout 100 "$petri" "$@" >out 2>err </dev/null); status=$?; }
 petri_limited test g/endless.fl g/same.fl
 check "a script that is killed fails" has out "FAIL g/endless.fl was killed by signal"
-check "a script that is killed stops no other" last_line_is out "1 passed, 1 failed"
+check "a script that is killed does not stop the others" last_line_is out "1 passed, 1 failed"
 
 # rejections
 printf '!n a=1\n!n b=*\n' >g/wrong.fl
@@ -150,7 +150,7 @@ verdict wrong
 check "'line *' accepts any line" passes
 echo 'line 1' >g/wrong.err
 verdict wrong
-check "another line fails" fails
+check "a rejection in another line fails" fails
 check "a rejection in another line is reported" has out "expected an error in line 1 got one in line 2"
 echo 'row 2' >g/wrong.err
 verdict wrong
@@ -181,24 +181,24 @@ check "one failure makes the suite fail" status_is 1
 petri test g/a.fl g/a.fl g/b.fl
 check "a script that is named twice runs once" last_line_is out "2 passed, 0 failed"
 petri test --filter below/ g
-check "--filter looks at the path below the folder" last_line_is out "0 passed, 1 failed"
+check "--filter is compared with the path below the folder" last_line_is out "0 passed, 1 failed"
 petri test --filter a.fl --nosimplify g
-check "--filter chooses" last_line_is out "1 passed, 0 failed"
+check "--filter selects scripts by name" last_line_is out "1 passed, 0 failed"
 petri test --filter nothing-like-that g
-check "no script that fits is an error" status_is 1
+check "a filter that no script matches is an error" status_is 1
 petri test bare
-check "no script at all is an error" status_is 1
+check "a folder without goldens is an error" status_is 1
 check "a folder without goldens is reported" has err "no script found"
 petri test
 check "test without a path is a wrong command line" status_is 2
 petri test missing g/a.fl
 check "a missing path is an error" status_is 1
-check "a missing path does not keep others from running" last_line_is out "1 passed, 0 failed"
+check "a missing path does not prevent other tests" last_line_is out "1 passed, 0 failed"
 petri test --junit results.xml g
-check "--junit counts" has results.xml '<testsuite name="petri" tests="4" failures="1"'
+check "--junit counts tests and failures" has results.xml '<testsuite name="petri" tests="4" failures="1"'
 check "--junit gives the reason of a failure" has results.xml 'message="frame 0 line 3: expected !n a=1'
 petri test --junit nowhere/results.xml g/a.fl
-check "--junit to a folder that is not there fails" status_is 1
+check "--junit to a missing folder fails" status_is 1
 timeout 100 "$petri" test g/a.fl >/dev/full 2>err
 status=$?
 check "results to a full device fail" status_is 1

@@ -53,9 +53,9 @@ check "open writes the script of a link with another state" cmp -s count.fl ther
 check "open lists all changes of parameters in the link" has err "N=5, N=7 after frame 10"
 
 # Bad links with a part of the message: truncated links, newer links, and links of other programs.
-while read -r bad said; do
+while read -r bad reason; do
     petri open "$bad"
-    check "a bad link is reported: $bad" one_message "$said"
+    check "a bad link is reported: $bad" one_message "$reason"
 done <<'TEXT'
 #q1YqU7Iy0lEqUbJSykktUfCz9VPIL1I check that it was copied completely
 #q1YqU7Iy0lEqUbJSykktUfCz9VPIL1IwjslTTM4vzStJLVIoLkksSbW1SlYoAtF-MXlKtQA from a newer petri
@@ -103,12 +103,12 @@ const linked = await readLink(process.argv[2]);
 console.log(JSON.stringify(linked));
 console.log(await packLink({ ...linked, text: linked.text + '-- é\n', changes: [...linked.changes, [3, 'N', '7']] }));
 TEXT
-    node page.mjs "${link#*8080/}" >told
-    check "the playground reads links of petri" has told '"name":"count.fl","changes":[[-1,"N","5"]]'
-    check "the playground reads text, frame and hash" has told "\"frame\":30,\"hash\":\"$(cut -c 3- hash)\""
-    petri open "$(tail -n 1 told)" -o -
+    node page.mjs "${link#*8080/}" >page_output
+    check "the playground reads links of petri" has page_output '"name":"count.fl","changes":[[-1,"N","5"]]'
+    check "the playground reads text, frame and hash" has page_output "\"frame\":30,\"hash\":\"$(cut -c 3- hash)\""
+    petri open "$(tail -n 1 page_output)" -o -
     check "petri reads links of the playground" [ "$(tail -n 1 out)" = '-- é' ]
-    check "open makes the changes of a playground's link" has err "state differs from the link"
+    check "open applies the changes of parameters in a playground's link" has err "state differs from the link"
 fi
 
 fi

@@ -93,7 +93,7 @@ awk '/^```flitter .*\.fl$/ { file = $2; next }
      console && sub(/^\$ petri /, "") { ++count; print > ("tour" count ".words"); printf "" > ("tour" count ".wanted"); next }
      console { print > ("tour" count ".wanted") }' "$here/../../grammar/README.md"
 for words in tour*.words; do
-    # shellcheck disable=SC2046 # the words are words
+    # shellcheck disable=SC2046 # split into words
     petri $(cat "$words")
     check "the output of petri $(cat "$words") in the language tour is correct" cmp -s out "${words%.words}.wanted"
 done

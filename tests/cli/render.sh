@@ -34,7 +34,7 @@ petri render disc.fl -o absent/disc.png
 check "a missing folder for a picture is an error" status_is 1
 check "a missing folder is reported before the script runs" has err "cannot write 'absent/disc.png'"
 
-# can_draw: whether this build has Cairo.
+# Fails if this build has no Cairo.
 petri render disc.fl -o disc.png --frames 1
 if [ "$status" -ne 0 ]; then
     check "a build without Cairo names the missing library" has err "libcairo2-dev"
@@ -54,7 +54,7 @@ else
     petri render disc.fl -o disc.png --frames 9 --frame 8 --size 80x60
     check "--size sets the size" sized disc.png 80x60
     petri render disc.fl -o scaled.png --frames 9 --scale 2
-    check "--scale enlarges" cmp -s disc.png scaled.png
+    check "--scale multiplies the size" cmp -s disc.png scaled.png
 
     # Loaded libraries: OpenGL only for effects and 3-D, and no drawing libraries for run.
     cat >glowing.fl <<'END'
@@ -222,7 +222,7 @@ END
     petri render far.fl -o far.png --frames 1
     check "distant elements are drawn correctly" cmp -s far.png blue.png
 
-    # too much
+    # limits
     printf '!window size=1000;1000\n    !canvas\n        !line points=1000*uniform(:p)[..2000000] stroke=true\n' >points.fl
     rm -f points.png
     petri render points.fl -o points.png --frames 1
@@ -327,7 +327,7 @@ END
         check "the last message of ffmpeg is shown" has err "ffmpeg failed with status 3: two"
         rm -r tools
         (
-            ulimit -f 16 # blocks of 512 bytes: as on a disk that is full
+            ulimit -f 16 # blocks of 512 bytes; a larger file fails as on a full disk
             exec timeout 100 "$petri" render disc.fl -o film.mp4 --frames 600 --size 600x600 >out 2>err </dev/null
         )
         status=$?
@@ -430,13 +430,13 @@ END
         '!image filename="disc.png" size=100'; do
         printf '!window size=100\n    !canvas id=:c\n        for i in ..1000\n            %s\n' "$many" >many.fl
         petri render many.fl -o many.png --work 500k --scale 5
-        check "drawing is charged: $many" has err "drawing exceeded the work limit (--work): the rest is left"
+        check "drawing is charged as work: $many" has err "drawing exceeded the work limit (--work): the rest is left"
         petri render many.fl -o many.png
         check "cheap drawing is below the limit: $many" [ ! -s err ]
     done
     printf '!physics state=:p dimensions=2\n    for i in ..1000\n        !particle id=i position=0 radius=1\n' >many.fl
     petri render many.fl -o many.png --work 500k
-    check "drawing is charged: particles" has err "drawing exceeded the work limit (--work)"
+    check "drawing is charged as work: particles" has err "drawing exceeded the work limit (--work)"
     PATH='' "$petri" render disc.fl -o none.mp4 --frames 5 >out 2>err </dev/null
     status=$?
     check "a film without ffmpeg is an error" status_is 1

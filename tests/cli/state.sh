@@ -14,12 +14,12 @@ cat >world.fl <<'END'
     !drag strength=0.01
 END
 petri run world.fl --frames 200 --every 199 --print state
-cp out whole
+cp out unbroken
 petri run world.fl --frames 100 --state half.state
 check "a run with --state succeeds" status_is 0
 check "a run with --state writes the state" has half.state "petri-state 1"
 petri run world.fl --frames 100 --every 199 --print state --state half.state
-sed -n '/^@199/,$p' whole >expected
+sed -n '/^@199/,$p' unbroken >expected
 check "two runs of 100 frames equal one of 200 bit for bit, time included" cmp -s out expected
 cp half.state real.state
 petri run world.fl --frames 2 --realtime --print tree --state real.state
@@ -53,12 +53,12 @@ petri run world.fl --frames 2 --state .
 check "a folder is not accepted as a state file" status_is 1
 
 # --save-every saves the state of a run that is killed
-"$petri" run world.fl --frames 100000000 --state kept.state --save-every 2 --trace >out 2>err </dev/null &
+"$petri" run world.fl --frames 100000000 --state killed.state --save-every 2 --trace >out 2>err </dev/null &
 job=$!
 while kill -0 $job && [ "$(grep -c 'petri: frame' err)" -lt 6 ]; do :; done
 kill -9 $job
 wait $job 2>/dev/null
-petri run world.fl --frames 1 --print state --state kept.state
+petri run world.fl --frames 1 --print state --state killed.state
 next=$(sed -n 's/^@\([0-9]*\) .*/\1/p' out)
 check "--save-every has saved every second frame" [ "${next:-0}" -ge 4 ]
 petri run world.fl --frames 1 --save-every 2
@@ -66,7 +66,7 @@ check "--save-every without --state is a usage error" status_is 2
 check "--save-every without --state says what is missing" has err 'add --state FILE'
 
 # ids that are new in each frame must not accumulate in the state
-cat >fresh.fl <<'END'
+cat >new_ids.fl <<'END'
 !physics state=:s dimensions=1
     for i in ..100
         !particle id=frame;i velocity=1
@@ -74,7 +74,7 @@ cat >fresh.fl <<'END'
 !physics state=:t dimensions=2
     !particle id=:x velocity=1
 END
-petri run fresh.fl --frames 300 --every 299 --print state
+petri run new_ids.fl --frames 300 --every 299 --print state
 check "the state contains only particles of the last frame" [ "$(grep -c '^\$(:s;299;' out)" -eq 200 ]
 check "the state contains no removed particles" lacks out '(:s;298'
 check "the state contains particles that exist in every frame" has out '$(:s;:stays) = '

@@ -1,43 +1,43 @@
 # streams.sh: tests of scripts from standard input, pictures to standard output, and --print log. Part of run.sh.
 
-# pour SCRIPT ARGUMENTS...: like petri, with the script on standard input.
-pour() {
+# petri_stdin SCRIPT ARGUMENTS...: like petri, with the script on standard input.
+petri_stdin() {
     script=$1
     shift
     # shellcheck disable=SC2059 # the script may contain escapes
     printf "$script" | timeout 100 "$petri" "$@" >out 2>err
     status=$?
 }
-pour '!n a=1\n' run - --frames 1 --print tree
+petri_stdin '!n a=1\n' run - --frames 1 --print tree
 check "a script from standard input runs" out_is "@0 time=0 beat=0
 !n a=1"
-pour '!n a=1\n' - --frames 1 --print tree
+petri_stdin '!n a=1\n' - --frames 1 --print tree
 check "a script from standard input runs without a command" has out "!n a=1"
-pour '!n a=x\n' run - --frames 1
+petri_stdin '!n a=x\n' run - --frames 1
 check "standard input is called <stdin> in messages" has err "<stdin>:1:6: warning: unbound name 'x'"
-pour '!n a=(\n' run -
+petri_stdin '!n a=(\n' run -
 check "an error in standard input fails" status_is 1
 check "an error in standard input has a position" has err "<stdin>:1:7: error: "
-pour '' run - --frames 1
+petri_stdin '' run - --frames 1
 check "empty standard input is a script" status_is 0
 mkdir -p parts
 echo 'let part=5' >parts/part.fl
-pour "import part from 'parts/part.fl'\n!n a=part\n" run - --frames 1 --print tree
+petri_stdin "import part from 'parts/part.fl'\n!n a=part\n" run - --frames 1 --print tree
 check "standard input imports from the current folder" has out "!n a=5"
-pour '!n a=x y\n' check -
+petri_stdin '!n a=x y\n' check -
 check "check reads standard input" has err "<stdin>:1:9: error: "
 check "check counts standard input as a file" last_line_is err "petri: 1 file checked: 1 error, 0 warnings"
-pour '\377\376!\0n\0\n\0' run -
+petri_stdin '\377\376!\0n\0\n\0' run -
 check "UTF-16 on standard input is reported" has err "'<stdin>' is UTF-16 text"
-pour 'a:b:c\nd:e:f\ng:h:i\n' run -
+petri_stdin 'a:b:c\nd:e:f\ng:h:i\n' run -
 check "a text that is not a script is one error" one_error
 timeout 100 "$petri" run - >out 2>err <&-
 status=$?
 check "a closed standard input is one message" lines_are err 1
 check "a closed standard input fails" status_is 1
 for words in "view -" "repl -" "test -"; do
-    # shellcheck disable=SC2086 # the words are words
-    pour '!n\n' $words
+    # shellcheck disable=SC2086 # split into words
+    petri_stdin '!n\n' $words
     check "petri $words is a wrong command line" status_is 2
     check "petri $words gives the reason in one line" lines_are err 1
 done
@@ -51,7 +51,7 @@ rm ./-
 draw='!window size=8;6\n    !canvas\n        !fill color=1\n            !rect point=1;1 size=3;3\n'
 printf "%b" "$draw" >drawn.fl
 petri render drawn.fl --frames 1 -o file.png
-pour "$draw" render - --frames 1 -o -
+petri_stdin "$draw" render - --frames 1 -o -
 check "render -o - exits with 0" status_is 0
 check "render -o - writes a picture" cmp -s out file.png
 petri render drawn.fl --frames 1 -o - --format svg

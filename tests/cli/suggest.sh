@@ -55,11 +55,11 @@ check "a long option of another command names that command" has err "'petri view
 petri --version
 cp out version
 for words in version -V "run --version" "help version"; do
-    # shellcheck disable=SC2086 # the words are words
+    # shellcheck disable=SC2086 # split into words
     petri $words
     check "petri $words prints the version" cmp -s out version
 done
-# helps TEXT TOPIC
+# helps TEXT TOPIC: checks that `petri help TOPIC` prints TEXT.
 helps() {
     petri help "$2"
     check "help $2 exits with 0" status_is 0
@@ -78,7 +78,7 @@ petri help random
 check "help shows a name that is only a node" has out "!random (physics)"
 petri help no-such-thing
 check "help on an unknown topic is a usage error" status_is 2
-# shellcheck disable=SC2013 # words
+# shellcheck disable=SC2013 # names have no blanks
 for name in $(sed -n 's/^ENGINE_NAME([A-Z_]*, *"\([a-z_]*\)".*/\1/p' "$here/../../lib/program/engine_names.h"); do
     petri help "$name"
     check "help $name explains the value" status_is 0
@@ -96,9 +96,9 @@ check "a second script is reported" has err "too many scripts: 'dish.fl' and 'sh
 petri run dish.fl --frames
 check "an option without its value shows its help" has err "option '--frames' needs a value: N, stop after N frames"
 petri nodes
-check "a list of help as a command suggests help" has err "did you mean 'petri help nodes'?"
+check "the name of a help list as a command suggests petri help" has err "did you mean 'petri help nodes'?"
 petri list
-check "a word like no other gives no suggestion" lacks err "did you mean"
+check "a word unlike any other gives no suggestion" lacks err "did you mean"
 petri test dish.fl
 check "test without goldens points to its help" has err "see 'petri help test'"
 petri

@@ -1,9 +1,9 @@
 # syntax_hints.sh: tests that each mistake in syntax_hints.txt gets its hint, and that the proposed code works. Part of
 # run.sh.
 
-# hint_field NUMBER ROW
+# hint_field NUMBER ROW: prints a field of a row, counted from 1.
 hint_field() { printf '%s\n' "$2" | awk -F ' ~ ' -v n="$1" '{ print $n }'; }
-hint_is_reported() { grep -Fq -e "habit.fl:$1" err; }
+hint_is_reported() { grep -Fq -e "mistake.fl:$1" err; }
 hint_is_proposed() { [ "$1" = - ] || grep -Fxq -e "    $1" err; }
 
 syntax_hints=0
@@ -12,13 +12,13 @@ while IFS= read -r row; do
     syntax_hints=$((syntax_hints + 1))
     wrong=$(hint_field 1 "$row")
     right=$(hint_field 4 "$row")
-    printf '%b\n' "$wrong" >habit.fl
-    petri check habit.fl
+    printf '%b\n' "$wrong" >mistake.fl
+    petri check mistake.fl
     check "mistake $syntax_hints is reported" hint_is_reported "$(hint_field 2 "$row")"
     check "mistake $syntax_hints has its hint" hint_is_proposed "$(hint_field 3 "$row")"
     [ "$right" = - ] && continue
-    printf '%b\n' "$right" >habit.fl
-    petri check --werror habit.fl
+    printf '%b\n' "$right" >mistake.fl
+    petri check --werror mistake.fl
     check "the proposed code for mistake $syntax_hints passes" status_is 0
     check "the proposed code for mistake $syntax_hints has no warnings" lines_are err 1
 done <"$here/syntax_hints.txt"

@@ -91,17 +91,17 @@ def contents(path):
     """Returns all attributes of a file, and the bytes of its arrays."""
     found = {}
 
-    def look(name, item):
+    def visit(name, item):
         found[name] = {key: numpy.array(value).tolist() for key, value in item.attrs.items()}
         if isinstance(item, h5py.Dataset):
             found[name]["value of"] = item.shape, item.dtype.str, item.maxshape, item[...].tobytes()
         else:
             for key, member in item.items():
-                look(f"{name}/{key}", member)
+                visit(f"{name}/{key}", member)
 
     with h5py.File(path) as file:
         check_form(file)
-        look("", file)
+        visit("", file)
     return found
 
 

@@ -55,39 +55,39 @@ if [ -x "$(dirname "$petri")/petri-hdf5" ] && $python -I -c 'import h5py' 2>err;
 
     # The complete frames must be in the file, whatever ends the run.
     printf '!physics state=:c dimensions=2\n    for i in ..300\n        !particle id=i velocity=1;i\n' >w.fl
-    # at_work FRAMES [OPTION...]: starts a run and waits until it has computed FRAMES frames.
-    at_work() {
-        least=$(($1 - 1))
+    # start_run FRAMES [OPTION...]: starts a run and waits until it has computed FRAMES frames.
+    start_run() {
+        min_frames=$(($1 - 1))
         shift
         rm -f run.h5
         env --default-signal=HUP,INT,TERM "$petri" run w.fl --frames 100000000 --trace --trajectory run.h5 "$@" 2>err </dev/null &
         job=$!
-        while kill -0 $job && [ "$(grep -c 'petri: frame' err)" -le $least ]; do :; done
+        while kill -0 $job && [ "$(grep -c 'petri: frame' err)" -le $min_frames ]; do :; done
     }
-    kept() { read_h5md --frames run.h5 && [ "$(cat out)" -ge $least ]; }
+    has_frames() { read_h5md --frames run.h5 && [ "$(cat out)" -ge $min_frames ]; }
     number=129
     for signal in HUP INT TERM; do
-        at_work 20 >out
+        start_run 20 >out
         kill -$signal $job
         wait $job
         status=$?
         check "SIG$signal ends a run" status_is $number
-        check "SIG$signal keeps the frames of an H5MD file" kept
+        check "SIG$signal keeps the frames of an H5MD file" has_frames
         number=$((number == 129 ? 130 : 143))
     done
     mkfifo unread
-    # stuck: starts a run and waits until it blocks because its output is not read.
-    stuck() {
+    # start_blocked_run: starts a run and waits until it blocks because nothing reads its output.
+    start_blocked_run() {
         exec 7<>unread
-        at_work 3 --print state >unread
+        start_run 3 --print state >unread
         before=0
         until [ "$(wc -c <err)" -eq $before ]; do
             before=$(wc -c <err)
             sleep 0.1
         done
-        least=$(grep -c 'petri: frame' err)
+        min_frames=$(grep -c 'petri: frame' err)
     }
-    stuck
+    start_blocked_run
     kill -INT $job
     sleep 0.3
     kill -INT $job
@@ -95,8 +95,8 @@ if [ -x "$(dirname "$petri")/petri-hdf5" ] && $python -I -c 'import h5py' 2>err;
     status=$?
     exec 7>&-
     check "a second Ctrl-C ends a run at once" status_is 130
-    check "a second Ctrl-C keeps the complete frames of an H5MD file" kept
-    stuck
+    check "a second Ctrl-C keeps the complete frames of an H5MD file" has_frames
+    start_blocked_run
     kill -9 $job
     wait $job 2>/dev/null
     status=$?
@@ -106,5 +106,5 @@ if [ -x "$(dirname "$petri")/petri-hdf5" ] && $python -I -c 'import h5py' 2>err;
         tries=$((tries + 1))
         sleep 0.01
     done
-    check "kill -9 keeps the complete frames of an H5MD file" eval 'status_is 137 && kept'
+    check "kill -9 keeps the complete frames of an H5MD file" eval 'status_is 137 && has_frames'
 fi

@@ -61,9 +61,9 @@ judge() {
     now=damaged
     ! $good "target/$file" || now=new
     ! cmp -s "$old" "target/$file" || now=old
-    told=yes
-    ! empty err || ! empty out || grep -q 'write(2,.*INJECTED' trace || told=no
-    check "$1: $now" eval '[ $now = new ] || { [ $now = old ] && [ "$status" -ne 0 ] && [ $told = yes ]; }'
+    reported=yes
+    ! empty err || ! empty out || grep -q 'write(2,.*INJECTED' trace || reported=no
+    check "$1: the file is the old or the new one (now: $now)" eval '[ $now = new ] || { [ $now = old ] && [ "$status" -ne 0 ] && [ $reported = yes ]; }'
     # The dynamic loader does not retry after EINTR. close and newfstatat need not retry either.
     if [ $error = EINTR ] && [ $call != close ] && [ $call != newfstatat ] && lacks err "shared libraries"; then
         check "$1: EINTR does not affect the run" eval '[ $now = new ] && status_is 0'

@@ -27,15 +27,15 @@ if frame > 60
     !physics state=:last dimensions=1
         !particle id='u' position=frame
 END2
-# same FILE: succeeds if FILE equals the trajectory of an uninterrupted run.
-same() {
+# equals_whole FILE: succeeds if FILE equals the trajectory of an uninterrupted run.
+equals_whole() {
     case $1 in
     *.h5) /usr/bin/python3 -I "$here/../files/h5md.py" --same whole.h5 "$1" >out 2>&1 || { cat out; false; } ;;
     *) cmp whole."${1##*.}" "$1" ;;
     esac
 }
-made() { echo $(($(sed -n 's/^frame //p' s 2>/dev/null || echo -1) + 1)); }
-rest() { petri run w.fl --frames $((100 - $(made))) --state s --trajectory "$@"; }
+saved_frames() { echo $(($(sed -n 's/^frame //p' s 2>/dev/null || echo -1) + 1)); }
+run_rest() { petri run w.fl --frames $((100 - $(saved_frames))) --state s --trajectory "$@"; }
 
 for format in $formats; do
     way=way.$format
@@ -44,20 +44,20 @@ for format in $formats; do
     for frames in 1 10 25 40; do
         petri run w.fl --frames $frames --state s --trajectory $way
     done
-    rest $way
-    check "$format: five consecutive runs make one trajectory" eval 'status_is 0 && empty err && same $way'
+    run_rest $way
+    check "$format: five consecutive runs make one trajectory" eval 'status_is 0 && empty err && equals_whole $way'
     petri run w.fl --frames 0 --state s --trajectory $way
-    check "$format: a run of 0 frames changes nothing" eval 'status_is 0 && same $way'
+    check "$format: a run of 0 frames changes nothing" eval 'status_is 0 && equals_whole $way'
     cp $way longer.$format
 
     # The state is older than the trajectory: later frames are computed again.
     rm -f s
     petri run w.fl --frames 33 --state s --trajectory short.$format
-    rest longer.$format
-    check "$format: frames later than the state are computed again" eval 'status_is 0 && same longer.$format'
+    run_rest longer.$format
+    check "$format: frames later than the state are computed again" eval 'status_is 0 && equals_whole longer.$format'
     rm -f s
-    rest short.$format
-    check "$format: a run without a state starts a new trajectory" eval 'status_is 0 && same short.$format'
+    run_rest short.$format
+    check "$format: a run without a state starts a new trajectory" eval 'status_is 0 && equals_whole short.$format'
 
     # The trajectory ends before the state: the missing frames are reported.
     rm -f s
@@ -83,17 +83,17 @@ for format in $formats; do
     rm -f s $way
     i=0
     while [ $i -lt $kills ]; do
-        [ "$(made)" -lt 90 ] || rm -f s $way
-        setsid "$petri" run w.fl --frames $((100 - $(made))) --state s --save-every 3 --trajectory $way --trace 2>err </dev/null &
+        [ "$(saved_frames)" -lt 90 ] || rm -f s $way
+        setsid "$petri" run w.fl --frames $((100 - $(saved_frames))) --state s --save-every 3 --trajectory $way --trace 2>err </dev/null &
         job=$!
-        least=$((i * 7 % 20))
-        while kill -0 $job && [ "$(grep -c 'petri: frame' err)" -lt $least ]; do :; done
+        min_frames=$((i * 7 % 20))
+        while kill -0 $job && [ "$(grep -c 'petri: frame' err)" -lt $min_frames ]; do :; done
         kill -9 -- $([ $((i % 2)) -eq 0 ] || echo -)$job 2>/dev/null
         wait $job 2>/dev/null
         i=$((i + 1))
     done 2>/dev/null
-    rest $way
-    check "$format: a run that is killed and resumed gives the same trajectory" eval 'status_is 0 && empty err && same $way'
+    run_rest $way
+    check "$format: a run that is killed and resumed gives the same trajectory" eval 'status_is 0 && empty err && equals_whole $way'
     check "$format: killed runs leave no temporary files" [ -z "$(find . -name '*.tmp' -o -name '*.part')" ]
 done
 if [ -x "$h5md" ] && [ -e /proc/$$/task/$$/children ]; then
@@ -117,7 +117,7 @@ rm -f s
 )
 status=$?
 check "a full disk ends a run with a trajectory" status_is 1
-check "no saved state is later than the trajectory" eval '[ "$(made)" -gt 3 ] && [ "$(made)" -lt 100 ]'
-rest full.csv
-check "the same command resumes after a full disk" eval 'status_is 0 && same full.csv'
+check "no saved state is later than the trajectory" eval '[ "$(saved_frames)" -gt 3 ] && [ "$(saved_frames)" -lt 100 ]'
+run_rest full.csv
+check "the same command resumes after a full disk" eval 'status_is 0 && equals_whole full.csv'
 cd "$work" || exit 1

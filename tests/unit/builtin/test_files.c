@@ -155,7 +155,7 @@ static void test_names_are_relative_to_script(void **state) {
     assert_true(check(world, line));
 }
 
-static void test_csv_rows(void **state) {
+static void test_csv_returns_rows(void **state) {
     Place *place = *state;
     write_file(place, "t.csv", "1,2,\"three\",4.5\n\n\"a \"\"q\"\" b\", 7 ,inf,nan,1_0,,\n,,\nx");
     write_file(place, "ragged.csv", "a\r\nb,c,d\re,,f\n\"x\ny\",\"1\"\n,\n1\n");
@@ -199,7 +199,7 @@ static void test_csv_rows(void **state) {
     CHECK_ALL(place->world, lines);
 }
 
-static void test_srt_lines(void **state) {
+static void test_srt_returns_lines(void **state) {
     Place *place = *state;
     write_file(place, "film.srt",
                "1\r\n00:00:01,000 --> 00:00:03,500\r\nFirst line\r\nsecond line\r\n\r\n"
@@ -338,8 +338,8 @@ int main(void) {
         cmocka_unit_test_setup_teardown(test_failures_are_reported_once, place_setup, place_teardown),
         cmocka_unit_test_setup_teardown(test_changed_files_are_read_again, place_setup, place_teardown),
         cmocka_unit_test_setup_teardown(test_names_are_relative_to_script, place_setup, place_teardown),
-        cmocka_unit_test_setup_teardown(test_csv_rows, place_setup, place_teardown),
-        cmocka_unit_test_setup_teardown(test_srt_lines, place_setup, place_teardown),
+        cmocka_unit_test_setup_teardown(test_csv_returns_rows, place_setup, place_teardown),
+        cmocka_unit_test_setup_teardown(test_srt_returns_lines, place_setup, place_teardown),
         cmocka_unit_test_setup_teardown(test_glob_finds_matches, place_setup, place_teardown),
         cmocka_unit_test_setup_teardown(test_cache_survives_out_of_memory, place_setup, place_teardown),
         cmocka_unit_test_setup_teardown(test_cache_is_limited, place_setup, place_teardown),

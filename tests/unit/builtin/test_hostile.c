@@ -74,7 +74,7 @@ static void try_call(World *world, const Builtin *builtin, const Value *args, ui
     arena_reset(&world->frame);
 }
 
-static void test_equal_arguments(void **state) {
+static void test_equal_arguments_give_valid_results(void **state) {
     World *world = *state;
     Samples samples = samples_new(world);
     for (uint32_t b = 0; b < builtin_table_count; b++)
@@ -87,7 +87,7 @@ static void test_equal_arguments(void **state) {
             }
 }
 
-static void test_pairs_of_arguments(void **state) {
+static void test_argument_pairs_give_valid_results(void **state) {
     World *world = *state;
     Samples samples = samples_new(world);
     for (uint32_t b = 0; b < builtin_table_count; b++)
@@ -96,26 +96,26 @@ static void test_pairs_of_arguments(void **state) {
                 try_call(world, &builtin_table[b], (Value[]){samples.values[s], samples.values[t]}, 2);
 }
 
-// All triples for functions of three arguments, random arguments for more.
-static void test_three_and_more_arguments(void **state) {
+// Random arguments, for functions that accept three or more.
+static void test_random_arguments_give_valid_results(void **state) {
     World *world = *state;
     Samples samples = samples_new(world);
     uint64_t random = 1;
     for (uint32_t b = 0; b < builtin_table_count; b++) {
         const Builtin *builtin = &builtin_table[b];
-        for (uint32_t round = 0; (builtin->fixed >= 3 || builtin->variadic) && round < 3000; round++) {
+        for (uint32_t trial = 0; (builtin->fixed >= 3 || builtin->variadic) && trial < 3000; trial++) {
             Value args[MAX_ARGUMENTS];
             for (uint32_t i = 0; i < MAX_ARGUMENTS; i++) {
                 random = random * 6364136223846793005u + 1442695040888963407u;
                 args[i] = samples.values[(random >> 33) % samples.count];
             }
-            try_call(world, builtin, args, builtin->variadic ? 1 + round % MAX_ARGUMENTS : builtin->fixed);
+            try_call(world, builtin, args, builtin->variadic ? 1 + trial % MAX_ARGUMENTS : builtin->fixed);
         }
     }
 }
 
-// A million elements in one argument, the others being short.
-static void test_long_arguments(void **state) {
+// One argument has a million elements; the others are short.
+static void test_long_arguments_give_valid_results(void **state) {
     World *world = *state;
     Arena *arena = &world->session;
     Item *items = arena_alloc_array(arena, LONG, sizeof *items);
@@ -146,7 +146,7 @@ static void test_long_arguments(void **state) {
 }
 
 // Two long arguments: the time must not grow with the product of the lengths.
-static void test_two_long_arguments(void **state) {
+static void test_time_is_not_product_of_lengths(void **state) {
     World *world = *state;
     Value x = numbers(&world->session, LONG, 0, 1);
     for (uint32_t b = 0; b < builtin_table_count; b++)
@@ -154,7 +154,7 @@ static void test_two_long_arguments(void **state) {
             try_call(world, &builtin_table[b], (Value[]){x, x}, 2);
 }
 
-static void test_sort_with_nan(void **state) {
+static void test_sort_with_nan_keeps_elements(void **state) {
     World *world = *state;
     double *x = arena_alloc_array(&world->session, LONG / 10, sizeof *x);
     double sum = 0;
@@ -171,7 +171,7 @@ static void test_sort_with_nan(void **state) {
     assert_true(check == sum);
 }
 
-static void test_argument_names(void **state) {
+static void test_any_argument_names_give_valid_results(void **state) {
     World *world = *state;
     const Symbol *names[3] = {symbol_intern(&world->symbols, STR("xs")), symbol_intern(&world->symbols, STR("value")),
                               symbol_intern(&world->symbols, STR(""))};
@@ -192,13 +192,13 @@ static void test_argument_names(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_equal_arguments, world_setup, world_teardown),
-        cmocka_unit_test_setup_teardown(test_pairs_of_arguments, world_setup, world_teardown),
-        cmocka_unit_test_setup_teardown(test_three_and_more_arguments, world_setup, world_teardown),
-        cmocka_unit_test_setup_teardown(test_long_arguments, world_setup, world_teardown),
-        cmocka_unit_test_setup_teardown(test_two_long_arguments, world_setup, world_teardown),
-        cmocka_unit_test_setup_teardown(test_sort_with_nan, world_setup, world_teardown),
-        cmocka_unit_test_setup_teardown(test_argument_names, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_equal_arguments_give_valid_results, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_argument_pairs_give_valid_results, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_random_arguments_give_valid_results, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_long_arguments_give_valid_results, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_time_is_not_product_of_lengths, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_sort_with_nan_keeps_elements, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_any_argument_names_give_valid_results, world_setup, world_teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

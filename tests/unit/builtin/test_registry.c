@@ -116,7 +116,7 @@ static void test_constants_have_values(void **state) {
 }
 
 // A context without callbacks is valid and reports nothing.
-static void test_host_without_callbacks(void **state) {
+static void test_callbacks_are_optional(void **state) {
     World *world = *state;
     world->context.report_error = NULL;
     world->context.log = NULL;
@@ -132,7 +132,7 @@ int main(void) {
         cmocka_unit_test(test_parameter_texts_match_counts),
         cmocka_unit_test(test_named_arguments_are_accepted),
         cmocka_unit_test(test_constants_have_values),
-        cmocka_unit_test_setup_teardown(test_host_without_callbacks, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_callbacks_are_optional, world_setup, world_teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,7 +3,7 @@
 #include "expression.h"
 
 // B1
-static void test_maths(void **state) {
+static void test_maths_matches_specification(void **state) {
     static const char *const lines[] = {
         "sin(0.1);cos(0.1);sin(-0.3) => 0.5877852522924731;0.8090169943749475;-0.9510565162951536",
         "sin(0;0.25;0.5;0.75;1) => 0;1;-0;-1;0",
@@ -21,7 +21,7 @@ static void test_maths(void **state) {
 }
 
 // B2
-static void test_plane(void **state) {
+static void test_plane_geometry_matches_specification(void **state) {
     static const char *const lines[] = {
         "polar(0.125;0.25) => 0.7071067811865475;0.7071067811865475;-0;1",
         "angle(1;1;0;1;5);angle(1,1);angle(1;2,3) => 0.125;0.25;0.125;0.19879180882521663;0.1564164790945006",
@@ -43,7 +43,7 @@ static void test_plane(void **state) {
 }
 
 // B3
-static void test_vectors(void **state) {
+static void test_vector_functions_match_specification(void **state) {
     static const char *const lines[] = {
         "min(3;1;2);max(3;1;2);minindex(3;1;2);maxindex(3;1;2) => 1;3;1;0",
         "min(\"b\";\"a\");max(\"b\";\"a\") => 'a';'b'",
@@ -81,7 +81,7 @@ static void test_vectors(void **state) {
 }
 
 // B5
-static void test_quaternions(void **state) {
+static void test_quaternions_match_specification(void **state) {
     static const char *const lines[] = {
         "quaternion(1;0;0,0.25) => 0.7071067811865475;0.7071067811865475;0;0",
         "quaternion(1;2;3,0.3) => 0.587785252292473;0.21621888664490532;0.43243777328981065;0.648656659934716",
@@ -97,7 +97,7 @@ static void test_quaternions(void **state) {
 }
 
 // B6
-static void test_matrices(void **state) {
+static void test_matrices_match_specification(void **state) {
     static const char *const lines[] = {
         "inverse(2;0;1;0;3;0;1;0;1) => 1;0;-1;0;0.3333333333333333;0;-1;0;2",
         ("inverse(2;0;1;5;0;3;0;1;1;0;1;0;0;0;0;1) => "
@@ -113,7 +113,7 @@ static void test_matrices(void **state) {
 }
 
 // B7
-static void test_waves(void **state) {
+static void test_waves_match_specification(void **state) {
     static const char *const lines[] = {
         ("sine(0;0.25;0.5);bounce(0.5;1.25);sharkfin(0.25;0.5;0.75);square(0.25;0.5);triangle(0.25;0.5);sawtooth(-0.25)"
          " "
@@ -127,7 +127,7 @@ static void test_waves(void **state) {
 }
 
 // B8
-static void test_easings(void **state) {
+static void test_easings_match_specification(void **state) {
     static const char *const lines[] = {
         ("linear(-1;0.5;2;nan);quad(0.25;0.75);cubic(0.25;0.75);snap(0.25;0.75) => "
          "0;0.5;1;nan;0.125;0.875;0.0625;0.9375;0.3535533905932738;0.6464466094067263"),
@@ -136,7 +136,7 @@ static void test_easings(void **state) {
 }
 
 // B9
-static void test_random(void **state) {
+static void test_random_streams_match_specification(void **state) {
     static const char *const lines[] = {
         "uniform()[..4] => 0.11377270426292592;0.12216453115897499;0.16838215125240424;0.0731532577968758",
         ("uniform(1)[..3];uniform(1)[-1];uniform(1)[1e15] => "
@@ -159,7 +159,7 @@ static void test_random(void **state) {
 }
 
 // B10
-static void test_noise(void **state) {
+static void test_noise_matches_specification(void **state) {
     static const char *const lines[] = {
         ("noise(:seed,0.5);noise(:seed,0.5,0.25);noise(:seed,0.5,0.25,0.75);noise(:seed,0.5,0.25,0.75,0.1) => "
          "-0.3216515444507547;-0.1274543792208743;-0.29663026680066756;-0.0840521438214889"),
@@ -186,7 +186,7 @@ static void test_noise(void **state) {
 }
 
 // B11
-static void test_colours(void **state) {
+static void test_colours_match_specification(void **state) {
     static const char *const lines[] = {
         ("hsl(0.3;0.5;0.7);hsl(1.3;0.5;0.2) => "
          "0.61;0.85;0.5499999999999999;0.13999999999999985;0.30000000000000004;0.09999999999999998"),
@@ -206,7 +206,7 @@ static void test_colours(void **state) {
 }
 
 // B12
-static void test_text(void **state) {
+static void test_text_functions_match_specification(void **state) {
     static const char *const lines[] = {
         "ord(\"héllo\") => 104;233;108;108;111",
         "ord(12) => 49;50",
@@ -348,7 +348,7 @@ static void test_builtin_edge_cases(void **state) {
     CHECK_ALL(*state, lines);
 }
 
-static void test_nodes_as_seeds(void **state) {
+static void test_node_is_valid_seed(void **state) {
     World *world = *state;
     Arena *arena = &world->frame;
     Value node = value_node(arena, node_new(arena, symbol_intern(&world->symbols, STR("a"))));
@@ -358,7 +358,7 @@ static void test_nodes_as_seeds(void **state) {
 }
 
 // Calls that return null silently and bad calls (B0.1, B0.2), with their number of errors.
-static void test_error_counts(void **state) {
+static void test_bad_calls_report_one_error(void **state) {
     World *world = *state;
     static const struct {
         const char *call;
@@ -426,7 +426,7 @@ static void test_too_long_results_are_rejected(void **state) {
     }
 }
 
-static void test_error_messages(void **state) {
+static void test_error_messages_show_signature(void **state) {
     World *world = *state;
     evaluate(world, "sin(1, 2)");
     assert_string_equal(world->text, "sin: too many arguments: 2 given to sin(x)");
@@ -498,7 +498,7 @@ static void test_noise_arrays_equal_points(void **state) {
 }
 
 // The result for vectors consists of the results for their elements.
-static void test_element_wise_functions(void **state) {
+static void test_functions_apply_to_each_element(void **state) {
     World *world = *state;
     enum { COUNT = 40 };
     double columns[3][COUNT];
@@ -532,25 +532,25 @@ static void test_element_wise_functions(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_maths, world_setup, world_teardown),
-        cmocka_unit_test_setup_teardown(test_plane, world_setup, world_teardown),
-        cmocka_unit_test_setup_teardown(test_vectors, world_setup, world_teardown),
-        cmocka_unit_test_setup_teardown(test_quaternions, world_setup, world_teardown),
-        cmocka_unit_test_setup_teardown(test_matrices, world_setup, world_teardown),
-        cmocka_unit_test_setup_teardown(test_waves, world_setup, world_teardown),
-        cmocka_unit_test_setup_teardown(test_easings, world_setup, world_teardown),
-        cmocka_unit_test_setup_teardown(test_random, world_setup, world_teardown),
-        cmocka_unit_test_setup_teardown(test_noise, world_setup, world_teardown),
-        cmocka_unit_test_setup_teardown(test_colours, world_setup, world_teardown),
-        cmocka_unit_test_setup_teardown(test_text, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_maths_matches_specification, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_plane_geometry_matches_specification, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_vector_functions_match_specification, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_quaternions_match_specification, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_matrices_match_specification, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_waves_match_specification, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_easings_match_specification, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_random_streams_match_specification, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_noise_matches_specification, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_colours_match_specification, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_text_functions_match_specification, world_setup, world_teardown),
         cmocka_unit_test_setup_teardown(test_builtin_edge_cases, world_setup, world_teardown),
-        cmocka_unit_test_setup_teardown(test_nodes_as_seeds, world_setup, world_teardown),
-        cmocka_unit_test_setup_teardown(test_error_counts, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_node_is_valid_seed, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_bad_calls_report_one_error, world_setup, world_teardown),
         cmocka_unit_test_setup_teardown(test_too_long_results_are_rejected, world_setup, world_teardown),
-        cmocka_unit_test_setup_teardown(test_error_messages, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_error_messages_show_signature, world_setup, world_teardown),
         cmocka_unit_test_setup_teardown(test_noise_cache_keeps_results, world_setup, world_teardown),
         cmocka_unit_test_setup_teardown(test_noise_arrays_equal_points, world_setup, world_teardown),
-        cmocka_unit_test_setup_teardown(test_element_wise_functions, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_functions_apply_to_each_element, world_setup, world_teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
