@@ -264,7 +264,7 @@ int main(int argc, char **argv) {
     }
     fill_plan(&bench);
     if (!find_self(&bench)) {
-        perror("bench: cannot find itself");
+        perror("bench: cannot find its executable");
         return 1;
     }
     if (bench.peers && !peers_available(BENCH_SOURCE "/peers", bench.lammps, sizeof bench.lammps))

@@ -68,8 +68,8 @@ traffic() {
     PETRI_NO_SHARED_MEMORY=1 mpirun -n "$2" "$petri" run "$(discs "$1")" --fps 5 --frames 4 --stats 2>&1 | tr -d , | awk '
         $1 == "particles" { own = $4; halo = $11 }
         $1 == "sent" { bytes = $7; messages = $10; frame = $14 }
-        $1 == "reductions" { agreed = $2 }
-        END { print own, halo, bytes, messages, agreed, frame }'
+        $1 == "reductions" { reductions = $2 }
+        END { print own, halo, bytes, messages, reductions, frame }'
 }
 
 echo
@@ -83,7 +83,7 @@ for size in "$((side / 10)) 4" "$((side * 10 / 32)) 4" "$side 4" "$((side * 10 /
         printf "soft discs %7d, %2d ranks %12.0f %10.0f %13.0f %8.2f %9.1f %10.2f %14.0f\n",
             n, ranks, $1, $2, $3, ($2 > 0 ? $3 / (16 * $2) : 0), $4, $5, $6 }' "$work/row"
 done
-read -r own _ bytes messages agreed _ <"$work/row" # of 16 ranks, most of which have neighbours on all sides
+read -r own _ bytes messages reductions _ <"$work/row" # of 16 ranks, most of which have neighbours on all sides
 
 if [ -z "${STEP_NS:-}" ]; then
     each=$(steady 20 mpirun -n 2 "$petri" run "$soft" --fps 5 --threads 1)
@@ -93,13 +93,13 @@ if [ -z "${STEP_NS:-}" ]; then
     FRAME_NS=$(echo "$each $frame $side" | awk '{ f = (10 * $2 - 2 * $1) / 8 / $3 / $3 * 1e6; print (f > 0 ? f : 0) }')
 fi
 echo
-awk -v c="$STEP_NS" -v f="${FRAME_NS:-0}" -v own="$own" -v bytes="$bytes" -v messages="$messages" -v agreed="$agreed" \
+awk -v c="$STEP_NS" -v f="${FRAME_NS:-0}" -v own="$own" -v bytes="$bytes" -v messages="$messages" -v reductions="$reductions" \
     -v latency="${LATENCY:-2 25}" -v bandwidth="${BANDWIDTH:-10 1}" '
     # Nanoseconds of a step on `ranks` ranks.
     function step(n, ranks, steps, us, gb,   log2) {
         if (ranks == 1) return n * c + n * f / steps
         log2 = log(ranks) / log(2)
-        return n * c / ranks + (messages + 2 * agreed * log2) * us * 1000 + sent * sqrt(n / ranks) / gb \
+        return n * c / ranks + (messages + 2 * reductions * log2) * us * 1000 + sent * sqrt(n / ranks) / gb \
             + (n * f + 36 * n / gb + 2 * log2 * us * 1000) / steps
     }
     # The largest number of ranks up to which each doubling speeds a step up by 1.4, and the total speed-up.

@@ -251,30 +251,30 @@ check "the last line counts tests and scripts" [ "$(tail -n 1 "$work/out")" = "3
 mkdir -p "$project/samples" "$project/tests/golden"
 dev test
 check "the last line includes scripts" [ "$(tail -n 1 "$work/out")" = "13 passed, 0 failed" ]
-check "reports why a test was skipped" has out "skipped: other: there is no node"
-check "reports a skipped test without a reason" has out "skipped: quick: no reason given"
-check "names no log when all tests pass" lacks out "to repeat"
+check "test reports why a test was skipped" has out "skipped: other: there is no node"
+check "test reports a test that was skipped without a reason" has out "skipped: quick: no reason given"
+check "test names no log if all tests pass" lacks out "to repeat"
 dev test base golden
-check "runs the tests of a suite" grep -q '^meson test .*--print-errorlogs .* quick other$' "$work/calls"
-check "runs a folder of scripts by its name" has out "scripts in tests/golden"
-check "runs no other folder" lacks out "scripts in samples"
+check "test SUITE runs the tests of the suite" grep -q '^meson test .*--print-errorlogs .* quick other$' "$work/calls"
+check "test FOLDER runs the scripts of the folder" has out "scripts in tests/golden"
+check "test FOLDER runs no other folder" lacks out "scripts in samples"
 dev test samples
-check "runs no test for a folder" lacks calls "--print-errorlogs"
-check "counts the scripts of a single folder" [ "$(tail -n 1 "$work/out")" = "5 passed, 0 failed" ]
+check "test FOLDER runs no other tests" lacks calls "--print-errorlogs"
+check "test FOLDER counts the scripts of the folder" [ "$(tail -n 1 "$work/out")" = "5 passed, 0 failed" ]
 dev test ase
-check "rejects an unknown test" status_is 1
-check "names the unknown test" has err "no such test or suite: 'ase'"
+check "test rejects an unknown name" status_is 1
+check "test reports the unknown name" has err "no such test or suite: 'ase'"
 touch "$project/golden-fails"
 dev test
-check "names a failed folder" has out "log: build/tests.log; to repeat: ./dev test golden"
-check "logs its scripts" grep -q '^4 passed, 1 failed$' "$project/build/tests.log"
+check "test names a folder with failed scripts" has out "log: build/tests.log; to repeat: ./dev test golden"
+check "the log has the results of the scripts" grep -q '^4 passed, 1 failed$' "$project/build/tests.log"
 rm "$project/golden-fails"
 check "tests are counted while they run" has err "tests: 3 of 3"
 breaks=tests
 dev test
 check "test exits with 1 if a test fails" status_is 1
 check "the log of a failed test is shown" has out ">>> the log of slow"
-check "names the log and the command that repeats the failed test" has out "log: build/tests.log; to repeat: ./dev test slow"
+check "test names the log and the command that repeats the failed test" has out "log: build/tests.log; to repeat: ./dev test slow"
 check "failures are counted" [ "$(tail -n 1 "$work/out")" = "12 passed, 1 failed" ]
 
 machine
@@ -293,12 +293,12 @@ machine
 on_machine CDPATH="$work" sh "${project#"$work"/}/dev" run dish.fl >out 2>err </dev/null
 status=$?
 check "run exits with 0 with CDPATH" status_is 0
-check "runs the script with CDPATH" has out "this is petri"
+check "run runs the script with CDPATH" has out "this is petri"
 
 machine
 breaks=count
 dev run dish.fl
-check "never counts more packages than there are" lacks err " 4 of 3"
+check "run never counts more packages than there are" lacks err " 4 of 3"
 breaks=
 
 machine
@@ -324,7 +324,7 @@ check "run without a network suggests the reason" has err "no network?"
 check "run without a network hides the errors of apt-get" lacks err "E: "
 check "run without a network prints at most 3 lines" lines_at_most err 3
 check "run without a network names the log" has err "build/packages-lists.log"
-check "the log has the errors of apt-get" grep -q 'Unable to locate package meson' "$project/build/packages-lists.log"
+check "the log contains the errors of apt-get" grep -q 'Unable to locate package meson' "$project/build/packages-lists.log"
 touch "$work/lists"
 dev run dish.fl
 check "run with old lists and no network suggests the reason" has err "no network?"
@@ -350,13 +350,13 @@ dev install "$work/some where"
 check "install compiles first" grep -q 'ninja .* installed' "$work/calls"
 check "install uses the given prefix" has calls "meson configure $project/build -Dprefix=$work/some where"
 check "install uses meson" has calls "meson install -C $project/build --no-rebuild"
-check "prints the line that extends PATH" has err "  export PATH=\"\$HOME/some where/bin:\$PATH\""
+check "install prints the line that extends PATH" has err "  export PATH=\"\$HOME/some where/bin:\$PATH\""
 dev install
 check "install by root uses /usr/local" has calls "-Dprefix=/usr/local"
 uid=1000
 dev install
 check "install by a user uses ~/.local" has calls "-Dprefix=$work/.local"
-check "prints no MANPATH if none is set" lacks err MANPATH
+check "install prints no MANPATH if none is set" lacks err MANPATH
 # installed SHELL PROFILE: checks that the printed lines work in this shell and, through PROFILE, in new ones.
 installed() {
     rm -f "$work/$2"
@@ -370,9 +370,9 @@ check "bash finds petri and its manual" installed bash .bashrc
 check "zsh finds petri and its manual" installed zsh .zshrc
 check "another shell finds petri and its manual" installed dash .profile
 on_machine SHELL=/usr/bin/fish sh "$project/dev" install >out 2>err </dev/null
-check "prints the command for fish" has err '  fish_add_path "$HOME/.local/bin"'
+check "install prints the command for fish" has err '  fish_add_path "$HOME/.local/bin"'
 on_machine PATH="$work/.local/bin:$work/bin" sh "$project/dev" install >out 2>err </dev/null
-check "prints no line if petri is already in PATH" lacks err "PATH"
+check "install prints no line if petri is already in PATH" lacks err "PATH"
 
 machine
 for tool in bash dirname mktemp unshare git; do
@@ -401,12 +401,12 @@ if [ -n "$script" ] && "$script" -qec true /dev/null >/dev/null 2>&1 </dev/null;
     typed y run dish.fl
     check "run asks on a terminal" has out "[Y/n]"
     check "run asks only once" count_is out "[Y/n]" 1
-    check "names the packages" has out "gcc libc6-dev meson ninja-build"
-    check "estimates sizes without package lists" has out \
+    check "run names the packages" has out "gcc libc6-dev meson ninja-build"
+    check "run estimates sizes without package lists" has out \
         "petri needs 19 Debian packages (about 204 with dependencies, 155 MB to download, 600 MB of disk space,"
-    check "estimates the time" has out "3 minutes): gcc"
-    check "says what the tests need" has out "more (about 327 with "
-    check "says that later commands do not ask" has out "Later commands install what they need without asking again"
+    check "run estimates the time" has out "3 minutes): gcc"
+    check "run prints the size of the packages for tests" has out "more (about 327 with "
+    check "run announces that later commands do not ask" has out "Later commands install what they need without asking again"
     check "run continues after yes" has out "this is petri run --show dish.fl"
     erase=$(printf '\r\033[K')
     check "packages are counted on one line" has out "${erase}dev: packages: 2 of 3, setting up part2${erase}"
@@ -424,11 +424,11 @@ if [ -n "$script" ] && "$script" -qec true /dev/null >/dev/null 2>&1 </dev/null;
     uid=1000
     with_sudo all
     typed n run dish.fl
-    check "reads sizes from the package lists" has out "packages (3 with dependencies, 61 MB to download, 212 MB of disk space,"
-    check "reads package lists without sudo" lacks calls sudo
+    check "run reads sizes from the package lists" has out "packages (3 with dependencies, 61 MB to download, 212 MB of disk space,"
+    check "run reads package lists without sudo" lacks calls sudo
     uid=0
     typed '' run dish.fl
-    check "asks again after no, and Enter means yes" has out "this is petri"
+    check "run asks again after no, and Enter means yes" has out "this is petri"
     "$root/.ci/hostile" 'tty; echo "$COLORTERM $LANG"; umask; printf "1 of 2\r\033[K2 of 2\n"; exit 3' >out 2>&1
     status=$?
     check "hostile exits with the command's status" status_is 3

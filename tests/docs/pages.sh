@@ -58,7 +58,7 @@ fi
 passed=0
 failed=0
 good() { passed=$((passed + 1)); }
-bad() { # PLACE TEXT
+bad() { # POSITION TEXT
     failed=$((failed + 1))
     echo "$1: $2"
 }
@@ -142,7 +142,7 @@ difference() { # WANT GOT
          }' "$1" "$2"
 }
 
-run_script() { # PLACE TEXT NAME WARNS
+run_script() { # POSITION TEXT NAME WARNS
     cp "$2" "$3"
     [ -z "${4:-}" ] || return 0
     if ! petri check --werror "$3" >out 2>&1 </dev/null; then
@@ -154,7 +154,7 @@ run_script() { # PLACE TEXT NAME WARNS
     fi
 }
 
-run_command() { # PLACE COMMAND WANT
+run_command() { # POSITION COMMAND WANT
     case $(cat "$2") in
     *render*.gif* | *render*.mp4* | *ffmpeg*) [ -n "$can_draw" ] && [ -n "$can_film" ] || return 0 ;;
     *render*) [ -n "$can_draw" ] || return 0 ;;
@@ -166,7 +166,7 @@ run_command() { # PLACE COMMAND WANT
         sed 's/petri render .*\(%05d\|\.gif\|\.mp4\).*/& --frames 13/' "$2" >command
     fi
     timeout 120 sh ./command >out 2>&1 </dev/null
-    [ $? -ne 124 ] || bad "$1" "takes too long"
+    [ $? -ne 124 ] || bad "$1" "did not finish within 120 s"
     fault=$(difference "$3" out)
     if [ -n "$fault" ]; then bad "$1" "$fault"; else good; fi
 }
@@ -179,7 +179,7 @@ size_of() {
     esac
 }
 
-compare_picture() { # PLACE LINK FOLDER-OF-PAGE
+compare_picture() { # POSITION LINK FOLDER-OF-PAGE
     stored=$3/$2
     made=${2##*/}
     if [ ! -e "$made" ]; then
@@ -193,7 +193,7 @@ compare_picture() { # PLACE LINK FOLDER-OF-PAGE
     new=$(wc -c <"$made")
     old=$(wc -c <"$stored" || echo 0)
     if [ "$(size_of "$made")" != "$(size_of "$stored")" ]; then
-        bad "$1" "$made has another size than the stored picture"
+        bad "$1" "$made has other dimensions than the stored picture"
     elif [ "${made%.gif}" != "$made" ] && [ ! "$whole" ]; then
         good
     elif [ "$new" -gt $((2 * old)) ] || [ "$old" -gt $((2 * new)) ]; then
@@ -210,7 +210,7 @@ headings() { # PAGE
     sed -n '/^```/,/^```/d; s/^##* //p' "$1" | tr '[:upper:] ' '[:lower:]-' | tr -d '!-,./:-@[-^`{-~'
 }
 
-follow_link() { # PLACE PAGE LINK
+follow_link() { # POSITION PAGE LINK
     target=$(dirname "$2")/${3%%#*}
     [ "${3%%#*}" ] || target=$2
     if [ ! -e "$target" ]; then

@@ -7,7 +7,7 @@ async function main(petri) {
     const server = childProcess.spawn(petri, ["lsp", "--stdio"]);
     const connection = protocol.createProtocolConnection(
         new protocol.StreamMessageReader(server.stdout), new protocol.StreamMessageWriter(server.stdin));
-    const told = new Promise((resolve) => connection.onNotification(protocol.PublishDiagnosticsNotification.type, resolve));
+    const published = new Promise((resolve) => connection.onNotification(protocol.PublishDiagnosticsNotification.type, resolve));
     connection.listen();
     const { capabilities } = await connection.sendRequest(protocol.InitializeRequest.type,
         { processId: process.pid, rootUri: null, capabilities: {} });
@@ -15,7 +15,7 @@ async function main(petri) {
     await connection.sendNotification(protocol.InitializedNotification.type, {});
     const textDocument = { uri: "file:///tmp/client.fl", languageId: "flitter", version: 1, text: "let a=coz(1)\n!n b=a\n" };
     await connection.sendNotification(protocol.DidOpenTextDocumentNotification.type, { textDocument });
-    assert.match((await told).diagnostics[0].message, /did you mean 'cos'/);
+    assert.match((await published).diagnostics[0].message, /did you mean 'cos'/);
     const ask = (kind, more) => connection.sendRequest(kind.type, { textDocument, position: { line: 1, character: 5 }, ...more });
     assert.match((await ask(protocol.HoverRequest)).contents.value, /let a=coz/);
     assert((await ask(protocol.CompletionRequest)).some((item) => item.label === "a"));
@@ -26,7 +26,7 @@ async function main(petri) {
     await connection.sendRequest(protocol.ShutdownRequest.type);
     await connection.sendNotification(protocol.ExitNotification.type);
     assert.equal(await new Promise((resolve) => server.on("exit", resolve)), 0);
-    console.log("the client is content");
+    console.log("all answers are as expected");
 }
 
 main(process.argv[2]).catch((problem) => {

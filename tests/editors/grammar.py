@@ -19,7 +19,7 @@ environment = {**os.environ, "NODE_PATH": os.environ.get("NODE_PATH", str(module
 node = shutil.which("node")
 if node is None or subprocess.run([node, "-e", "require('vscode-textmate'); require('vscode-oniguruma')"],
                                   env=environment, stderr=subprocess.DEVNULL).returncode != 0:
-    print("skipped: node with vscode-textmate and vscode-oniguruma is not there (npm ci in src/editors/vscode)")
+    print("skipped: node with vscode-textmate and vscode-oniguruma is not installed (run npm ci in src/editors/vscode)")
     sys.exit(77)
 
 CLASSES = [("comment", "comment"), ("string", "string"), ("constant.numeric", "number"), ("keyword.operator.word", "keyword"),

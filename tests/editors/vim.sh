@@ -7,7 +7,7 @@
 petri=$(program "$1") || exit 2
 syntax=$(realpath "$2")
 command -v nvim >/dev/null || {
-    echo "skipped: there is no nvim (Debian: neovim)"
+    echo "skipped: nvim is not installed (Debian: neovim)"
     exit 77
 }
 scratch
@@ -33,7 +33,7 @@ let words = [['let', 1, 1], ['in2', 1, 5], ['=', 1, 8], ['sin', 1, 9], ['1:30', 
 call writefile(map(words, 'v:val[0] . " " . synIDattr(synID(v:val[1], v:val[2], 1), "name")'), 'classes')
 call writefile([&filetype, &shiftwidth, &commentstring, &formatprg], 'settings')
 normal gggqG
-call writefile(getline(1, '$'), 'laid')
+call writefile(getline(1, '$'), 'formatted')
 silent! make!
 call writefile(map(getqflist(), 'v:val.lnum . ":" . v:val.col . " " . v:val.type . " " . v:val.text'), 'faults')
 qa!
@@ -61,8 +61,8 @@ escape flitterEscape
 func flitterKeyword
 %include flitterKeyword
 END
-check "each token has its class" diff wanted classes
+check "each token has the expected class" diff wanted classes
 check "the ftplugin sets the options for Flitter" [ "$(tr '\n' '|' <settings)" = "flitter|4|-- %s|petri fmt -|" ]
 check ":make lists the messages of petri check" has faults "4:10 w cannot include"
-check "gq formats" [ "$(head -n 1 laid)" = "let in2=sin(1:30)  -- it" ]
+check "gq formats a script with petri fmt" [ "$(head -n 1 formatted)" = "let in2=sin(1:30)  -- it" ]
 finish

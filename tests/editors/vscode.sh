@@ -9,7 +9,7 @@ petri=$(program "$1") || exit 2
 grammar=$(realpath "$2")
 folder=$root/src/editors/vscode
 [ -x "$folder/node_modules/.bin/esbuild" ] && command -v node >/dev/null || {
-    echo "skipped: esbuild and vscode-languageclient are not there (npm install in src/editors/vscode)"
+    echo "skipped: esbuild and vscode-languageclient are not installed (run npm install in src/editors/vscode)"
     exit 77
 }
 scratch
@@ -38,8 +38,8 @@ if (typeof require("./unpacked/extension/" + about.main).activate !== "function"
 status=$?
 check "the package is complete and can be loaded" status_is 0
 version=$(sed -n 's/.*version: .\([0-9.]*\).,.*/\1/p' "$root/meson.build" | head -n 1)
-check "its version is petri's" has extension/package.json "\"version\": \"$version\""
+check "the extension has the version of petri" has extension/package.json "\"version\": \"$version\""
 NODE_PATH=$folder/node_modules node "$here/client.js" "$petri" >out 2>err
 status=$?
-check "VS Code's client library talks to the server" has out "the client is content"
+check "VS Code's client library gets the expected answers from the server" has out "all answers are as expected"
 finish

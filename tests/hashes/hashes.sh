@@ -55,7 +55,7 @@ fi
 differing=$(all_hashes | LC_ALL=C comm -3 - "$here/corpora.txt" | awk '{ print $1 }' | uniq)
 count=$(grep -c . <<<"$differing") || true
 if [ "$count" -gt 0 ]; then
-    echo "different from tests/hashes/corpora.txt; if intended, run: ./dev hashes --update"
+    echo "results differ from tests/hashes/corpora.txt; if this is intended, run: ./dev hashes --update"
     echo "$differing"
 fi
 echo "hashes: $(wc -l <"$here/corpora.txt") scripts, $count differ"

@@ -12,7 +12,7 @@ trap 'rm -rf "$scratch"' EXIT
 # compare NAME WANTED FOUND: reports differences between two lists.
 compare() {
     if ! diff "$2" "$3" >"$scratch/diff"; then
-        sed -n -e "s|^< |$1 lacks |p" -e "s|^> |$1 has, but abi.txt has not: |p" "$scratch/diff"
+        sed -n -e "s|^< |missing in $1: |p" -e "s|^> |missing in abi.txt, but in $1: |p" "$scratch/diff"
         faults=1
     fi
 }

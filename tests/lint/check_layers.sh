@@ -52,7 +52,7 @@ xargs nm -gA <"$scratch/objects" | awk "$component_of"'
         sub(/:.*/, "", object)
         name = $NF
     }
-    $(NF - 1) == "U" { taken[++count] = object " " name; next }
+    $(NF - 1) == "U" { used[++count] = object " " name; next }
     !(name in owner) {
         owner[name] = component_of(object)
         # Public functions belong to petri or petri-draw.
@@ -61,7 +61,7 @@ xargs nm -gA <"$scratch/objects" | awk "$component_of"'
     }
     END {
         for (i = 1; i <= count; i++) {
-            split(taken[i], use, " ")
+            split(used[i], use, " ")
             if (use[2] in owner)
                 print component_of(use[1]), owner[use[2]], use[1], "calls " use[2]
         }
@@ -70,7 +70,7 @@ xargs nm -gA <"$scratch/objects" | awk "$component_of"'
 status=0
 for found in lines headers symbols; do
     awk -v found=$found '
-        function complain(text) {
+        function report_fault(text) {
             print text
             faults++
         }
@@ -88,21 +88,21 @@ for found in lines headers symbols; do
                         if (($i, low) in may)
                             may[component, low] = 1
                 if (!($i in is_component) && $i !~ /^petri/)
-                    complain("layers.txt: " component " may only use components listed above it, not " $i)
+                    report_fault("layers.txt: " component " may only use components listed above it, not " $i)
             }
             next
         }
         { uses++ }
-        !($1 in is_component) && !unknown[$1]++ { complain("layers.txt has no component " $1) }
+        !($1 in is_component) && !unknown[$1]++ { report_fault("layers.txt has no component " $1) }
         !(($1, $2) in may) {
             what = $4
             for (i = 5; i <= NF; i++)
                 what = what " " $i
-            complain($3 ": " what ", but " $1 " may not use " $2)
+            report_fault($3 ": " what ", but " $1 " may not use " $2)
         }
         END {
             if (uses < 200)
-                complain("found only " (uses + 0) " " found)
+                report_fault("found only " (uses + 0) " " found)
             exit faults > 0
         }' "$table" "$scratch/$found" || status=1
 done

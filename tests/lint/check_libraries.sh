@@ -58,7 +58,7 @@ if nm lib/draw/libpetri-draw.a 2>/dev/null | grep -q ' U cairo_create$'; then
         faults=1
     fi
 fi
-# Checks in the same way that petri-lsp needs the JSON library.
+# Checks for the same reason that petri-lsp needs the JSON library.
 if [ -e src/petri-lsp ] && ! needed src/petri-lsp | grep -q '^libjson-c\.'; then
     echo "petri-lsp does not need json-c"
     faults=1

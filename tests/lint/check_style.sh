@@ -6,7 +6,7 @@ cd "$1"
 max_lines=700
 faults=0
 
-complain() {
+report_fault() {
     echo "$1"
     faults=1
 }
@@ -17,23 +17,23 @@ for file in $(find lib grammar src tests samples -name node_modules -prune -o -n
     [ -f "$file" ] || continue
     [ -s "$file" ] || continue
     if grep -n '[[:blank:]]$' "$file"; then
-        complain "$file: blanks at the end of a line"
+        report_fault "$file: blanks at the end of a line"
     fi
     if [ -n "$(tail -c 1 "$file")" ]; then
-        complain "$file: no line feed at the end"
+        report_fault "$file: no line feed at the end"
     fi
     if grep -n 'TO''DO\|FIX''ME' "$file"; then
-        complain "$file: a reminder of unfinished work"
+        report_fault "$file: a reminder of unfinished work"
     fi
     case $file in
     *.c | *.h | *.re | *.y)
         if grep -n "$(printf '\t')" "$file"; then
-            complain "$file: tabs"
+            report_fault "$file: tabs"
         fi
         case $file in
         lib/* | src/*)
             if grep -n '== NULL' "$file"; then
-                complain "$file: write !p instead of p == NULL"
+                report_fault "$file: write !p instead of p == NULL"
             fi
             ;;
         esac
@@ -42,7 +42,7 @@ for file in $(find lib grammar src tests samples -name node_modules -prune -o -n
         *_tables.h | lib/include/petri.h) ;;
         *)
             if [ "$lines" -gt $max_lines ]; then
-                complain "$file: $lines lines, at most $max_lines"
+                report_fault "$file: $lines lines, at most $max_lines"
             fi
             ;;
         esac

@@ -33,7 +33,7 @@ def place(text):
     return text.replace("§", ""), line, len(before.split("\n")[-1].encode("utf-16-le")) // 2
 
 
-def spot(text, method, **more):
+def answer_at(text, method, **more):
     """Returns the answer to a request at the mark."""
     plain, line, character = place(text)
     client.versions.setdefault(uri, 0)
@@ -85,7 +85,7 @@ client.change(uri, {"text": "!n\n"})
 client.wait(uri)
 while client.published[part]["diagnostics"]:
     client.read()
-check("they are withdrawn when the file is no longer included", client.published[part]["diagnostics"], [])
+check("diagnostics of a file that is no longer included are withdrawn", client.published[part]["diagnostics"], [])
 
 # Completion.
 script = """let SIZE=300
@@ -95,43 +95,43 @@ func area(width, height=2)
     !particle id=1
 %s
 """
-check("names in scope are completed", {"SIZE", "area", "sin", "beat", "pi"} <= set(labels(spot(script % "let x=§", "completion"))))
-check("names out of scope are not completed", "width" in labels(spot(script % "let x=§", "completion")), False)
+check("names in scope are completed", {"SIZE", "area", "sin", "beat", "pi"} <= set(labels(answer_at(script % "let x=§", "completion"))))
+check("names out of scope are not completed", "width" in labels(answer_at(script % "let x=§", "completion")), False)
 check("parameters are completed within their function",
-      {"width", "height"} <= set(labels(spot(script.replace("width*height", "w§") % "", "completion"))))
-check("nodes are completed after !", {"!window", "!particle", "!ellipse"} <= set(labels(spot(script % "!§", "completion"))))
-items = spot(script % "!physics state=:b §", "completion")
+      {"width", "height"} <= set(labels(answer_at(script.replace("width*height", "w§") % "", "completion"))))
+check("nodes are completed after !", {"!window", "!particle", "!ellipse"} <= set(labels(answer_at(script % "!§", "completion"))))
+items = answer_at(script % "!physics state=:b §", "completion")
 check("attributes are completed", {"dimensions=", "resolution="} <= set(labels(items)))
 check("attributes are completed with types", [i["detail"] for i in items if i["label"] == "dimensions="], ["whole number, 1 or more"])
-check("attributes are completed with defaults", "default" in str([i for i in spot("!particle §\n", "completion") if i["label"] == "mass="]))
-check("state keys are completed after $", labels(spot(script % "let x=$§", "completion"))[:1], [":dish"])
-check("a partial state key is completed", ":dish" in labels(spot(script % "let x=$:d§", "completion")))
+check("attributes are completed with defaults", "default" in str([i for i in answer_at("!particle §\n", "completion") if i["label"] == "mass="]))
+check("state keys are completed after $", labels(answer_at(script % "let x=$§", "completion"))[:1], [":dish"])
+check("a partial state key is completed", ":dish" in labels(answer_at(script % "let x=$:d§", "completion")))
 check("symbols that an attribute accepts are completed", {":butt", ":round", ":square"} <=
-      set(labels(spot("!path\n    !stroke stroke_cap=:§\n", "completion"))))
-check("named arguments are completed", {"width=", "height="} <= set(labels(spot(script % "let x=area(§", "completion"))))
-check("file names are completed in strings", "part.fl" in labels(spot("%include 'p§'\n", "completion")))
-check("nothing is completed in comments", labels(spot("-- s§\n", "completion")), [])
-items = spot("let x=si§\n", "completion")
+      set(labels(answer_at("!path\n    !stroke stroke_cap=:§\n", "completion"))))
+check("named arguments are completed", {"width=", "height="} <= set(labels(answer_at(script % "let x=area(§", "completion"))))
+check("file names are completed in strings", "part.fl" in labels(answer_at("%include 'p§'\n", "completion")))
+check("nothing is completed in comments", labels(answer_at("-- s§\n", "completion")), [])
+items = answer_at("let x=si§\n", "completion")
 sin = [i for i in items if i["label"] == "sin"][0]
 check("functions are completed with their parameters", sin["detail"], "sin(x)")
 check("a completion replaces the partial word", applied("let x=si\n", [sin["textEdit"]]), "let x=sin\n")
 
 # Hover.
-hover = spot("let x=s§in(1)\n", "hover")
+hover = answer_at("let x=s§in(1)\n", "hover")
 check("hover shows a function", "sin(x)" in hover["contents"]["value"])
 check("hover returns the range of the word", hover["range"]["end"], {"line": 0, "character": 9})
-check("hover shows a node", "a particle" in spot("!parti§cle id=1\n", "hover")["contents"]["value"])
-check("hover shows the formula of a force", "\nF = strength · (r₁ + r₂ − l)^power if l < r₁ + r₂\n" in spot(
+check("hover shows a node", "a particle" in answer_at("!parti§cle id=1\n", "hover")["contents"]["value"])
+check("hover shows the formula of a force", "\nF = strength · (r₁ + r₂ − l)^power if l < r₁ + r₂\n" in answer_at(
     "!coll§ision strength=2\n", "hover")["contents"]["value"])
-check("hover shows an attribute", "of `!particle`" in spot("!particle ra§dius=1\n", "hover")["contents"]["value"])
-check("hover shows a built-in value", "tempo" in spot("!n a=be§at\n", "hover")["contents"]["value"])
-check("hover shows a keyword", "repeats" in spot("fo§r i in 3\n    !n\n", "hover")["contents"]["value"])
-hover = spot("-- How large\nlet SIZE=2*150   -- it is\n!n a=SI§ZE\n", "hover")["contents"]["value"]
+check("hover shows an attribute", "of `!particle`" in answer_at("!particle ra§dius=1\n", "hover")["contents"]["value"])
+check("hover shows a built-in value", "tempo" in answer_at("!n a=be§at\n", "hover")["contents"]["value"])
+check("hover shows a keyword", "repeats" in answer_at("fo§r i in 3\n    !n\n", "hover")["contents"]["value"])
+hover = answer_at("-- How large\nlet SIZE=2*150   -- it is\n!n a=SI§ZE\n", "hover")["contents"]["value"]
 check("hover shows the value of a constant", "= `300`" in hover)
 check("hover shows the comments at a binding", "How large" in hover and "it is" in hover)
-check("hover shows no value of a variable name", "= `" in spot("let a=frame\n!n a=§a\n", "hover")["contents"]["value"], False)
-check("hover shows the value of a number with a suffix", spot("!n a=9§0deg\n", "hover")["contents"]["value"], "= `0.25`")
-check("hover shows nothing on blanks", spot("!n  §  a=1\n", "hover"), None)
+check("hover shows no value of a variable name", "= `" in answer_at("let a=frame\n!n a=§a\n", "hover")["contents"]["value"], False)
+check("hover shows the value of a number with a suffix", answer_at("!n a=9§0deg\n", "hover")["contents"]["value"], "= `0.25`")
+check("hover shows nothing on blanks", answer_at("!n  §  a=1\n", "hover"), None)
 for topic in ("builtins", "nodes"):
     listed = subprocess.run([petri, "help", topic], capture_output=True, text=True, env={**os.environ, "COLUMNS": "1000"}).stdout.split("\n")
     words = {line.split("(")[0] for line in listed if line} if topic == "builtins" else {
@@ -144,29 +144,29 @@ for topic in ("builtins", "nodes"):
     check(f"hover explains all {topic}", silent, [])
 
 # Signatures.
-help = spot(script % "let x=area(1, §", "signatureHelp")
+help = answer_at(script % "let x=area(1, §", "signatureHelp")
 check("signature help shows the parameters of a function", help["signatures"][0]["label"], "area(width, height=2)")
 check("signature help marks the current parameter", help["activeParameter"], 1)
-check("signature help shows a built-in", spot("let x=map(0.5, (1;§2), 3)\n", "signatureHelp")["signatures"][0]["label"][:4], "map(")
+check("signature help shows a built-in", answer_at("let x=map(0.5, (1;§2), 3)\n", "signatureHelp")["signatures"][0]["label"][:4], "map(")
 
 # Names.
 names = "let a=1\nfunc f(a, b)\n    a + b\n!n x=a y=f(a, b=3) z=a\n"
-check("the definition of an argument is found", spot(names.replace("    a + b", "    §a + b"), "definition")["range"]["start"],
+check("the definition of an argument is found", answer_at(names.replace("    a + b", "    §a + b"), "definition")["range"]["start"],
       {"line": 1, "character": 7})
-check("the definition of a let is found", spot(names.replace("x=a", "x=§a"), "definition")["range"]["start"],
+check("the definition of a let is found", answer_at(names.replace("x=a", "x=§a"), "definition")["range"]["start"],
       {"line": 0, "character": 4})
-check("references include the declaration on request", len(spot(names.replace("x=a", "x=§a"), "references", context={"includeDeclaration": True})), 4)
-check("references exclude the declaration by default", len(spot(names.replace("x=a", "x=§a"), "references",
-                                                                context={"includeDeclaration": False})), 3)
-check("all uses are highlighted", len(spot(names.replace("x=a", "x=§a"), "documentHighlight")), 4)
-edits = spot(names.replace("(a, b)", "(a, §b)"), "rename", newName="c")["changes"][uri]
+check("references include the declaration on request", len(answer_at(names.replace("x=a", "x=§a"), "references", context={"includeDeclaration": True})), 4)
+check("references exclude the declaration by default", len(answer_at(names.replace("x=a", "x=§a"), "references",
+                                                                     context={"includeDeclaration": False})), 3)
+check("all uses are highlighted", len(answer_at(names.replace("x=a", "x=§a"), "documentHighlight")), 4)
+edits = answer_at(names.replace("(a, b)", "(a, §b)"), "rename", newName="c")["changes"][uri]
 check("renaming a parameter renames named arguments", applied(names, edits),
       "let a=1\nfunc f(a, c)\n    a + c\n!n x=a y=f(a, c=3) z=a\n")
-edits = spot("let N=N or 5\n!n a=§N\n", "rename", newName="COUNT")["changes"][uri]
+edits = answer_at("let N=N or 5\n!n a=§N\n", "rename", newName="COUNT")["changes"][uri]
 check("renaming a script parameter renames both names", applied("let N=N or 5\n!n a=N\n", edits), "let COUNT=COUNT or 5\n!n a=COUNT\n")
 
 
-def refusal(text, name):
+def rename_error(text, name):
     plain, line, character = place(text)
     client.change(uri, {"text": plain})
     reply = client.reply("textDocument/rename", {"textDocument": {"uri": uri}, "newName": name,
@@ -174,21 +174,21 @@ def refusal(text, name):
     return reply.get("error", {}).get("message")
 
 
-check("renaming to a name in use is rejected", refusal(names.replace("(a, b)", "(a, §b)"), "a"),
+check("renaming to a name in use is rejected", rename_error(names.replace("(a, b)", "(a, §b)"), "a"),
       "the name is in use: renaming would change the script's meaning")
-check("renaming to a built-in in use is rejected", refusal("let §a=1\n!n b=a c=sin(1)\n", "sin"),
+check("renaming to a built-in in use is rejected", rename_error("let §a=1\n!n b=a c=sin(1)\n", "sin"),
       "the name is in use: renaming would change the script's meaning")
-check("renaming to an invalid name is rejected", refusal("let §a=1\n", "1x"), "not a valid name")
-check("built-ins cannot be renamed", refusal("let a=§sin(1)\n", "x"), "cannot rename: the script does not bind this name")
+check("renaming to an invalid name is rejected", rename_error("let §a=1\n", "1x"), "not a valid name")
+check("built-ins cannot be renamed", rename_error("let a=§sin(1)\n", "x"), "cannot rename: the script does not bind this name")
 Path("lib.fl").write_text("-- Twice as much.\nfunc twice(x)\n    2*x\n")
 imports = "import twice from 'lib.fl'\n!n a=§twice(2)\n"
-check("the definition of an imported name is in its file", spot(imports, "definition"),
+check("the definition of an imported name is in its file", answer_at(imports, "definition"),
       {"uri": Path("lib.fl").absolute().as_uri(),
        "range": {"start": {"line": 1, "character": 5}, "end": {"line": 1, "character": 10}}})
-check("hover shows the comment of an imported name", "Twice as much" in spot(imports, "hover")["contents"]["value"])
+check("hover shows the comment of an imported name", "Twice as much" in answer_at(imports, "hover")["contents"]["value"])
 check("signature help shows the parameters of an imported function",
-      spot("import twice from 'lib.fl'\n!n a=twice(§2)\n", "signatureHelp")["signatures"][0]["label"], "twice(x)")
-check("the definition of a file name is the file", spot("import twice from 'l§ib.fl'\n", "definition")["uri"],
+      answer_at("import twice from 'lib.fl'\n!n a=twice(§2)\n", "signatureHelp")["signatures"][0]["label"], "twice(x)")
+check("the definition of a file name is the file", answer_at("import twice from 'l§ib.fl'\n", "definition")["uri"],
       Path("lib.fl").absolute().as_uri())
 
 # Names in several files, one of which is open and not saved.
@@ -323,7 +323,7 @@ check("inlay hints show values of constants", [(h["label"], h["position"]["chara
       [("= 6", 9), ("= 6;1", 15), ("= 12", 14)])
 client.change(uri, {"text": "!fill color=1;0.5;0\nlet c=hsv(0.5;1;1)\n!fill color=a;1;1\n"})
 colours = client.of("documentColor", uri)
-check("colours are found", [tuple(c["color"][k] for k in ("red", "green", "blue", "alpha")) for c in colours],
+check("colours of a script are found", [tuple(c["color"][k] for k in ("red", "green", "blue", "alpha")) for c in colours],
       [(1, 0.5, 0, 1), (0, 1, 1, 1)])
 shown = client.of("colorPresentation", uri, color={"red": 1, "green": 0, "blue": 0, "alpha": 1},
                   range=colours[1]["range"])
@@ -345,8 +345,8 @@ check("a script with errors is not formatted", client.of("formatting", uri, opti
 
 # Incomplete scripts.
 check("names are completed although a line has an error", {"SIZE", "area"} <=
-      set(labels(spot(script.replace("width*height", "width*height\nlet y=(1;") % "let x=§", "completion"))))
-check("definitions are found although a line has an error", spot("let a=1\n!n b=)\n!m c=§a\n", "definition")["range"]["start"],
+      set(labels(answer_at(script.replace("width*height", "width*height\nlet y=(1;") % "let x=§", "completion"))))
+check("definitions are found although a line has an error", answer_at("let a=1\n!n b=)\n!m c=§a\n", "definition")["range"]["start"],
       {"line": 0, "character": 4})
 
 # Invalid messages.
@@ -362,6 +362,6 @@ client = Client(petri, utf8=True)
 diagnostics = client.open(uri, "!n c='😀' d=nowhere\n")
 check("positions are bytes for editors that support UTF-8", diagnostics[0]["range"]["start"]["character"], 14)
 client.process.stdin.close()
-check("the server exits with 1 when the editor is gone", client.process.wait(), 1)
+check("the server exits with 1 if its input ends without a shutdown", client.process.wait(), 1)
 print(f"{passed} passed, {failed} failed")
 sys.exit(failed > 0)

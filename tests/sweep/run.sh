@@ -72,7 +72,7 @@ cp out first
 sweep sum.fl -D A=1..9 -D B=10..20\|1 --sample latin:11 --frames 1 --metric b=B --jobs 3
 check "a sample does not depend on the number of processes" same out first
 sweep sum.fl -D A=1..9 -D B=10..20\|1 --sample latin:11:7 --frames 1 --metric b=B
-check "another seed makes another sample" [ "$(cmp -s out first; echo $?)" -eq 1 ]
+check "a different seed gives a different sample" [ "$(cmp -s out first; echo $?)" -eq 1 ]
 
 # --- summary and plots
 
@@ -90,7 +90,7 @@ if [ "$2" = draws ]; then
     check "--plot accepts metrics without values" [ -s empty.png ]
 fi
 
-# --- in HDF5
+# --- tables in HDF5
 
 if [ -x "$(dirname "$petri")/petri-hdf5" ]; then
     for jobs in 1 3; do
@@ -177,16 +177,16 @@ printf 'run 59 100 5' >>killed.csv.part # an incomplete result
 cells -o killed.csv
 check "a resumed sweep writes the same table to the last byte" same whole.csv killed.csv
 check "a resumed sweep writes the same commands" same whole.csv.runs killed.csv.runs
-check "the journal is removed" [ ! -e killed.csv.part ]
+check "a finished sweep removes its journal" [ ! -e killed.csv.part ]
 
 kill_at 5
 sweep dish.fl -D DROPS=10..30\|5 --seeds 12 --frames 501 --every 250 --metric "$far" -o killed.csv
-check "another sweep does not resume from the journal" status_is 2
-check "a journal of another sweep is reported" has err 'remove it to start over'
+check "a journal of another sweep is rejected" status_is 2
+check "the message about a journal of another sweep says what to do" has err 'remove it to start over'
 rm killed.csv.part
 kill_at 3 -TERM
 check "SIGTERM ends the sweep" status_is 143
-check "a stopped sweep says how to resume" has err 'run the same command to resume'
+check "a stopped sweep prints how to resume" has err 'run the same command to resume'
 cat >slow.fl <<'END'
 let N=N or 1 BIG=sum(i*i for i in ..100000*N+0*frame)
 END
@@ -243,7 +243,7 @@ cp "$petri" bare
 check "without MPI, each process of mpirun is a shard" exists parts2.csv.part-2-of-2
 cells -o parts2.csv
 check "a sweep without shards uses the journal of a shard" same whole.csv parts2.csv
-check "the journal of the shard is removed" [ "$(echo parts2.csv*)" = "parts2.csv parts2.csv.runs" ]
+check "a finished sweep removes the journal of a shard" [ "$(echo parts2.csv*)" = "parts2.csv parts2.csv.runs" ]
 
 # --- plans
 
