@@ -140,7 +140,7 @@ struct PhysSystem {
     Columns columns;
     // retained between steps and frames
     uint64_t frame; // number of the current frame
-    struct Neighbours *lists;
+    struct NeighbourList *lists;
     // reordering (reorder.c)
     bool can_reorder;   // all particles are in one group, and only its single pass over pairs depends on their order
     bool in_cell_order; // columns are in the sorted order of that pass's neighbour list
@@ -226,7 +226,7 @@ bool phys_step(PhysSystem *system, double clock, double delta, double speed_of_l
 // system allows this. phys_restore_order restores the order of the description and drops the list. phys_forget_order
 // only drops it, for columns that are about to be rebuilt.
 bool phys_can_reorder(const PhysSystem *system);
-void phys_reorder(PhysSystem *system, struct Neighbours *list);
+void phys_reorder(PhysSystem *system, struct NeighbourList *list);
 void phys_restore_order(PhysSystem *system);
 void phys_forget_order(PhysSystem *system);
 

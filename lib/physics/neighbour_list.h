@@ -33,7 +33,7 @@ typedef struct PassRanges {
     ColumnRange at[PHYS_MAX_RANGES];
 } PassRanges;
 
-typedef struct Neighbours {
+typedef struct NeighbourList {
     // the pass that the list is for
     uint32_t group; // whose particles the forces act on
     uint32_t level; // group that declares the forces

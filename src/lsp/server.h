@@ -41,7 +41,7 @@ void diagnostics_collect(void *server, const PetriDiagnostic *diagnostic);
 void diagnostics_withdraw(Server *server, Document *document);
 
 // The parameters of a request.
-typedef struct Place {
+typedef struct RequestContext {
     Server *server;
     Document *document;
     const Json *params;
