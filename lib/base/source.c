@@ -15,7 +15,7 @@ size_t source_unify_lines(char *bytes, size_t len) {
     return kept;
 }
 
-// Returns a copy without byte-order mark, with LF line ends, a final LF and a NUL byte after it.
+// Returns a copy without byte-order mark, with LF line endings, a final LF and a NUL byte after it.
 static Str normalise_lines(Arena *arena, Str text) {
     if (str_starts_with(text, STR("\xef\xbb\xbf")))
         text = (Str){text.bytes + 3, text.len - 3};

@@ -11,7 +11,7 @@ double noise_point_2(const uint8_t *permutation, const double *c);
 double noise_point_3(const uint8_t *permutation, const double *c);
 double noise_point_4(const uint8_t *permutation, const double *c);
 
-// Returns the implementation of noise_point_2 for maths_plane_noise_array.
+// Returns the constants with which maths_plane_noise_array computes the same results as noise_point_2.
 PlaneNoise noise_plane(void);
 
 #endif

@@ -15,7 +15,7 @@ struct DrawNode {
     uint32_t child_count;
     const AttrValue *attrs; // in the order written, in which transforms are applied
     const DrawNode *const *children;
-    Str tags;      // identify picture nodes from frame to frame: names in order, with a space after each
+    Str tags;      // tags of a picture node, each followed by a space; they identify the node in the next frame
     Origin origin; // position of the shader text or of the node; the source may no longer exist when it is reported
 };
 

@@ -155,8 +155,8 @@ void draw_text(Canvas *canvas, const DisplayCommand *command, const DisplayPaint
 void draw_image(Canvas *canvas, const DisplayImage *image, const DisplayPaint *paint);
 // Returns the pixels of an image. The caller destroys them. Returns NULL, after a report, if there is none.
 cairo_surface_t *draw_find_image(Canvas *canvas, const DisplayImage *image);
-// Like draw_find_image, without a copy: returns the rendered picture of a node or the cached pixels of a file. Returns
-// false if there is neither.
+// Like draw_find_image, but does not copy the pixels: sets *texture to the rendered picture of a node, or *file to the
+// cached pixels of a file, and the other one to NULL. Returns false if both are NULL.
 bool draw_find_pixels(Canvas *canvas, const DisplayImage *image, const Texture **texture, cairo_surface_t **file);
 void draw_images_close(PetriPainter *painter);
 // Decodes a JPEG file. Returns NULL with a reason in *problem; without a reason if out of memory.

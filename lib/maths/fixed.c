@@ -258,7 +258,8 @@ double fixed_round(const Fixed *a, int scale) {
         mantissa = shift_right(&x, last).limb[0];
         mantissa += get_bit(&x, last - 1) && ((mantissa & 1) || any_bit_below(&x, last - 1));
     }
-    // Adding the mantissa with its hidden bit, or a carry, increments the exponent, up to infinity.
+    // The mantissa includes its implicit leading bit, so the addition increments the exponent field. A carry from the
+    // rounding increments it once more, which can result in infinity.
     return double_from_bits(sign | (((uint64_t)(unit + 1074) << 52) + mantissa));
 }
 

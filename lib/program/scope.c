@@ -1,4 +1,4 @@
-// scope.c: scopes and resolution of names; see compile.h.
+// scope.c: scopes and name resolution; see compile.h.
 #include "builtin/builtin.h"
 #include "program/compile.h"
 

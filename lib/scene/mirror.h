@@ -19,9 +19,9 @@
 // for rows (PhysTime.keep_last_finite) as well as for copies (numbers_finite; state_slot_set). Otherwise a referencing
 // entry could show a value that a copy must not hold.
 //
-// An entry that the state does not have yet is *missing*. Its row holds the attribute's value, which is not a result,
-// so the entry references the row only from the first finite result on. Missing entries are counted, because writing
-// one between two frames does not modify the owner.
+// An entry is *missing* until the state contains it. Its row then holds the attribute's value, which is not a result,
+// so the entry is created only when the row receives its first finite result. Missing entries are counted: if the host
+// or another node creates one between two frames, the owner does not become modified, but the count changes.
 //
 // States of a mirror:
 //
@@ -35,7 +35,7 @@
 //         mirror_reuse: owner modified, run restarted, other particles, or update aborted;
 //         a mistake in the tree, which must be reported in each frame; system skipped in a frame
 //
-//   STALE    The tree must be read from scratch, with positions and velocities from the state, which is always right.
+//   STALE    The tree must be read from scratch, with positions and velocities from the state, which is authoritative.
 //   OPEN     A description was begun and not finished: some entries reference the previous one.
 //   CURRENT  Rows and entries are in sync, and the description matches the last frame's tree. Only differences of the
 //            next tree must be passed to the engine: none if the tree is the same.

@@ -50,7 +50,7 @@ typedef struct Loader {
     Unit *pending;                // script or text being loaded, to be freed if the load is aborted
     Unit *compiling;              // unit whose compiler calls the host functions; NULL: none
     bool lint;                    // report likely mistakes, for petri_check
-    uint64_t static_work;         // work units of folding in this load
+    uint64_t static_work;         // work units that constant folding has used in this load
 } Loader;
 
 // Names of values that a program receives as parameters.

@@ -37,7 +37,7 @@ static bool read_script(const char *name, ByteBuffer *text) {
     return read && text->length <= MAX_BYTES;
 }
 
-// Returns the text with LF line ends and without a byte-order mark. Modifies the buffer.
+// Returns the text with LF line endings and without a byte-order mark. Modifies the buffer.
 static Str normalise_text(ByteBuffer *text) {
     static const char mark[] = "\xef\xbb\xbf";
     size_t skipped = strncmp(text->data, mark, strlen(mark)) == 0 ? strlen(mark) : 0;

@@ -10,7 +10,7 @@
 #include "petri.h"
 
 // Adds the formatted text. Returns false if the text has an invalid token, or if out of memory. `text` must have LF
-// line ends and no byte-order mark.
+// line endings and no byte-order mark.
 bool layout_text(PetriSession *session, Str text, ByteBuffer *out);
 // Returns true if both texts have the same tokens and the same compiled code. `name` is the file name in messages.
 bool layout_same(PetriSession *session, const char *name, Str before, Str after);

@@ -1,4 +1,5 @@
-# check.sh: counted checks for shell tests. Sourced. Sets `here`, the folder of the test, and `root`, the project.
+# check.sh: functions that run and count the checks of a shell test. Sourced by the test. Sets `here` to the folder of
+# the test and `root` to that of the project.
 unset CDPATH
 here=$(cd "$(dirname "$0")" && pwd)
 root=${here%/tests/*}

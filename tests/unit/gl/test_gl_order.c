@@ -88,16 +88,16 @@ static void test_which_spheres_become_discs(void **state) {
     stage.instances[1].material = &stage.opaque;
     assert_int_equal(count_discs(&stage), MAX_INSTANCES - 1);
     assert_true(stage.deep);
-    set_stage(&stage); // translucent balls write depth, and need their backs
+    set_stage(&stage); // translucent balls write depth, and need their back faces
     stage.material.surface.translucency = 1;
     assert_int_equal(count_discs(&stage), 0);
-    set_stage(&stage); // without sorting all write depth
+    set_stage(&stage); // without sorting, all balls write depth
     stage.group.state.depth_sort = false;
     assert_int_equal(count_discs(&stage), 0);
-    set_stage(&stage); // the far sides are visible as well
+    set_stage(&stage); // back faces are drawn as well
     stage.group.state.face_cull = false;
     assert_int_equal(count_discs(&stage), 0);
-    set_stage(&stage); // only the far sides are visible
+    set_stage(&stage); // only back faces are drawn
     stage.group.state.cull_face = FACE_FRONT;
     assert_int_equal(count_discs(&stage), 0);
     set_stage(&stage);

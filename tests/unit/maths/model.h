@@ -1,4 +1,4 @@
-// model.h: reference results for lib/maths by MPFR, and random arguments.
+// model.h: reference results for lib/maths, computed with MPFR, and random arguments.
 #ifndef PETRI_TESTS_MATHS_MODEL_H
 #define PETRI_TESTS_MATHS_MODEL_H
 

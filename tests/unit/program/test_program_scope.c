@@ -1,4 +1,4 @@
-// test_program_scope.c: tests resolution of names: slots, captures, names of the engine, definitions, built-ins,
+// test_program_scope.c: tests name resolution: slots, captures, names of the engine, definitions, built-ins,
 // unbound.
 #include "compiling.h"
 

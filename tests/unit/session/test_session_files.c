@@ -327,7 +327,7 @@ static const char *read_unsaved(void *host, const char *name, size_t *length) {
     return read_shelf_file(shelf, slash + 1, length);
 }
 
-// Unsaved texts of an editor replace files that scripts import and include, if these exist and are allowed.
+// An editor's unsaved texts replace files that scripts import or include, but only files that exist and may be read.
 static void test_unsaved_text_replaces_file(void **state) {
     Desk *desk = *state;
     Player *player = &desk->player;

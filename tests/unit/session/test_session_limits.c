@@ -46,7 +46,7 @@ static void test_abort_leaves_state_unchanged(void **state) {
     static const char script[] = "!counter state=:c rate=1\n"
                                  "!physics state=:p dimensions=2\n"
                                  "    !random strength=5\n"
-                                 "    for i in ..400+0*frame\n" // created in each frame
+                                 "    for i in ..400+0*frame\n" // not constant: created again in each frame
                                  "        !particle id=i position=i;1 velocity=1;2\n"
                                  "!physics state=:q dimensions=20\n"
                                  "    for i in ..40\n"
