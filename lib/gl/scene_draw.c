@@ -400,7 +400,7 @@ GlImage gl_scene(Gl *gl, const Scene *scene, const SceneCamera *camera, const Sc
     drawing.order = draw_order(scene, &drawing.eye, &drawing.view, &drawing.projection, width, boxes);
     if (drawing.order.cut)
         scene_report(scene, "too-many-triangles", scene->node,
-                     "a picture can show 50 million triangles; the others are left out");
+                     "a picture can show at most 50 million triangles; the others are left out");
     while (glGetError() != GL_NO_ERROR)
         ;
     send_records(&drawing);

@@ -72,7 +72,7 @@ static uint32_t number_textures(Scene *scene, const InheritedState *place) {
             return i;
     if (any && scene->texture_count > MAX_COUNT)
         scene_report(scene, "too-many-textures", scene->node,
-                     "a scene can have 1000 different sets of textures; the others are left out");
+                     "a scene can have at most 1000 different sets of textures; the others are left out");
     if (!any || scene->texture_count > MAX_COUNT)
         return 0;
     scene->textures = arena_grow_array(scene->arena, scene->textures, scene->texture_count, &scene->texture_capacity,
@@ -189,7 +189,7 @@ static void read_light(Scene *scene, const InheritedState *place, const DrawNode
     if (!read_triple(node, ATTR_COLOR, color) || vector_dot(color, color) == 0)
         return;
     if (scene->light_count >= SCENE_MAX_LIGHTS) {
-        scene_report(scene, "too-many-lights", node, "a scene can have 4000 lights; the others are left out");
+        scene_report(scene, "too-many-lights", node, "a scene can have at most 4000 lights; the others are left out");
         return;
     }
     SceneLight light = {.falloff = {0, 0, 1, 0}};
@@ -228,7 +228,7 @@ static void read_camera(Scene *scene, const InheritedState *place, const DrawNod
     if (!id || id->as.text.len == 0)
         return;
     if (scene->camera_count >= MAX_COUNT) {
-        scene_report(scene, "too-many-cameras", node, "a scene can have 100 cameras; the others are left out");
+        scene_report(scene, "too-many-cameras", node, "a scene can have at most 100 cameras; the others are left out");
         return;
     }
     SceneCamera *camera = add_camera(scene);
@@ -268,7 +268,8 @@ static uint32_t number_model(Scene *scene, const DrawNode *node) {
         if (scene_same_model(&scene->models[i], &model))
             return i;
     if (scene->model_count >= SCENE_MAX_MODELS) {
-        scene_report(scene, "too-many-models", node, "a scene can have 2000 different models; the others are left out");
+        scene_report(scene, "too-many-models", node,
+                     "a scene can have at most 2000 different models; the others are left out");
         return UINT32_MAX;
     }
     scene->models =
@@ -280,7 +281,7 @@ static uint32_t number_model(Scene *scene, const DrawNode *node) {
 static void read_model(Scene *scene, const InheritedState *outside, const DrawNode *node) {
     InheritedState place = *outside;
     if (scene->instance_count >= SCENE_MAX_INSTANCES) {
-        scene_report(scene, "too-many-models", node, "a scene can have 200000 models; the others are left out");
+        scene_report(scene, "too-many-models", node, "a scene can have at most 200000 models; the others are left out");
         return;
     }
     read_state(scene, &place, node);

@@ -23,7 +23,7 @@ static bool wait_for(pid_t process) {
         done = waitpid(process, &status, 0);
     } while (done < 0 && errno == EINTR);
     if (done == process && WIFSIGNALED(status)) // otherwise petri-hdf5 has printed its own message
-        message("petri-hdf5, which writes the file, was ended by signal %d", WTERMSIG(status));
+        message("petri-hdf5, which writes the file, was terminated by signal %d", WTERMSIG(status));
     return done == process && WIFEXITED(status) && WEXITSTATUS(status) == STATUS_DONE;
 }
 

@@ -29,7 +29,7 @@ const PageRow PAGE_STATUSES[] = {
     {"0", "success"},
     {"1", "error in a script, exceeded limit, file that cannot be written, or failed test"},
     {"2", "invalid command line; nothing was done"},
-    {"128+N", "ended by signal N"},
+    {"128+N", "terminated by signal N"},
     {0},
 };
 

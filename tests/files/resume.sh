@@ -105,7 +105,7 @@ if [ -x "$h5md" ] && [ -e /proc/$$/task/$$/children ]; then
     wait $job
     status=$?
     check "the run ends if petri-hdf5 is killed" status_is 1
-    check "the end of petri-hdf5 is reported" has err "petri-hdf5, which writes the file, was ended by signal 9"
+    check "the end of petri-hdf5 is reported" has err "petri-hdf5, which writes the file, was terminated by signal 9"
     petri run w.fl --frames 1 --state s --trajectory run.h5
     check "the next run resumes after petri-hdf5 was killed" eval 'status_is 0 && empty err'
 fi
