@@ -55,15 +55,15 @@ struct FrameWriter {
     bool ending;             // true if no more jobs will be added
     bool failed;
     bool abandoned;      // true if no more files are renamed
-    bool drawing;        // true while a frame of the film is drawn; such a frame can be abandoned
-    bool film_abandoned; // true if the film ends without the frame that is being drawn
-    bool has_frame;      // true if the film has a frame
+    bool drawing;        // true while a frame of the video is drawn; such a frame can be abandoned
+    bool film_abandoned; // true if the video ends without the frame that is being drawn
+    bool has_frame;      // true if the video has a frame
     int unfinished;      // number of abandoned jobs
     double seconds;      // spent by all threads
     const char *film;    // this and the following fields are used by the first worker only
     double fps;
     Video video;
-    uint32_t *pixels; // buffer for a frame of the film
+    uint32_t *pixels; // buffer for a frame of the video
     Recording recording;
     pthread_t workers[MAX_WORKERS];
     int worker_count;
@@ -77,8 +77,8 @@ static void set_error_text(FrameWriter *writer, const char *text) {
     pthread_mutex_unlock(&writer->lock);
 }
 
-// Draws a frame of the film. Never returns if the frame is abandoned meanwhile, because then another thread ends the
-// film.
+// Draws a frame of the video. Never returns if the frame is abandoned meanwhile, because then another thread ends the
+// video.
 static bool draw_for_film(FrameWriter *writer, PetriPicture *picture, PetriPainter *painter) {
     const Video *video = &writer->video;
     pthread_mutex_lock(&writer->lock);
@@ -342,7 +342,7 @@ void frame_writer_report(FrameWriter *writer, PetriSession *session) {
     }
 }
 
-// Waits until all jobs are finished. After a signal, waits only GRACE_SECONDS and until the film has no half-written
+// Waits until all jobs are finished. After a signal, waits only GRACE_SECONDS and until the video has no half-written
 // frame. Returns the number of abandoned jobs.
 static int wait_for_end(FrameWriter *writer) {
     double signalled = 0;

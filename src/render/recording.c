@@ -13,7 +13,7 @@
 struct RecordedFile {
     RecordedFile *next;
     char *name;
-    Video video; // open only while a film is written
+    Video video; // open only while a video is written
     uint64_t frames;
     bool film; // true for a film, false for a picture
 };
@@ -46,7 +46,7 @@ static bool add_frame(Recording *recording, RecordedFile *file, const PetriRecor
     if (over)
         return close_film(recording, file);
     bool good = file->frames > 0 || video_open(&file->video, file->name, record->width, record->height, recording->fps);
-    // All frames of a film have the same size; others are skipped.
+    // All frames of a video have the same size; others are skipped.
     if (good && record->width == file->video.width && record->height == file->video.height) {
         good = video_add(&file->video, record->pixels);
         file->frames++;

@@ -1,4 +1,4 @@
-// recording.h: the files of `!record` nodes: films, and pictures, which are written once per file name.
+// recording.h: the files of `!record` nodes: videos, and pictures, which are written once per file name.
 #ifndef PETRI_SRC_RECORDING_H
 #define PETRI_SRC_RECORDING_H
 
@@ -17,7 +17,7 @@ typedef struct Recording {
 
 // Renders a picture, if it is not rendered yet, and writes its records. Returns false on failure.
 bool recording_add(Recording *recording, PetriPicture *picture, PetriPainter *painter);
-// Completes all films, or discards them if `abandon`. Returns false on failure. error_text remains valid.
+// Completes all videos, or discards them if `abandon`. Returns false on failure. error_text remains valid.
 bool recording_end(Recording *recording, bool abandon);
 void recording_free(Recording *recording);
 

@@ -1,4 +1,4 @@
-// render.c: `petri render`, which writes frames as a picture, a series of pictures or a film.
+// render.c: `petri render`, which writes frames as a picture, a series of pictures or a video.
 #include "cli/byte_buffer.h"
 #include "cli/script.h"
 #include "cli/stdout_file.h"
@@ -129,7 +129,7 @@ static void output_frame(Render *render) {
 }
 
 // Returns true for the first frames, in which particles have no positions yet (petri_picture_ready). They are computed,
-// but neither drawn nor counted, so that a film does not begin with all particles in one point. File names keep the
+// but neither drawn nor counted, so that a video does not begin with all particles at one point. File names keep the
 // frame numbers, and --frame can still select these frames.
 static bool is_before_first_picture(const Render *render) {
     return render->frames.options->frame < 0 && !petri_picture_ready(render->frames.session, &render->picture);
@@ -158,7 +158,8 @@ static void report_summary(const Render *render) {
             frame_writer_seconds(render->writer));
 }
 
-// Reports what was kept after a signal: films and series keep the frames drawn so far; a single picture is not written.
+// Reports what was kept after a signal: videos and series keep the frames drawn so far; a single picture is not
+// written.
 static void report_stop(const Render *render, bool saved) {
     const char *frames = render->drawn == 1 ? "frame" : "frames";
     if (!saved) {

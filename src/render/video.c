@@ -1,4 +1,4 @@
-// video.c: films, encoded by an ffmpeg process; see video.h.
+// video.c: videos, encoded by an ffmpeg process; see video.h.
 #include "render/video.h"
 
 #include "base/file.h"
@@ -79,7 +79,7 @@ static pid_t spawn_ffmpeg(Video *video, int input, double fps) {
     const char *const *format = formats[find_format(video->file)].words;
     for (size_t i = 0; format[i]; i++)
         words[count++] = format[i];
-    words[count] = "file:/dev/fd/3"; // the film is still an unnamed file, open as descriptor 3
+    words[count] = "file:/dev/fd/3"; // the video is still an unnamed file, open as descriptor 3
 
     posix_spawn_file_actions_t files;
     posix_spawnattr_t attributes;
@@ -129,7 +129,7 @@ static int wait_for(pid_t pid) {
     return status;
 }
 
-// Kills ffmpeg and discards the film. Called when a signal ends this process.
+// Kills ffmpeg and discards the video. Called when a signal ends this process.
 static void abort_on_signal(void *context) {
     Video *video = context;
     pid_t pid = atomic_exchange(&video->pid, 0);

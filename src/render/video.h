@@ -1,6 +1,6 @@
-// video.h: films, encoded by an ffmpeg process that receives frames through a pipe.
+// video.h: videos, encoded by an ffmpeg process that receives frames through a pipe.
 //
-// The film gets its name when it is complete (base/replace.h); otherwise no file remains. On failure, error_text has
+// The video gets its name when it is complete (base/replace.h); otherwise no file remains. On failure, error_text has
 // the reason, because the calling thread does not write messages.
 #ifndef PETRI_SRC_VIDEO_H
 #define PETRI_SRC_VIDEO_H
@@ -28,12 +28,12 @@ typedef struct Video {
 bool video_has_suffix(const char *file);
 // Starts ffmpeg. Returns false and sets error_text on failure.
 bool video_open(Video *video, const char *file, int width, int height, double fps);
-// Adds a frame of width x height pixels, in rows without gaps. If ffmpeg has failed, discards the film, sets error_text
-// and returns false.
+// Adds a frame of width x height pixels, in rows without gaps. If ffmpeg has failed, discards the video, sets
+// error_text and returns false.
 bool video_add(Video *video, const uint32_t *pixels);
-// Completes the film and renames it. Returns false and sets error_text on failure.
+// Completes the video and renames it. Returns false and sets error_text on failure.
 bool video_close(Video *video);
-// Stops ffmpeg and discards the film. Does nothing if no film is open.
+// Stops ffmpeg and discards the video. Does nothing if no video is open.
 void video_abandon(Video *video);
 
 #endif
