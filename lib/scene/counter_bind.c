@@ -35,7 +35,7 @@ static void store_finite(const Reader *reader, State *state, Value key, Value v,
         state_set(state, key, v);
     else
         reader_report(reader, "not-finite", what,
-                      str_format(reader->arena, "the %s is not finite; the counter keeps its last one", what));
+                      str_format(reader->arena, "the %s is not finite; the counter keeps the previous %s", what, what));
 }
 
 void counter_update(Scene *scene, const Node *node, const SceneFrame *frame) {

@@ -230,7 +230,8 @@ static bool read_force(PhysicsTree *tree, const Reader *reader, uint32_t randoms
     if (row.stage == STAGE_LINK)
         return bind_ends(tree, reader, &read, force);
     if (row.stage == STAGE_BARRIER && !force->vector2) {
-        reader_report_attr(reader, "bad-normal", ATTR_NORMAL, STR("normal is not a direction; the barrier is ignored"));
+        reader_report_attr(reader, "bad-normal", ATTR_NORMAL,
+                           STR("normal is missing, 0 or not finite; the barrier is ignored"));
         return false;
     }
     return true;

@@ -105,8 +105,9 @@ static void test_ids(void **state) {
         {"!distance from='q' to=1", "warning !distance: from='q': no such particle; ignored [unknown-particle]\n"},
         {"!distance to=1", "warning !distance: from=null: no such particle; ignored [unknown-particle]\n"},
         {"!barrier normal=0;0 min=1",
-         "warning !barrier: normal is not a direction; the barrier is ignored [bad-normal]\n"},
-        {"!barrier min=1", "warning !barrier: normal is not a direction; the barrier is ignored [bad-normal]\n"},
+         "warning !barrier: normal is missing, 0 or not finite; the barrier is ignored [bad-normal]\n"},
+        {"!barrier min=1",
+         "warning !barrier: normal is missing, 0 or not finite; the barrier is ignored [bad-normal]\n"},
     };
     check_reported(*state, rows, COUNT_OF(rows));
 }

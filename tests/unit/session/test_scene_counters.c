@@ -154,9 +154,9 @@ static void test_invalid_counters_are_reported(void **state) {
         {"!counter state=:c reset='x'\n",
          "warning !counter state=:c: reset should be any numbers, not 'x' [bad-attribute]\n"},
         {"!counter state=:c initial=inf\n",
-         "warning !counter state=:c: the value is not finite; the counter keeps its last one [not-finite]\n"},
+         "warning !counter state=:c: the value is not finite; the counter keeps the previous value [not-finite]\n"},
         {"!counter state=:c time=inf\n",
-         "warning !counter state=:c: the time is not finite; the counter keeps its last one [not-finite]\n"},
+         "warning !counter state=:c: the time is not finite; the counter keeps the previous time [not-finite]\n"},
         {"!a\n    !counter state=:c\n", ""}, // only top-level nodes are systems
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
