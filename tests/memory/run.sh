@@ -98,7 +98,7 @@ is_reported() {
 }
 # Succeeds if status, output and files are those of a run without failures.
 same() { [ "$status" -eq "$good" ] && same_output && same_files; }
-# The output in a terminal contains times, so that only the picture is checked.
+# The output in a terminal contains times, so only the picture is checked.
 same_output() {
     if [ "$terminal" ]; then
         grep -q '48;5;29m' out

@@ -13,7 +13,7 @@ typedef struct Light {
     enum { NONE, AMBIENT, DIRECTIONAL, SPOT, POINT, LINE } kind;
     double color[3];
     double position[3];  // of a line: its start
-    double direction[3]; // of a line: its end; of a spot: its focus
+    double direction[3]; // for a line: its end; for a spot: its focus
     double radius;
     double outer;
     double inner;

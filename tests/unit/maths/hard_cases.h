@@ -1,6 +1,6 @@
 // hard_cases.h: arguments whose results are hard to round. The comments give the distance of the result from the
-// nearest border (the point halfway between two doubles) or double, in half units of the last place. The first list is
-// from the literature (Lefèvre and Muller's tables of worst cases and later work), the second from find_hard.c.
+// nearest double or midpoint (halfway between two doubles), in half ulps. The first list is from the literature
+// (Lefèvre and Muller's tables of worst cases and later work), the second from find_hard.c.
 #ifndef PETRI_TESTS_MATHS_HARD_CASES_H
 #define PETRI_TESTS_MATHS_HARD_CASES_H
 
@@ -10,49 +10,49 @@ typedef struct HardCase {
 } HardCase;
 
 static const HardCase hard_cases[] = {
-    {"acos", 0x1.53ea6c7255e88p-4, 0},    // 2^-57.7 from a border
+    {"acos", 0x1.53ea6c7255e88p-4, 0},    // 2^-57.7 from a midpoint
     {"acos", 0x1.fd737be914578p-11, 0},   // 2^-62.2 from a double
-    {"asin", 0x1.c373ff4aad79bp-14, 0},   // 2^-57.6 from a border
+    {"asin", 0x1.c373ff4aad79bp-14, 0},   // 2^-57.6 from a midpoint
     {"asin", 0x1.e9950730c4696p-2, 0},    // 2^-64.9 from a double
     {"cos", 0x1.06b505550e6b2p-9, 0},     // 2^-58.3 from a double
     {"cos", 0x1.20000000000f3p-20, 0},    // 2^-72.7 from a double
-    {"cos", 0x1.34ec2f9fc9cp+1, 0},       // 2^-58.8 from a border
+    {"cos", 0x1.34ec2f9fc9cp+1, 0},       // 2^-58.8 from a midpoint
     {"cos", 0x1.8000000000009p-23, 0},    // 2^-88.2 from a double
     {"cos", 0x1.8000000000024p-22, 0},    // 2^-82.2 from a double
     {"cos", 0x1.800000000009p-21, 0},     // 2^-76.2 from a double
-    {"exp", -0x1.02393d5976769p+1, 0},    // 2^-53.0 from a border
-    {"exp", -0x1.22e24fa3d5cf9p-1, 0},    // 2^-52.1 from a border
+    {"exp", -0x1.02393d5976769p+1, 0},    // 2^-53.0 from a midpoint
+    {"exp", -0x1.22e24fa3d5cf9p-1, 0},    // 2^-52.1 from a midpoint
     {"exp", -0x1.290ea09e36479p-3, 0},    // 2^-56.9 from a double
     {"exp", -0x1.dc2b5df1f7d3dp-1, 0},    // 2^-52.1 from a double
     {"exp", -0x1.ed318efb627eap-27, 0},   // 2^-59.1 from a double
-    {"exp", 0x1.005ae04256babp-1, 0},     // 2^-52.9 from a border
+    {"exp", 0x1.005ae04256babp-1, 0},     // 2^-52.9 from a midpoint
     {"exp", 0x1.08f51434652c3p+4, 0},     // 2^-53.2 from a double
     {"exp", 0x1.1d5c2daebe367p+4, 0},     // 2^-54.1 from a double
-    {"exp", 0x1.273c188aa7b14p+2, 0},     // 2^-53.7 from a border
-    {"exp", 0x1.6a4d1af9cc989p-8, 0},     // 2^-54.4 from a border
+    {"exp", 0x1.273c188aa7b14p+2, 0},     // 2^-53.7 from a midpoint
+    {"exp", 0x1.6a4d1af9cc989p-8, 0},     // 2^-54.4 from a midpoint
     {"exp", 0x1.83d4bcdebb3f4p+2, 0},     // 2^-57.9 from a double
-    {"exp", 0x1.9e9cbbfd6080bp-31, 0},    // 2^-57.6 from a border
-    {"exp", 0x1.accfbe46b4efp-1, 0},      // 2^-54.6 from a border
+    {"exp", 0x1.9e9cbbfd6080bp-31, 0},    // 2^-57.6 from a midpoint
+    {"exp", 0x1.accfbe46b4efp-1, 0},      // 2^-54.6 from a midpoint
     {"exp", 0x1.c44ce0d716a1ap+4, 0},     // 2^-54.2 from a double
     {"log", 0x1.62a88613629b6p+678, 0},   // 2^-64.2 from a double
-    {"log10", 0x1.e12d66744ff81p+429, 0}, // 2^-68.8 from a border
+    {"log10", 0x1.e12d66744ff81p+429, 0}, // 2^-68.8 from a midpoint
     {"log2", 0x1.1ba39ff28e3eap+0, 0},    // 2^-49.8 from a double
     {"log2", 0x1.61555f75885b4p+0, 0},    // 2^-44.4 from a double
-    {"log2", 0x1.b4ebe40c95a01p+0, 0},    // 2^-53.5 from a border
-    {"sin", 0x1.598bae9e632f6p-7, 0},     // 2^-59.1 from a border
+    {"log2", 0x1.b4ebe40c95a01p+0, 0},    // 2^-53.5 from a midpoint
+    {"sin", 0x1.598bae9e632f6p-7, 0},     // 2^-59.1 from a midpoint
     {"sin", 0x1.9283586503fep-5, 0},      // 2^-55.2 from a double
     {"sin", 0x1.a202b3fb84788p-4, 0},     // 2^-52.6 from a double
-    {"sin", 0x1.d037cb27ee6dfp-3, 0},     // 2^-52.0 from a border
+    {"sin", 0x1.d037cb27ee6dfp-3, 0},     // 2^-52.0 from a midpoint
     {"sin", 0x1.d7bdcd778049fp-5, 0},     // 2^-55.3 from a double
     {"sin", 0x1.e0000000001c2p-20, 0},    // 2^-72.1 from a double
     {"sin", 0x1.fe767739d0f6dp-2, 0},     // 2^-65.1 from a double
     {"tan", 0x1.46ac372243536p-1, 0},     // 2^-54.4 from a double
-    {"tan", 0x1.50486b2f87014p-5, 0},     // 2^-57.8 from a border
+    {"tan", 0x1.50486b2f87014p-5, 0},     // 2^-57.8 from a midpoint
     {"tan", 0x1.52c39ef070cadp-4, 0},     // 2^-53.1 from a double
     {"tan", 0x1.67fffffffa114p-18, 0},    // 2^-57.4 from a double
     {"tan", 0x1.a33f32ac5ceb5p-3, 0},     // 2^-55.6 from a double
-    {"tan", 0x1.d696bfa988db9p-2, 0},     // 2^-51.7 from a border
-    {"tan", 0x1.dffffffffff1fp-22, 0},    // 2^-78.5 from a border
+    {"tan", 0x1.d696bfa988db9p-2, 0},     // 2^-51.7 from a midpoint
+    {"tan", 0x1.dffffffffff1fp-22, 0},    // 2^-78.5 from a midpoint
     // found by find_hard.c
     {"sin", 0x1.ffe2a99eca841p-8, 0},                      // 2^-40.1
     {"sin", -0x1.144d42abfc5e2p-2, 0},                     // 2^-35.3

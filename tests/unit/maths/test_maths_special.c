@@ -230,7 +230,7 @@ static void test_binary_special_values(void **state) {
             assert_number(two_rows[i].text, two_rows[i].functions[k](two_rows[i].x, two_rows[i].y), two_rows[i].wanted);
 }
 
-// NaN results from other arguments have no sign, so that their bits are the same on every processor.
+// NaN results from other arguments have no sign, so their bits are the same on every processor.
 static void test_new_nan_has_no_sign(void **state) {
     (void)state;
     const double made[] = {maths_sin(INF), maths_tan(-INF), maths_asin(2),
