@@ -76,8 +76,8 @@ const Command LINK_COMMAND = {
     .details =
         "Prints a link that contains the compressed script, its parameters (-D) and, with --frame, a frame number and\n"
         "the hash of the state. 'petri open' and the playground run it to that frame and verify that the state is\n"
-        "bit-identical. The data follows the '#', so browsers send it to no server. Scripts that read files, modules\n"
-        "or images cannot be linked, nor scripts of more than 100000 characters when compressed.",
+        "bit-identical. The data follows the '#', so browsers do not send it to any server. Scripts that read files,\n"
+        "modules or images cannot be linked, nor scripts of more than 100000 characters when compressed.",
     .examples = "  petri link dish.fl                              only the fragment, from '#'\n"
                 "  petri link dish.fl -D DROPS=50 --frame 240      frame 240 with 50 drops\n"
                 "  petri link dish.fl --page http://127.0.0.1/     a link to a playground\n",

@@ -49,7 +49,7 @@ static int send_run(const CommandContext *context, Options *options) {
     if (options->argc == 1 && (strcmp(options->argv[0], "--help") == 0 || strcmp(options->argv[0], "-h") == 0))
         return help_for(&SEND_COMMAND);
     if (options->argc != 2) {
-        message("expected a socket and a text: petri send /tmp/dish 'let SPEED=2', or - for standard input");
+        message("expected a socket and code: petri send /tmp/dish 'let SPEED=2', or - for standard input");
         return STATUS_USAGE;
     }
     SCOPED_BYTE_BUFFER text = {0};
@@ -69,9 +69,8 @@ const Command SEND_COMMAND = {
     .summary = "evaluate code in a running `petri view`",
     .details =
         "Sends TEXT (-: standard input) to a view that was started with --listen SOCKET, and prints its answer as\n"
-        "lines of JSON: {\"text\": ...} for values and debug(), diagnostics, and finally {\"done\": true}. The text "
-        "is\n"
-        "evaluated as at the prompt of petri repl: expressions once, bindings and nodes in every frame, after the\n"
+        "lines of JSON: {\"text\": ...} for values and debug(), diagnostics, and finally {\"done\": true}. TEXT is\n"
+        "evaluated as in petri repl: expressions once, bindings and nodes in every frame, after the\n"
         "script. '.set NAME VALUE' sets a parameter ('.set NAME' its default), '.back N' goes back N frames, '.drop'\n"
         "removes what was sent before, '.reset' restarts the script. Exits with 1 if the text was rejected.",
     .examples = "  petri view dish.fl --listen /tmp/dish &\n"

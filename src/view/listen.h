@@ -1,7 +1,7 @@
 // listen.h: a socket for `petri view --listen`, on which editors send text to a view with `petri send`.
 //
 // A client connects, writes a text and shuts down its writing side; it then receives lines of JSON until the end. The
-// text is evaluated as at the prompt of petri repl, or is a command: `.set NAME VALUE`, `.set NAME` (reset to the
+// text is evaluated as in petri repl, or is a command: `.set NAME VALUE`, `.set NAME` (reset to the
 // default), `.back N` (frames), `.drop` (remove everything sent before) or `.reset`. Each line is output, {"text": …};
 // or a diagnostic as in petri check --format=json; or the last line, {"done": true or false, "frame": …, "values": …,
 // "bindings": …, "nodes": …}.

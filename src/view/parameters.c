@@ -82,7 +82,7 @@ static ParameterResult step_value(ParameterKeys *keys, LiveScript *live, int ste
         describe_parameter(live, keys->chosen, text);
         byte_buffer_format(text, "%s",
                            isnan(parameter.number) ? ": keys change numbers only"
-                           : isnan(to)             ? ": 0 would be the default"
+                           : isnan(to)             ? ": cannot be 0, which selects the default"
                                                    : "");
         return PARAMETER_MESSAGE;
     }
