@@ -44,7 +44,7 @@ extern "C" {
 #define PETRI_API
 #endif
 
-// As the length of a text: it ends at a NUL byte.
+// As the length of a string: it ends at a NUL byte.
 #define PETRI_NUL_TERMINATED SIZE_MAX
 
 // A session. Created by petri_open, freed by petri_close.
@@ -536,8 +536,8 @@ typedef struct PetriColumn {
     size_t stride;      // in doubles; 0: all particles have the same value
 } PetriColumn;
 
-// A particle system of the last frame. Anchors are included. The columns refer to memory of the session without a copy,
-// and are valid until the next step, load, petri_rewind, petri_restore or petri_reset.
+// A particle system of the last frame. Anchors are included. The columns point into the session's memory, and are valid
+// until the next step, load, petri_rewind, petri_restore or petri_reset.
 typedef struct PetriSystem {
     const char *name;    // state prefix in printed form, such as ":cells"; valid as long as the columns
     uint32_t dimensions; // numbers in each position, velocity and force
@@ -655,7 +655,7 @@ enum {
     PETRI_PRINT_HASH = 16, // SHA-256 of the text of PETRI_PRINT_STATE, which need not be printed
 };
 
-// Receives a part of a text, which need not end at a line break. Returns false to stop.
+// Receives part of the output, which need not end at a line break. Returns false to stop.
 typedef bool PetriWriteCallback(void *user_data, const char *text, size_t length);
 
 // Writes the last frame as text: a line `@FRAME time=T beat=B`, then the given sections. Returns PETRI_INVALID if
@@ -678,7 +678,7 @@ PETRI_API PetriStatus petri_profile(PetriSession *session, double output_seconds
 // session and PetriOptions.rollback_frames is set, else the state after it. Before the first frame, the script is
 // evaluated for frame 0.
 //
-// Result of petri_prompt_check: whether a text needs more lines.
+// Result of petri_prompt_check: whether the input needs more lines.
 typedef enum PetriCompleteness {
     PETRI_COMPLETE,    // complete, or invalid whatever follows
     PETRI_EXTENDABLE,  // complete, but may continue with indented lines
@@ -686,7 +686,7 @@ typedef enum PetriCompleteness {
     PETRI_INCOMPLETE,  // must continue, for example in an open bracket
 } PetriCompleteness;
 
-// Returns whether a text for petri_prompt is complete. If out of memory, reports a diagnostic and returns
+// Returns whether input for petri_prompt is complete. If out of memory, reports a diagnostic and returns
 // PETRI_COMPLETE.
 PETRI_API PetriCompleteness petri_prompt_check(PetriSession *session, const char *text, size_t length);
 
@@ -701,7 +701,7 @@ typedef struct PetriPromptResult {
     const char *shadowed;
 } PetriPromptResult;
 
-// Executes the statements of a text. Writes values in printed form, nodes as trees and debug() output as `> text`;
+// Executes statements. Writes values in printed form, nodes as trees and debug() output as `> text`;
 // `write` may be NULL. Returns PETRI_INVALID if the text is not valid. A statement that fails is not retained, and ends
 // the execution.
 PETRI_API PetriStatus petri_prompt(PetriSession *session, const char *text, size_t length, PetriWriteCallback *write,
@@ -760,7 +760,7 @@ typedef struct PetriToken {
 // Receives a token. Must not call the session.
 typedef void PetriTokenCallback(void *user_data, const PetriToken *token);
 
-// Passes the tokens of a text to a callback, in order, for editors. Lines must end in LF, and there must be no byte
+// Passes the tokens of a script to a callback, in order, for editors. Lines must end in LF, and there must be no byte
 // order mark. Continues after syntax errors; text that is not UTF-8 has no tokens. Returns PETRI_OK in both cases.
 PETRI_API PetriStatus petri_tokenise(PetriSession *session, const char *text, size_t length,
                                      PetriTokenCallback *callback, void *user_data);
@@ -792,7 +792,7 @@ typedef struct PetriBinding {
 // Receives a use or binding. Must not call the session.
 typedef void PetriBindingCallback(void *user_data, const PetriBinding *name);
 
-// Passes the names that a text uses or binds to a callback, for editors, with the same rules as petri_tokenise.
+// Passes the names that a script uses or binds to a callback, for editors, with the same rules as petri_tokenise.
 // Built-in functions, names of the engine and attributes are not included. Returns PETRI_OK even if the text has syntax
 // errors.
 PETRI_API PetriStatus petri_bindings(PetriSession *session, const char *text, size_t length,

@@ -96,7 +96,7 @@ void prompt_list_compile(PetriSession *session, const PromptList *list, const Pr
         arena_exhausted(&session->arena);
 }
 
-// --- execution of a text
+// --- checking and executing input
 
 static void probe_text(PetriSession *session, void *context) {
     Job *job = context;

@@ -147,7 +147,7 @@ export interface Session {
     load(text: string | Uint8Array, name?: string): this;
     /** Replaces the text of the running script; frames, time and state continue. */
     reload(text: string | Uint8Array, name?: string): this;
-    /** Returns the diagnostics of a text without changing anything. */
+    /** Returns the diagnostics of a script without changing anything. */
     diagnose(text: string | Uint8Array, name?: string): Diagnostic[];
     /** Defines a name, as in "SIZE=20", for scripts loaded from now on. */
     define(definition: string): this;

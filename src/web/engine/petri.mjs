@@ -121,7 +121,7 @@ export class Session {
         this.kept = [];
     }
 
-    // Adds a file that scripts can read or import, from a text or bytes; null removes it.
+    // Adds a file that scripts can read or import, from a string or bytes; null removes it.
     setFile(name, content) {
         if (content === null)
             this.files.delete(name);
@@ -176,7 +176,7 @@ export class Session {
         return this.check('reload', this.with(name, (wasm, called) => wasm.petri_reload(this.handle, called)));
     }
 
-    // Returns the diagnostics of a text without changing anything.
+    // Returns the diagnostics of a script without changing anything.
     diagnose(text, name = 'script.fl') {
         const status = STATUS[this.run(this.with(name, (wasm, called) =>
             this.memory.withText(text, (at, length) => wasm.petri_check_text(this.handle, called, at, length))), true)];

@@ -90,7 +90,7 @@ export function instantiate(module, host) {
         ...memory,
         wasm,
         screen,
-        // Calls `use` with the address and length of a text, which is in memory only during the call.
+        // Calls `use` with the address and length of a string, which is in memory only during the call.
         withText: (string, use) => {
             const encoded = typeof string === 'string' ? encoder.encode(string) : string;
             const at = wasm.malloc(encoded.length + 1);
