@@ -16,7 +16,7 @@
 // --- one component
 
 // Returns 1 if the set whose "[" is before *at contains the character, else 0; moves *at past its "]". Returns -1 if
-// there is no "]", so that the bracket is literal. A "]" at the start belongs to the set.
+// there is no "]"; the bracket is then literal. A "]" at the start belongs to the set.
 static int match_set(Str pattern, size_t *at, int32_t c) {
     size_t i = *at;
     bool negated = i < pattern.len && pattern.bytes[i] == '!', found = false;

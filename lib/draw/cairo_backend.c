@@ -116,7 +116,7 @@ static void draw_command(Canvas *canvas, const DisplayCommand *command) {
     (paint->filter != DISPLAY_NONE ? draw_filtered : draw_unfiltered)(canvas, command, paint);
 }
 
-// Sets the current transform. Returns false if it is not invertible, so that nothing would be visible.
+// Sets the current transform. Returns false if it is not invertible; nothing would be visible.
 static bool set_matrix(Canvas *canvas, const DisplayMatrix *m) {
     cairo_matrix_t matrix = {m->xx, m->yx, m->xy, m->yy, m->x0, m->y0};
     cairo_matrix_multiply(&matrix, &matrix, &canvas->base);

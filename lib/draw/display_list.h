@@ -63,9 +63,9 @@ typedef struct DisplaySource {
     double color[4];
     double ends[4];       // end points of a linear gradient; frequencies and tile size of noise
     DisplayMatrix matrix; // maps the unit circle to a radial gradient, or the image pixels of a pattern to units
-    uint32_t first_stop;  // first stop; of a blend: index of its first source
-    uint32_t stop_count;  // number of stops; of a blend: index of its second source; of noise: octaves
-    double ratio;         // mixing ratio of a blend; NaN: use `mode`; of noise: the seed
+    uint32_t first_stop;  // first stop; for a blend: index of its first source
+    uint32_t stop_count;  // number of stops; for a blend: index of its second source; for noise: octaves
+    double ratio;         // mixing ratio of a blend (NaN: use `mode`); seed of noise
     int mode;             // composite mode of a blend; type of noise
     uint32_t image;
 } DisplaySource;
@@ -107,7 +107,7 @@ typedef enum DisplayEffectKind {
 typedef struct DisplayEffect {
     DisplayEffectKind kind;
     uint32_t inner;   // an effect that is applied before; DISPLAY_NONE: none
-    uint32_t numbers; // index in `numbers` of the dashes, of a 3 x 3 matrix by rows, or of the effects of a sum
+    uint32_t numbers; // index in `numbers` of the dashes, of a row-major 3 x 3 matrix, or of the effects of a sum
     uint32_t count;
     double amounts[2]; // dash offset; radius; segment length and deviation of jitter
     double seed;
@@ -168,7 +168,7 @@ typedef struct DisplayCommand {
     bool stroke;
     uint32_t matrix;
     uint32_t paint;
-    uint32_t item; // index of a text or image; of a layer: index in `places`
+    uint32_t item; // index of a text or image; for a layer: index in `places`
     DisplayPath path;
     double alpha;
 } DisplayCommand;

@@ -34,7 +34,7 @@ const DrawNode *render_graph_direct_canvas(const DrawNode *node, int width, int 
 // Returns true if the picture can be rendered with fewer pixels and differs only in sharpness: no node of the tree has
 // a custom shader or a pattern measured in pixels.
 bool render_graph_scalable(const DrawNode *node);
-// Returns the number of pixels of `side` units; at least 1.
+// Converts a side from units to pixels. `detail`: pixels per unit. Returns at least 1.
 int render_graph_pixels(int side, double detail);
 // Returns true if the node's picture is only its children composited, without a shader.
 bool render_graph_is_plain(const DrawNode *node);

@@ -26,7 +26,7 @@ typedef struct SceneLight {
     float position[3]; // of a line: its start
     float radius;      // of a spot: cosine of the outer half angle
     float direction[3];
-    float length; // of a line; of a spot: cosine of the inner half angle
+    float length; // of a line; for a spot: cosine of the inner half angle
     float falloff[4];
 } SceneLight;
 

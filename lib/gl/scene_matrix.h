@@ -1,5 +1,5 @@
 // scene_matrix.h: matrices and cameras of scenes (spec canvas3d.md 1.4, 6.1). Vectors are columns, and matrices are
-// stored by columns.
+// column-major.
 #ifndef PETRI_GL_SCENE_MATRIX_H
 #define PETRI_GL_SCENE_MATRIX_H
 
@@ -14,7 +14,7 @@ extern const Matrix matrix_identity;
 Matrix matrix_product(const Matrix *a, const Matrix *b); // applies b first
 bool matrix_is_finite(const Matrix *a);
 void matrix_point(const Matrix *a, const double p[3], double out[3]);
-// Computes the cofactors of the upper 3 x 3, by columns. They transform normals and directions.
+// Computes the cofactors of the upper 3 x 3, column-major. They transform normals and directions.
 void matrix_cofactors(const Matrix *a, double out[9]);
 void matrix_direction(const Matrix *a, const double d[3], double out[3]); // length 1, or 0;0;0
 

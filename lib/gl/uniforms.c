@@ -25,7 +25,7 @@ static void set_scalar(Numbers *out, double x) {
     set_list(out, out->own, 1);
 }
 
-// Computes a = a · b for 3 x 3 matrices by columns.
+// Computes a = a · b for column-major 3 x 3 matrices.
 static void multiply_3x3(double a[9], const double b[9]) {
     double out[9] = {0};
     for (int column = 0; column < 3; column++)

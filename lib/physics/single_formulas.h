@@ -96,7 +96,7 @@ KERNEL void single_drag(const Singles *s) {
     Real c = real_set(s->force->strength) * real_sqrt(square);
     c *= real_load(s->columns->section + s->block->first);
     Real limit = s->block->mass / real_set(s->pass->delta);
-    // This order of the comparison preserves a NaN (0 · ∞), so that the force does not act. The other would stop the
+    // This order of the comparison preserves a NaN (0 · ∞), so the force does not act. The other would stop the
     // particle.
     c = real_select(real_less(limit, c), limit, c);
     Mask applies = where_not_zero(s->block->live, real_load(s->columns->radius + s->block->first));

@@ -64,7 +64,7 @@ static const Expr *compile_arith(Compiler *compiler, const Ast *ast) {
     return expr;
 }
 
-// A name compared with itself is the same object, so that even NaN is ordered (L5.5).
+// A name compared with itself is the same object, so even NaN is ordered (L5.5).
 static const Expr *compile_order(Compiler *compiler, const Ast *ast) {
     const Ast *left = ast->children[0], *right = ast->children[1];
     Expr *expr = compile_same(compiler, ast, false);

@@ -54,7 +54,7 @@ typedef struct SceneView {
     uint32_t dimensions;
     uint32_t particle_count;
     uint64_t steps;         // made in the last update
-    bool had_simulated;     // it had made steps before the last update
+    bool had_simulated;     // its clock was above 0 before the last update
     const StateSlot *slots; // by handle: a pair of position and velocity
     PhysicsSystem *system;
 } SceneView;

@@ -33,7 +33,7 @@ struct PhysicsSystem {
     Budget *budget; // charged for the memory of this struct, not of the engine
     Mirror mirror;
     uint64_t steps;      // made in the last update
-    bool had_simulated;  // it had made steps before the last update, so the script could see its particles
+    bool had_simulated;  // its clock was above 0 before the last update, so the script could see its particles
     uint64_t last_frame; // scene->frame_number of the last update
 
     // The last frame's tree, with which the next one is compared.

@@ -118,8 +118,8 @@ static void check_range(const Check *check, const Parameter *parameter) {
     }
 }
 
-// Returns false if the value is false, such as 0, so that `or` uses the default; then warns unless the default is
-// false.
+// Returns false if the value is false, such as 0: `or` then uses the default. Warns about this unless the default is
+// also false.
 static bool check_truth(const Check *check, const Parameter *parameter) {
     Arena *arena = &check->unit->arena;
     if (value_true(check->define->value))

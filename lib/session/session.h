@@ -126,7 +126,7 @@ void session_free_host_globals(PetriSession *session);
 
 // Defines a name; `value` is text as in petri_define. Called within a protected call.
 PetriStatus session_define(PetriSession *session, Str name, Str value);
-// Reports definitions that a script does not use. Returns false if one is an error, so that the script must not run.
+// Reports definitions that a script does not use. Returns false if one is an error; the script must then not run.
 bool session_check_definitions(PetriSession *session, Unit *unit);
 
 // Records that the configuration has changed. `frame_valid`: the results of the last frame are still valid.

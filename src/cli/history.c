@@ -38,7 +38,7 @@ static double keyframe_cost(const FrameHistory *history, size_t at) {
     return (double)(after->frame - before->frame) / (double)(history->last - before->frame + 8 * HISTORY_INTERVAL);
 }
 
-// Drops the oldest keyframe, so that the timeline starts later.
+// Drops the oldest keyframe. The timeline then starts at the next one.
 static void drop_oldest(FrameHistory *history) {
     drop_keyframe(history, 0);
     while (history->epoch_count > 1 && history->epochs[0].number != history->keyframes[0].epoch) {

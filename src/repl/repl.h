@@ -50,8 +50,8 @@ bool repl_interrupted(void);
 
 // Loads a script (script.c). Returns true if it is running now.
 bool repl_load(Repl *repl, const char *file);
-// Returns true, after a note, if the script's files have changed. `at_prompt`: the current line holds a prompt, so that
-// the note must start a new line.
+// Returns true, after a note, if the script's files have changed. `at_prompt`: the current line holds a prompt, so the
+// note must start a new line.
 bool repl_report_changes(Repl *repl, bool at_prompt);
 // Reloads the script if its files have changed; called before a step. If the new script has errors, the old one stays.
 void repl_refresh(Repl *repl);

@@ -107,7 +107,8 @@ static int worker_loop(const Sweep *sweep, int requests, int results) {
     return STATUS_DONE;
 }
 
-// Turns a forked process into a worker. Ignores signals of the terminal, which the parent handles, and ends with it.
+// Turns a forked process into a worker. It ignores signals from the terminal, which the parent handles, and exits when
+// the parent does.
 static void become_worker(const WorkerPool *pool, int requests, int results, pid_t parent) {
     static const int ignored[] = {SIGINT, SIGTERM, SIGHUP};
     for (size_t i = 0; i < sizeof ignored / sizeof ignored[0]; i++)
@@ -115,7 +116,7 @@ static void become_worker(const WorkerPool *pool, int requests, int results, pid
 #ifdef __linux__
     prctl(PR_SET_PDEATHSIG, SIGKILL);
 #endif
-    for (int64_t i = 0; i < pool->jobs; i++) { // else other workers would not notice the parent's end
+    for (int64_t i = 0; i < pool->jobs; i++) { // else other workers would not notice when the parent exits
         if (pool->workers[i].pid > 0) {
             close(pool->workers[i].run_pipe);
             close(pool->workers[i].result_pipe);
