@@ -54,7 +54,7 @@ check "help lists --parameters" has out "--parameters"
 # Definitions that a script does not accept are reported with a position and do not fail the run.
 petri run --frames 1 -D FIXED=8 cells.fl
 check "-D of a name that the script binds is a warning" has err "cells.fl:3:5: warning: unused definition 'FIXED'"
-check "the warning about an unused definition has a hint" has err 'with `let FIXED=FIXED or'
+check "the warning about an unused definition has a hint" has err 'write `let FIXED=FIXED or'
 check "an unused definition does not fail the run" status_is 0
 petri run --frames 1 -D CELS=8 cells.fl
 check "-D of a name that is not read is a warning" has err "cells.fl:1:5: warning: unused definition 'CELS'"
@@ -64,7 +64,7 @@ check "-D of a module's parameter is a warning there" has err "cells_module.fl:1
 petri run --frames 1 -D CELLS=501 cells.fl
 check "-D outside the range is a warning" has err "cells.fl:1:5: warning: CELLS=501 is outside the range 1..500"
 petri run --frames 1 -D CELLS=0 cells.fl
-check "-D of 0 is reported to mean the default" has err "0 is false, so that \`or\` takes the default 200"
+check "-D of 0 is reported to mean the default" has err "0 is false, so \`or\` uses the default 200"
 petri run --frames 1 --quiet -D CELLS=501 -D FIXED=8 -D CELS=8 cells.fl
 check "--quiet suppresses warnings about definitions" empty err
 
