@@ -109,7 +109,7 @@ void lint_call(Compiler *compiler, const Ast *ast, const Expr *callee, const Cal
 static void warn_negation(Compiler *compiler, Span span, Str name) {
     add_warning_with_hint(compiler, span, "node-as-condition",
                           str_format(compiler->arena, "'!%.*s' is a node, which is always true", STR_ARGS(name)),
-                          str_format(compiler->arena, "to negate write not %.*s", STR_ARGS(name)));
+                          str_format(compiler->arena, "write 'not %.*s' to negate a value", STR_ARGS(name)));
 }
 
 static const Node *constant_node(const Expr *expr) {

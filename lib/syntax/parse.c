@@ -61,7 +61,7 @@ static Str syntax_hint(const char *found, bool needs_block) {
     if (needs_block)
         return STR("add an indented block below the line above");
     if (strcmp(found, "'='") == 0)
-        return STR("to compare write ==, to name a value write let NAME=…");
+        return STR("write == to compare, or let NAME=… to name a value");
     if (strcmp(found, "indentation") == 0)
         return STR("the statement above cannot have an indented block");
     if (strcmp(found, "'['") == 0)
@@ -146,7 +146,7 @@ static void report_character(ParseContext *context, Span span) {
                      STR("is this a text file?"));
     else if (c == ':' || c == '!' || c == '#')
         report_token(context, span, str_format(context->arena, "'%c' must be directly followed by a name", (int)c),
-                     c == '!' ? STR("to negate write not") : (Str){0});
+                     c == '!' ? STR("write 'not' to negate a value") : (Str){0});
     else
         report_token(context, span,
                      str_format(context->arena, "unexpected character '%.*s' (U+%04X)", STR_ARGS(text), (unsigned)c),

@@ -69,7 +69,7 @@ HINT(BEGIN "let" GAP "$", "^[(]", "separate names with semicolons: let x;y=1;2")
 HINT(BEGIN "(const|var|local|int|float|double|auto|val|string|bool)" GAP, "", "write let x=5")
 HINT("[-+*/%|&^]$", "^=", LASTING)
 HINT("[+][+]$", "^$", LASTING)
-HINT(BEGIN WORD BLANK "$", "^:=", "to name a value write let x=5")
+HINT(BEGIN WORD BLANK "$", "^:=", "write let x=5 to name a value")
 
 // Operators.
 HINT("", "^&", "write A and B")

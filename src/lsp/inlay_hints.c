@@ -189,14 +189,13 @@ static bool find_invalid_word(const Document *document, const DocumentDiagnostic
 
 // Returns the replacement for the diagnostic's whole range if the hint contains one, or an empty text.
 static Str replacement_of(const char *hint) {
-    static const char *const forms[] = {"a node is written ", "to compare write "};
-    for (size_t i = 0; i < sizeof forms / sizeof forms[0]; i++) {
-        if (strncmp(hint, forms[i], strlen(forms[i])) == 0) {
-            const char *word = hint + strlen(forms[i]);
-            return (Str){word, strcspn(word, " ,;")};
-        }
-    }
-    return (Str){0};
+    static const char node[] = "a node is written ", comparison[] = "write == to compare";
+    if (strncmp(hint, comparison, strlen(comparison)) == 0)
+        return STR("==");
+    if (strncmp(hint, node, strlen(node)) != 0)
+        return (Str){0};
+    const char *word = hint + strlen(node);
+    return (Str){word, strcspn(word, " ,;")};
 }
 
 static void add_action(const RequestContext *request, Json *list, const DocumentDiagnostic *diagnostic) {

@@ -9,7 +9,7 @@ static void check_complaints(World *world, const char *const (*rows)[2], size_t 
 static void test_common_mistakes_have_hints(void **state) {
     static const char *const rows[][2] = {
         {"let x 5", "1:7: unexpected number 5, expected '='"},
-        {"if x = 3\n    !a", "1:6: unexpected '=' | to compare write ==, to name a value write let NAME=…"},
+        {"if x = 3\n    !a", "1:6: unexpected '=' | write == to compare, or let NAME=… to name a value"},
         {"if x\n!a",
          "2:1: unexpected node !a, expected an indented block | add an indented block below the line above"},
         {"!a\n  !b\n    !c\n !d", "4:2: this line's indentation matches none of the lines above"},
@@ -32,10 +32,10 @@ static void test_common_mistakes_have_hints(void **state) {
         {"1_", "1:1: an underscore in a number must be between two digits"},
         {"2**-1", "1:4: unexpected '-'"},
         {"a<b<c", "1:4: unexpected '<'"},
-        {"!", "1:1: '!' must be directly followed by a name | to negate write not"},
+        {"!", "1:1: '!' must be directly followed by a name | write 'not' to negate a value"},
         {"#t", "1:1: unexpected tag #t | comments start with --"},
         {"# comment", "1:1: '#' must be directly followed by a name | comments start with --"},
-        {"x = 3", "1:3: unexpected '=' | to compare write ==, to name a value write let NAME=…"},
+        {"x = 3", "1:3: unexpected '=' | write == to compare, or let NAME=… to name a value"},
         {"x == ", "1:6: unexpected end of line, expected an expression"},
         {"for x y\n    z", "1:7: unexpected name y, expected 'in'"},
         {"for in x\n    y", "1:8: unexpected name x, expected 'in'"},
@@ -47,7 +47,7 @@ static void test_common_mistakes_have_hints(void **state) {
                       "is not closed"},
         {"func f()\n!a",
          "2:1: unexpected node !a, expected an indented block | add an indented block below the line above"},
-        {"let stable=1", "1:11: unexpected '=', expected name | to compare write ==, to name a value write let NAME=…"},
+        {"let stable=1", "1:11: unexpected '=', expected name | write == to compare, or let NAME=… to name a value"},
         {"let", "1:4: unexpected end of line, expected name or 'stable'"},
         {"let x=1 2", "1:9: unexpected number 2"},
         {"%pragma fps", "1:12: unexpected end of line, expected an expression"},
@@ -65,7 +65,7 @@ static void test_common_mistakes_have_hints(void **state) {
         {"!a << \n    !b", "2:5: unexpected indentation | the statement above cannot have an indented block"},
         {"x if y if z", "1:8: unexpected 'if'"},
         {"@f #t", "1:4: unexpected tag #t, expected name or end of line"},
-        {"let a;=3", "1:7: unexpected '=', expected name | to compare write ==, to name a value write let NAME=…"},
+        {"let a;=3", "1:7: unexpected '=', expected name | write == to compare, or let NAME=… to name a value"},
         {"let 1=3", "1:5: unexpected number 1, expected name or 'stable'"},
         {")", "1:1: unexpected ')'"},
         {"!a)", "1:3: unexpected ')', expected end of line or '<<'"},
@@ -105,7 +105,7 @@ static void test_each_mistake_is_reported_once(void **state) {
                                                                "3:12: unexpected number 3\n"
                                                                "5:4: unexpected number 5"},
         {"!a ! b\n!c 'x\n!d 1__0\n!e @\n",
-         "1:4: '!' must be directly followed by a name | to negate write not\n"
+         "1:4: '!' must be directly followed by a name | write 'not' to negate a value\n"
          "2:4: unterminated string | close the string on its line, or use ''' or \"\"\" for several lines\n"
          "3:4: an underscore in a number must be between two digits\n"
          "4:4: unexpected '@'"},
