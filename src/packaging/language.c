@@ -19,9 +19,8 @@ static const char DESCRIPTION[] = "A script describes one frame. It is evaluated
                                   "      !canvas translate=320;180\n"
                                   "          for i in ..80\n"
                                   "              !ellipse point=$(:drops;i) radius=8 fill=true\n\n"
-                                  "Indented nodes belong to the node above. Each value is a vector. Systems of "
-                                  "particles write positions and other values to the state, which the next frame "
-                                  "reads with $.";
+                                  "Indented nodes belong to the node above. Each value is a vector. Particle systems "
+                                  "write positions and other values to the state, which the next frame reads with $.";
 
 static void write_words(Output *output) {
     for (const Topic *topic = TOPICS; topic->word; topic++) {
