@@ -257,7 +257,7 @@ static bool make_picture(Request *request) {
     if (window)
         copy_windows(request, window);
     if (!choose_size(&picture->picture, window, access->schema->slots[ROW_WINDOW_SIZE].name)) {
-        request->problem = "invalid size of the window";
+        request->problem = "invalid window size";
         return false;
     }
     if (automatic) {
