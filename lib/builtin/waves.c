@@ -86,7 +86,7 @@ static double impulse(double x, double c) {
     return (y * y) * y;
 }
 
-// The result has the length of xs, even if there are more centres.
+// The result has as many elements as xs, even if cs has more.
 Value builtin_impulse(BuiltinContext *context, const Value *args, uint32_t count) {
     Value xs = args[0], cs = value_or(args[1], value_number(0.25));
     if (!value_is_numeric(xs) || !value_is_numeric(cs))

@@ -69,7 +69,7 @@ static bool is_installed(PetriPainter *painter, const char *name) {
     return found;
 }
 
-// Returns a replacement of the same metrics for common fonts that many machines lack.
+// Returns a metric-compatible substitute if this is a common font that many machines lack, else NULL.
 static const char *find_substitute(const char *name) {
     static const char *const pairs[][2] = {{"Helvetica", "Liberation Sans"},
                                            {"Arial", "Liberation Sans"},

@@ -74,7 +74,7 @@ static const double *exchange_counts(PhysSystem *system, Domain *domain, const T
         return NULL;
     double *table = domain->transfer_counts.bytes;
     size_t *starts = domain->starts.bytes;
-    memset(table, 0, ranks * ranks * sizeof *table); // zeros if the exchange is interrupted
+    memset(table, 0, ranks * ranks * sizeof *table); // other ranks' rows stay 0 if the exchange is interrupted
     for (size_t r = 0; r <= ranks; r++)
         starts[r] = r * ranks;
     for (size_t r = 0; r < ranks; r++)

@@ -73,8 +73,9 @@ typedef struct ListView {
     double *packed;          // current position and radius, `width` doubles per sorted index, then a dummy
     uint32_t width;          // PHYS_QUAD, or PHYS_PAIR in two dimensions if `one_radius` is set
     double *sources;         // mass and charge, two doubles per sorted index; NULL: no force needs them
-    double max_move_squared; // square of the distance from `built` up to which lists are valid
-    // Lists of LANES particles side by side, [k][lane], padded with dummies: sorted index of a partner times `width`.
+    double max_move_squared; // lists are valid while no squared distance from `built` exceeds this
+    // Lists of LANES particles, interleaved as [k][lane] and padded with dummies. An entry is the sorted index of a
+    // partner times `width`.
     uint32_t *entries;
     uint64_t *at;         // by block of LANES sorted indices: first of its entries
     uint32_t *max_length; // by block: length of its longest list
@@ -122,7 +123,7 @@ extern const Kernels phys_kernels_two;
 extern const Kernels phys_kernels_avx2;
 extern const Kernels phys_kernels_avx512;
 
-// kernel_integrate.c with one lane: for any number of dimensions.
+// The one-lane variant of kernel_integrate.c, which supports any number of dimensions.
 void integrate_all_one(struct IntegratePass *pass, size_t first, size_t end);
 
 #endif

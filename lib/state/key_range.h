@@ -12,8 +12,8 @@ typedef struct KeyRange {
     StateSlot first;
     uint32_t count;      // number of slots; odd while the last pair is incomplete
     uint32_t prefix_len; // numbers in the prefix, at least 1
-    const double *head;  // key of the second slot: prefix;id;symbol
-    const double *keys;  // keys of all second slots; NULL until one is requested
+    const double *head;  // key of the first particle's second slot: prefix;id;symbol
+    const double *keys;  // keys of all particles' second slots; NULL until one is requested
     uint32_t keys_count; // number of pairs in `keys`
     // Values are either referenced from the owner or null.
     StateOwner owner;

@@ -4,7 +4,7 @@
 #include <string.h>
 
 enum {
-    MIN_BATCH = 8,    // minimum number of iterations that is worth a batch
+    MIN_BATCH = 8,    // minimum number of iterations in a batch
     MAX_FAILURES = 4, // failed batches after which a loop is executed iteration by iteration
 };
 

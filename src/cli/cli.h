@@ -33,7 +33,7 @@ typedef struct OptionSpec {
     bool (*read)(const struct Args *args, void *field); // stores args->value; returns false after a message
     int64_t min;                                        // range of an integer
     int64_t max;
-    const char *const *words; // possible values, then NULL; a value named LIST is a comma-separated list of them
+    const char *const *words; // possible values, then NULL; if `value` is "LIST", several of them, separated by commas
 } OptionSpec;
 
 // All options, then an entry without a name.

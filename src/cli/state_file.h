@@ -22,8 +22,8 @@ typedef struct StateFile {
 
 // Loads the state. Returns false after a message if the file exists but cannot be read.
 bool state_file_restore(StateFile *file, PetriSession *session, const char *name);
-// Saves the state, unless it was saved in the last few seconds and `at_once` is false. Returns a text for the user if
-// saving has begun to fail or works again, else NULL.
+// Saves the state, unless it was saved in the last few seconds and `at_once` is false. Returns a message for the user
+// if saving has begun to fail or works again, else NULL.
 const char *state_file_save(StateFile *file, PetriSession *session, bool at_once);
 // Returns true if the file does not contain the last state, which makes the command fail.
 static inline bool state_file_failed(const StateFile *file) {

@@ -12,7 +12,7 @@
 
 enum { RESERVED_LINES = 3 }; // screen lines beside a long output: the command, the closing note, the prompt
 
-// Selects lines from a section of the frame's text.
+// A filter for the lines of one section of petri_print.
 typedef struct Filter {
     Repl *repl;
     const char *wanted;

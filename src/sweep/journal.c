@@ -133,7 +133,8 @@ static void remove_journal(Sweep *sweep, const char *path, const ByteBuffer *tex
         unlink(path);
 }
 
-// Calls `call` for the journals of other shards. Skips the own one, because closing any descriptor releases its lock.
+// Calls `call` for the journals of other shards. Skips this shard's journal, because closing any of its descriptors
+// would release its lock.
 static void visit_journals(const Journal *journal, Sweep *sweep, Visit *call) {
     SCOPED_BYTE_BUFFER folder = {0}, prefix = {0};
     size_t name = path_directory(str_from(journal->output)).len;

@@ -31,7 +31,7 @@ typedef struct Workload {
 
 Workload workload_open(WorkloadKind kind, uint32_t n, const PhysOptions *options);
 void workload_close(Workload *workload);
-// Describes the system again, as each frame does, and simulates `steps` steps.
+// Passes the whole system to lib/physics again, as each frame of a script does, and simulates `steps` steps.
 void workload_frame(Workload *workload, int steps);
 const char *workload_name(WorkloadKind kind);
 

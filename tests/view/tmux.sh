@@ -1,6 +1,5 @@
 # tmux.sh: a terminal of 80 by 24 cells with a shell, for tests of terminal output. Sourced after support.sh; $2 is
 # `chafa` if petri can show pictures in terminals.
-# $2 `chafa`, if petri can show pictures in terminals.
 
 [ "${2:-chafa}" = chafa ] || skip "petri was built without libchafa (Debian: libchafa-dev)"
 needs tmux tmux

@@ -1,7 +1,7 @@
-// scene_light.glsl: the effect of lights on a point of a surface (spec canvas3d.md 5.3, 5.4).
+// scene_light.glsl: lighting of a surface point (spec canvas3d.md 5.3, 5.4).
 #ifdef DISC
-in vec3 across;                // from the middle of the disc, in radii of the sphere
-flat in vec4 ball, towards;    // middle and radius; direction to the camera, radius / distance
+in vec3 across;                // from the centre of the disc, in radii of the sphere
+flat in vec4 ball, towards;    // centre and radius; direction to the camera, radius / distance
 vec3 world;
 #ifdef DEEP
 uniform mat4 view, projection;

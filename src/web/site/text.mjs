@@ -1,4 +1,4 @@
-// text.mjs: converts Markdown to HTML: headings with ids, links between pages, copied pictures, examples that run.
+// text.mjs: converts Markdown to HTML with heading ids, links between pages, copied images and runnable examples.
 import { copyFileSync, existsSync, mkdirSync, readFileSync } from 'node:fs';
 import { dirname, join, normalize } from 'node:path';
 import MarkdownIt from 'markdown-it';
