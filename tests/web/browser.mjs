@@ -51,7 +51,7 @@ export const opened = (hash, how) => visited(world.server.url + hash, { ready: (
 export const frameOf = page => page.evaluate(() => Number(document.body.dataset.frame));
 export const atFrame = (page, frame) => page.waitForFunction(wanted => Number(document.body.dataset.frame) === wanted, frame);
 
-// Drags the time line to a frame.
+// Drags the timeline to a frame.
 export async function seek(page, frame) {
     await page.evaluate(wanted => {
         const time = document.getElementById('time');

@@ -91,7 +91,7 @@ test('pausing and resuming while a frame is computed does not run twice', async 
     await answered();
 });
 
-test('while the time line is dragged, only the last position is requested', async t => {
+test('while the timeline is dragged, only the last position is requested', async t => {
     const world = await running(t), { dish } = world;
     world.holds = true;
     for (const frame of [5, 9, 30, 12])

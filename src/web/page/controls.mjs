@@ -1,4 +1,4 @@
-// controls.mjs: the buttons, time line and parameters below a picture, in the page and in <petri-dish>.
+// controls.mjs: the buttons, timeline and parameters below a picture, in the page and in <petri-dish>.
 import { Parameters } from './parameters.mjs';
 
 export const CONTROLS = `

@@ -17,7 +17,7 @@ export const GROUPS = [
     ['To look up', [
         { name: 'language', title: 'The language', about: 'Vectors, names, nodes, functions, the state; each example can be changed',
             parts: [['grammar/README.md']] },
-        { name: 'pitfalls', title: 'Pitfalls', about: 'Scripts that do not do what they seem to do', parts: [['src/manual/pitfalls.md']] },
+        { name: 'pitfalls', title: 'Pitfalls', about: 'Symptoms of common mistakes in scripts, and their causes', parts: [['src/manual/pitfalls.md']] },
         { name: 'functions', title: 'All functions and words', about: 'One line for each', made: 'functions' },
         { name: 'physics', title: 'Physics', about: 'Each force with formula, limits and a dish to change',
             parts: [['lib/physics/README.md']] },
@@ -38,8 +38,8 @@ export const GROUPS = [
         { name: 'sweep', title: 'Sweeps', about: 'One script over many values and seeds', parts: [['src/manual/sweep.md']] },
         { name: 'trajectories', title: 'Trajectories', about: 'XYZ, CSV and H5MD; runs that resume', parts: [['src/manual/trajectories.md']] },
         { name: 'mpi', title: 'MPI', about: 'One script on many processes', parts: [['src/manual/mpi.md']] },
-        { name: 'links', title: 'Links', about: 'Scripts as links that verify their state', parts: [['src/manual/links.md']] },
-        { name: 'editors', title: 'Editors', about: 'Language server, colours, standard format', parts: [['src/manual/editors.md']] },
+        { name: 'links', title: 'Links', about: 'Links that contain a script and the hash of its state', parts: [['src/manual/links.md']] },
+        { name: 'editors', title: 'Editors', about: 'Language server, syntax highlighting, standard format', parts: [['src/manual/editors.md']] },
         { name: 'playground', title: 'The playground', about: 'The page, and <petri-dish> in any page', parts: [['src/manual/playground.md']] },
         { name: 'c', title: 'From C and C++', about: 'petri.h and petri-draw.h, complete',
             parts: [['src/manual/embedding.md']], made: 'headers' },
@@ -56,7 +56,7 @@ export const GROUPS = [
         { name: 'parser', title: 'The parser', about: 'Tokens, layout, soft keywords, error recovery', parts: [['src/manual/parser.md']] },
         { name: 'physics-engine', title: 'The physics engine', about: 'Data, kernels, neighbour lists, threads, ranks',
             parts: [['src/manual/physics-engine.md']] },
-        { name: 'drawing-code', title: 'Drawing code', about: 'Files of the 2-D drawing, effects and scenes; how to add nodes',
+        { name: 'drawing-code', title: 'Drawing code', about: 'Source files of 2-D drawing, effects and 3-D scenes; how to add nodes',
             parts: [['src/manual/drawing-code.md']] },
     ]],
 ];
