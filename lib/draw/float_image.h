@@ -1,4 +1,4 @@
-// float_image.h: images of floats, for filters and for canvases of more than 8 bits per channel.
+// float_image.h: floating-point images, for filters and for canvases of more than 8 bits per channel.
 #ifndef PETRI_DRAW_FLOAT_IMAGE_H
 #define PETRI_DRAW_FLOAT_IMAGE_H
 
