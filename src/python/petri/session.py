@@ -74,10 +74,10 @@ def petri_python_write(user_data: Any, text: Any, length: int) -> bool:
 class Session:
     """A script and its state.
 
-    `source` is the script's file, or its text if it contains a line end. Further keywords define names for the script:
-    `petri.Session("dish.fl", CELLS=20)` corresponds to `-D CELLS=20`. Errors of the script are raised (ScriptError, …);
-    a script that is probably wrong causes a PetriWarning. `given` has globals for the script, whose values can be
-    changed between frames (set_global). Several threads may use a session, but not at the same time.
+    `source` is the script's file, or its text if it contains a newline. Other keyword arguments set the script's
+    parameters: `petri.Session("dish.fl", CELLS=20)` corresponds to `-D CELLS=20`. Errors of the script are raised
+    (ScriptError, …); a script that is probably wrong causes a PetriWarning. `given` has globals for the script, whose
+    values can be changed between frames (set_global). Several threads may use a session, but not at the same time.
 
     The script calls `functions` like built-in ones. They take and return numbers, Text, tuples of them, and None; they
     also take symbols, as str. They must not use the session. If a function raises an exception, its result is null; the
