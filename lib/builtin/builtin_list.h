@@ -40,7 +40,7 @@ BUILTIN(linear, "x", 1, 1, false, false, true, 1, "Each number limited to the ra
 BUILTIN(log, "x", 1, 1, false, false, true, 1, "Natural logarithm of each number.")
 BUILTIN(log10, "x", 1, 1, false, false, true, 1, "Logarithm to base 10 of each number.")
 BUILTIN(log2, "x", 1, 1, false, false, true, 1, "Logarithm to base 2 of each number.")
-BUILTIN(map, "xs, ys, zs", 3, 3, false, true, true, 1, "Each x mapped from the range 0 to 1 to y to z.")
+BUILTIN(map, "xs, ys, zs", 3, 3, false, true, true, 1, "Each x mapped from the range 0 to 1 to the range y to z.")
 BUILTIN(max, "xs, ...", 1, 1, true, true, true, 0, "Greatest element, or greatest of several vectors.")
 BUILTIN(maxindex, "xs, ...", 1, 1, true, true, true, 0,
         "Position of the greatest element, or of the greatest argument.")
@@ -50,11 +50,11 @@ BUILTIN(measure_text, "text, family, size, weight, width, slant", 1, 6, false, t
 BUILTIN(min, "xs, ...", 1, 1, true, true, true, 0, "Least element, or least of several vectors.")
 BUILTIN(minindex, "xs, ...", 1, 1, true, true, true, 0, "Position of the least element, or of the least argument.")
 BUILTIN(noise, "seed, ...", 1, 1, true, true, true, BUILTIN_EACH_POINT,
-        "OpenSimplex noise at one to four coordinates, for all combinations of their elements.")
+        "OpenSimplex noise in one to four dimensions, at all combinations of the coordinates' elements.")
 BUILTIN(normal, "value=null", 0, 1, false, true, true, 0, "Stream of normally distributed random numbers for a seed.")
 BUILTIN(normalize, "x", 1, 1, false, false, true, 0, "Vector scaled to length 1.")
 BUILTIN(octnoise, "seed, octaves, roughness, ...", 3, 3, true, true, true, 0,
-        "Sum of octaves of noise, each of the weight of the one before times roughness.")
+        "Sum of octaves of noise, each with roughness times the amplitude of the one before.")
 BUILTIN(oklab, "x", 1, 1, false, false, true, 0, "Colour of OKLab lightness;a;b.")
 BUILTIN(oklch, "x", 1, 1, false, false, true, 0, "Colour of OKLCh lightness;chroma;hue.")
 BUILTIN(ord, "x", 1, 1, false, false, true, 0, "Code points of a string.")
@@ -76,7 +76,7 @@ BUILTIN(sharkfin, "x", 1, 1, false, false, true, 1, "Wave that rises and falls a
 BUILTIN(shuffle, "source, xs", 2, 2, false, true, true, 0, "Elements in the random order of a stream.")
 BUILTIN(sin, "x", 1, 1, false, false, true, 1, "Sine of each number of turns.")
 BUILTIN(sine, "x", 1, 1, false, false, true, 1, "Sine wave from 0 to 1 and back in each cycle.")
-BUILTIN(slerp, "t, a, b", 3, 3, false, true, true, 0, "Quaternion at part t of the way from a to b.")
+BUILTIN(slerp, "t, a, b", 3, 3, false, true, true, 0, "Quaternion interpolated spherically from a to b, at t from 0 to 1.")
 BUILTIN(snap, "x", 1, 1, false, false, true, 1, "Easing from 0 to 1 along square roots.")
 BUILTIN(sort, "x", 1, 1, false, false, true, 0, "Numbers or strings in ascending order.")
 BUILTIN(split, "text, separator=\"\\n\"", 1, 2, false, true, true, 0, "Pieces of a string between separators.")
