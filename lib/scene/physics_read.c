@@ -188,7 +188,7 @@ static bool bind_ends(PhysicsTree *tree, const Reader *reader, const ForceAttrs 
     Text text = text_new(reader->arena);
     text_add_format(&text, "%s=", first ? "to" : "from");
     format_value(&text, reader->schema->symbols, first ? read->to : read->from);
-    text_add_c(&text, ": no such particle; ignored");
+    text_add_c(&text, ": no such particle; the force is ignored");
     reader_report_attr(reader, "unknown-particle", first ? ATTR_TO : ATTR_FROM, text_str(&text));
     return false;
 }

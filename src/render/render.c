@@ -153,7 +153,7 @@ static void report_summary(const Render *render) {
     if (verbosity < LOG_NORMAL || (verbosity == LOG_NORMAL && !isatty(STDERR_FILENO)))
         return;
     double seconds = clock_seconds() - frames->start;
-    message("%" PRId64 " frame%s in %.3f s (%.1f frames/s), %" PRId64 " drawn in %.3f s in parallel", frames->done,
+    message("%" PRId64 " frame%s in %.3f s (%.1f frames/s), %" PRId64 " drawn in %.3f s of thread time", frames->done,
             frames->done == 1 ? "" : "s", seconds, seconds > 0 ? (double)frames->done / seconds : 0, render->drawn,
             frame_writer_seconds(render->writer));
 }
