@@ -147,7 +147,8 @@ static size_t list_hosted(Glob *glob, const char *path, Str **names) {
     return count;
 }
 
-// Counts the names of a directory, or copies as many as fit. Nothing is allocated while the directory is open.
+// Counts the entries of a directory if `names` is NULL; else copies as many names as fit into `names` and `bytes`.
+// Allocates nothing while the directory is open: running out of memory would leave it open.
 static void scan_directory(Arena *arena, const char *path, Str *names, char *bytes, size_t *count, size_t *size) {
     size_t most_count = *count, most_size = *size;
     *count = *size = 0;
