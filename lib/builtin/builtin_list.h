@@ -76,7 +76,8 @@ BUILTIN(sharkfin, "x", 1, 1, false, false, true, 1, "Wave that rises and falls a
 BUILTIN(shuffle, "source, xs", 2, 2, false, true, true, 0, "Elements in the random order of a stream.")
 BUILTIN(sin, "x", 1, 1, false, false, true, 1, "Sine of each number of turns.")
 BUILTIN(sine, "x", 1, 1, false, false, true, 1, "Sine wave from 0 to 1 and back in each cycle.")
-BUILTIN(slerp, "t, a, b", 3, 3, false, true, true, 0, "Quaternion interpolated spherically from a to b, at t from 0 to 1.")
+BUILTIN(slerp, "t, a, b", 3, 3, false, true, true, 0,
+        "Quaternion interpolated spherically from a to b, at t from 0 to 1.")
 BUILTIN(snap, "x", 1, 1, false, false, true, 1, "Easing from 0 to 1 along square roots.")
 BUILTIN(sort, "x", 1, 1, false, false, true, 0, "Numbers or strings in ascending order.")
 BUILTIN(split, "text, separator=\"\\n\"", 1, 2, false, true, true, 0, "Pieces of a string between separators.")
