@@ -245,7 +245,7 @@ enum {
     PETRI_FILTER_DILATE,        // radius x, y, filter
     PETRI_FILTER_ERODE,         // radius x, y, filter
     PETRI_FILTER_COLOUR_MATRIX, // four rows of five numbers, filter
-    PETRI_FILTER_PAINT,         // fills everything: a paint, up to its PETRI_DRAW_STROKE_STYLE
+    PETRI_FILTER_PAINT,         // fills the whole area: the commands of a paint; the last is PETRI_DRAW_STROKE_STYLE
     // Combines two filters: a composite mode, or -1 and four coefficients: of the product, of the second, of the first,
     // and a constant; then two filters.
     PETRI_FILTER_BLEND,

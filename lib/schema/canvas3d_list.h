@@ -11,7 +11,7 @@
     ATTR(kind, SHEAR_X, AMOUNTS, NOWHERE, IS(0), "", "a;b: x grows by a*y + b*z") \
     ATTR(kind, SHEAR_Y, AMOUNTS, NOWHERE, IS(0), "", "a;b: y grows by a*x + b*z") \
     ATTR(kind, SHEAR_Z, AMOUNTS, NOWHERE, IS(0), "", "a;b: z grows by a*x + b*y") \
-    ATTR(kind, MATRIX, LIST, NOWHERE, NONE, "", "16 numbers, by columns")
+    ATTR(kind, MATRIX, LIST, NOWHERE, NONE, "", "16 numbers in column-major order")
 #define MATERIAL_ROWS(kind) \
     ATTR(kind, COLOR, TRIPLE, TO_GRAPHICS3D(color), INHERITED(0, "0"), "", "fraction of light that is reflected: red;green;blue or grey") \
     ATTR(kind, ROUGHNESS, AMOUNT, TO_GRAPHICS3D(roughness), INHERITED(1, "1"), "", "0 is a mirror; nodes inside can only reduce it") \
@@ -20,7 +20,7 @@
     ATTR(kind, AO, AMOUNT, TO_GRAPHICS3D(ao), INHERITED(1, "1"), "", "fraction of ambient light that reaches the surface") \
     ATTR(kind, EMISSIVE, TRIPLE, TO_GRAPHICS3D(emissive), INHERITED(0, "0"), "", "emitted light") \
     ATTR(kind, TRANSPARENCY, AMOUNT, TO_GRAPHICS3D(transparency), INHERITED(0, "0"), "", "0 to 1; highlights stay") \
-    ATTR(kind, TRANSLUCENCY, AMOUNT, TO_GRAPHICS3D(translucency), INHERITED(0, "0"), "", "how deep light shines through") \
+    ATTR(kind, TRANSLUCENCY, AMOUNT, TO_GRAPHICS3D(translucency), INHERITED(0, "0"), "", "how far light penetrates") \
     ATTR(kind, COLOR_ID, TEXT, TO_GRAPHICS3D(ids[0]), INHERITED_TEXT(""), "", "id of a picture that varies the value over the surface") \
     ALIAS(kind, TEXTURE_ID, COLOR_ID, "color_id", TEXT, TO_GRAPHICS3D(ids[0]), "") \
     ATTR(kind, METAL_ID, TEXT, TO_GRAPHICS3D(ids[1]), INHERITED_TEXT(""), "", "") \
@@ -33,8 +33,8 @@
     ALIAS(kind, EMISSIVE_TEXTURE_ID, EMISSIVE_ID, "emissive_id", TEXT, TO_GRAPHICS3D(ids[4]), "") \
     ATTR(kind, TRANSPARENCY_ID, TEXT, TO_GRAPHICS3D(ids[5]), INHERITED_TEXT(""), "", "") \
     ALIAS(kind, TRANSPARENCY_TEXTURE_ID, TRANSPARENCY_ID, "transparency_id", TEXT, TO_GRAPHICS3D(ids[5]), "") \
-    ATTR(kind, BORDER, LIST, NOWHERE, INHERITED(0, "the picture's edge"), "", "colour of textures beyond their edges: r;g;b, r;g;b;a or one number; wins over repeat") \
-    ATTR(kind, REPEAT, AMOUNTS, NOWHERE, INHERITED(0, "the picture's edge"), "", "whether textures repeat, along u and v")
+    ATTR(kind, BORDER, LIST, NOWHERE, INHERITED(0, "clamped to the edge"), "", "colour of textures beyond their edges: r;g;b, r;g;b;a or one number; takes precedence over repeat") \
+    ATTR(kind, REPEAT, AMOUNTS, NOWHERE, INHERITED(0, "clamped to the edge"), "", "whether textures repeat, along u and v")
 #define GROUP3D_ROWS(kind) \
     ATTR(kind, MAX_LIGHTS, FINITE_INTEGER, TO_GRAPHICS3D(max_lights), INHERITED(50, "50"), "", "maximum number of lights in the group; lights of enclosing groups come last") \
     ATTR(kind, DEPTH_SORT, FLAG, TO_GRAPHICS3D(depth_sort), INHERITED(true, "true"), "", "transparent surfaces are drawn last, from back to front") \
@@ -56,11 +56,11 @@
     ATTR(kind, SAMPLES, FINITE_INTEGER, TO_GRAPHICS3D(samples), IS(0), "", "samples per pixel, for smooth edges: 2, 4 or 8") \
     ATTR(kind, COLORBITS, FINITE_INTEGER, TO_GRAPHICS3D(colorbits), DESCRIBED(0, "the window's"), "", "bits per channel: 8, 16 or 32") \
     ATTR(kind, FOG_MIN, AMOUNT, TO_GRAPHICS3D(fog_min), IS(0), "", "distance at which fog begins") \
-    ATTR(kind, FOG_MAX, AMOUNT, TO_GRAPHICS3D(fog_max), IS(0), "", "distance from which on there is only fog") \
+    ATTR(kind, FOG_MAX, AMOUNT, TO_GRAPHICS3D(fog_max), IS(0), "", "distance beyond which there is only fog") \
     ATTR(kind, FOG_COLOR, TRIPLE, TO_GRAPHICS3D(fog_color), IS(0), "", "") \
-    ATTR(kind, FOG_CURVE, AMOUNT, TO_GRAPHICS3D(fog_curve), IS(1), "", "the fraction of fog is raised to 1/fog_curve") \
+    ATTR(kind, FOG_CURVE, AMOUNT, TO_GRAPHICS3D(fog_curve), IS(1), "", "the fraction of fog is raised to the power 1/fog_curve") \
     ATTR(kind, MONOCHROME, FLAG, TO_GRAPHICS3D(monochrome), IS(false), "", "render in grey") \
-    ATTR(kind, TINT, TRIPLE, TO_GRAPHICS3D(tint), IS(1), "", "factor of all colours")
+    ATTR(kind, TINT, TRIPLE, TO_GRAPHICS3D(tint), IS(1), "", "factor for all colours")
 #define SURFACE_ROWS(kind) \
     ATTR(kind, FLAT, FLAG, NOWHERE, IS(false), "", "flat shading: each triangle has its own normal") \
     ATTR(kind, SNAP_EDGES, AMOUNT, NOWHERE, DESCRIBED(0.5, "0.5"), "turns", "edges with a larger angle stay sharp") \
@@ -121,11 +121,11 @@ NODE(SPHERE, "sphere", SCENE3D, NOTHING, "a sphere of radius 1")
 ATTR(SPHERE, SEGMENTS, FINITE_INTEGER, NOWHERE, IS(64), "", "number of segments around it, a multiple of 4")
 MODEL_ROWS(SPHERE)
 
-NODE(CYLINDER, "cylinder", SCENE3D, NOTHING, "a cylinder of radius 1 along z, 1 long")
+NODE(CYLINDER, "cylinder", SCENE3D, NOTHING, "a cylinder of radius 1 and length 1 along z")
 ATTR(CYLINDER, SEGMENTS, FINITE_INTEGER, NOWHERE, IS(64), "", "number of segments around it")
 MODEL_ROWS(CYLINDER)
 
-NODE(CONE, "cone", SCENE3D, NOTHING, "a cone of radius 1, its tip towards z, 1 high")
+NODE(CONE, "cone", SCENE3D, NOTHING, "a cone of radius 1 and height 1, its apex towards +z")
 ATTR(CONE, SEGMENTS, FINITE_INTEGER, NOWHERE, IS(64), "", "number of segments around it")
 MODEL_ROWS(CONE)
 

@@ -75,7 +75,7 @@ PROGRAM_ROWS(SHADER)
 
 NODE(ADJUST, "adjust", PICTURE, PICTURES, "change colours")
 PROGRAM_ROWS(ADJUST)
-ATTR(ADJUST, COLOR_MATRIX, LIST, NOWHERE, DESCRIBED(1, "1;0;0;0;1;0;0;0;1"), "", "nine numbers by columns: factors for red, green and blue")
+ATTR(ADJUST, COLOR_MATRIX, LIST, NOWHERE, DESCRIBED(1, "1;0;0;0;1;0;0;0;1"), "", "nine numbers in column-major order: factors for red, green and blue")
 ATTR(ADJUST, HUE, AMOUNT, NOWHERE, IS(0), "turns", "")
 ATTR(ADJUST, SATURATION, AMOUNT, NOWHERE, IS(1), "", "0 is grey")
 ADJUST_ROWS(ADJUST, 0)
@@ -125,7 +125,7 @@ ATTR(PICTURE_TRANSFORM, KEYSTONE, AMOUNTS, NOWHERE, IS(0), "", "perspective")
 
 NODE(VIGNETTE, "vignette", PICTURE, PICTURES, "fade towards the edges")
 PROGRAM_ROWS(VIGNETTE)
-ATTR(VIGNETTE, INSET, AMOUNT, NOWHERE, IS(0.25), "widths", "distance from the edges")
+ATTR(VIGNETTE, INSET, AMOUNT, NOWHERE, IS(0.25), "widths", "distance from the edge")
 ATTR(VIGNETTE, FADE, FADE, NOWHERE, DESCRIBED(FADE_LINEAR, ":linear"), "", "")
 
 NODE(NOISE, "noise", PICTURE, PICTURES, "animated noise")
@@ -145,7 +145,7 @@ ATTR(NOISE, SHAPE, NOISE_SHAPE, NOWHERE, DESCRIBED(NOISE_PLANE, ":plane"), "", "
 
 NODE(FLARE, "flare", PICTURE, PICTURES, "lens flare of bright areas")
 PROGRAM_ROWS(FLARE)
-ATTR(FLARE, THRESHOLD, AMOUNT, NOWHERE, IS(1), "", "luminance from which on areas flare")
+ATTR(FLARE, THRESHOLD, AMOUNT, NOWHERE, IS(1), "", "luminance above which areas flare")
 ATTR(FLARE, ATTENUATION, AMOUNT, NOWHERE, IS(2), "stops", "")
 ATTR(FLARE, UPRIGHT_LENGTH, AMOUNT, NOWHERE, IS(0.25), "", "length of streaks along x and y")
 ATTR(FLARE, DIAGONAL_LENGTH, AMOUNT, NOWHERE, IS(0.125), "", "length of diagonal streaks")

@@ -308,7 +308,7 @@ NAME(MODE, "mode")
 #define POWER_ROW(kind) \
     ATTR(kind, POWER, FROM_ZERO, TO_FORCE(force.power), IS(1), "", "of the displacement: 1 is a linear spring")
 #define REACH_ROW(kind) \
-    ATTR(kind, MAX_DISTANCE, ABOVE_ZERO, TO_FORCE(force.max_distance), DESCRIBED(0, ""), "", "distance from which on the force is 0")
+    ATTR(kind, MAX_DISTANCE, ABOVE_ZERO, TO_FORCE(force.max_distance), DESCRIBED(0, ""), "", "distance beyond which the force is 0")
 #define BOUND_ROWS(kind) \
     ATTR(kind, FIXED, NUMBER, TO_FORCE(fixed), NONE, "", "sets both minimum and maximum, and takes precedence over them") \
     ATTR(kind, MINIMUM, NUMBER, TO_FORCE(force.minimum), NONE, "", "distance below which the spring pushes") \
@@ -593,7 +593,7 @@ ATTR(PATTERN, TRANSLATE, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "translate, sc
 ATTR(PATTERN, SCALE, SCALE, NOWHERE, DESCRIBED(1, "1;1"), "", "")
 ATTR(PATTERN, ROTATE, FINITE, NOWHERE, IS(0), "turns", "clockwise")
 
-NODE(BLEND, "blend", SOURCE, SOURCE, "combines the two sources inside, for nodes drawn after it")
+NODE(BLEND, "blend", SOURCE, SOURCE, "a mix of the two sources inside it, for nodes drawn after it")
 ATTR(BLEND, RATIO, FINITE, NOWHERE, NONE, "", "fraction of the second source")
 ATTR(BLEND, MODE, COMPOSITE, NOWHERE, DESCRIBED(COMPOSITE_OVER, ":over"), "", "without a ratio: how the second source is combined with the first")
 
@@ -616,10 +616,10 @@ ATTR(SHADOW, SHADOW_ONLY, FLAG, NOWHERE, IS(false), "", "draw the shadow without
 NODE(CANVAS_OFFSET, "offset", FILTER, FILTER, "move nodes drawn after it")
 ATTR(CANVAS_OFFSET, OFFSET, POINT, NOWHERE, NONE, "", "how far")
 
-NODE(DILATE, "dilate", FILTER, FILTER, "enlarge nodes drawn after it at their edges")
+NODE(DILATE, "dilate", FILTER, FILTER, "thicken the shapes drawn after it (dilation)")
 ATTR(DILATE, RADIUS, SIZE, NOWHERE, NONE, "", "each channel becomes the largest value within this distance along x and y")
 
-NODE(ERODE, "erode", FILTER, FILTER, "shrink nodes drawn after it at their edges")
+NODE(ERODE, "erode", FILTER, FILTER, "thin the shapes drawn after it (erosion)")
 ATTR(ERODE, RADIUS, SIZE, NOWHERE, NONE, "", "each channel becomes the smallest value within this distance along x and y")
 
 NODE(FILTER_MATRIX, "color_matrix", FILTER, FILTER, "change the colours of nodes drawn after it")
@@ -634,15 +634,15 @@ ATTR(FILTER_MATRIX, BRIGHTNESS, FINITE, NOWHERE, IS(0), "", "is added")
 ATTR(FILTER_MATRIX, CONTRAST, FINITE, NOWHERE, IS(1), "", "around grey")
 ATTR(FILTER_MATRIX, SATURATION, FINITE, NOWHERE, IS(1), "", "0 is grey")
 
-NODE(DRAWN, "source", FILTER, NOTHING, "the unfiltered drawing, as an input of another filter")
+NODE(DRAWN, "source", FILTER, NOTHING, "the unfiltered drawing, as input to another filter")
 
-NODE(FILTER_PAINT, "paint", FILTER, NOTHING, "a colour or the current source everywhere, as an input of another filter")
+NODE(FILTER_PAINT, "paint", FILTER, NOTHING, "an area filled with a colour or the current source, as input to another filter")
 PAINT_ROWS(FILTER_PAINT)
 
-NODE(FILTER_BLEND, "blend", FILTER, FILTER, "combines the two filters inside, for nodes drawn after it")
+NODE(FILTER_BLEND, "blend", FILTER, FILTER, "apply a mix of the two filters inside it to nodes drawn after it")
 ATTR(FILTER_BLEND, COEFFICIENTS, QUAD, NOWHERE, NONE, "", "k1;k2;k3;k4: k1*first*second + k2*second + k3*first + k4")
 ATTR(FILTER_BLEND, RATIO, FINITE, NOWHERE, NONE, "", "fraction of the first filter")
-ATTR(FILTER_BLEND, MODE, COMPOSITE, NOWHERE, DESCRIBED(COMPOSITE_OVER, ":over"), "", "without either: how the second filter is combined with the first")
+ATTR(FILTER_BLEND, MODE, COMPOSITE, NOWHERE, DESCRIBED(COMPOSITE_OVER, ":over"), "", "without coefficients and ratio: how the second filter is combined with the first")
 
 NODE(DASH, "dash", EFFECT, EFFECT, "dash lines drawn after it")
 ATTR(DASH, INTERVALS, LIST, NOWHERE, NONE, "", "lengths on;off;on;off…, an even number")

@@ -35,9 +35,9 @@ const TypeRow schema_types[TYPE_COUNT] = {
 #define DESCRIBED(x, text)                                                                                             \
     { x, text, false, NULL }
 #define INHERITED(x, text)                                                                                             \
-    { x, "inherited, at first " text, true, NULL }
+    { x, "inherited, initially " text, true, NULL }
 #define INHERITED_TEXT(text)                                                                                           \
-    { 0, "inherited, at first \"" text "\"", true, text }
+    { 0, "inherited, initially \"" text "\"", true, text }
 #define NONE                                                                                                           \
     { NAN, "", false, NULL }
 
@@ -45,7 +45,7 @@ const SchemaRow schema_rows[ROW_COUNT] = {
 #define ATTR(kind, name, type, field, fallback, unit, help)                                                            \
     {KIND_##kind, TYPE_##type, ATTR_##name, ATTR_NONE, field, fallback, unit, help},
 #define ALIAS(kind, name, of, of_text, type, field, unit)                                                              \
-    {KIND_##kind, TYPE_##type, ATTR_##name, ATTR_##of, field, NONE, unit, "the same as " of_text ", which wins"},
+    {KIND_##kind, TYPE_##type, ATTR_##name, ATTR_##of, field, NONE, unit, "alias; " of_text " takes precedence"},
 #include "schema/schema_list.h"
 };
 

@@ -85,7 +85,7 @@ OPTION(FOR_SWEEP, "where", 0, "EXPR", read_text, where, "run only combinations f
 OPTION(FOR_SWEEP, "metric", 0, "NAME=EXPR", read_definition, metrics, "measure EXPR as column NAME; may be repeated")
 OPTION(FOR_SWEEP, "frames", 0, "N", WHOLE(0, INT64_MAX), frames, "end each run after N frames (default: 600)")
 OPTION(FOR_SWEEP, "until", 0, "EXPR", read_text, until, "end each run after the first frame in which EXPR is true")
-OPTION(FOR_SWEEP, "every", 0, "K", WHOLE(1, INT64_MAX), row_every, "also write a row for every K-th frame (default: last)")
+OPTION(FOR_SWEEP, "every", 0, "K", WHOLE(1, INT64_MAX), row_every, "also write a row for every K-th frame (default: only the last)")
 OPTION(FOR_SWEEP, "output", 'o', "FILE", read_text, output, "write the table to FILE and resume if it is partial (default: standard output)")
 OPTION(FOR_SWEEP, "summary", 0, "FILE", read_text, summary, "write mean, deviation and quartiles over the seeds of each combination")
 OPTION(FOR_SWEEP, "plot", 0, "FILE", read_text, plot, "plot each metric against each parameter (.svg, .png or .pdf)")

@@ -30,7 +30,7 @@ static void test_help_shows_defaults(void **state) {
     (void)state;
     for (int i = 0; i < ROW_COUNT; i++) {
         const SchemaRow *row = &schema_rows[i];
-        const char *text = row->default_value.text, *inherited = "inherited, at first ";
+        const char *text = row->default_value.text, *inherited = "inherited, initially ";
         if (row->default_value.inherited) {
             assert_memory_equal(text, inherited, strlen(inherited));
             text += strlen(inherited);
