@@ -53,8 +53,8 @@ static bool is_letter(char c) {
     return isalnum((unsigned char)c) || c == '_';
 }
 
-// Returns the offset of a text within another one, from an offset on. If it is a word, only whole words match.
-// UINT32_MAX: not found.
+// Returns the offset of the first occurrence of a text in another one at or after `from`. If it is a word, only whole
+// words match. UINT32_MAX: not found.
 static uint32_t find_text(Str in, Str text, size_t from) {
     for (size_t i = from; text.len > 0 && i + text.len <= in.len; i++) {
         size_t end = i + text.len;

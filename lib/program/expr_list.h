@@ -21,7 +21,7 @@ SAME(COMPOSE)   // part or binding…; slot: number of parts
 EXPR(BIND)      // value; unpacked into slot_count slots from slot; null itself
 EXPR(LET)       // BIND…; null itself
 EXPR(FUNC)      // default… (CONST null where there is none); function: makes a closure
-EXPR(IMPORT)    // file; names to bind from slot on; null itself
+EXPR(IMPORT)    // file; names to bind, in consecutive slots from slot; null itself
 EXPR(FOR)       // source, body; names in slot_count slots from slot
 SAME(IF)        // test, value, [test, value]…, [else value]
 SAME(APPEND)    // parent, children

@@ -40,7 +40,7 @@ static const char *const worlds[] = {
     WORLD(2) "    for i in ..4\n        (!anchor if (i+frame)%3 else !particle) id=i position=i;frame mass=1+i\n"
              "    !gravity strength=3\n",
     WORLD(2) "    for i in ..3\n        !particle id=i velocity=1;i\n        if frame>3\n            !particle id=i\n",
-    // Positions that are not finite at first, temporarily, or from some frame on.
+    // Positions that are not finite at the start, for some frames, or permanently after some frame.
     WORLD(2) "    !particle id=1 position=1/0;0 velocity=1;1\n    !particle id=2 velocity=1/0;0\n    !drag\n",
     WORLD(2) "    !particle id=1 position=frame;0 velocity=1/(frame>3);1\n    !particle id=2 velocity=0;1/0\n",
     WORLD(2) "    !particle id=1 velocity=1e308;1e308 position=1e308;0\n    !particle id=2 position=3;4\n    "
