@@ -171,8 +171,8 @@ PETRI_API uint64_t petri_painter_readback_count(const PetriPainter *painter);
 // themselves. It starts with the width and height of the picture, which also define its units. Commands follow: a kind
 // of the list below, then its operands in the given order.
 //
-// A colour is red, green, blue and alpha from 0 to 1, not premultiplied. Angles are in turns. A text is its length and
-// that many code points. A path is its length and that many numbers: path elements (`PETRI_PATH_*`) with their
+// A colour is red, green, blue and alpha from 0 to 1, not premultiplied. Angles are in turns. A string is its length
+// and that many code points. A path is its length and that many numbers: path elements (`PETRI_PATH_*`) with their
 // operands. A matrix is n0 to n5: x' = n0 x + n2 y + n4, y' = n1 x + n3 y + n5. Pixels are a width, a height and a
 // number for each pixel, as in petri_picture_draw. Stops are their number, then an offset and a colour for each.
 //
@@ -211,8 +211,8 @@ enum {
     // The picture of another node, only for a PetriCanvasBackend: x, y, width, height, fit (as PETRI_DRAW_IMAGE),
     // pixels.
     PETRI_DRAW_PIXELS,
-    // Paint, a repeated picture: matrix from its pixels to current coordinates, alpha, pixels, or 0, 0 and a text with
-    // a file name.
+    // Paint, a repeated picture: matrix from its pixels to current coordinates, alpha, pixels, or 0, 0 and a string
+    // with a file name.
     PETRI_DRAW_PATTERN,
     // Sets the filter for the drawings up to the next PETRI_DRAW_STROKE_STYLE: filter (`PETRI_FILTER_*`).
     PETRI_DRAW_FILTER,

@@ -21,7 +21,7 @@
     ATTR(kind, EMISSIVE, TRIPLE, TO_GRAPHICS3D(emissive), INHERITED(0, "0"), "", "emitted light") \
     ATTR(kind, TRANSPARENCY, AMOUNT, TO_GRAPHICS3D(transparency), INHERITED(0, "0"), "", "0 to 1; highlights stay") \
     ATTR(kind, TRANSLUCENCY, AMOUNT, TO_GRAPHICS3D(translucency), INHERITED(0, "0"), "", "how far light penetrates") \
-    ATTR(kind, COLOR_ID, TEXT, TO_GRAPHICS3D(ids[0]), INHERITED_TEXT(""), "", "id of a picture that varies the value over the surface") \
+    ATTR(kind, COLOR_ID, TEXT, TO_GRAPHICS3D(ids[0]), INHERITED_TEXT(""), "", "id of a node or camera whose picture is the texture") \
     ALIAS(kind, TEXTURE_ID, COLOR_ID, "color_id", TEXT, TO_GRAPHICS3D(ids[0]), "") \
     ATTR(kind, METAL_ID, TEXT, TO_GRAPHICS3D(ids[1]), INHERITED_TEXT(""), "", "") \
     ALIAS(kind, METAL_TEXTURE_ID, METAL_ID, "metal_id", TEXT, TO_GRAPHICS3D(ids[1]), "") \
@@ -49,8 +49,8 @@
     ATTR(kind, UP, TRIPLE, NOWHERE, DESCRIBED(0, "0;1;0"), "", "direction that points up in the picture") \
     ATTR(kind, FOV, AMOUNT, TO_GRAPHICS3D(fov), IS(0.25), "turns", "angle of view") \
     ATTR(kind, FOV_REF, FOV_REF, TO_GRAPHICS3D(fov_ref), DESCRIBED(FOV_HORIZONTAL, ":horizontal"), "", "direction in which fov is measured") \
-    ATTR(kind, NEAR, AMOUNT, TO_GRAPHICS3D(near), IS(1), "", "nearer surfaces are cut off") \
-    ATTR(kind, FAR, AMOUNT, TO_GRAPHICS3D(far), DESCRIBED(NAN, "the width"), "", "farther surfaces are cut off") \
+    ATTR(kind, NEAR, AMOUNT, TO_GRAPHICS3D(near), IS(1), "", "nearer surfaces are clipped") \
+    ATTR(kind, FAR, AMOUNT, TO_GRAPHICS3D(far), DESCRIBED(NAN, "the width"), "", "farther surfaces are clipped") \
     ATTR(kind, ORTHOGRAPHIC, FLAG, TO_GRAPHICS3D(orthographic), IS(false), "", "without perspective") \
     ATTR(kind, WIDTH, AMOUNT, TO_GRAPHICS3D(width), DESCRIBED(NAN, "the width of the picture"), "", "width of the view, if orthographic") \
     ATTR(kind, SAMPLES, FINITE_INTEGER, TO_GRAPHICS3D(samples), IS(0), "", "samples per pixel, for smooth edges: 2, 4 or 8") \

@@ -15,7 +15,7 @@
     ATTR(kind, ALPHA, AMOUNT, NOWHERE, IS(1), "", "factor of all four channels of the result") \
     ATTR(kind, COLORBITS, FINITE_INTEGER, NOWHERE, DESCRIBED(0, "the window's"), "", "bits per channel: 8, 16 or 32") \
     ATTR(kind, PASSES, FINITE_INTEGER, NOWHERE, DESCRIBED(0, ""), "", "how often the shader is run, each time on its previous result") \
-    ATTR(kind, DOWNSAMPLE, FINITE_INTEGER, NOWHERE, IS(2), "", "factor by which the passes of downsample_passes are smaller") \
+    ATTR(kind, DOWNSAMPLE, FINITE_INTEGER, NOWHERE, IS(2), "", "divides width and height of the passes in downsample_passes") \
     ATTR(kind, DOWNSAMPLE_PASSES, LIST, NOWHERE, NONE, "", "") \
     ATTR(kind, BORDER, QUAD, NOWHERE, DESCRIBED(0, "0;0;0;0"), "", "colour beyond the edges of the pictures inside") \
     ATTR(kind, REPEAT, AMOUNTS, NOWHERE, NONE, "", "whether the pictures inside repeat beyond their edges, along x and y") \
@@ -77,7 +77,7 @@ NODE(ADJUST, "adjust", PICTURE, PICTURES, "change colours")
 PROGRAM_ROWS(ADJUST)
 ATTR(ADJUST, COLOR_MATRIX, LIST, NOWHERE, DESCRIBED(1, "1;0;0;0;1;0;0;0;1"), "", "nine numbers in column-major order: factors for red, green and blue")
 ATTR(ADJUST, HUE, AMOUNT, NOWHERE, IS(0), "turns", "")
-ATTR(ADJUST, SATURATION, AMOUNT, NOWHERE, IS(1), "", "0 is grey")
+ATTR(ADJUST, SATURATION, AMOUNT, NOWHERE, IS(1), "", "factor; 0 is grey")
 ADJUST_ROWS(ADJUST, 0)
 ATTR(ADJUST, GAMMA, AMOUNT, NOWHERE, IS(1), "", "")
 ATTR(ADJUST, TONEMAP, TONEMAP, NOWHERE, DESCRIBED(0, "none"), "", "map colours brighter than white into the displayable range")

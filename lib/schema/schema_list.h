@@ -503,8 +503,8 @@ ATTR(LINE_TO, POINT, POINT, NOWHERE, NONE, "", "")
 
 NODE(CURVE_TO, "curve_to", DRAWING, NOTHING, "a Bézier curve from the end of the path, or from 0;0")
 ATTR(CURVE_TO, POINT, POINT, NOWHERE, NONE, "", "")
-ATTR(CURVE_TO, C1, POINT, NOWHERE, NONE, "", "control point; with c2, that of the start; required")
-ATTR(CURVE_TO, C2, POINT, NOWHERE, NONE, "", "control point of the end of a cubic curve")
+ATTR(CURVE_TO, C1, POINT, NOWHERE, NONE, "", "control point; the first of two if c2 is given; required")
+ATTR(CURVE_TO, C2, POINT, NOWHERE, NONE, "", "second control point, for a cubic curve")
 
 NODE(ARC, "arc", DRAWING, NOTHING, "an arc of an ellipse, joined to the path by a line")
 ATTR(ARC, POINT, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "centre")
