@@ -547,7 +547,7 @@ typedef struct PetriSystem {
     PetriColumn position; // may contain numbers that are not finite
     PetriColumn velocity;
     // Sum of all forces on each particle in the last step of the frame; 0 for anchors. `data` is NULL if no step was
-    // made, or without PetriOptions.keep_forces.
+    // taken, or without PetriOptions.keep_forces.
     PetriColumn force;
     PetriColumn radius;
     PetriColumn mass;

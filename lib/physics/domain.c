@@ -30,7 +30,7 @@ static bool has_unbounded_force(const PhysSystem *system, Domain *reach) {
     return !any || !(reach->bound < INFINITY);
 }
 
-// A frame must make at least two steps, because collecting all particles at its end takes about as long as one.
+// A frame must have at least two steps, because collecting all particles at its end takes about as long as one.
 static bool pays_off(const PhysSystem *system, const PhysTime *time) {
     const PhysOptions *options = &system->options;
     bool many = system->particle_count >= MIN_PARTICLES && time->now - time->last > 1.5 * time->resolution;

@@ -219,7 +219,7 @@ bool phys_reserve_columns(PhysSystem *system, uint64_t spare);
 // groups.c: sets Group.populated and Group.nearest, which skip empty enclosing groups, so that deep nesting is cheap.
 void phys_link_groups(PhysSystem *system);
 
-// step.c: makes one step of `delta` at `clock`. Returns false if the step was aborted half-way.
+// step.c: takes one step of `delta` at `clock`. Returns false if the step was aborted half-way.
 bool phys_step(PhysSystem *system, double clock, double delta, double speed_of_light);
 
 // reorder.c: columns in the sorted order of a list, so that kernels need no index. phys_can_reorder returns whether the

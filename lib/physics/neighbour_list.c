@@ -171,7 +171,7 @@ static bool refresh_list(const PhysSystem *system, ListPass *work) {
     return run_chunks(system, work, refresh_chunk) && still_idle(work->pass, list);
 }
 
-// Makes the whole step if it consists of only this pass and the motion. Returns false if it does not, or if the
+// Takes the whole step if it consists of only this pass and the motion. Returns false if it does not, or if the
 // particles fit into the cache, where this is not faster.
 static bool step_with_list(PhysSystem *system, ListPass *work, Move *move) {
     NeighbourList *list = work->list;

@@ -171,7 +171,7 @@ void phys_set_key(PhysSystem *system, uint32_t force, uint64_t key);
 
 typedef struct PhysTime {
     double last;           // time up to which the state has been simulated
-    double now;            // time of this frame; a frame with now <= last makes no step
+    double now;            // time of this frame; a frame with now <= last has no step
     double clock;          // simulation clock at `last`
     double resolution;     // maximum step; > 0 and finite
     bool lockstep;         // always catch up
@@ -194,7 +194,7 @@ enum { PHYS_MAX_STEPS = 1000000 }; // in one frame
 typedef struct PhysResult {
     PhysStatus status;
     double clock;   // simulation clock afterwards
-    uint64_t steps; // number of steps made
+    uint64_t steps; // number of steps taken
 } PhysResult;
 
 // Simulates one frame (spec section 4). The result is deterministic to the last bit.

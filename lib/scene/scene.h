@@ -53,7 +53,7 @@ typedef struct SceneView {
     Value prefix;
     uint32_t dimensions;
     uint32_t particle_count;
-    uint64_t steps;         // made in the last update
+    uint64_t steps;         // taken in the last update
     bool had_simulated;     // its clock was above 0 before the last update
     const StateSlot *slots; // by handle: a pair of position and velocity
     PhysicsSystem *system;
@@ -69,7 +69,7 @@ bool scene_view_ids(const State *state, const SceneView *view, const double **id
 bool scene_view_find(Scene *scene, State *state, Arena *arena, const SceneView *view, Value id, uint32_t *particle);
 // Returns the input that the host reports for `!pointer` and `!key` (input_bind.h).
 Input *scene_input(Scene *scene);
-// Updates all systems from the nodes in `tree`. Returns the number of simulation steps made.
+// Updates all systems from the nodes in `tree`. Returns the number of simulation steps taken.
 uint64_t scene_update(Scene *scene, Value tree, const SceneFrame *frame);
 // Returns true if a system could not be updated since the last call because memory ran out.
 bool scene_clear_exhausted(Scene *scene);

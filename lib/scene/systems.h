@@ -32,7 +32,7 @@ struct PhysicsSystem {
     PhysSystem *engine;
     Budget *budget; // charged for the memory of this struct, not of the engine
     Mirror mirror;
-    uint64_t steps;      // made in the last update
+    uint64_t steps;      // taken in the last update
     bool had_simulated;  // its clock was above 0 before the last update, so the script could see its particles
     uint64_t last_frame; // scene->frame_number of the last update
 
@@ -142,7 +142,7 @@ void physics_cache_tree(const PhysicsTree *tree);
 
 // Approximate memory of a system without particles, in bytes.
 enum { PHYSICS_SYSTEM_BYTES = 24 << 10 };
-// Update one `!physics` or `!counter`. physics_update returns the number of steps made.
+// Update one `!physics` or `!counter`. physics_update returns the number of steps taken.
 uint64_t physics_update(Scene *scene, const Node *node, const SceneFrame *frame);
 void counter_update(Scene *scene, const Node *node, const SceneFrame *frame);
 

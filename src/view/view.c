@@ -436,7 +436,7 @@ const Command VIEW_COMMAND = {
         "shown and the last good version keeps running. If the display is lost, a run that has an end, a state file,\n"
         "a socket or pictures to record continues without it.\n"
         "\n"
-        "Keys: space pauses, . makes one step, r restarts, f toggles full screen, s saves the picture, h shows frame\n"
+        "Keys: space pauses, . takes one step, r restarts, f toggles full screen, s saves the picture, h shows frame\n"
         "rate and clocks, w lists warnings (a corner shows their number), q or Escape quits. Tab or ] and [ choose a\n"
         "parameter of the script (petri help run); up and down or + and - change it (page up and down: ten steps);\n"
         "0 or backspace resets it to its default. Keys that the script requests with !key go to the script; with\n"

@@ -1,6 +1,6 @@
 // cases.h: tables of small scripts with expected results that were calculated by hand.
 //
-// At one frame per second, the first step is made in frame 1 and has length 1. A resting particle of mass 1 then has a
+// At one frame per second, the first step is taken in frame 1 and has length 1. A resting particle of mass 1 then has a
 // velocity equal to the force on it. The numbers are chosen so that nothing is rounded.
 #ifndef PETRI_TESTS_PHYSICS_CASES_H
 #define PETRI_TESTS_PHYSICS_CASES_H

@@ -57,7 +57,7 @@ static void test_two_steps(void **state) {
     world_close(&world);
 }
 
-// In real time, a frame makes one step of `resolution` (a second one only after hundreds of good frames). The clock
+// In real time, a frame takes one step of `resolution` (a second one only after hundreds of good frames). The clock
 // falls behind, and the particles follow the clock.
 static void test_real_time(void **state) {
     (void)state;

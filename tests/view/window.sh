@@ -229,9 +229,9 @@ render count.fl --frame "${number:-0}" -o wanted.png
 check "the picture is that of the frame" cmp -s "$first" wanted.png
 press period
 render count.fl --frame $((number + 1)) -o wanted.png
-check ". makes one step" soon exists wanted.png
+check ". takes one step" soon exists wanted.png
 shot
-check ". makes only one step" cmp -s "$shot" wanted.png
+check ". takes only one step" cmp -s "$shot" wanted.png
 check "the file name contains the frame number" [ "$shot" = "$(printf './count-%05d.png' $((number + 1)))" ]
 press r
 render count.fl --frame 0 -o wanted.png

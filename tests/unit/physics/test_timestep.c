@@ -63,7 +63,7 @@ static void test_step_limit(void **state) {
     check_steps(time_until(1, 1e-6), PHYS_OK, PHYS_MAX_STEPS, 1);
 }
 
-// No step is made if it is too small to change the clock.
+// No step is taken if it is too small to change the clock.
 static void test_lost_precision(void **state) {
     (void)state;
     PhysTime time = {.last = 1e17, .now = 1e17 + 64, .resolution = 1, .lockstep = true};
