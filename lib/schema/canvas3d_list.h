@@ -5,9 +5,9 @@
     ATTR(kind, TRANSLATE, TRIPLE, NOWHERE, DESCRIBED(0, "0"), "", "move the origin; these attributes are applied in the order written") \
     ATTR(kind, SCALE, TRIPLE, NOWHERE, DESCRIBED(1, "1"), "", "enlarge") \
     ATTR(kind, ROTATE, LIST, NOWHERE, DESCRIBED(0, "0"), "turns", "about z, then y, then x: three numbers or one for all; four numbers are a quaternion w;x;y;z") \
-    ATTR(kind, ROTATE_X, AMOUNT, NOWHERE, IS(0), "turns", "about one axis") \
-    ATTR(kind, ROTATE_Y, AMOUNT, NOWHERE, IS(0), "turns", "about one axis") \
-    ATTR(kind, ROTATE_Z, AMOUNT, NOWHERE, IS(0), "turns", "about one axis") \
+    ATTR(kind, ROTATE_X, AMOUNT, NOWHERE, IS(0), "turns", "about the x axis") \
+    ATTR(kind, ROTATE_Y, AMOUNT, NOWHERE, IS(0), "turns", "about the y axis") \
+    ATTR(kind, ROTATE_Z, AMOUNT, NOWHERE, IS(0), "turns", "about the z axis") \
     ATTR(kind, SHEAR_X, AMOUNTS, NOWHERE, IS(0), "", "a;b: x grows by a*y + b*z") \
     ATTR(kind, SHEAR_Y, AMOUNTS, NOWHERE, IS(0), "", "a;b: y grows by a*x + b*z") \
     ATTR(kind, SHEAR_Z, AMOUNTS, NOWHERE, IS(0), "", "a;b: z grows by a*x + b*y") \
@@ -19,7 +19,7 @@
     ATTR(kind, IOR, AMOUNT, TO_GRAPHICS3D(ior), INHERITED(1.5, "1.5"), "", "index of refraction; larger values make the surface shinier") \
     ATTR(kind, AO, AMOUNT, TO_GRAPHICS3D(ao), INHERITED(1, "1"), "", "fraction of ambient light that reaches the surface") \
     ATTR(kind, EMISSIVE, TRIPLE, TO_GRAPHICS3D(emissive), INHERITED(0, "0"), "", "emitted light") \
-    ATTR(kind, TRANSPARENCY, AMOUNT, TO_GRAPHICS3D(transparency), INHERITED(0, "0"), "", "0 to 1; highlights stay") \
+    ATTR(kind, TRANSPARENCY, AMOUNT, TO_GRAPHICS3D(transparency), INHERITED(0, "0"), "", "0 to 1; specular highlights remain") \
     ATTR(kind, TRANSLUCENCY, AMOUNT, TO_GRAPHICS3D(translucency), INHERITED(0, "0"), "", "how far light penetrates") \
     ATTR(kind, COLOR_ID, TEXT, TO_GRAPHICS3D(ids[0]), INHERITED_TEXT(""), "", "id of a node or camera whose picture is the texture") \
     ALIAS(kind, TEXTURE_ID, COLOR_ID, "color_id", TEXT, TO_GRAPHICS3D(ids[0]), "") \

@@ -12,23 +12,23 @@
     SOURCE_ROWS(kind) \
     ATTR(kind, COMPOSITE, MIX, NOWHERE, DESCRIBED(MIX_OVER, ":over"), "", "how each picture inside is combined with the previous ones") \
     ALIAS(kind, BLEND, COMPOSITE, "composite", MIX, NOWHERE, "") \
-    ATTR(kind, ALPHA, AMOUNT, NOWHERE, IS(1), "", "factor of all four channels of the result") \
+    ATTR(kind, ALPHA, AMOUNT, NOWHERE, IS(1), "", "factor for all four channels of the result") \
     ATTR(kind, COLORBITS, FINITE_INTEGER, NOWHERE, DESCRIBED(0, "the window's"), "", "bits per channel: 8, 16 or 32") \
-    ATTR(kind, PASSES, FINITE_INTEGER, NOWHERE, DESCRIBED(0, ""), "", "how often the shader is run, each time on its previous result") \
+    ATTR(kind, PASSES, FINITE_INTEGER, NOWHERE, DESCRIBED(0, ""), "", "how many times the shader is run, each time on its previous result") \
     ATTR(kind, DOWNSAMPLE, FINITE_INTEGER, NOWHERE, IS(2), "", "divides width and height of the passes in downsample_passes") \
     ATTR(kind, DOWNSAMPLE_PASSES, LIST, NOWHERE, NONE, "", "") \
     ATTR(kind, BORDER, QUAD, NOWHERE, DESCRIBED(0, "0;0;0;0"), "", "colour beyond the edges of the pictures inside") \
     ATTR(kind, REPEAT, AMOUNTS, NOWHERE, NONE, "", "whether the pictures inside repeat beyond their edges, along x and y") \
-    ATTR(kind, NEAREST, FLAG, NOWHERE, IS(false), "", "sample the nearest pixel, without interpolation") \
-    ATTR(kind, VERTEX, TEXT, NOWHERE, NONE, "", "GLSL source that replaces the default shader") \
-    ATTR(kind, FRAGMENT, TEXT, NOWHERE, NONE, "", "GLSL source that replaces the default shader")
+    ATTR(kind, NEAREST, FLAG, NOWHERE, IS(false), "", "nearest-neighbour sampling of pictures of a different size, instead of bilinear") \
+    ATTR(kind, VERTEX, TEXT, NOWHERE, NONE, "", "GLSL source that replaces the default vertex shader") \
+    ATTR(kind, FRAGMENT, TEXT, NOWHERE, NONE, "", "GLSL source that replaces the default fragment shader")
 #define BLUR_ROWS(kind) \
     ATTR(kind, RADIUS, AMOUNTS, NOWHERE, IS(0), "pixels", "radius along x and y, in whole pixels") \
     ATTR(kind, SIGMA, AMOUNTS, NOWHERE, IS(0.3), "radii", "standard deviation")
 #define ADJUST_ROWS(kind, usual) \
     ATTR(kind, EXPOSURE, AMOUNT, NOWHERE, IS(usual), "stops", "1 doubles the brightness") \
     ATTR(kind, CONTRAST, AMOUNT, NOWHERE, IS(1), "", "") \
-    ATTR(kind, BRIGHTNESS, AMOUNT, NOWHERE, IS(0), "", "is added") \
+    ATTR(kind, BRIGHTNESS, AMOUNT, NOWHERE, IS(0), "", "added to each channel") \
     ATTR(kind, SHADOWS, AMOUNT, NOWHERE, IS(0), "stops", "exposure of dark areas") \
     ATTR(kind, HIGHLIGHTS, AMOUNT, NOWHERE, IS(0), "stops", "exposure of bright areas")
 
@@ -75,7 +75,7 @@ PROGRAM_ROWS(SHADER)
 
 NODE(ADJUST, "adjust", PICTURE, PICTURES, "change colours")
 PROGRAM_ROWS(ADJUST)
-ATTR(ADJUST, COLOR_MATRIX, LIST, NOWHERE, DESCRIBED(1, "1;0;0;0;1;0;0;0;1"), "", "nine numbers in column-major order: factors for red, green and blue")
+ATTR(ADJUST, COLOR_MATRIX, LIST, NOWHERE, DESCRIBED(1, "1;0;0;0;1;0;0;0;1"), "", "nine numbers in column-major order: a 3 by 3 matrix for red, green and blue")
 ATTR(ADJUST, HUE, AMOUNT, NOWHERE, IS(0), "turns", "")
 ATTR(ADJUST, SATURATION, AMOUNT, NOWHERE, IS(1), "", "factor; 0 is grey")
 ADJUST_ROWS(ADJUST, 0)
@@ -95,7 +95,7 @@ ADJUST_ROWS(BLOOM, -1)
 NODE(EDGES, "edges", PICTURE, PICTURES, "show edges: the difference from a blurred copy")
 PROGRAM_ROWS(EDGES)
 BLUR_ROWS(EDGES)
-ATTR(EDGES, MIXER, AMOUNT, NOWHERE, IS(0), "", "fraction of the picture itself that is mixed in")
+ATTR(EDGES, MIXER, AMOUNT, NOWHERE, IS(0), "", "fraction of the original picture that is mixed in")
 
 NODE(CHROMAKEY, "chromakey", PICTURE, PICTURES, "make one hue transparent")
 PROGRAM_ROWS(CHROMAKEY)
@@ -109,7 +109,7 @@ ATTR(CHROMAKEY, HARD, AMOUNT, NOWHERE, IS(4), "", "sharpness of the mask after t
 
 NODE(FEEDBACK, "feedback", PICTURE, PICTURES, "mix with the picture of the previous frame, to draw trails")
 PROGRAM_ROWS(FEEDBACK)
-ATTR(FEEDBACK, TIMEBASE, AMOUNT, NOWHERE, IS(1), "beats", "time to which the other attributes refer")
+ATTR(FEEDBACK, TIMEBASE, AMOUNT, NOWHERE, IS(1), "beats", "time after which the other attributes have taken full effect")
 ATTR(FEEDBACK, MIXER, AMOUNT, NOWHERE, IS(0), "", "fraction of the previous picture that is kept")
 ATTR(FEEDBACK, GLOW, AMOUNT, NOWHERE, IS(0), "", "how much brighter the new picture is")
 ATTR(FEEDBACK, TRANSLATE, AMOUNTS, NOWHERE, IS(0), "pixels", "movement of the previous picture, y down")
@@ -139,7 +139,7 @@ ATTR(NOISE, Z, AMOUNT, NOWHERE, IS(0), "", "")
 ATTR(NOISE, SCALE, TRIPLE, NOWHERE, IS(1), "", "")
 ATTR(NOISE, TSCALE, TRIPLE, NOWHERE, IS(1), "", "how far the colours of pictures inside move the point")
 ATTR(NOISE, MULTIPLIER, AMOUNT, NOWHERE, IS(0.5), "", "")
-ATTR(NOISE, OFFSET, AMOUNT, NOWHERE, IS(0.5), "", "is added")
+ATTR(NOISE, OFFSET, AMOUNT, NOWHERE, IS(0.5), "", "added to the noise")
 ATTR(NOISE, DEFAULT, QUAD, NOWHERE, IS(1), "", "value of the channels without noise")
 ATTR(NOISE, SHAPE, NOISE_SHAPE, NOWHERE, DESCRIBED(NOISE_PLANE, ":plane"), "", "surface on which noise is evaluated")
 

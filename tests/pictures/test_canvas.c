@@ -657,7 +657,7 @@ static void test_bad_input_is_reported_once(void **state) {
          "image_id=:b\n"
          "    !reference id=:c\n    !offscreen id=:c\n        !reference id=:c\n        !reference id=:a\n"
          "    !canvas size=-5\n    !canvas size=20000\n        !rect size=9\n    !canvas\n",
-         "12 [bad-attribute] !canvas: size should be one number or two, 0 or more, not -5\n"
+         "12 [bad-attribute] !canvas: size should be one number or two, each 0 or more, not -5\n"
          "13 [bad-size] !canvas: a picture can have 1 to 16384 pixels in width and height\n",
          false},
     };

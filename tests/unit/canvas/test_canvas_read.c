@@ -68,7 +68,7 @@ static void test_bad_attributes_are_reported(void **state) {
          1,
          {-1},
          false,
-         "!ellipse radius should be one number or two, 0 or more, not -1 [bad-attribute]\n"},
+         "!ellipse radius should be one number or two, each 0 or more, not -1 [bad-attribute]\n"},
         {"rect", "size", 3, {1, 2, 3}, true, "!rect size should be one number or two, not 1;2;3 [bad-attribute]\n"},
         {"paint",
          "color",
