@@ -15,7 +15,7 @@ struct RecordedFile {
     char *name;
     Video video; // open only while a video is written
     uint64_t frames;
-    bool film; // true for a film, false for a picture
+    bool film; // true for a video, false for a picture
 };
 
 static RecordedFile *find_file(const Recording *recording, const char *name) {

@@ -97,7 +97,7 @@ static bool check_folder(const char *file) {
     return good;
 }
 
-// Draws the last frame for the film, for a file, or only for its `!record` nodes.
+// Draws the last frame for the video, for a file, or only for its `!record` nodes.
 static void draw_frame(Render *render, bool for_film, const char *file) {
     PetriPicture *picture = NULL;
     frames_set_interruptible(&render->frames, true);

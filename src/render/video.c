@@ -194,7 +194,7 @@ static void report_failure(Video *video, int status) {
     }
 }
 
-// Closes ffmpeg's input and waits for its end. If it failed, discards the film, sets error_text and returns false.
+// Closes ffmpeg's input and waits for its end. If it failed, discards the video, sets error_text and returns false.
 static bool finish_ffmpeg(Video *video) {
     close(video->frames);
     video->frames = -1;
