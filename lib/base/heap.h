@@ -28,7 +28,7 @@ void *heap_calloc(size_t count, size_t size);
 void *heap_resize(void *block, size_t size);
 // Frees a block. NULL is ignored.
 void heap_free(void *block);
-// Returns a copy of a text, followed by a NUL byte.
+// Returns a copy of a string, followed by a NUL byte.
 char *heap_strndup(const char *bytes, size_t length);
 // Grows an array so that it can hold more than `count` elements. Returns false, with nothing changed, if out of memory.
 bool heap_reserve(void **array, uint32_t *capacity, uint32_t count, size_t size);

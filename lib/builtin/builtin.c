@@ -47,7 +47,7 @@ Value builtin_error(BuiltinContext *context, const char *name, const char *forma
     return VALUE_NULL;
 }
 
-// Returns the name of parameter i, which must exist, from a text such as "xs, ys=0".
+// Returns the name of parameter i, which must exist, from a string such as "xs, ys=0".
 static Str parameter_name(const Builtin *builtin, uint32_t i) {
     const char *at = builtin->parameters;
     while (i-- > 0)

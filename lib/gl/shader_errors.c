@@ -53,7 +53,7 @@ static bool is_letter(char c) {
     return isalnum((unsigned char)c) || c == '_';
 }
 
-// Returns the offset of the first occurrence of a text in another one at or after `from`. If it is a word, only whole
+// Returns the offset of the first occurrence of a string in another one at or after `from`. If it is a word, only whole
 // words match. UINT32_MAX: not found.
 static uint32_t find_text(Str in, Str text, size_t from) {
     for (size_t i = from; text.len > 0 && i + text.len <= in.len; i++) {
@@ -94,7 +94,7 @@ static Span span_of(Str source, uint32_t start, const CompilerMessage *message) 
     return (Span){(uint32_t)at, (uint32_t)(end > at ? end : at + 1)};
 }
 
-// Returns the name in the first `read('name')` of a text; empty: none.
+// Returns the name in the first `read('name')` of a shader; empty: none.
 static Str find_file(Str text) {
     for (size_t i = 0; i + 6 < text.len; i++) {
         char quote = text.bytes[i + 5];

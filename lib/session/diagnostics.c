@@ -15,7 +15,7 @@ static void clear_retained(Diagnostics *diagnostics) {
     diagnostics->retained_first = diagnostics->retained_count = 0;
 }
 
-// Copies a text to *end and advances it. Returns the copy, or NULL for NULL.
+// Copies a string to *end and advances it. Returns the copy, or NULL for NULL.
 static const char *add_text(char **end, const char *text) {
     size_t size = text ? strlen(text) + 1 : 0;
     const char *copy = text ? memcpy(*end, text, size) : NULL;

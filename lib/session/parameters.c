@@ -154,7 +154,7 @@ static const Parameter *nearest_parameter(const Program *program, Str name) {
     return found;
 }
 
-// Appends the names of all parameters to a text.
+// Returns `before` followed by the names of all parameters.
 static Str with_parameters(Arena *arena, const Program *program, Str before) {
     Text text = text_new(arena);
     uint32_t count = program->parameter_count;

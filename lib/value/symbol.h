@@ -26,7 +26,7 @@ typedef struct SymbolTable {
     HashIndex by_number; // registered symbols only
 } SymbolTable;
 
-// Returns the 64-bit FNV-1a hash of the code points of a text (L4.3).
+// Returns the 64-bit FNV-1a hash of the code points of a string (L4.3).
 uint64_t symbol_hash(Str text);
 // Returns the double whose bits are 0xFFE0000000000000 | (symbol_hash(name) >> 12).
 double symbol_number(Str name);

@@ -71,7 +71,7 @@ typedef struct Hdf5System {
 
 enum { HDF5_NUMBERS = 5 }; // eight-byte values per particle besides position and velocity
 
-// Returns the size of a text of this length with its padding, which has at least one NUL.
+// Returns the padded size of a string of this length. The padding has at least one NUL byte.
 static inline size_t hdf5_padded(size_t length) {
     return (length + 8) / 8 * 8;
 }

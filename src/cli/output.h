@@ -24,7 +24,7 @@ bool output_flush(Output *output);
 // Flushes. Returns `status`, or STATUS_FAILED after a message if an error has occurred. A closed pipe is not an error,
 // because its reader has what it wanted.
 int output_finish(Output *output, int status);
-// Writes a text to standard output and returns the result of output_finish.
+// Writes text to standard output and returns the result of output_finish.
 int output_text(const char *text, size_t length, int status);
 
 #endif

@@ -49,7 +49,7 @@ static void add_row(TextTable *table, const PetriParameter *parameter) {
     byte_buffer_add_text(&value, parameter->defined ? parameter->value : parameter->default_value);
     if (parameter->defined)
         byte_buffer_format(&value, " (default %s)", parameter->default_value);
-    byte_buffer_add_text(&range, ""); // makes range.data a text even without a range
+    byte_buffer_add_text(&range, ""); // makes range.data a string even without a range
     parameter_range(&range, parameter);
     const char *const cells[COLUMNS] = {parameter->name, value.data, range.data, parameter->comment};
     for (int i = 0; i < COLUMNS; i++)

@@ -22,7 +22,7 @@ __attribute__((format(printf, 2, 3))) static void write_format(const RowWriter *
     writer->write(writer->host, text, (size_t)length);
 }
 
-// Writes a comma and a text, quoted if it contains commas, quotes or line ends.
+// Writes a comma and a CSV field, quoted if it contains commas, quotes or line ends.
 static void write_text(const RowWriter *writer, const char *text) {
     size_t length = strlen(text);
     writer->write(writer->host, ",", 1);

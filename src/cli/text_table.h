@@ -15,7 +15,7 @@ typedef struct TextTable {
 TextTable text_table_new(size_t columns);
 // Adds the next cell, row by row.
 void text_table_add(TextTable *table, const char *cell);
-// Adds the formatted table to a text.
+// Appends the formatted table to a buffer.
 void table_text(const TextTable *table, ByteBuffer *text);
 void text_table_write(const TextTable *table, Output *output);
 void text_table_free(TextTable *table);

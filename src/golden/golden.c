@@ -12,7 +12,7 @@
 #include <string.h>
 
 static void add_word(TextList *words, ByteBuffer *word) {
-    byte_buffer_add_text(word, ""); // makes word->data a text even if the word is empty
+    byte_buffer_add_text(word, ""); // makes word->data a string even if the word is empty
     texts_add(words, word->data);
 }
 

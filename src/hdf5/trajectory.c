@@ -165,7 +165,7 @@ static bool is_text(const void *owner, uint32_t entry, const void *key) {
     return strcmp(((const TrajectoryFile *)owner)->texts.items[entry], key) == 0;
 }
 
-// Returns the id that is stored in the file for a text.
+// Returns the number that the file stores for an id that is a string.
 static int64_t number_text(TrajectoryFile *file, const char *text) {
     uint64_t hash = hash_bytes(0, text, strlen(text));
     uint32_t entry = hash_index_find(&file->index, hash, is_text, file, text);

@@ -21,7 +21,7 @@ bool overlay_set(char *text, size_t size, const char *from);
 // Return the number of lines, and the number of characters of the longest line.
 int overlay_lines(const char *text);
 int overlay_columns(const char *text);
-// Wraps a text to at most `columns` characters per line (at least 2), at blanks where possible. Lines that begin with a
+// Wraps text to at most `columns` characters per line (at least 2), at blanks where possible. Lines that begin with a
 // blank quote a script or mark a place in it; these are cut off, so that they stay aligned. Text that exceeds `size`
 // bytes is omitted.
 void overlay_fit(char *out, size_t size, const char *text, int columns);
