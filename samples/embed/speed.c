@@ -52,7 +52,7 @@ int main(void) {
     PetriFunction function = {.size = sizeof function,
                               .name = "kick",
                               .parameters = "number",
-                              .help = "A push in a direction of its own for each number.",
+                              .help = "A push in a different direction for each number.",
                               .call = kick,
                               .user_data = &strength};
     PetriStatus status = petri_add_function(session, &function);

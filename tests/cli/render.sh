@@ -178,7 +178,7 @@ END
     head -c 700 "$here/../pictures/images/small.jpg" >half.jpg
     printf '!window size=40;40\n    !canvas\n        !image filename="half.jpg" size=40\n' >half.fl
     petri render half.fl -o half.png --frames 3
-    check "a damaged JPEG file is reported once" count_is err "cannot read 'half.jpg': it is damaged" 1
+    check "a damaged JPEG file is reported once" count_is err "cannot read 'half.jpg': damaged" 1
     # invalid and non-finite attributes are reported once and their elements are omitted
     cat >wrong.fl <<'END'
 let nan=0/0
@@ -212,7 +212,7 @@ END
         "!paint: stroke_join should be :miter, :round or :bevel, not :rond" "!paint: composite should be a word such as :over" \
         "unknown attribute 'colour'; did you mean 'color'?" "'!elipse' is not supported; ignored; did you mean '!ellipse'?" \
         "'!stop' has no effect here" "cannot read 'absent.png': No such file" "cannot read 'disc.fl': neither PNG nor JPEG" \
-        "there is no font 'No Such Font'"; do
+        "font 'No Such Font' is not installed"; do
         check "reported once: $text" count_is err "$text" 1
     done
     printf '!window size=40;40\n    !canvas\n        !rect size=40 fill=true color=0;0;1\n' >blue.fl

@@ -63,7 +63,7 @@ next=$(sed -n 's/^@\([0-9]*\) .*/\1/p' out)
 check "--save-every has saved every second frame" [ "${next:-0}" -ge 4 ]
 petri run world.fl --frames 1 --save-every 2
 check "--save-every without --state is a usage error" status_is 2
-check "--save-every without --state says what is missing" has err 'add --state FILE'
+check "--save-every without --state says what is missing" has err 'needs --state FILE'
 
 # ids that are new in each frame must not accumulate in the state
 cat >new_ids.fl <<'END'

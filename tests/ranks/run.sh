@@ -53,7 +53,7 @@ for count in 2 3 4 7; do
     check "$count ranks print the hashes of one process, once" same one out
     check "$count ranks print one table of momentum" [ "$(grep momentum err)" = "$(grep momentum stats)" ]
     check "$count ranks: stars by pairs, discs by region" [ "$(grep -c "on $count ranks  *by \(pairs\|region\)" err)" -eq 2 ]
-    check "$count ranks: messages only without shared memory" [ "$(grep -c ", 0 bytes a frame" err)" -eq $((2 - no_shared_memory)) ]
+    check "$count ranks: messages only without shared memory" [ "$(grep -c ", 0 bytes per frame" err)" -eq $((2 - no_shared_memory)) ]
 done
 unset PETRI_NO_SHARED_MEMORY
 ranks 2 stars.fl --frames 5 --print hash,log --every 4 --trajectory two.csv

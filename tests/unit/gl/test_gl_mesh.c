@@ -224,8 +224,8 @@ static void test_obj(void **state) {
         {"v 0 0 0\nf 1 1 -2\n", 2, "a vertex that does not exist"},
         {"v 0 0 0\nf 1/1 1/1 1/1\n", 2, "(vt) that do not exist"},
         {"v 0 0 0\nf 1//1 1//1 1//1\n", 2, "(vn) that does not exist"},
-        {"v 0 0 0\nf 1 1 99999999999999999999\n", 2, "not there"},
-        {"v 0 0 0\nf 1 1 1/1/1/1\n", 2, "not there"},
+        {"v 0 0 0\nf 1 1 99999999999999999999\n", 2, "a vertex that does not exist"},
+        {"v 0 0 0\nf 1 1 1/1/1/1\n", 2, "coordinates (vt) that do not exist"},
         {"v 0 0 0\nf a b c\n", 2, "a corner of a face is written"},
         {"\x89PNG\r\n\x1a\n", 0, "no triangles"},
     };

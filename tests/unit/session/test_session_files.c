@@ -163,7 +163,7 @@ static void test_include(void **state) {
     check_run(desk, "let k=1\n%include 'i.fl'\n%include 'i.fl'\n", "!i k=1\n!i k=5\n");
     check_reported(desk, "main.fl:3:10 cannot include");
     check_run(desk, "%include 'main.fl'\n!a\n", "!a\n");
-    check_reported(desk, "included already");
+    check_reported(desk, "already included");
     check_run(desk, "%include 'none.fl'\n!a\n", "!a\n");
     check_reported(desk, "cannot include");
     check_run(desk, "%include frame;'.fl'\n!a\n", "!a\n");
