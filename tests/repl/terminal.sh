@@ -258,7 +258,7 @@ expect ".quit quits" '^left with 0$'
 start --color never cells.fl
 t resize-window -x 50 -y 50
 type_keys '.help .step' Enter '.help random' Enter
-expect "help is wrapped at the terminal's width" '^    v velocity; l distance of a pair, .*$'
+expect "help is wrapped at the terminal's width" '^    pair: r radius, m mass, q charge, v velocity;$'
 type_keys '.quit' Enter
 expect ".quit quits in a narrow terminal" '^left with 0$'
 
