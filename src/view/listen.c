@@ -95,7 +95,7 @@ static void add_output(const ByteBuffer *output, ByteBuffer *out) {
 
 static void add_result_line(ByteBuffer *out, bool done, int64_t frame, const PetriPromptResult *prompted) {
     byte_buffer_format(
-        out, "{\"done\": %s, \"frame\": %" PRId64 ", \"values\": %u, \"bindings\": %u, \"nodes\": %u, \"hidden\": ",
+        out, "{\"done\": %s, \"frame\": %" PRId64 ", \"values\": %u, \"bindings\": %u, \"nodes\": %u, \"shadowed\": ",
         done ? "true" : "false", frame, prompted->values, prompted->bindings, prompted->nodes);
     json_add_text(out, prompted->shadowed);
     byte_buffer_add_text(out, "}\n");
