@@ -1,4 +1,4 @@
-// builtin.c: the table of built-ins, the matching of arguments with parameters, and the constants; see builtin.h.
+// builtin.c: the table of built-ins, argument matching, and predefined constants; see builtin.h.
 #include "builtin/builtin.h"
 
 #include "builtin/family.h"
@@ -14,7 +14,7 @@ const Builtin builtin_table[] = {
 };
 const uint32_t builtin_table_count = sizeof builtin_table / sizeof builtin_table[0];
 
-// No row has more parameters before "..."; a test checks this.
+// Maximum number of parameters before "..." in builtin_list.h; a test checks it.
 enum { MAX_FIXED = 8 };
 
 const Builtin *builtin_find(Str name) {
@@ -33,7 +33,7 @@ const Builtin *builtin_find(Str name) {
 }
 
 Value builtin_error(BuiltinContext *context, const char *name, const char *format, ...) {
-    enum { ERROR_WORK = 50 }; // for each diagnostic, including repeated ones
+    enum { ERROR_WORK = 50 }; // work units charged for each diagnostic, including repeated ones
     if (!context->report_error)
         return VALUE_NULL;
     arena_charge(context->arena, ERROR_WORK);
@@ -55,7 +55,7 @@ static Str parameter_name(const Builtin *builtin, uint32_t i) {
     return (Str){at, strcspn(at, ",=")};
 }
 
-// Returns the index of a named parameter, or `fixed` if there is none.
+// Returns the index of the parameter called `name`, or builtin->fixed if there is none.
 static uint32_t parameter_find(const Builtin *builtin, Str name) {
     uint32_t i = 0;
     while (i < builtin->fixed && !str_equal(parameter_name(builtin, i), name))
@@ -73,7 +73,7 @@ static Value bad_name(BuiltinContext *context, const Builtin *builtin, const cha
                          name.bytes, builtin->name, builtin->parameters);
 }
 
-// Handles calls with named or missing arguments.
+// Calls a built-in with named or missing arguments.
 static Value call_matched(BuiltinContext *context, const Builtin *builtin, const Value *args, uint32_t count,
                           const Symbol *const *names, const Value *named, uint32_t named_count) {
     Value all[MAX_FIXED];

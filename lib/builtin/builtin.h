@@ -1,8 +1,8 @@
 // builtin.h: the registry of built-in functions (spec builtins.md).
 //
 // A built-in is one row of builtin_list.h: name, function, parameters, purity and one line of help. The function gets
-// its arguments in the order of the parameters; a missing one is VALUE_ABSENT. It returns the specified value, or null
-// for arguments of the wrong form, and reports a *bad call* with builtin_error.
+// its arguments in the order of the parameters; a missing argument is VALUE_ABSENT. It returns the specified value, or
+// null for arguments of the wrong form, and reports a *bad call* with builtin_error.
 #ifndef PETRI_BUILTIN_BUILTIN_H
 #define PETRI_BUILTIN_BUILTIN_H
 
@@ -13,11 +13,11 @@
 typedef struct FileCache FileCache;   // builtin/files.h
 typedef struct NoiseCache NoiseCache; // builtin/noise.h
 
-// The context of a call. Everything is borrowed for the call.
+// The context of a call. All pointers are borrowed for the duration of the call.
 typedef struct BuiltinContext {
     const struct Builtin *called;                    // the built-in that is called
     Arena *arena;                                    // owns results and temporaries
-    const SymbolTable *symbols;                      // for texts of symbols
+    const SymbolTable *symbols;                      // for converting symbols to text
     FileCache *files;                                // NULL: file functions find no file
     NoiseCache *noise;                               // NULL: permutations are computed in each call
     const FileAccess *file_access;                   // NULL: unrestricted
@@ -32,26 +32,27 @@ typedef Value BuiltinCall(BuiltinContext *context, const Value *args, uint32_t c
 typedef struct Builtin {
     const char *name;
     BuiltinCall *call;
-    const char *parameters; // as in the spec: "xs, ys=0", "x", "xs, ..."; a trailing "..." accepts further arguments
+    const char *parameters; // as in the spec: "xs, ys=0", "x", "xs, ..."; after "...", further arguments are accepted
     uint8_t required;       // minimum number of arguments
-    uint8_t fixed; // number of parameters before "..."; also the length of args unless there are more arguments
+    uint8_t fixed;          // number of parameters before "..."; `args` has at least this many elements
     bool variadic;
     bool named; // accepts parameters by name (B0.3)
-    bool pure;  // B0.5
-    // With at least this many arguments, the function is element-wise (B0.4): for numbers and vectors of one length,
-    // each element of the result depends only on the elements at the same index. 0: never.
+    bool pure;  // the result depends only on the arguments, so constant calls can be folded (B0.5)
+    // With at least this many arguments, the function is element-wise (B0.4): for numbers and vectors of equal length,
+    // each element of the result depends only on the elements at the same index. 0: never element-wise.
     uint8_t each;
-#define BUILTIN_EACH_POINT UINT8_MAX // noise: see builtin_noise_points
+#define BUILTIN_EACH_POINT UINT8_MAX // for noise; see builtin_noise_points
     const char *help;
 } Builtin;
 
 extern const Builtin builtin_table[];
 extern const uint32_t builtin_table_count;
 
-// Returns the row of a built-in, or NULL.
+// Returns the built-in with this name, or NULL if there is none.
 const Builtin *builtin_find(Str name);
 
-// Calls a built-in with positional and named arguments, after checking their number and names (*bad call*, B0.2, B0.3).
+// Calls a built-in with positional and named arguments. If their number or a name is invalid, reports a *bad call*
+// (B0.2, B0.3) and returns null.
 Value builtin_call(BuiltinContext *context, const Builtin *builtin, const Value *args, uint32_t count,
                    const Symbol *const *names, const Value *named, uint32_t named_count);
 
@@ -59,8 +60,8 @@ Value builtin_call(BuiltinContext *context, const Builtin *builtin, const Value 
 Value builtin_error(BuiltinContext *context, const char *name, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-// Looks up a constant that is visible like a built-in (L4.2): true false null inf nan pi π tau 𝜏. Returns false if
-// there is none.
+// Looks up a predefined constant (L4.2): true false null inf nan pi π tau 𝜏. Returns false if the name is not a
+// constant.
 bool builtin_constant(Str name, Value *value);
 
 #endif

@@ -16,7 +16,7 @@ static double clamp_unit(double x) {
     return 1 < x ? 1 : x;
 }
 
-// Returns fmod(v, 6) bit for bit. Hues are usually within one period of the range, where a difference is exact.
+// Returns exactly fmod(v, 6). Most hues are at most one period out of range; a single subtraction is then exact.
 static double modulo_6(double v) {
     return v > -6 && v < 6 ? v : v >= 6 && v < 12 ? v - 6 : fmod(v, 6);
 }
@@ -34,7 +34,7 @@ static double hue_part(double m1, double m2, double v) {
     return m1;
 }
 
-// B11.1; s and l are in the range from 0 to 1.
+// Converts HSL to RGB (B11.1). s and l are between 0 and 1.
 static Value rgb_of_hsl(Arena *arena, double h, double s, double l) {
     double m2 = l <= 0.5 ? l * (s + 1) : l + s - l * s;
     double m1 = l * 2 - m2;
@@ -62,7 +62,8 @@ Value builtin_hsv(BuiltinContext *context, const Value *args, uint32_t count) {
     return rgb_of_hsl(context->arena, x[0], saturation, l);
 }
 
-// B11.3: chromaticity x, y of the Planckian locus, then X, Y, Z, then linear sRGB.
+// Computes the colour of a black body (B11.3): the chromaticity x, y on the Planckian locus, then X, Y, Z, then linear
+// sRGB.
 static void black_body(double t, bool normalize, double *rgb) {
     double T = t > 1667 ? t : 1667;
     T = T < 25000 ? T : 25000;
@@ -99,7 +100,7 @@ Value builtin_colortemp(BuiltinContext *context, const Value *args, uint32_t cou
     return value_numbers_view(result, len * 3);
 }
 
-// A column-major 3x3 matrix times v, each row as m[r]*v0 + m[r+3]*v1 + m[r+6]*v2.
+// Multiplies v by a column-major 3x3 matrix. Row r of the result is m[r]*v0 + m[r+3]*v1 + m[r+6]*v2.
 static void transform_3x3(const double *m, double *v) {
     double result[3];
     for (int r = 0; r < 3; r++)
@@ -107,7 +108,7 @@ static void transform_3x3(const double *m, double *v) {
     memcpy(v, result, sizeof result);
 }
 
-// B11.4: v = B·lab, cubed, then C·(A·v).
+// Converts OKLab to linear sRGB (B11.4): C·(A·v), where v is B·lab with each element cubed.
 static Value rgb_of_oklab(Arena *arena, double l, double a, double b) {
     static const double B[9] = {0.9999999984505199,  1.0000000088817609,   1.000000054672411,
                                 0.3963377921737679,  -0.10556134232365635, -0.08948418209496577,

@@ -18,9 +18,9 @@ typedef struct CsvFile {
 
 // --- fields
 
-// Scans the field at *at, copies its text to `out` unless that is NULL, and moves *at past the separator after it. Sets
-// *last if the separator was a line end or the end of the file. Returns the length of the text, at most that of the
-// field.
+// Scans the field at *at, copies its text to `out` unless `out` is NULL, and moves *at past the separator after it.
+// Sets *last if the separator was a line end or the end of the file. Returns the length of the text, which is at most
+// the length of the field.
 static size_t scan_field(Str in, size_t *at, char *out, bool *last) {
     size_t i = *at, len = 0;
     if (i < in.len && in.bytes[i] == '"') {
@@ -47,8 +47,8 @@ static size_t scan_field(Str in, size_t *at, char *out, bool *last) {
     return len;
 }
 
-// Returns the number of fields of the row at `at`, without empty fields at its end. *end becomes the start of the next
-// row.
+// Returns the number of fields of the row at `at`, not counting empty fields at its end. Sets *end to the start of the
+// next row.
 static size_t scan_row(Str in, size_t at, size_t *end) {
     size_t fields = 0, kept = 0;
     for (bool last = false; !last;) {
@@ -62,8 +62,8 @@ static size_t scan_row(Str in, size_t at, size_t *end) {
 
 // --- numbers
 
-// Returns the length of an unsigned decimal number at the start of the text, or 0. It has digits with single
-// underscores between them, at most one point next to a digit, and an optional exponent.
+// Returns the length of an unsigned decimal number at the start of the text, or 0 if there is none. A number has digits
+// with single underscores between them, at most one point next to a digit, and an optional exponent.
 static size_t scan_decimal(Str text) {
     size_t whole = builtin_scan_digits(text), at = whole, part = 0;
     if (at < text.len && text.bytes[at] == '.') {
@@ -86,7 +86,7 @@ static bool is_word(Str text, const char *word) {
     return text.len == strlen(word) && strncasecmp(text.bytes, word, text.len) == 0;
 }
 
-// Returns true if the field is a number, ignoring white space around it.
+// Returns true and sets *x if the field is a number, ignoring white space around it.
 static bool read_number(Str field, double *x) {
     Str text = str_trim(field);
     bool negative = text.len && text.bytes[0] == '-';

@@ -1,7 +1,7 @@
 // family.c: implementation of family.h.
 #include "builtin/family.h"
 
-// Shorter vectors are computed element by element.
+// Minimum length for which an array function is called; shorter vectors are computed element by element.
 enum { BUILTIN_MIN_ARRAY = 4 };
 
 Value builtin_too_long(BuiltinContext *context, const char *name) {
@@ -50,7 +50,7 @@ Value builtin_each_array(Arena *arena, Value x, double (*f)(double), BuiltinArra
 }
 
 Value builtin_repeat(Arena *arena, const Value *args, uint32_t count, double (*f)(const double *x, uint32_t count)) {
-    // Nearly all calls have two or three arguments, which need no memory besides the result.
+    // Nearly all calls have two or three arguments, so stack_parts is usually large enough.
     enum { MAX_ON_STACK = 8 };
     double stack_parts[MAX_ON_STACK];
     uint32_t len = 0;

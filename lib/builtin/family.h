@@ -21,7 +21,7 @@ static inline bool is_absent(Value v) {
     return v.kind == VALUE_ABSENT;
 }
 
-// Returns true for a numeric vector of one length, such as a 3-vector, quaternion or matrix.
+// Returns true if v is a numeric vector with `len` elements, such as a 3-vector, quaternion or matrix.
 static inline bool is_numeric_of(Value v, uint32_t len) {
     return v.kind == VALUE_NUMBERS && v.len == len;
 }
@@ -34,13 +34,13 @@ static inline Value value_or(Value v, Value fallback) {
 // Reports "NAME: result is too long" and returns null.
 Value builtin_too_long(BuiltinContext *context, const char *name);
 
-// Returns a vector of at least one text. The bytes are borrowed.
+// Returns a vector of `count` strings, at least one. The bytes are borrowed.
 Value builtin_texts(Arena *arena, const Str *texts, uint32_t count);
 
-// Returns a vector with a copy of `len` numbers.
+// Returns a vector that contains a copy of `len` numbers.
 Value builtin_numbers(Arena *arena, const double *numbers, uint32_t len);
 
-// Returns a vector with f of each element, or null unless x is numeric (B1.1).
+// Applies f to each element of x. Returns null if x is not numeric (B1.1).
 Value builtin_each(Arena *arena, Value x, double (*f)(double));
 
 #define ELEMENT_WISE(name, function)                                                                                   \
@@ -48,22 +48,23 @@ Value builtin_each(Arena *arena, Value x, double (*f)(double));
         return builtin_each(context->arena, args[0], function);                                                        \
     }
 
-// Like builtin_each, with an additional function for arrays that gives the bits of f (maths/arrays.h).
+// Like builtin_each, but calls `array_call` for long vectors. Its results must be bit-identical to those of f
+// (maths/arrays.h).
 typedef void BuiltinArrayCall(CpuLevel level, const double *x, size_t count, double *to);
 Value builtin_each_array(Arena *arena, Value x, double (*f)(double), BuiltinArrayCall *array_call);
 
 // Applies f to the elements at each index of `count` vectors, repeating shorter vectors (B0.4). Returns null if there
-// are no vectors or one is not numeric.
+// are no vectors or any is not numeric.
 Value builtin_repeat(Arena *arena, const Value *args, uint32_t count, double (*f)(const double *x, uint32_t count));
 
-// Sort in ascending order, stably (B3.3). Return `numbers` or `texts`, or another array of the arena. The order is
-// unspecified if there is a NaN.
+// Sort stably in ascending order (B3.3). Return the sorted array, which is the argument or another array in the arena.
+// The order is unspecified if there is a NaN.
 double *builtin_sort_numbers(Arena *arena, double *numbers, uint32_t len);
 Str *builtin_sort_texts(Arena *arena, Str *texts, uint32_t len);
 
 // Returns the number of bytes at the start of the text that are digits with single underscores between them.
 size_t builtin_scan_digits(Str text);
-// Returns true if the text is an integer: such digits with an optional sign and surrounding white space.
+// Returns true if the text is an integer: digits in the form above, with an optional sign and surrounding white space.
 bool builtin_is_integer(Str text);
 
 #endif

@@ -16,23 +16,23 @@ enum {
     MAX_FILE_SIZE = 1 << 30,
     MAX_ENTRIES = 16384, // limits the memory of scripts that generate file names
 };
-static const size_t MAX_BYTES = (size_t)2 << 30; // limit for all entries together
+static const size_t MAX_BYTES = (size_t)2 << 30; // limit of the total size of all entries
 
-// The state of a file, by which changes are detected.
+// File attributes from which changes are detected.
 typedef struct Stamp {
     int error; // errno of stat, or 0
     dev_t device;
     ino_t inode;
     off_t size;
     struct timespec modified;
-    struct timespec changed; // also changes with permissions
+    struct timespec changed; // time of the last change of content or permissions
 } Stamp;
 
 typedef struct FileEntry {
     Str path;
     FileParse *parse;
     Stamp stamp;
-    bool tried;         // `stamp` and `parsed` belong to a finished attempt
+    bool tried;         // an attempt to read the file has finished: `stamp` and `parsed` are valid
     const void *parsed; // in `arena`; NULL: unreadable
     Arena arena;
 } FileEntry;
@@ -115,7 +115,7 @@ static const char *describe_error(int error) {
     }
 }
 
-// Reads up to `size` bytes. If the file has grown since, its stamp differs and it is read again at the next call.
+// Reads up to `size` bytes. If the file has grown since its stamp was taken, the next call reads it again.
 static bool read_bytes(const BuiltinContext *context, const char *path, char *bytes, size_t size, size_t *len,
                        const char **problem) {
     Str host_bytes;
@@ -155,7 +155,7 @@ static bool read_bytes(const BuiltinContext *context, const char *path, char *by
     return good;
 }
 
-// Memory is allocated before the file is opened, because a failed allocation does not return (base/arena.h).
+// Allocates memory before opening the file: a failed allocation does not return (base/arena.h) and would leave it open.
 static const void *load_entry(const BuiltinContext *context, FileEntry *entry, const char *path, const char **problem) {
     if (entry->stamp.error) {
         *problem = describe_error(entry->stamp.error);
@@ -206,7 +206,7 @@ static FileEntry *entry_get(FileCache *cache, Str path, FileParse *parse) {
     return found != HASH_INDEX_NONE ? cache->entries[found] : entry_add(cache, &key, hash);
 }
 
-// Frees the contents of the other entries if all together are too large. They are read again when needed.
+// Frees the contents of all entries except `kept` if their total size is too large. They are read again when needed.
 static void evict_entries(FileCache *cache, const FileEntry *kept) {
     size_t used = 0;
     for (uint32_t i = 0; i < cache->count; i++)
@@ -235,7 +235,7 @@ const void *file_cache_get(BuiltinContext *context, const char *function, FilePa
         report_unreadable(context, function, text, cache ? "not a file name" : "files are not available here");
         return NULL;
     }
-    // If memory runs out in the cache's arena, escape to the same place as from the call's arena.
+    // Handle a failed allocation in the cache's arena like one in the call's arena.
     cache->arena.escape = context->arena->escape;
     Str path = path_join(context->arena, context->directory, text);
     const char *c_path = str_to_c(context->arena, path);

@@ -1,7 +1,7 @@
 // files.h: a cache of file contents for built-ins, which reads a file again when it changes (spec builtins.md B13.1).
 //
-// Each combination of a path and a parser has one entry with its own arena. Failures are cached as well, so a missing
-// file is reported once and found when it appears. Results are copied from the cache, so any call may evict entries.
+// Each combination of a path and a parser has one entry with its own arena. Failures are also cached: a missing file is
+// reported only once, and is read when it appears. Results are copied from the cache, so any call may evict entries.
 #ifndef PETRI_BUILTIN_FILES_H
 #define PETRI_BUILTIN_FILES_H
 
@@ -10,7 +10,7 @@
 // Returns NULL if out of memory.
 FileCache *file_cache_new(void);
 void file_cache_free(FileCache *cache);
-// Discards all entries; needed after file access rights change.
+// Discards all entries. Must be called when file access rights change.
 void file_cache_clear(FileCache *cache);
 
 // Parses the bytes of a file. The bytes are in `arena` and may be changed; the result must also be in `arena`. Returns

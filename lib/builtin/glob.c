@@ -13,10 +13,10 @@
 #define PATH_MAX 4096
 #endif
 
-// --- one component
+// --- matching one path component
 
-// Returns 1 if the set whose "[" is before *at contains the character, else 0; moves *at past its "]". Returns -1 if
-// there is no "]"; the bracket is then literal. A "]" at the start belongs to the set.
+// Returns 1 if the set whose "[" is before *at contains the character, else 0, and moves *at past the "]" of the set.
+// Returns -1 if there is no "]"; the bracket is then literal. A "]" at the start belongs to the set.
 static int match_set(Str pattern, size_t *at, int32_t c) {
     size_t i = *at;
     bool negated = i < pattern.len && pattern.bytes[i] == '!', found = false;
@@ -37,7 +37,7 @@ static int match_set(Str pattern, size_t *at, int32_t c) {
     return found != negated;
 }
 
-// Matches one character of the pattern other than "*" with the next one of the name, and advances in both.
+// Matches the next element of the pattern, which is not "*", against the next character of the name. Advances both.
 static bool match_one(Str pattern, size_t *at, Str name, size_t *from) {
     int32_t c = utf8_next(name, from);
     int32_t p = utf8_next(pattern, at);
@@ -71,7 +71,7 @@ static bool match_name(Str pattern, Str name) {
     return true;
 }
 
-// --- the walk
+// --- directory traversal
 
 enum { MAX_LISTINGS = 1 << 18, MAX_FOUND = 1 << 20, LISTING_WORK = 1000, PATH_WORK = 100 };
 
@@ -93,7 +93,7 @@ static bool is_deep(Str part) {
     return str_equal(part, STR("**"));
 }
 
-// Splits a pattern at slashes. Empty parts, "." and repeated "**" have no effect and are dropped.
+// Splits a pattern into parts at slashes. Empty parts, "." and repeated "**" have no effect and are dropped.
 static void glob_parse(Glob *glob, Str pattern) {
     glob->parts = arena_alloc_array(glob->arena, pattern.len, sizeof *glob->parts);
     glob->only_directories = pattern.bytes[pattern.len - 1] == '/';
@@ -117,7 +117,7 @@ static void glob_found(Glob *glob, Str path) {
     glob->found[glob->found_count++] = path;
 }
 
-// Asks the host for the names in a folder (PetriOptions.read_file), one per line.
+// Gets the names in a folder, one per line, from the host (PetriOptions.read_file).
 static bool host_names(const FileAccess *file_access, const char *path, Str *names) {
     char folder[PATH_MAX + 2];
     if (!file_access_normalise(path, folder))
@@ -148,7 +148,7 @@ static size_t list_hosted(Glob *glob, const char *path, Str **names) {
 }
 
 // Counts the entries of a directory if `names` is NULL; else copies as many names as fit into `names` and `bytes`.
-// Allocates nothing while the directory is open: running out of memory would leave it open.
+// Allocates nothing while the directory is open, because a failed allocation would leave it open.
 static void scan_directory(Arena *arena, const char *path, Str *names, char *bytes, size_t *count, size_t *size) {
     size_t most_count = *count, most_size = *size;
     *count = *size = 0;
@@ -212,7 +212,7 @@ static bool path_exists(const FileAccess *file_access, const char *path) {
 
 static void visit_parts(Glob *glob, Str path, uint32_t k);
 
-// Handles a path that matches the parts up to k: a result, or a directory in which to continue.
+// Handles a path that matches the parts 0 to k: adds it to the results, or continues in this directory.
 static void visit_path(Glob *glob, Str path, uint32_t k) {
     const char *c_path = str_to_c(glob->arena, path);
     arena_charge(glob->arena, PATH_WORK);
@@ -226,7 +226,7 @@ static void visit_path(Glob *glob, Str path, uint32_t k) {
     }
 }
 
-// Handles "**" at part k: matches in this directory and recursively in all directories in it, except symbolic links.
+// Handles "**" at part k: searches this directory and, recursively, all its subdirectories except symbolic links.
 static void visit_deep(Glob *glob, Str path, uint32_t k) {
     bool last = k + 1 == glob->part_count;
     if (last)
@@ -245,8 +245,8 @@ static void visit_deep(Glob *glob, Str path, uint32_t k) {
     }
 }
 
-// Finds everything below the directory `path` that matches the parts from k on. Paths have a maximum length, which
-// limits the depth.
+// Finds everything below the directory `path` that matches part k and the parts after it. The maximum path length
+// limits the depth of the recursion.
 static void visit_parts(Glob *glob, Str path, uint32_t k) {
     if (path.len >= PATH_MAX || glob->limit_exceeded)
         return;

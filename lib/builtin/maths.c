@@ -1,4 +1,4 @@
-// maths.c: element-wise functions (spec builtins.md B1), plane and space (B2).
+// maths.c: element-wise functions (spec builtins.md B1), and functions of pairs and vectors (B2).
 #include "maths/maths.h"
 
 #include "base/number.h"
@@ -12,7 +12,7 @@ static double fract(double x) {
     return x - number_floor(x);
 }
 
-// Unlike sin and cos, the angle is not reduced (B1.1).
+// Does not reduce the angle, unlike the sine and cosine (B1.1).
 static double turns_tan(double x) {
     return maths_tan(x * BUILTIN_TAU);
 }
@@ -25,7 +25,7 @@ static double turns_acos(double x) {
     return maths_acos(x) / BUILTIN_TAU;
 }
 
-// Functions that have a faster version for arrays.
+// Defines a built-in whose function has a faster version for arrays, `many`.
 #define ELEMENT_WISE_ARRAY(name, function, many)                                                                       \
     Value name(BuiltinContext *context, const Value *args, uint32_t count) {                                           \
         return builtin_each_array(context->arena, args[0], function, many);                                            \
@@ -67,7 +67,7 @@ Value builtin_tan(BuiltinContext *context, const Value *args, uint32_t count) {
     (void)count;
 }
 
-// B1.4: roundhalfaway(x * s) / s with s = 10^d; s is 0 for d < 0.
+// Computes roundhalfaway(x * s) / s with s = 10^d, or s = 0 for d < 0 (B1.4).
 Value builtin_round(BuiltinContext *context, const Value *args, uint32_t count) {
     Value xs = args[0], ys = value_or(args[1], value_number(0));
     if (!value_is_numeric(xs) || !is_scalar(ys))
@@ -110,7 +110,7 @@ static double pair_length(const double *xy, uint32_t count) {
     return sqrt(xy[0] * xy[0] + xy[1] * xy[1]);
 }
 
-// B2.2: applies f to the consecutive pairs of one vector, or to the pairs of elements of two vectors.
+// Applies f to the consecutive pairs of one vector, or to pairs of one element from each of two vectors (B2.2).
 static Value each_pair(Arena *arena, const Value *args, double (*f)(const double *xy, uint32_t count)) {
     if (!is_absent(args[1]))
         return builtin_repeat(arena, args, 2, f);
@@ -200,7 +200,7 @@ Value builtin_map(BuiltinContext *context, const Value *args, uint32_t count) {
     return builtin_repeat(context->arena, args, count, map_one);
 }
 
-// The upper limit takes precedence if the limits are swapped; NaN is below both (B2.8).
+// If the limits are swapped, the upper limit takes precedence. NaN counts as less than both limits (B2.8).
 static double clamp_one(const double *x, uint32_t count) {
     double raised = x[0] > x[1] ? x[0] : x[1];
     return x[2] < raised ? x[2] : raised;

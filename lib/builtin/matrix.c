@@ -2,7 +2,7 @@
 #include "builtin/family.h"
 #include "value/ops.h"
 
-// Element i is (ma*mb - mc*md)*k.
+// Inverts a 3x3 matrix. Element i of the result is (m[a]*m[b] - m[c]*m[d])*k, with a, b, c, d = at[i].
 static void inverse_3x3(const double *m, double *result) {
     static const uint8_t at[9][4] = {{4, 8, 5, 7}, {2, 7, 1, 8}, {1, 5, 2, 4}, {5, 6, 3, 8}, {0, 8, 2, 6},
                                      {2, 3, 0, 5}, {3, 7, 4, 6}, {1, 6, 0, 7}, {0, 4, 1, 3}};
@@ -13,8 +13,8 @@ static void inverse_3x3(const double *m, double *result) {
         result[i] = (m[at[i][0]] * m[at[i][1]] - m[at[i][2]] * m[at[i][3]]) * k;
 }
 
-// Element i is (ma*P - mb*Q + mc*R)*k; if column plus row is odd, (-ma*P + mb*Q - mc*R)*k. P, Q and R are 2x2
-// determinants, numbered 0 to 5 for s0 to s5 and 6 to 11 for c0 to c5.
+// One element of the inverse: (m[a]*P - m[b]*Q + m[c]*R)*k, or (-m[a]*P + m[b]*Q - m[c]*R)*k if row plus column is odd
+// (`minus`). p, q and r are the indices of the 2x2 determinants P, Q and R: 0 to 5 for s0 to s5, 6 to 11 for c0 to c5.
 typedef struct Cofactor {
     uint8_t a, p, b, q, c, r;
     bool minus;
@@ -54,7 +54,7 @@ Value builtin_inverse(BuiltinContext *context, const Value *args, uint32_t count
     return builtin_numbers(context->arena, result, args[0].len);
 }
 
-// a·b: element (r, c) is A(r,0)*B(0,c) + A(r,1)*B(1,c) + A(r,2)*B(2,c) + A(r,3)*B(3,c).
+// Computes a·b. Element (r, c) is A(r,0)*B(0,c) + A(r,1)*B(1,c) + A(r,2)*B(2,c) + A(r,3)*B(3,c), added in this order.
 static void multiply_4x4(const double *a, const double *b, double *result) {
     for (int c = 0; c < 4; c++)
         for (int r = 0; r < 4; r++)
@@ -62,7 +62,7 @@ static void multiply_4x4(const double *a, const double *b, double *result) {
                 a[r] * b[4 * c] + a[4 + r] * b[4 * c + 1] + a[8 + r] * b[4 * c + 2] + a[12 + r] * b[4 * c + 3];
 }
 
-// B6.2: computes the three axes of a view along `direction`. Returns false if the arguments are not 3-vectors.
+// Computes the three axes of a view along `direction` (B6.2). Returns false if the arguments are not 3-vectors.
 static bool view_axes(BuiltinContext *context, Value direction, Value up, Value axes[3]) {
     Arena *arena = context->arena;
     static const double origin[3] = {0, 0, 0};

@@ -97,7 +97,7 @@ static GridOutcome grid_read(Grid *grid, const Value *args, uint32_t count) {
             return GRID_BAD;
         grid->axes[i] = value_numbers(&args[i]);
         grid->lens[i] = args[i].len;
-        len = len > VALUE_MAX_LEN ? len : len * args[i].len; // stops before an overflow
+        len = len > VALUE_MAX_LEN ? len : len * args[i].len; // cannot overflow
     }
     if (count == 1) {
         grid->axes[1] = zero;
@@ -112,7 +112,7 @@ static GridOutcome grid_read(Grid *grid, const Value *args, uint32_t count) {
 static void grid_noise(Arena *arena, const Grid *grid, const uint8_t *permutation, double *result, bool add,
                        double weight) {
     enum { CHARGE_INTERVAL = 1024 };
-    const unsigned work = grid->dims == 2 ? 4 : grid->dims == 3 ? 10 : 30; // per point
+    const unsigned work = grid->dims == 2 ? 4 : grid->dims == 3 ? 10 : 30; // work units per point
     double (*const noise)(const uint8_t *, const double *) = grid->dims == 2   ? noise_point_2
                                                              : grid->dims == 3 ? noise_point_3
                                                                                : noise_point_4;
@@ -136,7 +136,7 @@ static void grid_noise(Arena *arena, const Grid *grid, const uint8_t *permutatio
     }
 }
 
-// Multiplies every coordinate by 2; in place if `own`, else in a copy that belongs to `grid`.
+// Multiplies every coordinate by 2: in place if `own`, meaning that the arrays belong to `grid`, else in new arrays.
 static void grid_double(Arena *arena, Grid *grid, bool own) {
     for (int i = 0; i < grid->dims; i++) {
         double *axis = own ? (double *)grid->axes[i] : arena_alloc_array(arena, grid->lens[i], sizeof *axis);
@@ -148,7 +148,7 @@ static void grid_double(Arena *arena, Grid *grid, bool own) {
 
 Value builtin_noise(BuiltinContext *context, const Value *args, uint32_t count) {
     uint8_t local[256];
-    if (count == 3 && is_scalar(args[1]) && is_scalar(args[2])) { // a single point, as is usual in loops
+    if (count == 3 && is_scalar(args[1]) && is_scalar(args[2])) { // a single point, the usual case in loops
         const double c[2] = {args[1].as.number, args[2].as.number};
         return value_number(
             noise_point_2(permutation_get(context->noise, value_seed_hash(context->arena, args[0]), local), c));
@@ -181,16 +181,16 @@ void builtin_noise_points(BuiltinContext *context, Value seed, const double *x, 
             to[i] = noise_point_2(permutation, (double[2]){x[i], y[i]});
 }
 
-// A coordinate overflows after about 1000 doublings. More octaves are a mistake and would take too long.
+// A coordinate overflows after about 1000 doublings, so a larger number of octaves must be a mistake.
 enum { MAX_OCTAVES = 1024 };
 
-// B10.11: r = noise, then r = r + noise(c*2^o)*k^o; finally divided by the total weight.
+// Sums octaves of noise (B10.11): r = noise, then r = r + noise(c*2^o)*k^o. The sum is divided by the total weight.
 static void sum_octaves(BuiltinContext *context, Grid *grid, uint64_t seed, uint32_t octaves, double k,
                         double *result) {
     uint8_t local[256];
     double weight = 1, total = 0;
     ArenaMark scratch = arena_mark(context->arena);
-    // Once the weight underflows to 0, further octaves add nothing.
+    // After the weight underflows to 0, further octaves add nothing.
     for (uint32_t o = 0; o < octaves && weight != 0; o++) {
         if (o > 0)
             grid_double(context->arena, grid, o > 1);

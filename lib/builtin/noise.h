@@ -1,7 +1,7 @@
-// noise.h: a cache of the permutations from which noise is computed, by seed.
+// noise.h: a cache, indexed by seed, of the permutations from which noise is computed.
 //
-// A script uses the same few seeds in every frame, often for one point at a time. Shuffling 256 numbers for each call
-// would cost more than the noise. The cache is optional.
+// A script uses the same few seeds in every frame, often for one point at a time. Shuffling 256 numbers in each call
+// would take longer than computing the noise. The cache is optional.
 #ifndef PETRI_BUILTIN_NOISE_H
 #define PETRI_BUILTIN_NOISE_H
 

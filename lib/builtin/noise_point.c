@@ -1,8 +1,9 @@
 // noise_point.c: classic OpenSimplex noise at one point (spec builtins.md B10.4 to B10.9); see noise_point.h.
 //
 // A point is in a cell of the skewed lattice. The cell's regions (A at the base corner, B at the far corner, C and D
-// between) decide which vertices influence the point: a fixed core, and a few extra ones outside the cell that depend
-// on which coordinates are closest. The noise is the sum of their contributions in the order of the spec.
+// between) determine which vertices influence the point. There is a fixed set of vertices, and a few extra vertices
+// outside the cell that depend on which coordinates are closest. The noise is the sum of all contributions in the order
+// of the spec.
 #include "builtin/noise_point.h"
 
 #include "base/number.h"
@@ -16,13 +17,13 @@ enum { MAX_DIMS = 4, MAX_EXTRA = 3 };
 
 typedef struct NoisePoint {
     const uint8_t *permutation;
-    uint64_t base[MAX_DIMS]; // two's complement: only sums and the low eight bits are used
+    uint64_t base[MAX_DIMS]; // in two's complement; only sums and the low eight bits are used
     double frac[MAX_DIMS];   // fx, fy, … of B10.4
     double d0[MAX_DIMS];
     double sum; // sum of frac
 } NoisePoint;
 
-// B10.4. Returns false if a coordinate is too large or NaN.
+// Finds the cell and the position of the point in it (B10.4). Returns false if a coordinate is too large or NaN.
 static inline bool point_locate(NoisePoint *point, const double *c, int dims) {
     double t = c[0], whole[MAX_DIMS];
     for (int i = 1; i < dims; i++)
@@ -54,7 +55,8 @@ static inline const double *gradient(const NoisePoint *point, const NoiseVertex 
     return dims == 2 ? NOISE_GRAD2[p % 8] : dims == 3 ? NOISE_GRAD3[p % 24] : NOISE_GRAD4[p / 4];
 }
 
-// B10.5: d = ((d0 - a) - m*Q) - b per coordinate, A = 2 - d·d; if A > 0 the vertex adds A^4 * (g·d).
+// Adds the contribution of a vertex (B10.5): with d = ((d0 - a) - m*Q) - b per coordinate and A = 2 - d·d, A^4 * (g·d)
+// if A > 0, else nothing.
 static inline double add_vertex(const NoisePoint *point, double value, const NoiseVertex *v, int dims) {
     double d[MAX_DIMS], reach = 2, units = v->units * NOISE_Q[dims];
     for (int i = 0; i < dims; i++) {
@@ -79,7 +81,8 @@ static inline double add_vertices(const NoisePoint *point, double value, const N
 
 // --- selection of extra vertices
 
-// bit(c) is the coordinate of the lowest set bit, gap(c) that of the lowest clear bit.
+// Returns the index of the lowest set bit, bit(c) in the spec; the mask must not be 0. lowest_gap does so for the
+// lowest clear bit, gap(c).
 static int lowest_bit(unsigned mask) {
     int i = 0;
     while (!(mask >> i & 1))
@@ -91,7 +94,7 @@ static int lowest_gap(unsigned mask) {
     return lowest_bit(~mask);
 }
 
-// Returns the vertex with offset `set` where the mask is set and `clear` elsewhere.
+// Returns the vertex with offset `set` in the coordinates of the mask and `clear` in the others.
 static NoiseVertex vertex_of_mask(unsigned mask, int set, int clear, int units) {
     NoiseVertex v = {.units = (uint8_t)units};
     for (int i = 0; i < MAX_DIMS; i++)
@@ -99,15 +102,16 @@ static NoiseVertex vertex_of_mask(unsigned mask, int set, int clear, int units) 
     return v;
 }
 
-// Returns the vertex with offset `all` everywhere and `late` more at one coordinate, all subtracted late.
+// Returns the vertex with offset `all` in every coordinate, and a further offset `late`, subtracted last, in one
+// coordinate.
 static NoiseVertex vertex_late(int all, int coordinate, int late, int units) {
     NoiseVertex v = vertex_of_mask(0, 0, all, units);
     v.late[coordinate] = (int8_t)late;
     return v;
 }
 
-// Two candidates with their scores and coordinate masks. The flags are "big" in B10.9 and unused in B10.8. At the far
-// corner of the cell the smallest scores win, so scores are negated.
+// Two candidates with their scores and coordinate masks. The flags are called "big" in B10.9 and are unused in B10.8.
+// At the far corner of the cell the smallest scores win, so scores are negated there.
 typedef struct Candidates {
     double a, b;
     unsigned mask_a, mask_b;
@@ -127,7 +131,7 @@ static void replace_lesser(Candidates *c, double score, unsigned mask, bool flag
     }
 }
 
-// Selects the row of extra vertices for regions A and B in three and four dimensions.
+// The choice of extra vertices for regions A and B in three and four dimensions: `row` is an index in a table.
 typedef struct Choice {
     bool corner_is_nearer; // true if the corner of the cell is nearer than one of the candidates
     unsigned row;
@@ -146,7 +150,7 @@ static inline Choice choose_at_corner(const NoisePoint *point, int dims, bool fa
 
 // --- two dimensions (B10.7)
 
-// Returns `yes` if the condition holds, else `no`, without a branch, because points are hard to predict.
+// Returns `yes` if the condition holds, else `no`. Does not branch, because the branch would be hard to predict.
 static inline double select_value(bool condition, double yes, double no) {
     uint64_t mask = -(uint64_t)condition, bits = (number_bits(yes) & mask) | (number_bits(no) & ~mask);
     double chosen;
@@ -154,7 +158,7 @@ static inline double select_value(bool condition, double yes, double no) {
     return chosen;
 }
 
-// Like add_vertex, for the vertex (a, b) with `units` squish units. In two dimensions nothing is subtracted late.
+// Like add_vertex, for the vertex (a, b) with `units` squish units. In two dimensions, no offset is subtracted last.
 static inline double add_vertex_2(const NoisePoint *point, double value, int a, int b, int units) {
     double squish = units * NOISE_Q[2];
     double dx = (point->d0[0] - a) - squish, dy = (point->d0[1] - b) - squish;
@@ -173,7 +177,7 @@ double noise_point_2(const uint8_t *permutation, const double *c) {
     double fx = point.frac[0], fy = point.frac[1];
     double value = add_vertex_2(&point, 0, 1, 0, 1);
     value = add_vertex_2(&point, value, 0, 1, 1);
-    // The nearer corner of the cell, and either the vertex beyond or beside it, or the other corner.
+    // Add the nearer corner of the cell, and either the extra vertex (beyond the cell) or the other corner.
     int far = point.sum > 1, right = fx > fy ? 1 : -1;
     double u = 1 + far - point.sum;
     int beyond = far ? (u < fx) | (u < fy) : (u > fx) | (u > fy);
@@ -205,7 +209,7 @@ static void extras_3c(const double *f, NoiseVertex extra[2]) {
         score[i] = far[i] ? sums[i] - 1 : 1 - sums[i];
         mask[i] = far[i] ? far_masks[i] : near_masks[i];
     }
-    // On a tie the first candidate is replaced here, the second in take_greater.
+    // On a tie, the first candidate is replaced here, but the second in replace_lesser.
     int replaced = score[0] <= score[1] && score[0] < score[2] ? 0 : score[0] > score[1] && score[1] < score[2] ? 1 : 2;
     mask[replaced] = mask[2];
     far[replaced] = far[2];
@@ -246,8 +250,8 @@ double noise_point_3(const uint8_t *permutation, const double *c) {
 
 // --- four dimensions (B10.9)
 
-// Returns the first scores of region C: the greater of each of three pairs of opposite edges. Region D (`far`) mirrors
-// C. All scores start as big.
+// Returns the initial scores of region C: the greater of each of three pairs of opposite edges. Region D (`far`)
+// mirrors C. Every candidate is initially "big".
 static inline Candidates candidates_4cd(const double *f, double sum, bool far) {
     double sign = far ? -1 : 1;
     unsigned flip = far ? 15 : 0;

@@ -11,15 +11,15 @@ static const double NOISE_S[5] = {0, 0, -0.211324865405187, -0.16666666666666666
 static const double NOISE_Q[5] = {0, 0, 0.366025403784439, 0.3333333333333333, 0.309016994374947};
 static const double NOISE_N[5] = {0, 0, 47, 103, 30};
 
-// A vertex of the lattice: offsets from the base point, of which the late ones are subtracted last, and the number of
-// squish units (B10.5).
+// A vertex of the lattice (B10.5): its offsets from the base point, and the number of squish units. The offsets in
+// `late` are subtracted last.
 typedef struct NoiseVertex {
     int8_t early[4];
     int8_t late[4];
     uint8_t units;
 } NoiseVertex;
 
-// Gradients, chosen by P mod 8, P mod 24 and P div 4.
+// Gradients, selected by P mod 8, P mod 24 and P div 4 in two, three and four dimensions.
 static const double NOISE_GRAD2[8][2] = {
     {5, 2}, {2, 5}, {-5, 2}, {-2, 5}, {5, -2}, {2, -5}, {-5, -2}, {-2, -5},
 };

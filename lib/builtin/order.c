@@ -7,7 +7,7 @@
 
 static const uint32_t NO_POSITION = UINT32_MAX;
 
-// Returns the index of the first smallest (sign -1) or largest (sign 1) number; a NaN at the start stays.
+// Returns the index of the first smallest (sign -1) or largest (sign 1) number, or 0 if x[0] is NaN.
 static uint32_t extreme_number(const double *x, uint32_t len, int sign) {
     uint32_t best = 0;
     for (uint32_t i = 1; i < len; i++)
@@ -86,8 +86,8 @@ Value builtin_maxindex(BuiltinContext *context, const Value *args, uint32_t coun
 
 // --- sorting (B3.3)
 
-// Merges the ascending runs from[low … middle-1] and from[middle … high-1] into `to`. The right element is taken only
-// if it is less. This makes the sort stable, and keeps indices within bounds even if there are NaNs.
+// Merges the ascending runs from[low … middle-1] and from[middle … high-1] into `to`. The element from the right run is
+// taken only if it is less. This makes the sort stable and keeps indices within bounds even if there are NaNs.
 typedef void Merge(Arena *arena, void *to, const void *from, uint32_t low, uint32_t middle, uint32_t high);
 
 static void merge_numbers(Arena *arena, void *to, const void *from, uint32_t low, uint32_t middle, uint32_t high) {
@@ -95,7 +95,7 @@ static void merge_numbers(Arena *arena, void *to, const void *from, uint32_t low
     double *y = to;
     for (uint32_t i = low, j = middle, k = low; k < high; k++) {
         y[k] = i < middle && (j == high || !(x[j] < x[i])) ? x[i++] : x[j++];
-        arena_charge_chunk(arena, k, 0); // the work is charged by merge_sort
+        arena_charge_chunk(arena, k, 0); // merge_sort charges the work
     }
 }
 
@@ -159,7 +159,7 @@ Value builtin_sort(BuiltinContext *context, const Value *args, uint32_t count) {
 
 // --- counting (B3.4)
 
-// The elements of ys, sorted by type, so that counting in long vectors takes n log n steps.
+// The elements of ys by type, sorted, so that counting in long vectors takes O(n log n) time.
 typedef struct Census {
     double *numbers; // ascending, without NaN, which equals nothing
     Str *texts;      // ascending
@@ -167,7 +167,7 @@ typedef struct Census {
     uint32_t number_count, text_count, other_count;
 } Census;
 
-enum { COUNT_WORK = 10 }; // of a binary search
+enum { COUNT_WORK = 10 }; // work units of a binary search
 
 static Census read_census(Arena *arena, const Value *v) {
     Census census = {.numbers = arena_alloc_array(arena, v->len, sizeof(double))};
@@ -191,7 +191,7 @@ static Census read_census(Arena *arena, const Value *v) {
     return census;
 }
 
-// Returns how many numbers are less than x, or at most x if `inclusive`.
+// Returns the number of elements of census->numbers that are less than x, or also equal to x if `inclusive`.
 static uint32_t numbers_below(const Census *census, double x, bool inclusive) {
     uint32_t low = 0, high = census->number_count;
     while (low < high) {

@@ -1,4 +1,4 @@
-// others.c: debug output, and functions for pictures and fonts that petri only accepts (spec builtins.md B14).
+// others.c: debug output, and stubs of functions for rendered images and fonts (spec builtins.md B14).
 #include "builtin/family.h"
 #include "value/format.h"
 

@@ -18,7 +18,7 @@ static Value quaternion_value(Arena *arena, Quaternion q) {
     return builtin_numbers(arena, (double[]){q.w, q.x, q.y, q.z}, 4);
 }
 
-// B5.1: cos(h); k*axis with h half the angle and k = sin(h)/|axis|.
+// Returns the quaternion cos(h); k*axis, where h is half the angle and k = sin(h)/|axis| (B5.1).
 Value builtin_quaternion(BuiltinContext *context, const Value *args, uint32_t count) {
     if (!is_numeric_of(args[0], 3) || !is_scalar(args[1]))
         return VALUE_NULL;
@@ -64,7 +64,7 @@ Value builtin_qmul(BuiltinContext *context, const Value *args, uint32_t count) {
     return quaternion_value(context->arena, multiply_quaternions(quaternion_of(args[0]), quaternion_of(args[1])));
 }
 
-// Returns a rotation by half a turn about an axis perpendicular to a (B5.3, opposite directions).
+// Returns a rotation by half a turn about an axis perpendicular to a, for opposite directions (B5.3).
 static Quaternion half_turn(double ax, double ay, double az) {
     bool flat = ax != 0 || ay != 0;
     double x = flat ? -ay : 0, y = flat ? ax : -az, z = flat ? 0 : ay;
@@ -89,7 +89,7 @@ Value builtin_qbetween(BuiltinContext *context, const Value *args, uint32_t coun
     return quaternion_value(context->arena, result);
 }
 
-// B5.4: (b a^-1)^t a.
+// Computes (b a^-1)^t a (B5.4).
 Value builtin_slerp(BuiltinContext *context, const Value *args, uint32_t count) {
     if (!is_scalar(args[0]) || !is_numeric_of(args[1], 4) || !is_numeric_of(args[2], 4))
         return VALUE_NULL;

@@ -17,8 +17,8 @@ typedef struct SrtFile {
     uint32_t count;
 } SrtFile;
 
-// Moves the part before a separator from *text to *part and drops the separator. Returns false if there is no
-// separator; then *part is the whole text.
+// Moves the part before the first separator from *text to *part and removes the separator. If there is no separator,
+// sets *part to the whole text and returns false.
 static bool split_part(Str *text, Str separator, Str *part) {
     size_t at = 0;
     while (at + separator.len <= text->len && memcmp(text->bytes + at, separator.bytes, separator.len) != 0)
@@ -38,7 +38,8 @@ static bool read_digits(Str text, double *x) {
     return text.len > 0;
 }
 
-// [[hh:]mm:]ss[,mmm]: mmm/1000, then plus seconds, plus 60*minutes, plus 3600*hours.
+// Parses [[hh:]mm:]ss[,mmm] to seconds, adding in this order: mmm/1000, ss, 60*mm, 3600*hh. Returns false if it is
+// invalid.
 static bool read_time(Str text, double *time) {
     Str rest = str_trim(text), clock, part;
     double milliseconds = 0, parts[3];
@@ -70,7 +71,7 @@ static uint32_t count_lines(Str text) {
 
 static bool read_section(Str section, Subtitle *subtitle) {
     Str number, times, start;
-    if (section.len && section.bytes[section.len - 1] == '\n') // terminator of the last line of the file
+    if (section.len && section.bytes[section.len - 1] == '\n') // the newline at the end of the file
         section.len--;
     if (!split_part(&section, STR("\n"), &number) || !builtin_is_integer(number))
         return false;

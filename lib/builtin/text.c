@@ -12,7 +12,7 @@ Value builtin_chr(BuiltinContext *context, const Value *args, uint32_t count) {
     for (uint32_t i = 0; i < args[0].len; i++) {
         arena_charge_chunk(context->arena, i, 1);
         double code_point = floor(x[i]);
-        // Surrogates are not characters: UTF-8 cannot hold them (E7).
+        // Surrogates are not characters and cannot be encoded in UTF-8 (E7).
         if (!(code_point >= 0 && code_point <= 0x10ffff) || (code_point >= 0xd800 && code_point <= 0xdfff))
             return builtin_error(context, "chr", "not a code point");
         text_add_code_point(&text, (uint32_t)code_point);
@@ -48,7 +48,7 @@ static size_t find_separator(Str text, Str separator, size_t at) {
     return text.len;
 }
 
-// Returns the number of parts without empty ones at the end.
+// Returns the number of parts, not counting empty parts at the end.
 static size_t count_pieces(Str text, Str separator) {
     size_t pieces = 0, kept = 0;
     for (size_t at = 0; at <= text.len; pieces++) {
@@ -60,7 +60,7 @@ static size_t count_pieces(Str text, Str separator) {
     return kept;
 }
 
-// The parts are slices of the text, which lives as long as the value it belongs to.
+// Returns `len` slices of the text, whose bytes live as long as the value that the text is from.
 static Value split_text(Arena *arena, Str text, Str separator, uint32_t len) {
     Str *pieces = arena_alloc_array(arena, len, sizeof *pieces);
     size_t at = 0;

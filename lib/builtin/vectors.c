@@ -29,7 +29,7 @@ static Value zip_items(Arena *arena, const Value *parts, uint32_t count, uint32_
     return (Value){.len = len * count, .kind = VALUE_MIXED, .as.items = result};
 }
 
-// B3.5. Every element of every vector is used, so the result is mixed if one of them is.
+// Every element of every vector is used, so the result is mixed if any vector is mixed (B3.5).
 Value builtin_zip(BuiltinContext *context, const Value *args, uint32_t count) {
     Value *parts = arena_alloc_array(context->arena, count, sizeof *parts);
     uint32_t kept = 0, len = 0;
@@ -48,7 +48,8 @@ Value builtin_zip(BuiltinContext *context, const Value *args, uint32_t count) {
     return mixed ? zip_items(context->arena, parts, kept, len) : zip_numbers(context->arena, parts, kept, len);
 }
 
-// The two arguments of B3.6: numbers or null, and a width of at least 1 (truncated; may be infinite).
+// Checks the two arguments of B3.6: numbers or null, and a width of at least 1. Sets *width to the truncated width,
+// which may be infinite. Returns false if an argument is invalid.
 static bool sum_arguments(const Value *args, double *width) {
     Value w = value_or(args[1], value_number(1));
     if (args[0].kind == VALUE_MIXED || !is_scalar(w))
@@ -59,7 +60,7 @@ static bool sum_arguments(const Value *args, double *width) {
 
 typedef enum Fold { FOLD_SUM, FOLD_PRODUCT, FOLD_MEAN } Fold;
 
-// Computes k results; x[i] contributes to result i mod k.
+// Computes k results, where k is the width; x[i] contributes to result i mod k.
 static Value fold_vector(BuiltinContext *context, const char *name, const Value *args, Fold kind) {
     double width;
     if (!sum_arguments(args, &width))
@@ -75,7 +76,7 @@ static Value fold_vector(BuiltinContext *context, const char *name, const Value 
         result[j] = kind == FOLD_PRODUCT ? result[j] * x[i] : result[j] + x[i];
         j = j + 1 == k ? 0 : j + 1;
     }
-    // Result j has the elements j, j + k, …: the same number for each, plus one for the first results.
+    // Result j is computed from len / k elements (j, j + k, …), or from one more if j < len % k.
     for (uint32_t j = 0; kind == FOLD_MEAN && j < k && j < len; j++)
         result[j] = result[j] / (len / k + (j < len % k));
     return value_numbers_view(result, k);

@@ -35,8 +35,7 @@ static double linear(double x) {
     return x < 0 ? 0 : x > 1 ? 1 : x;
 }
 
-// The curved easings apply `f` to the distance from the nearer end, mirrored in the upper half. NaN counts as upper
-// half.
+// Applies f to the lower half of the range, and mirrors it for the upper half. NaN is handled as in the upper half.
 static double ease(double x, double (*f)(double)) {
     if (x < 0)
         return 0;
