@@ -1,9 +1,9 @@
-// speed.c: makes the frames of a script without a screen, and prints the mean speed of its particles now and then.
+// speed.c: runs a script without drawing it and prints the mean speed of its particles every 40 frames.
 //
 //   cc speed.c -o speed $(pkg-config --cflags --libs petri) -lm && ./speed
 //
-// The script calls `kick`, a function of this program; the program reads the age that a counter keeps in the state,
-// which a script reads as `$:age`.
+// The script calls `kick`, a function of this program. The program reads the value of a counter from the state, which a
+// script would read as `$:age`.
 #include <petri.h>
 
 #include <math.h>
@@ -17,12 +17,12 @@ static const char script[] = "%pragma fps 60\n"
                              "    !drag strength=0.01\n"
                              "!counter state=:age rate=1\n";
 
-// A push that is another for each particle: two numbers for one.
+// Returns a force vector whose direction depends on the argument, the number of a particle.
 static PetriValue kick(PetriCall *call, void *user_data, const PetriValue *arguments, uint32_t count) {
     (void)count;
     double *push = petri_call_alloc_numbers(call, 2);
     if (push == NULL || arguments[0].length != 1 || arguments[0].numbers == NULL) {
-        petri_call_error(call, "one number is wanted");
+        petri_call_error(call, "expected one number");
         return (PetriValue){0};
     }
     push[0] = *(double *)user_data * cos(arguments[0].numbers[0]);

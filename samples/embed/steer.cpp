@@ -1,4 +1,4 @@
-// steer.cpp: a session in C++, and a name that the program gives another value in each frame.
+// steer.cpp: a session in C++ with a global variable that the program changes in each frame.
 //
 //   c++ -std=c++17 steer.cpp -o steer $(pkg-config --cflags --libs petri) && ./steer
 #include <petri.h>
@@ -17,7 +17,7 @@ struct Close {
     }
 };
 
-// Statuses become exceptions, with what the session has to say.
+// Owns a session. Throws std::runtime_error with the diagnostics if a call fails.
 class Session {
   public:
     Session() {
