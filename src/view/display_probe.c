@@ -35,7 +35,7 @@ static bool connect_socket(const struct sockaddr *address, socklen_t length, int
     return false;
 }
 
-// Connects to a Unix socket. `hidden`: in Linux's abstract namespace, outside the file system.
+// Connects to a Unix socket. If `hidden`, the path is in Linux's abstract namespace instead of the file system.
 static bool connect_path(const char *path, bool hidden, int *connection) {
     struct sockaddr_un address = {.sun_family = AF_UNIX};
     size_t length = strlen(path);
@@ -66,7 +66,7 @@ static bool connect_x11(const char *name, int *connection) {
     if (name[0] == '/' || !colon || (size_t)(colon - start) >= sizeof host)
         return name[0] == '/' && connect_path(name, false, connection);
     long number = strtol(colon + 1, NULL, 10);
-    size_t skip = start[0] == '[' ? 1 : 0; // as in [::1]:0
+    size_t skip = start[0] == '[' ? 1 : 0; // IPv6 addresses are in brackets, as in [::1]:0
     snprintf(host, sizeof host, "%.*s", (int)(colon - start - (long)(2 * skip)), start + skip);
     if (host[0] != '\0' && strcmp(host, "unix") != 0)
         return connect_host(host, number, connection);
@@ -85,12 +85,13 @@ static bool connect_wayland(const char *name, int *connection) {
     return connect_path(path, false, connection);
 }
 
-// Sends a request that is always answered: X11, a connection without authorisation; Wayland, a sync. Numbers are in
-// native byte order, which the X11 request declares.
+// Sends a request that every server answers: for X11, a connection request without authorisation; for Wayland, a sync
+// request. Returns true if an answer arrives. Numbers are in native byte order, which the X11 request declares.
 static bool send_probe(const DisplayProbe *screen) {
     const uint16_t one = 1;
     unsigned char x11[REQUEST_BYTES] = {*(const unsigned char *)&one == 1 ? 'l' : 'B'}, answer;
-    const uint32_t wayland[REQUEST_BYTES / 4] = {1, REQUEST_BYTES << 16, 2}; // object 1: request 0 makes object 2
+    const uint32_t wayland[REQUEST_BYTES / 4] = {1, REQUEST_BYTES << 16,
+                                                 2}; // object 1, request 0 (sync): creates object 2
     int connection = -1;
     memcpy(x11 + 2, &(uint16_t){11}, 2);
     bool is_x11 = screen == &PROBES[X11];
@@ -100,7 +101,7 @@ static bool send_probe(const DisplayProbe *screen) {
            read(connection, &answer, 1) == 1;
 }
 
-// Probes in a child process, which can be killed whatever it waits for.
+// Probes in a child process, which the alarm signal kills if the screen does not answer.
 bool display_probe_answers(const DisplayProbe *screen) {
     pid_t child = fork();
     if (child == 0) {
@@ -110,5 +111,5 @@ bool display_probe_answers(const DisplayProbe *screen) {
     int status = 1;
     while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
-    return child < 0 || (WIFEXITED(status) && WEXITSTATUS(status) == 0); // cannot fork: let SDL try
+    return child < 0 || (WIFEXITED(status) && WEXITSTATUS(status) == 0); // if petri cannot fork, let SDL try
 }

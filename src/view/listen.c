@@ -18,7 +18,7 @@
 
 static const size_t MAX_BYTES = (size_t)1 << 20;
 
-// Removes a socket without a listener, which was left behind by a view that crashed.
+// Removes a socket that no process listens on: a view that crashed has left it behind.
 static void remove_dead(const struct sockaddr_un *address) {
     struct stat about;
     int probe = socket(AF_UNIX, SOCK_STREAM, 0);
@@ -101,7 +101,7 @@ static void add_result_line(ByteBuffer *out, bool done, int64_t frame, const Pet
     byte_buffer_add_text(out, "}\n");
 }
 
-// Executes `.set NAME VALUE`; modifies the text.
+// Executes `.set NAME VALUE`. Modifies the text. Returns false if this fails.
 static bool set_parameter(LiveScript *live, char *text) {
     char *name = text + strspn(text, " "), *value = name + strcspn(name, " ");
     bool given = *value != '\0' && value[1] != '\0';
@@ -109,7 +109,7 @@ static bool set_parameter(LiveScript *live, char *text) {
     return live_script_set_parameter(live, name, given ? value + 1 : NULL);
 }
 
-// Executes `.back` or `.back N`.
+// Executes `.back` or `.back N`. Returns false after adding the reason to `output` if this fails.
 static bool go_back(LiveScript *live, const char *text, ByteBuffer *output) {
     char *end;
     long long count = *text == '\0' ? 1 : strtoll(text, &end, 10);
@@ -148,7 +148,7 @@ static ListenerResult execute_command(LiveScript *live, char *text, ByteBuffer *
     return result;
 }
 
-// Answers the client; waits at most one second if it does not read.
+// Executes the client's text and sends the answer. If the client does not read the answer, waits at most one second.
 static ListenerResult answer_client(Listener *listener, LiveScript *live) {
     SCOPED_BYTE_BUFFER out = {0};
     byte_buffer_add(&listener->text, "", 0);

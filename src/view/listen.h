@@ -1,10 +1,9 @@
-// listen.h: a socket for `petri view --listen`, on which editors send text to a view with `petri send`.
-//
-// A client connects, writes a text and shuts down its writing side; it then receives lines of JSON until the end. The
-// text is evaluated as in petri repl, or is a command: `.set NAME VALUE`, `.set NAME` (reset to the
-// default), `.back N` (frames), `.drop` (remove everything sent before) or `.reset`. Each line is output, {"text": …};
-// or a diagnostic as in petri check --format=json; or the last line, {"done": true or false, "frame": …, "values": …,
-// "bindings": …, "nodes": …}.
+// listen.h: a socket for `petri view --listen`, on which editors send text to a view with `petri send`. A client
+// connects, writes code or a command, and shuts down its writing side. It then receives lines of JSON until the
+// connection is closed. Code is evaluated as in petri repl. The commands are `.set NAME VALUE`, `.set NAME` (reset to
+// the default), `.back N` (frames), `.drop` (remove everything sent before) and `.reset`. Each line contains output,
+// {"text": …}, or a diagnostic as in petri check --format=json. The last line is {"done": true or false, "frame": …,
+// "values": …, "bindings": …, "nodes": …, "shadowed": …}.
 #ifndef PETRI_SRC_VIEW_LISTEN_H
 #define PETRI_SRC_VIEW_LISTEN_H
 
@@ -19,9 +18,10 @@ typedef struct Listener {
 
 // Opens the socket, accessible only to its owner. Returns false after a message.
 bool listener_open(Listener *listener, const char *path);
-// The effect on the script: none, one that the next frame shows, or a move to another frame whose picture exists.
+// The effect of a command: none, a change that the next frame shows, or a move to another frame, whose picture has been
+// made.
 typedef enum ListenerResult { LISTENER_NOTHING, LISTENER_ACCEPTED, LISTENER_MOVED } ListenerResult;
-// Handles a connection, if there is one, without waiting.
+// Handles a pending connection, if there is one. Does not wait for clients.
 ListenerResult listener_serve(Listener *listener, LiveScript *live);
 // Removes the socket. A listener that was never opened is ignored.
 void listener_close(Listener *listener);

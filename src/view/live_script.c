@@ -59,7 +59,7 @@ const char *live_script_error_text(const LiveScript *live) {
     return live->error_text.length > 0 ? live->error_text.data : "";
 }
 
-// Inserts a line before the error text.
+// Inserts a line at the start of the error text.
 static void prefix_error_text(LiveScript *live, const char *line) {
     ByteBuffer whole = {0};
     byte_buffer_format(&whole, "%s\n%s", line, live_script_error_text(live));
@@ -67,7 +67,7 @@ static void prefix_error_text(LiveScript *live, const char *line) {
     live->error_text = whole;
 }
 
-// Watches the script and all files that it is known to include or import.
+// Watches the script and all files that it has included or imported so far.
 static void watch_sources(LiveScript *live) {
     const char *source;
     file_watch_add(live->watch, live->options->script);
@@ -125,7 +125,7 @@ bool live_script_check_drawn(LiveScript *live, PetriStatus status) {
     return status == PETRI_OK;
 }
 
-// Writes the files that the script's `!record` nodes name.
+// Renders the frame for the files of `!record` nodes, and reports drawing diagnostics.
 static void record_frame(LiveScript *live) {
     if (live->awaits_display)
         return;
@@ -141,8 +141,8 @@ static PetriPictureOptions picture_options(const LiveScript *live) {
     return options;
 }
 
-// Makes the picture of the last frame. Before the first picture, a previous picture stays; without one, the new picture
-// is made only for its size.
+// Makes the picture of the last frame. Until particles are at their positions, a previous picture is retained; if there
+// is none, the new picture is made only for its size.
 static void update_picture(LiveScript *live) {
     PetriPictureOptions options = picture_options(live);
     options.detail = live->detail;
@@ -159,7 +159,7 @@ static void update_picture(LiveScript *live) {
 void live_script_set_detail(LiveScript *live, double detail) {
     bool changed = detail != live->detail;
     live->detail = detail;
-    // A picture that uses earlier frames is always in full detail, and is not made twice.
+    // A picture that depends on earlier frames is always in full detail, and must not be made twice.
     if (changed && live->picture && !live->before_first_picture && !petri_picture_needs_history(live->picture))
         update_picture(live);
 }
@@ -185,10 +185,10 @@ bool live_script_step(LiveScript *live) {
         live->halted = true;
         return false;
     }
-    watch_sources(live); // frames may import modules
+    watch_sources(live); // the frame may have imported modules
     update_picture(live);
     live->frames += live->before_first_picture ? 0 : 1;
-    // Errors of a completed frame are only reported on standard error, as in a run.
+    // Errors in a frame that completes are reported on standard error only, as by petri run.
     truncate_error_text(live, before);
     if (live->options->verbosity >= LOG_DEBUG) {
         char line[200];
@@ -220,7 +220,7 @@ bool live_script_reload(LiveScript *live) {
     if (loaded) {
         live->halted = live->broken = false;
         watch_sources(live);
-        clear_error_text(live); // after a successful load, errors are only listed with the warnings
+        clear_error_text(live); // after a successful load, errors are listed only with the warnings
     } else {
         live->broken = true;
         prefix_error_text(live, "reload failed, still running the last good version");
@@ -277,7 +277,7 @@ void live_script_reset(LiveScript *live) {
         clear_error_text(live);
 }
 
-// Sets `name` to the script's name without folder and suffix.
+// Sets `name` to the script's file name without folder and suffix.
 static void base_name(const char *script, char *name, size_t size) {
     const char *slash = strrchr(script, '/');
     snprintf(name, size, "%s", !slash ? script : slash + 1);
@@ -286,7 +286,7 @@ static void base_name(const char *script, char *name, size_t size) {
         *dot = '\0';
 }
 
-// Writes the last frame's picture, in full detail.
+// Writes the last frame's picture to a file in full detail. Returns false if this fails.
 static bool save_picture(LiveScript *live, const char *name) {
     PetriPictureOptions options = picture_options(live);
     PetriPicture *full = NULL;

@@ -1,7 +1,7 @@
-// live_script.h: the script of `petri view`: it runs, is reloaded when it is saved, and makes pictures.
+// live_script.h: the script of `petri view`, which runs, is reloaded when it is saved, and produces pictures.
 //
-// If the script cannot be loaded or a frame fails, the error is reported and nothing else changes: the last good
-// program keeps running, or waits.
+// If the script cannot be loaded or a frame fails, the error is reported and nothing else changes. The last good
+// program keeps running, or is halted.
 #ifndef PETRI_SRC_VIEW_LIVE_SCRIPT_H
 #define PETRI_SRC_VIEW_LIVE_SCRIPT_H
 
@@ -15,7 +15,7 @@
 
 // The warnings about the current program.
 typedef struct Warnings {
-    int count; // excluding notes
+    int count; // number of warnings and errors, excluding notes
     ByteBuffer text;
 } Warnings;
 
@@ -26,65 +26,67 @@ typedef struct LiveScript {
     PetriPicture *picture; // of the last frame; NULL: nothing to draw
     Recording recording;
     FileWatch *watch;
-    int64_t frames;            // frames since the view was opened, except those before the first picture
-    bool before_first_picture; // the last frame cannot show particles at their positions yet (petri_picture_ready)
+    int64_t frames; // number of frames since the view was opened, not counting those before the first picture
+    bool before_first_picture; // the particles of the last frame are not at their positions yet (petri_picture_ready)
     double detail;             // detail of future pictures (PetriPictureOptions)
-    bool awaits_display;  // the display, which determines how the painter draws, is not open; no picture is made yet
-    bool picture_hidden;  // `picture` is from before the first picture: it has a size but is not shown
+    bool awaits_display;  // the display is not open yet; it determines how the painter draws, so no picture is made
+    bool picture_hidden;  // `picture` was made before the first picture: its size is used, but it is not shown
     bool halted;          // a frame failed; the next load or reset resumes the run
-    bool broken;          // the script on disk cannot be loaded; an earlier version is running
+    bool broken;          // the script on disk cannot be loaded; an earlier version keeps running
     bool failed;          // an error occurred while reading, writing or recording
-    bool memory_reported; // it was reported that a picture ran out of memory
+    bool memory_reported; // a failure to allocate memory for a picture was reported
     StateFile state;
     bool keeps_history; // frames are stored in `history`, so that the user can go back
     FrameHistory history;
     bool invalid_definition; // a value of -D is invalid for the script
     // Messages
-    bool hold_messages;    // the display occupies standard error: messages are collected in `log` until it is closed
-    bool shown;            // the last diagnostic, apart from notes, was shown
+    bool hold_messages;    // the display occupies standard error: messages are collected in `log` until the display is
+                           // closed
+    bool shown;            // the last diagnostic that is not a note was shown, so its notes are shown too
     ByteBuffer log;        // collected messages; limited in size
     ByteBuffer error_text; // current errors, for the overlay
     Warnings warnings;     // warnings since the current program was loaded
 } LiveScript;
 
-// Opens a session and loads the script. Returns the exit status, or OPTIONS_READ on success. The caller calls
+// Opens a session and loads the script. Returns OPTIONS_READ on success, else the exit status. The caller calls
 // live_script_close in either case.
 int live_script_open(LiveScript *live, const CommandContext *context, const Options *options);
 void live_script_close(LiveScript *live);
-// Must be called once the display is open; pictures are made from now on.
+// Must be called when the display is open. Pictures are made from then on.
 void live_script_begin(LiveScript *live);
 // Sets the number of pixels per unit of the script's size for future pictures: at most 1, the default. Screenshots
 // always use 1.
 void live_script_set_detail(LiveScript *live, double detail);
 // Computes one frame and its picture, and writes the files that the script records. Returns false if the frame failed.
 bool live_script_step(LiveScript *live);
-// Returns true for PETRI_OK. Reports, once, that there was not enough memory for a picture.
+// Returns true for PETRI_OK. Reports PETRI_OUT_OF_MEMORY once.
 bool live_script_check_drawn(LiveScript *live, PetriStatus status);
-// Reloads the script with its state and clock if one of its files has changed. Returns true if it tried to;
+// If one of the script's files has changed, reloads the script, keeps its state and clock, and returns true.
 // live_script_error_text is then empty on success.
 bool live_script_reload(LiveScript *live);
 // Sets a parameter of the script, or resets it to its default if `value` is NULL. Returns false if this fails.
 bool live_script_set_parameter(LiveScript *live, const char *name, const char *value);
 // Starts storing frames. Returns false, after a message, if out of memory.
 bool live_script_enable_history(LiveScript *live);
-// Goes back `count` frames, or to the first stored frame if there are fewer, and makes its picture. On failure returns
-// false and adds the reason to `why`.
+// Goes back `count` frames, or to the first stored frame if fewer are stored, and makes the frame's picture. On
+// failure, returns false and adds the reason to `why`.
 bool live_script_go_back(LiveScript *live, int64_t count, ByteBuffer *why);
-// Restarts the last good program before frame 0, without state.
+// Restarts the last good program before frame 0 with an empty state.
 void live_script_reset(LiveScript *live);
 // Returns the current errors, or "". Valid until the next call.
 const char *live_script_error_text(const LiveScript *live);
 // Saves the state if the last save was some seconds ago, or always if `at_once`.
 void live_script_save(LiveScript *live, bool at_once);
-// Writes the last frame's picture to a new PNG file in the current folder, named after script and frame. `name` gets
-// the file name. Returns false if the file cannot be written.
+// Writes the last frame's picture to a new PNG file in the current folder, whose name consists of the script's name and
+// the frame number. Sets `name` to the file name. Returns false if the file cannot be written.
 bool live_script_screenshot(LiveScript *live, char *name, size_t size);
-// Writes the collected messages to standard error, and all later messages directly.
+// Writes the collected messages to standard error. Later messages are written there directly.
 void live_script_release_messages(LiveScript *live);
 
-// Sets the text for a corner of the picture: the number of warnings and the key that lists them; "" if there are none.
+// Sets `text` to the text in a corner of the picture: the number of warnings and the key that lists them, or "" if
+// there are no warnings.
 void warnings_mark(const Warnings *warnings, char *text, size_t size);
-// Sets the list of warnings, after a line with their number.
+// Sets `text` to a line with the number of warnings, followed by the list of warnings.
 void warnings_list(const Warnings *warnings, char *text, size_t size);
 
 #endif

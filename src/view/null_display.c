@@ -9,7 +9,7 @@ static Event null_next_event(Display *display, double seconds) {
     struct timespec pause = {.tv_sec = (time_t)seconds};
     pause.tv_nsec = (long)((seconds - (double)pause.tv_sec) * nanoseconds);
     if (seconds > 0)
-        nanosleep(&pause, NULL); // a signal may end this early
+        nanosleep(&pause, NULL); // a signal may end the sleep early
     return (Event){.kind = EVENT_NONE};
 }
 

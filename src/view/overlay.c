@@ -1,7 +1,8 @@
 // overlay.c: implementation of overlay.h.
 #include "view/overlay.h"
 
-// Sizes in units of text. CHARACTER_WIDTH is the width of a fixed-width character relative to TEXT_SIZE.
+// Sizes in units of text (see overlay_draw). CHARACTER_WIDTH is the width of a fixed-width character relative to
+// TEXT_SIZE.
 enum { TEXT_SIZE = 13, LINE = 19, MARGIN = 12, PADDING = 10, MAX_LABELS = 4 };
 static const double CHARACTER_WIDTH = 0.602;
 
@@ -21,8 +22,8 @@ typedef struct Layout {
     size_t count;
 } Layout;
 
-// Adds a label for a text and wraps it. Returns NULL if the text is empty. A `full` label is as wide as possible,
-// others as wide as their text. The caller sets its position.
+// Adds a label and wraps its text. Returns NULL if the text is empty. A `full` label is as wide as possible; other
+// labels are as wide as their text. The caller sets its position.
 static PetriLabel *layout_label(Layout *layout, const PetriLabel *style, const char *text, bool full) {
     if (text[0] == '\0')
         return NULL;
@@ -42,7 +43,7 @@ static PetriLabel *layout_label(Layout *layout, const PetriLabel *style, const c
 }
 
 // Places the errors at the top, the mark at the top right, the status at the bottom left, and the notice at the bottom
-// right, or above the status if there is not enough space.
+// right. If there is not enough space, the notice is above the status.
 static void layout_labels(Layout *layout, const Overlay *overlay, double scale, int width, int height) {
     double across = width / scale, bottom = height / scale - MARGIN;
     layout->room = across - 2 * MARGIN;

@@ -11,7 +11,7 @@ static size_t character_length(const char *text) {
     return *text != '\0' && utf8_next((Str){text, strnlen(text, UTF8_MAX)}, &length) >= 0 ? length : 0;
 }
 
-// Returns the end of an escape sequence, such as those that colour messages.
+// Returns the end of an escape sequence, such as one that colours a message.
 static const char *skip_escape(const char *text) {
     if (text[1] != '[')
         return text + 1;

@@ -1,4 +1,4 @@
-// overlay_text.h: the text over a picture.
+// overlay_text.h: the texts shown over a picture, and their wrapping.
 #ifndef PETRI_SRC_OVERLAY_TEXT_H
 #define PETRI_SRC_OVERLAY_TEXT_H
 
@@ -10,20 +10,20 @@ typedef struct Overlay {
     char status[400];      // frame rate and clocks, several lines
     char notice[400];      // last action, one line
     char error_text[4000]; // errors of the script, several lines
-    char mark[40];         // number of warnings, a few words in a corner
+    char mark[40];         // number of warnings, shown in a corner
     bool is_warning;       // `error_text` is a list of warnings, which do not stop the script
 } Overlay;
 
-// Sets one of the texts. Escape sequences and invalid UTF-8 are removed, tabs become blanks, and the end is cut off if
-// it does not fit. Returns true if the text has changed.
+// Sets one of the texts. Removes escape sequences and invalid UTF-8, replaces tabs by blanks, and truncates what does
+// not fit. Returns true if the text has changed.
 bool overlay_set(char *text, size_t size, const char *from);
 
 // Return the number of lines, and the number of characters of the longest line.
 int overlay_lines(const char *text);
 int overlay_columns(const char *text);
 // Wraps text to at most `columns` characters per line (at least 2), at blanks where possible. Lines that begin with a
-// blank quote a script or mark a place in it; these are cut off, so that they stay aligned. Text that exceeds `size`
-// bytes is omitted.
+// blank quote a script or contain carets; they are truncated instead of wrapped, to keep them aligned. Text that
+// exceeds `size` bytes is omitted.
 void overlay_fit(char *out, size_t size, const char *text, int columns);
 
 #endif

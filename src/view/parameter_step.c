@@ -29,7 +29,7 @@ static double step_size(const PetriParameter *parameter) {
     return whole ? fmax(1, floor(size)) : size;
 }
 
-// Rounds to 12 digits, which removes binary rounding errors.
+// Rounds to 12 significant digits, which removes binary rounding errors.
 static double round_decimal(double x) {
     char text[40];
     snprintf(text, sizeof text, "%.12g", x);
@@ -37,7 +37,8 @@ static double round_decimal(double x) {
     return clean == 0 ? 0 : clean; // also turns -0 into 0
 }
 
-// Returns the next multiple of the step size, counted from the minimum of the range if the range defines the step.
+// Returns the value that is `steps` multiples of the step size away, within the range. Multiples count from the minimum
+// if the range defines the step, else from 0.
 static double step_from(const PetriParameter *parameter, double value, int steps) {
     double size = step_size(parameter), dust = 1e-9;
     double origin = parameter->step > 0 && isfinite(parameter->min) ? parameter->min : 0;
@@ -51,7 +52,7 @@ double parameter_stepped(const PetriParameter *parameter, int steps) {
     if (!isfinite(parameter->number))
         return NAN;
     double to = step_from(parameter, parameter->number, steps);
-    if (to == 0 && parameter->default_number != 0) // skip 0 if there are values beyond it
+    if (to == 0 && parameter->default_number != 0) // skip 0, which selects the default
         to = step_from(parameter, to, steps > 0 ? 1 : -1);
     return to == 0 && parameter->default_number != 0 ? NAN : to;
 }

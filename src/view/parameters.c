@@ -106,7 +106,7 @@ ParameterResult parameter_key(ParameterKeys *keys, LiveScript *live, const char 
     keys->chosen = keys->chosen < count ? keys->chosen : 0;
     if (meaning == MEANS_CHOICE && !first)
         keys->chosen = (keys->chosen + (by > 0 ? 1 : count - 1)) % count;
-    if (meaning == MEANS_CHOICE || first) { // the first key press only shows which parameter is selected
+    if (meaning == MEANS_CHOICE || first) { // the first key press only shows the selected parameter
         describe_parameter(live, keys->chosen, text);
         return PARAMETER_MESSAGE;
     }

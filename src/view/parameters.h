@@ -1,4 +1,4 @@
-// parameters.h: keys that select a parameter of the script and change it while the script runs.
+// parameters.h: handles the keys that select and change parameters while the script runs.
 #ifndef PETRI_SRC_VIEW_PARAMETERS_H
 #define PETRI_SRC_VIEW_PARAMETERS_H
 
@@ -20,11 +20,11 @@ typedef enum ParameterResult {
     PARAMETER_CHANGED    // there is a message to show, and the parameter has changed
 } ParameterResult;
 
-// Executes a key. `text` gets the message.
+// Handles a key press and appends the message to `text`.
 ParameterResult parameter_key(ParameterKeys *keys, LiveScript *live, const char *key, ByteBuffer *text);
 // Returns true for keys that act repeatedly while held.
 bool parameter_key_repeats(const char *key);
-// Adds lines about the selected parameter and the keys, if the script has parameters.
+// If the script has parameters, appends lines about the selected parameter and the keys to `text`.
 void parameter_status(const ParameterKeys *keys, LiveScript *live, ByteBuffer *text);
 
 #endif

@@ -1,4 +1,4 @@
-// status_text.c: the texts over the picture; see view.h.
+// status_text.c: updates the texts shown over the picture; see view.h.
 #include "cli/progress.h"
 #include "view/view.h"
 
@@ -8,7 +8,8 @@
 #include <stdio.h>
 #include <string.h>
 
-// Seconds: the duration of a notice, of the hint about keys, and between two measurements of the frame rate.
+// Durations of a notice and of the hint about keys, and the interval between measurements of the frame rate, in
+// seconds.
 static const double NOTICE = 4, HINT = 3, MEASURE = 0.5;
 static const char KEYS[] = "h: keys";
 
@@ -37,7 +38,7 @@ void view_reset_notice(View *view) {
     set_notice(view, view->paused ? "paused: space resumes, . steps" : "", INFINITY);
 }
 
-// Errors take precedence; then warnings are listed if the user wants that, else the mark shows their number.
+// Errors take precedence. Without errors, shows the list of warnings if the user has requested it, else their number.
 void view_update_error_text(View *view) {
     Overlay *overlay = &view->overlay;
     const char *error_text = live_script_error_text(&view->live);

@@ -4,14 +4,14 @@
 
 #include "petri-draw.h"
 
-// Writes the picture and a newline, as large as fits above `below` free rows. Drawing diagnostics go to the session's
-// callback. Without `colour` it is black and white. Returns a status as petri_picture does, and PETRI_OUT_OF_MEMORY
-// also without libchafa.
+// Writes the picture, as large as fits above `below` free rows, and a newline. Drawing diagnostics go to the session's
+// callback. If `colour` is false, the picture is black and white. Returns the status of petri_picture, or
+// PETRI_OUT_OF_MEMORY if petri was built without libchafa.
 PetriStatus still_show(PetriSession *session, PetriPainter *painter, bool colour, int below, PetriWriteCallback *write,
                        void *user_data);
 
-// Writes opaque pixels to standard output, a terminal, as a picture above `below` free lines. Returns false if out of
-// memory or without libchafa.
+// Writes opaque pixels as a picture to standard output, which must be a terminal, above `below` free rows. Returns
+// false if out of memory or if petri was built without libchafa.
 bool still_show_pixels(const uint32_t *pixels, int width, int height, bool colour, int below);
 
 #endif

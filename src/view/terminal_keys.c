@@ -40,7 +40,7 @@ const char *key_of_character(char character) {
 
 void terminal_input_read(TerminalInput *input, int fd) {
     size_t room = sizeof input->bytes - input->count;
-    if (room == 0) { // no valid sequence is this long
+    if (room == 0) { // the buffer is full, but no valid sequence is this long
         input->count = 0;
         room = sizeof input->bytes;
     }
@@ -100,7 +100,7 @@ static Event mouse_event(TerminalInput *input, const char *text, char last) {
                    .buttons = input->buttons};
 }
 
-// Decodes a sequence `ESC [ parameters letter`; `parameters` is text.
+// Decodes a sequence `ESC [ parameters last`.
 static Event sequence_event(TerminalInput *input, const char *parameters, unsigned char last) {
     switch (last) {
     case 'M':
@@ -152,7 +152,7 @@ static Event next_escape(TerminalInput *input) {
     }
     if (input->bytes[1] == 'O' && !late)
         return (Event){.kind = EVENT_NONE};
-    drop_bytes(input, 1); // the key was pressed with Alt, or there is a second escape
+    drop_bytes(input, 1); // the key was pressed with Alt, or the next byte is another escape
     return input->bytes[0] == 27 ? key_tap_event("escape") : (Event){.kind = EVENT_NONE};
 }
 

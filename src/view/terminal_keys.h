@@ -9,15 +9,15 @@
 typedef struct TerminalInput {
     unsigned char bytes[256]; // input that is not decoded yet
     size_t count;
-    double since;     // time at which the last bytes came; a lone escape is a key only after a delay
-    unsigned buttons; // mouse buttons that are pressed
+    double since; // time at which the last bytes arrived; a single escape counts as the Escape key only after a delay
+    unsigned buttons; // mouse buttons that are currently pressed
     bool closed;      // end of input
 } TerminalInput;
 
-// Reads available input; sets `closed` at its end.
+// Reads the available input without waiting. Sets `closed` at the end of the input.
 void terminal_input_read(TerminalInput *input, int fd);
-// Returns the next event, or EVENT_NONE if there is none yet. The pointer's position is the middle of a cell, in cells
-// from 0.
+// Returns the next event, or EVENT_NONE if there is none yet. The pointer's position is the centre of a cell, in units
+// of cells, counted from 0.
 Event terminal_input_next(TerminalInput *input);
 
 #endif

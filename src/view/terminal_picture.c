@@ -9,8 +9,8 @@
 #ifdef HAVE_CHAFA
 #include <chafa.h>
 
-// The size of a cell if the terminal does not report it, and the number of pixels drawn per cell of text. Symbols show
-// about 2 x 2 pixels per cell, and drawing more is slow without a graphics card.
+// CELL_: the size of a cell in pixels if the terminal does not report it. DRAWN_: the number of pixels drawn per cell
+// of text. Symbols show about 2 x 2 pixels per cell, and drawing more pixels is slow without a graphics card.
 enum { CELL_WIDTH = 8, CELL_HEIGHT = 16, DRAWN_WIDTH = 3, DRAWN_HEIGHT = 6 };
 
 struct TerminalPicture {
@@ -25,7 +25,7 @@ bool terminal_picture_possible(void) {
     return true;
 }
 
-// Returns true if the environment selects UTF-8, by the C library's rules; the process never sets its locale.
+// Returns true if the environment selects UTF-8 according to the C library's rules. The process never sets its locale.
 static bool locale_is_utf8(void) {
     static const char *const names[] = {"LC_ALL", "LC_CTYPE", "LANG"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
@@ -55,7 +55,8 @@ static ChafaCanvasMode colours_of(const ChafaTermInfo *terminal, bool colour) {
     return CHAFA_CANVAS_MODE_FGBG;
 }
 
-// Multiplexers such as tmux and screen do not pass graphics on, whatever the environment says.
+// Multiplexers such as tmux and screen do not pass on graphics, even if the environment names a terminal that supports
+// them.
 static ChafaPixelMode pixels_of(const ChafaTermInfo *terminal, bool colour) {
     const char *name = getenv("TERM");
     bool between = getenv("TMUX") || (name && strncmp(name, "screen", 6) == 0);

@@ -1,7 +1,6 @@
-// terminal_view.c: a display that is the terminal: pictures by libchafa, keys and mouse by escape sequences.
-//
-// While it is open, the terminal uses its alternate screen, reports single keys and the mouse, and hides the cursor.
-// The terminal is restored however the process ends, except by SIGKILL.
+// terminal_view.c: the terminal display. libchafa converts pictures; keys and mouse events arrive as escape sequences.
+// While the display is open, the terminal uses its alternate screen, reports single keys and the mouse, and hides the
+// cursor. The terminal is restored when the process ends, except after SIGKILL.
 #include "base/file.h"
 #include "cli/byte_buffer.h"
 #include "cli/cli.h"
@@ -20,19 +19,20 @@
 
 enum { DEFAULT_COLUMNS = 80, DEFAULT_ROWS = 24 };
 
-// Alternate screen, hidden cursor, mouse and focus reports, saved title; and the reverse.
+// ENTER selects the alternate screen, hides the cursor, enables mouse and focus reports, and saves the title. LEAVE
+// reverses this.
 static const char ENTER[] = "\033[?1049h\033[?25l\033[?1003h\033[?1006h\033[?1004h\033[22;0t\033[2J";
 static const char LEAVE[] = "\033[0m\033[?1004l\033[?1006l\033[?1003l\033[?25h\033[23;0t\033[?1049l";
 // Kitty images must be deleted separately.
 static const char DELETE_IMAGES[] = "\033_Ga=d,q=2\033\\";
-// Output between these two is shown at once by terminals that support it.
+// Terminals that support synchronized output show the output between these two sequences at once.
 static const char BEGIN_UPDATE[] = "\033[?2026h", END_UPDATE[] = "\033[?2026l";
 
 struct Display {
     TerminalPicture *renderer;
     TerminalInput input;
-    TerminalCells cells; // of the picture shown last
-    int columns;         // of the terminal
+    TerminalCells cells; // size of the last picture
+    int columns;         // size of the terminal
     int rows;
     int left; // columns before the picture
     int top;  // rows above the picture
@@ -45,7 +45,7 @@ struct Display {
 // Global, because signal handlers and atexit functions have no other access.
 static struct {
     pthread_t owner;               // the thread that draws
-    volatile sig_atomic_t entered; // the terminal must be restored
+    volatile sig_atomic_t entered; // true while the terminal must be restored
     volatile sig_atomic_t resized;
     volatile sig_atomic_t suspended;
     bool has_settings;
@@ -215,7 +215,7 @@ static bool terminal_coarse(const Display *display) {
     return !terminal_picture_is_graphics(display->renderer);
 }
 
-// Writes the lines of a text from `row` on, each over the full width.
+// Writes the lines of a text over the full width, starting at `row`. `look` is an escape sequence for the style.
 static void add_lines(ByteBuffer *out, const char *text, int row, const Display *display, const char *look) {
     for (const char *line = text; line && *text != '\0' && row < display->rows; row++) {
         byte_buffer_format(out, "\033[%d;1H%s %.*s\033[K\033[0m", row + 1, look, (int)strcspn(line, "\n"), line);
@@ -224,7 +224,7 @@ static void add_lines(ByteBuffer *out, const char *text, int row, const Display 
     }
 }
 
-// Adds the errors at the top, the mark to their right, and the other texts at the bottom.
+// Adds the errors at the top, the mark at the top right, and the other texts at the bottom.
 static void add_overlay(ByteBuffer *out, const Display *display, const Overlay *overlay) {
     static const char reverse[] = "\033[7m", careful[] = "\033[38;5;230;48;5;58m";
     char text[sizeof *overlay];
@@ -263,7 +263,7 @@ static bool same_lines(const Overlay *a, const Overlay *b) {
 }
 
 static bool terminal_show(Display *display, uint32_t *pixels, int width, int height, const Overlay *overlay) {
-    (void)width; // the size set by terminal_size
+    (void)width; // `size` has determined the width
     (void)height;
     size_t length = 0;
     char *text = terminal_picture_text(display->renderer, pixels, &display->cells, &length);
@@ -274,7 +274,9 @@ static bool terminal_show(Display *display, uint32_t *pixels, int width, int hei
     SCOPED_BYTE_BUFFER out = {0};
     byte_buffer_add_text(&out, BEGIN_UPDATE);
     if (display->clear || !same_lines(overlay, &display->shown))
-        byte_buffer_format(&out, "\033[0%sm\033[2J", display->colour ? ";40" : ""); // black bars, as in a window
+        byte_buffer_format(&out, "\033[0%sm\033[2J",
+                           display->colour ? ";40"
+                                           : ""); // fill the space around the picture with black, as in a window
     if (terminal_picture_is_graphics(display->renderer))
         byte_buffer_add_text(&out, DELETE_IMAGES);
     add_picture(&out, display, text, length);

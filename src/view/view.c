@@ -13,7 +13,7 @@
 #include <string.h>
 #include <unistd.h>
 
-// Seconds: the maximum delay before a saved script is noticed.
+// Maximum delay in seconds before a saved script is noticed.
 static const double MAX_SLEEP = 0.05;
 enum { MAX_EVENTS = 256, DEFAULT_SIZE = 512 };
 
@@ -24,14 +24,14 @@ static void on_interrupt(int number) {
     interrupted = number;
 }
 
-// The first signal closes the view properly; a second one ends the process.
+// The first signal closes the view in an orderly way. A second signal terminates the process.
 static void catch_interrupts(void) {
     signal_catch(SIGINT, on_interrupt, (int)SA_RESETHAND);
     signal_catch(SIGTERM, on_interrupt, (int)SA_RESETHAND);
     signal_catch(SIGHUP, on_interrupt, (int)SA_RESETHAND);
 }
 
-// Updates size and title of the display, which the script may change in any frame.
+// Updates the size and title of the display. The script may change them in any frame.
 static void follow_script(View *view) {
     int width = DEFAULT_SIZE, height = DEFAULT_SIZE;
     const char *title = view->live.options->script;
@@ -69,7 +69,7 @@ static bool can_step(const View *view) {
     return !view->live.halted && (!view->paused || view->step_once);
 }
 
-// Returns the seconds until the next action: a step, a picture, the end of a notice.
+// Returns the number of seconds until the next action: a step, a picture, or the end of a notice.
 static double idle_seconds(const View *view) {
     double now = clock_seconds(), idle = MAX_SLEEP;
     if (can_step(view))
@@ -79,7 +79,7 @@ static double idle_seconds(const View *view) {
     return fmax(0, fmin(idle, view->notice_ends - now));
 }
 
-// Reports the pointer to the session. The picture is centred in the display's pixels.
+// Reports the pointer to the session, relative to the picture, which is centred in the display.
 static void report_pointer(View *view, const Event *event) {
     int across, down;
     view->kind->size(view->display, view->width, view->height, &across, &down);
@@ -117,7 +117,7 @@ static void reset_script(View *view) {
     view_notice(view, "reset");
 }
 
-// Handles the keys for the script's parameters.
+// Handles a key for the script's parameters.
 static void change_parameters(View *view, const char *key) {
     SCOPED_BYTE_BUFFER text = {0};
     ParameterResult act = parameter_key(&view->parameters, &view->live, key, &text);
@@ -158,7 +158,7 @@ static void execute_key(View *view, const char *key) {
     }
 }
 
-// Keys that the script binds go to the script, unless they are pressed with Control.
+// Passes keys that the script binds to the script, unless Control is held.
 static void handle_key(View *view, const Event *event) {
     if (!event->key)
         return;
@@ -212,7 +212,7 @@ static void choose_detail(View *view) {
     live_script_set_detail(&view->live, width > 0 && width < view->width ? (double)width / view->width : 1);
 }
 
-// Replaces transparency by black, as there is nothing behind the picture.
+// Makes pixels opaque: transparent parts become black.
 static void make_opaque(uint32_t *pixels, size_t count) {
     for (size_t i = 0; i < count; i++)
         pixels[i] |= 0xFF000000;
@@ -245,13 +245,14 @@ static void draw_view(View *view) {
     PetriPicture *picture = view->live.picture_hidden ? NULL : view->live.picture;
     PetriStatus status;
     view->redraw = false;
-    view->drawn = clock_seconds(); // if drawing is slow, the next picture follows at once
+    view->drawn =
+        clock_seconds(); // time at the start of drawing, so that the next picture follows at once if drawing is slow
     if (!view->kind->show_directly || !view->kind->show_directly(view->display, picture, &view->overlay, &status))
         status = show_pixels(view, picture);
     live_script_check_drawn(&view->live, status);
     if (picture) {
         petri_picture_report(view->live.session, picture);
-        view_update_error_text(view); // show the problems that drawing reported
+        view_update_error_text(view); // show diagnostics reported during drawing
     }
     view->pictures++;
 }
@@ -280,7 +281,7 @@ static bool has_purpose(const View *view) {
            (view->live.picture && petri_picture_needs_history(view->live.picture));
 }
 
-// After the loss of a screen, the display's resources can neither be used nor closed.
+// If the screen was lost, replaces the display: its resources can no longer be used or even closed.
 static void check_display(View *view) {
     if (!view->kind->gone || !view->kind->gone(view->display))
         return;
@@ -288,7 +289,7 @@ static void check_display(View *view) {
     message(view->broken ? "display lost" : "display lost; continuing without it");
     view->kind = null_display();
     view->display = NULL;
-    view->paused = false; // the keys to resume are lost as well
+    view->paused = false; // there is no longer a keyboard with which to resume
     petri_report_pointer(view->live.session, NULL);
     petri_resync_clock(view->live.session);
 }
@@ -305,7 +306,7 @@ static void run_loop(View *view) {
                 petri_resync_clock(view->live.session);
             step_script(view);
         }
-        // A run with an end stops as soon as no further frame can be computed.
+        // If the length of the run is limited, a frame that fails ends the run.
         if (view->live.halted && (view->live.options->frames < INT64_MAX || !isnan(view->live.options->run_time)))
             return;
         view_measure_rate(view);
@@ -319,7 +320,7 @@ static void run_loop(View *view) {
         draw_view(view);
 }
 
-// Opens a window if there is a screen for it, else the terminal.
+// Opens a window if there is a screen, else the terminal display. Returns false after a message.
 static bool open_display(View *view) {
     const Options *options = view->live.options;
     bool window = !options->terminal && window_display() && window_has_screen();
@@ -346,7 +347,7 @@ static bool is_show(const View *view) {
     return view->live.options->terminal && view->live.options->verbosity == LOG_VERBOSE;
 }
 
-// Leaves the last picture of `petri run --show` on the normal screen, above the output of report_summary.
+// Writes the last picture of `petri run --show` to the normal screen, above the output of report_summary.
 static void leave_picture(const View *view) {
     enum { LINES_BELOW = 5 };
     if (is_show(view) && !interrupted && view->drawn_width > 0) {
@@ -355,7 +356,7 @@ static void leave_picture(const View *view) {
     }
 }
 
-// Reports the result on the normal screen, like the other commands, if standard error is a terminal.
+// Reports the result on the normal screen if standard error is a terminal, as other commands do.
 static void report_summary(const View *view) {
     Verbosity verbosity = view->live.options->verbosity;
     double seconds = clock_seconds() - view->start;
@@ -380,7 +381,7 @@ static int run_view(View *view) {
     view->redraw = true;
     view->live.awaits_display = true;
     if (view->live.options->frames > 0)
-        step_script(view); // the display needs the size of the picture
+        step_script(view); // the display's size is that of the picture
     follow_script(view);
     catch_interrupts();
     bool opened = open_display(view);

@@ -10,7 +10,7 @@
 typedef struct View {
     const CommandContext *host;
     LiveScript live;
-    Listener listener; // for editors
+    Listener listener; // for `petri send`
     const DisplayKind *kind;
     Display *display;
     Overlay overlay;
@@ -20,10 +20,10 @@ typedef struct View {
     bool shows_warnings;
     bool redraw;
     bool closing;
-    bool broken; // the display is lost, or out of memory
+    bool broken; // the view must end: the display was lost, or memory is exhausted
     double start;
-    double drawn;       // time at which drawing the last picture began
-    double notice_ends; // INFINITY: no end
+    double drawn;       // time at which drawing of the last picture began
+    double notice_ends; // time at which the notice disappears; INFINITY: never
     // The frame rate
     double measured;
     int64_t measured_frames;
@@ -41,11 +41,11 @@ typedef struct View {
     ParameterKeys parameters;
 } View;
 
-// status_text.c: the texts over the picture. Changing one makes the picture be drawn again.
+// status_text.c: the texts shown over the picture. After a change of a text, the picture is drawn again.
 
 // Shows a message about the last action for some seconds.
 __attribute__((format(printf, 2, 3))) void view_notice(View *view, const char *format, ...);
-// Shows for three seconds which key lists the other keys, unless another notice is shown.
+// Shows for three seconds which key lists all keys, unless another text is shown.
 void view_hint_keys(View *view);
 // Replaces the notice by the default one: how to resume while paused, else nothing.
 void view_reset_notice(View *view);
@@ -53,8 +53,8 @@ void view_reset_notice(View *view);
 void view_update_error_text(View *view);
 // Updates frame rate, clocks and keys.
 void view_update_status(View *view);
-// Measures the frame rate and updates the status twice a second; more often would be unreadable. While paused, the
-// status stays that of the current frame.
+// Measures the frame rate and updates the status, but only twice a second to keep it readable. While paused, does not
+// measure; the status shows the current frame.
 void view_measure_rate(View *view);
 
 #endif

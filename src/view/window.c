@@ -1,4 +1,4 @@
-// window.c: a display that is a window of SDL.
+// window.c: the window display, which uses SDL.
 #include "cli/byte_buffer.h"
 #include "cli/cli.h"
 #include "petri.h"
@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Returns the video driver that the user has chosen with SDL's environment variable, or NULL.
+// Returns the video driver that SDL_VIDEODRIVER selects, or NULL.
 static const char *chosen_driver(void) {
     const char *driver = getenv("SDL_VIDEODRIVER");
     return driver && driver[0] != '\0' ? driver : NULL;
@@ -40,10 +40,10 @@ struct Display {
     PetriPainter *painter; // borrowed
     bool gone;             // the screen was lost
     bool filled;           // petri made the window as large as the screen, without a window manager
-    SDL_Rect windowed;     // position of the window before that
+    SDL_Rect windowed;     // position and size of the window before it filled the screen
 };
 
-// Shrinks the script's size to fit the screen.
+// Scales the script's size down to fit on the screen.
 static void fit_screen(int *width, int *height) {
     SDL_Rect screen;
     if (SDL_GetDisplayUsableBounds(0, &screen) != 0)
@@ -73,8 +73,8 @@ static void window_close(Display *display) {
     free(display);
 }
 
-// Releases SDL's OpenGL context. SDL leaves it current in this thread, where it would prevent the use of petri's EGL
-// contexts. SDL makes it current again for its next drawing.
+// Releases SDL's OpenGL context. SDL leaves it current in this thread, which would prevent the use of petri's EGL
+// contexts. SDL makes its context current again when it draws.
 static void release_context(const Display *display) {
     if (!display->context && SDL_GL_GetCurrentContext())
         SDL_GL_MakeCurrent(display->window, NULL);
@@ -89,13 +89,13 @@ static bool create_window(Display *display, const char *title, int width, int he
     return display->window;
 }
 
-// Creates a window with an OpenGL context that the painter uses, so that pictures stay on the graphics card. Not if the
-// user has chosen a driver for SDL's renderer.
+// Creates a window with an OpenGL context that the painter uses, so that pictures stay on the graphics card. Returns
+// false if this fails or if the user has selected a driver for SDL's renderer.
 static bool create_with_gl(Display *display, const char *title, int width, int height) {
     const char *driver = getenv("SDL_RENDER_DRIVER");
     if (driver && driver[0] != '\0')
         return false;
-    setenv("EGL_LOG_LEVEL", "fatal", 0); // there is a fallback
+    setenv("EGL_LOG_LEVEL", "fatal", 0); // errors need no messages, because there is a fallback
     SDL_SetHint(SDL_HINT_VIDEO_X11_FORCE_EGL, "1");
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK, SDL_GL_CONTEXT_PROFILE_ES);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 3);
@@ -121,7 +121,7 @@ static bool create_with_gl(Display *display, const char *title, int width, int h
     return false;
 }
 
-// Returns a renderer that copies pixels to the screen, in software if there is no graphics card.
+// Returns a renderer that copies pixels to the screen. Without a graphics card, it is a software renderer.
 static SDL_Renderer *new_renderer(SDL_Window *window) {
     SDL_Renderer *renderer = SDL_CreateRenderer(window, -1, SDL_RENDERER_PRESENTVSYNC);
     return renderer ? renderer : SDL_CreateRenderer(window, -1, SDL_RENDERER_SOFTWARE);
@@ -136,7 +136,7 @@ static bool start_on(const DisplayProbe *screen) {
     return SDL_Init(SDL_INIT_VIDEO) == 0;
 }
 
-// Starts SDL only on screens that the environment names, because others are not where the user is.
+// Starts SDL only on screens that environment variables name, because other screens are not visible to the user.
 static bool start_video(void) {
     const char *driver = chosen_driver();
     bool started = false, tried = false;
@@ -178,7 +178,7 @@ static Display *window_open(const char *title, int width, int height, PetriPaint
     return display;
 }
 
-// Returns the name of a key. SDL numbers keys without a character as keyboards do.
+// Returns the name of a key. For keys that type no character, SDL's codes contain the keyboard's scancodes.
 static const char *key_name(SDL_Keycode code) {
     static const char *const keys[] = {
         "caps_lock", "f1",   "f2",         "f3",        "f4",          "f5",           "f6",          "f7",
@@ -207,7 +207,7 @@ static void output_size(const Display *display, int *width, int *height) {
         *width = *height = MIN_SIZE;
 }
 
-// Returns the number of pixels per unit of the window; more than one on high-density screens.
+// Sets the number of pixels per unit of the window size, which is more than 1 on high-density screens.
 static void density(const Display *display, double *across, double *down) {
     int width = 1, height = 1, pixels_across = 1, pixels_down = 1;
     SDL_GetWindowSize(display->window, &width, &height);
@@ -256,7 +256,7 @@ static Event window_event(const SDL_WindowEvent *event) {
     }
 }
 
-// SDL sends a quit event without closing the window if the Wayland server was lost.
+// If the Wayland server was lost, SDL sends a quit event without a request to close the window.
 static Event quit_event(Display *display) {
     const char *driver = SDL_GetCurrentVideoDriver();
     display->gone = driver && strcmp(driver, "wayland") == 0;
@@ -291,7 +291,7 @@ static Event translate_event(Display *display, const SDL_Event *event) {
     }
 }
 
-// Ignored events do not extend the waiting time.
+// Events that are ignored do not extend the waiting time.
 static Event window_next_event(Display *display, double seconds) {
     SDL_Event found;
     int wait = (int)(seconds * 1000);
@@ -306,7 +306,7 @@ static Event window_next_event(Display *display, double seconds) {
 }
 
 static void window_size(Display *display, int width, int height, int *drawn_width, int *drawn_height) {
-    (void)width; // the picture is centred in the window, whatever its size
+    (void)width; // the picture is centred in the window, so its size is not needed
     (void)height;
     output_size(display, drawn_width, drawn_height);
     release_context(display);
@@ -364,7 +364,7 @@ static void window_resize(Display *display, int width, int height) {
     }
 }
 
-// Fills the screen without a window manager, where a window gets the position and size it asks for.
+// Fills the screen if there is no window manager: a window then gets the position and size that it requests.
 static void fill_screen(Display *display) {
     SDL_Rect screen, *windowed = &display->windowed;
     int number = SDL_GetWindowDisplayIndex(display->window);

@@ -8,7 +8,7 @@
 #ifdef SDL_VIDEO_DRIVER_X11
 #include <X11/Xatom.h>
 
-// Loaded at run time: SDL has loaded it already, and linking it would slow down every start.
+// The library is loaded at run time: SDL has already loaded it, and linking petri with it would slow down every start.
 static const char LIBRARY[] = "libX11.so.6";
 
 typedef struct X11 {
@@ -32,7 +32,8 @@ static bool find_symbols(void *library, X11 *x11) {
            find_symbol(library, "XFree", &x11->release);
 }
 
-// A window manager is a client that redirects changes of the root's windows.
+// Returns true if there is a window manager, a client that redirects requests to change the children of the root
+// window.
 static bool is_managed(const X11 *x11, Display *display, Window root) {
     XWindowAttributes attributes;
     return x11->get_attributes(display, root, &attributes) != 0 &&
@@ -82,7 +83,7 @@ static int ignore_error(Display *display) {
     return 0;
 }
 
-// Called after an I/O error. If it returns, Xlib lets calls fail instead of ending the process.
+// Called by Xlib after an I/O error. When it returns, Xlib calls fail, but the process does not end.
 static void ignore_io_error(Display *display, void *gone) {
     (void)display;
     *(bool *)gone = true;
@@ -95,7 +96,7 @@ void window_manager_watch(struct SDL_Window *window, bool *gone) {
     SDL_VERSION(&info.version);
     if (!SDL_GetWindowWMInfo(window, &info) || info.subsystem != SDL_SYSWM_X11)
         return;
-    void *library = SDL_LoadObject(LIBRARY); // never unloaded, as SDL uses it too
+    void *library = SDL_LoadObject(LIBRARY); // never unloaded, because SDL also uses it
     if (library && find_symbol(library, "XSetIOErrorHandler", &set_error) &&
         find_symbol(library, "XSetIOErrorExitHandler", &set_exit)) { // available since libX11 1.7
         set_error(ignore_error);

@@ -7,11 +7,11 @@
 
 struct SDL_Window;
 
-// Returns false on an X11 screen without a window manager or whose window manager does not support full screen. SDL's
-// request is ignored there, but SDL assumes that the window fills the screen.
+// Returns true if a request for full screen has an effect: always, except on an X11 screen without a window manager
+// that supports full screen. SDL does not notice that the request is ignored there.
 bool window_manager_fills_screen(struct SDL_Window *window);
-// Prevents the loss of an X11 screen from ending the process, which is Xlib's default. Requests to the screen then
-// fail, and `*gone` is set. `gone` must live as long as the process.
+// Prevents Xlib from terminating the process when an X11 screen is lost. Instead, requests to the screen fail and
+// `*gone` is set. `gone` must remain valid until the process ends.
 void window_manager_watch(struct SDL_Window *window, bool *gone);
 
 #endif
