@@ -3,8 +3,8 @@
 
 #include "maths/arrays_isa.h"
 
-// Returns the functions for a level. CPU_SCALAR still uses two lanes, which every supported processor has. The one-lane
-// variant exists for comparison in tests.
+// Returns the functions for a level. CPU_SCALAR selects two lanes, which every supported processor has. The one-lane
+// variant only serves as a reference in tests.
 static const ArraysIsa *select_isa(CpuLevel level) {
 #if defined(__x86_64__)
     if (level == CPU_AVX512)

@@ -15,9 +15,9 @@ void maths_sin_cos_array(CpuLevel level, const double *x, size_t count, double *
 // maths_pow_array computes x[i]^y[i], maths_power_array x[i]^power.
 void maths_pow_array(CpuLevel level, const double *x, const double *y, size_t count, double *to);
 void maths_power_array(CpuLevel level, const double *x, double power, size_t count, double *to);
-// Computes the sine of t[i] full turns, as turns_sin (random.h).
+// Computes the sine of t[i] full turns, like turns_sin (random.h).
 void maths_turns_sin_array(CpuLevel level, const double *t, size_t count, double *to);
-// Computes random_uniform for items first to first + count - 1 of a stream.
+// Computes random_uniform(key, i) for i = first to first + count - 1.
 void maths_uniform_array(CpuLevel level, uint64_t key, uint64_t first, size_t count, double *to);
 
 // Constants of two-dimensional noise (spec builtins.md B10.7).

@@ -1,6 +1,6 @@
 // arrays_isa.c: the functions of arrays.h for one instruction set, LANES numbers at a time. MATHS_ISA is its name.
 //
-// Lanes that the fast path cannot decide are recomputed by the scalar function.
+// If the fast path cannot round a lane with certainty, the scalar function recomputes that lane.
 #include "maths/arrays_isa.h"
 
 #include "maths/fast_exp.h"
@@ -14,7 +14,7 @@
 #define JOIN(name, instance) name##instance
 #define NAMED(name, instance) JOIN(name, instance)
 
-// Loads up to LANES numbers. Missing ones become 1, a valid argument of every function.
+// Loads up to LANES numbers. The remaining lanes become 1, a valid argument of every function.
 KERNEL Real load(const double *from, size_t count) {
     if (count >= LANES)
         return real_load(from);
@@ -27,12 +27,12 @@ KERNEL void store(double *to, size_t count, Real r) {
     memcpy(to, &r, count >= LANES ? sizeof r : count * sizeof *to);
 }
 
-// Returns the lanes below `count` that are not decided yet.
+// Returns the lanes below `count` that are not in `good`, the set of lanes with a final result.
 KERNEL Lanes lanes_left(Lanes good, size_t count) {
     return ~good & (count >= LANES ? ALL_LANES : (1u << count) - 1);
 }
 
-// Recomputes a set of lanes by the scalar function.
+// Recomputes the lanes in `left` with the scalar function.
 static __attribute__((noinline)) void recompute_lanes(double (*function)(double x), Lanes left, Real in, double *to) {
     double x[LANES];
     real_store(x, in);
@@ -41,7 +41,7 @@ static __attribute__((noinline)) void recompute_lanes(double (*function)(double 
             to[lane] = function(x[lane]);
 }
 
-// Computes the sine of turns. The quadrant is added to the table row, so that all lanes use the same function.
+// Computes the sine of t turns. The quadrant only changes the table row, so all lanes evaluate the same polynomials.
 KERNEL Lanes turns_sin_lanes(Real t, Real *result) {
     Real quarters = t * real_set(4);
     Bits quadrant;

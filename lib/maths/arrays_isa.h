@@ -14,7 +14,7 @@ typedef struct ArraysIsa {
     void (*pow)(const double *x, const double *y, size_t step, size_t count,
                 double *to); // exponent of x[i]: y[step * i]
     void (*turns_sin)(const double *t, size_t count, double *to);
-    void (*uniform)(uint64_t key, uint64_t first, size_t count, double *to); // items of a stream: random_uniform
+    void (*uniform)(uint64_t key, uint64_t first, size_t count, double *to); // random_uniform(key, first + i)
     void (*plane_noise)(const PlaneNoise *noise, const uint8_t *permutation, const double *x, const double *y,
                         size_t count, double *to);
 } ArraysIsa;

@@ -1,4 +1,4 @@
-// double_bits.h: access to the bits of doubles, without the C library.
+// double_bits.h: access to the bits of doubles. Calls no function of the C library.
 #ifndef PETRI_MATHS_DOUBLE_BITS_H
 #define PETRI_MATHS_DOUBLE_BITS_H
 

@@ -1,13 +1,13 @@
-// exact.c: elementary functions for arguments that the fast paths cannot handle, either special or hard to round.
+// exact.c: elementary functions for arguments that the fast paths cannot handle: special values and hard cases.
 //
-// Ziv's method (ACM TOMS 17, 1991): the result is computed with 192 bits of fraction, then with 384 and 768, until all
+// Ziv's method (ACM TOMS 17, 1991): the result is computed with a fraction of 192 bits, then 384 and 768, until all
 // numbers within the error bound round to the same double. This terminates, because no result is exactly halfway
 // between two doubles. By Lindemann's theorem the results of atan2 and the functions of one argument are not algebraic,
 // except in cases that are handled first (0, 1, tiny ratios). Halfway cases of pow are found by integer arithmetic. The
-// hardest arguments known (tables by Lefèvre and Muller and later work) need fewer than 128 bits of relative accuracy;
-// the first two steps give more than 300.
+// hardest known arguments (tables by Lefèvre and Muller, and later work) need a relative accuracy of fewer than 128
+// bits. 384 bits of fraction give more than 300.
 //
-// fixed.h guarantees an error of 2^16 ulps for each function. SLACK also covers the few additional operations.
+// The error of each function of fixed.h is below 2^16 ulps. 2^SLACK ulps also cover the few operations added here.
 #include "maths/double_bits.h"
 #include "maths/fast.h"
 #include "maths/fixed.h"
@@ -20,8 +20,8 @@
 
 typedef enum Trig { SINE, COSINE, TANGENT } Trig;
 
-// Returns sine / cosine. The divisor is scaled to [1/2, 1) before the division and the quotient is scaled by the same
-// factor. No cosine of a double is below 2^-62 (nor a sine other than 0), so at most 62 bits are lost.
+// Returns sine / cosine. The divisor is scaled to [1/2, 1) before the division, and the quotient is scaled by the same
+// factor. The sine and cosine of a double of at least 2^-27 are at least 2^-62, so at most 62 bits are lost.
 static Fixed fixed_quotient(Fixed *sine, Fixed *cosine) {
     int shift = -double_exponent(fixed_to_double(cosine)) - 1;
     bool negative = fixed_is_negative(cosine);
@@ -36,7 +36,8 @@ static Fixed fixed_quotient(Fixed *sine, Fixed *cosine) {
 static double exact_trig(double x, Trig trig) {
     if (!double_is_finite(x))
         return double_is_nan(x) ? x + x : DOUBLE_NAN;
-    // Sine and tangent are between x - x^3/6 and x + x^3/3, which round to x. The cosine is at least 1 - 2^-55.
+    // Sine and tangent are between x - x^3/6 and x + x^3/3, which round to x. The cosine is at least 1 - 2^-55, which
+    // rounds to 1.
     if (double_absolute(x) < 0x1p-27)
         return trig == COSINE ? 1 : x;
     double result = 0;
@@ -53,7 +54,8 @@ static double exact_trig(double x, Trig trig) {
             c = fixed_negate(&t);
         }
         if (trig == TANGENT) {
-            // Both signs cancel after a half turn. The error of a quotient q grows with q^2.
+            // Half turns cancel in the quotient, as they negate both sine and cosine. The error of a quotient q grows
+            // with q^2.
             int shift = double_exponent(fixed_to_double(&c));
             slack += shift < 0 ? -2 * shift : 0;
             s = fixed_quotient(&s, &c);
@@ -74,7 +76,7 @@ EXACT(tan, exact_trig, TANGENT)
 
 // --- arcs
 
-// How the angle of (a, b), 0 ≤ b ≤ a, is mapped to the octant of the result.
+// The result for the angle r of (a, b), 0 ≤ b ≤ a: r, pi/2 - r, pi/2 + r, or pi - r.
 typedef enum Octant { AS_IT_IS, FROM_QUARTER, PAST_QUARTER, FROM_HALF } Octant;
 
 static Fixed in_octant(const Fixed *angle, Octant octant) {
@@ -86,7 +88,7 @@ static Fixed in_octant(const Fixed *angle, Octant octant) {
                                     : fixed_sub(&constant, angle);
 }
 
-// Returns the angle of the point (a, b) on the unit circle, 0 ≤ a, b ≤ 1. If `mirrored`, of (-a, b).
+// Returns the angle of the point (a, b) on the unit circle, 0 ≤ a, b ≤ 1. If `mirrored`, returns the angle of (-a, b).
 static Fixed circle_angle(const Fixed *b, const Fixed *a, bool mirrored) {
     Fixed d = fixed_sub(a, b);
     bool swap = fixed_is_negative(&d);
@@ -94,8 +96,8 @@ static Fixed circle_angle(const Fixed *b, const Fixed *a, bool mirrored) {
     return in_octant(&angle, mirrored ? (swap ? PAST_QUARTER : FROM_HALF) : (swap ? FROM_QUARTER : AS_IT_IS));
 }
 
-// Returns asin or acos of x, 2^-60 ≤ |x| < 1: the angle of (sqrt(1 - x^2), |x|) or (|x|, sqrt(1 - x^2)). With 192 bits
-// |x| is exact and its square is exact up to an ulp. 1 - x^2 ≥ 2^-53 is scaled to [1/4, 1] by an even shift before the
+// Returns asin x or acos x for 2^-60 ≤ |x| < 1, the angle of (sqrt(1 - x^2), |x|) or (|x|, sqrt(1 - x^2)). 192 bits
+// represent |x| exactly and its square within an ulp. 1 - x^2 ≥ 2^-53 is scaled to [1/4, 1] by an even shift before the
 // root is taken.
 static double exact_circle(double x, bool cosine) {
     double result = 0;
@@ -126,14 +128,14 @@ double exact_acos(double x) {
     if (!(double_absolute(x) <= 1))
         return double_is_nan(x) ? x + x : DOUBLE_NAN;
     if (double_absolute(x) < 0x1p-60)
-        return HALF_PI_HIGH; // the low part of pi/2 is 2^-53.9, far from the rounding limit 2^-53
+        return HALF_PI_HIGH; // pi/2 differs from it by 2^-53.9, clearly less than half an ulp (2^-53)
     return x == 1 ? 0 : x == -1 ? PI_HIGH : exact_circle(x, true);
 }
 
 // Returns the double nearest to atan(q) = q - q^3/3 + … for q = (b / a) 2^scale below 2^-60, with integers b and a
-// below 2^53. Such a quotient is either exactly halfway between two doubles or at least 2^-107 q away from that. So the
-// cube, below 2^-120 q, matters only for halfway cases, which it makes smaller. The quotient is therefore truncated to
-// 120 bits, an exact one is reduced by an ulp, and the last bit is set.
+// below 2^53. Such a quotient is either a midpoint between two doubles or at least 2^-107 q away from every midpoint.
+// So subtracting q^3/3, which is below 2^-120 q, changes the rounding only of midpoints, which round down. The quotient
+// is therefore truncated to 120 bits, an exact quotient is reduced by an ulp, and the last bit is set.
 static double tiny_ratio(uint64_t b, uint64_t a, int scale) {
     __extension__ typedef unsigned __int128 Long;
     Fixed q = fixed_from_int(0, 2);
@@ -168,7 +170,7 @@ static double exact_ratio(double b, double a, double x) {
     double result = 0;
     bool done = false;
     for (int size = FIRST_SIZE; !done && size <= FIXED_MAX_LIMBS; size *= 2) {
-        // A ratio below 2^-100 cannot change the rounding of pi/2 and pi, which are 2^-56 away from a halfway case.
+        // A ratio below 2^-100 cannot change the rounding of pi/2 and pi, which are 2^-56 away from any midpoint.
         Fixed a_fixed = fixed_from_double((double)am * 0x1p-53, size);
         Fixed b_fixed = fixed_from_double((double)bm * 0x1p-53, size);
         b_fixed = scale < -100 ? fixed_from_int(0, size) : fixed_scale(&b_fixed, scale);
@@ -198,7 +200,8 @@ double exact_atan2(double y, double x) {
 
 // --- exponential and logarithms
 
-// Rounds e^t = 2^k e^r with t = k ln2 + r and e^r in [1/2, 2], if an error of 2^slack ulps allows it.
+// Computes e^t = 2^k e^r with t = k ln2 + r and e^r in [1/2, 2]. If an error of 2^slack ulps in e^r cannot change the
+// rounded value, sets *result to it and returns true.
 static bool decide_exp(const Fixed *t, int slack, double *result) {
     int k = (int)(fixed_to_double(t) * LOG_2E_HIGH);
     Fixed log_2 = fixed_constant(fixed_log_2, FIXED_MAX_LIMBS, t->size);
@@ -228,7 +231,7 @@ double exact_exp(double x) {
 static Fixed fixed_log_of(double x, int size) {
     int exponent;
     double m = (double)double_split(x, &exponent) * 0x1p-52;
-    // With m in [0.7, 1.4), ln m does not cancel most of exponent * ln 2.
+    // m is moved to [0.7, 1.4), so that exponent * ln 2 + ln m is not a difference of similar numbers.
     return m < 1.40625 ? fixed_log(m, exponent + 52, size) : fixed_log(m * 0.5, exponent + 53, size);
 }
 
@@ -280,12 +283,12 @@ static uint64_t whole_root(uint64_t m) {
     return r * r == m ? r : 0;
 }
 
-// If x^y, x > 0, is a finite binary fraction of at most 64 bits, sets *result to it, rounded, and returns true. Such a
-// number can be halfway between two doubles; one with more than 54 bits cannot.
-// Let x = m 2^e and y = k 2^f with odd m and k. For m = 1 the power is finite if e y is an integer. For m > 1, y must
-// be positive, because the fraction 1/3 is infinite. For f < 0, x must be a perfect square -f times in a row, which is
-// possible at most five times for m < 2^53. Since m ≥ 3, m^(k 2^f) has at most 64 bits only if the exponent is at
-// most 40.
+// Requires x > 0. If x^y has at most 64 significant bits, sets *result to the power, rounded, and returns true. All
+// midpoints are among these powers, because a midpoint has 54 bits.
+// Let x = m 2^e and y = k 2^f with odd m and k. For m = 1 the power has finitely many bits if e y is an integer. For
+// m > 1, y must be positive, because the binary fraction of 1/m is periodic. For f < 0, the square root must be exact
+// -f times in a row, which is possible at most five times for m < 2^53. Since m ≥ 3, m^(k 2^f) has at most 64 bits
+// only if the exponent is at most 40.
 static bool pow_is_exact(double x, double y, double *result) {
     uint64_t m, k, power = 1;
     int e, f;
@@ -312,13 +315,13 @@ static bool pow_is_exact(double x, double y, double *result) {
             if (__builtin_mul_overflow(power, m, &power))
                 return false;
     Fixed whole = fixed_from_int(0, 1);
-    whole.limb[0] = power; // power 2^-64
+    whole.limb[0] = power; // in units of 2^-64
     *result = fixed_round(&whole, 64 + (y < 0 ? -e * n : e * n));
     return true;
 }
 
-// Returns x^y = e^(y ln x) for x > 0 and |y ln x| < 2^11. y is an integer times 2^exponent. The error of ln x, at most
-// 2^SLACK ulps, is multiplied by y.
+// Returns x^y = e^(y ln x) for x > 0, with |y| = k 2^exponent. The error of ln x, at most 2^SLACK ulps, is multiplied
+// by |y|.
 static double exact_positive_pow(double x, double y) {
     double result;
     if (pow_is_exact(x, y, &result))

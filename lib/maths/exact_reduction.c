@@ -1,9 +1,9 @@
 // exact_reduction.c: reduction of large arguments for the fast paths of sine, cosine and tangent.
 //
-// Payne and Hanek's method (1983) in integers, as in fixed_reduce. 256 bits of m 2/pi 2^exponent are computed, of which
-// the upper 64 are above the binary point. The upper 128 bits of the fraction are used. The lowest limb is truncated
-// and the error of the product is below m (2^53), so the angle is accurate to 2^-127 quarter turns. As two doubles it
-// is accurate to 2^-116.
+// Payne and Hanek's method (1983) with integers, like fixed_reduce. 256 bits of m 2/pi 2^exponent are computed, and the
+// upper 64 are the integer part. The upper 128 bits of the fraction are used. The lowest limb is truncated and the
+// error of the product is below m (2^53), so the angle is accurate to 2^-127 quarter turns. After conversion to two
+// doubles it is accurate to 2^-116.
 #include "maths/double_bits.h"
 #include "maths/fast.h"
 #include "maths/fixed.h"
@@ -21,7 +21,7 @@ void exact_reduction(double x, uint64_t *n, double *high, double *low) {
     const uint64_t *table = fixed_two_over_pi + from / 64;
     int shift = from % 64;
     for (int i = 0; i <= FRACTION; i++) {
-        uint64_t above = from / 64 + i < LIMBS ? table[i + 1] : 0; // there is nothing above the integer part
+        uint64_t above = from / 64 + i < LIMBS ? table[i + 1] : 0; // the integer part of 2/pi is 0
         uint64_t window = shift ? table[i] >> shift | above << (64 - shift) : table[i];
         Product t = (Product)m * window + carry;
         product[i] = (uint64_t)t;
@@ -30,7 +30,7 @@ void exact_reduction(double x, uint64_t *n, double *high, double *low) {
     // Rounded to units of pi/512: the integer part and 8 bits of the fraction become n.
     uint64_t upper = product[2] << 8 | product[1] >> 56, rest = product[1] << 8 | product[0] >> 56;
     *n = (product[3] << 8 | product[2] >> 56) + (upper >> 63);
-    // The rest in [-1/2, 1/2) steps, in units of 2^-64: 53 bits, then the other 11 and the next 64.
+    // The remainder in [-1/2, 1/2) steps of pi/512, in units of 2^-64: its first 53 bits, then the next 75.
     double first = (double)(int64_t)(upper & ~UINT64_C(2047));
     double second = (double)(upper & 2047) + (double)rest * 0x1p-64;
     if (x < 0) {
@@ -38,7 +38,7 @@ void exact_reduction(double x, uint64_t *n, double *high, double *low) {
         first = -first;
         second = -second;
     }
-    // multiplied by pi/512 2^-64, again as two doubles
+    // Multiply by pi/512 2^-64. The product also consists of two doubles.
     double a = first * HALF_PI_HIGH, b = real_two_product_error(first, HALF_PI_HIGH, a);
     b += first * HALF_PI_LOW + second * HALF_PI_HIGH;
     double sum = a + b;

@@ -1,14 +1,14 @@
 // fast.h: internal declarations of the elementary functions.
 //
-// Each function has a fast path, compiled once per instruction set (maths_isa.c). It either finds the correctly rounded
-// result or calls the exact_ function (exact.c), which handles all arguments.
+// Each function has a fast path, compiled once per instruction set (maths_isa.c). If the fast path cannot round the
+// result with certainty, it calls the exact_ function (exact.c), which handles all arguments.
 #ifndef PETRI_MATHS_FAST_H
 #define PETRI_MATHS_FAST_H
 
 #include <stddef.h>
 #include <stdint.h>
 
-// Names of the scalar functions with one parameter and with two.
+// X-macro: applies ONE to the names of functions with one parameter, and TWO to those with two.
 #define MATHS_FUNCTIONS(ONE, TWO)                                                                                      \
     ONE(sin)                                                                                                           \
     ONE(cos)                                                                                                           \
@@ -37,7 +37,7 @@ MATHS_FUNCTIONS(DECLARE_ONE, DECLARE_TWO)
 // Returns the sign of x^y for a negative x: -1 for odd integers y, 1 for even ones, 0 if the result is NaN.
 double exact_pow_sign(double x, double y);
 
-// Return approximations of ln m for m in [1/2, 2) and of atan q for q in [0, 1].
+// fast_log_near returns an approximation of ln m for m in [1/2, 2), fast_atan_near of atan q for q in [0, 1].
 double fast_log_near(double m);
 double fast_atan_near(double q);
 

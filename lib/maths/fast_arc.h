@@ -1,12 +1,12 @@
-// fast_arc.h: fast paths of asin, acos, atan2 and tan. They are scalar, because they branch.
+// fast_arc.h: fast paths of asin, acos, atan2 and tan. They need branches, so there are no vector variants.
 //
 // Each function uses a Taylor series around the nearest c = i/128: f(c + d) = a0 + a1 d + a2 d^2 + … up to d^8, with
-// |d| ≤ 2^-8. The first two coefficients have two parts. Sources of error, with u = 2^-53 (rounding x costs at most
-// u |x|):
-//   d          exact for the high part of a two-part argument. The low part contributes to a1 d + a2 d^2; the neglected
-//              terms are below 3 |a3| d^2 u < 2^-68 f for atan, 2^-69 f in row 0
+// |d| ≤ 2^-8. The coefficients a0 and a1 are stored as two doubles each. Sources of error, with u = 2^-53 (rounding x
+// changes it by at most u |x|):
+//   d          exact for the high part of a two-part argument. The low part is used in a1 d + a2 d^2 only; its other
+//              contributions are below 3 |a3| d^2 u < 2^-68 f for atan, 2^-69 f in row 0
 //   a0, a1 d   exact up to 2^-104
-//   a2 d^2 …   its value is called s. A square, two sums, a product, and three sums with slightly larger terms: 8 u s
+//   a2 d^2 …   called s below. A square, two sums, a product, and three sums with slightly larger terms: 8 u s
 // atan (c ≤ 1): s ≤ 2^-15 f. In row 0, s is d^3/3; elsewhere |a2| ≤ c and f ≥ c - d, and c = 1/128 is the worst case.
 // With |a9| ≤ 1/9 the truncated terms are below 2^-75. The total is below 2^-64.8 f.
 // asin (c ≤ 1/16): |a2| ≤ 0.51 c, s ≤ 2^-16 f, and the argument has no low part. With |a9| ≤ 0.2 the truncated terms
@@ -19,9 +19,9 @@
 // The error is below 2^-69.9. The two-part root (2^-104) and the two-part product add 2^-72. The subtraction from pi/2
 // or pi is exact up to 2^-105.
 //
-// tan = sine / cosine, with the quotient corrected once. The error is the sum of both relative errors and 2^-100. Only
-// one of the two can have n = 1 or 255 or be smaller than 2^-12. So the sum is 2^-67.1 + 2^-67.8 + 2^-69, where the
-// last term is the absolute error of the smaller one.
+// tan = sine / cosine, with the quotient corrected once. The error is the sum of both relative errors and 2^-100. At
+// most one of sine and cosine can have n = 1 or 255 (fast_sincos.h) or be smaller than 2^-12. So the sum is 2^-67.1 +
+// 2^-67.8 + 2^-69, where the last term is due to the absolute error of the smaller function.
 #ifndef PETRI_MATHS_FAST_ARC_H
 #define PETRI_MATHS_FAST_ARC_H
 
@@ -42,7 +42,8 @@ KERNEL void arc_sum(double a, double b, double lower, double *high, double *low)
 
 #define ARC_COLUMNS 11
 
-// Returns the table row for x = i/128 + d and the exact d. The table starts with row i = first.
+// Returns the table row for i, where x = i/128 + d and i/128 is nearest to x. Sets *d exactly. The table starts with
+// the row for i = first.
 KERNEL const double *arc_row(const double (*table)[ARC_COLUMNS], unsigned first, double x, double *d) {
     Bits i;
     *d = x - real_steps(x, 128, &i) * (1.0 / 128);
@@ -52,7 +53,7 @@ KERNEL const double *arc_row(const double (*table)[ARC_COLUMNS], unsigned first,
 // Evaluates the series of a table row at d.
 KERNEL void arc_series(const double *row, double d, double *high, double *low) {
     const double *a = row + 4;
-    // Estrin's scheme, whose dependency chain is shorter than that of Horner's.
+    // Estrin's scheme has a shorter dependency chain than Horner's.
     double square = d * d, third = real_muladd(d, a[5], a[4]);
     double sum = real_muladd(square, real_muladd(d, a[3], a[2]), real_muladd(d, a[1], a[0]));
     sum = real_muladd(square * square, real_muladd(square, a[6], third), sum);
@@ -61,14 +62,14 @@ KERNEL void arc_series(const double *row, double d, double *high, double *low) {
     arc_sum(row[0], p, small, high, low);
 }
 
-// Adds first_high + first_low to high + low and rounds the sum if the error allows it.
+// Adds first_high + first_low to high + low. Sets *result to the rounded sum and returns true if it is certain.
 KERNEL bool arc_decide(double first_high, double first_low, double high, double low, double error, double *result) {
     arc_sum(first_high, high, low + first_low, &high, &low);
     return lanes_decide(high, low, error, result);
 }
 
-// Computes acos(a) for a in [15/16, 1), where 1 - a is exact. The low part of the root is residue / (2 root). It is
-// computed as residue * root * (0.5 / square), so that the division need not wait for the root.
+// Computes acos(a) for a in [15/16, 1), where 1 - a is exact. The low part of the root is residue / (2 root). The
+// equivalent residue * root * (0.5 / square) lets the processor divide while it computes the root.
 KERNEL void acos_parts(double a, double *high, double *low) {
     double square = 1 - a, root = __builtin_sqrt(square);
     double d, h, l;
@@ -79,7 +80,7 @@ KERNEL void acos_parts(double a, double *high, double *low) {
     *low = real_two_product_error(root, h, *high) + real_muladd(root, l, rest * h);
 }
 
-// Computes asin(a) for a in [1/16, 15/16]. The row follows from the exponent and the next 6 mantissa bits of 1 - a.
+// Computes asin(a) for a in [1/16, 15/16]. The exponent and the upper 6 mantissa bits of 1 - a select the row.
 KERNEL void steep_asin_parts(double a, double *high, double *low) {
     const double *row = steep_asin_table[(double_bits(1 - a) >> 46) - (UINT64_C(0x3fb0) << 2)], *t = row + 5;
     double d = a - row[0], square = d * d;
@@ -144,13 +145,13 @@ KERNEL void atan_parts(double b, double a, double *high, double *low) {
 }
 
 KERNEL bool atan2_fast(double y, double x, double *result) {
-    // By |y| > |x| and x < 0: the angle to add (two parts) and the sign of the arc tangent.
+    // Indexed by |y| > |x| and x < 0: the angle to add (high and low part) and the sign of the arc tangent.
     static const double plans[2][2][3] = {{{0, 0, 1}, {PI_HIGH, PI_LOW, -1}},
                                           {{HALF_PI_HIGH, HALF_PI_LOW, -1}, {HALF_PI_HIGH, HALF_PI_LOW, 1}}};
     double a = real_absolute(x), b = real_absolute(y), high, low;
     double small = a < b ? a : b, large = a < b ? b : a;
-    // Ensures that no step overflows or underflows, and that the error of the angle exceeds that of pi (2^-105).
-    // Rejects NaN.
+    // These limits prevent overflow and underflow, make the error of the angle exceed that of pi (2^-105), and reject
+    // NaN.
     if (!(small > 0x1p-400 && large < 0x1p400 && small > 0x1p-36 * large))
         return false;
     atan_parts(small, large, &high, &low);

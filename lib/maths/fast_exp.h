@@ -1,4 +1,4 @@
-// fast_exp.h: fast path of the exponential function, e^(x + tail) as high + low, in lanes.
+// fast_exp.h: fast path of the exponential function, vectorised. Computes e^(x + tail) as high + low.
 //
 // Tang's method (ACM TOMS 15, 1989): x = k ln2/128 + r and e^x = 2^(k/128) e^r. A table holds 2^(i/128) as two doubles.
 //
@@ -11,7 +11,8 @@
 //   sums         rest + series, th q, and the sum with three smaller terms:
 //                at most six roundings of terms below 2^-17.8                  2^-68.2
 //   table        both parts together                                           2^-107
-// The total is below 2^-67.2, which EXP_ERROR covers. 2^(i/128) is below 2.
+// The total is below 2^-67.2, so EXP_ERROR is large enough. 2^(i/128) is below 2, so the absolute
+// error of high + low is below 2 EXP_ERROR.
 #ifndef PETRI_MATHS_FAST_EXP_H
 #define PETRI_MATHS_FAST_EXP_H
 

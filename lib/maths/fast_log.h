@@ -1,22 +1,21 @@
-// fast_log.h: fast paths of logarithms and powers, in lanes.
+// fast_log.h: fast paths of logarithms and powers, vectorised.
 //
 // Tang's method (ACM TOMS 16, 1990): x = 2^k m with m in [0.6875, 1.375). A table holds a short r near 1/m, and -ln r
-// in two parts. Then ln x = k ln2 - ln r + ln(1 + z) with z = r m - 1, |z| ≤ 2^-8. The generator asserts that z is a
-// double, so it is exact.
+// in two parts. Then ln x = k ln2 - ln r + ln(1 + z) with z = r m - 1, |z| ≤ 2^-8. generate_tables.py asserts
+// that a double holds z exactly.
 //
 // Sources of error, with u = 2^-53 and c = z^3/3 - z^4/4 + … ≈ z^3/3:
 //   k ln2 - ln r   the high parts are multiples of 2^-42, so their sum is exact; rounding and truncation of the low
 //                  parts cost at most (|k| + 3) 2^-97
 //   z - z^2/2      exact as three doubles: sums with their rounding errors, the square with its low part
-//   c              terms from z^10 / 10 < 2^-57 |c| are truncated. The factor z^6 / 9 of the term z^9 / 9 is replaced
-//   by
+//   c              terms beyond z^9 / 9 are dropped (below 2^-57 |c|). In the term z^9 / 9, z^6 / 9 is replaced with
 //                  the nearest parabola in z^2 (Chebyshev), which differs by 2^-48 / 288 < 2^-54.5 / 3 for |z| ≤ 2^-8.
 //                  The roundings are those of the square, its product with z, a sum of six terms (less than 2 u), and
 //                  the final product: in all less than 5.1 u |c|
-//   low            the largest term of its sum is c or rounding errors below u |high|: two roundings of c, 2 u |c|, and
-//                  four of terms below 1.1 u |high| + 2^-34: 2^-104 |high|
+//   low            a sum of c and rounding errors below u |high|: two roundings of c, 2 u |c|, and four of terms below
+//                  1.1 u |high| + 2^-34: 2^-104 |high|
 // The total is below 7.5 u |c| + 2^-96 |high|. The generator asserts |z|^3 ≤ 2^-15.9 |ln x| in each row, and |c| is at
-// most 0.34 |z|^3. So the error is below 2^-67.6 |ln x|. LOG_ERROR covers it and the 2^-104 that log2 and log10 add.
+// most 0.34 |z|^3. So the error is below 2^-67.6 |ln x|. LOG_ERROR covers this and the 2^-104 that log2 and log10 add.
 #ifndef PETRI_MATHS_FAST_LOG_H
 #define PETRI_MATHS_FAST_LOG_H
 
@@ -29,8 +28,8 @@
 
 #define LOG_FIRST UINT64_C(0x3fe6000000000000) // 0.6875
 
-// Computes ln x as high + low for positive normal x, with |low| < 2^-15 |high|. *cube is c (see above), which bounds
-// the error.
+// Computes ln x as high + low for positive normal x, with |low| < 2^-15 |high|. Sets *cube to c (see above), from which
+// the error bound follows.
 KERNEL void log_parts(Real x, Real *high, Real *low, Real *cube) {
     Bits from = bits_of(x) - bits_set(LOG_FIRST), row = from >> 44 & bits_set(255);
     Real m = real_of(bits_of(x) - (from & bits_set(UINT64_C(0xfff) << 52)));

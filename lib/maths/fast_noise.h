@@ -1,12 +1,12 @@
-// fast_noise.h: two-dimensional noise in lanes (arrays.h). It performs the operations of lib/builtin/noise_point.c in
-// the same order, but selects values instead of branching.
+// fast_noise.h: vectorised two-dimensional noise (arrays.h). The operations and their order are those of
+// lib/builtin/noise_point.c, but values are selected by masks instead of branches.
 #ifndef PETRI_MATHS_FAST_NOISE_H
 #define PETRI_MATHS_FAST_NOISE_H
 
 #include "maths/arrays.h"
 #include "maths/lanes.h"
 
-// Sets all bits of the lanes where a comparison is true.
+// Converts the result of a comparison to a mask: all bits of a lane are 1 where it is true, else 0.
 #if LANES == 1
 #define LANES_MASK(claim) (-(Bits)(claim))
 #else
@@ -21,7 +21,7 @@ KERNEL Real real_choose(Bits mask, double yes, double no) {
     return real_of(bits_choose(mask, bits_of(real_set(yes)), bits_of(real_set(no))));
 }
 
-// Returns floor(x) for |x| < 2^50, and the same as an integer in *whole.
+// Returns floor(x) for |x| < 2^50, and sets *whole to its value as an integer.
 KERNEL Real real_floor(Real x, Bits *whole) {
     Real near = real_steps(x, 1, whole);
     Bits above = LANES_MASK(near > x);
@@ -58,11 +58,11 @@ KERNEL Real noise_lanes(const PlaneNoise *noise, const double *permutation, Real
     p.y = y - (whole_y + q);
     Real value = noise_vertex(&p, real_set(0), real_set(1), real_set(0), one, zero, real_set(squish));
     value = noise_vertex(&p, value, real_set(0), real_set(1), zero, one, real_set(squish));
-    // The nearer of the vertices (0, 0) and (1, 1).
+    // the nearer of the vertices (0, 0) and (1, 1)
     Bits far = LANES_MASK(sum > real_set(1)), right = LANES_MASK(fx > fy);
     Real corner = real_choose(far, 1, 0), u = real_choose(far, 2, 1) - sum, side = real_choose(right, 1, -1);
     value = noise_vertex(&p, value, corner, corner, far & one, far & one, real_choose(far, 2 * squish, 0));
-    // The last vertex: beyond or beside that one, or the other of the two.
+    // the last vertex: a neighbour of the nearer one, outside the cell, or the farther of (0, 0) and (1, 1)
     Bits beyond = bits_choose(far, LANES_MASK(u < fx) | LANES_MASK(u < fy), LANES_MASK(u > fx) | LANES_MASK(u > fy));
     Bits other = ~far & one, step = (right & bits_set(2)) - one;
     Real rest = real_set(1) - corner;

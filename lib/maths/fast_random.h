@@ -1,4 +1,4 @@
-// fast_random.h: the raw generator of random streams, several items at a time.
+// fast_random.h: the generator of raw random numbers (random.h), vectorised.
 #ifndef PETRI_MATHS_FAST_RANDOM_H
 #define PETRI_MATHS_FAST_RANDOM_H
 

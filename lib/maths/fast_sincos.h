@@ -1,15 +1,15 @@
-// fast_sincos.h: fast paths of sine and cosine, in lanes.
+// fast_sincos.h: fast paths of sine and cosine, vectorised.
 //
 // The argument is reduced to x = n pi/512 + r with pi/512 in three parts P1, P2, P3 (Cody and Waite, 1980). A table
 // holds S and C, the sine and cosine of n pi/512 (Tang, 1991). Then
-//   sin x = S + C r + [S (cos r - 1) + C (sin r - r)]; the cosine is the sine a quarter turn further.
+//   sin x = S + C r + [S (cos r - 1) + C (sin r - r)], and cos x is the sine of x plus a quarter turn.
 //
-// Sources of error, with u = 2^-53 (rounding x costs at most u |x|), |r| ≤ pi/1024 (1 + 2^-20) < 2^-8.34, |n| < 2^24:
+// Sources of error, with u = 2^-53 (rounding x changes it by at most u |x|),
+// |r| ≤ pi/1024 (1 + 2^-20) < 2^-8.34, |n| < 2^24:
 //   reduction    n P1 and n P2 are exact (29 + 24 bits), x - n P1 is exact, n P3 < 2^-43.3 is rounded, P1 + P2 + P3 is
 //                pi/512 up to 2^-122. The absolute error is below 2^-95, and 0 for n = 0
-//   cos r - 1    at most 2^-17.69. Truncation after r^6/720: 2^-82. The square (u), times a sum near 1/2 (u/2), which
-//   is
-//                added to r low: 2^-71, and twice that if the product is not fused: 1.93 · 2^-70
+//   cos r - 1    at most 2^-17.69. Truncation after r^6/720: 2^-82. Roundings: the square (u), the sum near 1/2 (u/2)
+//                multiplied by it, and the addition of r low: 2^-71, or 1.93 · 2^-70 without a fused multiply-add
 //   S times it   the product and two later sums that are not larger: at most 3 · 2^-71 S
 //   sin r - r    at most 2^-27.6. Truncation after r^7/5040: 2^-85 |r|. Roundings: below 2^-77 |C r|
 //   C r, S       exact up to 2^-104
@@ -31,7 +31,7 @@ typedef struct ReducedArgument {
     Real high, low;
 } ReducedArgument;
 
-// Reduces x, |x| < SINCOS_MAX.
+// Reduces x for |x| < SINCOS_MAX.
 KERNEL ReducedArgument sincos_reduce(Real x) {
     ReducedArgument turn;
     Real n = real_steps(x, SINCOS_STEPS_PER_ONE, &turn.n);
@@ -42,10 +42,10 @@ KERNEL ReducedArgument sincos_reduce(Real x) {
     return turn;
 }
 
-// Functions of the reduced argument r.
+// Terms that depend on the reduced argument r only.
 typedef struct Arc {
     Real high;   // high part of r
-    Real versed; // cos r - 1
+    Real versed; // cos r - 1, the negated versine
     Real bent;   // sin r - r, plus the low part of r
 } Arc;
 
@@ -69,7 +69,7 @@ KERNEL Real real_flip(Real a, Bits sign) {
     return real_of(bits_of(a) ^ sign);
 }
 
-// Returns the table row for n. In odd quadrants the table is read backwards: the index is 256 - n mod 256.
+// Returns the table row for n. In odd quadrants the table is read backwards, at index 256 - n mod 256.
 KERNEL Row sincos_row(Bits n) {
     Bits backwards = bits_set(0) - (n >> 8 & bits_set(1)), index = n & bits_set(255);
     index = (index ^ backwards) + (backwards & bits_set(257));
@@ -100,7 +100,7 @@ KERNEL Lanes sincos_decide(Real high, Real low, Real *result) {
     return lanes_decide(high, low, error, result);
 }
 
-// Computes the sine of x plus `quarters` quarter turns.
+// Computes the sine of x plus `quarters` quarter turns. Returns the lanes with a final result.
 KERNEL Lanes sin_lanes(Real x, Bits quarters, Real *result) {
     ReducedArgument turn = sincos_reduce(x);
     Arc arc = sincos_arc(&turn);

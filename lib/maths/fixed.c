@@ -1,4 +1,4 @@
-// fixed.c: arithmetic of fixed.h.
+// fixed.c: the arithmetic functions of fixed.h.
 #include "maths/fixed.h"
 
 #include "maths/double_bits.h"
@@ -128,8 +128,8 @@ static inline __attribute__((always_inline)) void multiply_limbs(const uint64_t 
     }
 }
 
-// Schoolbook multiplication of both operands as unsigned numbers; the lower limbs are dropped at the end. A negative a
-// is represented by a + 2^(64 n), so b 2^(64 n) must be subtracted.
+// Multiplies the operands as unsigned numbers by the schoolbook method, then drops the lower limbs. A negative a is
+// represented as a + 2^(64 n), so b 2^(64 n) must be subtracted, and vice versa.
 Fixed fixed_mul(const Fixed *a, const Fixed *b) {
     Fixed r;
     r.size = a->size;
@@ -147,7 +147,7 @@ Fixed fixed_mul(const Fixed *a, const Fixed *b) {
     return r;
 }
 
-// Evaluates the series by Horner's rule directly on limbs, because most of the time is spent here.
+// Evaluates the series by Horner's rule. Works on limbs directly, because most of the time is spent here.
 static inline __attribute__((always_inline)) void sum_series(const Fixed *x, Series series, uint64_t *sum, int n) {
     uint64_t all[2 * FIXED_MAX_LIMBS + 4];
     for (int k = series.last - series.stride; k >= series.first; k -= series.stride) {
@@ -170,7 +170,7 @@ Fixed fixed_series(const Fixed *x, Series series) {
     return sum;
 }
 
-// Divides half a limb at a time, so that 64-bit divisions suffice.
+// Long division by half limbs, so that 64-bit divisions suffice.
 Fixed fixed_div_small(const Fixed *a, uint32_t by) {
     Fixed x = absolute_value(a), r;
     r.size = a->size;
@@ -195,8 +195,8 @@ Fixed fixed_mul_small(const Fixed *a, uint64_t by) {
     return fixed_is_negative(a) ? fixed_negate(&r) : r;
 }
 
-// Newton's iteration r + r (1 - a r) squares the relative error: 2^-48 at first, then 2^-96 and so on. The last step
-// adds less than 8 ulps: the roundings of two products, multiplied by r ≤ 2.
+// Newton's iteration r + r (1 - a r) squares the relative error: initially 2^-48, then 2^-96 and so on. The roundings
+// of the last iteration (two products, multiplied by r ≤ 2) add less than 8 ulps.
 Fixed fixed_inverse(const Fixed *a) {
     Fixed one = fixed_from_int(1, a->size), r = fixed_from_double(1 / fixed_to_double(a), a->size);
     for (int bits = 48; bits < 64 * a->size + 48; bits *= 2) {
@@ -208,7 +208,7 @@ Fixed fixed_inverse(const Fixed *a) {
     return r;
 }
 
-// Newton's iteration r + r (1 - a r^2) / 2 turns a relative error e, at first 2^-48, into 3/2 e^2.
+// Newton's iteration r + r (1 - a r^2) / 2 reduces a relative error e, initially 2^-48, to 3/2 e^2.
 Fixed fixed_inverse_root(const Fixed *a) {
     Fixed one = fixed_from_int(1, a->size), r = fixed_from_double(1 / __builtin_sqrt(fixed_to_double(a)), a->size);
     for (int bits = 47; bits < 64 * a->size + 47; bits = 2 * bits - 1) {
@@ -247,7 +247,7 @@ double fixed_round(const Fixed *a, int scale) {
     int top = bit_length(&x);
     if (!top)
         return 0;
-    // The lowest bit of the double has the weight 2^unit. It is bit number `last` of x.
+    // The lowest bit of the double is bit `last` of x and has the weight 2^unit.
     int weight = top - 64 * x.size + scale, unit = weight - 53 > -1074 ? weight - 53 : -1074;
     int last = unit - scale + 64 * x.size;
     if (last > top || weight > 1024)

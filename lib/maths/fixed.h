@@ -1,8 +1,8 @@
-// fixed.h: multi-word fixed-point arithmetic, for results that double arithmetic cannot round correctly.
+// fixed.h: multi-word fixed-point arithmetic, for results that the fast paths cannot round with certainty.
 //
-// A Fixed is an integer in two's complement, counted in units of 2^-(64 size), which are called ulps here. It has
-// `size` limbs of fraction, lowest first, and one limb for the integer part and the sign. All numbers of a computation
-// must have the same size. Nothing is allocated. A result may overwrite an argument.
+// A Fixed is a two's complement integer in units of 2^-(64 size), called ulps here. It has `size` 64-bit limbs of
+// fraction, lowest first, and one limb for the sign and the integer part. All numbers of a computation must have the
+// same size. Nothing is allocated. A result may overwrite an argument.
 #ifndef PETRI_MATHS_FIXED_H
 #define PETRI_MATHS_FIXED_H
 
@@ -16,11 +16,11 @@ typedef struct Fixed {
     uint64_t limb[FIXED_MAX_LIMBS + 2];
 } Fixed;
 
-// Convert x, |x| < 2^63, exactly except that bits below one ulp are truncated towards zero.
+// Convert x, |x| < 2^63. Bits below one ulp are truncated towards zero; otherwise the result is exact.
 Fixed fixed_from_double(double x, int size);
 Fixed fixed_from_int(int64_t x, int size);
-// Returns a constant of maths_tables.h, which has `limbs` limbs of fraction, truncated to `size` limbs. The result is
-// less than an ulp too small.
+// Returns a constant of maths_tables.h, truncated from `limbs` to `size` limbs of fraction. The result is too small by
+// less than an ulp.
 Fixed fixed_constant(const uint64_t *constant, int limbs, int size);
 
 bool fixed_is_negative(const Fixed *a);
@@ -29,16 +29,17 @@ Fixed fixed_add(const Fixed *a, const Fixed *b);
 Fixed fixed_sub(const Fixed *a, const Fixed *b);
 // Returns a 2^shift, truncated if shift is negative. |shift| < 64 size.
 Fixed fixed_scale(const Fixed *a, int shift);
-// fixed_mul returns the product, less than an ulp too small. fixed_div_small returns the quotient, truncated towards 0.
+// fixed_mul returns the product, too small by less than an ulp. fixed_div_small returns the quotient, truncated towards
+// zero.
 Fixed fixed_mul(const Fixed *a, const Fixed *b);
 Fixed fixed_div_small(const Fixed *a, uint32_t by);
-// Returns a times an integer below 2^63, exactly unless it overflows.
+// Returns a times an integer below 2^63, modulo 2^64 in the integer part; exact unless it overflows.
 Fixed fixed_mul_small(const Fixed *a, uint64_t by);
 // Return 1 / a and 1 / sqrt(a) for a in [1/2, 2), within 16 ulps.
 Fixed fixed_inverse(const Fixed *a);
 Fixed fixed_inverse_root(const Fixed *a);
 
-// The series 1/first! ± x/(first + stride)! + x^2/(first + 2 stride)! ± …, whose last term is divided by last!.
+// The series 1/first! ± x/(first + stride)! + x^2/(first + 2 stride)! ± …; the last term has the divisor last!.
 typedef struct Series {
     int first, last, stride; // last - first is a multiple of the stride
     bool alternating;
@@ -50,8 +51,8 @@ Fixed fixed_series(const Fixed *x, Series series);
 double fixed_to_double(const Fixed *a);
 // Returns the double nearest to a 2^scale, ties to even.
 double fixed_round(const Fixed *a, int scale);
-// If all numbers within 2^slack ulps of a, times 2^scale, round to the same double, sets *result to it and returns
-// true.
+// If all numbers within 2^slack ulps of a, multiplied by 2^scale, round to the same double, sets *result to that double
+// and returns true.
 bool fixed_decides(const Fixed *a, int slack, int scale, double *result);
 
 // --- elementary functions, with errors below 2^16 ulps

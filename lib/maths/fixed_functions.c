@@ -1,19 +1,19 @@
-// fixed_functions.c: elementary functions of fixed.h.
+// fixed_functions.c: the elementary functions of fixed.h.
 //
-// The argument is reduced to a small one, and a Taylor series is summed by Horner's rule. Each step multiplies the
-// previous error by less than 2^-6 and adds 2 ulps for a product and a constant. The total error is 3 ulps. The series
-// is truncated where the remaining terms are below one ulp.
+// The argument is reduced to a small argument, and a Taylor series is summed by Horner's rule. Each step multiplies the
+// error so far by less than 2^-6 and adds 2 ulps for a product and a constant, so the total error is below 3 ulps. The
+// series is truncated where the remaining terms are below one ulp.
 #include "maths/double_bits.h"
 #include "maths/fast.h"
 #include "maths/fixed.h"
 #include "maths/maths_tables.h"
 
-// Number of times that an argument is halved for the series.
+// How often the argument is halved before the series is summed.
 #define EXP_HALVINGS 8
 #define SINCOS_HALVINGS 6
 
-// Returns the index of the last term of e^x needed for |x| < 2^-bits and `size` limbs. Term n is below 2^-(bits n) /
-// n!.
+// Returns the index of the last term of e^x that is needed for |x| < 2^-bits and `size` limbs. Term n is below
+// 2^-(bits n) / n!.
 static int last_term(int bits, int size) {
     int left = 64 * size, n = 0;
     while (left > 0)
@@ -28,16 +28,16 @@ Fixed fixed_exp(const Fixed *r) {
         x = fixed_negate(&x);
     Series powers = {0, last_term(EXP_HALVINGS, r->size), 1, negative};
     Fixed sum = fixed_series(&x, powers);
-    // Each squaring doubles the relative error, at first 4 ulps, and adds an ulp. After eight squarings it is 2^12
-    // ulps.
+    // Each squaring doubles the relative error, initially 4 ulps, and adds an ulp. After eight squarings the error is
+    // below 2^12 ulps.
     for (int i = 0; i < EXP_HALVINGS; i++)
         sum = fixed_mul(&sum, &sum);
     return sum;
 }
 
-// Computes s = sin x and v = 1 - cos x of the small argument, then doubles the angle by 1 - cos 2x = 2 s^2 and
+// Computes s = sin x and v = 1 - cos x of the halved argument, then doubles the angle with 1 - cos 2x = 2 s^2 and
 // sin 2x = 2 s (1 - v). A doubling multiplies the error by less than 4, on average by less than 3. After six doublings
-// it is 2^12 ulps.
+// the error is below 2^12 ulps.
 void fixed_sin_cos(const Fixed *r, Fixed *sine, Fixed *cosine) {
     Fixed x = fixed_scale(r, -SINCOS_HALVINGS), one = fixed_from_int(1, r->size), square = fixed_mul(&x, &x);
     int last = last_term(SINCOS_HALVINGS, r->size) | 1; // odd, for the sine; the cosine uses the next even number
@@ -102,9 +102,10 @@ Fixed fixed_atan(const Fixed *b, const Fixed *a) {
     return fixed_add(&angle, &sum);
 }
 
-// Payne and Hanek's method (1983) multiplies only by those bits of 2/pi that contribute neither full turns nor amounts
-// below the precision. x = m 2^exponent with an integer m < 2^53. The window of 2/pi 2^exponent has two limbs more than
-// the result: one above the binary point and one below the last ulp. So the truncated bits are worth less than an ulp.
+// Payne and Hanek's method (1983) multiplies only by the bits of 2/pi that matter: the bits before them contribute full
+// turns, the bits after them amounts below the precision. x = m 2^exponent with an integer m < 2^53. The window of
+// 2/pi 2^exponent has two limbs more than the result: one above the binary point and one below the last ulp. So the
+// truncated bits contribute less than an ulp.
 Fixed fixed_reduce(double x, int size, int *quadrant) {
     enum { LIMBS = 1024 / 64 + FIXED_MAX_LIMBS + 2 };
     int exponent;
@@ -123,7 +124,7 @@ Fixed fixed_reduce(double x, int size, int *quadrant) {
     Fixed part = fixed_from_int(0, size);
     for (int i = 0; i < size; i++)
         part.limb[i] = window.limb[i + 1];
-    // Rounded to the nearest quarter turn; the rest is in [-1/2, 1/2].
+    // Round to the nearest quarter turn; the remainder `part` is in [-1/2, 1/2].
     uint64_t whole = window.limb[size + 1] + (part.limb[size - 1] >> 63);
     if (part.limb[size - 1] >> 63)
         part.limb[size] = UINT64_MAX;

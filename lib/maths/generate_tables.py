@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""generate_tables.py: writes maths_tables.h, the constants of lib/maths, by integer arithmetic.
+"""generate_tables.py: computes the constants of lib/maths with integer arithmetic and prints maths_tables.h.
 
 usage: generate_tables.py >maths_tables.h
 
-Needs only Python. Real numbers are integers in units of 2^-BITS. Every series is summed until its terms vanish, with
-GUARD extra bits. So each constant is the double nearest to the exact value, or its truncated bits. The assumptions that
-the error bounds of the fast paths make about the tables are asserted here.
+Needs only Python. Real numbers are integers in units of 2^-BITS. Every series is summed until its terms are 0. Each
+constant is the double nearest to the exact value or, if fixed-point, truncated. nearest asserts that a value is far
+enough from a midpoint to be rounded. This script also asserts what the fast paths' error bounds assume.
 """
 from fractions import Fraction
 
@@ -127,7 +127,7 @@ print('//')
 print('// clang-format off')
 print('#ifndef PETRI_MATHS_TABLES_H\n#define PETRI_MATHS_TABLES_H\n\n#include <stdint.h>\n')
 
-# --- exponential: ln 2 / 128 in two parts, whose first is exact when multiplied by an 18-bit k, and 2^(i/128)
+# --- exponential: 2^(i/128), and ln 2 / 128 in two parts; the product of the first part and an 18-bit k is exact
 step = parts(LN2 // 128, 42)
 assert (step[0] * 2**42).numerator.bit_length() <= 35
 show_number('EXP_STEPS_PER_ONE', [nearest(128 * ONE * ONE // LN2)])
@@ -138,7 +138,7 @@ show_number('LOG_2_LOW', [parts(LN2, 42)[1]])
 for name, value in (('LOG_2E', ONE * ONE // LN2), ('LOG_10E', ONE * ONE // LN10)):
     show_number(name + '_HIGH', [parts(value)[0]])
     show_number(name + '_LOW', [parts(value)[1]])
-# --- turns: pi / 512 in three parts, whose first two are exact when multiplied by a 24-bit k
+# --- turns: pi / 512 in three parts; the products of the first two parts and a 24-bit k are exact
 first = nearest(PI // 512, 36)
 second = nearest(PI // 512 - fixed(first), 65)
 third = nearest(PI // 512 - fixed(first) - fixed(second))
@@ -155,7 +155,7 @@ for name, value in (('PI', PI), ('HALF_PI', PI // 2)):
 show('double', 'exp_table', '[128][2]', [parts(exponential(LN2 * i // 128)) for i in range(128)],
      '2^(i/128) as high + low')
 
-# --- logarithm: for m in [0.6875, 1.375); row i is given by the upper 8 bits of the mantissa, counted from 0.6875
+# --- logarithm of m in [0.6875, 1.375): the upper 8 bits of the mantissa, counted from 0.6875, select row i
 rows = []
 for i in range(256):
     bits = 0x3fe6000000000000 + (i << 44)
@@ -176,7 +176,7 @@ for i in range(256):
     least = min(abs(1 - m) for m in ends if m != 1) if r != 1 else 0
     assert r == 1 or largest**3 <= least * Fraction(1, 2**16), i
     rows.append([r] + parts(log, 42) + [Fraction(0)])
-show('double', 'log_table', '[256][4]', rows, 'r, -ln r as high + low; r m - 1 is exact for the m of the row')
+show('double', 'log_table', '[256][4]', rows, 'r, then -ln r as high + low; r m - 1 is exact for each m of the row')
 
 sines = [parts(sine_cosine(PI * i // 512)[0] if i % 256 else ONE * (i // 256)) for i in range(257)]
 rows = [sines[i] + sines[256 - i] for i in range(257)]
@@ -235,7 +235,7 @@ for i in range(9):
 rows[0] = parts(0) + parts(ONE) + [nearest(fixed(v)) for v in taylor_asin(Fraction(0), 8)[2:]]
 show('double', 'asin_table', '[9][11]', rows, 'Taylor coefficients of asin at i/128: two as high + low, seven more')
 
-# For larger x the rows become narrower with 1 - x: row i is given by the upper 6 bits of its mantissa, from 1/16.
+# For larger x the rows become narrower with 1 - x, whose exponent and upper 6 mantissa bits select row i, from 1/16.
 rows = []
 for i in range(256):
     unit = Fraction(1, 16) * 2**(i // 64)
@@ -246,10 +246,10 @@ for i in range(256):
         PI // 2 - arctangent(Fraction(c.denominator * cosine, c.numerator * ONE))
     assert abs(a[2]) * (unit / 128)**2 < angle * Fraction(1, 2**16), i
     rows.append([c] + parts(angle) + parts(a[1]) + [nearest(v) for v in a[2:]])
-show('double', 'steep_asin_table', '[256][13]', rows, 'c, and Taylor coefficients of asin at c, for 1 - c from 1/16 to 1')
+show('double', 'steep_asin_table', '[256][13]', rows, 'c, then Taylor coefficients of asin at c: two as high + low, eight more; for 1 - c from 1/16 to 1')
 
-# acos x / sqrt(1 - x) has no singularity at 1: with t = 1 - x it is sqrt 2 times the sum of binomial(2 k, k) / (2 k + 1)
-# (t/8)^k. Around c = i/128, t = 1 - c - d. The coefficients decrease like 4^-k to 2^-k: 400 terms for 300 bits.
+# acos x / sqrt(1 - x) has no singularity at 1. With t = 1 - x, it is sqrt 2 times the sum of binomial(2 k, k) / (2 k + 1)
+# (t/8)^k. Around c = i/128, t = 1 - c - d. 400 terms give 300 bits, because the coefficients decrease like 2^-k or faster.
 from math import comb
 
 UNIT = 300
@@ -265,9 +265,9 @@ for i in range(120, 129):
         total = sum(comb(k, n) * (series[k] * powers[k - n] >> UNIT) for k in range(n, 400))
         row.append(times((-1)**n * total << (BITS - UNIT), root_two))
     rows.append(parts(row[0]) + parts(row[1]) + [nearest(v) for v in row[2:]])
-show('double', 'acos_table', '[9][11]', rows, 'Taylor coefficients of acos x / sqrt(1 - x) at i/128, from 15/16 on')
+show('double', 'acos_table', '[9][11]', rows, 'Taylor coefficients of acos x / sqrt(1 - x) at i/128, for x from 15/16 to 1')
 
-show_fixed_point('fixed_half_pi', PI // 2, WIDE, 'pi/2, lowest limb first; the last is the whole part')
+show_fixed_point('fixed_half_pi', PI // 2, WIDE, 'pi/2: fraction, lowest limb first, then the integer part')
 show_fixed_point('fixed_log_2', LN2, WIDE, 'ln 2')
 show_fixed_point('fixed_log2_e', ONE * ONE // LN2, WIDE, '1 / ln 2')
 show_fixed_point('fixed_log10_e', ONE * ONE // LN10, WIDE, '1 / ln 10')

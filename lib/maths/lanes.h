@@ -1,7 +1,7 @@
 // lanes.h: SIMD types and operations for the fast paths, LANES doubles at a time.
 //
-// The including file defines LANES as 1, 2, 4 or 8. With one lane a Real is a double, so that the same source also
-// compiles to the scalar functions. Arithmetic is written with C operators. Each is one IEEE operation per lane.
+// The including file defines LANES as 1, 2, 4 or 8 (default: 1). With one lane a Real is a double, so the same source
+// also compiles to the scalar functions. Arithmetic is written with C operators; each is one IEEE operation per lane.
 #ifndef PETRI_MATHS_LANES_H
 #define PETRI_MATHS_LANES_H
 
@@ -38,7 +38,7 @@ typedef uint64_t Bits __attribute__((vector_size(8 * LANES)));
 typedef unsigned Lanes;
 #define ALL_LANES ((1u << LANES) - 1)
 
-// The intersection of two sets. A single lane uses a branch, which is predicted well.
+// Intersection of two sets. A single lane uses &&, because its branch is well predicted.
 #if LANES == 1
 #define LANES_BOTH(a, b) ((a) && (b))
 #else
@@ -88,7 +88,7 @@ KERNEL Real real_absolute(Real a) {
 #endif
 }
 
-// Returns a b + c, rounded once or twice. Only for sums whose error bound covers both cases.
+// Returns a b + c, rounded once (fused) or twice. Use only where the error bound covers both cases.
 KERNEL Real real_muladd(Real a, Real b, Real c) {
 #if !HAS_FMA
     return a * b + c;
@@ -124,7 +124,7 @@ KERNEL Real real_two_product_error(Real a, Real b, Real p) {
 #endif
 }
 
-// Returns c - a b, the residue of a quotient or a root. Exact if it is a double and a b is near c.
+// Returns c - a b, the residue of a quotient or a root. Exact if the residue fits a double and a b is near c.
 KERNEL Real real_residue(Real c, Real a, Real b) {
 #if HAS_FMA
     return real_muladd(-a, b, c);
@@ -235,13 +235,13 @@ KERNEL Real lanes_exponent(Bits a) {
 #if LANES == 1
     return (double)((int64_t)a >> 52);
 #else
-    // Adding 2048 makes them positive. Combined with the exponent of 2^52 they form a double.
+    // Add 2048, so that the numbers are positive, and insert them into the mantissa of 2^52.
     Bits above = (a ^ bits_set(UINT64_C(1) << 63)) >> 52;
     return real_of(above | bits_set(UINT64_C(0x4330000000000000))) - real_set(4503599627370496.0 + 2048);
 #endif
 }
 
-// Comparisons return the lanes where they are true; false for NaN.
+// The comparisons return the lanes where they are true. They are false for NaN.
 KERNEL Lanes lanes_equal(Real a, Real b) {
 #if LANES == 1
     return a == b;
@@ -280,7 +280,8 @@ KERNEL Lanes lanes_decide(Real high, Real low, Real error, Real *result) {
     return lanes_equal(*result, high + (low - error));
 }
 
-// Returns x times `step` rounded to the nearest integer, and the same as an integer in *number. |x step| < 2^51.
+// Returns x times `step`, rounded to the nearest integer, and sets *number to its value as an integer. Requires
+// |x step| < 2^51.
 #define REAL_ROUNDER 6755399441055744.0 // 1.5 2^52
 KERNEL Real real_steps(Real x, double step, Bits *number) {
     Real shifted = x * real_set(step) + real_set(REAL_ROUNDER);

@@ -1,4 +1,5 @@
-// maths.c: see maths.h. Each function calls the variant for this processor. All variants return the same bits.
+// maths.c: see maths.h. Each function calls the variant for this processor. The results of all variants are
+// bit-identical.
 #include "maths/maths.h"
 
 #include "base/cpu.h"

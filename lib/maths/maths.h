@@ -1,10 +1,11 @@
 // maths.h: correctly rounded elementary functions.
 //
-// Each result is the double nearest to the exact value, ties to even. So it is the same with every compiler, C library,
-// processor and instruction set. Special cases follow C17 Annex F, but any NaN may be returned, and exception flags and
-// errno are undefined. The processor must be in the rounding mode to nearest.
+// Each result is the double nearest to the exact value, ties to even, so it does not depend on the compiler, C
+// library, processor or instruction set. Special cases follow C17 Annex F, but the bits of a NaN, the exception flags
+// and errno are unspecified. The rounding mode must be to nearest.
 //
-// The method is described in fast.h (Ziv's two steps), fast_exp.h, fast_log.h, fast_sincos.h, fast_arc.h and fixed.h.
+// The methods are described in fast.h, exact.c (Ziv's method), fast_exp.h, fast_log.h, fast_sincos.h, fast_arc.h and
+// fixed.h.
 #ifndef PETRI_MATHS_H
 #define PETRI_MATHS_H
 
@@ -20,7 +21,8 @@ double maths_log2(double x);
 double maths_log10(double x);
 double maths_pow(double x, double y);
 
-// Returns sqrt(x^2 + y^2) without intermediate overflow. Not correctly rounded, but the same on every machine.
+// Returns sqrt(x^2 + y^2) without intermediate overflow. The result is not correctly rounded, but
+// bit-identical on every machine.
 double maths_hypot(double x, double y);
 
 #endif

@@ -1,6 +1,6 @@
 // maths_isa.c: the scalar functions for one instruction set. MATHS_ISA is its name, as in maths_sin_plain.
 //
-// Each function tries its fast path first. If that cannot decide (about one in a thousand arguments), or if the
+// Each function tries its fast path first. If the rounding is uncertain (about one in a thousand arguments), or if the
 // argument is special, it calls the exact_ function.
 #include "maths/fast.h"
 

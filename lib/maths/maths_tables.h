@@ -156,7 +156,7 @@ static const double exp_table[128][2] = {
     {0x1.fd3c22b8f71f1p+0, 0x1.2eb74966579e7p-57},
 };
 
-// r, -ln r as high + low; r m - 1 is exact for the m of the row
+// r, then -ln r as high + low; r m - 1 is exact for each m of the row
 static const double log_table[256][4] = {
     {0x1.7400000000000p+0, -0x1.7eaf83b82b000p-2, 0x1.e4da62d0c25adp-49, 0x0.0p+0},
     {0x1.7300000000000p+0, -0x1.7bede0a37b000p-2, 0x1.018783cb9801ap-48, 0x0.0p+0},
@@ -823,7 +823,7 @@ static const double asin_table[9][11] = {
     {0x1.002abde953619p-4, 0x1.182e2dc6ddeedp-58, 0x1.00806050463f4p+0, -0x1.828b6295ee621p-54, 0x1.0181e23278b7fp-5, 0x1.5b61e9ddafe71p-3, 0x1.864f6db9edae1p-6, 0x1.427119fb2aadbp-4, 0x1.4a5f258b28dc2p-6, 0x1.91a6dfa5adec1p-5, 0x1.271ec0e36e2b1p-6},
 };
 
-// c, and Taylor coefficients of asin at c, for 1 - c from 1/16 to 1
+// c, then Taylor coefficients of asin at c: two as high + low, eight more; for 1 - c from 1/16 to 1
 static const double steep_asin_table[256][13] = {
     {0x1.dfc0000000000p-1, 0x1.36c70a16e655ep+0, 0x1.b4db83f23f535p-54, 0x1.6e730933fe475p+1, -0x1.b33c0b789b777p-53, 0x1.5fc8e4b1735bdp+3, 0x1.6159994cc4986p+6, 0x1.b7076cde7ce05p+9, 0x1.31341928daff0p+13, 0x1.c67a511bb21b7p+16, 0x1.626ea9a332bfdp+20, 0x1.1dce4fd981ba2p+24, 0x1.d8b9defe9189ep+27},
     {0x1.df40000000000p-1, 0x1.36107f18c9b78p+0, -0x1.b4268f15f7419p-54, 0x1.6bbba471cc925p+1, -0x1.605985d7fe7b9p-54, 0x1.57a9385125301p+3, 0x1.53fe91f4bbbbcp+6, 0x1.9ffe7bc8b5701p+9, 0x1.1cc75e027747ap+13, 0x1.a1979ad5f7d45p+16, 0x1.40b228caea9f2p+20, 0x1.fd4f124819d43p+23, 0x1.9ec58b1761694p+27},
@@ -1083,7 +1083,7 @@ static const double steep_asin_table[256][13] = {
     {0x1.0000000000000p-8, 0x1.00002aaabdddfp-8, -0x1.ad18dfe48fd32p-62, 0x1.0000800060005p+0, 0x1.1800fc00e700dp-66, 0x1.00018001e0023p-9, 0x1.555b5561d569cp-3, 0x1.8006400f501d9p-10, 0x1.3342337073d89p-4, 0x1.400a357eadcc7p-10, 0x1.6dd9dc59fa946p-5, 0x1.180ec45956678p-10, 0x1.f215df8be895fp-6},
 };
 
-// Taylor coefficients of acos x / sqrt(1 - x) at i/128, from 15/16 on
+// Taylor coefficients of acos x / sqrt(1 - x) at i/128, for x from 15/16 to 1
 static const double acos_table[9][11] = {
     {0x1.6bf3891642142p+0, -0x1.3342f7ba3ca1fp-54, -0x1.f0af3e719927bp-4, -0x1.efe71a036f5a4p-59, 0x1.cbc32659ce573p-6, -0x1.19ed7af01bf77p-7, 0x1.8b9b65d511ae3p-9, -0x1.2c71240e0aebbp-10, 0x1.e0cb120438c41p-12, -0x1.8f353b8bf0b42p-13, 0x1.54bf230394fa7p-14},
     {0x1.6bb58fd913c26p+0, 0x1.a15468b47e04ap-55, -0x1.eee520a55281ep-4, -0x1.26260de4cd987p-59, 0x1.c879fae3fca13p-6, -0x1.16dc1903c147dp-7, 0x1.85cb2af7fc72fp-9, -0x1.26defd8aa64e5p-10, 0x1.d60581a264b05p-12, -0x1.84b890f759fefp-13, 0x1.4a7aa82cceddfp-14},
@@ -1096,7 +1096,7 @@ static const double acos_table[9][11] = {
     {0x1.6a09e667f3bcdp+0, -0x1.bdd3413b26456p-54, -0x1.e2b7dddfefa66p-4, -0x1.60eea419de8e2p-60, 0x1.b27247aff148fp-6, -0x1.02995b6ed2ab7p-7, 0x1.5ffb671df4140p-9, -0x1.032fd0960e7e7p-10, 0x1.9212611d4aff3p-12, -0x1.439272b9b50a5p-13, 0x1.0ba9248c710d4p-14},
 };
 
-// pi/2, lowest limb first; the last is the whole part
+// pi/2: fraction, lowest limb first, then the integer part
 static const uint64_t fixed_half_pi[13] = {
     UINT64_C(0xdc70d7f6b5133f4b), UINT64_C(0x17feb96de80d6fdb), UINT64_C(0xe89885d34c6fdad6), UINT64_C(0xc90b6aecc4bcfd8d),
     UINT64_C(0x9fc26adadaa3848b), UINT64_C(0x605614dbe4be286e), UINT64_C(0xdf2a33679a748636), UINT64_C(0xa29410f31c6809bb),

@@ -9,16 +9,16 @@
 #include <math.h>
 #include <string.h>
 
-// Returns x ≥ 0 minus the nearest integer (ties to even), exactly, and that integer modulo 4 in *quadrant.
+// Returns x ≥ 0 minus the nearest integer (ties to even), which is exact. Sets *quadrant to that integer modulo 4.
 static double quarter_rest(double x, unsigned *quadrant) {
     *quadrant = 0;
     if (!(x < 9007199254740992.0)) {
-        // x is an integer, infinite or NaN. Integers from 2^63 are multiples of 4.
+        // x is an integer, infinite or NaN. Doubles of at least 2^63 are multiples of 4.
         if (x < 9223372036854775808.0)
             *quadrant = (uint64_t)x & 3;
         return x - x;
     }
-    // Remove a multiple of 4, so that the rest can be rounded by adding and subtracting 2^52.
+    // Subtract a multiple of 4, so that the remainder can be rounded by adding and subtracting 2^52.
     if (x >= 2251799813685248.0)
         x -= 2251799813685248.0 * (double)((uint64_t)x >> 51);
     double whole = x + 4503599627370496.0 - 4503599627370496.0;
@@ -82,7 +82,7 @@ double random_normal(uint64_t key, uint64_t i) {
 
 enum { PAIRS_AT_ONCE = 64 };
 
-// Computes `count` pairs of items; the first pair is 2 `pair` and 2 `pair` + 1.
+// Computes random_normal for `count` pairs of items, starting with items 2 * pair and 2 * pair + 1.
 static void normal_pairs(CpuLevel level, uint64_t key, uint64_t pair, size_t count, double *to) {
     double radius[PAIRS_AT_ONCE], turns[2 * PAIRS_AT_ONCE];
     maths_uniform_array(level, key, 2 * pair, 2 * count, turns);

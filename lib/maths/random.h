@@ -14,7 +14,7 @@ double turns_sin(double t);
 double turns_cos(double t);
 
 #define RANDOM_HASH_START UINT64_C(0xe220a8397b1dcdaf)
-// Returns the seed hash (B9.2) updated by a 64-bit number.
+// Returns the seed hash (B9.2) after hashing one more 64-bit number.
 static inline uint64_t random_hash_step(uint64_t hash, uint64_t y) {
     hash ^= y;
     hash += 0x9e3779b97f4a7c15u;
@@ -27,11 +27,12 @@ uint64_t random_hash_number(double x);
 
 // Returns item i of the five-round Squares generator (Widynski, "Squares: A Fast Counter-Based RNG"; spec B9.4).
 uint64_t random_raw(uint64_t key, uint64_t i);
-// Return item i of the three kinds of stream (B9.5).
+// Return item i of a stream in the distribution of their name (B9.5).
 double random_uniform(uint64_t key, uint64_t i);
 double random_beta(uint64_t key, uint64_t i);
 double random_normal(uint64_t key, uint64_t i);
-// Computes random_normal for items first to first + count - 1, much faster than one by one. `level` as in arrays.h.
+// Computes random_normal for items first to first + count - 1, much faster than separate calls. `level` is
+// described in arrays.h.
 void random_normals(CpuLevel level, uint64_t key, uint64_t first, size_t count, double *to);
 
 #endif
