@@ -10,12 +10,12 @@ typedef struct Colour {
 } Colour;
 
 static const Colour GROUND = {0.06, 0.07, 0.09};
-// Minimum radii: in pixels of a panel, and in pixels of the target.
+// Minimum radii of bodies: in pixels of a panel, and in pixels of the target.
 static const double MIN_RADIUS = 2, MIN_DEVICE_RADIUS = 1.5;
-// The eye is 0.45 radians to the right of the front and 0.35 above it.
+// The camera is 0.45 radians to the right of the front view and 0.35 radians above it.
 static const double COS_YAW = 0.9004471023526769, SIN_YAW = 0.43496553411123023;
 static const double COS_PITCH = 0.9393727128473789, SIN_PITCH = 0.34289780745545134;
-static const double EYE = 4; // distance of the eye, in halves of the view's side
+static const double EYE = 4; // distance of the camera from the centre, in units of half the view's side
 
 // The area in which a system is drawn.
 typedef struct Panel {
@@ -23,7 +23,7 @@ typedef struct Panel {
     const AutoSystem *system;
     double x; // centre
     double y;
-    double side;  // half the side of the view
+    double side;  // half the side of the view, in the picture's units
     double scale; // units of the picture per unit of the system
     double width;
     double height;
@@ -35,7 +35,8 @@ static Colour mix_colours(Colour a, Colour b, double part) {
     return (Colour){a.r + (b.r - a.r) * part, a.g + (b.g - a.g) * part, a.b + (b.b - a.b) * part};
 }
 
-// Colours of charges: blue, white, orange. Colours of speeds: deep blue, turquoise, pale yellow.
+// Returns the colour of a shade. Charges range from blue through white to orange, speeds from deep blue through
+// turquoise to pale yellow.
 static Colour shade_colour(const AutoSystem *system, double shade) {
     static const Colour negative = {0.25, 0.55, 1}, neutral = {0.85, 0.87, 0.9}, positive = {1, 0.5, 0.15};
     static const Colour slow = {0.2, 0.35, 0.75}, middle = {0.2, 0.75, 0.7}, fast = {1, 0.95, 0.6};
@@ -48,7 +49,8 @@ static void set_colour(cairo_t *cr, Colour c, double alpha) {
     cairo_set_source_rgba(cr, c.r, c.g, c.b, alpha);
 }
 
-// A point of a system, projected to its panel. `depth` grows away from the eye; `size` is the scale at that depth.
+// A point of a system, projected to its panel. `depth` increases with the distance from the camera; `size` is the scale
+// at that depth.
 typedef struct Projected {
     double x;
     double y;
@@ -93,7 +95,7 @@ static void set_ball(cairo_t *cr, const Projected *seen, double radius, Colour c
     cairo_pattern_destroy(ball);
 }
 
-// Paints for the cost model: a plain colour and a gradient.
+// Paints that are passed to the cost model: a plain colour and a gradient.
 static const DisplayPaint PLAIN = {.composite = COMPOSITE_OVER, .source = DISPLAY_NONE},
                           SHADED = {.composite = COMPOSITE_OVER};
 
@@ -171,7 +173,7 @@ static void draw_links(const Panel *panel) {
 
 static const Colour WALL = {0.75, 0.7, 0.55};
 
-// Draws a barrier of one or two dimensions: a line, with the blocked side shaded.
+// Draws the barrier of a one- or two-dimensional system: a line, with the blocked side shaded.
 static void draw_wall(const Panel *panel, const AutoBarrier *barrier) {
     cairo_t *cr = panel->canvas->cr;
     Projected at = project_point(panel, barrier->position);
@@ -181,8 +183,8 @@ static void draw_wall(const Panel *panel, const AutoBarrier *barrier) {
         return;
     nx /= length;
     ny /= length;
-    // The point of the wall that is nearest to the panel's centre. The line then spans the panel, however far away the
-    // barrier's position is.
+    // Starts from the point of the wall nearest to the panel's centre, so the line spans the panel even if the
+    // barrier's position is far away.
     double along = (panel->x - at.x) * -ny + (panel->y - at.y) * nx;
     double x = at.x - ny * along, y = at.y + nx * along;
     cairo_move_to(cr, x - ny * far, y + nx * far);
@@ -198,7 +200,7 @@ static void draw_wall(const Panel *panel, const AutoBarrier *barrier) {
     cairo_fill(cr);
 }
 
-// Draws a barrier of three dimensions: a grid of lines around the point of the wall that is nearest to the view's
+// Draws the barrier of a three-dimensional system: a grid of lines around the point of the wall nearest to the view's
 // centre.
 static void draw_grid(const Panel *panel, const AutoBarrier *barrier) {
     enum { LINES = 4 };

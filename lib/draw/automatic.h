@@ -1,11 +1,12 @@
 // automatic.h: the automatic picture of particle systems, for scripts that do not draw.
 //
-// Each system gets a separate panel. Systems of one and two dimensions are seen from above (y upwards, as in physics),
-// systems of three in perspective from the front, a little to the right and above.
+// Each system gets a separate panel. One- and two-dimensional systems are viewed from above, with y upwards as in
+// physics. Three-dimensional systems are drawn in perspective, viewed from the front and slightly from the right and
+// above.
 //
-// The view is chosen from the first frame that has particles. It grows about its centre when particles leave it, and
-// never shrinks. It depends only on the particles of the frames for which auto_frame was called. Lines through the
-// origin and a scale bar with its length give orientation.
+// The view is chosen from the first frame that has particles. When particles leave it, it grows around its centre; it
+// never shrinks. It depends only on the particles of the frames for which auto_frame was called. Axes through the
+// origin and a labelled scale bar provide orientation.
 #ifndef PETRI_DRAW_AUTOMATIC_H
 #define PETRI_DRAW_AUTOMATIC_H
 
@@ -30,11 +31,12 @@ typedef struct AutoBarrier {
     double normal[3];
 } AutoBarrier;
 
-// Sides in pixels: the shorter side of a panel is AUTO_PANEL. A share of AUTO_MARGIN stays free on each side.
+// AUTO_PANEL is the length of the shorter side of a panel in pixels. AUTO_MARGIN is the fraction of it that stays free
+// at each edge.
 enum { AUTO_PANEL = 540 };
 #define AUTO_MARGIN 0.04
 
-// A line of the scale bar; pixels to the right and up from the lower left corner of the panel.
+// A line of the scale bar, in pixels from the lower left corner of the panel; y points upwards.
 typedef struct AutoLine {
     double x1, y1, x2, y2;
 } AutoLine;
@@ -65,7 +67,8 @@ typedef struct AutoPicture {
     uint32_t count;
 } AutoPicture;
 
-// Chooses the view of a system, or extends it. Without bodies the view does not change. The arena is for temporaries.
+// Chooses the view of a system, or extends it. If there are no bodies, the view does not change. Temporary data is
+// allocated from the arena.
 void auto_frame(Arena *arena, AutoFrame *frame, const AutoSystem *system);
 // Creates the lines of the scale bar for the system's view.
 void auto_scale(Arena *arena, AutoSystem *system);

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-// Modes of the form s·f + d·g. The factors depend on the alpha of the other colour.
+// Factors f and g of composite modes of the form s·f + d·g. Each factor depends on the alpha of the other colour.
 typedef enum Factor { NOTHING, ALL, ALPHA, REST } Factor; // 0, 1, alpha, 1 - alpha
 
 typedef struct Factors {
@@ -36,7 +36,7 @@ static float hard_light(float s, float d) {
     return s <= 0.5f ? 2 * s * d : 2 * s - 1 + d - (2 * s - 1) * d;
 }
 
-// Blends one channel of colours that are not premultiplied.
+// Blends one channel of two non-premultiplied colours.
 static float blend_channel(CompositeMode mode, float s, float d) {
     switch (mode) {
     case COMPOSITE_MULTIPLY:

@@ -3,14 +3,14 @@
 
 #include <math.h>
 
-enum { MAX_LAYERS = 64 }; // open at the same time
+enum { MAX_LAYERS = 64 }; // maximum number of layers that are open at the same time
 static const double MAX_LAYER_PIXELS = 1 << 27;
 
 typedef struct Layers {
     bool drawn[MAX_LAYERS]; // true if the layer has a separate surface, false if it is drawn directly
     double pixels[MAX_LAYERS];
     FloatImage below[MAX_LAYERS]; // for HDR canvases: the image below the layer
-    uint32_t depth;               // number of open layers; those from MAX_LAYERS on are drawn directly
+    uint32_t depth;               // number of open layers; layers with index MAX_LAYERS or more are drawn directly
 } Layers;
 
 bool draw_is_invertible(const cairo_matrix_t *m) {
@@ -23,7 +23,7 @@ double draw_scale_of(cairo_t *cr) {
     return sqrt(fabs(m.xx * m.yy - m.xy * m.yx));
 }
 
-// Begins a layer. If there are too many, it is drawn directly, because layers take memory and time.
+// Begins a layer. If too many layers are open, its content is drawn directly, because layers take memory and time.
 static void begin_layer(Canvas *canvas, Layers *layers, const Origin *place) {
     double x1, y1, x2, y2;
     uint32_t at = layers->depth++;
@@ -72,7 +72,7 @@ static void end_layer(Canvas *canvas, Layers *layers, double alpha) {
     draw_release(canvas, (size_t)layers->pixels[at] * sizeof(uint32_t));
 }
 
-// Adds a rectangle around everything, which inverts a path under the even-odd rule.
+// Adds a rectangle around the clip area, which inverts the path under the even-odd rule.
 static void add_outer_rectangle(Canvas *canvas) {
     double x1, y1, x2, y2;
     cairo_t *cr = canvas->cr;
@@ -116,7 +116,7 @@ static void draw_command(Canvas *canvas, const DisplayCommand *command) {
     (paint->filter != DISPLAY_NONE ? draw_filtered : draw_unfiltered)(canvas, command, paint);
 }
 
-// Sets the current transform. Returns false if it is not invertible; nothing would be visible.
+// Sets the current transform. Returns false if it is not invertible, because nothing would be visible.
 static bool set_matrix(Canvas *canvas, const DisplayMatrix *m) {
     cairo_matrix_t matrix = {m->xx, m->yx, m->xy, m->yy, m->x0, m->y0};
     cairo_matrix_multiply(&matrix, &matrix, &canvas->base);

@@ -46,7 +46,7 @@ typedef struct Page {
     const DrawNode *canvas;  // the canvas to draw; NULL: none
     cairo_surface_t *pixels; // an image that is drawn instead of a canvas; NULL: none
     FloatImage hdr_target;   // the image to draw on instead of the surface; no pixels: none
-    double width;            // size in units, which is fitted to the surface
+    double width;            // size of the content in units; it is scaled to fit the surface
     double height;
     bool black; // true for a black background
 } Page;
@@ -55,7 +55,8 @@ static void draw_image_of(cairo_t *cr, cairo_surface_t *pixels, double width, do
     cairo_scale(cr, width / cairo_image_surface_get_width(pixels), height / cairo_image_surface_get_height(pixels));
     cairo_set_source_surface(cr, pixels, 0, 0);
     cairo_pattern_set_filter(cairo_get_source(cr), CAIRO_FILTER_BILINEAR);
-    cairo_pattern_set_extend(cairo_get_source(cr), CAIRO_EXTEND_PAD); // avoids transparent edges; the clip limits it
+    cairo_pattern_set_extend(cairo_get_source(cr),
+                             CAIRO_EXTEND_PAD); // avoids transparent edges; the clip hides the padding
     cairo_paint(cr);
 }
 
@@ -152,7 +153,7 @@ PetriStatus draw_canvas(PetriPainter *painter, const CanvasPicture *picture, con
     cairo_surface_t *surface = texture->bytes ? surface_of(texture->bytes, texture->width, texture->height,
                                                            (size_t)texture->width * sizeof(uint32_t))
                                               : cairo_image_surface_create(CAIRO_FORMAT_A8, texture->width,
-                                                                           texture->height); // only for the clip
+                                                                           texture->height); // only tracks the clip
     PetriStatus result = draw_on(painter, &page, surface, false, texture->width, texture->height, faults);
     cairo_surface_finish(surface);
     cairo_surface_destroy(surface);
@@ -241,7 +242,7 @@ static PetriStatus encode_vector(PetriPainter *painter, const Page *page, bool p
                                  DiagSink *faults) {
     cairo_surface_t *surface = pdf ? cairo_pdf_surface_create_for_stream(append_bytes, out, width, height)
                                    : cairo_svg_surface_create_for_stream(append_bytes, out, width, height);
-    if (pdf) // so that the same picture gives the same bytes
+    if (pdf) // a fixed date, so that equal pictures are encoded to equal bytes
         cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
     else
         cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PX);

@@ -1,8 +1,8 @@
 // cairo_canvas.h: drawing of pictures to pixels and files. Cairo draws; in builds without it, all functions return
 // PETRI_UNSUPPORTED.
 //
-// A picture is plain data and is not modified while it is drawn. A painter caches fonts and images from picture to
-// picture. A picture and a painter are used by one thread at a time; there is no global state.
+// A picture is plain data and is not modified while it is drawn. A painter caches fonts and images between pictures.
+// Only one thread at a time may use a picture or painter. There is no global state.
 #ifndef PETRI_DRAW_CAIRO_CANVAS_H
 #define PETRI_DRAW_CAIRO_CANVAS_H
 
@@ -24,14 +24,14 @@ typedef struct CanvasPicture {
     const DrawNode *direct; // the canvas that fills the window; NULL: the window must be composed
     bool needs_history;     // true if a window refers to earlier frames
     double beat;
-    const char *names[PICTURE_NAMES]; // names of global values such as beat and time, for shaders
+    const char *names[PICTURE_NAMES]; // names of global values that shaders can use, such as beat and time
     double numbers[PICTURE_NAMES];
     uint32_t name_count;
     uint64_t serial; // unique number of the picture
     const AutoPicture *automatic;
     double width; // in the script's units
     double height;
-    double detail;    // pixels per unit in the pictures of the render graph
+    double detail;    // pixels per unit of pictures in the render graph
     bool opaque;      // true for a black background, false for a transparent one
     FileAccess reach; // which image files the script may read
     size_t memory;    // limit in bytes, including what the painter caches
@@ -47,11 +47,13 @@ typedef struct Recorded {
     Texture *texture;       // an sRGB picture
 } Recorded;
 
-// Renders the tree of pictures unless it was already rendered for this picture. Then the painter has its records.
+// Renders the render graph of a picture, unless the painter has already done so. After that, draw_records returns the
+// picture's records.
 PetriStatus draw_render(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults);
-// Returns the rendered picture of the window; NULL: there is none, or it is drawn directly.
+// Returns the rendered picture of the window. Returns NULL if there is none, or if its canvas is drawn directly.
 const Texture *draw_rendered(const PetriPainter *painter, const CanvasPicture *picture);
-// Returns the scale at which width x height fits into a box with its proportions kept, and its offset in the box.
+// Returns the scale at which width x height fits into a box without changing its aspect ratio. *left and *top receive
+// the offset that centres it in the box.
 double draw_fit(double width, double height, double box_width, double box_height, double *left, double *top);
 // Draws into premultiplied ARGB32 pixels. Problems are reported to `faults`; if the result is PETRI_INVALID, one of
 // them is an error.
@@ -60,7 +62,7 @@ PetriStatus draw_pixels(PetriPainter *painter, const CanvasPicture *picture, uin
 // Encodes a file that shows the picture at width x height pixels.
 PetriStatus draw_encode(PetriPainter *painter, const CanvasPicture *picture, CanvasFormat format, int width, int height,
                         Encoded *out, DiagSink *faults);
-// Returns the records of the last rendered picture. *count is 0 if `picture` is another one.
+// Returns the records of the last rendered picture. *count is 0 if that was not `picture`.
 const Recorded *draw_records(const PetriPainter *painter, const CanvasPicture *picture, uint32_t *count);
 // Encodes the file of one record.
 PetriStatus draw_encode_record(PetriPainter *painter, const CanvasPicture *picture, const Recorded *record,

@@ -27,7 +27,7 @@ void draw_set_edges(Canvas *canvas, bool antialias, int fill_type) {
 // The time to fill a path grows with the number of rows that its edges cross, and faster if edges cross each other. A
 // path of a million points all over the picture would take hours.
 static const double SMOOTH_WORK = 1e6; // limit for antialiasing; takes about a second
-static const double MAX_WORK = 1e7;    // limit without antialiasing; takes some seconds
+static const double MAX_WORK = 1e7;    // limit without antialiasing; takes a few seconds
 
 bool draw_is_drawable(Canvas *canvas) {
     if (canvas->path_work > MAX_WORK && !canvas->failed) {
@@ -67,8 +67,8 @@ static void stroke_path(Canvas *canvas, const DisplayPaint *paint) {
     cairo_restore(cr);
 }
 
-// Strokes a long path in segments, which is much faster than all at once. Each segment starts with the last line of the
-// previous one, so that the joins between them are drawn.
+// Strokes a long path in segments, which is much faster than stroking it at once. Each segment starts with the last
+// line of the previous one, so that the joins between segments are drawn.
 static void stroke_in_segments(Canvas *canvas, const DisplayPaint *paint) {
     enum { SEGMENT = 16 };
     cairo_t *cr = canvas->cr;
@@ -119,7 +119,8 @@ static void stroke_part(Canvas *canvas, const DisplayCommand *command, const Dis
     }
 }
 
-// Fills and strokes a path with an effect, which may give different paths for the two.
+// Applies a path effect, then fills and strokes the result. The effect may produce different paths for filling and
+// stroking.
 static void draw_with_effect(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint) {
     cairo_path_t *path = cairo_copy_path(canvas->cr);
     bool lacking = false;
@@ -200,7 +201,7 @@ cairo_pattern_t *draw_make_mask(Canvas *canvas, const DisplayCommand *command, c
     return cairo_pop_group(cr);
 }
 
-// Multiplies each pixel of d by that of s. Returns false unless both are images of the same size.
+// Multiplies each pixel of d by the corresponding pixel of s. Returns false unless both are images of the same size.
 static bool multiply_pixels(cairo_surface_t *d, cairo_surface_t *s) {
     if (cairo_surface_get_type(d) != CAIRO_SURFACE_TYPE_IMAGE ||
         cairo_surface_get_type(s) != CAIRO_SURFACE_TYPE_IMAGE ||
@@ -273,7 +274,7 @@ static void draw_through_mask(Canvas *canvas, const DisplayCommand *command, con
     cairo_restore(cr);
 }
 
-// Returns true if a fill followed by a stroke looks like one shape, because the paint is opaque.
+// Returns true if the paint is opaque, so that a fill followed by a stroke looks like one shape.
 static bool is_solid(const DisplayPaint *paint) {
     return paint->composite == COMPOSITE_OVER && paint->source == DISPLAY_NONE && paint->color[3] >= 1;
 }
@@ -290,7 +291,7 @@ void draw_current_path(Canvas *canvas, const DisplayCommand *command, const Disp
         return;
     bool odd = is_unbounded(paint->composite) || paint->composite == COMPOSITE_MODULATE,
          both = command->fill && command->stroke;
-    bool in_segments = command->stroke && canvas->path_work > SMOOTH_WORK; // which overlap
+    bool in_segments = command->stroke && canvas->path_work > SMOOTH_WORK; // segments overlap
     if (odd || command->path.fill_type > FILL_EVEN_ODD || ((both || in_segments) && !is_solid(paint))) {
         draw_through_mask(canvas, command, paint);
         return;

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-// Cairo's coordinates have 24 bits before the binary point. Larger values would wrap around to the other side.
+// Cairo's coordinates have 24 bits before the binary point. Larger values would overflow and wrap around.
 static const double MAX_COORDINATE = 4e6;
 
 static double clamp_coordinate(double x) {

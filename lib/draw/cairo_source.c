@@ -23,7 +23,8 @@ static double clamp_unit(double x) {
     return x > 0 ? x < 1 ? x : 1 : 0;
 }
 
-// Rounds premultiplied channels to the nearest byte, because Cairo would round down.
+// Creates a pattern of one colour. Premultiplied channels are rounded to the nearest byte, because Cairo would round
+// down.
 static cairo_pattern_t *make_color(const double color[4], double alpha) {
     double a = (int)(255 * clamp_unit(color[3]) * alpha + 0.5) / 255.0, c[3];
     for (int k = 0; k < 3; k++)
@@ -43,7 +44,7 @@ static cairo_pattern_t *make_image(Canvas *canvas, const DisplaySource *source) 
     return pattern;
 }
 
-// Paints the area of the clip with a pattern, and destroys it.
+// Paints the area of the clip with a pattern, and destroys the pattern.
 static void paint_with(Canvas *canvas, cairo_pattern_t *pattern, cairo_operator_t how, double alpha) {
     cairo_set_operator(canvas->cr, how);
     cairo_set_source(canvas->cr, pattern);

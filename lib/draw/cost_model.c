@@ -1,6 +1,6 @@
 // cost_model.c: estimates the time of drawing operations, which is charged before they run. The figures were measured
-// with Cairo on one machine of 2024. They are right within a factor of two or three, which is enough to distinguish
-// seconds from minutes.
+// with Cairo on a machine from 2024. They are accurate to within a factor of two or three, which is enough to
+// distinguish seconds from minutes.
 #include "draw/draw.h"
 
 #include <math.h>
@@ -20,8 +20,8 @@ static bool charge_pixels(Canvas *canvas, const DisplayPaint *paint, double pixe
 }
 
 // Estimates the painted pixels. A fill covers the bounding box of the path, or much less if the path is narrow and
-// slanted. So its signed area is used, but at least a quarter of the box, because areas can cancel. A stroke covers its
-// length times its width.
+// slanted. The estimate is therefore its signed area, but at least a quarter of the box, because areas of opposite
+// orientation cancel. A stroke covers its length times its width.
 static double pixels_of(const Canvas *canvas, const DisplayPaint *paint, bool fill, bool stroke) {
     const PathSize *size = &canvas->size;
     double width = stroke ? paint->stroke_width * draw_scale_of(canvas->cr) : 0;
@@ -35,7 +35,7 @@ static double pixels_of(const Canvas *canvas, const DisplayPaint *paint, bool fi
 }
 
 bool draw_charge_path(Canvas *canvas, const DisplayPaint *paint, bool fill, bool stroke) {
-    // The cost of rows that edges cross, and of crossings between edges in the worst case.
+    // The cost of the rows that edges cross, plus the worst-case cost of intersections between edges.
     double edges = canvas->path_work * (100 + 1e-3 * canvas->path_work);
     return charge_pixels(canvas, paint, pixels_of(canvas, paint, fill, stroke), edges);
 }

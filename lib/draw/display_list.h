@@ -2,8 +2,8 @@
 // attributes resolved, so any backend that can fill, stroke and clip paths can draw a list (cairo_backend.c uses
 // Cairo).
 //
-// All references are indices; DISPLAY_NONE means none. A list is allocated from the arena that it is built with, and is
-// immutable afterwards. Its strings are borrowed from the nodes.
+// All references are indices; DISPLAY_NONE is the null reference. A list is allocated from the arena that it is built
+// with, and is immutable afterwards. Its strings are borrowed from the nodes.
 #ifndef PETRI_DRAW_DISPLAY_LIST_H
 #define PETRI_DRAW_DISPLAY_LIST_H
 
@@ -35,7 +35,7 @@ typedef struct DisplayRun {
     uint32_t next; // index of the next run; DISPLAY_NONE: last
 } DisplayRun;
 
-// A path: a chain of runs, of which the last ends at `end` for this path.
+// A path: a linked list of runs. In this path, the last run ends at `end`.
 typedef struct DisplayPath {
     uint32_t first; // DISPLAY_NONE: empty
     uint32_t last;
@@ -57,7 +57,7 @@ typedef struct DisplayStop {
     double color[4];
 } DisplayStop;
 
-// A paint source: gives each point its colour.
+// A paint source, which defines the colour of each point.
 typedef struct DisplaySource {
     DisplaySourceKind kind;
     double color[4];
@@ -106,10 +106,10 @@ typedef enum DisplayEffectKind {
 // A path effect, which changes a path before it is filled or stroked.
 typedef struct DisplayEffect {
     DisplayEffectKind kind;
-    uint32_t inner;   // an effect that is applied before; DISPLAY_NONE: none
+    uint32_t inner;   // effect that is applied before this one; DISPLAY_NONE: none
     uint32_t numbers; // index in `numbers` of the dashes, of a row-major 3 x 3 matrix, or of the effects of a sum
     uint32_t count;
-    double amounts[2]; // dash offset; radius; segment length and deviation of jitter
+    double amounts[2]; // by kind: dash offset; corner radius; segment length and deviation of jitter
     double seed;
     Origin place;
 } DisplayEffect;
@@ -164,7 +164,7 @@ typedef enum DisplayCommandKind {
 
 typedef struct DisplayCommand {
     DisplayCommandKind kind;
-    bool fill; // fill and stroke are painted as one shape
+    bool fill; // if both `fill` and `stroke` are true, they are painted as one shape
     bool stroke;
     uint32_t matrix;
     uint32_t paint;
@@ -208,7 +208,7 @@ DisplayMatrix display_matrix_multiply(DisplayMatrix m, DisplayMatrix a);
 // Returns true if the matrix is invertible.
 bool display_matrix_is_invertible(const DisplayMatrix *m);
 
-// The lengths of the last list's arrays. The next list, perhaps of the next frame, starts with these capacities.
+// The array lengths of the previous list. The arrays of the next list are allocated with these capacities.
 typedef struct DisplayListSizes {
     uint32_t commands;
     uint32_t matrices;

@@ -1,7 +1,7 @@
 // display_list_build.c: translates the nodes of a canvas to a display list in one pass; see display_list.h and spec
 // canvas.md 2.
 //
-// Trees may be thousands of nodes deep and the calling thread may have a small stack, so the pass has an explicit
+// Trees may be thousands of nodes deep and the calling thread may have a small stack, so the pass uses an explicit
 // stack.
 #include "draw/display_list_build.h"
 
@@ -107,7 +107,8 @@ uint32_t display_list_build_paint(DisplayListBuild *build, const GraphicsState *
     return build->list->paints.count - 1;
 }
 
-// Adds a command in the state of a level. `own` is the graphics state of the node itself; NULL: that of the level.
+// Adds a command in the state of a level. `own` is the graphics state of the node itself; NULL: use the state of the
+// level.
 static DisplayCommand *add_command(DisplayListBuild *build, Level *level, DisplayCommandKind kind,
                                    const GraphicsState *own) {
     DisplayList *list = build->list;
@@ -146,12 +147,12 @@ static void save_clip(Walk *walk) {
         at--;
     if (walk->levels[at].saved)
         return;
-    // Nothing was clipped at this level yet, so saving now equals saving at its beginning.
+    // Nothing has been clipped at this level yet, so saving the clip now is equivalent to saving it at the start.
     walk->levels[at].saved = true;
     add_command(&walk->build, &walk->levels[walk->depth - 1], DISPLAY_SAVE, NULL);
 }
 
-// Begins a node whose children have a separate state.
+// Begins a node whose children have a separate graphics state.
 static void enter_node(Walk *walk, const DrawNode *node) {
     NodeKind kind = (NodeKind)node->kind;
     double size[2], origin[2];
@@ -179,10 +180,10 @@ static void enter_node(Walk *walk, const DrawNode *node) {
             level->path.fill_type = (uint8_t)draw_word(node, ATTR_FILL_TYPE);
     }
     if (!display_matrix_is_invertible(&level->matrix))
-        level->next = node->child_count; // the content is squeezed to nothing or out of range: skip it
+        level->next = node->child_count; // the content has no area or is out of range: skip it
 }
 
-// Passes changes by nested paint nodes to the siblings after this node.
+// Applies the changes made by nested paint nodes to the siblings after this node.
 static void propagate_paint(Level *outside, const GraphicsState *inside) {
     outside->state.source = inside->source;
     outside->state.filter = inside->filter;
@@ -216,7 +217,7 @@ static void add_path_command(DisplayListBuild *build, Level *level, const DrawNo
     command->stroke = stroke;
 }
 
-// Adds a shape. If it is drawn at once, the current path is not modified.
+// Adds a shape to the current path, or draws it without changing the current path if the node sets fill or stroke.
 static void add_shape(DisplayListBuild *build, Level *level, const DrawNode *node) {
     bool fill = draw_flag(node, ATTR_FILL), stroke = draw_flag(node, ATTR_STROKE);
     if (!fill && !stroke) {

@@ -22,14 +22,15 @@ void display_list_build_rectangle(DisplayListBuild *build, DisplayPath *path, co
 void display_list_build_paint_node(DisplayListBuild *build, GraphicsState *state, const DrawNode *node);
 
 // display_list_paints.c
-// Returns DISPLAY_NONE if a required attribute is missing.
+// Adds a paint source and returns its index. Returns DISPLAY_NONE if a required attribute is
+// missing.
 uint32_t display_list_build_source(DisplayListBuild *build, const GraphicsState *state, const DrawNode *node);
-// Converts a stop colour. Stops are encoded (sRGB) and rounded to 8 bits.
+// Converts the colour of a gradient stop to sRGB, rounded to 8 bits.
 void display_list_build_stop_color(const DisplayListBuild *build, const double color[4], double out[4]);
 uint32_t display_list_build_image(DisplayListBuild *build, const DrawNode *node);
 
 // display_list_build.c
-// Applies the transform attributes of a node in their order.
+// Applies the transform attributes of a node in the order written.
 void display_list_build_transform(DisplayMatrix *matrix, const DrawNode *node, bool after);
 uint32_t display_list_build_paint(DisplayListBuild *build, const GraphicsState *state);
 // Reads the paint and font attributes of a node. Returns false if it has none.

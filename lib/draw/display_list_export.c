@@ -1,4 +1,4 @@
-// display_list_export.c: exports a picture as an array of numbers, for hosts that draw themselves; see petri-draw.h.
+// display_list_export.c: exports a picture as an array of numbers, for hosts with their own renderer; see petri-draw.h.
 #include "draw/display_list.h"
 #include "draw/outline.h"
 #include "draw/painter.h"
@@ -15,7 +15,7 @@ typedef struct DisplayListExport {
     Arena *arena;
     DISPLAY_ARRAY(double) out;
     const DisplayList *list;
-    uint32_t matrix; // last written matrix; DISPLAY_NONE: none
+    uint32_t matrix; // index of the matrix written last; DISPLAY_NONE: none
     uint32_t paint;
     uint32_t effect_elements; // path elements created by effects so far
 } DisplayListExport;
@@ -251,7 +251,7 @@ static void add_path_with_effect(DisplayListExport *numbers, const DisplayComman
     const DisplayMatrix *m = &list->matrices.at[command->matrix];
     const DisplayEffect *effect = &list->effects.at[paint->effect];
     uint32_t number =
-        effect->kind == EFFECT_DASH ? effect->inner : paint->effect; // the outermost dashes are left to the host
+        effect->kind == EFFECT_DASH ? effect->inner : paint->effect; // the host itself draws the outermost dashes
     Outline from = {.arena = numbers->arena, .fine = 2 / fmax(sqrt(fabs(m->xx * m->yy - m->xy * m->yx)), 1e-6)};
     outline_add_path(&from, list, &command->path);
     bool separate = outline_has_dashes(list, number) && command->fill && command->stroke;

@@ -162,7 +162,7 @@ static bool read_dash(DisplayListBuild *build, const DrawNode *node, DisplayEffe
     return sum > 0 && isfinite(sum);
 }
 
-// Reads a row-major matrix. Without one, points are scaled, then rotated, then translated.
+// Reads the row-major matrix of a path effect. If it is not given, points are scaled, then rotated, then translated.
 static void read_path_matrix(DisplayListBuild *build, const DrawNode *node, DisplayEffect *effect) {
     const AttrValue *all = draw_attr(node, ATTR_MATRIX);
     double scale[2], move[2], angle = draw_number(node, ATTR_ROTATE);

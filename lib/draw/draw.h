@@ -13,11 +13,11 @@ typedef struct FloatImage {
     int width;
     int height;
     float *pixels; // NULL: empty image
-    int x;         // position of its left edge on the target, for images that are drawn on
+    int x;         // position of the left edge on the target, for images that are drawn on
     int y;
 } FloatImage;
 
-// Pango's fonts, and the font that the layout is set to.
+// Pango's objects, and the font that is set in the layout.
 struct TextContext {
     PangoFontMap *fonts;
     PangoContext *context;
@@ -26,12 +26,12 @@ struct TextContext {
     DisplayText font;
 };
 
-// The extent of a path on the target, from its points and control points, all as one shape.
+// The extent of a path on the target, computed from its end points and control points. Subpaths are not distinguished.
 typedef struct PathSize {
     double left, right, top, bottom;
     double last_x, last_y;
-    double length; // sum of the horizontal and vertical distances
-    double area;   // twice the signed area; parts in opposite directions cancel
+    double length; // sum of the horizontal and vertical distances between successive points
+    double area;   // twice the signed area; parts of opposite orientation cancel
 } PathSize;
 
 // A drawing in progress.
@@ -49,7 +49,7 @@ typedef struct Canvas {
     PathSize size;                  // extent of the current path
     const DisplayList *list;        // the list being drawn; NULL: none
     const DisplayCommand *path_of;  // the command whose path is current; NULL: none
-    cairo_matrix_t base;            // transform of the list's units
+    cairo_matrix_t base;            // transform from the list's units to the target
     bool failed;                    // true after an error was reported
     size_t charged;                 // bytes charged to the painter's budget
     FloatImageMemory *float_images; // all allocated float images
@@ -60,7 +60,7 @@ typedef struct Canvas {
     cairo_surface_t *offscreen;
 } Canvas;
 
-// Reports a diagnostic of drawing. The same text is reported only once.
+// Reports a diagnostic of drawing. Each message is reported only once.
 __attribute__((format(printf, 4, 5))) void draw_report_canvas(Canvas *canvas, DiagLevel level, const char *code,
                                                               const char *format, ...);
 
@@ -90,14 +90,15 @@ void draw_close(Canvas *canvas);
 void cairo_draw_list(Canvas *canvas, const DisplayList *list);
 // Draws a command without the paint's filter.
 void draw_unfiltered(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint);
-// Returns true if the matrix is invertible. Others must not reach Cairo, because they put it into an error state for
-// good.
+// Returns true if the matrix is invertible. Other matrices must not be passed to Cairo, because they put it into a
+// permanent error state.
 bool draw_is_invertible(const cairo_matrix_t *m);
 // Returns the approximate number of pixels per unit.
 double draw_scale_of(cairo_t *cr);
 
 // cairo_path.c
-// Moves a point that is too far away for Cairo's coordinates to a distance that it can handle.
+// Clamps a point to the range of Cairo's coordinates, and adds it to the extent and cost of the current
+// path.
 void draw_clamp_point(Canvas *canvas, double *x, double *y);
 void draw_ellipse_path(Canvas *canvas, double x, double y, double rx, double ry, double start, double sweep, bool join);
 // Makes the command's path the current one, in the current transform.
@@ -107,14 +108,15 @@ void draw_forget_path(Canvas *canvas);
 
 // cairo_paint.c
 cairo_operator_t draw_operator(int composite);
-// Sets antialiasing and fill rule for filling and clipping. Cairo keeps them, so set them before each use.
+// Sets antialiasing and fill rule for filling and clipping. Cairo keeps these settings, so they must be set before each
+// use.
 void draw_set_edges(Canvas *canvas, bool antialias, int fill_type);
 // Fills or strokes the current path, or paints both as one shape.
 void draw_current_path(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint);
 // Returns the command's shape as a mask. The caller destroys it.
 cairo_pattern_t *draw_make_mask(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint);
-// Returns the bounding box of the painted path on the target: left, top, right, bottom. Returns false if it is
-// unbounded or unknown.
+// Finds the bounding box of the painted path on the target: left, top, right, bottom. Returns false if it is unbounded
+// or unknown.
 bool draw_find_box(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint, double box[4]);
 // Clips to the bounding box of the painted path.
 void draw_clip_to_box(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint);
@@ -124,7 +126,7 @@ bool draw_is_drawable(Canvas *canvas);
 // cost_model.c
 // Charges the cost of drawing the current path. Returns false, after a report, if that exceeds the limit.
 bool draw_charge_path(Canvas *canvas, const DisplayPaint *paint, bool fill, bool stroke);
-// Like draw_charge_path, for `count` boxes of width x height units, wherever they are.
+// Like draw_charge_path, for `count` boxes of width x height units at any position.
 bool draw_charge_box(Canvas *canvas, const DisplayPaint *paint, double width, double height, double count);
 
 // cairo_source.c
@@ -146,7 +148,7 @@ cairo_pattern_t *draw_noise(Canvas *canvas, const DisplaySource *source, double 
 void draw_filtered(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint);
 
 // text.c
-// Returns the painter's fonts, which are opened by the first call. Returns NULL if out of memory.
+// Returns the painter's fonts, which the first call opens. Returns NULL if out of memory.
 TextContext *draw_text_context(PetriPainter *painter);
 void draw_text_close(PetriPainter *painter);
 void draw_text(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint);

@@ -6,14 +6,14 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// The bytes of a file, on the heap. They are not in an arena because Cairo and libpng must not be left by a longjmp
-// when memory runs out. The owner frees `bytes`, even after a failure.
+// The bytes of an encoded file, on the heap. They are not in an arena, because an arena that is out of memory calls
+// longjmp, which must not skip frames of Cairo or libpng. The owner frees `bytes`, even after a failure.
 typedef struct Encoded {
     unsigned char *bytes;
     size_t length, capacity;
 } Encoded;
 
-// Returns false if out of memory; then nothing has changed.
+// Appends bytes. Returns false, and changes nothing, if out of memory.
 bool encode_add(Encoded *out, const void *bytes, size_t length);
 
 // Appends a PNG or JPEG file. Colours are written premultiplied, so without `alpha` the file shows the picture over

@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-enum { MAX_PIXELS = 1 << 26 };         // pixels of a filtered image
+enum { MAX_PIXELS = 1 << 26 };         // maximum number of pixels of a filtered image
 static const double MAX_OFFSET = 2000; // pixels by which an offset can extend the image
 
 // The inputs of a filter.
@@ -178,7 +178,7 @@ static bool can_filter(Canvas *canvas, const DisplayFilter *filter, const Box *b
     return draw_charge(canvas, &filter->place, work, "drawn without the filter");
 }
 
-// Draws the command by itself and returns the image.
+// Draws only this command, to a new image, and returns the image.
 static FloatImage draw_offscreen(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint,
                                  const Box *box) {
     cairo_matrix_t matrix;

@@ -88,7 +88,7 @@ void float_image_write(const FloatImage *image, cairo_surface_t *surface) {
     cairo_surface_mark_dirty(surface);
 }
 
-// A filter of a row or column of pixels.
+// A one-dimensional filter, which is applied to each row or column of an image.
 enum { MAX_REACH = 24 };
 static const double MAX_EXACT_SIGMA = 8; // standard deviation, pixels
 
@@ -96,7 +96,7 @@ typedef struct LineFilter {
     void (*apply)(const struct LineFilter *filter, float *line, float *other, int count);
     int reach;
     bool erode;
-    int cell; // pixels that are averaged to a cell
+    int cell; // number of pixels that are averaged to a cell
     float weights[MAX_REACH + 1];
 } LineFilter;
 
@@ -123,7 +123,7 @@ static void change_lines(Canvas *canvas, FloatImage *image, int axis, const Line
     float_image_free(canvas, &scratch);
 }
 
-// Returns the weighted sum of the neighbours within reach. Pixels beyond the ends are transparent.
+// Computes the weighted sum of the pixels within reach of pixel `at`. Pixels beyond the ends are transparent.
 static void convolve_at(const LineFilter *filter, const float *from, int count, int at, float *to) {
     float sum[4] = {0, 0, 0, 0};
     int first = at - filter->reach < 0 ? 0 : at - filter->reach,
@@ -160,7 +160,8 @@ static void convolve_cells(const LineFilter *filter, float *line, float *other, 
     }
 }
 
-// Finds the maximum or minimum within reach: first of runs of doubling length, then of two overlapping runs.
+// Replaces each pixel by the maximum or minimum within reach. Computes the extremes of runs of doubling length, then
+// combines two overlapping runs.
 static void find_extremes(const LineFilter *filter, float *line, float *other, int count) {
     int reach = filter->reach, all = count + 2 * reach, run = 1, wanted = 2 * reach + 1;
     memset(other, 0, (size_t)all * 4 * sizeof(float));
@@ -178,8 +179,8 @@ static void find_extremes(const LineFilter *filter, float *line, float *other, i
         }
 }
 
-// Averaging cells and interpolating between them also blur. Their variances are (cell² - 1)/12 and twice that, and
-// variances add up, so the weights are for the rest.
+// Averaging to cells and interpolating between cells also blur: their variances are (cell² - 1)/12 and twice that.
+// Variances add up, so the weights provide the remaining variance.
 static void set_weights(LineFilter *filter, double sigma) {
     double sum = 0, cell = sigma > MAX_EXACT_SIGMA ? floor(sigma / 4) : 1;
     filter->cell = (int)cell;

@@ -17,7 +17,7 @@ FloatImage float_image_copy(Canvas *canvas, const FloatImage *image);
 FloatImage float_image_read(Canvas *canvas, cairo_surface_t *surface);
 void float_image_write(const FloatImage *image, cairo_surface_t *surface);
 
-// Work in place; lengths are in pixels. Their cost does not depend on the lengths.
+// Modify the image in place. Lengths are in pixels; the cost does not grow with them.
 void float_image_blur(Canvas *canvas, FloatImage *image, const double sigma[2]);
 void float_image_morphology(Canvas *canvas, FloatImage *image, const double radius[2], bool erode);
 void float_image_move(Canvas *canvas, FloatImage *image, double dx, double dy);
@@ -27,7 +27,8 @@ void float_image_composite_over(FloatImage *below, const FloatImage *above);
 void float_image_fill(FloatImage *image, const double color[4]);
 // Applies a colour matrix, four rows of five numbers, to colours that are not premultiplied.
 void float_image_recolor(FloatImage *image, const double *matrix);
-// Combines s into d. k: factors of s·d, s and d, and a constant. If k is NULL, `mode` is used.
+// Combines s with d and stores the result in d. k contains the factors of s·d, s and d, and a constant. If k is NULL,
+// `mode` is used.
 void float_image_combine(FloatImage *d, const FloatImage *s, const double *k, CompositeMode mode);
 
 #endif

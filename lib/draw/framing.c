@@ -36,8 +36,8 @@ static double distance(const double a[3], const double b[3]) {
     return maths_hypot(maths_hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
 }
 
-// Returns a distance from the middle beyond which bodies are ignored. A few that fly away must not make the others too
-// small to see.
+// Returns a distance from the middle beyond which bodies are ignored. A few bodies that fly away must not make the
+// others too small to see.
 static double outlier_distance(const AutoSystem *system, const double middle[3], double *numbers) {
     for (uint32_t i = 0; i < system->body_count; i++)
         numbers[i] = distance(system->bodies[i].position, middle);
@@ -74,7 +74,7 @@ static double half_size(const Bounds *bounds, int axes) {
     return half;
 }
 
-// Returns the largest distance of the bounds from a point along an axis.
+// Returns the largest distance along any axis from a point to the bounds.
 static double extent(const Bounds *bounds, const double middle[3], int axes) {
     double extent = 0;
     for (int k = 0; k < axes; k++)
@@ -82,7 +82,8 @@ static double extent(const Bounds *bounds, const double middle[3], int axes) {
     return extent;
 }
 
-// Bounds of all bodies that are not ignored: of their discs, their positions, and their paths in the next seconds.
+// Bounds of all bodies that are not ignored: of their discs, their positions, and their paths in the next AHEAD
+// seconds.
 typedef struct Extents {
     Bounds discs;
     Bounds positions;
@@ -110,13 +111,14 @@ static Extents find_extents(const AutoSystem *system, const double middle[3], do
     return extents;
 }
 
-// Returns the next of 1, 1.25, 1.6, 2, 2.5 and so on.
+// Rounds up to one of ten numbers per decade: 1, 1.25, 1.6, 2, 2.5 and so on.
 static double round_up(double x) {
     double step = ceil(maths_log10(x) * 10 - 1e-9);
     return maths_pow(10, step / 10);
 }
 
-// Adds the walls that bodies may soon reach: those nearer to the middle of the bounds than twice their extent.
+// Extends the bounds to walls that bodies may soon reach. The distance of these walls from the centre of the bounds is
+// at most twice the bounds' half size.
 static void include_walls(Bounds *shown, const AutoSystem *system, int axes) {
     const double near = 2 * half_size(shown, axes);
     double middle[3], foot[3];
@@ -152,7 +154,7 @@ static void choose(AutoFrame *frame, const AutoSystem *system, const Extents *ex
         double middle = shown.low[k] + (shown.high[k] - shown.low[k]) / 2;
         frame->middle[k] = fabs(middle) < half / 10 ? 0 : middle;
     }
-    // In three dimensions corners of the box may point towards the eye, so the view is larger.
+    // In three dimensions, corners of the box may point towards the camera, so the view is larger.
     double wanted = fmax((axes == 3 ? 1.25 : 1.1) * extent(&shown, frame->middle, axes), least);
     frame->half = round_up(wanted > 1e-9 ? wanted : 1);
 }
@@ -184,7 +186,7 @@ void auto_frame(Arena *arena, AutoFrame *frame, const AutoSystem *system) {
         frame->half *= GROWTH;
 }
 
-// Strokes of characters on a grid 2 wide and 8 high. A point is two digits, x and y; | starts another line.
+// Strokes of characters on a grid 2 wide and 8 high. A point is two digits, x and y; | starts another stroke.
 static const char *strokes_of(char c) {
     static const char *const digits[] = {"0020280800",      "061810",       "082824040020", "08282000|0424",
                                          "080424|2820",     "280804242000", "280800202404", "082820",

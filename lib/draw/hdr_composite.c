@@ -105,7 +105,8 @@ static void composite_stamp(Canvas *canvas, Stamp *stamp) {
         cairo_pattern_destroy(stamp->colors);
 }
 
-// Returns the current source within the clip as a group. With CAIRO_CONTENT_ALPHA it is the coverage of the clip.
+// Returns the current source within the clip as a group. With CAIRO_CONTENT_ALPHA, the group is the coverage of the
+// clip.
 static cairo_pattern_t *make_group(cairo_t *cr, cairo_content_t content, double alpha) {
     cairo_pattern_t *source = cairo_pattern_reference(cairo_get_source(cr));
     cairo_push_group_with_content(cr, content);

@@ -6,11 +6,11 @@
 #include "draw/float_image.h"
 #include "draw/hdr_paint.h"
 
-// Draw the current path, an image within the clip, and a float image at x, y of the target within the clip.
+// Draw onto the target within the clip: the current path, an image, or a float image at x, y.
 void hdr_draw_path(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint);
 void hdr_draw_image(Canvas *canvas, const DisplayPaint *paint, const HdrPaint *image);
 void hdr_composite(Canvas *canvas, const FloatImage *image, double x, double y, int composite);
-// Begins a layer and returns the image below, to be passed to hdr_end_layer. That composites the layer over it.
+// Begins a layer and returns the image below it. hdr_end_layer composites the layer over that image.
 FloatImage hdr_begin_layer(Canvas *canvas);
 void hdr_end_layer(Canvas *canvas, FloatImage below, double alpha);
 

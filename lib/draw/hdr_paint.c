@@ -83,7 +83,7 @@ static void find_source(const DisplayList *list, uint32_t number, double x, doub
 
 static int pixel_index(const HdrPaint *shade, double at, int size) {
     const double EDGE_BIAS =
-        1.0 / 65536; // a point on the edge of two pixels belongs to the second, despite rounding errors
+        1.0 / 65536; // a point on the edge between two pixels belongs to the second, despite rounding errors
     at += EDGE_BIAS;
     at -= shade->repeats ? floor(at / size) * size : 0;
     return at >= 1 ? at < size ? (int)at : size - 1 : 0;
@@ -97,7 +97,8 @@ static void find_bytes(uint32_t pixel, bool straight, float color[4]) {
     }
 }
 
-// Reads the nearest pixel. Colours of files are divided by alpha before they are decoded, those of pictures are not.
+// Reads the nearest pixel. Colours of files are unpremultiplied before they are decoded; colours of rendered pictures
+// are not.
 static void find_pixel(const HdrPaint *shade, double x, double y, float color[4]) {
     const Texture *texture = shade->texture;
     if (texture) {

@@ -1,4 +1,4 @@
-// hdr_paint.h: paint sources of HDR canvases, in floats: colours, gradients, blends of them, and images (spec canvas.md
+// hdr_paint.h: paint sources of HDR canvases, computed in floats: colours, gradients, blends and images (spec canvas.md
 // 5, 8.2).
 #ifndef PETRI_DRAW_HDR_PAINT_H
 #define PETRI_DRAW_HDR_PAINT_H
@@ -7,7 +7,7 @@
 
 typedef struct HdrPaint {
     const DisplayList *list;
-    uint32_t source;         // index in the list, unless `texture` or `file` is set
+    uint32_t source;         // index of the source in the list; not used if `texture` or `file` is set
     const Texture *texture;  // the rendered picture of a node
     cairo_surface_t *file;   // an image file; 32-bit sRGB pixels
     bool repeats;            // true if the pixels repeat
@@ -15,8 +15,8 @@ typedef struct HdrPaint {
     float alpha;
 } HdrPaint;
 
-// Prepares a source of the list in the current transform. Returns false if Cairo must render this kind, or if there is
-// no image.
+// Prepares a source of the list in the current transform. Returns false if Cairo must render this kind of source, or if
+// its image does not exist.
 bool hdr_paint_from_source(Canvas *canvas, uint32_t source, double alpha, HdrPaint *shade);
 // Returns the premultiplied colour at a point of the target.
 void hdr_paint_at(const HdrPaint *shade, double x, double y, float color[4]);

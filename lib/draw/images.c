@@ -109,7 +109,7 @@ static CachedImage *load_image(PetriPainter *painter, const FileAccess *reach, c
     Str bytes;
     const char *problem = NULL;
     bool read = file_read(&painter->arena, reach, path, true, MAX_BYTES, &bytes, NULL, &problem);
-    CachedImage *picture = heap_calloc(1, sizeof *picture); // from now on nothing else can longjmp
+    CachedImage *picture = heap_calloc(1, sizeof *picture); // nothing after this can longjmp
     if (!picture)
         arena_exhausted(&painter->arena);
     picture->path = heap_strndup(path, strlen(path));
@@ -231,7 +231,7 @@ static bool can_copy(Canvas *canvas, int width, int height) {
     return draw_charge(canvas, NULL, 3.0 * width * height, draw_omitted);
 }
 
-// Returns the rendered picture of a node, in memory. Returns NULL if there is none.
+// Returns the rendered picture of a node, downloaded from the GPU if necessary. Returns NULL if there is none.
 static Texture *find_texture(Canvas *canvas, Str id) {
     PetriPainter *painter = canvas->painter;
     Texture *texture = render_graph_find(painter->render_graph, id);
@@ -253,7 +253,7 @@ static cairo_surface_t *find_picture(Canvas *canvas, Str id) {
     return surface;
 }
 
-// Returns a copy in linear light for linear canvases. Files are assumed to be sRGB.
+// Returns a copy of a file's pixels in linear light, for linear canvases. Files are assumed to be sRGB.
 static cairo_surface_t *linear_copy(Canvas *canvas, cairo_surface_t *file) {
     int width = cairo_image_surface_get_width(file), height = cairo_image_surface_get_height(file);
     if (!can_copy(canvas, width, height))

@@ -1,4 +1,5 @@
-// no_cairo.c: implements cairo_canvas.h in builds without Cairo. The host's backend draws canvases, if it has one.
+// no_cairo.c: implements cairo_canvas.h in builds without Cairo. If the host provides a backend, the backend draws
+// canvases.
 #include "draw/painter.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-// noise.c: noise as a paint source (spec canvas.md 5.5): that of SVG's feTurbulence, and Perlin's improved noise.
+// noise.c: noise as a paint source (spec canvas.md 5.5): the noise of SVG's feTurbulence, and Perlin's improved noise.
 #include "draw/draw.h"
 
 #include <math.h>
@@ -51,7 +51,7 @@ static void make_lattice(Noise *noise) {
     }
 }
 
-// Changes the frequencies to the nearest ones for which a tile holds a whole number of cells.
+// Adjusts each frequency to the nearest value for which a tile contains a whole number of cells.
 static void fit_tiles(Noise *noise) {
     for (int k = 0; k < 2; k++) {
         double side = noise->source->ends[2 + k], frequency = fabs(noise->source->ends[k]);

@@ -113,7 +113,7 @@ static void jitter_outline(const DisplayEffect *effect, Outline *from, Outline *
             continue;
         }
         Walk walk = {.flat = &flat};
-        // A closed subpath has no ends, so it starts half a segment later.
+        // A closed subpath has no ends, so its first point is half a segment from the start.
         uint32_t points = (uint32_t)count + (flat.closed ? 0 : 1);
         for (uint32_t i = 0; i < points; i++) {
             OutlinePoint direction,
@@ -127,7 +127,8 @@ static void jitter_outline(const DisplayEffect *effect, Outline *from, Outline *
     }
 }
 
-// Finds the interval of the dash offset and the rest of its length.
+// Returns the index of the interval that contains the dash offset. *left receives the remaining length of this
+// interval.
 static uint32_t find_interval(const DisplayEffect *effect, const double *intervals, double *left) {
     double sum = 0;
     for (uint32_t i = 0; i < effect->count; i++)
@@ -172,7 +173,7 @@ static void dash_outline(const DisplayEffect *effect, const double *intervals, O
     }
 }
 
-// Rounds the corner at p between two straight lines. The curve starts at the end of a new line towards p.
+// Rounds the corner at p between two straight lines: adds a line towards p, and a curve from its end.
 static void round_corner(Outline *out, OutlinePoint before, OutlinePoint p, OutlinePoint after, double radius) {
     double in = distance(before, p), away = distance(p, after);
     OutlinePoint a = between(p, before, in > 0 ? fmin(radius / in, 0.5) : 0);

@@ -9,7 +9,7 @@ typedef struct OutlinePoint {
     double y;
 } OutlinePoint;
 
-// An element: PATH_MOVE, PATH_LINE, PATH_CUBIC or PATH_CLOSE. The last point in use is its end.
+// An element: PATH_MOVE, PATH_LINE, PATH_CUBIC or PATH_CLOSE. Its last point in use is its end point.
 typedef struct OutlineElement {
     PathElement kind;
     OutlinePoint points[3];
@@ -25,10 +25,10 @@ typedef struct Outline {
 bool outline_has_effect(const DisplayList *list, const DisplayPaint *paint);
 // Returns true if this effect, or one inside it, dashes lines. Then the paths for filling and for stroking differ.
 bool outline_has_dashes(const DisplayList *list, uint32_t effect);
-// Applies an effect and those inside it to an outline, for stroking if `lines`, else for filling. The result is in the
-// outline's arena. With DISPLAY_NONE the outline is returned unchanged.
+// Applies an effect and the effects nested in it to an outline, for stroking if `lines`, else for filling. The result
+// is in the outline's arena. With DISPLAY_NONE the outline is returned unchanged.
 Outline outline_apply(const DisplayList *list, uint32_t effect, Outline from, bool lines);
-// Adds a path of the list, with its arcs as curves.
+// Adds a path of the list. Arcs are converted to curves.
 void outline_add_path(Outline *out, const DisplayList *list, const DisplayPath *path);
 
 #endif

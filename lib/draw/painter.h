@@ -1,5 +1,4 @@
-// painter.h: a painter, and the part of drawing that does not depend on what draws canvases: Cairo (draw.h) or the host
-// (no_cairo.c).
+// painter.h: a painter, and the functions that builds with Cairo (draw.h) and without it (no_cairo.c) share.
 #ifndef PETRI_DRAW_PAINTER_H
 #define PETRI_DRAW_PAINTER_H
 
@@ -20,11 +19,11 @@ struct PetriPainter {
     PetriCanvasBackend backend; // draws canvases in builds without Cairo; no functions: none
     RenderGraph *render_graph;
     Gl *gl;                 // opened when first needed; NULL: not open
-    const char *gl_problem; // why it cannot be opened; borrowed
+    const char *gl_problem; // why `gl` cannot be opened; borrowed
     bool on_window;         // true if gl draws on the host's window
     uint32_t *window;       // pixel buffer for the window
     size_t window_capacity;
-    uint64_t made;  // serial number of the last picture whose tree was rendered
+    uint64_t made;  // serial number of the last picture whose render graph was rendered
     Texture *shown; // rendered picture of its window; NULL: none
 };
 
@@ -34,8 +33,8 @@ __attribute__((format(printf, 5, 6))) void draw_report(DiagSink *faults, const O
                                                        const char *code, const char *format, ...);
 void draw_report_args(DiagSink *faults, const Origin *place, DiagLevel level, const char *code, const char *format,
                       va_list args);
-// Returns true if the memory limit was the cause of a failed allocation, not the machine. Then it reports that the node
-// is left out.
+// Called after a failed allocation. If the memory limit was the cause, reports that the node is left out and returns
+// true. Returns false if the machine is out of memory.
 bool draw_report_refused(PetriPainter *painter, const Origin *place, const char *node, int width, int height,
                          DiagSink *faults);
 // Sets the painter's limits for memory and work to those of the picture.
@@ -43,12 +42,13 @@ void draw_limit(PetriPainter *painter, const CanvasPicture *picture);
 // Reports that drawing was aborted because of a limit. Returns PETRI_INVALID, or PETRI_OUT_OF_MEMORY if there is no
 // memory for the report.
 PetriStatus draw_report_limit(DiagSink *faults);
-// Renders the tree of pictures, and downloads the window's picture from the GPU if it has one.
+// Renders the render graph, and downloads the window's picture if it is on the GPU.
 PetriStatus draw_render_pixels(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults);
 // Writes the rows of a picture to pixels of the same size.
 void draw_texture(const Texture *texture, bool opaque, uint32_t *pixels, size_t stride);
 void draw_clear(uint32_t *pixels, int width, int height, size_t stride);
-// Returns the image of a picture node, resized and flipped as the node says. Returns NULL after a report.
+// Returns the image of a picture node, resized and flipped according to the node's attributes. Returns NULL after a
+// report.
 Texture *draw_sized_image(PetriPainter *painter, const DrawNode *node, const uint32_t *pixels, int width, int height,
                           size_t stride, bool alpha, DiagSink *faults);
 
@@ -60,12 +60,12 @@ const double *draw_picture_display_list(Arena *arena, const CanvasPicture *pictu
 
 // cairo_canvas.c, or no_cairo.c
 void draw_tools_close(PetriPainter *painter);
-// Draws a canvas of width x height units into a cleared picture, which it fills: sRGB or linear light. Returns
-// PETRI_OK, PETRI_INVALID after an error was reported, or PETRI_OUT_OF_MEMORY.
+// Draws a canvas of width x height units into a cleared sRGB or linear picture. The canvas is scaled to fill the
+// picture. Returns PETRI_OK, PETRI_INVALID after an error was reported, or PETRI_OUT_OF_MEMORY.
 PetriStatus draw_canvas(PetriPainter *painter, const CanvasPicture *picture, const DrawNode *node, int width,
                         int height, Texture *texture, DiagSink *faults);
-// Loads the picture of an image node in the tree of pictures. The caller frees it. Returns NULL, after a report, if
-// there is none.
+// Loads the picture of an image node in the render graph. The caller frees it. Returns NULL, after a report, if there
+// is none.
 Texture *draw_picture_image(PetriPainter *painter, const CanvasPicture *picture, const DrawNode *node,
                             DiagSink *faults);
 

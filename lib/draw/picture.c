@@ -41,8 +41,8 @@ typedef struct Request {
     PetriStatus status;
 } Request;
 
-// Returns the window with this number. If the number is negative, returns the first one with content, preferring
-// windows on the screen; if none has content, the first window.
+// Returns the window with this number. If the number is negative, returns the first window with content, preferring
+// windows on the screen. If no window has content, returns the first window.
 static const Node *find_window(const DrawAccess *access, int number) {
     const Node *first = NULL, *offscreen = NULL, *window;
     for (uint32_t at = 0; (window = canvas_next_window(access->schema, access->tree, &at));) {
@@ -140,8 +140,8 @@ static void copy_windows(Request *request, const Node *access) {
     canvases->serial = ++serial;
 }
 
-// Chooses the size in the script's units: that of the window, else a default. Returns false if the window's size is
-// invalid.
+// Chooses the size in the script's units: the size of the window if there is one, else a default. Returns false if the
+// window's size is invalid.
 static bool choose_size(CanvasPicture *picture, const Node *node, const Symbol *name) {
     const DrawNode *window = picture->window;
     picture->width = picture->height = window ? DEFAULT_SIZE : AUTO_SIDE;
@@ -183,7 +183,8 @@ static bool choose_pixels(Request *request) {
     return true;
 }
 
-// Do not wait longer for systems that store nothing, because their time stands still.
+// Maximum number of frames to wait for a system to be simulated. A system whose clock stands still is never
+// simulated.
 enum { MAX_START_FRAMES = 2 };
 
 bool petri_picture_ready(PetriSession *session, const PetriPictureOptions *options) {
@@ -231,7 +232,7 @@ bool petri_needs_history(PetriSession *session) {
     return any_needs_history(&access);
 }
 
-// Fills the picture. Returns false if there is none; `problem` says why unless it was already reported.
+// Fills the picture. Returns false if there is nothing to draw. `problem` is the reason unless it was already reported.
 static bool make_picture(Request *request) {
     const DrawAccess *access = &request->shown;
     PetriPicture *picture = request->picture;

@@ -13,8 +13,8 @@
 
 enum { MAX_DEPTH = 100, DEFAULT_SIZE = 512 };
 
-// State of a node that is kept until the next frame. A node continues the first matching node of the same parent in the
-// previous frame that no other node has continued.
+// State of a node that is kept until the next frame. A node continues the state of a matching node in the previous
+// frame: the first one with the same parent that no other node has continued.
 typedef struct GraphNode GraphNode;
 struct GraphNode {
     uint8_t kind;
@@ -46,7 +46,7 @@ typedef struct Frame {
 struct RenderGraph {
     Frame frames[2];
     double beat; // beat of the last frame
-    int now;     // index of the current or last frame
+    int now;     // index in `frames` of the current or last frame
 };
 
 typedef struct Walk {
@@ -448,7 +448,7 @@ static void make_windows(void *context) {
     }
 }
 
-// The GPU context must be current while its images are freed.
+// Frees the older of the two stored frames. The GPU context must be current while images are freed.
 static void clear_old_frame(Walk *walk) {
     const char *problem;
     if (walk->painter->gl)

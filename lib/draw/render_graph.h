@@ -1,9 +1,8 @@
-// render_graph.h: renders the tree of pictures of a frame (spec pictures.md 2 to 5): canvases, images, and effects on
-// them.
+// render_graph.h: renders a frame's tree of pictures (spec pictures.md 2 to 5): canvases, images, and effects on them.
 //
 // Each node produces one picture, children first. Pictures with an id can be referenced later in the same frame or in
-// the next one. A painter keeps the pictures of the last frame for that. So frames of a script with such references
-// (petri_needs_history) must all be rendered by one painter, in order.
+// the next one. Therefore a painter keeps the pictures of the last frame. If a script has such references
+// (petri_needs_history), one painter must render all frames in order.
 #ifndef PETRI_DRAW_RENDER_GRAPH_H
 #define PETRI_DRAW_RENDER_GRAPH_H
 
@@ -18,15 +17,15 @@ void render_graph_free(PetriPainter *painter); // frees the graph of a painter
 // Drops the state that the next frame would continue.
 void render_graph_clear(PetriPainter *painter);
 
-// Renders all pictures of a frame. *shown is the picture of the window, or NULL if it has none. It and the records are
-// valid until the next call. Pictures that cannot be rendered are reported and left out. Returns PETRI_OK,
+// Renders all pictures of a frame. *shown is the picture of the window, or NULL if it has none. The picture and the
+// records are valid until the next call. Pictures that cannot be rendered are reported and left out. Returns PETRI_OK,
 // PETRI_OUT_OF_MEMORY, or PETRI_INVALID after an error.
 PetriStatus render_graph_run(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults, Texture **shown);
 const Recorded *render_graph_records(const RenderGraph *pictures, uint32_t *count);
 // Returns the current picture with this id, borrowed; NULL: none.
 Texture *render_graph_find(const RenderGraph *pictures, Str id);
 
-// Returns the size of a node's picture whose parent is width x height pixels. The size is updated in place.
+// Computes the size of a node's picture in pixels. *width and *height contain the parent's size and are replaced.
 void render_graph_node_size(const DrawNode *node, int *width, int *height);
 // Returns the canvas whose pixels are the node's picture without changes, so that it can be drawn at any resolution.
 // Returns NULL if the picture needs effects or compositing.
@@ -34,7 +33,7 @@ const DrawNode *render_graph_direct_canvas(const DrawNode *node, int width, int 
 // Returns true if the picture can be rendered with fewer pixels and differs only in sharpness: no node of the tree has
 // a custom shader or a pattern measured in pixels.
 bool render_graph_scalable(const DrawNode *node);
-// Converts a side from units to pixels. `detail`: pixels per unit. Returns at least 1.
+// Converts a width or height from units to pixels. `detail`: pixels per unit. Returns at least 1.
 int render_graph_pixels(int side, double detail);
 // Returns true if the node's picture is only its children composited, without a shader.
 bool render_graph_is_plain(const DrawNode *node);

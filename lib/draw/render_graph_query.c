@@ -1,4 +1,4 @@
-// render_graph_query.c: properties of a tree of pictures that are known before it is rendered; see render_graph.h.
+// render_graph_query.c: properties of a render graph that can be determined before rendering; see render_graph.h.
 #include "draw/render_graph.h"
 
 #include <math.h>

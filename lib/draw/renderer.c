@@ -1,4 +1,4 @@
-// renderer.c: the part of a painter that does not depend on what draws canvases; see painter.h.
+// renderer.c: the functions of a painter that do not depend on Cairo; see painter.h.
 #include "base/heap.h"
 #include "draw/painter.h"
 #include "draw/resize.h"
@@ -75,7 +75,7 @@ double draw_fit(double width, double height, double box_width, double box_height
 
 void draw_limit(PetriPainter *painter, const CanvasPicture *picture) {
     painter->budget.memory_limit = picture->memory;
-    budget_begin(&painter->budget, picture->work / 4 * 3, NULL); // not charged to the frame
+    budget_begin(&painter->budget, picture->work / 4 * 3, NULL); // a separate allowance, not charged to the frame
 }
 
 static void report_limit(void *faults) {
@@ -92,7 +92,7 @@ void draw_clear(uint32_t *pixels, int width, int height, size_t stride) {
         memset((unsigned char *)pixels + (size_t)y * stride, 0, (size_t)width * sizeof *pixels);
 }
 
-// Renders the tree of pictures unless it was already rendered for this picture.
+// Renders the render graph unless it was already rendered for this picture.
 static PetriStatus make_pictures(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults) {
     if (painter->made == picture->serial)
         return PETRI_OK;
@@ -123,7 +123,8 @@ typedef struct Fetching {
     DiagSink *faults;
 } Fetching;
 
-// Downloads the window's picture from the GPU. If the memory limit does not allow that, the window has no picture.
+// Downloads the window's picture from the GPU. If the memory limit does not allow the download, the window has no
+// picture.
 static void download_shown(void *context) {
     Fetching *fetching = context;
     PetriPainter *painter = fetching->painter;

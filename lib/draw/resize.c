@@ -7,8 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-// Computes the weights of the old pixels in a new one: a triangle, which is at least one old pixel and one new pixel
-// wide.
+// Computes the weights of the old pixels in the new pixel `at`. The filter is a triangle whose radius is one old or one
+// new pixel, whichever is larger.
 static void compute_weights(int old, int new, int at, int *first, int *count, float *weights) {
     double scale = (double)old / new, reach = fmax(scale, 1), middle = (at + 0.5) * scale, sum = 0;
     int low = (int)fmax(floor(middle - reach), 0), high = (int)fmin(ceil(middle + reach), old);
@@ -23,7 +23,8 @@ static void compute_weights(int old, int new, int at, int *first, int *count, fl
         weights[i] /= (float)sum;
 }
 
-// Resizes lines of `old` pixels of four floats, `step` pixels apart, to `new` ones in another array.
+// Resizes lines of `old` pixels to lines of `new` pixels in another array. A pixel is four floats. If `down`, the lines
+// are columns, else rows.
 static void resize_lines(const float *in, float *out, int lines, int old, int new, bool down, float *weights) {
     for (int at = 0; at < new; at++) {
         int first, count;
@@ -37,13 +38,13 @@ static void resize_lines(const float *in, float *out, int lines, int old, int ne
                     sum[k] += weights[i] * in[4 * from + k];
             }
             size_t to = down ? (size_t)at * (size_t)lines + (size_t)line : (size_t)line * (size_t) new + (size_t)at;
-            for (size_t k = 0; k < 4; k++) // rounded to bytes between the two directions as well
+            for (size_t k = 0; k < 4; k++) // also rounded between the two directions
                 out[4 * to + k] = rintf(sum[k]);
         }
     }
 }
 
-// Writes a, r, g, b as bytes that are not premultiplied.
+// Converts pixels to floats a, r, g, b from 0 to 255, not premultiplied.
 static void unpack_pixels(const uint32_t *pixels, int width, int height, size_t stride, bool alpha, float *out) {
     for (int y = 0; y < height; y++) {
         const uint32_t *row = (const uint32_t *)(const void *)((const char *)pixels + (size_t)y * stride);

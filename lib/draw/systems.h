@@ -5,12 +5,12 @@
 #include "draw/automatic.h"
 #include "session/draw_access.h"
 
-enum { SYSTEMS_MAX = 64 }; // limit of one automatic picture
+enum { SYSTEMS_MAX = 64 }; // maximum number of systems in an automatic picture
 
 uint32_t auto_count(const DrawAccess *shown);
 // Copies the first `count` systems to the arena, and extends their views.
 AutoPicture auto_copy(const DrawAccess *shown, Arena *arena, AutoFrame *frames, uint32_t count);
-// Extends the views of all systems. The arena is for temporaries.
+// Extends the views of all systems. Temporary data is allocated from the arena.
 void auto_follow(const DrawAccess *shown, Arena *arena, AutoFrame *frames);
 
 #endif

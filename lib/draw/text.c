@@ -11,8 +11,8 @@
 enum { MAX_TEXT_LENGTH = 10000 };         // bytes
 static const double MAX_FONT_SIZE = 4000; // pixels
 
-// Creates the fonts when a text first needs them. Pango reads the list of fonts in a background thread, which only
-// requests for a font wait for. A process that exits in the meantime would free data that the thread still reads.
+// Creates the fonts on first use, not earlier. Pango loads the list of fonts in a background thread; a process that
+// exits in the meantime would free data that the thread still reads.
 TextContext *draw_text_context(PetriPainter *painter) {
     TextContext *text_context = painter->text_context;
     if (text_context)
@@ -48,7 +48,7 @@ void draw_text_close(PetriPainter *painter) {
     heap_free(text_context);
 }
 
-// Returns true for generic names, which every machine maps to some font.
+// Returns true for generic family names, which every machine maps to some font.
 static bool is_generic(const char *name) {
     static const char *const names[] = {"sans",      "sans-serif", "serif",   "mono",
                                         "monospace", "cursive",    "fantasy", "system-ui"};
@@ -81,8 +81,8 @@ static const char *find_substitute(const char *name) {
     return NULL;
 }
 
-// Returns the first installed family of a list of names, or its replacement. If there is none, returns the list, and
-// reports that unless it is the default list.
+// Returns the first family in a list of names that is installed or has an installed substitute. If there is none,
+// returns the list, and reports this unless the list is the default.
 static const char *find_family(Canvas *canvas, const char *list) {
     char name[128];
     for (const char *at = list;;) {
@@ -147,7 +147,7 @@ static void set_font(Canvas *canvas, const DisplayText *text) {
     text_context->font = *text;
 }
 
-// The size on the target must be one that the font library can handle.
+// Returns true if the font library can handle the size on the target.
 static bool has_drawable_size(Canvas *canvas, double size) {
     double pixels = size * draw_scale_of(canvas->cr);
     if (pixels > MAX_FONT_SIZE || size > MAX_FONT_SIZE)

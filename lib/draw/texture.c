@@ -85,8 +85,8 @@ void texture_free(Texture *texture) {
 
 // The sRGB curve at the 256 byte values, and halfway between them.
 static float decoded[256], thresholds[256];
-// Indexed by the upper 16 bits of a float: the number of thresholds that are at most the float with these bits and 0
-// below. After this lookup, one or two comparisons remain.
+// Indexed by the upper 16 bits of a float: the number of thresholds that do not exceed the float with these upper bits
+// and zero lower bits. After this lookup, one or two comparisons remain.
 enum { ONE = 0x3f80 }; // upper half of 1.0
 static uint8_t below[ONE + 1];
 
@@ -136,7 +136,7 @@ unsigned texture_encode(float c) {
         return 255;
     memcpy(&bits, &c, sizeof bits);
     unsigned count = below[bits >> 16];
-    while (c >= thresholds[count]) // ends because the last threshold is above 1
+    while (c >= thresholds[count]) // terminates because the last threshold is above 1
         count++;
     return count;
 }
@@ -169,7 +169,7 @@ static void read_texel(const Texture *texture, int x, int y, float color[4]) {
     color[3] = (float)(pixel >> 24) / 255.0f;
 }
 
-// Maps a coordinate into the picture. Returns false where the border applies.
+// Wraps or clamps a coordinate to the picture. Returns false if the border colour applies.
 static bool wrap_coordinate(int *at, int size, bool repeat, bool clamped) {
     if (repeat)
         *at = (*at % size + size) % size;

@@ -1,4 +1,4 @@
-// texture.h: the pictures in the tree of a frame (spec pictures.md 1): red, green, blue and alpha, premultiplied.
+// texture.h: pictures of a render graph (spec pictures.md 1): premultiplied red, green, blue and alpha.
 #ifndef PETRI_DRAW_TEXTURE_H
 #define PETRI_DRAW_TEXTURE_H
 
@@ -10,7 +10,7 @@ typedef struct Texture {
     uint32_t references;
     int width;
     int height;
-    uint32_t *bytes; // sRGB picture: ARGB32, rows from the top, as Cairo has it
+    uint32_t *bytes; // sRGB picture: ARGB32 as in Cairo, rows from the top
     float *linear;   // linear light: r, g, b, a, rows from the top
     GlImage image;
     Gl *gl;         // context of `image`; NULL: not on the GPU
@@ -33,7 +33,7 @@ void texture_free(Texture *texture);
 
 // Returns the byte round(255 enc(c)) of a linear value c (pictures.md 1.4).
 unsigned texture_encode(float c);
-// Returns 256 thresholds: for each byte, the least linear value that texture_encode maps to a larger byte.
+// Returns 256 thresholds: for each byte, the smallest linear value that texture_encode maps to a larger byte.
 const float *texture_thresholds(void);
 // Returns lin(byte/255).
 float texture_decode(unsigned byte);
@@ -41,15 +41,15 @@ float texture_decode(unsigned byte);
 // Returns a premultiplied byte divided by its alpha.
 unsigned texture_unpremultiply(unsigned byte, unsigned alpha);
 
-// Writes a row as ARGB32 pixels. Opaque pictures are composited over black. Otherwise linear pictures are encoded
-// without their alpha and then multiplied by it again.
+// Writes a row as ARGB32 pixels. Opaque pictures are composited over black. Otherwise linear colours are
+// unpremultiplied, encoded and premultiplied again.
 void texture_row(const Texture *texture, int y, bool opaque, uint32_t *row);
 
 // Like texture_row, but the result is linear light in bytes. texture_linear_pixel converts one such pixel of an sRGB
 // picture.
 void texture_linear_row(const Texture *texture, int y, uint32_t *row);
 uint32_t texture_linear_pixel(uint32_t pixel);
-// Convert pixels of linear bytes to floats, and to a new picture; it is NULL if out of memory.
+// Convert a picture of linear bytes to floats, or to a new linear picture (NULL if out of memory).
 void texture_copy_linear(const Texture *bytes, float *linear);
 Texture *texture_from_linear_bytes(Budget *budget, const Texture *bytes);
 
@@ -60,7 +60,7 @@ typedef struct Sampler {
     bool clamped; // repeats the edge pixels; `border` and `repeat` are not used
     bool nearest;
 } Sampler;
-// Returns the colour at u, v, which run from 0 to 1 across the picture and from its top.
+// Computes the colour at u, v. u runs from 0 to 1 from left to right, v from top to bottom.
 void texture_sample(const Texture *texture, const Sampler *sampler, double u, double v, float color[4]);
 
 #endif

@@ -1,4 +1,4 @@
-// window.c: pictures on a window of the host, with the host's OpenGL context.
+// window.c: presents pictures on a window of the host, using the host's OpenGL context.
 #include "base/heap.h"
 #include "draw/painter.h"
 #include "draw/picture.h"
