@@ -1,4 +1,4 @@
-// command.c: `petri lsp`. The program petri only has its help; petri-lsp sets CommandContext.run_lsp.
+// command.c: `petri lsp`. The program petri contains only its help text; petri-lsp sets CommandContext.run_lsp.
 #include "cli/options.h"
 
 static int lsp_run(const CommandContext *context, Options *options) {

@@ -1,4 +1,4 @@
-// complete.c: completion of names, functions, nodes, attributes, keys and files, and the parameters of calls.
+// complete.c: completion of names, functions, nodes, attributes, keys and files; signature help for calls.
 #include "base/source.h"
 #include "cli/help.h"
 #include "lsp/workspace.h"
@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Item kinds of the protocol.
+// CompletionItemKind of the protocol.
 enum {
     AS_FUNCTION = 3,
     AS_FIELD = 5,
@@ -28,8 +28,8 @@ typedef struct Offer {
     TextList labels; // labels added so far
 } Offer;
 
-// Adds an item that replaces the word with `insert`; `order` is the first character of its sort key. Returns NULL if an
-// item with this label exists.
+// Adds an item that replaces the word with `insert`. `order` is the first character of its sort key. Returns the item,
+// or NULL if there is already an item with this label.
 static Json *add_candidate(Offer *all, const char *label, int kind, const char *insert, char order) {
     if (texts_contain(&all->labels, label))
         return NULL;
@@ -91,7 +91,7 @@ static void offer_name(Offer *all, Document *document, const PetriBinding *name)
     }
 }
 
-// Offers the names that scripts bind which include this one, as visible at the include.
+// Offers the names that are bound in scripts that include this script, and are visible at the include.
 static void offer_around(Offer *all) {
     Workspace workspace;
     workspace_open(&workspace, all->request->server, all->request->document, false);
@@ -113,7 +113,7 @@ static void offer_names(Offer *all) {
     Document *document = all->request->document;
     PetriBuiltin builtin;
     for (size_t i = document->name_count; i > 0;
-         i--) { // from the end, since the last binding of a name is the innermost
+         i--) { // from the end, because the last binding of a name is the innermost
         const PetriBinding *name = &document->names[i - 1];
         bool seen = name->kind != PETRI_NAME_USE && name->scope_start <= all->request->offset &&
                     all->request->offset <= name->scope_end;
@@ -130,7 +130,7 @@ static void offer_names(Offer *all) {
         set_detail(add_candidate(all, TOPICS[i].word, AS_CONSTANT, TOPICS[i].word, 'c'), "", TOPICS[i].help);
 }
 
-// Offers the script's symbols; with `keys` only those used as state keys, by systems or in look-ups.
+// Offers the symbols in the script. If `keys`, only those that are state keys of systems or are looked up in the state.
 static void offer_symbols(Offer *all, bool keys) {
     const Document *document = all->request->document;
     for (size_t i = 0; i < document->token_count; i++) {
@@ -148,7 +148,7 @@ static void offer_symbols(Offer *all, bool keys) {
     }
 }
 
-// Offers the symbols that an attribute accepts, which are in its type, such as ":butt, :round or :square".
+// Offers the symbols that an attribute accepts. They are listed in its type, such as ":butt, :round or :square".
 static void offer_choices(Offer *all, size_t token) {
     const Document *document = all->request->document;
     const char *node;
@@ -182,7 +182,8 @@ static void offer_files(Offer *all, size_t string) {
         closedir(entries);
 }
 
-// Returns the name token of the call around an offset, or SIZE_MAX. *commas is the number of commas before the offset.
+// Returns the token of the function name in the call around an offset, or SIZE_MAX if there is none. Sets *commas to
+// the number of commas between the arguments before the offset.
 static size_t call_around(const Document *document, size_t offset, size_t *commas) {
     size_t depth = 0;
     *commas = 0;
@@ -206,7 +207,8 @@ static size_t call_around(const Document *document, size_t offset, size_t *comma
     return SIZE_MAX;
 }
 
-// Appends the parameters of a function without parentheses, and its help. Returns false if the name is not a function.
+// Appends the parameters of a function, without parentheses, to `out`, and its help to `help`. Returns false if the
+// name is not a function.
 static bool parameters_of(const RequestContext *request, size_t token, ByteBuffer *out, ByteBuffer *help) {
     Workspace workspace;
     workspace_open(&workspace, request->server, request->document, false);
@@ -261,7 +263,7 @@ static bool ends_operand(const Document *document, size_t token) {
                                    : document_is(document, token, ")") || document_is(document, token, "]");
 }
 
-// Offers everything that may stand at the token. `first`: only blanks precede it in its line.
+// Offers everything that the grammar allows at the token. `first`: only blanks precede the token in its line.
 static void offer_all(Offer *all, size_t token, bool first) {
     const Document *document = all->request->document;
     const char *node;

@@ -24,7 +24,7 @@ static void count_lines(Document *document) {
             document->lines[++line] = i + 1;
 }
 
-// Replaces invalid UTF-8, which files may contain but JSON must not, by question marks.
+// Appends text, replacing invalid UTF-8 by question marks. Files may contain invalid UTF-8, but JSON must not.
 static void add_valid_utf8(ByteBuffer *out, Str text) {
     for (size_t at = 0; at < text.len;) {
         size_t start = at;
@@ -166,7 +166,7 @@ static int by_start(const void *a, const void *b) {
     return first->start < second->start ? -1 : first->start > second->start;
 }
 
-// Finds the strings after %include and after the `from` of an import.
+// Finds the links: the strings after %include and after the `from` of an import.
 static void find_links(Document *document) {
     forget_links(document);
     for (size_t i = 1; document->is_file && i < document->token_count; i++) {
@@ -358,7 +358,7 @@ char *uri_of(const char *path) {
     ByteBuffer uri = {0};
     if (path[0] == '/')
         byte_buffer_add_uri(&uri, path);
-    else // a URI of the editor that is not a file
+    else // the URI is not a file URI
         byte_buffer_add_text(&uri, path);
     return uri.data;
 }

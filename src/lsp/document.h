@@ -5,7 +5,7 @@
 #include "lsp/rpc.h"
 #include "petri.h"
 
-// A diagnostic of the document's text. Diagnostics of files that it includes are only published.
+// A diagnostic of the document's own text. Diagnostics of included files are published, but not stored here.
 typedef struct DocumentDiagnostic {
     PetriLevel level;
     size_t start; // offset in the text
@@ -20,20 +20,20 @@ typedef struct Link {
     size_t token;  // index of the string's token
     bool include;  // true for %include, false for import
     char *path;    // canonical if the file exists
-    size_t target; // index in Workspace.documents; SIZE_MAX: not there
+    size_t target; // index in Workspace.documents; SIZE_MAX: not in the workspace
 } Link;
 
 typedef struct Document {
     char *uri;
-    char *path;      // name in diagnostics: the file, or the URI if it is not a file URI
-    char *canonical; // `path` without links and dots if the file exists, else `path`
+    char *path;      // name in diagnostics: the path, or the URI if it is not a file URI
+    char *canonical; // canonical path (symbolic links and dots resolved) if the file exists, else `path`
     int64_t version;
     ByteBuffer text; // lines end in LF
     size_t *lines;   // offset of each line
     size_t line_count;
     bool is_file;
-    bool unread;        // true if tokens and names belong to an older text
-    bool unchecked;     // true if diagnostics belong to an older text
+    bool unread;        // true if tokens and names are outdated: the text has changed
+    bool unchecked;     // true if diagnostics are outdated
     PetriToken *tokens; // without NEWLINE, INDENT and DEDENT
     size_t token_count;
     size_t *levels; // by token: indentation level; SIZE_MAX - level if the token begins a statement
@@ -53,7 +53,7 @@ void document_free(Document *document);
 void document_set_text(Document *document, Str text);
 // Applies one change of textDocument/didChange.
 void document_change(Document *document, const Json *change, bool utf8);
-// Updates tokens and names if they belong to an older text.
+// Updates tokens and names if they are outdated.
 void document_read(Document *document, PetriSession *session);
 void document_clear_diagnostics(Document *document);
 
@@ -71,17 +71,19 @@ size_t document_level(const Document *document, size_t token);
 size_t document_token_at(const Document *document, size_t offset);
 // Returns the name at an offset, or NULL.
 const PetriBinding *document_name_at(const Document *document, size_t offset);
-// Returns the binding of a name, which is the name itself if it binds; NULL if the document does not bind it.
+// Returns the binding that a name refers to, or the name itself if it is a binding. Returns NULL if the document does
+// not bind the name.
 const PetriBinding *document_binding(const Document *document, const PetriBinding *name);
 
-// Returns the import or include whose file name is at an offset, or NULL.
+// Returns the import or include whose file name is at an offset, or NULL if there is none.
 const Link *document_link(const Document *document, size_t offset);
 
-// Returns the binding of the name at a token. In a statement that does not parse, returns the binding visible there.
-// Returns NULL if the document does not bind the name.
+// Returns the binding that the name at a token refers to. In a statement with a syntax error, returns the visible
+// binding of this name. Returns NULL if the document does not bind the name.
 const PetriBinding *document_resolve(const Document *document, size_t token);
 
-// Converts file:///a%20b to /a b. Returns NULL if it is not a file URI. The caller frees it with free.
+// Converts a file URI such as file:///a%20b to a path such as /a b. Returns NULL if it is not a file URI. The caller
+// frees it with free.
 char *uri_path(const char *uri);
 // Converts a path to a file URI. The caller frees it with free.
 char *uri_of(const char *path);

@@ -1,4 +1,4 @@
-// hover.c: information about a word, from petri's tables, the script, and the values of constants.
+// hover.c: hover information about a word, from petri's tables, the script, and the values of constants.
 #include "base/source.h"
 #include "cli/help.h"
 #include "lsp/workspace.h"
@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_SHOWN = 600 }; // bytes of a value or a statement
+enum { MAX_SHOWN = 600 }; // maximum length of a value or a statement, in bytes
 
 static bool text_equals(Str text, const char *name) {
     return str_equal(text, str_from(name));
@@ -29,7 +29,7 @@ bool hover_builtin(Str name, PetriBuiltin *builtin) {
     return false;
 }
 
-// Searches backwards within the statement, skipping brackets, for the node.
+// Searches backwards for the node within the statement. Skips expressions in brackets.
 size_t hover_node_of(const Document *document, size_t token, const char **name) {
     size_t depth = 0;
     for (size_t i = token; i > 0; i--) {
@@ -89,7 +89,7 @@ static bool hover_topic(ByteBuffer *out, Str word) {
 
 // --- values
 
-// Returns true if all names in a part of the text are constant.
+// Returns true if all names in the text from `start` to `end` are constant.
 static bool is_constant(const Document *document, size_t start, size_t end, unsigned depth) {
     PetriBuiltin builtin;
     for (size_t i = document_token_at(document, start); i < document->token_count && document->tokens[i].start < end;
@@ -165,7 +165,7 @@ const char *hover_value(Server *server, Document *document, const PetriBinding *
     return json_text(document->values, own);
 }
 
-// --- the script's own names
+// --- names bound in the script
 
 const PetriBinding *hover_export(const Document *document, Str text) {
     const PetriBinding *found = NULL;
@@ -201,7 +201,7 @@ void hover_binding(ByteBuffer *out, Server *server, Document *document, const Pe
     size_t start = name->kind == PETRI_NAME_FUNC ? name->value_start : name->start;
     Str text = document_slice(document, start, end);
     const char *stop = memchr(text.bytes, '\n', text.len);
-    bool head = stop && name->kind == PETRI_NAME_FUNC; // without its body
+    bool head = stop && name->kind == PETRI_NAME_FUNC; // show the function without its body
     text = head ? (Str){text.bytes, (size_t)(stop - text.bytes)} : str_truncate(text, MAX_SHOWN);
     byte_buffer_format(out, "```flitter\n%s%.*s\n```\n", kinds[name->kind], STR_ARGS(text));
     const char *value = hover_value(server, document, name);
@@ -247,7 +247,7 @@ static void hover_name(ByteBuffer *out, const RequestContext *request, size_t to
         hover_topic(out, text);
 }
 
-// Shows the value of a number, because it may have a suffix or be a time code.
+// Appends the value of a number literal, which may have a suffix or be a time code.
 static void hover_number(ByteBuffer *out, Str text) {
     SCOPED_TEXT copy = memory_strndup(text.bytes, text.len);
     double x;

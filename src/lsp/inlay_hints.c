@@ -1,4 +1,4 @@
-// inlay_hints.c: inlay hints with values of constants, colours, corrections, and formatting.
+// inlay_hints.c: inlay hints with values of constants, document colours, quick fixes, and formatting.
 #include "fmt/layout.h"
 #include "lsp/server.h"
 
@@ -47,8 +47,8 @@ Json *answer_hints(const RequestContext *request, const char **problem) {
 
 // --- colours
 
-// Parses at most `max` numbers separated by semicolons. *end is the token of the last one. Returns how many there are;
-// 0 if there are more than `max` or other values.
+// Parses at most `max` numbers separated by semicolons and sets *end to the token of the last number. Returns their
+// number, or 0 if there are more than `max` elements or an element is not a number.
 static size_t read_numbers(const Document *document, size_t token, double *numbers, size_t max, size_t *end) {
     size_t count = 0;
     for (size_t i = token; i < document->token_count && count < max; i += 2) {
@@ -148,9 +148,9 @@ Json *answer_presentations(const RequestContext *request, const char **problem) 
     return list;
 }
 
-// --- corrections
+// --- quick fixes
 
-// Returns X of "did you mean 'X'?" or "did you mean X?", or an empty text.
+// Returns X if the text contains "did you mean 'X'?" or "did you mean X?", else an empty string.
 static Str suggested_word(const char *text) {
     static const char question[] = "did you mean ";
     const char *at = strstr(text, question);
@@ -161,13 +161,14 @@ static Str suggested_word(const char *text) {
     return (Str){at, strcspn(at, "'?")};
 }
 
-// Returns the first word in quotes, or an empty text.
+// Returns the first word in quotes, or an empty string if there is none.
 static Str quoted_word(const char *text) {
     const char *open = strchr(text, '\''), *close = !open ? NULL : strchr(open + 1, '\'');
     return !close ? (Str){0} : (Str){open + 1, (size_t)(close - open - 1)};
 }
 
-// Finds the wrong word in the range of a diagnostic. Returns false if it is not there.
+// Finds the word to replace by `meant` in the range of a diagnostic, and sets *start and *end. Returns false if it is
+// not found.
 static bool find_invalid_word(const Document *document, const DocumentDiagnostic *diagnostic, Str meant, size_t *start,
                               size_t *end) {
     Str part = document_slice(document, diagnostic->start, diagnostic->end), wrong = quoted_word(diagnostic->text);
@@ -187,7 +188,7 @@ static bool find_invalid_word(const Document *document, const DocumentDiagnostic
     return node && meant.bytes[0] == '!';
 }
 
-// Returns the replacement for the diagnostic's whole range if the hint contains one, or an empty text.
+// Returns the replacement for the whole range of the diagnostic if its hint contains one, else an empty string.
 static Str replacement_of(const char *hint) {
     static const char node[] = "a node is written ", comparison[] = "write == to compare";
     if (strncmp(hint, comparison, strlen(comparison)) == 0)
@@ -232,7 +233,7 @@ Json *answer_actions(const RequestContext *request, const char **problem) {
 
 // --- formatting
 
-// Returns one edit of the lines that change. Does not format a script with errors.
+// Returns a single edit that replaces the changed lines. Does not format a script with errors.
 Json *answer_format(const RequestContext *request, const char **problem) {
     (void)problem;
     const Document *document = request->document;

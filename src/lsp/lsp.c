@@ -55,7 +55,8 @@ bool server_open_session(Server *server) {
     return options_open(server->options, server->host, diagnostics_collect, server, &server->session) == OPTIONS_READ;
 }
 
-// Opens a new session after 4 MiB of text, because a session never frees the symbols that it has seen.
+// Updates tokens and names of a document. Opens a new session after every 4 MiB of text, because a session never frees
+// symbols.
 void server_read(Server *server, Document *document) {
     server->read += document->unread ? document->text.length : 0;
     if (server->read > MAX_READ)
@@ -66,7 +67,7 @@ void server_read(Server *server, Document *document) {
 
 // --- documents
 
-// Marks the documents that import or include the touched one.
+// Marks the documents that import or include the touched document as unchecked.
 static void mark_dependents_unchecked(Server *server, const Document *touched) {
     for (size_t i = 0; i < server->document_count; i++) {
         Document *document = server->documents[i];
@@ -108,7 +109,7 @@ static void close_document(Server *server, const Json *params) {
     }
 }
 
-// Marks all documents: a file that they import was saved or may have been changed by another program.
+// Marks all documents as unchecked, because any of them may import a file that was saved or changed on disk.
 static void check_all(Server *server, const Json *params) {
     (void)params;
     for (size_t i = 0; i < server->document_count; i++)

@@ -1,11 +1,12 @@
-// lsp.h: the language server. It is a separate program, petri-lsp, because it needs a JSON library.
+// lsp.h: the language server, which is a separate program, petri-lsp, because it needs a JSON library.
 #ifndef PETRI_SRC_LSP_H
 #define PETRI_SRC_LSP_H
 
 #include "cli/cli.h"
 #include "cli/options.h"
 
-// Serves standard input until the editor ends the session. Returns the exit status. For CommandContext.run_lsp.
+// Handles messages from standard input until the editor ends the session. Returns the exit status. For
+// CommandContext.run_lsp.
 int lsp_serve(const CommandContext *context, Options *options);
 
 #endif

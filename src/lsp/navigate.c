@@ -25,7 +25,7 @@ static Json *location(const Server *server, const Document *document, size_t sta
                     document_range(document, start, end, server->utf8));
 }
 
-// Returns the start of the file that the string at the position names, or NULL.
+// Returns the location of the start of the file that the import or include at the position names, or NULL.
 static Json *file_location(const RequestContext *request) {
     const Link *link = document_link(request->document, request->offset);
     bool own = false;
@@ -36,7 +36,8 @@ static Json *file_location(const RequestContext *request) {
     return result;
 }
 
-// Returns a location, or a list of them if several scripts that include this one bind the name. NULL: none.
+// Returns the location of the definition, or a list of locations if several scripts that include this script bind the
+// name. Returns NULL if there is no definition.
 static Json *definitions(const RequestContext *request, bool whole) {
     Workspace workspace;
     workspace_open(&workspace, request->server, request->document, whole);
@@ -92,8 +93,8 @@ static bool is_named(const Document *document, size_t number, Str text) {
     return str_equal(document_slice(document, name->start, name->end), text);
 }
 
-// A name of an included file may refer to a binding in each including script. Adds these bindings to `meant`, because
-// they must be renamed together.
+// A name in an included file may refer to one binding in each including script. Adds all these bindings to `meant`,
+// because they must be renamed together.
 static void merge_includer_bindings(const Workspace *workspace, BindingSet *meant, Str text) {
     for (bool more = meant->count > 0; more;) {
         more = false;
@@ -119,7 +120,7 @@ static const PetriBinding *function_of(const Document *document, const PetriBind
     return parameter->kind == PETRI_NAME_PARAMETER ? found : NULL;
 }
 
-// Adds named arguments of a call in another file: `f(NAME=…)`, `@f NAME=…`.
+// Adds the named arguments with this name in a call in another file: `f(NAME=…)`, `@f NAME=…`.
 static void add_arguments(Uses *uses, const Workspace *workspace, size_t file, size_t token, Str text) {
     const Document *document = workspace->documents[file];
     bool template = token > 0 && document_is(document, token - 1, "@");
@@ -154,7 +155,8 @@ static void find_arguments(Uses *uses, const Workspace *workspace, BindingRef pa
     }
 }
 
-// Returns all names with the same binding as the name at the position, by file and offset. The caller frees `items`.
+// Returns all names with the same binding as the name at the position, sorted by file and offset. The caller frees
+// `items`.
 static Uses uses_of(const RequestContext *request, const Workspace *workspace) {
     Uses uses = {0};
     BindingSet meant = bindings_at(request, workspace);
@@ -217,7 +219,7 @@ Json *answer_highlight(const RequestContext *request, const char **problem) {
 
 // --- renaming
 
-// Returns the name at the position if it can be renamed, else NULL with *problem set.
+// Returns the name at the position if it can be renamed. Otherwise sets *problem and returns NULL.
 static const PetriBinding *rename_target(const RequestContext *request, const Workspace *workspace,
                                          const char **problem) {
     const PetriBinding *at = document_name_at(request->document, request->offset);
@@ -246,7 +248,8 @@ static bool is_name(Server *server, const char *text) {
     return good;
 }
 
-// Returns the bindings of every name of all files in order. The caller frees it with free.
+// Returns an array with the bindings of every name in all files, in order, and sets *count. The caller frees it with
+// free.
 static BindingSet *all_bindings(const Workspace *workspace, size_t *count) {
     *count = 0;
     for (size_t file = 0; file < workspace->count; file++)
@@ -263,7 +266,8 @@ static bool binding_sets_equal(const BindingSet *a, const BindingSet *b) {
     return a->count == b->count && !binding_set_add(&both, b);
 }
 
-// Returns the edits of one file and appends its new text. `uses` are in order.
+// Returns the edits that rename the uses in one file, and appends the new text of the file to `text`. `uses` are sorted
+// by offset.
 static Json *edits_of(const RequestContext *request, const Document *document, const Use *uses, size_t count,
                       const char *wanted, ByteBuffer *text) {
     Json *edits = json_object_new_array();
@@ -280,7 +284,8 @@ static Json *edits_of(const RequestContext *request, const Document *document, c
     return edits;
 }
 
-// Renames the uses, also in the workspace. Sets *problem if a name then has other bindings than before.
+// Returns the edits that rename the uses, and applies them in the workspace. Sets *problem if the binding of any name
+// would change.
 static Json *rename_uses(const RequestContext *request, Workspace *workspace, const Uses *uses, const char *wanted,
                          const char **problem) {
     size_t count, renamed;

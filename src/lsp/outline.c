@@ -6,7 +6,7 @@
 
 // --- symbols
 
-// Symbol kinds of the protocol.
+// SymbolKind of the protocol.
 enum { AS_MODULE = 2, AS_FUNCTION = 12, AS_VARIABLE = 13, AS_OBJECT = 19 };
 
 // Returns the end of the statement that a token begins, including its block.
@@ -75,7 +75,7 @@ Json *answer_folding(const RequestContext *request, const char **problem) {
     (void)problem;
     const Document *document = request->document;
     Json *list = json_object_new_array();
-    size_t first = SIZE_MAX, last = 0; // lines of consecutive comments that each have a line
+    size_t first = SIZE_MAX, last = 0; // first and last line of the current run of consecutive comment lines
     for (size_t i = 0; i <= document->token_count; i++) {
         bool comment = i < document->token_count && document->tokens[i].kind == PETRI_TOKEN_COMMENT;
         size_t line = 0, end = 0, character, column;
@@ -159,7 +159,7 @@ static Class class_of(const Document *document, size_t token, int *modifiers) {
                                                             : classes[document->tokens[token].kind];
 }
 
-// Encodes a token as five numbers: lines and characters since the previous token, length, class, modifiers.
+// Encodes each token as five numbers: lines and characters since the previous token, length, class, modifiers.
 typedef struct Encoder {
     Json *data;
     size_t line;
@@ -170,7 +170,7 @@ static void add_number(Encoder *encoder, size_t number) {
     json_object_array_add(encoder->data, json_object_new_int64((int64_t)number));
 }
 
-// Encodes a token once per line, because tokens of the protocol must not span lines.
+// Encodes a token, with one entry per line, because tokens of the protocol must not span several lines.
 static void encode(Encoder *encoder, const RequestContext *request, const PetriToken *token, Class class,
                    int modifiers) {
     const Document *document = request->document;

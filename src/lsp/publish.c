@@ -1,7 +1,7 @@
 // publish.c: sending the diagnostics of documents to the editor.
 //
-// A check may also report diagnostics of included files. Each document stores the diagnostics of its last check by
-// file; the editor gets for each file the union over all documents.
+// A check may also report diagnostics of included files. Each document stores the diagnostics of its last check,
+// grouped by file. For each file, the editor receives the union over all documents.
 #include "lsp/server.h"
 
 #include <stdlib.h>
@@ -71,7 +71,7 @@ static bool contains_item(const Json *list, Json *item) {
     return false;
 }
 
-// Sends the diagnostics of a file from all documents.
+// Sends the diagnostics of a file, collected from all documents.
 static void publish_file(Server *server, const char *uri) {
     Json *all = json_object_new_array();
     for (size_t i = 0; i < server->document_count; i++) {
@@ -89,7 +89,7 @@ static void publish_file(Server *server, const char *uri) {
     rpc_notify("textDocument/publishDiagnostics", params);
 }
 
-// Sends the files of a document's new and old diagnostics (`now`, `before`). Frees `before`.
+// Publishes all files in the new diagnostics (`now`) or the old diagnostics (`before`) of a document. Frees `before`.
 static void publish_changes(Server *server, const Json *now, Json *before) {
     json_object_object_foreach((Json *)now, uri, list) {
         (void)list;

@@ -13,7 +13,7 @@
 enum { MAX_DEPTH = 256, MAX_HEADER = 4096 };
 static const size_t MAX_BYTES = (size_t)64 << 20;
 
-// Reads more input. Returns false at its end.
+// Reads more input. Returns false at the end of the input.
 static bool read_more(ByteBuffer *input) {
     char part[1 << 16];
     ssize_t count;
@@ -31,7 +31,7 @@ static void drop_bytes(ByteBuffer *input, size_t count) {
     input->data[input->length] = '\0';
 }
 
-// Returns the length in a message header; SIZE_MAX if there is none or it is too large.
+// Returns the content length in a message header, or SIZE_MAX if it is missing or too large.
 static size_t content_length(const char *header) {
     static const char name[] = "Content-Length:";
     for (const char *line = header; line; line = strchr(line, '\n')) {

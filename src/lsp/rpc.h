@@ -29,7 +29,7 @@ bool rpc_send_error(Json *id, int code, const char *text);
 bool rpc_notify(const char *method, Json *params);
 
 // JSON. json_put* take ownership of the value and return the object. json_get, json_path and json_text return borrowed
-// values; NULL if there is no such member or `object` is NULL.
+// values, or NULL if there is no such member or `object` is NULL.
 Json *json_get(const Json *object, const char *key);
 Json *json_path(const Json *object, const char *keys); // keys separated by dots
 const char *json_text(const Json *object, const char *key);

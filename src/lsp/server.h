@@ -8,23 +8,23 @@
 typedef struct Server {
     const CommandContext *host;
     Options *options;
-    PetriSession *session; // for tokens, names and checks
-    size_t read;           // bytes of text that the session has read
+    PetriSession *session; // session in which documents are tokenised and checked
+    size_t read;           // number of bytes that the session has tokenised
     TextList roots;        // workspace folders of the editor
     Document **documents;
     size_t document_count;
-    bool utf8; // unit of positions: UTF-8 bytes if true, else UTF-16 code units
+    bool utf8; // true if positions count UTF-8 bytes, false if they count UTF-16 code units
     bool initialized;
     bool shutting_down; // true after the shutdown request
-    bool checking;      // true while `checked` is checked
+    bool checking;      // true while the document `checked` is being checked
     Document *checked;
     Json *found; // by URI: diagnostics of the current check
 } Server;
 
 // Returns an open document, or NULL.
 Document *server_document(const Server *server, const char *uri);
-// Returns the open document of a file, or reads the file. If *read is set, the caller frees the document. Returns NULL
-// if there is no such file.
+// Returns the open document of a file, or else reads the file and sets *read; the caller then frees the document.
+// Returns NULL if there is no such file.
 Document *server_file(Server *server, const char *path, bool *read);
 // For PetriOptions.read_unsaved: returns the text of an open document. During a check, records the path in `used`.
 const char *server_unsaved(void *server, const char *path, size_t *length);
@@ -35,7 +35,7 @@ bool server_open_session(Server *server);
 // Diagnostics (publish.c).
 // Checks a document and sends the diagnostics to the editor.
 void diagnostics_publish(Server *server, Document *document);
-// Collects a diagnostic of the current check; the session's diagnostic callback.
+// Stores a diagnostic of the current check. For PetriOptions.on_diagnostic.
 void diagnostics_collect(void *server, const PetriDiagnostic *diagnostic);
 // Removes the document's diagnostics from the editor.
 void diagnostics_withdraw(Server *server, Document *document);
@@ -48,7 +48,7 @@ typedef struct RequestContext {
     size_t offset; // offset of params.position; 0: the request has no position
 } RequestContext;
 
-// Request handlers. They return the result, NULL for null. On failure they set *problem to a message.
+// Request handlers. They return the result; NULL means null. On failure they set *problem to a message.
 typedef Json *RequestHandler(const RequestContext *request, const char **problem);
 RequestHandler answer_completion, answer_hover, answer_signature, answer_definition, answer_references,
     answer_highlight, answer_prepare_rename, answer_rename, answer_symbols, answer_folding, answer_tokens, answer_hints,
@@ -58,18 +58,19 @@ Json *tokens_legend(void);
 
 // Information about a word (hover.c).
 
-// Returns the index of the node kind that an attribute at the token belongs to, or SIZE_MAX.
+// Returns the index of the node kind to which an attribute at `token` belongs, or SIZE_MAX if there is none. Sets *name
+// to the name of the kind, or to NULL if it is unknown.
 size_t hover_node_of(const Document *document, size_t token, const char **name);
-// Finds the first kind with this name from index *number on, and sets *number. Several areas may have kinds of one
-// name.
+// Finds the first kind with this name at or after index *number, and sets *number to its index. Several areas may have
+// kinds with the same name.
 bool hover_kind(Str name, size_t *number, PetriNodeKind *kind);
 bool hover_builtin(Str name, PetriBuiltin *builtin);
 void hover_attribute(ByteBuffer *out, const PetriNodeAttribute *attribute);
-// Appends the definition of a name as a block of code, its value if it is constant, and its comment.
+// Appends the definition of a name as a code block, its value if it is constant, and its comment.
 void hover_binding(ByteBuffer *out, Server *server, Document *document, const PetriBinding *name);
 // Returns the value of a constant. Returns NULL if the name is not constant or its evaluation exceeds the work limit.
 const char *hover_value(Server *server, Document *document, const PetriBinding *name);
-// Returns the last top-level binding of a name, which is the one that importing scripts get, or NULL.
+// Returns the last top-level binding of a name, which importing scripts use, or NULL if there is none.
 const PetriBinding *hover_export(const Document *document, Str name);
 
 #endif

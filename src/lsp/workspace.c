@@ -1,7 +1,7 @@
 // workspace.c: see workspace.h.
 //
 // An imported name refers to the last top-level binding of that name in its file. An included file is a separate block:
-// it sees the names bound before the include, and its bindings are not visible outside.
+// names bound before the include are visible in it, but its bindings are not visible outside.
 #include "lsp/workspace.h"
 
 #include "base/source.h"
@@ -33,7 +33,7 @@ static void add_document(Workspace *workspace, Document *document, bool own) {
     server_read(workspace->server, document);
 }
 
-// Adds all files that are imported or included, directly or indirectly.
+// Adds all files that the documents import or include, directly or indirectly.
 static void follow_links(Workspace *workspace) {
     for (size_t i = 0; i < workspace->count; i++) {
         for (size_t k = 0; k < workspace->documents[i]->link_count; k++) {
@@ -49,7 +49,7 @@ static void follow_links(Workspace *workspace) {
     }
 }
 
-// Removes documents that no chain of links connects with the first one.
+// Removes documents that no chain of links connects with the first document.
 static void drop_unconnected(Workspace *workspace) {
     size_t kept = 0;
     bool *connected = memory_calloc(workspace->count);
@@ -76,7 +76,7 @@ static void drop_unconnected(Workspace *workspace) {
     free(connected);
 }
 
-// Sets the targets of all links, and `included`.
+// Sets the targets of all links and workspace->included.
 static void find_targets(Workspace *workspace) {
     free(workspace->included);
     workspace->included = memory_calloc(workspace->count);
@@ -90,7 +90,7 @@ static void find_targets(Workspace *workspace) {
     }
 }
 
-// Adds a script if it contains imports or includes; most do not.
+// Adds a script if it may contain imports or includes.
 static void add_candidate(Workspace *workspace, const char *path) {
     SCOPED_BYTE_BUFFER text = {0};
     bool own = false;
@@ -192,7 +192,8 @@ bool binding_set_add(BindingSet *senses, const BindingSet *more) {
 
 // --- bindings of names
 
-// Returns the definition of a binding: for an import, that of the imported name, else the binding itself.
+// Returns the definition of a binding: the definition of the imported name if the binding is an import, else the
+// binding itself.
 static BindingSet binding_definition(const Workspace *workspace, size_t file, size_t name, unsigned depth) {
     const Document *document = workspace->documents[file];
     const PetriBinding *bound = &document->names[name];
@@ -216,7 +217,8 @@ const PetriBinding *workspace_visible(const Document *document, const Link *link
     return found;
 }
 
-// Returns the bindings of a name that the file does not bind: those visible where other scripts include the file.
+// Returns the bindings of a name that the file does not bind: the bindings visible where other scripts include the
+// file.
 static BindingSet includer_bindings(const Workspace *workspace, size_t file, Str text, unsigned depth) {
     BindingSet all = {.count = 0};
     for (size_t i = 0; workspace->included[file] && depth <= MAX_LINKS && i < workspace->count; i++) {

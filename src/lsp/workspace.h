@@ -1,10 +1,10 @@
-// workspace.h: the scripts that are connected with a script by imports and includes, and name resolution among them.
+// workspace.h: the scripts that imports and includes connect with a script, and name resolution across them.
 #ifndef PETRI_SRC_LSP_WORKSPACE_H
 #define PETRI_SRC_LSP_WORKSPACE_H
 
 #include "lsp/server.h"
 
-// A reference to a name of a document, usually a binding.
+// A reference to a name in a document, usually a binding.
 typedef struct BindingRef {
     size_t file; // index in Workspace.documents
     size_t name; // index in Document.names
@@ -12,7 +12,7 @@ typedef struct BindingRef {
 
 enum { MAX_BINDINGS = 32 };
 
-// The bindings that a name may refer to: one, or for a name of an included file one per including script.
+// The bindings that a name may refer to: a single binding, or one per including script for a name in an included file.
 typedef struct BindingSet {
     BindingRef items[MAX_BINDINGS];
     size_t count;
@@ -21,15 +21,15 @@ typedef struct BindingSet {
 typedef struct Workspace {
     Server *server;
     Document **documents; // the requested document is the first
-    bool *own;            // by document: true if the workspace frees it
-    bool *included;       // by document: true if another document includes it
+    bool *own;            // by document: true if the workspace frees the document
+    bool *included;       // by document: true if another document includes this one
     size_t count;
     size_t files_left; // number of directory entries that may still be visited
 } Workspace;
 
 // Opens the document, the editor's open documents and the files that they import and include. If `whole`, also opens
 // the scripts in the editor's folders, or in the document's folder if the editor has none. Keeps only documents that
-// links connect with the first one.
+// links connect with the first document.
 void workspace_open(Workspace *workspace, Server *server, Document *document, bool whole);
 void workspace_close(Workspace *workspace);
 // Replaces the text of a document within the workspace only.
@@ -37,10 +37,10 @@ void workspace_replace(Workspace *workspace, size_t file, const ByteBuffer *text
 
 // Returns the bindings that a name refers to.
 BindingSet workspace_bindings(const Workspace *workspace, size_t file, size_t name);
-// Returns the bindings of a token of the first document, which may be in a statement that does not parse.
+// Returns the bindings of a token of the first document. The token may be in a statement with a syntax error.
 BindingSet workspace_resolve(const Workspace *workspace, size_t token);
 bool binding_sets_overlap(const BindingSet *a, const BindingSet *b);
-// Adds the bindings that `senses` does not contain. Returns true if there were any.
+// Adds the bindings in `more` that `senses` does not contain. Returns true if any were added.
 bool binding_set_add(BindingSet *senses, const BindingSet *more);
 
 // Returns the binding of a name that is visible where a document includes a file, or NULL.

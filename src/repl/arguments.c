@@ -37,7 +37,8 @@ static bool read_count(const char *text, int64_t *count) {
     return end != text && *end == '\0' && errno == 0 && !is_blank(text[0]) && text[0] != '+';
 }
 
-// Parses a number or evaluates an expression; *number need not be finite. Returns false after a message.
+// Parses a number or evaluates an expression. *number may be infinite or NaN. On failure, writes a message and returns
+// false.
 static bool evaluate_number(Repl *repl, const char *text, double *number) {
     PetriEvaluation result;
     if (petri_parse_number(text, number) && isfinite(*number))
@@ -117,14 +118,14 @@ size_t argument_lines(const Repl *repl, char *text, size_t around) {
     while (before > text && is_blank(before[-1]))
         before--;
     int64_t count = 0;
-    bool all = strcmp(last, "all") == 0, open = before > text && before[-1] == ';'; // the number belongs to a key
+    bool all = strcmp(last, "all") == 0, open = before > text && before[-1] == ';'; // part of a key: :p;2
     if (open || (!all && !(read_count(last, &count) && count > 0)))
         return screen_lines(repl, around);
     *before = '\0';
     return all ? SIZE_MAX : (size_t)count;
 }
 
-// Common words for leaving and for help. A question mark cannot occur in the language.
+// Common words that quit or show help. The language has no question mark.
 static const struct {
     const char *word;
     const char *command;
@@ -162,7 +163,7 @@ static size_t word_length(const char *text) {
     return text[0] == '?' ? 1 : strcspn(text, " \t\n(");
 }
 
-// Evaluates a trivial expression, because names are known only after an evaluation.
+// Evaluates a trivial expression, because petri_visible_name finds names only after an evaluation.
 static void compile_names(Repl *repl) {
     PetriEvaluation result;
     repl_busy(repl);
@@ -170,11 +171,12 @@ static void compile_names(Repl *repl) {
     repl_idle(repl);
 }
 
-// Executes `help`, `quit` and their synonyms. Returns false if the text is something else or the word is bound.
+// Executes `help`, `quit` and their synonyms. Returns false if the text is not one of these commands or if the word is
+// bound. If the word is bound, also sets *remark.
 static bool execute_alias(Repl *repl, const char *word, size_t length, const char *rest, ByteBuffer *remark) {
     bool alone = rest[0] == '\0' || strcmp(rest, "()") == 0;
     const char *command = bare_alias(word, length);
-    bool topic = length > 1 || word[0] == '?'; // only `help` and `?` take an operand
+    bool topic = length > 1 || word[0] == '?'; // only `help` and `?` take an operand; `h` does not
     if (!command || !(alone || (topic && strcmp(command, ".help") == 0)))
         return false;
     if (is_bound(repl, word, length)) {

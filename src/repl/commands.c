@@ -1,4 +1,4 @@
-// commands.c: finding and executing commands; .help, .time and .quit.
+// commands.c: looks up and executes commands; implements .help, .time and .quit.
 #include "cli/help.h"
 #include "cli/progress.h"
 #include "cli/text_table.h"
@@ -121,7 +121,7 @@ static void note_seconds(Repl *repl, double seconds, const char *more) {
     repl_note(repl, "%.3g %s%s", seconds / units[i].unit, units[i].name, more);
 }
 
-// Prints the shortest of many evaluations, since other programs can only make one slower.
+// Prints the shortest time of many evaluations, because other programs can only slow an evaluation down.
 static bool time_expression(Repl *repl, const char *expression) {
     double best = INFINITY, start = clock_seconds();
     int64_t count = 0;

@@ -96,7 +96,8 @@ static void offer_files(Search *search) {
     globfree(&found);
 }
 
-// Returns the kind of the node whose attributes are expected at `at`; NULL if something else is expected there.
+// Returns the kind of the node whose attributes are expected at `at`, and sets *length. Returns NULL if no attribute is
+// expected there.
 static const char *node_before(const char *line, size_t at, size_t *length) {
     if (at == 0 || !isspace((unsigned char)line[at - 1]))
         return NULL;
@@ -113,7 +114,8 @@ static const char *node_before(const char *line, size_t at, size_t *length) {
     return *length > 0 ? line + end : NULL;
 }
 
-// Returns the start of the unfinished state look-up, such as `$(:cells;1`, or SIZE_MAX.
+// Returns the start of the unfinished state look-up at the end of the text, such as `$(:cells;1`, or SIZE_MAX if there
+// is none.
 static size_t lookup_before(const char *line, size_t length) {
     for (size_t at = length; at > 0; at--) {
         char c = line[at - 1];
@@ -199,7 +201,8 @@ static void sort_unique(TextList *words) {
     words->count = kept;
 }
 
-// Finds the common beginning of the sorted words, which is that of the first and the last.
+// Sets completion->common to the common prefix of the words without the typed text. Words are sorted, so only the first
+// and the last are compared.
 static void find_common(Completion *completion, size_t typed) {
     const char *first = completion->words.items[0], *last = completion->words.items[completion->words.count - 1];
     size_t length = 0;

@@ -1,4 +1,4 @@
-// edit.c: the line editor, on libedit, with history and completion.
+// edit.c: the line editor, which uses libedit, with history and completion.
 #include "repl/line.h"
 
 #ifdef HAVE_LIBEDIT
@@ -27,10 +27,10 @@ struct Editor {
 // Terminal settings before editing. Global, because the signal handler needs them.
 static struct termios settings;
 
-// Restores the terminal, which does not echo during editing, when a signal ends petri.
+// Restores the terminal, which does not echo during editing, when a signal terminates petri.
 static void on_termination(int signal_number) {
     tcsetattr(STDIN_FILENO, TCSANOW, &settings);
-    raise(signal_number); // SA_RESETHAND: the default action this time
+    raise(signal_number); // because of SA_RESETHAND, this takes the default action
 }
 
 static void catch_termination(void) {
@@ -50,7 +50,7 @@ static const char *prompt_of(EditLine *line) {
     return editor_of(line)->prompt;
 }
 
-// Moves the cursor below the rest of the block, so that output can follow. May leave one empty line if lines wrap.
+// Moves the cursor below the block, where output can follow. May leave one empty line if lines wrap.
 static void leave_block(Editor *editor) {
     const LineInfo *info = el_line(editor->line);
     int width = 80, height = 0, column = 0;
@@ -83,7 +83,7 @@ static int read_character(EditLine *line, wchar_t *character) {
         if (got <= 0)
             return (int)got;
         size_t used = mbrtowc(character, &byte, 1, &state);
-        if (used == (size_t)-1) // not a character of this locale: skipped
+        if (used == (size_t)-1) // skip bytes that are not a character in this locale
             state = (mbstate_t){0};
         else if (used != (size_t)-2)
             return 1;
@@ -98,7 +98,7 @@ static const char *line_start(const LineInfo *info) {
     return start;
 }
 
-// Keys bound to libedit's built-in functions. A function of ours calls one by pushing its key.
+// Keys bound to libedit's built-in functions. petri's functions call a built-in function by pushing its key.
 #define KEY_ACCEPT "\036"        // Ctrl-^
 #define KEY_LINE_UP "\030\020"   // Ctrl-X Ctrl-P
 #define KEY_LINE_DOWN "\030\016" // Ctrl-X Ctrl-N
@@ -110,7 +110,7 @@ static unsigned char push_keys(EditLine *line, const char *keys) {
     return CC_NORM;
 }
 
-// Enter: accepts the block if it is complete; else appends a line.
+// Enter: accepts the block if it is complete, else appends a line feed.
 static unsigned char handle_enter(EditLine *line, wint_t character) {
     (void)character;
     Editor *editor = editor_of(line);
@@ -120,7 +120,7 @@ static unsigned char handle_enter(EditLine *line, wint_t character) {
     byte_buffer_add(&text, info->buffer, (size_t)(info->lastchar - info->buffer));
     byte_buffer_add_text(&text, "\n");
     bool more = line_needs_more(editor->repl, text.data, text.length, &consumed);
-    el_cursor(line, (int)text.length); // libedit stops at the end
+    el_cursor(line, (int)text.length); // libedit limits this to the end
     if (!more)
         return push_keys(line, KEY_ACCEPT);
     return el_insertstr(line, "\n") == 0 ? CC_REFRESH : CC_ERROR;
@@ -141,7 +141,8 @@ static unsigned char go_up(EditLine *line, wint_t character) {
     return push_keys(line, inside ? KEY_LINE_UP : KEY_HISTORY_UP);
 }
 
-// Does nothing in the last line unless a history entry is shown, because libedit would clear the line.
+// Down: in the last line of the block, does nothing unless a history entry is shown, because libedit would clear the
+// line.
 static unsigned char go_down(EditLine *line, wint_t character) {
     (void)character;
     Editor *editor = editor_of(line);
@@ -166,7 +167,7 @@ static unsigned char go_home(EditLine *line, wint_t character) {
     return CC_CURSOR;
 }
 
-// Moves the cursor to the end of the line. Returns by how many characters.
+// Moves the cursor to the end of the line. Returns the number of characters moved.
 static int to_line_end(EditLine *line) {
     const LineInfo *info = el_line(line);
     const char *end = info->cursor;
@@ -202,7 +203,7 @@ static unsigned char complete_word(EditLine *line, wint_t character) {
     const LineInfo *info = el_line(line);
     const char *start = line_start(info);
     if (start > info->buffer && strspn(start, " \t") >= (size_t)(info->cursor - start))
-        return el_insertstr(line, "    ") == 0 ? CC_REFRESH : CC_ERROR; // no word yet: indent
+        return el_insertstr(line, "    ") == 0 ? CC_REFRESH : CC_ERROR; // no word before the cursor: indent
     Completion completion;
     complete_line(editor->repl, start, (size_t)(info->cursor - start), &completion);
     bool inserted = completion.common.length > 0 && el_insertstr(line, completion.common.data) == 0;
@@ -261,7 +262,7 @@ static const struct {
     {"^M", "petri-enter"}, {"^J", "petri-enter"},
     {"^[^M", "petri-open-line"}, {"^[^J", "petri-open-line"}, // Alt-Enter
     {"^A", "petri-home"}, {"^E", "petri-end"}, {"^K", "petri-kill-rest"},
-    // Arrows, Home and End, in the encodings of the terminals' normal and application modes.
+    // Arrow keys, Home and End, as encoded by terminals in normal mode and in application mode.
     {"^[[A", "petri-up"}, {"^[OA", "petri-up"}, {"^[[B", "petri-down"}, {"^[OB", "petri-down"},
     {"^[[H", "petri-home"}, {"^[OH", "petri-home"}, {"^[[1~", "petri-home"},
     {"^[[F", "petri-end"}, {"^[OF", "petri-end"}, {"^[[4~", "petri-end"},
@@ -307,7 +308,7 @@ void editor_free(Editor *editor) {
     free(editor);
 }
 
-// Adds a block as one entry, without the empty line that ends it.
+// Adds a block to the history as one entry, without the empty line at its end.
 static void add_to_history(Editor *editor, const ByteBuffer *lines) {
     HistEvent event;
     enum { MAX_BLOCK_LENGTH = 10000 };
@@ -321,7 +322,7 @@ static void add_to_history(Editor *editor, const ByteBuffer *lines) {
     replace_character(block, '\n', SAVED_LINE_END);
     SCOPED_BYTE_BUFFER whole = {0};
     byte_buffer_format(&whole, "%s\n", block);
-    saved_add(&whole); // at once, because closing the terminal kills petri
+    saved_add(&whole); // save now, because closing the terminal kills petri
 }
 
 LineStatus editor_read(Editor *editor, const char *prompt, ByteBuffer *lines) {

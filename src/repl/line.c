@@ -15,9 +15,9 @@ enum { BLOCK = 1 << 16, MAX_ECHOED = 4000 };
 struct LineReader {
     Repl *repl;
     Editor *editor;  // NULL: lines are not edited
-    ByteBuffer text; // input; the part from `at` on has not been returned yet
+    ByteBuffer text; // input; the bytes at and after `at` have not been returned yet
     size_t at;
-    size_t searched; // bytes after `at` that contain no line feed
+    size_t searched; // number of bytes after `at` known to contain no line feed
     bool ended;      // true if the input has ended
 };
 
@@ -38,7 +38,7 @@ void line_reader_free(LineReader *reader) {
 LineWait line_wait(Repl *repl) {
     for (;;) {
         if (repl_interrupted())
-            return WAIT_INTERRUPTED; // Ctrl-C before poll would not wake it
+            return WAIT_INTERRUPTED; // a signal that arrives before poll does not interrupt it
         struct pollfd files[2] = {{STDIN_FILENO, POLLIN, 0}, {file_watch_descriptor(repl->files), POLLIN, 0}};
         int ready = poll(files, 2, files[1].fd < 0 ? 200 : -1);
         if ((ready < 0 && errno == EINTR) || repl_interrupted())
@@ -77,7 +77,7 @@ static void echo_line(Repl *repl, const ByteBuffer *line) {
     }
 }
 
-// Waits for input and reads a block of it, or reports changes.
+// Waits for input and reads a block, or reports changed files.
 static LineStatus read_block(LineReader *reader, const char *prompt) {
     Output *output = &reader->repl->output;
     if (reader->ended) {
@@ -101,7 +101,7 @@ static LineStatus read_block(LineReader *reader, const char *prompt) {
     return LINE_READ;
 }
 
-// The editor returns several lines at a time. They are not echoed, because they are already on the screen.
+// The editor may return several lines at once. They are not echoed, because they are already on the screen.
 LineStatus line_read(LineReader *reader, const char *prompt, ByteBuffer *line) {
     Output *output = &reader->repl->output;
     output_flush(output);
@@ -157,7 +157,7 @@ bool line_needs_more(Repl *repl, const char *text, size_t length, size_t *consum
 // Appends the path of the history file. Returns false if the environment names no folder for it.
 static bool file_path(ByteBuffer *path) {
     const char *folder = getenv("XDG_STATE_HOME"), *home = getenv("HOME");
-    if (folder && folder[0] == '/') // the XDG specification says to ignore relative paths
+    if (folder && folder[0] == '/') // the XDG specification requires that relative paths are ignored
         byte_buffer_add_text(path, folder);
     else if (home && home[0] != '\0')
         byte_buffer_format(path, "%s/.local/state", home);
@@ -175,7 +175,7 @@ void saved_read(ByteBuffer *lines) {
         byte_buffer_add_text(lines, "\n");
 }
 
-// Makes the parent folders of a file, accessible to the owner only.
+// Creates the parent folders of a file, accessible only to the owner.
 static void make_folders(char *path) {
     for (char *slash = strchr(path + 1, '/'); slash; slash = strchr(slash + 1, '/')) {
         *slash = '\0';
@@ -184,7 +184,7 @@ static void make_folders(char *path) {
     }
 }
 
-// Returns the start of the last `max` lines.
+// Returns the offset of the last `max` lines.
 static size_t start_of_last(const ByteBuffer *lines, size_t max) {
     size_t at = lines->length;
     while (at > 0 && max > 0) {
@@ -199,7 +199,7 @@ static size_t start_of_last(const ByteBuffer *lines, size_t max) {
 void saved_add(const ByteBuffer *lines) {
     SCOPED_BYTE_BUFFER path = {0}, all = {0};
     if (lines->length > 0 && file_path(&path)) {
-        saved_read(&all); // again: another session may have added to it
+        saved_read(&all); // read the file again, because another session may have added lines
         byte_buffer_add(&all, lines->data, lines->length);
         size_t start = start_of_last(&all, SAVED_MAX);
         ByteBuffer kept = {.data = all.data + start, .length = all.length - start};

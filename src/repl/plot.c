@@ -1,4 +1,4 @@
-// plot.c: .plot, a curve of a number over the last frames, and .show, the frame's picture in the terminal.
+// plot.c: .plot, which plots a number over the last frames, and .show, which shows the frame's picture in the terminal.
 #include "cli/progress.h"
 #include "repl/repl.h"
 #include "view/still.h"
@@ -11,7 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
-// Size of the plot in character cells. A braille cell is 2 dots wide and 4 high; without UTF-8 a cell is one dot.
+// Size of the plot in character cells. A braille cell has 2 x 4 dots. Without UTF-8, a cell is one dot.
 enum { MAX_WIDTH = 60, HEIGHT = 8, DEFAULT_FRAMES = 60, MAX_FRAMES = 1000000 };
 
 typedef struct Canvas {
@@ -19,10 +19,10 @@ typedef struct Canvas {
     int down;   // dots per cell, vertically
     int columns;
     int rows;
-    unsigned char *dots; // rows * columns, each 0 or 1
+    unsigned char *dots; // rows * columns values, each 0 or 1; row 0 is the top
 } Canvas;
 
-// Sets the dots of a column between two heights, so that steep parts of the curve have no gaps.
+// Sets the dots of a column in rows `from` to `to`, so that steep parts of the curve have no gaps.
 static void draw_column(Canvas *canvas, int x, int from, int to) {
     for (int y = from < to ? from : to; y <= (from < to ? to : from); y++)
         canvas->dots[y * canvas->columns + x] = 1;
@@ -45,7 +45,7 @@ static Range range_of(const double *values, int64_t count) {
 }
 
 static int row_of(const Canvas *canvas, const Range *range, double value) {
-    // Halved, so that the difference of the largest doubles does not overflow.
+    // The values are halved, so that the difference between the largest doubles does not overflow.
     double part = range->max > range->min ? (value / 2 - range->min / 2) / (range->max / 2 - range->min / 2) : 0.5;
     return canvas->rows - 1 - (int)(part * (canvas->rows - 1) + 0.5);
 }
@@ -53,7 +53,7 @@ static int row_of(const Canvas *canvas, const Range *range, double value) {
 static void draw_curve(Canvas *canvas, const Range *range, const double *values, int64_t count) {
     int last = -1;
     for (int x = 0; x < canvas->columns; x++) {
-        // A frame covers several dots if there are fewer frames than dots; else some frames are skipped.
+        // If there are fewer frames than columns, a frame covers several columns; otherwise some frames are skipped.
         double value = values[(int64_t)((double)x * (double)count / canvas->columns)];
         int row = isfinite(value) ? row_of(canvas, range, value) : -1;
         if (row >= 0) {
@@ -85,7 +85,7 @@ static void write_canvas(Output *output, const Canvas *canvas, const Range *rang
         if (row == 0 || row == rows - 1)
             snprintf(label, sizeof label, "%.6g", row == 0 ? range->max : range->min);
         output_format(output, "%12s %s", label, braille ? "\u2502" : "|");
-        int blanks = 0; // pending; those at the end of a line are not written
+        int blanks = 0; // blanks to write before the next character; trailing blanks are not written
         for (int column = 0; column < columns; column++) {
             unsigned pattern = cell_pattern(canvas, row, column);
             char character[UTF8_MAX] = "*";
@@ -121,7 +121,7 @@ static void print_plot(Repl *repl, const double *values, int64_t first, int64_t 
     free(canvas.dots);
 }
 
-// Recomputes the frames, up to the current one, and evaluates the expression in each.
+// Recomputes `count` frames, ending with the current frame, and evaluates the expression in each of them.
 static PetriStatus evaluate_frames(Repl *repl, const char *expression, int64_t first, int64_t count, double *values,
                                    ByteBuffer *why) {
     PetriStatus status = PETRI_OK;

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { RESERVED_LINES = 3 }; // screen lines beside a long output: the command, the closing note, the prompt
+enum { RESERVED_LINES = 3 }; // screen lines reserved for the command, the closing note and the prompt
 
 // A filter for the lines of one section of petri_print.
 typedef struct Filter {
@@ -35,7 +35,7 @@ static size_t print_filtered(Repl *repl, unsigned section, Filter *filter) {
     filter->depth = SIZE_MAX;
     repl_busy(repl);
     petri_print(repl->session, section, collect_unless_stopped, &text);
-    byte_buffer_next_line(&text, &at, &line); // the frame's `@` line
+    byte_buffer_next_line(&text, &at, &line); // skip the frame's `@` line
     while (byte_buffer_next_line(&text, &at, &line) && filter->repl->output.error == 0 && !repl_interrupted())
         filter->handle_line(filter, line.bytes, line.len + 1);
     repl_idle(repl);
@@ -47,7 +47,8 @@ static void write_line(Filter *filter, const char *line, size_t length) {
         output_write(&filter->repl->output, line, length);
 }
 
-// Notes how many lines were omitted and how to see them. `asked` is the operand without its number of lines.
+// Writes a note about the number of omitted lines and how to see them. `asked` is the operand without its number of
+// lines.
 static void note_remaining(const Filter *filter, const char *command, const char *asked) {
     if (filter->lines > filter->max_lines) {
         repl_note(filter->repl, "%zu more lines; %s%s%s all shows all", filter->lines - filter->max_lines, command,
@@ -55,7 +56,8 @@ static void note_remaining(const Filter *filter, const char *command, const char
     }
 }
 
-// Selects the entries of the wanted key or below it: for `:cells` or `cells`, `$:cells = …` and `$(:cells;0) = …`.
+// Selects the entries whose key is or begins with the wanted key. For `:cells` or `cells`, these are `$:cells = …` and
+// `$(:cells;0) = …`.
 static void filter_entry(Filter *filter, const char *line, size_t length) {
     const char *key = line + 1 + (line[1] == '(');
     key += key[0] == ':' && filter->wanted[0] != ':';
@@ -70,7 +72,7 @@ static void filter_entry(Filter *filter, const char *line, size_t length) {
 
 static bool run_state(Repl *repl, const char *rest) {
     SCOPED_TEXT asked = memory_strdup(rest);
-    // A number alone is a key, not a number of lines.
+    // A number without a key is itself a key, not a number of lines.
     bool counted = strpbrk(asked, " \t") || strcmp(asked, "all") == 0;
     size_t max_lines = argument_lines(repl, counted ? asked : (char[]){""}, RESERVED_LINES);
     const char *prefix = asked + (asked[0] == '$');
@@ -200,7 +202,7 @@ static void print_particles(Repl *repl, size_t number, const PetriSystem *system
 }
 
 static bool run_particles(Repl *repl, const char *rest) {
-    // Screen lines beside the rows: command, title, column heads, closing note, prompt.
+    // Screen lines reserved for the command, title, column heads, closing note and prompt.
     enum { RESERVED_TABLE_LINES = 5 };
     SCOPED_TEXT system = memory_strdup(rest);
     SystemRequest request = {.system = system, .max_lines = argument_lines(repl, system, RESERVED_TABLE_LINES)};

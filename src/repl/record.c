@@ -1,8 +1,9 @@
 // record.c: `.record`, which writes the frames as a golden for `petri test` (spec cli.md 3.4).
 //
-// NAME.golden needs a script NAME.fl beside it. If NAME.fl is not the loaded script, it is written: a copy of that
-// script with the statements typed at the prompt appended. It must be in the same folder, because file names in scripts
-// are relative. Frames are recorded only if a run from frame 0 with one script and fixed settings reproduces them.
+// NAME.golden needs a script NAME.fl beside it. If NAME.fl is not the loaded script, it is written as a copy of the
+// loaded script with the statements typed at the prompt appended. NAME.fl must be in the folder of the loaded script,
+// because file names in scripts are relative. Frames are recorded only if a run from frame 0 with one script and fixed
+// settings reproduces them.
 #include "base/file.h"
 #include "cli/script.h"
 #include "repl/repl.h"
@@ -51,7 +52,8 @@ static bool can_record(Repl *repl, const char *script) {
     return true;
 }
 
-// Writes the script that the golden needs, the loaded one with the typed statements, unless `path` is already that.
+// Writes the script that the golden needs: the loaded script with the typed statements appended. Does nothing if `path`
+// already is this script. Returns false after a message.
 static bool write_script(Repl *repl, const char *path) {
     const char *kept = petri_prompt_statement(repl->session, 0);
     if (!kept && repl->loaded && same_path(repl->script, path))
@@ -72,7 +74,8 @@ static bool write_script(Repl *repl, const char *path) {
     return done;
 }
 
-// Adds the golden's first line, the options. Fails if a definition contains blanks, which separate the options.
+// Adds the golden's first line, which contains the options. Fails if a definition contains blanks, because blanks
+// separate options.
 static bool add_options(Repl *repl, ByteBuffer *text, int64_t frames, int64_t every) {
     byte_buffer_format(text, "# run --frames %" PRId64, frames);
     if (every > 1)
@@ -89,7 +92,7 @@ static bool add_options(Repl *repl, ByteBuffer *text, int64_t frames, int64_t ev
     return true;
 }
 
-// Computes the frames again and collects their text.
+// Recomputes frames 0 to `last` and collects the text of every `every`-th frame.
 static PetriStatus collect_output(Repl *repl, ByteBuffer *text, int64_t last, int64_t every, ByteBuffer *why) {
     PetriStatus status = PETRI_OK;
     for (int64_t i = 0; i <= last && status == PETRI_OK; i++) {

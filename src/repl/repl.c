@@ -38,9 +38,9 @@ void repl_busy(Repl *repl) {
 
 bool repl_idle(Repl *repl) {
     working = NULL;
-    petri_clear_interrupt(repl->session); // a late interrupt must not stop the next input
+    petri_clear_interrupt(repl->session); // an interrupt that arrived too late must not stop the next input
     if (interrupted && repl->terminal)
-        output_write(&repl->output, "\n", 1); // after the ^C that the terminal shows
+        output_write(&repl->output, "\n", 1); // end the line on which the terminal shows ^C
     return interrupted != 0;
 }
 
@@ -106,7 +106,7 @@ static void execute_statement(Repl *repl, const char *text, size_t length) {
         repl_warn_shadowed(repl, name);
     }
     if (done.nodes > 0)
-        repl_note(repl, "in the scene from the next step on; .drop removes it");
+        repl_note(repl, "added to the scene at the next step; .drop removes it");
     repl_status(repl, status);
 }
 
@@ -136,7 +136,7 @@ static void make_prompt(const Repl *repl, char *prompt, size_t size) {
         snprintf(prompt, size, "@%" PRId64 "> ", frame);
 }
 
-// Reads further lines of the statement in `text`. A line that starts the next statement goes to `next`.
+// Reads the remaining lines of the statement in `text`. If a line starts the next statement, appends it to `next`.
 static LineStatus read_rest(Repl *repl, LineReader *reader, ByteBuffer *text, ByteBuffer *next) {
     size_t consumed = 0;
     while (line_needs_more(repl, text->data, text->length, &consumed)) {
@@ -153,7 +153,7 @@ static LineStatus read_rest(Repl *repl, LineReader *reader, ByteBuffer *text, By
     return LINE_READ;
 }
 
-// Reads the rest of an input, whose first line is in `text`, and executes it.
+// Reads the rest of an input whose first line is in `text`, and executes the input.
 static LineStatus execute_input(Repl *repl, LineReader *reader, ByteBuffer *text, ByteBuffer *next) {
     byte_buffer_add_text(text, "\n");
     LineStatus status = read_rest(repl, reader, text, next);
@@ -195,7 +195,8 @@ static bool read_state(Repl *repl, const char *file) {
     return repl_status(repl, petri_restore(repl->session, file));
 }
 
-// Loads the script and the state. Continues if the script has errors: it is watched and reloaded when it changes.
+// Loads the script and the state. If the script has errors, the prompt starts nevertheless: the script is reloaded when
+// it changes.
 static void start_session(Repl *repl, const char *state) {
     petri_load_text(repl->session, "prompt", "", 0);
     if (repl->script)
@@ -214,7 +215,7 @@ static void catch_interrupt(void) {
 }
 
 static int run_session(Repl *repl, const char *state) {
-    // Uses only the locale's encoding, so that numbers keep the format of the language.
+    // Use only the character encoding of the locale, because its number format would break the parsing of scripts.
     setlocale(LC_CTYPE, "");
     repl->utf8 = strcmp(nl_langinfo(CODESET), "UTF-8") == 0;
     repl->terminal = isatty(STDIN_FILENO) && isatty(STDOUT_FILENO);
@@ -253,10 +254,10 @@ const Command REPL_COMMAND = {
     .operands = "[SCRIPT.fl]",
     .summary = "step through a script interactively",
     .details =
-        "Reads code and commands. Prints the values of expressions; keeps let, func, import and nodes. Commands\n"
-        "begin with a dot: .step makes a frame, .help lists the others. When the script changes, it is reloaded and\n"
-        "the state is kept. Ctrl-C interrupts; Ctrl-D or .quit quits. Exits with 0, or with 1 if input from a file\n"
-        "or a pipe had an error.",
+        "Reads code and commands. Prints the values of expressions; keeps let, func, import and nodes. Commands begin\n"
+        "with a dot: .step computes a frame, .help lists the others. When the script changes, it is reloaded and its\n"
+        "state is kept. Ctrl-C interrupts; Ctrl-D or .quit quits. Exits with 0, or with 1 if input from a file or a\n"
+        "pipe had an error.",
     .examples = "  petri repl dish.fl                              then: .step 60, .particles 5, .help\n"
                 "  petri repl                                      start without a script\n",
     .no_stdin = "cannot read the script from standard input: the prompt uses it",

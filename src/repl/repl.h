@@ -14,18 +14,18 @@ typedef struct Repl {
     PetriSession *session;
     FrameHistory history;
     Output output;
-    FileWatch *files;        // the files that the script consists of
+    FileWatch *files;        // watches the script and the files that it uses
     char *script;            // path; NULL: no script was named
     bool loaded;             // true if `script` is the running script
     ByteBuffer script_text;  // text of the script when it was loaded
-    bool changed;            // true if the script's files have changed: it is reloaded before the next step
+    bool changed;            // true if the script's files have changed; the script is reloaded before the next step
     TextList watched;        // expressions that are printed after each step
     bool terminal;           // true if standard input and output are terminals
     bool utf8;               // true if the locale's encoding is UTF-8; else only ASCII is printed
     bool failed;             // true if the current input has failed
     bool any_failed;         // true if any input has failed
     bool invalid_definition; // true if the script rejected the value of a definition
-    bool quit;               // true if the prompt must end
+    bool quit;               // true if the session must end
     bool incomplete;         // true if a step was interrupted: the current frame has its state, but no systems or nodes
     bool rates_changed;      // true if .tempo or .fps was used since the script was loaded
     TextList definitions;    // arguments of -D and .set
@@ -35,30 +35,32 @@ typedef struct Repl {
 __attribute__((format(printf, 2, 3))) void repl_note(Repl *repl, const char *format, ...);
 // Writes a message to standard error and marks the current input as failed. Returns false.
 __attribute__((format(printf, 2, 3))) bool repl_fail(Repl *repl, const char *format, ...);
-// Returns true for PETRI_OK. Else marks the current input as failed and writes a message if no diagnostic has done so.
+// Returns true for PETRI_OK. For other statuses, marks the current input as failed and writes a message unless a
+// diagnostic was already written.
 bool repl_status(Repl *repl, PetriStatus status);
-// Executes one input that is not blank: a command, or a statement or expression of the language.
+// Executes one input, which must not be blank: a command, or a statement or expression of the language.
 void repl_execute(Repl *repl, const char *text, size_t length);
 // Writes to the output; a PetriWriteCallback.
 bool repl_write(void *repl, const char *text, size_t length);
 
-// Between repl_busy and repl_idle, Ctrl-C interrupts the session. repl_idle returns true if Ctrl-C was typed meanwhile.
+// Between repl_busy and repl_idle, Ctrl-C interrupts the session. repl_idle returns true if Ctrl-C was typed since
+// repl_busy.
 void repl_busy(Repl *repl);
 bool repl_idle(Repl *repl);
 // Returns true if Ctrl-C was typed since the last repl_busy or prompt.
 bool repl_interrupted(void);
 
-// Loads a script (script.c). Returns true if it is running now.
+// Loads a script (script.c). Returns true if this script is now running.
 bool repl_load(Repl *repl, const char *file);
-// Returns true, after a note, if the script's files have changed. `at_prompt`: the current line holds a prompt, so the
-// note must start a new line.
+// If the script's files have changed, writes a note and returns true. `at_prompt`: the current line contains a prompt,
+// so the note must start on a new line.
 bool repl_report_changes(Repl *repl, bool at_prompt);
 // Reloads the script if its files have changed; called before a step. If the new script has errors, the old one stays.
 void repl_refresh(Repl *repl);
 // Watches the script and all files that it uses.
 void repl_watch_files(Repl *repl);
 
-// Commands (commands.c). Each file has a table of its commands at its end: to add one, add a row and its function.
+// Commands (commands.c). Each file ends with a table of its commands. To add a command, add a row and its function.
 typedef enum Completes {
     COMPLETE_LANGUAGE,
     COMPLETE_FILES,
@@ -85,13 +87,12 @@ const ReplCommand *repl_command_at(size_t index);
 const ReplCommand *repl_find_command(const char *name, size_t length);
 void repl_command(Repl *repl, const char *line);
 
-// Commands without a dot (arguments.c).
-// Executes `help`, `?`, `h`, `quit`, `exit` and `q`. Returns true if the text was one of these, or, after a message, if
-// it begins with the name of another command. If the script, the prompt or petri binds the word, the text belongs to
-// the language: returns false with *remark set. The caller prints the remark if the text then fails, or if the word is
-// one of these six.
+// Commands without a dot (arguments.c). Executes `help`, `?`, `h`, `quit`, `exit` and `q`. Returns true if the text was
+// one of these, or, after a message, if it begins with the name of another command. If the script, the prompt or petri
+// binds the word, the text is code: sets *remark and returns false. The caller prints the remark if the code fails, or
+// if the word is one of these six.
 bool bare_execute(Repl *repl, const char *text, ByteBuffer *remark);
-// Returns the command that such a word means, or NULL.
+// Returns the command of one of these six words, such as ".quit" for "q". Returns NULL for other words.
 const char *bare_alias(const char *name, size_t length);
 
 // Parsing of operands (arguments.c). Functions that return bool return false after a message.
@@ -103,13 +104,13 @@ bool argument_number(Repl *repl, const char *text, double *number);
 bool argument_count(Repl *repl, const char *text, int64_t min, int64_t *count);
 // Removes `--limit N` from the beginning or the end of the text and sets *limit.
 bool argument_limit(Repl *repl, char *text, int64_t *limit);
-// Removes a positive integer from the end of the text and sets *count, if a blank and other text precede it.
+// If the text ends with a positive integer after other text and a blank, removes the integer and sets *count.
 void argument_last_count(char *text, int64_t *count);
-// Removes an integer or `all` from the end of the text. Returns that number of lines; by default a screenful less
-// `around` lines on a terminal, and all lines elsewhere.
+// Removes an integer or `all` from the end of the text and returns this number of lines. By default returns the number
+// of screen lines minus `around` on a terminal, and SIZE_MAX elsewhere.
 size_t argument_lines(const Repl *repl, char *text, size_t around);
 
-// Notes that the script has its own binding of a name that was just bound at the prompt (set_commands.c).
+// Writes a note that the script has its own binding of a name that was just bound at the prompt (set_commands.c).
 void repl_warn_shadowed(Repl *repl, const char *name);
 // Writes the current frame's `@` line, its log and the watched expressions (step_commands.c).
 void repl_show_frame(Repl *repl);

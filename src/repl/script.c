@@ -1,4 +1,4 @@
-// script.c: loading and reloading the script, describing its changes, and saving and restoring the state.
+// script.c: loads and reloads the script, describes its changes, and saves and restores the state.
 #include "cli/script.h"
 
 #include "repl/repl.h"
@@ -31,7 +31,7 @@ static Lines split_lines(const ByteBuffer *text) {
     return lines;
 }
 
-// Returns the name that a line seems to bind, or an empty text.
+// Returns the name that a line seems to bind, or an empty string.
 static Str bound_name(Str line) {
     static const char *const words[] = {"let ", "func "};
     size_t at = 0;
@@ -175,7 +175,7 @@ static bool run_reload(Repl *repl, const char *rest) {
     (void)rest;
     if (!repl->script)
         return repl_fail(repl, "no script loaded; run .load FILE");
-    // A script that never ran has no state to keep.
+    // A script that has never run has no state to keep.
     PetriStatus status =
         repl->loaded ? petri_reload(repl->session, repl->script) : petri_load(repl->session, repl->script);
     bool first = !repl->loaded;
@@ -206,7 +206,7 @@ bool repl_report_changes(Repl *repl, bool at_prompt) {
         describe_changes(&repl->script_text, &now, &what);
         if (at_prompt)
             output_write(&repl->output, "\n", 1);
-        // If the script's text is the same, a file that it includes or imports has changed.
+        // If the text of the script itself is unchanged, a file that it includes or imports has changed.
         repl_note(repl, "%s%s changed%s%s; it is reloaded before the next step",
                   what.length == 0 ? "a file used by " : "", repl->script, what.length == 0 ? "" : ": ",
                   what.length == 0 ? "" : what.data);

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Returns true if a text is the name or NAME=VALUE.
+// Returns true if the text is `name` or has the form `name=VALUE`.
 static bool defines_name(const char *text, const char *name) {
     size_t length = strlen(name);
     return strncmp(text, name, length) == 0 && (text[length] == '\0' || text[length] == '=');
@@ -29,7 +29,7 @@ static void note_parameter(Repl *repl, const PetriParameter *parameter) {
     repl_note(repl, "%s%s%s", text.data, parameter->comment[0] == '\0' ? "" : "  ", parameter->comment);
 }
 
-// Reports the effect of setting a name. `warned`: a diagnostic has already done so.
+// Reports the effect of setting a name. `warned`: a diagnostic has already reported that there is no effect.
 static void report_set(Repl *repl, const char *name, bool warned) {
     PetriParameter parameter;
     if (parameter_find(repl->session, name, &parameter))
@@ -38,7 +38,7 @@ static void report_set(Repl *repl, const char *name, bool warned) {
         repl_note(repl, ".set has no effect on %s: the script or the prompt sets it", name);
 }
 
-// Defines the name and reloads the script. On failure the old definitions are restored.
+// Defines the name and reloads the script. On failure, restores the old definitions and returns false.
 static bool set_parameter(Repl *repl, const char *name, const char *definition) {
     PetriConfig *before = petri_config_get(repl->session);
     if (!before)
@@ -107,7 +107,7 @@ static bool read_rate(Repl *repl, const char *rest, double *value) {
     return argument_number(repl, rest, value) && (*value > 0 || repl_fail(repl, "not a positive number: '%s'", rest));
 }
 
-// Shows a rate of the clock. If `rest` is not empty, changes the rate first.
+// Shows a rate of the clock: tempo or fps. If `rest` is not empty, first changes the rate.
 static bool show_rate(Repl *repl, const char *rest, const char *name, PetriStatus change(PetriSession *, double)) {
     double rate = 0;
     if (rest[0] != '\0') {

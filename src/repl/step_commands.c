@@ -1,4 +1,4 @@
-// step_commands.c: commands that go forward and back by frames, and their output.
+// step_commands.c: commands that move forward and back by frames, and their output.
 #include "cli/progress.h"
 #include "repl/repl.h"
 
@@ -11,7 +11,7 @@
 typedef struct StepRequest {
     int64_t count;
     const char *until; // expression; NULL: none
-    bool limited;      // true if `count` is a limit, whose reaching is noted
+    bool limited;      // true if `count` comes from --limit; reaching it is reported
 } StepRequest;
 
 // Appends `EXPR = value` for each watched expression.
@@ -28,7 +28,7 @@ static void add_watched(Repl *repl, ByteBuffer *text) {
     }
 }
 
-// Appends the frame's text. Returns true if it has more than its `@` line.
+// Appends the frame's text. Returns true if the text has more lines than the `@` line.
 static bool format_frame(Repl *repl, ByteBuffer *text) {
     petri_print(repl->session, PETRI_PRINT_LOG, byte_buffer_collect, text);
     add_watched(repl, text);
@@ -41,12 +41,12 @@ void repl_show_frame(Repl *repl) {
         repl_note(repl, "before the first frame");
         return;
     }
-    petri_preview(repl->session); // computes the log again if a change of settings has discarded it
+    petri_preview(repl->session); // recomputes the log if a change of settings has discarded it
     format_frame(repl, &text);
     output_write(&repl->output, text.data, text.length);
 }
 
-// Writes the frame if it has a log or watched expressions, or is the last. Returns true if it was written.
+// Writes the frame if it is the last frame or has a log or watched expressions. Returns true if it was written.
 static bool show_step(Repl *repl, Progress *progress, bool last) {
     SCOPED_BYTE_BUFFER text = {0};
     bool shown = format_frame(repl, &text) || last;
@@ -88,7 +88,7 @@ static bool step_frames(Repl *repl, const StepRequest *request) {
     Outcome outcome = RUNNING;
     int64_t made = 0;
     repl_refresh(repl);
-    repl->failed = false; // if the reload failed, the old script continues
+    repl->failed = false; // a failed reload is not a failure of the step: the old script continues
     progress_start(&progress, repl->terminal && progress_possible(), request->count);
     repl_busy(repl);
     bool shown = true;
@@ -120,7 +120,7 @@ void repl_complete_frame(Repl *repl) {
     repl_status(repl, status);
 }
 
-// Goes to a frame: at once within the history, else step by step with a progress line.
+// Goes to a frame: directly within the history, else step by step with a progress line.
 static PetriStatus seek_frame(Repl *repl, int64_t frame, ByteBuffer *why) {
     int64_t last = repl->history.last, made = 0;
     Progress progress;
@@ -190,7 +190,7 @@ static bool run_back(Repl *repl, const char *rest) {
         return false;
     if (count <= ago)
         return go_to(repl, petri_frame(repl->session).number - count);
-    SCOPED_BYTE_BUFFER start = {0}; // why the history starts at its first frame
+    SCOPED_BYTE_BUFFER start = {0}; // the reason why the history does not start earlier
     const char *why = repl->history.why;
     byte_buffer_format(&start, !why ? "this is the start" : "the history starts here (%s)", why);
     if (ago > 0)
@@ -218,9 +218,9 @@ static bool run_reset(Repl *repl, const char *rest) {
 }
 
 const ReplCommand STEP_COMMANDS[] = {
-    {".step", "[N]", NULL, "make N frames (default: 1)", run_step, COMPLETE_LANGUAGE},
-    {".run", "[T]", NULL, "make frames for T seconds of script time, or until Ctrl-C", run_run, COMPLETE_LANGUAGE},
-    {".until", "EXPR [--limit N]", "an expression", "make frames until EXPR is true, at most N", run_until,
+    {".step", "[N]", NULL, "compute N frames (default: 1)", run_step, COMPLETE_LANGUAGE},
+    {".run", "[T]", NULL, "compute frames for T seconds of script time, or until Ctrl-C", run_run, COMPLETE_LANGUAGE},
+    {".until", "EXPR [--limit N]", "an expression", "compute frames until EXPR is true, at most N", run_until,
      COMPLETE_LANGUAGE},
     {".back", "[N]", NULL, "go back N frames (default: 1), at most to the start", run_back, COMPLETE_LANGUAGE},
     {".goto", "FRAME", "the number of a frame", "go to a frame, back or forward; -1 is before the first", run_go,
