@@ -21,7 +21,7 @@ static void start_pause(PhysBackoff *backoff, uint64_t lost, uint64_t now) {
     backoff->saved = 0;
 }
 
-// Helpers save about half of the time that the caller works.
+// The time saved by helpers is estimated as half of the time that the caller worked.
 void phys_backoff_learn(PhysBackoff *backoff, const PhysJobTimes *job) {
     uint64_t took = job->end - job->begin;
     if (!job->answered) {
@@ -44,7 +44,7 @@ bool phys_tuner_should_help(const PhysTuner *tuner) {
     return tuner->alone_is_faster == other;
 }
 
-// Updates a smoothed mean. Disturbed jobs count at most twice the mean.
+// Updates a smoothed mean. Limits outliers to twice the mean.
 static void update_mean(double *mean, double value) {
     enum { WEIGHT = 8 };
     double max = *mean * 2;

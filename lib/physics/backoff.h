@@ -1,8 +1,9 @@
 // backoff.h: decides from earlier jobs whether to use helper threads.
 //
-// On a busy machine a helper that has begun a chunk may lose its processor for milliseconds, while the caller waits. Or
-// no helper arrives at all. When the caller has waited longer than helpers have saved, it works alone for a pause. The
-// pause is much longer than the loss, so the loss hardly matters. This affects only speed, never results.
+// On a busy machine a helper that has begun a chunk may lose its processor for milliseconds, while the caller waits.
+// Sometimes no helper arrives at all. When waiting has cost more time than helpers have saved, the caller works alone
+// for a pause. The pause is much longer than the lost time, so the loss hardly matters. This affects only speed, never
+// results.
 #ifndef PETRI_PHYSICS_BACKOFF_H
 #define PETRI_PHYSICS_BACKOFF_H
 
@@ -12,17 +13,17 @@
 enum {
     PHYS_MAX_UNANSWERED = 16, // consecutive jobs without a helper before a pause
     PHYS_LOSS_DIVISOR = 20,   // at most 1/20 of the time is lost
-    PHYS_MAX_DOUBLINGS = 4,   // doublings of a pause while the machine stays busy
+    PHYS_MAX_DOUBLINGS = 4,   // maximum number of doublings of the pause while the machine stays busy
 };
 
 // All times in nanoseconds.
 typedef struct PhysBackoff {
-    int64_t saved;             // by helpers, minus the time spent waiting for them
+    int64_t saved;             // time saved by helpers, minus the time spent waiting for them
     uint64_t pause_length;     // length of the last pause; 0: none so far
     uint64_t pause_end;        // end of the last pause, which may be in the future
-    int doublings;             // of the last pause
+    int doublings;             // number of times that the last pause was doubled
     int unanswered;            // consecutive jobs without a helper
-    uint64_t unanswered_since; // begin of the first of them
+    uint64_t unanswered_since; // beginning of the first of these jobs
 } PhysBackoff;
 
 typedef struct PhysJobTimes {
@@ -31,8 +32,9 @@ typedef struct PhysJobTimes {
     bool answered;   // a helper has done part of the job
 } PhysJobTimes;
 
-// Measures whether helpers speed up short jobs. Both ways are timed now and then, and the faster one is used. Cores
-// without a common cache need longer jobs, and threads move between cores.
+// Measures whether helpers speed up short jobs. Jobs with and without helpers are timed periodically, and the faster
+// way is used. The result can change, because threads move between cores, and helpers on cores without a common cache
+// pay off only for longer jobs.
 typedef struct PhysTuner {
     uint32_t jobs;        // in the current period
     bool alone_is_faster; // result of the last period
@@ -41,7 +43,7 @@ typedef struct PhysTuner {
 
 enum {
     PHYS_TUNER_PERIOD = 1024, // jobs in a period
-    PHYS_TUNER_PROBES = 24,   // first jobs of a period, done in the slower way, then as many in the faster way
+    PHYS_TUNER_PROBES = 24,   // number of jobs timed each way at the start of a period, first the slower way
     PHYS_TUNER_WARMUP = 8,    // first probes of each way, which are not measured because caches are cold
 };
 

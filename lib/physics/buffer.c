@@ -20,14 +20,14 @@ bool phys_buffer_reserve(PhysSystem *system, Buffer *buffer, uint64_t retained, 
     // by little.
     uint64_t more = retained ? buffer->capacity : buffer->capacity / GROWTH_DIVISOR;
     uint64_t capacity = buffer->capacity + more > needed ? buffer->capacity + more : needed;
-    if (!retained) // free the old block first, so that both need not fit into memory
+    if (!retained) // free the old block first, so that the two need not fit into memory together
         phys_buffer_free(buffer);
     if (capacity > PHYS_MAX_BYTES - others)
         capacity = needed;
     Buffer larger = {.capacity = capacity, .shown = buffer->shown};
     arena_init(&larger.arena, "physics", SIZE_MAX);
     larger.arena.budget = system->options.budget;
-    // The arena's only block, so nothing must be freed on failure.
+    // This is the arena's only block, so nothing needs to be freed on failure.
     larger.bytes = arena_try_alloc(&larger.arena, (size_t)capacity);
     if (!larger.bytes) {
         system->bytes = others + buffer->capacity;

@@ -9,6 +9,8 @@ enum {
 };
 #define MAX_IMBALANCE 1.15 // largest time of a rank divided by the mean; above it, patches are rebalanced
 
+// Returns true if a pair force has unlimited range, or if there is no pair force. Sets the interaction ranges in
+// `reach`.
 static bool has_unbounded_force(const PhysSystem *system, Domain *reach) {
     const Force *forces = system->forces.bytes;
     bool any = false;
@@ -30,7 +32,8 @@ static bool has_unbounded_force(const PhysSystem *system, Domain *reach) {
     return !any || !(reach->bound < INFINITY);
 }
 
-// A frame must have at least two steps, because collecting all particles at its end takes about as long as one.
+// Returns true if domain decomposition is worthwhile. A frame must have at least two steps, because collecting all
+// particles at its end takes about as long as a step.
 static bool pays_off(const PhysSystem *system, const PhysTime *time) {
     const PhysOptions *options = &system->options;
     bool many = system->particle_count >= MIN_PARTICLES && time->now - time->last > 1.5 * time->resolution;
@@ -52,7 +55,7 @@ static Domain *get_domain(PhysSystem *system) {
     PhysOptions options = system->options;
     options.neighbours = PHYS_NEIGHBOURS_ALWAYS;
     options.pool = system->threads;
-    options.budget = NULL; // phys_domain_step charges the same on all ranks
+    options.budget = NULL; // phys_domain_step charges the system's budget, the same amount on all ranks
     options.ranks = (PhysRanks){.rank_count = 0};
     if (!system->threads)
         options.threads = 1;
@@ -94,7 +97,7 @@ static bool sees_farther(const PhysSystem *system, const Domain *domain) {
     return false;
 }
 
-// Returns true if the work was distributed unevenly. Returns the same on all ranks.
+// Returns true if the work was distributed unevenly. The result is the same on all ranks.
 static bool is_unbalanced(const PhysSystem *system, const Domain *domain) {
     const double *rank_seconds = domain->rank_seconds.bytes;
     double max_seconds = 0, sum = 0;
@@ -185,7 +188,7 @@ static bool rebuild_local(PhysSystem *system, Domain *domain) {
            phys_domain_build_local(system, domain);
 }
 
-// Updates the halo, or rebuilds it if any rank needs that.
+// Updates the halo, or rebuilds it if any rank requires a rebuild.
 static bool update_halo(PhysSystem *system, Domain *domain) {
     const PhysRanks *ranks = &system->options.ranks;
     if (!domain->age)

@@ -49,16 +49,17 @@ typedef struct Domain {
     Buffer interior;     // uint32_t by patch: 1 if no other rank can need its particles, else 0
     Buffer owners;       // uint32_t by column: rank
     Buffer counts;       // uint32_t by rank: number of owned particles
-    // uint32_t: the local system's `order`, the one before it, and its `column_of`. Its handles are global columns.
+    // uint32_t: the local system's `order`, its previous `order`, and its `column_of`. Its handles are global
+    // columns.
     Buffer orders, last_orders, column_of;
-    bool can_reorder; // phys_can_reorder; the same on all ranks
-    Buffer remote;    // bool by local column: in the halo, or moved to another rank
-    Buffer built;     // double: positions and radii of owned particles at the last rebuild, in column order
-    bool built_valid; // true if `built` was recorded
-    Buffer movers; // uint32_t by column: particles before it in its group that are not anchors; used by random forces
+    bool can_reorder;     // result of phys_can_reorder; the same on all ranks
+    Buffer remote;        // bool by local column: in the halo, or moved to another rank
+    Buffer built;         // double: positions and radii of owned particles at the last rebuild, in column order
+    bool built_valid;     // true if `built` was recorded
+    Buffer movers;        // uint32_t by column: number of earlier particles of its group that are not anchors
     Buffer random_offset; // uint32_t by local column: `movers` of the particle
     Transfers to, from;   // halo particles by rank
-    // during a rebuild, when particles that are sent or received are in the system's columns
+    // during a rebuild, when the system's columns hold the particles to send and those received
     ColumnList boundary; // columns of owned particles that other ranks may need
     ColumnList arrivals; // columns received in this rebuild, owned or halo
     Buffer sources;      // uint32_t by local column: column from which its values are copied
@@ -66,21 +67,22 @@ typedef struct Domain {
     Buffer transfers; // Transfer
     uint32_t transfer_count;
     Buffer transfer_counts; // double[ranks][ranks]: number of particles sent from one rank to another
-    Buffer message;         // scratch memory, such as for one message
-    Buffer gathered;        // double: a section per rank with its particles (domain_collect.c)
+    Buffer message;         // scratch memory, for example for one message
+    Buffer gathered;        // double: one section per rank with its particles (domain_collect.c)
     Buffer starts;          // size_t by rank: first element in an allgatherv
     // rebuilding and load balancing
     uint32_t age;                // steps since the last rebuild
-    uint64_t padded;             // list entries on all ranks, including dummies; an upper bound
+    uint64_t padded;             // upper bound of the list entries on all ranks, including dummies
     double seconds;              // CPU time of this rank since the last balancing
     uint64_t steps;              // since the last balancing
     uint64_t rebalance_interval; // steps before patches may be balanced again
     Buffer rank_seconds;         // double by rank: `seconds` of that rank
 } Domain;
 
-// domain.c: decides whether this frame uses domain decomposition, and prepares it. Returns the same on all ranks.
+// domain.c: decides whether this frame uses domain decomposition, and prepares it. The result is the same on all ranks.
 // Returns false and sets system->failed if out of memory.
 bool phys_domain_begin(PhysSystem *system, const PhysTime *time);
+// Updates or rebuilds the halo and takes one step. Returns false if the step was aborted.
 bool phys_domain_step(PhysSystem *system, double clock, double delta, double speed_of_light);
 void phys_domain_free(PhysSystem *system);
 
@@ -92,12 +94,13 @@ bool phys_domain_collect(PhysSystem *system, bool keep_last_finite);
 // to date. Returns false if space cannot be divided into patches, or if out of memory.
 bool phys_domain_balance(PhysSystem *system, Domain *domain);
 
-// Returns the index of a cell along a Hilbert curve, in a cube of 2^levels cells along each of n axes (1 to 3).
+// Returns the index of a cell along a Hilbert curve through a cube with n = 1 to 3 axes and 2^levels cells along each.
 uint64_t phys_hilbert_index(const uint32_t *cell, uint32_t n, uint32_t levels);
 
 // domain_select.c: finds the interior patches, which no particle of another rank can reach with the current skin.
 bool phys_domain_find_interior(PhysSystem *system, Domain *domain);
-// Adds a transfer for each rank that needs a boundary particle. The columns of boundary particles must be up to date.
+// Adds a transfer for each boundary particle and each rank that needs it. The columns of boundary particles must be
+// up to date.
 bool phys_domain_select(PhysSystem *system, Domain *domain);
 
 // domain_halo.c: migrates particles to the owners of their patches.
@@ -106,6 +109,7 @@ bool phys_domain_move(PhysSystem *system, Domain *domain);
 bool phys_domain_find_halo(PhysSystem *system, Domain *domain);
 // Exchanges the positions of halo particles before a step.
 bool phys_domain_exchange(PhysSystem *system, Domain *domain);
+// Append to a list. Return false if out of memory.
 bool phys_list_column(PhysSystem *system, ColumnList *list, uint32_t column);
 bool phys_add_transfer(PhysSystem *system, Domain *domain, uint32_t rank, uint32_t column);
 // Sets each number to its maximum over all ranks.

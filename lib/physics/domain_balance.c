@@ -43,7 +43,7 @@ uint64_t phys_hilbert_index(const uint32_t *cell, uint32_t n, uint32_t levels) {
 }
 
 typedef struct Patch {
-    uint64_t hilbert_index; // along the curve
+    uint64_t hilbert_index;
     uint32_t cell;
     double load;
 } Patch;
@@ -80,7 +80,7 @@ static void assign_patches(Patch *patches, uint32_t count, uint32_t ranks, uint3
     }
 }
 
-// Computes the measured cost of a particle of each rank, or 1 if no cost is known.
+// Computes the measured cost per particle on each rank, or 1 if no cost has been measured.
 static void price_particles(const PhysSystem *system, const Domain *domain, double *prices) {
     const uint32_t *counts = domain->counts.bytes;
     const double *rank_seconds = domain->rank_seconds.bytes;
@@ -94,7 +94,8 @@ static void price_particles(const PhysSystem *system, const Domain *domain, doub
         prices[r] = prices[r] > 0 ? prices[r] : highest > 0 ? highest : 1;
 }
 
-// Rounds the number of patches along each axis down to a power of two, so that half of the curve has a straight border.
+// Rounds the number of patches along each axis down to a power of two, so that half of the curve has a straight
+// boundary.
 static void round_patches(Grid *grid) {
     for (size_t k = 0; k < grid->dimensions; k++) {
         uint32_t cells = 1;

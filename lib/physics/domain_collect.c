@@ -5,7 +5,7 @@
 #include "physics/threads.h"
 
 enum {
-    LINE = 8, // doubles; the parts of a section are rounded up to it
+    LINE = 8, // doubles in a cache line; the parts of a section are padded to whole lines
     TAIL = LINE,
 };
 

@@ -1,6 +1,5 @@
 // domain_halo.c: transfers of particles between ranks: migration and halos.
-//
-// All ranks exchange the numbers of particles first, so a rank knows which messages it will receive.
+// Ranks exchange the numbers of particles first, so each rank knows which messages it will receive.
 #include "physics/domain.h"
 
 #include <string.h>
@@ -65,8 +64,8 @@ static void receive_message(const PhysSystem *system, const Domain *domain, uint
     ranks->receive(ranks->user_data, (int)from, domain->message.bytes, 1, count, count);
 }
 
-// Exchanges how many particles go from rank to rank, and returns the table: row `from`, column `to`. Returns NULL if
-// out of memory.
+// Exchanges the number of particles that each rank sends to each other rank. Returns these numbers as a table with a
+// row per sender and a column per receiver. Returns NULL if out of memory.
 static const double *exchange_counts(PhysSystem *system, Domain *domain, const Transfers *to) {
     size_t ranks = (size_t)system->options.ranks.rank_count, self = (size_t)system->options.ranks.rank;
     if (!phys_buffer_reserve(system, &domain->transfer_counts, 0, ranks * ranks, sizeof(double)) ||
@@ -116,8 +115,8 @@ static void change_owner(const Domain *domain, uint32_t from, uint32_t to, uint3
     phys_owners(domain)[column] = to;
 }
 
-// Sends positions and velocities of migrating particles to their new owners, and the columns of all of them to every
-// rank.
+// Sends positions and velocities of migrating particles to their new owners. Sends the column numbers of all migrating
+// particles to every rank.
 static bool send_movers(PhysSystem *system, Domain *domain, const Transfers *to) {
     const Columns *columns = &system->columns;
     uint32_t ranks = (uint32_t)system->options.ranks.rank_count, all = to->start[ranks];
@@ -165,7 +164,7 @@ static bool receive_movers(PhysSystem *system, Domain *domain, const double *tab
     return true;
 }
 
-// Copies position and velocity from a local column to one of the system.
+// Copies position and velocity from local column `here` to the system's column `column`.
 static void copy_back(const PhysSystem *system, const Domain *domain, uint32_t here, uint32_t column) {
     const Columns *from = &domain->local->columns, *to = &system->columns;
     for (size_t k = 0; k < to->dimensions; k++) {
@@ -189,8 +188,8 @@ static void copy_link_ends_back(const PhysSystem *system, const Domain *domain) 
 
 enum { RUN_LENGTH = 64, SIDE_BY_SIDE = 8, MAX_PATCHES = 32 };
 
-// Returns true if RUN_LENGTH particles from `first` are certainly in interior patches, as most are. Tests the patches
-// of their bounding box, which is small if the columns are in sorted order.
+// Returns true if the RUN_LENGTH particles starting at `first` are certainly in interior patches, which is the
+// common case. Tests all patches that their bounding box overlaps. The box is small if the columns are in sorted order.
 static bool run_is_interior(const Columns *columns, const Grid *patches, const uint32_t *interior, size_t first) {
     uint32_t low[PHYS_VECTOR_DIMENSIONS] = {0}, high[PHYS_VECTOR_DIMENSIONS] = {0}, count = 1;
     for (size_t k = 0; k < patches->dimensions; k++) {
@@ -223,7 +222,8 @@ static bool run_is_interior(const Columns *columns, const Grid *patches, const u
     return all;
 }
 
-// Finds owned particles outside the interior, and lists them as boundary particles or transfers to their new owner.
+// Finds owned particles outside the interior. Adds each to the boundary list, or to the transfers if it has a new
+// owner.
 static bool scan_boundary(PhysSystem *system, Domain *domain) {
     const Columns *columns = &domain->local->columns;
     const bool *remote = domain->local->remote;

@@ -13,7 +13,7 @@ static double interaction_range(const Domain *domain, double radius, double part
     return (fmax(touch, domain->bound) + domain->survey.skin) * (1 + 1e-9);
 }
 
-// On each line of patches along an axis, clears those within `margin` of a patch that is not interior.
+// On each line of patches along an axis, clears the patches within `margin` of a patch that is not interior.
 static void shrink_interior(uint32_t *patches, uint32_t count, uint32_t length, uint32_t stride, uint32_t margin) {
     for (uint32_t l = 0; l < count / length; l++) {
         uint32_t *line = patches + (size_t)(l / stride) * stride * length + l % stride, away = margin;
@@ -27,7 +27,8 @@ static void shrink_interior(uint32_t *patches, uint32_t count, uint32_t length, 
     }
 }
 
-// Returns how many patches along an axis a regular particle can reach beyond its own, with a margin for rounding.
+// Returns how many patches beyond its own a particle can reach along an axis, with a margin for rounding. Large
+// particles are treated separately.
 static uint32_t patch_margin(const Domain *domain, size_t k) {
     const Grid *grid = &domain->patches;
     double span = grid->cells[k] / grid->scale[k];
@@ -45,7 +46,7 @@ bool phys_domain_find_interior(PhysSystem *system, Domain *domain) {
         return false;
     uint32_t *interior = domain->interior.bytes;
     const uint32_t *owners = domain->patch_owners.bytes;
-    bool near = !domain->large_count; // large particles may reach any other
+    bool near = !domain->large_count; // large particles may reach any patch
     for (uint32_t i = 0; i < count; i++)
         interior[i] = near && owners[i] == (uint32_t)system->options.ranks.rank;
     for (size_t k = 0; k < grid->dimensions; stride *= grid->cells[k], k++)
@@ -54,8 +55,8 @@ bool phys_domain_find_interior(PhysSystem *system, Domain *domain) {
     return true;
 }
 
-// Adds transfers to the owners of all patches that a particle can reach. Rounding is safe, because the index of a patch
-// is monotonic in the position.
+// Adds transfers to the owners of all patches that a particle can reach. Rounding errors are harmless, because the
+// index of a patch is monotonic in the position.
 static bool select_for_patches(PhysSystem *system, Domain *domain, uint32_t column, uint32_t *last_sent) {
     const Columns *columns = &system->columns;
     const Grid *grid = &domain->patches;
@@ -156,7 +157,7 @@ bool phys_domain_select(PhysSystem *system, Domain *domain) {
         !phys_buffer_reserve(system, &domain->to.items, 0, ranks, sizeof(uint32_t)))
         return false;
     const uint32_t *boundary = domain->boundary.columns.bytes;
-    uint32_t *last_sent = domain->to.items.bytes; // by rank: last column selected for it, plus 1
+    uint32_t *last_sent = domain->to.items.bytes; // by rank: last column selected for that rank, plus 1
     memset(last_sent, 0, ranks * sizeof *last_sent);
     domain->transfer_count = 0;
     for (uint32_t i = 0; i < domain->boundary.count; i++) {

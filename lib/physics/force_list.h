@@ -2,7 +2,7 @@
 // single_formulas.h) and a test. Enums, tables and dispatch are generated from the rows, and no switch over forces has
 // a `default:`.
 //
-//   PAIR(KIND, name, sign, source, reach)   between every two particles that see each other (4.1)
+//   PAIR(KIND, name, sign, source, reach)   between every two particles that interact (4.1)
 //       sign     of K in the formula: +1 where a positive strength pulls two particles together, -1 where it pushes
 //       source   what both particles must have: RADIUS, MASS, CHARGE or NOTHING
 //       reach    CONTACT: only where their distance is below the sum of their radii (source is RADIUS then);
@@ -10,7 +10,7 @@
 //   LINK(KIND, name)                        between two given particles (4.1)
 //   SINGLE(KIND, name, vectors, need)       on each particle (4.2)
 //   BARRIER(KIND, name, vectors, need)      on each particle (4.4)
-//       vectors  how many of PhysForce.vector and .vector2 it reads
+//       vectors  number of vectors read: PhysForce.vector, then .vector2
 //       need     SECTION: radius^(n-1); VOLUME: radius^n; STREAM: random numbers; or NOTHING
 //
 // The order of the rows does not matter: forces act in the order of the script. The node and attributes of a force are

@@ -25,7 +25,7 @@ typedef struct ForceRow {
     ForceNeed need;  // for a pair force: of both particles
     PairReach reach; // pair forces only
     int sign;        // pair forces only: PairTerm.strength is sign · strength
-    int vectors;     // number of vectors of PhysForce that it reads
+    int vectors;     // number of PhysForce vectors that the force reads
 } ForceRow;
 
 static inline ForceRow phys_force_row(PhysForceKind kind) {

@@ -10,10 +10,10 @@ typedef struct IntegratePass {
     const Columns *columns; // with a separate `scratch` for each thread
     double delta;
     double speed_of_light;
-    const Force *const *forces; // single-particle forces, then barriers; each from the group outwards to the top
+    const Force *const *forces; // single-particle forces, then barriers; both from the group outwards to the top
     uint32_t force_count;
     uint32_t barrier_count;  // the last elements of `forces` that are barriers
-    bool keep_force;         // true: store the sums for PhysColumns.force; false: leave 0 for the next step
+    bool keep_force;         // true: store the sums for PhysColumns.force; false: leave zeros for the next step
     const atomic_bool *stop; // set when the frame is aborted, so that the remaining rows are skipped; NULL: never
     uint64_t draw_count;     // random numbers that each random force has drawn for the group so far
 } IntegratePass;
@@ -32,7 +32,7 @@ typedef struct Integrator {
     size_t lanes;
     IntegratePass pass;
     const Group *group;
-    bool wide;   // `lanes` particles at a time; chunks may run on any thread
+    bool wide;   // processes `lanes` particles at a time; chunks may run on any thread
     bool random; // one of the forces is random
 } Integrator;
 

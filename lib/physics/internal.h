@@ -1,16 +1,15 @@
 // internal.h: internal declarations of lib/physics. No other library includes it.
 //
-// A system exists in two forms. The description has records in the order of the calls. It also has a row of 2 n doubles
-// (position, velocity) for each particle, from which results are read. For simulation it is arranged: particles are
-// copied into columns, where component k of particle i is at [k * stride + i]. Columns are in pre-order of the groups,
-// and the particles of a group itself come before those of its sub-groups. Forces are sorted by group and by the stage
-// in which they act. Therefore:
+// A system exists in two forms. The description has records in the order of the calls. It also has a row for each
+// particle: 2 n doubles in n dimensions, the position and the velocity. Results are read from the rows. For simulation
+// it is arranged: particles are copied into columns, where component k of particle i is at [k * stride + i]. Columns
+// are in pre-order of the groups, and the particles of a group itself come before those of its sub-groups. Forces are
+// sorted by group and by the stage in which they act. Therefore:
 //
 //   - the particles of a group are one contiguous range, with or without its sub-groups;
 //   - the partners of a particle in a pass over pairs are its own range and one range per enclosing group;
 //   - all forces that one stage applies for one group are contiguous.
-//
-// Columns instead of rows, because each lane of a kernel processes a different particle.
+// Kernels use columns rather than rows, because each lane processes a different particle.
 #ifndef PETRI_PHYSICS_INTERNAL_H
 #define PETRI_PHYSICS_INTERNAL_H
 
@@ -25,7 +24,7 @@ typedef struct Buffer {
     Arena arena;
     void *bytes;
     uint64_t capacity; // in bytes
-    bool shown;        // the host may still read it, so its memory is retired instead of freed
+    bool shown;        // the host may still read the memory, so it is retired instead of freed
 } Buffer;
 
 #define NO_GROUP UINT32_MAX
@@ -34,16 +33,16 @@ typedef struct Buffer {
 enum {
     PHYS_MAX_LISTS = 8,          // maximum number of neighbour lists, one per pass
     PHYS_MAX_RANGES = 8,         // maximum number of groups in a pass with a list
-    PHYS_MIN_FOR_THREADS = 1500, // particles; fewer run on one thread, because the work for each is small
+    PHYS_MIN_FOR_THREADS = 1500, // particles; smaller systems run on one thread, because each needs little work
 };
 
 typedef struct Group {
     uint32_t parent; // the top is its own parent
-    uint32_t first;  // own particles are columns first … first + count - 1
+    uint32_t first;  // particles of the group itself: columns first … first + count - 1
     uint32_t count;
-    uint32_t movers;               // particles that are not anchors; valid if Columns.random_offset is set
-    uint32_t populated;            // this group or its nearest ancestor that has particles, or NO_GROUP
-    uint32_t nearest[STAGE_COUNT]; // this group or its nearest ancestor that has forces of a stage, or NO_GROUP
+    uint32_t movers;               // number of particles that are not anchors; valid if Columns.random_offset is set
+    uint32_t populated;            // nearest group with particles, from this group upwards; NO_GROUP: none
+    uint32_t nearest[STAGE_COUNT]; // by stage: nearest group with forces, from this group upwards; NO_GROUP: none
 } Group;
 
 typedef struct ParticleRecord {
@@ -53,7 +52,7 @@ typedef struct ParticleRecord {
     double charge;
     uint32_t group;
     bool anchor;
-    bool unused[3]; // no padding: equal records have equal bytes
+    bool unused[3]; // explicit padding, so that equal records have equal bytes
 } ParticleRecord;
 
 typedef struct ForceRecord {
@@ -67,8 +66,8 @@ typedef struct ForceRecord {
 // A force as the kernels see it: vectors point to the copies, `from` and `to` are columns.
 typedef struct Force {
     PhysForce given;
-    double strength; // at this step, eased in
-    uint64_t item;   // random: items of the stream used so far in this frame
+    double strength; // in this step, after easing
+    uint64_t item;   // random: number of stream items used so far in this frame
 } Force;
 
 typedef struct Columns {
@@ -77,18 +76,18 @@ typedef struct Columns {
     size_t stride; // >= count
     double *position;
     double *velocity;
-    double *own_force; // the particle's own force; like `ease`, valid only if system->has_own_forces
+    double *own_force; // PhysParticle.force; like `ease`, valid only if system->has_own_forces
     double *force;     // sum of all forces of the step
-    bool forces_clear; // `force` is all zeros, as left by the step before
+    bool forces_clear; // `force` is all zeros, as the previous step left it
     double *ease;
     double *radius;
     double *mass;
-    bool uniform_mass; // radius[0] and mass[0] hold for all particles
+    bool uniform_mass; // all particles have radius[0] and mass[0]
     bool no_anchors;   // no particle is an anchor
     double *charge;
     double *section; // radius^(n-1); valid if a force needs it
     double *volume;  // radius^n; valid if a force needs it
-    // By column: particles before it in its group that use random numbers. NULL: counted from the columns.
+    // By column: number of earlier particles of its group that use random numbers. NULL: integrate.c counts them.
     const uint32_t *random_offset;
     double *scratch; // 3 n doubles for the running kernel
     bool *anchor;
@@ -96,7 +95,7 @@ typedef struct Columns {
 
 struct PhysSystem {
     Arena home;     // holds this struct
-    uint64_t bytes; // capacity of all buffers together
+    uint64_t bytes; // total capacity of all buffers
     bool failed;    // out of memory since phys_begin
     bool arranged;  // particles and forces are arranged as described
     bool forces_arranged;
@@ -104,24 +103,24 @@ struct PhysSystem {
     bool any_not_finite;      // some element of `not_finite` is set
     bool any_from_attribute;  // some element of `from_attribute` is set
     PhysOptions options;
-    PhysThreads *threads; // pool of the options, or its own; NULL: none
+    PhysThreads *threads; // options.pool or the system's own pool; NULL: none
     bool owns_threads;
     // description
     uint32_t dimensions;
     uint32_t group_count;
     uint32_t particle_count;
     uint32_t force_count;
-    bool has_forces;       // simulated since phys_begin or phys_skip_frame: the force columns hold the last step's sums
-    bool has_own_forces;   // some particle has its own force
-    bool has_eased_forces; // some particle's own force is eased in; implies has_own_forces
+    bool has_forces;         // a step was taken since phys_begin or phys_skip_frame, so the force columns hold its sums
+    bool has_own_forces;     // some particle has a `force` attribute
+    bool has_eased_forces;   // some particle's `force` attribute is eased in; implies has_own_forces
     uint64_t vector_doubles; // doubles in use in `vectors`
     Buffer groups;           // Group
     uint32_t record_stride;  // 0: all particles share the first record; else 1
-    Buffer particles;        // ParticleRecord by handle times record_stride
+    Buffer particles;        // ParticleRecord by handle * record_stride
     Buffer rows;             // 2 n doubles by handle
-    Buffer own_forces;       // n doubles by handle: the particles' own forces; valid if has_own_forces
-    Buffer last_rows;        // rows of the description before this one
-    Buffer force_rows;       // n doubles by handle: the forces of the last step; with PhysOptions.keep_forces
+    Buffer own_forces;       // n doubles by handle: the `force` attributes; valid if has_own_forces
+    Buffer last_rows;        // rows of the previous description
+    Buffer force_rows;       // n doubles by handle: the forces of the last step; used if PhysOptions.keep_forces
     Buffer from_attribute;   // uint8_t by handle: PHYS_POSITION and PHYS_VELOCITY that came from attributes; valid if
                              // any_from_attribute
     Buffer not_finite;    // uint8_t by handle: PHYS_POSITION and PHYS_VELOCITY that were not finite in the last frame
@@ -163,7 +162,7 @@ typedef struct ForceRange {
     Force *end;
 } ForceRange;
 
-// system.c: returns the kernels of the instruction set in the options.
+// system.c: returns the kernels for the instruction set in the options.
 const struct Kernels *phys_kernels(const PhysSystem *system);
 
 // Returns the row of a particle.
@@ -208,13 +207,14 @@ bool phys_fill_columns(PhysSystem *system);
 void phys_fill_motion(PhysSystem *system);
 void phys_update_radius_powers(PhysSystem *system);
 void phys_write_rows(PhysSystem *system, bool keep_last_finite);
-// Writes the rows of some particles from other columns, which may lack `anchor`. Values that PhysTime.keep_last_finite
-// restores are also written to the columns of `home`: this system, or a system whose handles are the columns of this
-// one. NULL: to none.
+// Writes the rows of the particles in `columns`. `order` holds their handles. `columns->anchor` may be NULL. Values
+// that PhysTime.keep_last_finite restores are also written to the columns of `home`: this system, or a system whose
+// handles are this system's columns. `home` may be NULL.
 void phys_write_column_rows(PhysSystem *system, const Columns *columns, const uint32_t *order, bool keep_last_finite,
                             const PhysSystem *home);
 
-// particles.c: points the columns into their memory, with room for `spare` more particles.
+// particles.c: allocates `column_data` with space for `spare` more particles and sets the pointers of the columns.
+// Returns false if out of memory.
 bool phys_reserve_columns(PhysSystem *system, uint64_t spare);
 // groups.c: sets Group.populated and Group.nearest, which skip empty enclosing groups, so that deep nesting is cheap.
 void phys_link_groups(PhysSystem *system);
@@ -222,9 +222,9 @@ void phys_link_groups(PhysSystem *system);
 // step.c: takes one step of `delta` at `clock`. Returns false if the step was aborted half-way.
 bool phys_step(PhysSystem *system, double clock, double delta, double speed_of_light);
 
-// reorder.c: columns in the sorted order of a list, so that kernels need no index. phys_can_reorder returns whether the
-// system allows this. phys_restore_order restores the order of the description and drops the list. phys_forget_order
-// only drops it, for columns that are about to be rebuilt.
+// reorder.c: puts the columns into the sorted order of a list, so that kernels need no index. phys_can_reorder
+// returns whether the system allows this. phys_restore_order restores the order of the description and drops the list.
+// phys_forget_order only drops the list, for columns that are about to be rebuilt.
 bool phys_can_reorder(const PhysSystem *system);
 void phys_reorder(PhysSystem *system, struct NeighbourList *list);
 void phys_restore_order(PhysSystem *system);
@@ -232,8 +232,8 @@ void phys_forget_order(PhysSystem *system);
 
 // Kernels that apply forces to the particles of one group (for links: to any two particles).
 void phys_apply_links(const Columns *columns, ForceRange forces);
-// The motion that follows the pair forces. If not NULL, the pass may move particles as soon as their forces are
-// complete, and then sets `done`.
+// The motion that follows the pair forces. A pass over pairs that receives it may move particles as soon as their
+// forces are complete, and then sets `done`.
 typedef struct Move {
     double delta;
     double speed_of_light;
@@ -256,7 +256,7 @@ static inline double phys_at(PhysVector vector, size_t k) {
     return vector ? vector[k] : 0.0;
 }
 
-// Returns the factor of a strength, or of a particle's own force, while it is eased in.
+// Returns the easing factor at `clock` for a strength or a particle's `force` attribute.
 static inline double phys_ramp(double ease, double clock) {
     return ease > 0 && clock < ease ? clock / ease : 1.0;
 }

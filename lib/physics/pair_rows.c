@@ -1,4 +1,5 @@
-// pair_rows.c: the pairs of one particle with a range, one at a time, for any number of dimensions and forces.
+// pair_rows.c: forces between one particle and a range of particles, one pair at a time, for any number of dimensions
+// and forces.
 #define LANES 1
 #include "physics/pair_formulas.h"
 #include "physics/pair_wavefront.h"

@@ -17,7 +17,7 @@
 enum {
     PAIRS_FOR_THREADS = 60000, // smallest job for which sleeping threads are woken
     PAIRS_FOR_AWAKE = 10000,   // smallest job for threads that are awake
-    MIN_BLOCK = 24,            // // minimum number of rows in a block
+    MIN_BLOCK = 24,            // minimum number of rows in a block
     BLOCKS_PER_COLUMN = 24,    // number of blocks in a column, unless limited by MIN_BLOCK
     MAX_BLOCKS = BLOCKS_PER_COLUMN + 1,
     BLOCK_ALIGN = 8, // rows; a multiple of every number of lanes

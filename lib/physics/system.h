@@ -4,8 +4,8 @@
 // trees into calls of these functions and writes the results to the state. The caller describes a system (phys_begin,
 // phys_add_…) and then simulates it frame by frame. Between frames it changes particles and forces with
 // phys_update_particle, phys_begin_forces and phys_set_key, or describes the system again. All arithmetic is IEEE
-// double in the order that the specification fixes. So results do not depend on storage order or on the number of
-// threads.
+// double in the order that the specification fixes. Therefore results do not depend on storage order or on the number
+// of threads.
 #ifndef PETRI_PHYSICS_SYSTEM_H
 #define PETRI_PHYSICS_SYSTEM_H
 
@@ -31,7 +31,7 @@ typedef struct PhysParticle {
     double mass;         // >= 0; a particle with mass 0 is never accelerated
     double charge;
     bool anchor;
-    bool position_from_attribute; // true until a frame has stored it in the state (PhysTime.keep_last_finite)
+    bool position_from_attribute; // true until a frame has stored the position (PhysTime.keep_last_finite)
     bool velocity_from_attribute; // like position_from_attribute
 } PhysParticle;
 
@@ -52,11 +52,11 @@ typedef struct PhysForce {
     double overlap;      // adhesion; lib/scene clamps it to 0…1
     double density;      // buoyancy
     double restitution;  // barrier; lib/scene clamps it to 0…1
-    bool has_minimum;    // distance and barrier bounds
-    bool has_maximum;
+    bool has_minimum;    // distance and barrier: `minimum` is set
+    bool has_maximum;    // distance and barrier: `maximum` is set
     double minimum;
     double maximum;
-    uint32_t from; // distance: particle handles
+    uint32_t from; // distance: handles of the two particles
     uint32_t to;
     uint64_t key;       // random: key of the random stream for this frame
     PhysVector vector;  // constant: force; field: direction; drag: flow; buoyancy: gravity; barrier: position
@@ -86,7 +86,7 @@ void phys_threads_free(PhysThreads *threads);
 typedef struct PhysRanks {
     int rank; // of this process, counted from 0
     int rank_count;
-    uint64_t min_pairs; // smallest number of pairs in a pass that is divided; 0: the engine's default
+    uint64_t min_pairs; // a pass with fewer pairs is not divided; 0: the engine's default
     void *user_data;
     void (*send)(void *user_data, int to, const double *numbers, size_t count, size_t block_length,
                  size_t stride); // never blocks
@@ -95,34 +95,35 @@ typedef struct PhysRanks {
     void (*broadcast)(void *user_data, int from, double *numbers, size_t count, size_t block_length, size_t stride);
     // Copies the numbers of every rank r, elements starts[r] to starts[r + 1] - 1, to all ranks.
     void (*allgatherv)(void *user_data, double *numbers, const size_t *starts);
-    // Sets each number to its maximum over all ranks. None of them is NaN.
+    // Sets each number to its maximum over all ranks. No number is NaN.
     void (*allreduce_max)(void *user_data, double *numbers, size_t count);
     // Returns memory for `count` doubles that all ranks share, valid until the next call. Returns NULL on all ranks if
-    // there is none. The pointer may be NULL: no shared memory.
+    // shared memory is unavailable. The function pointer itself may also be NULL.
     double *(*alloc_shared)(void *user_data, size_t count);
 } PhysRanks;
 
-// How the ranks divided a system, and what this rank has sent for it.
+// How the ranks divide the work for a system.
 typedef enum PhysDecomposition {
     PHYS_REPLICATED,        // every rank computes everything
     PHYS_FORCE_DECOMPOSED,  // blocks of pairs are distributed over the ranks
     PHYS_DOMAIN_DECOMPOSED, // every rank simulates the particles of one region
 } PhysDecomposition;
+// Statistics of this rank for one system.
 typedef struct PhysRankStats {
     PhysDecomposition decomposition; // in the last frame
     uint64_t frames;
     uint64_t steps;
-    uint64_t step_bytes; // halos, particles that migrate to another rank, sums of pair forces
+    uint64_t step_bytes; // sent in steps: halos, migrating particles, sums of pair forces
     uint64_t step_messages;
-    uint64_t reductions;  // collective operations of all ranks
-    uint64_t frame_bytes; // to collect all particles at the end of frames
+    uint64_t reductions;  // collective operations
+    uint64_t frame_bytes; // sent at the end of frames to collect all particles
     uint64_t own;         // particles of this rank's region, summed over steps
     uint64_t halo;        // particles received from other regions, summed over steps
 } PhysRankStats;
 
-// How a system is computed. No option changes a bit of the results.
+// How a system is computed. Results are bit-identical with all options.
 typedef struct PhysOptions {
-    int threads;  // maximum, including the caller; <= 0: one per processor
+    int threads;  // maximum number, including the caller; <= 0: one per processor
     CpuLevel cpu; // instruction set; limited to cpu_detected.level
     PhysNeighbours neighbours;
     PhysThreads *pool; // shared pool, which must outlive the system; NULL: the system creates its own
@@ -137,8 +138,8 @@ void phys_set_options(PhysSystem *system, const PhysOptions *options);
 // Maximum size of the arrays of one system, in bytes.
 #define PHYS_MAX_BYTES (SIZE_MAX > UINT32_MAX ? UINT64_C(8) << 30 : UINT64_C(2) << 30)
 
-// Starts a new description: drops groups, particles and forces, but keeps their memory. Group 0, the top, exists
-// afterwards.
+// Starts a new description: removes all groups, particles and forces, but keeps their memory. Afterwards only group
+// 0, the top, exists.
 void phys_begin(PhysSystem *system, uint32_t dimensions);
 // Adds a sub-group and returns its number. Groups must be added in pre-order (a group before its sub-groups, in order
 // of declaration), so numbers ascend in pre-order. Particles and forces may come in any order of groups; within a group
@@ -151,40 +152,39 @@ void phys_expect_particles(PhysSystem *system, uint64_t more);
 // Adds a force applier or barrier to a group and returns its number: 0, 1, 2, … in the order of the calls.
 uint32_t phys_add_force(PhysSystem *system, uint32_t group, const PhysForce *force);
 
-// The functions below change a description between frames. What they do not set keeps its value from the last frame.
-//
-// Parts of a particle that phys_update_particle keeps.
+// The functions below change a description between frames. Values that they do not set stay as in the last frame.
+// Parts of a particle that phys_update_particle does not change.
 typedef struct PhysPreserve {
     bool position;
     bool velocity;
 } PhysPreserve;
-// Replaces the attributes of a particle, except its group, whether it is an anchor, and what `preserve` names.
+// Replaces the attributes of a particle, except its group, its `anchor` flag, and the parts set in `preserve`.
 void phys_update_particle(PhysSystem *system, uint32_t particle, const PhysParticle *numbers, PhysPreserve preserve);
 uint32_t phys_particle_group(const PhysSystem *system, uint32_t particle);
 bool phys_is_anchor(const PhysSystem *system, uint32_t particle);
 uint32_t phys_group_count(const PhysSystem *system);
 uint32_t phys_group_parent(const PhysSystem *system, uint32_t group);
-// Drops all forces; add new ones with phys_add_force.
+// Removes all forces. New forces are added with phys_add_force.
 void phys_begin_forces(PhysSystem *system);
 // Sets the key of a random force for the next frame.
 void phys_set_key(PhysSystem *system, uint32_t force, uint64_t key);
 
 typedef struct PhysTime {
     double last;           // time up to which the state has been simulated
-    double now;            // time of this frame; a frame with now <= last has no step
+    double now;            // time of this frame; if now <= last, no step is taken
     double clock;          // simulation clock at `last`
     double resolution;     // maximum step; > 0 and finite
-    bool lockstep;         // always catch up
-    double performance;    // of the host; above 1.5 allows one extra step per frame without lockstep
+    bool lockstep;         // take all steps that are due; false: only one, or two with high `performance`
+    double performance;    // of the host; above 1.5 allows a second step per frame without lockstep
     double speed_of_light; // <= 0: no limit
-    bool keep_last_finite; // a position or velocity that is not finite afterwards is reset to its value before the
-                           // frame. A result that compares equal is not stored (0 does not become -0), unless the old
-                           // value came from an attribute
+    bool keep_last_finite; // a position or velocity that is not finite after the frame is reset to its value before the
+                           // frame. A result equal to the old value is not stored (0 does not become -0), unless the
+                           // old value came from an attribute
 } PhysTime;
 
 typedef enum PhysStatus {
     PHYS_OK,
-    PHYS_DROPPED_TIME, // the step limit or the precision of the clock was reached; the rest of the frame was dropped
+    PHYS_DROPPED_TIME, // the step limit or the clock's precision was reached; the remaining time was dropped
     PHYS_STOPPED,      // interrupted or over the work limit; nothing was simulated
     PHYS_NO_MEMORY,    // an allocation failed or PHYS_MAX_BYTES would be exceeded; nothing was simulated
 } PhysStatus;
@@ -193,7 +193,7 @@ enum { PHYS_MAX_STEPS = 1000000 }; // in one frame
 
 typedef struct PhysResult {
     PhysStatus status;
-    double clock;   // simulation clock afterwards
+    double clock;   // simulation clock after the frame
     uint64_t steps; // number of steps taken
 } PhysResult;
 
@@ -204,9 +204,9 @@ PhysResult phys_simulate(PhysSystem *system, const PhysTime *time);
 bool phys_skip_frame(PhysSystem *system);
 
 uint32_t phys_particle_count(const PhysSystem *system);
-// Return the n doubles of a particle by handle; its velocity follows its position. The address is fixed until
-// phys_begin, and readable until the phys_begin after that. Values may be non-finite. Before phys_simulate they are the
-// values passed to phys_add_particle.
+// Return the n doubles of a particle by handle; its velocity follows its position. The pointer does not change until
+// the next phys_begin, and its memory stays readable until the phys_begin after that. Values may be non-finite. Before
+// phys_simulate they are the values passed to phys_add_particle.
 const double *phys_position(const PhysSystem *system, uint32_t particle);
 const double *phys_velocity(const PhysSystem *system, uint32_t particle);
 // Return true if the result of the last phys_simulate was finite. Always true without keep_last_finite.
@@ -214,17 +214,16 @@ bool phys_position_finite(const PhysSystem *system, uint32_t particle);
 bool phys_velocity_finite(const PhysSystem *system, uint32_t particle);
 
 // Access to a system after phys_simulate, for display. All pointers are valid until the next phys_begin.
-//
-// One attribute of all particles, by handle.
+// One attribute of all particles, indexed by handle.
 typedef struct PhysColumn {
-    const double *numbers; // of handle 0; NULL without particles
-    size_t stride;         // doubles from one particle to the next; 0: all have the same value
+    const double *numbers; // value of handle 0; NULL: no particles
+    size_t stride;         // doubles from one particle to the next; 0: all particles share one value
 } PhysColumn;
 typedef struct PhysColumns {
     PhysColumn position; // as simulated, n doubles
     PhysColumn velocity;
     PhysColumn force; // n doubles: sum of the forces in the last step; zeros for an anchor. `numbers` is NULL without
-                      // PhysOptions.keep_forces and if nothing was simulated since phys_begin or phys_skip_frame
+                      // PhysOptions.keep_forces or if nothing was simulated since phys_begin or phys_skip_frame
     PhysColumn radius;
     PhysColumn mass;
     PhysColumn charge;
@@ -237,7 +236,8 @@ static inline const double *phys_at_particle(PhysColumn column, uint32_t particl
 }
 PhysRankStats phys_rank_stats(const PhysSystem *system);
 uint32_t phys_force_count(const PhysSystem *system);
-// Copies force applier or barrier `number`, counted from 0 in the order of the calls. Returns false beyond the last.
+// Copies force applier or barrier `number`, counted from 0 in the order of the calls. Returns false if there is no such
+// force.
 bool phys_get_force(const PhysSystem *system, uint32_t number, PhysForce *force);
 
 #endif
