@@ -1,7 +1,7 @@
 // args.h: a reader for a command line, one option or operand at a time.
 //
-// Options and operands may be mixed; `--` ends the options. `--name value`, `--name=value`, `-x value` and `-xvalue`
-// mean the same.
+// Options and operands may be mixed; `--` ends the options. A value can be written as `--name value`,
+// `--name=value`, `-x value` or `-xvalue`.
 #ifndef PETRI_SRC_ARGS_H
 #define PETRI_SRC_ARGS_H
 
@@ -15,13 +15,13 @@ typedef struct Args {
     int argc;
     char **argv;
     int next;
-    bool operands_only;       // `--` was seen
-    bool version;             // ARG_HELP means --version, not --help
+    bool operands_only;       // true after `--`
+    bool version;             // true if ARG_HELP was returned for --version, false for --help
     const OptionSpec *option; // the option that args_next returned
     const char *value;        // the option's value, or the operand
 } Args;
 
-// Returns the kind of the next argument (ARG_...). Before it returns ARG_INVALID, it prints a message.
+// Reads the next argument and returns its kind (ARG_...). Prints a message before it returns ARG_INVALID.
 int args_next(Args *args);
 
 #endif

@@ -1,18 +1,19 @@
-// byte_buffer.h: growable text buffers and memory for the command.
+// byte_buffer.h: growable buffers, lists of strings, and memory allocation for the command.
 //
-// If out of memory, these functions print a message and end the process, so they never return NULL.
+// If memory runs out, these functions print a message and exit. They never return NULL.
 #ifndef PETRI_SRC_BYTE_BUFFER_H
 #define PETRI_SRC_BYTE_BUFFER_H
 
 #include "base/str.h"
 
-void *memory_calloc(size_t size);
+// The caller frees the results with free. memory_calloc and memory_realloc accept a size of 0.
+void *memory_calloc(size_t size); // zeroed
 void *memory_realloc(void *block, size_t size);
-char *memory_strndup(const char *text, size_t length);
+char *memory_strndup(const char *text, size_t length); // copies `length` bytes and adds a NUL
 char *memory_strdup(const char *text);
 
 typedef struct ByteBuffer {
-    char *data;    // NULL until something is added, even if it is empty; then NUL-terminated
+    char *data;    // NUL-terminated; NULL before the first addition, which may be empty
     size_t length; // bytes, without the NUL
     size_t capacity;
 } ByteBuffer;
@@ -21,24 +22,24 @@ void byte_buffer_add(ByteBuffer *text, const char *more, size_t length);
 void byte_buffer_add_text(ByteBuffer *text, const char *more);
 __attribute__((format(printf, 2, 3))) void byte_buffer_format(ByteBuffer *text, const char *format, ...);
 __attribute__((format(printf, 2, 0))) void byte_buffer_format_list(ByteBuffer *text, const char *format, va_list list);
-// Adds text to the ByteBuffer that `bytes` points to. Can be used as a PetriWriteCallback.
+// Adds text to the ByteBuffer that `bytes` points to. Always returns true. Can be used as a PetriWriteCallback.
 bool byte_buffer_collect(void *bytes, const char *text, size_t length);
 // Sets *line to the line at *at without its newline and moves *at to the next line. Returns false at the end of the
 // text.
 bool byte_buffer_next_line(const ByteBuffer *text, size_t *at, Str *line);
-// Adds everything that can be read from `fd`. Stops soon after the text is longer than max_bytes. Returns false and
-// sets errno on failure.
+// Reads `fd` to its end and adds the data. Stops early once the buffer has more than max_bytes. Returns false and sets
+// errno on failure.
 bool byte_buffer_read(ByteBuffer *text, int fd, size_t max_bytes);
 // Adds a file's contents. Returns false and sets errno on failure.
 bool byte_buffer_read_file(ByteBuffer *text, const char *path);
-// Adds a path as a URI reference: with `file://` if it is absolute, else relative.
+// Adds a path as a percent-encoded URI: a `file://` URI if the path is absolute, else a relative reference.
 void byte_buffer_add_uri(ByteBuffer *text, const char *path);
 void byte_buffer_free(ByteBuffer *text);
 void memory_free_text(char **text);
 
-// A list that owns copies of its texts.
+// A list of strings. The list owns copies of them.
 typedef struct TextList {
-    char **items; // NUL-terminated texts, then NULL; NULL if the list is empty
+    char **items; // NUL-terminated strings, then NULL; NULL if the list is empty
     size_t count;
 } TextList;
 

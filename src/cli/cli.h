@@ -14,7 +14,7 @@ struct Options;
 struct PetriRanks;
 struct PlotSupport;
 
-// Exit codes. A process that a signal ended exits with STATUS_SIGNAL plus the signal's number.
+// Exit codes. After a signal, the exit code is STATUS_SIGNAL plus the number of the signal.
 enum { STATUS_DONE = 0, STATUS_FAILED = 1, STATUS_USAGE = 2, STATUS_SIGNAL = 128 };
 
 // Bits for the commands that accept an option. FOR_GOLDEN: a golden file may contain the option.
@@ -33,7 +33,7 @@ typedef struct OptionSpec {
     bool (*read)(const struct Args *args, void *field); // stores args->value; returns false after a message
     int64_t min;                                        // range of an integer
     int64_t max;
-    const char *const *words; // possible values, then NULL; if `value` is "LIST", several of them, separated by commas
+    const char *const *words; // allowed values, then NULL; NULL: any. If `value` is "LIST": a comma-separated list
 } OptionSpec;
 
 // All options, then an entry without a name.
@@ -62,7 +62,7 @@ typedef struct Command {
     unsigned options;                 // FOR_... bit of the command; 0: no options
     const char *missing_operand;      // message if there is no operand; NULL: none, or `run` prints its own
     const char *no_stdin;             // message if the operand is `-`; NULL: `-` means standard input
-    const char *second_operand_error; // message format for a second operand; NULL: it is taken for a second script
+    const char *second_operand_error; // message format for a second operand; NULL: reported as a second script
     bool accepts_many;                // accepts several scripts and folders
     bool live;                        // follows the wall clock and runs until it is stopped
     bool parses_arguments;            // reads argv itself
@@ -89,7 +89,7 @@ int command_run(const Command *command, const CommandContext *context, int argc,
 
 // These print help to standard output and return the exit status.
 int help_for(const Command *command);
-int help_overview(const Command *const *commands); // `commands` in the order of the list, then NULL
+int help_overview(const Command *const *commands); // `commands`: in the order of the list, then NULL
 int help_version(void);
 
 // Installs a signal handler. A SIGHUP that is ignored, as under nohup, stays ignored.
@@ -97,10 +97,10 @@ void signal_catch(int number, void (*handler)(int), int flags);
 // Writes `petri: text` and a newline to standard error. Control characters become `?`.
 __attribute__((format(printf, 1, 2))) void message(const char *format, ...);
 
-// Starts the search for the name that a mistyped word was probably meant to be.
+// Starts a search for the candidate that is most similar to a mistyped word.
 StrNearest nearest_start(const char *word);
-// Compares a candidate with the word. Returns true if it is nearer than all candidates before it; it is then stored in
-// nearest->found, whose bytes are the NUL-terminated `name`.
+// Compares a candidate with the word. Returns true if it is the most similar one so far; nearest->found then points to
+// the NUL-terminated `name`.
 bool nearest_offer(StrNearest *nearest, const char *name);
 
 #endif

@@ -23,8 +23,9 @@
 #define HAVE_INOTIFY 0
 #endif
 
-// QUIET_SECONDS: how long a file must be stable before a change is reported. MAX_WRITE_SECONDS: the same while a writer
-// keeps it open. SLOW_POLL_SECONDS, FAST_POLL_SECONDS: interval between polls of all files, with and without inotify.
+// QUIET_SECONDS: how long a file must be stable before a change is reported. MAX_WRITE_SECONDS: the same while a
+// process has the file open for writing. SLOW_POLL_SECONDS, FAST_POLL_SECONDS: interval between polls of all files,
+// with and without inotify.
 static const double QUIET_SECONDS = 0.05, MAX_WRITE_SECONDS = 2, SLOW_POLL_SECONDS = 1, FAST_POLL_SECONDS = 0.2;
 
 // Identity and version of a file, from stat. All zero if there is no regular file.
@@ -90,7 +91,7 @@ static bool add_wake_source(const FileWatch *watch, int descriptor) {
     return descriptor >= 0 && epoll_ctl(watch->wake, EPOLL_CTL_ADD, descriptor, &event) == 0;
 }
 
-// If this fails, for example without free descriptors, files are only polled.
+// If this fails, for example because no descriptor is free, files are only polled.
 static void open_wake(FileWatch *watch) {
     watch->wake = epoll_create1(EPOLL_CLOEXEC);
     watch->events = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
@@ -268,7 +269,7 @@ bool file_watch_changed(FileWatch *watch) {
     bool changed = false;
     for (size_t i = 0; i < watch->count; i++) {
         if (late && !watch->files[i].found.exists)
-            watch_folders(watch, &watch->files[i]); // its folder may have been created again
+            watch_folders(watch, &watch->files[i]); // the file's folder may have been re-created
         changed = check_file(watch, &watch->files[i], time, &wait) || changed;
     }
     schedule_wake(watch, wait);

@@ -11,18 +11,18 @@
 
 typedef struct FileWatch FileWatch;
 
-// Returns a watch without files. The caller frees it with file_watch_free.
+// Returns an empty watch. The caller frees it with file_watch_free.
 FileWatch *file_watch_new(void);
 // NULL is ignored.
 void file_watch_free(FileWatch *watch);
 // Watches a file, which need not exist. Only changes after this call are reported. A path that is already watched is
 // ignored.
 void file_watch_add(FileWatch *watch, const char *path);
-// Returns true once after one or more files have changed. Never waits. Call it when the descriptor is readable, or
-// often.
+// Returns true once after one or more files have changed. Does not block. Call it when the descriptor is readable, or
+// periodically.
 bool file_watch_changed(FileWatch *watch);
 // Returns a descriptor for poll that is readable when file_watch_changed should be called. Returns -1 if there is none
-// (not Linux, or out of descriptors); call file_watch_changed a few times per second then.
+// (not Linux, or no free descriptors). In this case, call file_watch_changed a few times per second.
 int file_watch_descriptor(const FileWatch *watch);
 
 #endif

@@ -27,20 +27,20 @@ static bool wait_for(pid_t process) {
     return done == process && WIFEXITED(status) && WEXITSTATUS(status) == STATUS_DONE;
 }
 
-// Lets petri-hdf5 finish the file before a signal ends this process (a SignalCleanup).
+// Lets petri-hdf5 finish the file before a signal terminates this process. A SignalCleanup.
 static void close_on_signal(void *context) {
     Hdf5 *writer = context;
     close(writer->stream);
     wait_for(writer->process);
 }
 
-// Executes petri-hdf5 in the child process. It ignores signals from the terminal, because it must finish the file and
-// ends with the stream.
+// Executes petri-hdf5 in the child process. petri-hdf5 ignores signals from the terminal, because it must finish the
+// file. It exits at the end of the stream.
 static void exec_writer(int stream, char **words) {
     static const int ignored[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
     for (size_t i = 0; i < sizeof ignored / sizeof ignored[0]; i++)
         signal(ignored[i], SIG_IGN);
-    // Its standard output is not petri's, so a program that reads petri's output does not wait for petri-hdf5.
+    // petri-hdf5 must not inherit standard output, or a program that reads petri's output would wait for petri-hdf5.
     int cause = errno, nothing = open("/dev/null", O_WRONLY);
     if (nothing >= 0 && dup2(stream, STDIN_FILENO) >= 0 && dup2(nothing, STDOUT_FILENO) >= 0)
         cause = helper_exec(words[0], words);
@@ -49,8 +49,8 @@ static void exec_writer(int stream, char **words) {
     _exit(STATUS_FAILED);
 }
 
-// Waits for a byte from petri-hdf5, which it sends after the steps that are likely to fail. Returns false if it ended
-// instead.
+// Waits for the byte that petri-hdf5 sends after each step that is likely to fail. Returns false if petri-hdf5 has
+// exited instead.
 static bool wait_for_ready(int stream) {
     char word;
     ssize_t length;

@@ -1,7 +1,7 @@
 // hdf5.h: HDF5 output through petri-hdf5, the only program that links libhdf5.
 //
-// petri sends the data through a socket. If a signal ends petri, petri-hdf5 sees the end of the stream and finishes the
-// file, so no signal can damage it.
+// petri sends the data through a socket. If a signal terminates petri, petri-hdf5 detects the end of the stream and
+// finishes the file, so the file is always valid.
 #ifndef PETRI_SRC_HDF5_H
 #define PETRI_SRC_HDF5_H
 
@@ -20,20 +20,19 @@ typedef struct Hdf5 {
     int cleanup_id; // number from signal_cleanup_begin
 } Hdf5;
 
-// Starts petri-hdf5. `kind` is "trajectory" (any number of Hdf5Head, each with its data) or "table" (one HDF5_ADD with
-// CSV, then HDF5_COMMIT). If `after` is not NULL, the trajectory survives a crash of both programs and can be resumed;
-// `after` is then "FRAME LAST": the frame to resume after (-1: none), and the last frame the file should contain.
-// Returns false after a message.
+// Starts petri-hdf5. Returns false after a message. `kind` is "trajectory" (any number of Hdf5Head, each followed by
+// its data) or "table" (one HDF5_ADD with CSV, then HDF5_COMMIT). With `after`, the trajectory survives a crash of both
+// programs and can be resumed. `after` is NULL or "FRAME LAST": the frame to resume after (-1: none), and the last
+// frame that the file should contain.
 bool hdf5_start(Hdf5 *writer, const char *kind, const char *path, const char *after);
-// Waits until the data before the last HDF5_SYNC is on disk. Returns false on failure; petri-hdf5 has printed a message
-// then.
+// Waits until the data before the last HDF5_SYNC is on disk. On failure, returns false after a message from petri-hdf5.
 bool hdf5_wait(Hdf5 *writer);
 // Writes a whole table. Returns false after a message.
 bool hdf5_table(const char *path, const char *csv, size_t length);
 // Returns true if the file name says that a table is written as HDF5 (.h5, .hdf5).
 bool hdf5_has_suffix(const char *path);
-// Closes the stream and waits until the file has its final name. Returns false if there is no file. petri-hdf5 has
-// printed a message if it failed.
+// Closes the stream and waits until the file has its final name. Returns false if petri-hdf5 was not started or failed.
+// In the latter case, it has printed a message.
 bool hdf5_end(Hdf5 *writer);
 
 // Format of the stream. Both programs are built together, so it has no version and uses native byte order.
@@ -41,7 +40,7 @@ bool hdf5_end(Hdf5 *writer);
 typedef enum Hdf5Command {
     HDF5_ADD = 1, // followed by `bytes` bytes of data
     HDF5_COMMIT,  // the file is complete; also implied if the stream ends after data was added
-    HDF5_DISCARD, // the file is not wanted
+    HDF5_DISCARD, // discard the file
     HDF5_SYNC,    // write everything so far to disk; answered by one byte
     HDF5_NEW_RUN, // in a spool (hdf5/spool.h): the following data comes from another run
 } Hdf5Command;
@@ -51,8 +50,8 @@ typedef struct Hdf5Head {
     uint64_t bytes;
 } Hdf5Head;
 
-// A frame. It is followed by the new ids that are not integers >= 0, each NUL-terminated, then by the systems. All
-// texts are padded with NULs to a multiple of eight bytes.
+// Header of a frame. It is followed by the new ids that are not integers >= 0, as NUL-terminated strings, and then by
+// the systems. Strings are padded with NULs to a multiple of eight bytes.
 typedef struct Hdf5Frame {
     int64_t number;
     double time;
@@ -61,8 +60,8 @@ typedef struct Hdf5Frame {
     uint64_t system_count;
 } Hdf5Frame;
 
-// A system. It is followed by its name, then by one array per quantity: positions, velocities, radii, masses and
-// charges as double; ids as int64_t, where -2-K means text K, counted over all frames; anchor flags as int64_t.
+// Header of a system. It is followed by the name of the system and by one array per quantity: positions, velocities,
+// radii, masses and charges as double; ids and anchor flags as int64_t. The id -2-K means string K of all frames.
 typedef struct Hdf5System {
     uint64_t particles;
     uint64_t dimensions;

@@ -32,7 +32,7 @@ const char HELP_BEGINNING[] =
     "all nodes. 'petri help WORD' explains a word of scripts, such as sin, particle or tempo. SCRIPT.fl can be -\n"
     "for standard input. 'petri --version' prints the version.";
 
-// Writes text that starts in `column`, wrapped at words. Further lines start in column `hang`.
+// Writes text that starts in `column`, wrapped at spaces. Continuation lines start in column `hang`.
 static void write_words(Output *output, Str line, size_t column, size_t hang, size_t width) {
     for (size_t at = 0; at < line.len;) {
         size_t start = at, word;
@@ -52,7 +52,8 @@ static void write_words(Output *output, Str line, size_t column, size_t hang, si
 }
 
 static void write_line(Output *output, Str line, size_t width) {
-    enum { NARROWEST = 24, INDENT = 4 }; // minimum width of the last cell; if there is less, it goes below the others
+    // NARROWEST: if less width is left for the last cell, it is written below the others.
+    enum { NARROWEST = 24, INDENT = 4 };
     size_t indent = 0, gap = 0;
     while (indent < line.len && line.bytes[indent] == ' ')
         indent++;

@@ -11,8 +11,8 @@
 Output *help_begin(void);
 // Flushes and frees the output. Returns the exit status.
 int help_end(Output *output);
-// Writes text, wrapped at words to the width of the terminal (COLUMNS overrides it; default: 80). Columns of a line are
-// separated by at least two spaces; a wrapped line continues below its last column.
+// Writes text, wrapped at spaces to the width of the terminal (COLUMNS overrides it; default: 80). Columns of a line
+// are separated by at least two spaces. A wrapped line continues below its last column.
 void help_write(Output *output, const ByteBuffer *text);
 // Writes text like help_write, to standard output. Returns the exit status.
 int help_print(const ByteBuffer *text);
@@ -21,7 +21,7 @@ void help_prose(ByteBuffer *text, const char *prose);
 // Adds a line with an option and its help.
 void help_option(ByteBuffer *text, const OptionSpec *spec);
 
-// Texts of `petri help` and of the manual: one after the program's name, one after the list of commands.
+// Text of `petri help` and of the manual: HELP_TITLE follows the program's name, HELP_BEGINNING the list of commands.
 extern const char HELP_TITLE[], HELP_BEGINNING[];
 
 // A word of the language that is neither a function nor a node (topics.c).
@@ -38,8 +38,8 @@ extern const char FORMULA_LETTERS[]; // explains the symbols in formulas
 
 // Help on words of the language, for `petri help` and `.help` at the prompt (topics.c).
 
-// Adds the help for all functions, nodes and words with this name, or else for attributes. `!name` matches only nodes.
-// Returns false if there is nothing with this name.
+// Adds the help for all functions, nodes and words with this name. If there are none, adds the help for attributes with
+// this name. `!name` matches only nodes. Returns false if nothing has this name.
 bool topics_print(ByteBuffer *text, const char *topic);
 // Offers the names of all topics as candidates.
 void topics_offer(StrNearest *nearest);

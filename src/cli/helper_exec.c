@@ -1,6 +1,6 @@
 // helper_exec.c: see helper_exec.h.
 //
-// Helper programs are in the folder of this program, as in a build folder, or in ../libexec, as installed.
+// Helper programs are in the folder of this program (in a build) or in ../libexec (if installed).
 #include "cli/helper_exec.h"
 
 #include "cli/cli.h"
@@ -37,7 +37,7 @@ static char *find_base_name(char *path) {
     return !slash ? path : slash + 1;
 }
 
-// Executes a helper program. On failure, returns the value of errno, with the folder of this program in `path`.
+// Executes a helper program. On failure, returns the value of errno and sets `path` to the folder of this program.
 static int exec_helper(const char *name, char **argv, char path[PATH_MAX + 64]) {
     static const char *const folders[] = {"", "../libexec/"};
     ssize_t length = readlink("/proc/self/exe", path, PATH_MAX - 1);

@@ -1,6 +1,6 @@
 // helper_exec.h: execution of helper programs such as petri-pictures and petri-ranks.
 //
-// petri itself links few libraries. For other commands it replaces itself with a helper program (exec).
+// petri itself links few libraries. For commands that need others, it executes a helper program (exec).
 #ifndef PETRI_SRC_HELPER_EXEC_H
 #define PETRI_SRC_HELPER_EXEC_H
 
@@ -12,10 +12,11 @@ bool helper_exec_is_pictures_command(const char *first);
 bool helper_exec_forwards_unknown(void);
 // Executes petri-pictures with the same arguments. Returns only on failure: the exit status, after a message.
 int helper_exec_pictures(char **argv);
-// Becomes petri-lsp, which serves editors; -1: this is petri-lsp.
+// Executes petri-lsp, the language server. Returns -1 if this program is petri-lsp. On failure, returns the exit status
+// after a message.
 int helper_exec_lsp(char **argv);
 // Executes petri-ranks if mpirun has started several processes. Returns -1 if it has not, or if petri-ranks does not
-// exist and `needed` is false. Otherwise returns the exit status after a message.
+// exist and `needed` is false. On other failures, returns the exit status after a message.
 int helper_exec_ranks(char **argv, bool needed);
 // Executes a helper program. Returns only on failure: the value of errno.
 int helper_exec(const char *name, char **argv);

@@ -77,7 +77,7 @@ static bool add_keyframe(FrameHistory *history, PetriSession *session) {
 }
 
 // Starts an epoch with a keyframe at the current frame. If `restart` is true, drops all earlier keyframes and epochs.
-// Returns false if out of memory, with nothing changed, so that no epoch is without its first keyframe.
+// If out of memory, returns false and changes nothing, so every epoch has its first keyframe.
 static bool begin_epoch(FrameHistory *history, PetriSession *session, bool restart) {
     PetriSnapshot *snapshot = petri_snapshot(session);
     if (!snapshot)
@@ -192,8 +192,8 @@ static const Keyframe *keyframe_before(const FrameHistory *history, int64_t fram
     return NULL;
 }
 
-// Recomputes frames up to `frame`, which is in the timeline: from the current frame if it lies between the keyframe
-// `from` and `frame`, else from the keyframe.
+// Recomputes frames up to `frame`, which must be in the timeline. Starts at the current frame if it is between the
+// keyframe `from` and `frame`, else at the keyframe.
 static PetriStatus replay_frames(const FrameHistory *history, PetriSession *session, const Keyframe *from,
                                  uint64_t config, int64_t frame) {
     int64_t now = petri_frame(session).number;

@@ -2,20 +2,20 @@
 //
 // The timeline covers the frames `first` to `last`. Some of them, the keyframes, are stored as snapshots. Other frames
 // are recomputed from the keyframe before them, with bit-identical results. HISTORY_BYTES and HISTORY_MAX limit the
-// keyframes. Beyond that, the keyframe is dropped that saves the fewest steps relative to its age, so keyframes are
-// denser in the recent past.
+// keyframes. If a limit is exceeded, the keyframe that saves the fewest steps relative to its age is dropped, so
+// keyframes are denser in the recent past.
 //
 // A change of the configuration (script, definitions, clock rates, prompt statements) starts a new epoch with its own
 // keyframe. A frame is always recomputed with the configuration of its epoch. Stepping from a past frame under a
 // changed configuration discards the frames after it. If the session follows the wall clock, a frame is recomputed at
-// its recorded time; a new frame after a past frame has a new time, so the frames after that are discarded.
+// its recorded time. A step from a past frame then computes a frame at the current time and discards all later frames.
 #ifndef PETRI_SRC_CLI_HISTORY_H
 #define PETRI_SRC_CLI_HISTORY_H
 
 #include "cli/byte_buffer.h"
 #include "petri.h"
 
-// Limits of the keyframes: number, least distance in frames, and bytes. Two keyframes are kept whatever their size.
+// Limits of the keyframes: number, minimum distance in frames, and bytes. Two keyframes are kept regardless of size.
 enum { HISTORY_MAX = 512, HISTORY_INTERVAL = 8 };
 #define HISTORY_BYTES ((size_t)64 << 20)
 
@@ -53,7 +53,7 @@ typedef struct FrameHistory {
     size_t time_count;
     size_t time_capacity;
     int64_t times_start;
-    const char *why; // reason why earlier frames are missing, a literal; NULL: there were none
+    const char *why; // reason why earlier frames are missing, a literal; NULL: none are missing
 } FrameHistory;
 
 // Starts a new timeline at the current frame and drops the old one. `why` becomes history->why. Returns false if out of
@@ -62,11 +62,11 @@ bool history_start(FrameHistory *history, PetriSession *session, const char *why
 void history_free(FrameHistory *history);
 // Like petri_step, but records the frame.
 PetriStatus history_step(FrameHistory *history, PetriSession *session);
-// Goes to a frame of the timeline, or steps until a later frame. Keeps the current configuration. Returns PETRI_INVALID
-// and adds a reason to `why` if the frame cannot be recomputed. After PETRI_INTERRUPTED the session is at a frame in
-// between.
+// Goes to a frame of the timeline, or steps forward to a frame after its end. Keeps the current configuration. Returns
+// PETRI_INVALID and adds a reason to `why` if the frame cannot be recomputed. After PETRI_INTERRUPTED, the session is
+// at an intermediate frame.
 PetriStatus history_goto(FrameHistory *history, PetriSession *session, int64_t frame, ByteBuffer *why);
-// Recomputes the current frame with its systems and its tree from the keyframe before it. Does nothing for the first
+// Recomputes the current frame, with its systems and tree, from the previous keyframe. Does nothing for the first
 // frame of the timeline and for frames that cannot be recomputed. PETRI_INTERRUPTED and PETRI_OUT_OF_MEMORY change
 // nothing.
 PetriStatus history_recompute(FrameHistory *history, PetriSession *session);

@@ -34,7 +34,7 @@ static size_t without_controls(char *line, size_t length) {
 }
 
 void message(const char *format, ...) {
-    // The line is written at once, so that messages of parallel processes do not mix.
+    // The line is written in one call, so that messages of parallel processes do not mix.
     char line[1024];
     size_t length = (size_t)snprintf(line, sizeof line, "petri: ");
     va_list list;

@@ -1,4 +1,4 @@
-// motion.h: total energy and momentum of the particles of a system. Anchors are not counted.
+// motion.h: kinetic energy and momentum of a system, without its anchors.
 #ifndef PETRI_SRC_MOTION_H
 #define PETRI_SRC_MOTION_H
 
@@ -15,7 +15,7 @@ typedef struct Motion {
 } Motion;
 
 double particle_speed(const PetriSystem *system, uint32_t particle);
-// The caller frees the result with motion_free.
+// Computes the sums over all particles except anchors. The caller frees the result with motion_free.
 Motion motion_measure(const PetriSystem *system);
 void motion_free(Motion *motion);
 

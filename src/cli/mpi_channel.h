@@ -1,6 +1,6 @@
 // mpi_channel.h: messages between the processes that mpirun has started.
 //
-// For asynchronous work, such as the assignment of sweep runs; collective operations are in PetriRanks.
+// They are used for asynchronous work, such as the assignment of sweep runs. PetriRanks has collective operations.
 #ifndef PETRI_SRC_MPI_CHANNEL_H
 #define PETRI_SRC_MPI_CHANNEL_H
 
@@ -9,7 +9,7 @@
 typedef struct MpiChannel {
     int rank;  // number of this process, from 0
     int count; // number of processes
-    // Sends a message. May block until the receiver accepts it, if it is long.
+    // Sends a message. A long message may block until it is received.
     void (*send)(int to, const void *bytes, size_t length);
     // Appends a received message to `message` and sets *from to its sender. Returns false if there is none.
     bool (*receive)(int *from, ByteBuffer *message);

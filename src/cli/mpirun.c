@@ -4,7 +4,7 @@
 #include <stddef.h>
 #include <stdlib.h>
 
-// Returns the integer in an environment variable, -1 if it is not set.
+// Returns the integer value of an environment variable, or -1 if it is not set.
 static int read_variable(const char *name) {
     const char *text = getenv(name);
     return !text ? -1 : atoi(text);

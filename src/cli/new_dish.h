@@ -2,7 +2,7 @@
 #ifndef PETRI_SRC_NEW_DISH_H
 #define PETRI_SRC_NEW_DISH_H
 
-// The lines, each with its newline, then NULL.
+// The lines, each with a newline at its end, then NULL.
 extern const char *const NEW_DISH[];
 
 #endif

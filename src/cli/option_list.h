@@ -2,7 +2,7 @@
 //
 // FIELD(type, name, default): a field of Options (options.h).
 // OPTION(commands, "name", 'letter' or 0, "VALUE" or NULL, reader, field, "help"): an option. The readers are in
-// options.c. FOR_GOLDEN marks options that a golden may contain, because they write no files.
+// options.c. FOR_GOLDEN marks options that a golden may contain because they write no files.
 // clang-format off
 FIELD(const char *, output,       NULL)           // render, open, sweep: output file
 FIELD(const char *, format,       NULL)           // render: format for `-o -`; NULL: not given
@@ -26,7 +26,7 @@ FIELD(const char *, shard,        NULL)
 FIELD(int64_t,      frames,       -1)             // INT64_MAX: unlimited
 FIELD(double,       run_time,     NAN)            // seconds; NaN: unlimited
 FIELD(int64_t,      every,        1)
-FIELD(Size,         size,         {0})            // size of pictures; 0: that of the script
+FIELD(Size,         size,         {0})            // size of pictures in pixels; 0: the size that the script sets
 FIELD(double,       scale,        1)
 FIELD(bool,         automatic,    false)          // draw the particles instead of the canvas
 FIELD(TextList,     definitions,  {0})            // each "NAME=VALUE"
@@ -44,10 +44,10 @@ FIELD(int64_t,      threads,      0)              // 0: number of CPUs
 FIELD(uint64_t,     memory,       0)              // bytes; 0: default of the library
 FIELD(uint64_t,     work,         0)              // units per frame; 0: default of the library
 FIELD(int,          neighbours,   0)              // PetriNeighbours
-FIELD(const char *, as_threads,   NULL)           // test: overrides the goldens; NULL: does not
-FIELD(const char *, as_neighbours, NULL)          // test: overrides the goldens; NULL: does not
+FIELD(const char *, as_threads,   NULL)           // test: overrides --threads of goldens; NULL: no override
+FIELD(const char *, as_neighbours, NULL)          // test: overrides --neighbours of goldens; NULL: no override
 FIELD(bool,         unsimplified, false)
-FIELD(bool,         show,         false)          // run: show in the terminal, if it is one
+FIELD(bool,         show,         false)          // run: show the picture if output is a terminal
 FIELD(bool,         stats,        false)
 FIELD(const char *, trajectory,   NULL)           // file; NULL: none
 FIELD(bool,         profile,      false)
@@ -79,7 +79,7 @@ OPTION(FOR_TEST, "jobs", 0, "N", WHOLE(1, 256), jobs, "run N scripts at a time (
 OPTION(FOR_LSP, "stdio", 0, NULL, read_flag, stdio, "use standard input and output, the only transport")
 OPTION(FOR_FMT, "check", 0, NULL, read_flag, only_checks, "list unformatted scripts and exit with 1 if any")
 OPTION(FOR_SWEEP, "define", 'D', "NAME=VALUES", read_definition, axes, "set the values of a parameter, such as 1..10, 0..1|0.05 or 1;5;20; may be repeated")
-OPTION(FOR_SWEEP, "sample", 0, "latin:N", read_text, sample, "make N runs by Latin hypercube sampling instead of all combinations; latin:N:SEED sets its seed")
+OPTION(FOR_SWEEP, "sample", 0, "latin:N", read_text, sample, "choose N runs by Latin hypercube sampling instead of all combinations; latin:N:SEED sets its seed")
 OPTION(FOR_SWEEP, "seeds", 0, "N", WHOLE(1, 1000000), seeds, "repeat each combination N times, with SEED from 1 to N")
 OPTION(FOR_SWEEP, "where", 0, "EXPR", read_text, where, "run only combinations for which EXPR is true, such as 'A < B'")
 OPTION(FOR_SWEEP, "metric", 0, "NAME=EXPR", read_definition, metrics, "measure EXPR as column NAME; may be repeated")
@@ -90,8 +90,8 @@ OPTION(FOR_SWEEP, "output", 'o', "FILE", read_text, output, "write the table to 
 OPTION(FOR_SWEEP, "summary", 0, "FILE", read_text, summary, "write mean, deviation and quartiles over the seeds of each combination")
 OPTION(FOR_SWEEP, "plot", 0, "FILE", read_text, plot, "plot each metric against each parameter (.svg, .png or .pdf)")
 OPTION(FOR_SWEEP, "plan", 0, "FILE", read_text, plan, "read script and options from FILE; arguments override")
-OPTION(FOR_SWEEP, "jobs", 0, "N", WHOLE(1, 1024), jobs, "make N runs at a time (default: number of CPUs)")
-OPTION(FOR_SWEEP, "shard", 0, "I/N", read_text, shard, "make only the I-th of N parts of the runs")
+OPTION(FOR_SWEEP, "jobs", 0, "N", WHOLE(1, 1024), jobs, "execute N runs in parallel (default: number of CPUs)")
+OPTION(FOR_SWEEP, "shard", 0, "I/N", read_text, shard, "execute only part I of N of the runs")
 OPTION(FOR_RUN | FOR_GOLDEN | FOR_RENDER, "frames", 0, "N", WHOLE(0, INT64_MAX), frames, "stop after N frames (default: 600 without --runtime)")
 OPTION(FOR_VIEW, "frames", 0, "N", WHOLE(0, INT64_MAX), frames, "close after N frames")
 OPTION(FOR_RUN | FOR_GOLDEN | FOR_RENDER, "runtime", 0, "T", read_time, run_time, "stop after T seconds or a time code (m:s, h:m:s)")

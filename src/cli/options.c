@@ -99,7 +99,7 @@ static bool read_time(const Args *args, void *field) {
     return good || report_invalid_value(args, "seconds or a time code");
 }
 
-// Returns the index of a word in a list that ends with NULL; -1 if it is not in the list.
+// Returns the index of a word in a list that ends with NULL, or -1 if it is not in the list.
 static int find_word(const char *const *words, const char *word) {
     int i = 0;
     while (words[i] && strcmp(words[i], word) != 0)

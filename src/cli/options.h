@@ -16,7 +16,7 @@ typedef struct Size {
     int height;
 } Size;
 
-// The values from a command line. Texts point into argv.
+// Values from a command line. Strings point into argv.
 typedef struct Options {
 #define FIELD(type, name, at_first) type name;
 #define OPTION(commands, name, letter, value, reader, field, help)
@@ -34,14 +34,14 @@ typedef struct Options {
     char **argv;
 } Options;
 
-enum { OPTIONS_READ = -1 }; // success, where other values are exit statuses
+enum { OPTIONS_READ = -1 }; // success; other values are exit statuses
 
 // Returns true if another frame must be computed according to --frames and --runtime. `frames` frames have been
 // computed since `start`, a time of the monotonic clock in seconds.
 bool options_due(const Options *options, int64_t frames, double start, double fps);
 
-// Opens a session with the options and defines the names of -D. Returns OPTIONS_READ, or an exit status after a message
-// with *session set to NULL.
+// Opens a session with the options and defines the names of -D. Returns OPTIONS_READ. On failure, sets *session to NULL
+// and returns an exit status after a message.
 int options_open(const Options *options, const CommandContext *host,
                  void (*diagnostic)(void *context, const PetriDiagnostic *diagnostic), void *context,
                  PetriSession **session);

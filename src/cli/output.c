@@ -50,12 +50,12 @@ bool output_write(void *user_data, const char *text, size_t length) {
 }
 
 bool output_format(Output *output, const char *format, ...) {
-    size_t room = sizeof output->buffer - output->used;
+    size_t available = sizeof output->buffer - output->used;
     va_list list, again;
     va_start(list, format);
     va_copy(again, list);
-    int length = vsnprintf(output->buffer + output->used, room, format, list);
-    if (length >= 0 && (size_t)length < room) {
+    int length = vsnprintf(output->buffer + output->used, available, format, list);
+    if (length >= 0 && (size_t)length < available) {
         output->used += (size_t)length;
     } else {
         SCOPED_BYTE_BUFFER text = {0};

@@ -1,7 +1,7 @@
 // output.h: buffered output that records write errors.
 //
-// After the first error all further output is discarded and each function returns false, so that a run can end when its
-// reader has closed the pipe.
+// After the first error, all further output is discarded and the functions return false. A run can thus end when the
+// reader of its output has closed the pipe.
 #ifndef PETRI_SRC_OUTPUT_H
 #define PETRI_SRC_OUTPUT_H
 
@@ -11,7 +11,7 @@
 typedef struct Output {
     int fd;
     int error;      // errno of the first failure; 0: none
-    size_t written; // bytes written, without those in the buffer
+    size_t written; // bytes written to `fd`, without those in the buffer
     size_t used;    // bytes in the buffer
     char buffer[1 << 16];
 } Output;
@@ -21,8 +21,8 @@ void output_start(Output *output, int fd);
 bool output_write(void *user_data, const char *text, size_t length);
 __attribute__((format(printf, 2, 3))) bool output_format(Output *output, const char *format, ...);
 bool output_flush(Output *output);
-// Flushes. Returns `status`, or STATUS_FAILED after a message if an error has occurred. A closed pipe is not an error,
-// because its reader has what it wanted.
+// Flushes the buffer. Returns `status`, or STATUS_FAILED after a message if an error has occurred. A closed pipe is not
+// an error, because its reader needs no more output.
 int output_finish(Output *output, int status);
 // Writes text to standard output and returns the result of output_finish.
 int output_text(const char *text, size_t length, int status);

@@ -9,9 +9,9 @@
 // Writes a table of the loaded script's parameters: name, current value, range and comment. Parameters of its modules,
 // which cannot be set, follow. Returns the number of parameters that can be set.
 size_t parameters_list(PetriSession *session, Output *output);
-// Finds a parameter of the script itself. Returns false if there is none of this name.
+// Finds a parameter of the script itself, not of its modules. Returns false if no parameter has this name.
 bool parameter_find(PetriSession *session, const char *name, PetriParameter *parameter);
-// Adds the range, such as `1..500`, or nothing if the parameter has none.
+// Adds the range, such as `1..500`. Adds nothing if the parameter has no range.
 void parameter_range(ByteBuffer *out, const PetriParameter *parameter);
 // Adds a description such as `NAME = VALUE  (1..500, default 200)`.
 void parameter_describe(ByteBuffer *out, const PetriParameter *parameter);

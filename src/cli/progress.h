@@ -8,10 +8,10 @@
 typedef struct Progress {
     bool enabled;
     bool drawn;         // the line is on the screen
-    int64_t total;      // number of frames, or of other things
-    const char *things; // plural noun, such as "frames"
+    int64_t total;      // number of frames or other items
+    const char *things; // plural noun for the items, such as "frames"
     double start;       // seconds of the monotonic clock
-    double last;        // time of the last redraw, in the same seconds; 0: none
+    double last;        // time of the last redraw on the same clock; 0: none
 } Progress;
 
 // Returns the time of the monotonic clock in seconds.
@@ -21,6 +21,7 @@ void terminal_extent(int fd, int *columns, int *rows);
 // Returns true if standard error is a terminal that can erase a line.
 bool progress_possible(void);
 
+// Starts a progress line. Nothing is drawn unless `enabled` is true and `total` is positive.
 void progress_start(Progress *progress, bool enabled, int64_t total);
 // Redraws the line, at most ten times per second.
 void progress_update(Progress *progress, int64_t done);

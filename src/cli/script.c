@@ -109,8 +109,8 @@ static bool differs_in_suffix(const char *name, const char *script) {
            (strncmp(name, script, length) == 0 && strcmp(script + length, ".fl") == 0);
 }
 
-// Returns the path of the script whose file name is most similar to `name`, or NULL if none is. `folder` is the length
-// of the folder in all paths.
+// Returns the path of the script whose file name is most similar to `name`, or NULL if no name is similar. All paths
+// start with the same folder, `folder` bytes long.
 static const char *find_nearest(const glob_t *scripts, size_t folder, const char *name) {
     StrNearest nearest = nearest_start(name);
     const char *found = NULL;

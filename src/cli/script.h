@@ -12,24 +12,24 @@
 bool script_is_stdin(const char *name);
 // Returns the name, or SCRIPT_STDIN for `-`.
 const char *script_display_name(const char *name);
-// Like petri_load and petri_check, but `-` reads standard input. If the file does not exist, a message may suggest
-// another.
+// Like petri_load and petri_check, but the name `-` means standard input. If the file does not exist, a message may
+// suggest another file.
 PetriStatus script_load(PetriSession *session, const char *name);
 PetriStatus script_check(PetriSession *session, const char *name);
 // Reports a second script on the command line, which is often a misplaced option value.
 void script_report_second(const char *first, const char *second);
 // Prints a suggestion for a script that cannot be read: a file with a similar name, or the scripts in a folder.
 void script_suggest(const char *name);
-// Returns the number, from 0, of the suffix in `words` that the file name ends with; -1: none. For example, 1 for
-// "a.png" and ".csv .png".
+// Returns the index of the file name's suffix in the list `words`, or -1 if it is not in the list. For example, returns
+// 1 for "a.png" and ".csv .png".
 int script_suffix(const char *name, const char *words);
-// Returns the folder of the path, "." for the current one. The caller frees it.
+// Returns the folder of the path, or "." if the path has none. The caller frees it.
 char *script_folder(const char *name);
 // Adds a word, quoted for a shell if necessary.
 void shell_add_word(ByteBuffer *text, const char *word);
-// Adds the path of the program, relative to the current folder if it is below it.
+// Adds the path of the program. The path is relative if the program is below the current folder.
 void shell_add_program(ByteBuffer *text, const char *called);
-// Prints the commands that show the script and that save a picture of it.
+// Prints two commands: one shows the script, the other saves a picture of it.
 void hint_pictures(const CommandContext *context, const char *script);
 
 #endif

@@ -19,7 +19,7 @@ typedef struct ScriptList {
 // Adds a file, or all files named *.fl below a folder except hidden ones. Returns false after a message if something
 // cannot be read.
 bool scripts_find(ScriptList *list, const char *path);
-// Adds a name without looking for a file, such as `-`.
+// Adds a name, such as `-`, without looking for a file.
 void scripts_add(ScriptList *list, const char *path);
 // Sorts by path and removes duplicates.
 void scripts_sort(ScriptList *list);

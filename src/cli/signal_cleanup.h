@@ -5,12 +5,12 @@
 // An action. It is called from a signal handler, possibly twice, possibly while another thread completes the file.
 typedef void SignalCleanup(void *context);
 
-// Registers the action for a file that is being written. Returns its number, or -1 if there are too many. Any thread
-// may call it. It never returns after signal_cleanup_run has started.
+// Registers the action for a file that is being written. Returns the number of the action, or -1 if too many are
+// registered. Any thread may call this function. It never returns after signal_cleanup_run has started.
 int signal_cleanup_begin(SignalCleanup *act, void *context);
 // Removes an action, because the file is complete or deleted. -1 is ignored.
 void signal_cleanup_end(int number);
-// Runs all actions. For a signal handler that ends the process afterwards.
+// Runs all actions. To be called by a signal handler that then terminates the process.
 void signal_cleanup_run(void);
 
 #endif

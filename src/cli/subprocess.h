@@ -9,22 +9,22 @@
 
 typedef struct Subprocess {
     pid_t pid;
-    int output; // descriptors of unnamed files with its standard output
-    int errors; // and standard error
+    int output; // descriptor of an unnamed file with its standard output
+    int errors; // descriptor of an unnamed file with its standard error
 } Subprocess;
 
 enum { SUBPROCESS_MAX_SECONDS = 120 };
 
-// Returns a file that is deleted when it is closed, or -1. Unlike a pipe, it never blocks its writer.
+// Returns the descriptor of a file that is deleted when it is closed, or -1. Unlike a pipe, it never blocks its writer.
 int subprocess_temporary_file(void);
 // Starts a program with `folder` as its working directory. `argv` is as for execv. Returns false and sets errno on
-// failure. The program is ended after SUBPROCESS_MAX_SECONDS.
+// failure. The program is killed after SUBPROCESS_MAX_SECONDS.
 bool subprocess_start(Subprocess *child, const char *program, const char *folder, char **argv);
-// Waits for any child to end. Returns its process id, or -1 if there is no child. *status is that of waitpid.
+// Waits until any child ends. Returns its process id, or -1 if there is no child. Sets *status like waitpid.
 pid_t subprocess_wait(int *status);
 // Reads the output of a child that has ended and closes its files.
 void subprocess_collect(Subprocess *child, ByteBuffer *output, ByteBuffer *errors);
-// Describes how a child ended that should have exited with 0: its status and the first line of its errors.
+// Adds a description of a child that did not exit with 0: its status and the first line of its standard error.
 void subprocess_describe(int status, const ByteBuffer *errors, ByteBuffer *error_text);
 
 #endif

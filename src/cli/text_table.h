@@ -7,13 +7,13 @@
 
 typedef struct TextTable {
     size_t columns;
-    ByteBuffer cells; // texts of the cells, each NUL-terminated
+    ByteBuffer cells; // contents of the cells, each NUL-terminated
     size_t count;     // number of cells
     size_t *width;    // widths of the columns, in characters
 } TextTable;
 
 TextTable text_table_new(size_t columns);
-// Adds the next cell, row by row.
+// Adds the next cell. Cells are added row by row.
 void text_table_add(TextTable *table, const char *cell);
 // Appends the formatted table to a buffer.
 void table_text(const TextTable *table, ByteBuffer *text);

@@ -69,7 +69,7 @@ helps 'sin(x)' sin
 helps '!particle (physics)' particle
 helps '!particle (physics)' '!particle'
 helps 'beats per minute' tempo
-helps 'gives names to values' let
+helps 'binds names to values' let
 helps '    !particle  number' charge
 helps 'petri run' --frames
 helps '-D, --define' -D
