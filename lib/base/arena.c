@@ -161,7 +161,7 @@ void *arena_try_alloc(Arena *arena, size_t size) {
     return arena_protect(&arena, 1, call_arena_alloc, &this) == ARENA_OK ? this.bytes : NULL;
 }
 
-// Sets `current` to a block with room for `size` bytes: the next existing block that is large enough, or a new one.
+// Sets `current` to a block with space for `size` bytes: the next existing block that is large enough, or a new one.
 static void arena_next_block(Arena *arena, size_t size) {
     ArenaBlock *last = arena->current;
     for (ArenaBlock *block = last ? last->next : arena->first; block; block = block->next) {

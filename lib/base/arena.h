@@ -1,10 +1,10 @@
-// arena.h: bump allocation with one lifetime.
+// arena.h: a bump allocator, whose allocations all have the same lifetime.
 //
 // Each frame, program and session has an arena, and everything allocated from it is freed together. Single values are
 // never freed. An allocation never returns NULL. If the budget or the machine's memory is exhausted, the function
-// escapes: it jumps (longjmp) to the enclosing arena_protect, which returns the reason. Public calls such as a frame or
-// a load turn it into a status. An arena without an enclosing arena_protect aborts the process, because that is a bug
-// in petri.
+// escapes: it jumps (longjmp) to the enclosing arena_protect, which returns the reason. Public functions, such as those
+// that load a script or compute a frame, convert the reason to a status. If no arena_protect encloses the call, which
+// is a bug in petri, the process is aborted.
 #ifndef PETRI_BASE_ARENA_H
 #define PETRI_BASE_ARENA_H
 
@@ -15,7 +15,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// The address sanitizer poisons all bytes that are not allocated.
+// With AddressSanitizer, all bytes of a block that are not allocated are poisoned.
 #if defined(__SANITIZE_ADDRESS__)
 #define ARENA_POISONS 1
 #elif defined(__has_feature)
@@ -45,12 +45,13 @@ typedef struct Arena {
     ArenaBlock *current; // the block that is being filled
     size_t used;         // bytes allocated since the last reset, with padding
     size_t high_water;   // largest value of `used` at a rewind or reset
-    size_t limit;        // largest value that `used` may have, bytes
+    size_t limit;        // maximum of `used`, in bytes
     jmp_buf *escape;     // where to jump on failure: the innermost arena_protect; NULL: abort the process
     Budget *budget;      // charged for blocks and work; NULL: none
     const char *name;    // for messages
 } Arena;
 
+// A point in the sequence of allocations, to which arena_rewind returns.
 typedef struct ArenaMark {
     ArenaBlock *block;
     size_t fill;
@@ -93,10 +94,10 @@ void arena_detach_budget(Arena *arena);
 // sanitizer poisons them.
 void arena_reset(Arena *arena);
 
-// Implements arena_alloc if the current block has no space.
+// The slow path of arena_alloc: continues with another block, or escapes if a limit is exceeded.
 void *arena_alloc_slow(Arena *arena, size_t size);
 
-// Returns `size` bytes, aligned to 16, uninitialised. Size 0 returns a valid pointer that must not be read.
+// Returns `size` bytes, aligned to 16, uninitialised. Size 0 returns a valid pointer that must not be dereferenced.
 static inline void *arena_alloc(Arena *arena, size_t size) {
     ArenaBlock *block = arena->current;
     if (!block || size > block->capacity - block->fill || arena->used + size > arena->limit || ARENA_POISONS)
@@ -108,8 +109,8 @@ static inline void *arena_alloc(Arena *arena, size_t size) {
     return bytes;
 }
 
-// Escapes from the arena because a charge returned `outcome`, which is not BUDGET_OK. Returns if there is no
-// arena_protect.
+// Escapes with the reason given by `outcome`, a result of budget_charge other than BUDGET_OK. Returns only if no
+// arena_protect encloses the call.
 void arena_check(Arena *arena, BudgetOutcome outcome);
 // Charges work (budget.h). Escapes if the work limit is exceeded or the host requested an interrupt.
 static inline void arena_charge(Arena *arena, uint64_t units) {
@@ -118,7 +119,8 @@ static inline void arena_charge(Arena *arena, uint64_t units) {
         arena_check(arena, outcome);
 }
 
-// For loops over many elements: call with each index i. Charges BUDGET_CHUNK elements at the end of each chunk.
+// For loops over many elements, called for each index i from 0. Charges BUDGET_CHUNK elements when a chunk is complete,
+// and nothing for an incomplete last chunk.
 static inline void arena_charge_chunk(Arena *arena, size_t i, unsigned units_each) {
     if (i % BUDGET_CHUNK == BUDGET_CHUNK - 1)
         arena_charge(arena, (uint64_t)BUDGET_CHUNK * units_each);
@@ -134,13 +136,14 @@ void *arena_copy(Arena *arena, const void *bytes, size_t size);
 // Extends `bytes` in place if it is the most recent allocation and the block has space. Else returns a larger copy.
 void *arena_grow(Arena *arena, void *bytes, size_t old_size, size_t new_size);
 
-// Makes room for one more element in an array of `count` elements of `size` bytes. Returns `items`, or an array of
+// Ensures that an array of `count` elements of `size` bytes has capacity for one more. Returns `items`, or a copy of
 // twice the capacity that replaces it.
 void *arena_grow_array(Arena *arena, void *items, uint32_t count, uint32_t *capacity, size_t size);
 
-// Escapes with ARENA_OUT_OF_MEMORY. For heap allocations that fail while the arena is in use.
+// Escapes with ARENA_OUT_OF_MEMORY. Called if a heap allocation fails while the arena is in use.
 _Noreturn void arena_exhausted(const Arena *arena);
-// Escapes with the given outcome, such as that of an inner arena_protect. Aborts the process if there is no escape.
+// Escapes with the given outcome, for example the result of an inner arena_protect. Aborts the process if no
+// arena_protect encloses the call.
 _Noreturn void arena_escape(const Arena *arena, ArenaOutcome end);
 
 ArenaMark arena_mark(const Arena *arena);

@@ -2,8 +2,8 @@
 //
 // Work is counted in units of about 10 ns: a loop iteration, a call, a node or the addition of sixteen numbers. It is
 // charged before it is done, through the arena that an operation allocates from (arena.h). Large operations charge in
-// chunks, because an interrupt is noticed only when work is charged. Memory counts as long as its block is held,
-// whether it is in use or not.
+// chunks, because an interrupt is noticed only when work is charged. A block of memory is charged from its
+// allocation until it is freed, even while none of it is in use.
 #ifndef PETRI_BASE_BUDGET_H
 #define PETRI_BASE_BUDGET_H
 
@@ -13,29 +13,29 @@
 #include <stdint.h>
 
 typedef struct Budget {
-    uint64_t work;                             // units charged since budget_begin; limit + 1: limit exceeded
+    uint64_t work;                             // units charged since budget_begin; work_limit + 1: limit exceeded
     uint64_t next_check;                       // value of `work` above which budget_check is called
     uint64_t work_limit;                       // units
-    size_t memory;                             // bytes held
+    size_t memory;                             // bytes charged
     size_t memory_limit;                       // bytes
-    bool memory_refused;                       // budget_reserve has failed since budget_begin
+    bool memory_refused;                       // true if budget_reserve has failed since budget_begin
     atomic_bool *interrupt;                    // set by the host to interrupt; NULL: cannot be interrupted
     bool (*should_interrupt)(void *user_data); // polled by the charging thread to set `interrupt`; NULL: not polled
     void *user_data;                           // passed to should_interrupt
-    bool retains;   // arena_retire keeps blocks in `retained`, because the host may still read them
+    bool retains;   // true: arena_retire keeps blocks in `retained`, because the host may still read them
     void *retained; // chain of ArenaBlock
 } Budget;
 
-// Bytes or numbers of an array that cost one unit of work when a simple loop reads or fills them.
+// How many bytes or numbers of an array a simple loop reads or fills for one unit of work.
 enum { BUDGET_BYTES = 128, BUDGET_NUMBERS = BUDGET_BYTES / sizeof(double) };
-// Elements of a chunk: few enough for a prompt interrupt, enough to make the cost of charging negligible.
+// Elements per chunk: few enough for a prompt interrupt, enough to make the cost of charging negligible.
 enum { BUDGET_CHUNK = 1 << 14 };
 
 typedef enum BudgetOutcome { BUDGET_OK, BUDGET_EXCEEDED, BUDGET_INTERRUPTED } BudgetOutcome;
 
-// Starts a new call with no work charged. Memory already held stays charged. `interrupt` may be NULL.
+// Resets the charged work and memory_refused at the start of a call. Memory stays charged. `interrupt` may be NULL.
 void budget_begin(Budget *budget, uint64_t work_limit, atomic_bool *interrupt);
-// Decides whether work may continue, and sets next_check. Called if `work` exceeds next_check.
+// Returns whether work may continue, and sets next_check. Called if `work` exceeds next_check.
 BudgetOutcome budget_check(Budget *budget);
 
 // Charges `units` and returns whether work may continue. With a NULL budget nothing is charged.

@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-// Each level includes the ones before it. Results are the same on all of them.
+// Each level includes the previous ones. Results do not depend on the level.
 typedef enum CpuLevel { CPU_SCALAR, CPU_AVX2, CPU_AVX512, CPU_LEVELS } CpuLevel;
 
 // The instructions that the processor and the operating system support, limited by the environment variable PETRI_CPU.
@@ -15,8 +15,8 @@ typedef struct Cpu {
 } Cpu;
 extern Cpu cpu_detected;
 
-// Sets *level to the lower of `requested` ("scalar", "avx2" or "avx512", as in PETRI_CPU) and cpu_detected.level. NULL
-// or an empty text requests cpu_detected.level. An unknown level also gives cpu_detected.level, but returns false.
+// Sets *level to the lower of `requested` ("scalar", "avx2" or "avx512", as in PETRI_CPU) and cpu_detected.level. If
+// `requested` is NULL, empty or unknown, sets *level to cpu_detected.level. Returns false if it is unknown.
 bool cpu_choose(const char *requested, CpuLevel *level);
 const char *cpu_name(CpuLevel level);
 

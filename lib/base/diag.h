@@ -1,7 +1,7 @@
 // diag.h: collection and formatting of diagnostics.
 //
 // Code in lib/ reports errors and warnings to a sink; only src/ prints them. The sink stores them in its arena. A
-// report with the same text at the same location is stored once, because a frame repeats up to 60 times a second.
+// diagnostic with the same text and location is stored once, because a script is evaluated up to 60 times a second.
 #ifndef PETRI_BASE_DIAG_H
 #define PETRI_BASE_DIAG_H
 
@@ -15,13 +15,13 @@ typedef struct Diag {
     const Source *source; // NULL: no location
     Span span;
     Str text;
-    Str hint;         // advice on how to fix it; empty: none
+    Str hint;         // advice for fixing the problem; empty: none
     const char *code; // short name of the kind of diagnostic, such as "unbound-name"; NULL: none
 } Diag;
 
 // A growing list of distinct diagnostics.
 typedef struct DiagSink {
-    Arena *arena; // holds texts and entries
+    Arena *arena; // holds the texts and entries
     Diag *items;
     uint32_t count;
     uint32_t capacity;

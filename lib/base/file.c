@@ -22,7 +22,7 @@ bool file_exists(const char *path) {
     return stat(path, &info) == 0;
 }
 
-// The host's bytes do not change as long as it returns the same pointer, so the pointer identifies the version.
+// A host must not change the bytes of a file without returning a new pointer, so the pointer identifies the version.
 static Str version_of_bytes(Arena *arena, Str bytes) {
     return str_format(arena, "%p %zu", (const void *)bytes.bytes, bytes.len);
 }

@@ -1,8 +1,8 @@
-// file_access.h: rules for the files that a script may read and write.
+// file_access.h: access control for the files that a script reads and writes.
 //
-// A script may use only files below certain folders. A path is first made canonical: symbolic links and dots are
-// resolved. The canonical path must be below one of the folders. The file is then opened relative to that folder
-// without following links, so that a link created in the meantime cannot redirect it.
+// A script may use only files below certain folders. A path is first made canonical: symbolic links, "." and
+// ".." are resolved. The canonical path must be below one of the folders. The file is then opened relative to that
+// folder without following links, so that a link created in the meantime cannot redirect it.
 #ifndef PETRI_BASE_FILE_ACCESS_H
 #define PETRI_BASE_FILE_ACCESS_H
 
@@ -25,32 +25,35 @@ typedef struct FileAccess {
     const char *(*read_unsaved)(void *user_data, const char *name, size_t *length);
 } FileAccess;
 
-// Allows the folders `names`, a list that ends with NULL, for a kind of access. A NULL list adds none. Folders that
-// cannot be resolved are ignored.
+// Allows a kind of access to the folders in `names`, a NULL-terminated list. If `names` is NULL, does nothing. Folders
+// that cannot be resolved are ignored.
 void file_access_add(Arena *arena, FileAccess *file_access, FileAccessKind kind, const char *const *names);
-// Returns the canonical path of a directory; an empty name is the working directory. Empty if it does not exist.
+// Returns the canonical path of a directory; an empty name means the working directory. Returns an empty string if the
+// directory does not exist.
 Str file_access_folder(Arena *arena, Str directory);
-// Returns a copy with all texts in the arena.
+// Returns a copy with all strings in the arena.
 FileAccess file_access_copy(Arena *arena, const FileAccess *file_access);
 
 // Returns true if access to a canonical path is allowed. If file_access is NULL, all paths are allowed.
 bool file_access_allows(const FileAccess *file_access, FileAccessKind kind, const char *path);
-// Gets the canonical path. On failure returns false with errno set; EXDEV means that access is not allowed.
+// Sets `resolved` to the canonical path and checks access. On failure returns false with errno set; EXDEV means that
+// access is not allowed.
 bool file_access_resolve(const FileAccess *file_access, FileAccessKind kind, const char *path, char resolved[PATH_MAX]);
-// Gets the bytes that the read_file callback returns for the normalised path. On failure returns false with errno set.
+// Sets *bytes to the result of the read_file callback for the normalised path. On failure returns false with errno set.
 bool file_access_read(const FileAccess *file_access, const char *path, Str *bytes);
-// Gets the unsaved text of a file. Returns false if there is none or the file may not be read.
+// Sets *bytes to the unsaved text of a file. Returns false if there is none or the file may not be read.
 bool file_access_read_unsaved(const FileAccess *file_access, const char *path, Str *bytes);
-// Removes dots and double slashes from a path without reading the disk. Returns false with errno set if it is too long.
+// Removes ".", ".." and double slashes from a path without accessing the disk. Returns false with errno set if the path
+// is too long.
 bool file_access_normalise(const char *path, char normal[PATH_MAX]);
-// Opens a file that may be read, with the flags of open. Returns -1 with errno set on failure (EXDEV: not allowed).
+// Opens a file that may be read; `flags` as for open. Returns -1 with errno set on failure (EXDEV: not allowed).
 int file_access_open(const FileAccess *file_access, const char *path, int flags);
 // Like replace_begin, but only for regular or new files that may be written. On failure returns false with errno set
 // (EXDEV: not allowed).
 bool file_access_replace(const FileAccess *file_access, const char *path, Replacement *replacement);
 // Creates the missing folders of a file's path. Returns false if the file may not be written.
 bool file_access_make_folders(const FileAccess *file_access, const char *path);
-// Returns why access to a path is denied, and which option would allow it. The text is constant or in the arena.
+// Returns why access to a path is denied and which option would allow it, as a constant string or one in the arena.
 const char *file_access_reason(Arena *arena, const FileAccess *file_access, FileAccessKind kind, const char *path);
 
 #endif

@@ -34,7 +34,8 @@ void hash_index_clear(HashIndex *index) {
     index->used = index->live = 0;
 }
 
-// The start depends only on the stored upper half of the hash, so that a larger table can be built from the slots.
+// Returns the first slot to probe. It depends only on the upper half of the hash, which the slots store, so that the
+// table can be resized without the keys.
 static uint32_t probe_start(uint32_t upper, uint32_t mask) {
     return (uint32_t)hash_mix(upper) & mask;
 }

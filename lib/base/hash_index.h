@@ -21,7 +21,7 @@ typedef struct HashIndex {
     uint32_t live;        // number of entries
 } HashIndex;
 
-#define HASH_INDEX_NONE UINT32_C(0xfffffff0) // no entry has this position
+#define HASH_INDEX_NONE UINT32_C(0xfffffff0) // not found; no entry has this position
 
 // Returns true if the entry at a position has this key.
 typedef bool HashIndexMatch(const void *owner, uint32_t entry, const void *key);
@@ -31,9 +31,10 @@ void hash_index_clear(HashIndex *index);
 // Returns the position of the entry with this key, or HASH_INDEX_NONE.
 uint32_t hash_index_find(const HashIndex *index, uint64_t hash, HashIndexMatch *match, const void *owner,
                          const void *key);
-// Adds a position, whose key must not be in the index yet. Returns false, with nothing changed, if out of memory.
+// Adds an entry at position `entry`, whose key must not be in the index yet. Returns false, with nothing changed, if
+// out of memory.
 bool hash_index_add(HashIndex *index, uint64_t hash, uint32_t entry);
-// Removes the entry at a position.
+// Removes the entry at position `entry`, which must be in the index.
 void hash_index_remove(HashIndex *index, uint64_t hash, uint32_t entry);
 
 // Returns a well-mixed 64-bit hash of bytes: FNV-1a followed by the SplitMix64 mixer.

@@ -1,8 +1,8 @@
 // heap.h: the heap allocator.
 //
 // Memory comes from the C library or from the functions set by petri_set_allocator. All libraries allocate through this
-// file; tests/lint/check_allocators.sh checks it. Blocks are aligned to 16 bytes. Allocations return NULL if out of
-// memory. Any thread may call these functions, except heap_set_allocator.
+// file, which tests/lint/check_allocators.sh enforces. Blocks are aligned to 16 bytes. Allocations return NULL if out
+// of memory. Any thread may call these functions, except heap_set_allocator.
 #ifndef PETRI_BASE_HEAP_H
 #define PETRI_BASE_HEAP_H
 
@@ -28,9 +28,10 @@ void *heap_calloc(size_t count, size_t size);
 void *heap_resize(void *block, size_t size);
 // Frees a block. NULL is ignored.
 void heap_free(void *block);
-// Returns a copy of a string, followed by a NUL byte.
+// Returns a copy of `length` bytes, followed by a NUL byte.
 char *heap_strndup(const char *bytes, size_t length);
-// Grows an array so that it can hold more than `count` elements. Returns false, with nothing changed, if out of memory.
+// Grows a heap array of `size`-byte elements if it cannot hold more than `count` elements. Returns false, with nothing
+// changed, if out of memory.
 bool heap_reserve(void **array, uint32_t *capacity, uint32_t count, size_t size);
 
 #endif

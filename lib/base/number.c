@@ -44,7 +44,7 @@ static size_t format_special(double x, char *text) {
     return strlen(word);
 }
 
-// Decimal digits d and an exponent e, for the value d.ddd * 10^e.
+// A positive decimal number d.ddd * 10^exponent, where d.ddd are the digits.
 typedef struct Decimal {
     char digits[20];
     int count;
@@ -79,7 +79,7 @@ static bool scale_by(Scaled *scaled, uint64_t significand, int exponent, int sca
     return scale > 0 && scaled->shift > 0;
 }
 
-// Returns true if `whole` units read back as x: they are nearer to x than half the distance to the next double.
+// Returns true if `whole` units parse as x: their distance to x is less than half the distance to the next double.
 static bool reads_back(const Scaled *scaled, uint64_t whole) {
     Product there = (Product)whole << scaled->shift;
     Product distance = there > scaled->product ? there - scaled->product : scaled->product - there;
@@ -95,8 +95,8 @@ static uint64_t round_units(const Scaled *scaled, uint64_t unit) {
     return (whole + (rest > half || (rest == half && whole % 2 == 1))) * unit;
 }
 
-// Finds the shortest decimal that reads back as x by integer arithmetic. Returns false for the few x that it cannot
-// handle.
+// Uses integer arithmetic to find the shortest decimal that parses as x. Returns false for the few x to which this
+// method does not apply.
 static bool shortest_of_fraction(double x, Decimal *decimal) {
     int exponent;
     uint64_t significand = (uint64_t)ldexp(frexp(x, &exponent), 53);
@@ -130,18 +130,18 @@ static bool shortest_of_fraction(double x, Decimal *decimal) {
     return true;
 }
 
-// Finds the shortest decimal for any finite x other than 0, by increasing the precision until it reads back.
+// Finds the shortest decimal for any finite x other than 0 by increasing the precision until the result parses as x.
 static void shortest_by_trial(double x, Decimal *decimal) {
     char text[NUMBER_TEXT];
     char point = decimal_point();
-    // 17 digits are enough for every normal double, 15 for most. A shorter result is a 15-digit one without end zeros.
+    // 17 digits suffice for every normal double, 15 for most. Trailing zeros of a 15-digit result are dropped below.
     int precision = fabs(x) >= 2.2250738585072014e-308 ? 15 : 1;
     for (;; precision++) {
         snprintf(text, sizeof text, "%.*e", precision - 1, x);
         if (precision >= 17 || strtod(text, NULL) == x)
             break;
-        // At a power of two the interval that reads back as x is half as wide below x as above. So the nearest decimal
-        // may be outside, while the next higher one of the same length is inside.
+        // At a power of two, the interval of decimals that parse as x is half as wide below x as above. So the nearest
+        // decimal may be outside while the next higher decimal of the same length is inside.
         int binary_exponent;
         if (fabs(frexp(x, &binary_exponent)) == 0.5) {
             char *last = strchr(text, 'e') - 1;
@@ -162,7 +162,7 @@ static void shortest_by_trial(double x, Decimal *decimal) {
     drop_zeros(decimal);
 }
 
-// Writes an integer below 2^53, by far the most common case, without trial.
+// Writes an integer below 2^53, by far the most common case. Returns the length.
 static size_t format_integer(long long whole, bool negative, char *text) {
     char digits[20], *first = digits + sizeof digits, *at = text;
     do

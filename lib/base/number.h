@@ -10,15 +10,15 @@
 
 enum { NUMBER_TEXT = 40 }; // size of a buffer for any formatted number
 
-// Writes the shortest decimal that reads back as the same double (spec language.md L18.1). Returns its length.
+// Writes the shortest decimal that parses as the same double (spec language.md L18.1). Returns its length.
 size_t number_format(double x, char text[NUMBER_TEXT]);
-// Writes nine significant digits as C's "%.9g", but every NaN as "nan" (L6.2). Returns the length.
+// Writes nine significant digits like C's "%.9g", but every NaN as "nan" (L6.2). Returns the length.
 size_t number_format_short(double x, char text[NUMBER_TEXT]);
-// Parses decimal digits with optional sign, point and exponent, correctly rounded. Underscores are skipped. The text
-// must be well-formed.
+// Parses a well-formed decimal number with optional sign, point and exponent. Underscores are skipped. The result is
+// correctly rounded; NaN if out of memory.
 double number_parse(Str digits);
 
-// Returns floor(x), including -0. Faster than the C library's floor, which is a function call without SSE4.1.
+// Returns floor(x), which preserves -0. Faster than the C library's floor, which is a function call without SSE4.1.
 static inline double number_floor(double x) {
     if (!(x > -4503599627370496.0 && x < 4503599627370496.0))
         return floor(x);
@@ -37,8 +37,8 @@ static inline uint64_t number_bits(double x) {
     return bits;
 }
 
-// Returns true if all n numbers are finite. x - x is 0 only for finite x; unlike isfinite, every compiler vectorises
-// it.
+// Returns true if the n numbers numbers[k * stride] are finite. Uses x - x == 0 instead of isfinite, because every
+// compiler vectorises it.
 static inline bool numbers_finite(const double *numbers, size_t n, size_t stride) {
     bool finite = true;
     for (size_t k = 0; k < n; k++)

@@ -23,7 +23,7 @@
 #define SUFFIX ".tmp"
 enum { PREFIX_LENGTH = sizeof PREFIX - 1, DIGITS = 16, MAX_TRIES = 100, MAX_SCANNED_ENTRIES = 4096 };
 
-// Does not use snprintf, because it may be called from a signal handler.
+// Writes a random temporary name. Avoids snprintf, because this function may be called from a signal handler.
 static bool make_name(char name[NAME_MAX + 1]) {
     uint64_t number = 0;
     if (getentropy(&number, sizeof number) != 0)
@@ -41,7 +41,7 @@ static bool is_temporary_name(const char *name) {
            strcmp(name + PREFIX_LENGTH + DIGITS, SUFFIX) == 0;
 }
 
-// Removes temporary files of killed processes. They are recognised because no process holds their lock.
+// Removes temporary files of killed processes, which are recognised because no process holds a lock on them.
 static void remove_stale_files(int folder) {
     int again = file_open_at(folder, ".", O_RDONLY | O_DIRECTORY, 0);
     DIR *entries = again < 0 ? NULL : fdopendir(again);
@@ -67,7 +67,7 @@ static bool lock_file(int file) {
     return flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
 }
 
-// Gives the unnamed file a name in its folder. With a NULL name only checks that this is possible.
+// Gives the unnamed file a name in its folder. If the name is NULL, only checks that this is possible.
 static bool link_file(const Replacement *r, const char *name) {
     char path[64] = "/proc/self/fd/", digits[16];
     char *end = path + strlen(path);
@@ -189,7 +189,8 @@ bool replace_sync(int file) {
     return result == 0 || errno == EINVAL || errno == EBADF;
 }
 
-// Names the new file like the target: by linkat if the target does not exist, else by a temporary name and renameat.
+// Gives the new file the target's name: with linkat if the target does not exist, else with renameat from a temporary
+// name.
 static bool link_or_rename(Replacement *r, bool exists) {
     bool named = r->temporary_name[0] != '\0';
     if (!named && (r->only_new || !exists)) {

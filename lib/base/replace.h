@@ -1,10 +1,10 @@
 // replace.h: atomic replacement of files.
 //
 // The bytes are written to an unnamed file in the target's folder (O_TMPFILE). If the system does not support that, the
-// file has a random name. Once the bytes are on disk, the new file is renamed to the target. Readers see either the
-// complete old file or the complete new one, even after a crash or kill -9. Owner and permissions are kept. A symbolic
-// link is kept and its target is replaced. A target that is not a regular file (a device, a pipe, /dev/stdout) is
-// written to directly.
+// file has a random temporary name. Once the bytes are on disk, the new file is renamed to the target. Readers see
+// either the complete old file or the complete new one, even after a crash or kill -9. Owner and permissions are kept.
+// A symbolic link is kept and its target is replaced. A target that is not a regular file (a device, a pipe,
+// /dev/stdout) is written to directly.
 #ifndef PETRI_BASE_REPLACE_H
 #define PETRI_BASE_REPLACE_H
 
@@ -25,8 +25,8 @@ typedef struct Replacement {
     char temporary_name[NAME_MAX + 1]; // name of the new file before it is renamed; "": none
 } Replacement;
 
-// Unless stated otherwise, the functions return false with errno set on failure. All that end a replacement, and
-// replace_sync, may be called from a signal handler.
+// Unless stated otherwise, the functions return false with errno set on failure. The functions that end
+// a replacement, and replace_sync, may be called from a signal handler.
 
 // Begins a replacement. The caller ends it with replace_commit, replace_end or replace_abort.
 bool replace_begin(Replacement *replacement, const char *path, unsigned flags);

@@ -1,4 +1,4 @@
-// source.h: source texts and the positions in them.
+// source.h: source files and positions in them.
 //
 // Tokens and syntax nodes store only byte offsets. Line and column are computed when a diagnostic needs them.
 #ifndef PETRI_BASE_SOURCE_H
@@ -8,9 +8,9 @@
 
 typedef struct Source {
     Str name;                    // name in messages: the path as the user gave it
-    Str path;                    // unique path: absolute, or the name of a text that is not a file
+    Str path;                    // unique path: absolute, or the name of a source that is not a file
     Str directory;               // folder that relative file names refer to; "": the working directory
-    Str text;                    // every line ends with LF; followed by a NUL byte
+    Str text;                    // each line ends with LF; a NUL byte follows the text
     const uint32_t *line_starts; // byte offset of each line
     uint32_t line_count;
 } Source;
@@ -21,7 +21,7 @@ typedef struct Span {
     uint32_t end;
 } Span;
 
-// The location in a script from which something originates.
+// The span of source code from which an instruction, node or attribute originates.
 typedef struct Origin {
     const Source *source;
     Span span;
@@ -38,13 +38,13 @@ typedef struct SourcePosition {
 const Source *source_new(Arena *arena, Str name, Str path, Str text);
 // Converts CR LF and CR to LF in place. Returns the new length.
 size_t source_unify_lines(char *bytes, size_t len);
-// Returns the position of a byte offset. Offsets at or after the end give the last line's end.
+// Returns the position of a byte offset. Offsets at or beyond the end return the end of the last line.
 SourcePosition source_locate(const Source *source, uint32_t offset);
 // Returns only the line number. Unlike source_locate, its cost does not depend on the length of the line.
 uint32_t source_line(const Source *source, uint32_t offset);
 // Returns the part of a path up to and including the last slash.
 Str path_directory(Str path);
-// Returns `path` unchanged if it is absolute or `directory` is empty, else both joined by a slash.
+// Returns `path` if it is absolute or `directory` is empty, else both joined by a slash.
 Str path_join(Arena *arena, Str directory, Str path);
 
 #endif

@@ -1,4 +1,4 @@
-// str.h: text slices, a growing text buffer, and UTF-8 encoding.
+// str.h: string views, a growing string buffer, and UTF-8.
 #ifndef PETRI_BASE_STR_H
 #define PETRI_BASE_STR_H
 
@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-// Bytes owned by someone else, usually UTF-8. They may contain NUL and need not end with it.
+// A view of bytes, usually UTF-8, that does not own them. The bytes may contain NUL and need not be NUL-terminated.
 typedef struct Str {
     const char *bytes;
     size_t len;
@@ -27,27 +27,27 @@ Str str_copy(Arena *arena, Str text);
 char *str_to_c(Arena *arena, Str text);
 bool str_starts_with(Str text, Str prefix);
 bool str_ends_with(Str text, Str suffix);
-// Returns the longest prefix of whole characters with at most max_bytes bytes.
+// Returns the longest prefix of at most max_bytes bytes that does not end within a character.
 Str str_truncate(Str text, size_t max_bytes);
 // Returns the index of a word in a space-separated list, or -1.
 int str_word_number(Str word, const char *list);
 // Returns the text without white space (space, tab, CR, LF, VT, FF) at both ends.
 Str str_trim(Str text);
 
-// Returns the number of edits (insertion, deletion, replacement, swap of neighbours) that turn a into b, for
-// "did you mean" hints. Returns 64 if a name is longer than 64 bytes.
+// Returns the number of edits (insertion, deletion, replacement, swap of adjacent bytes) that turn a into b, for
+// "did you mean" hints. Returns 64 if a or b is longer than 64 bytes.
 int str_edit_distance(Str a, Str b);
 
-// A search for the name nearest to an unknown one.
+// A search for the existing name that is most similar to an unknown name.
 typedef struct StrNearest {
     Str wanted; // the unknown name
-    int limit;  // only smaller edit distances are accepted; the distance of `found` if that is set
+    int limit;  // only smaller edit distances are accepted; after a match, the distance of `found`
     Str found;  // nearest name; empty: none within the limit
 } StrNearest;
-// Tries a further name. Returns true if it is the nearest so far.
+// Considers one existing name. Returns true if it is the nearest so far.
 bool str_try_nearest(StrNearest *nearest, Str name);
 
-// A growing text buffer in an arena. The result of text_str is valid until the next append.
+// A growing string buffer in an arena. The result of text_str is valid until the next append.
 typedef struct Text {
     Arena *arena;
     char *bytes;
@@ -71,7 +71,7 @@ int str_hex_digit(char c);
 // colour.
 bool text_add_hex_colour(Text *text, Str hex);
 
-// Returns formatted text in the arena.
+// Returns a formatted string in the arena.
 Str str_format(Arena *arena, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 enum { UTF8_MAX = 4 };
