@@ -1,9 +1,9 @@
 // petri-draw.h: the C interface of libpetri-draw, which draws the frames of a libpetri session. It requires Cairo,
 // Pango and libjpeg; libpetri does not. The rules of petri.h apply.
 //
-// petri_picture copies what the last frame shows into a picture, which is independent of the session: another thread
-// can draw it while the session is stepped. A painter draws pictures to pixels and files, and caches fonts and images
-// between them. Pictures and painters are each used by one thread at a time, and may be freed in any order.
+// petri_picture captures the last frame as a picture. A picture is independent of the session, so another thread can
+// draw it while the session is stepped. A painter draws pictures to pixels and files, and caches fonts and images from
+// one picture to the next. Only one thread at a time may use a picture or a painter. They may be freed in any order.
 #ifndef PETRI_DRAW_H
 #define PETRI_DRAW_H
 
@@ -13,13 +13,13 @@
 extern "C" {
 #endif
 
-// A copy of what a frame shows. Created by petri_picture, freed by petri_picture_free.
+// A copy of the visible contents of a frame. Created by petri_picture, freed by petri_picture_free.
 typedef struct PetriPicture PetriPicture;
 
 // Draws pictures. Created by petri_painter_open, freed by petri_painter_close.
 typedef struct PetriPainter PetriPainter;
 
-// When the automatic picture is used, which shows the particle systems themselves.
+// When to use the automatic picture, which shows the particle systems directly.
 typedef enum PetriAutomatic {
     PETRI_AUTO_IF_NEEDED, // if the frame has particle systems, but no window with a canvas
     PETRI_AUTO_ALWAYS,
@@ -29,7 +29,7 @@ typedef enum PetriAutomatic {
 // Options of a picture. Start with petri_default_picture_options.
 typedef struct PetriPictureOptions {
     size_t size; // sizeof(PetriPictureOptions) of the header that the host was compiled with
-    int width;   // in pixels; the drawing is scaled to fit and centred. 0 and 0 (the default): the script's size
+    int width;   // in pixels; the drawing is scaled to fit and centred. Both 0 (the default): the script's size
     int height;
     double scale; // pixels per unit of the script's size, if width and height are 0. Default 1
     int window;   // number of the window or `!offscreen`; -1 (the default): the first with something to draw
@@ -54,20 +54,20 @@ static inline PetriPictureOptions petri_default_picture_options(void) {
 enum { PETRI_MAX_PICTURE_SIDE = 16384 };
 
 // Returns true if a picture of the last frame shows all particles at their positions. In frame 0, systems have not
-// stored anything yet, and a script reads what a frame stored in the next frame. A script that draws stored positions
-// therefore draws nothing useful before frame 2. Hosts should show pictures only from the first frame for which this
-// returns true, at the latest frame 2.
+// stored anything yet, and a script can read stored positions only in the next frame. A script that draws stored
+// positions therefore draws nothing useful before frame 2. Hosts should show their first picture in the first frame for
+// which this returns true, at the latest in frame 2.
 PETRI_API bool petri_picture_ready(PetriSession *session, const PetriPictureOptions *options);
 
 // Returns true if pictures of the last frame depend on those of earlier frames, or are saved by a `!record` node. The
-// host must then render the pictures of all frames with one painter, in order, even those that it does not show
+// host must then render the pictures of all frames with one painter, in order, even of frames that it does not show
 // (petri_picture_render).
 PETRI_API bool petri_needs_history(PetriSession *session);
 
-// Extends the visible region of the automatic picture, if it is used, by the particles of the last frame. petri_picture
-// does this itself. If a host does not create a picture of every frame, it should call this for the others, after each
-// step from frame 0. A picture then does not depend on which frames were drawn before. petri_load and petri_reset reset
-// the region.
+// If the automatic picture is used, extends its visible region to include the particles of the last frame.
+// petri_picture does this automatically. A host that does not create a picture of every frame should call this function
+// for the other frames, starting with frame 0. A picture then does not depend on which frames were drawn before.
+// petri_load and petri_reset reset the region.
 PETRI_API void petri_picture_follow(PetriSession *session, const PetriPictureOptions *options);
 
 // Creates a picture of the last frame. The caller frees it with petri_picture_free. On failure *picture is NULL.
@@ -97,30 +97,30 @@ PETRI_API PetriPainter *petri_painter_open(void);
 PETRI_API void petri_painter_close(PetriPainter **painter);
 
 // Renders all canvases and effects of a picture's frame, unless the painter rendered this picture last. Drawing and
-// saving do this themselves; call it for frames that are only needed as history. Returns PETRI_UNSUPPORTED without
-// Cairo, and PETRI_INVALID, with a diagnostic, if the picture cannot be rendered.
+// saving render automatically. Call this function only for frames that are needed as history. Returns PETRI_UNSUPPORTED
+// without Cairo, and PETRI_INVALID, with a diagnostic, if the picture cannot be rendered.
 PETRI_API PetriStatus petri_picture_render(PetriPicture *picture, PetriPainter *painter);
 
 // A picture that a `!record` node saves.
 typedef struct PetriRecord {
-    const char *file; // name, with the script's folder
+    const char *file; // file name, including the script's folder
     bool denied;      // the script may not write there (PetriOptions.write_folders); already reported
     int width;        // in pixels
     int height;
     const uint32_t *pixels; // rows without gaps, in the format of petri_picture_draw
-    bool keep_alpha;        // false: treat the picture as opaque
+    bool keep_alpha;        // false: treat the pixels as opaque
     const char *codec;      // of a video; "": not specified
     const char *pixfmt;     // of a video; "": not specified
     double max_seconds;     // maximum duration of a video; NaN: none
 } PetriRecord;
 
-// Gets a record by number, of the picture that the painter rendered last (petri_picture_render). Creates missing
+// Gets a record of the picture that the painter rendered last (petri_picture_render), by number. Creates missing
 // folders of its file. Returns false past the last. Valid until the painter renders another picture or the picture is
 // freed.
 PETRI_API bool petri_picture_record(PetriPicture *picture, PetriPainter *painter, size_t index, PetriRecord *record);
 
-// Writes the file of a record that is a picture: .png, .jpg, .svg or .pdf. Returns a status as petri_picture_save; also
-// PETRI_INVALID past the last, and for a record that is denied.
+// Writes the file of a record that is an image: .png, .jpg, .svg or .pdf. Returns the same statuses as
+// petri_picture_save, and PETRI_INVALID past the last record and for a denied record.
 PETRI_API PetriStatus petri_record_save(PetriPicture *picture, PetriPainter *painter, size_t index);
 
 // Draws a picture to memory, scaled to fit into width x height pixels, and centred. Each pixel has 32 bits: alpha in
@@ -168,13 +168,14 @@ PETRI_API PetriStatus petri_painter_present(PetriPainter *painter, PetriPicture 
 PETRI_API uint64_t petri_painter_readback_count(const PetriPainter *painter);
 
 // A display list (petri_picture_display_list) describes a picture as an array of numbers, for hosts that draw it
-// themselves. It starts with the width and height of the picture, which also define its units. Commands follow: a kind
-// of the list below, then its operands in the given order.
+// themselves. It starts with the width and height of the picture, which also define its units. Commands follow. Each
+// command is a kind from the list below, then its operands in the given order.
 //
-// A colour is red, green, blue and alpha from 0 to 1, not premultiplied. Angles are in turns. A string is its length
-// and that many code points. A path is its length and that many numbers: path elements (`PETRI_PATH_*`) with their
+// A colour is red, green, blue and alpha from 0 to 1, not premultiplied. Angles are in turns. A string is its length,
+// then that many code points. A path is its length, then that many numbers: path elements (`PETRI_PATH_*`) with their
 // operands. A matrix is n0 to n5: x' = n0 x + n2 y + n4, y' = n1 x + n3 y + n5. Pixels are a width, a height and a
-// number for each pixel, as in petri_picture_draw. Stops are their number, then an offset and a colour for each.
+// number for each pixel, as in petri_picture_draw. Gradient stops are their count, then an offset and a colour for each
+// stop.
 //
 // A paint is a command that sets the paint for the following commands: PETRI_DRAW_COLOR, PETRI_DRAW_LINEAR,
 // PETRI_DRAW_RADIAL, PETRI_DRAW_PATTERN, PETRI_DRAW_BLEND or PETRI_DRAW_NOISE. The composite modes, from 0, are
@@ -182,42 +183,41 @@ PETRI_API uint64_t petri_painter_readback_count(const PetriPainter *painter);
 // overlay, darken, lighten, color_dodge, color_burn, hard_light, soft_light, difference, exclusion, hue, saturation,
 // color and luminosity.
 enum {
-    PETRI_DRAW_MATRIX, // sets the current matrix, from coordinates of the following commands to the picture: matrix
+    PETRI_DRAW_MATRIX, // sets the matrix that maps coordinates of the following commands to the picture: matrix
     PETRI_DRAW_COLOR,  // paint: colour
     PETRI_DRAW_LINEAR, // paint, a linear gradient: start x, y, end x, y, alpha, stops
     PETRI_DRAW_RADIAL, // paint, a radial gradient: matrix that maps the unit circle to its edge, alpha, stops
     // Width (0: one pixel), join (0: miter, 1: round, 2: bevel), cap (0: butt, 1: round, 2: square), composite mode,
     // antialiasing (0 or 1), number of dashes, dash offset, dashes. Ends the current filter.
     PETRI_DRAW_STROKE_STYLE,
-    // Fill (0 or 1), stroke (0 or 1), fill rule (0: nonzero, 1: even-odd, 2 and 3: the same, outside filled), path.
+    // Fill (0 or 1), stroke (0 or 1), fill rule (0: nonzero, 1: even-odd, 2 and 3: inverse of 0 and 1), path.
     PETRI_DRAW_PATH,
     // Fill (0 or 1), stroke (0 or 1), x, y, size, weight (1 to 1000), width (0: ultra-condensed to 8: ultra-expanded),
-    // slant (0: upright, 1: oblique, 2: italic), centred (0 or 1), text with the font family, text.
+    // slant (0: upright, 1: oblique, 2: italic), centred (0 or 1), string with the font family, string to draw.
     PETRI_DRAW_TEXT,
-    // x, y, width, height, fit (0: original size, 1: stretched, 2: inside, 3: filling), text with the file name.
+    // x, y, width, height, fit (0: original size, 1: stretched, 2: inside, 3: filling), string with the file name.
     PETRI_DRAW_IMAGE,
     PETRI_DRAW_CLIP,        // keep the outside (0 or 1), even-odd rule (0 or 1), path
     PETRI_DRAW_SAVE,        // saves the clip
-    PETRI_DRAW_RESTORE,     // restores the clip; matrix and paint are set again after it
+    PETRI_DRAW_RESTORE,     // restores the clip; later commands set matrix and paint again
     PETRI_DRAW_LAYER,       // redirects drawing to a transparent layer, until PETRI_DRAW_LAYER_END
     PETRI_DRAW_LAYER_END,   // composites the layer: alpha
-    PETRI_DRAW_UNSUPPORTED, // name of an omitted element that cannot be described here: text
+    PETRI_DRAW_UNSUPPORTED, // replaces an element that a display list cannot describe: string with its name
     // The automatic picture: number of systems. For each: dimensions, has charges (0 or 1), centre x, y, z and half the
     // width of the visible box. Number of particles; for each x, y, z, radius, shade (charge from -1 to 1, or speed
     // from 0 to 1), anchor (0 or 1). Number of links; for each the indices of two particles. Number of barriers; for
-    // each a point x, y, z and the normal x, y, z. Number of scale lines; for each x, y, x, y, to the right and up from
-    // the lower left corner of the system's panel, whose shorter side is 540.
+    // each a point x, y, z and the normal x, y, z. Number of lines of the scale bar; for each the end points x, y, x,
+    // y. They are measured right and up from the lower left corner of the system's panel, whose shorter side is 540.
     PETRI_DRAW_PARTICLES,
-    // The picture of another node, only for a PetriCanvasBackend: x, y, width, height, fit (as PETRI_DRAW_IMAGE),
-    // pixels.
+    // The image of another node, only for a PetriCanvasBackend: x, y, width, height, fit (as PETRI_DRAW_IMAGE), pixels.
     PETRI_DRAW_PIXELS,
-    // Paint, a repeated picture: matrix from its pixels to current coordinates, alpha, pixels, or 0, 0 and a string
-    // with a file name.
+    // Paint, a repeated image: matrix from its pixels to current coordinates, alpha, then either pixels or 0, 0 and a
+    // string with a file name.
     PETRI_DRAW_PATTERN,
     // Sets the filter for the drawings up to the next PETRI_DRAW_STROKE_STYLE: filter (`PETRI_FILTER_*`).
     PETRI_DRAW_FILTER,
-    // Paint, a mix of two: ratio of the second, or -1 to composite the second over the first; composite mode, alpha,
-    // two paints.
+    // Paint, a blend of two paints: ratio of the second, or -1 to composite the second over the first; composite mode,
+    // alpha, two paints.
     PETRI_DRAW_BLEND,
     // Paint, noise: frequency x, y, tile width, height, seed, octaves, type (0: fractal, 1: turbulence, 2: improved),
     // alpha.
@@ -236,7 +236,7 @@ enum {
     PETRI_PATH_CLOSE,     // none
 };
 
-// Filters of a display list: a kind, then its operands. Operands that are filters are the input. Lengths are in the
+// Filters of a display list: a kind, then its operands. Operands that are filters provide the input. Lengths are in the
 // units of the current matrix.
 enum {
     PETRI_FILTER_BLUR,          // radius x, y, filter
@@ -246,18 +246,18 @@ enum {
     PETRI_FILTER_ERODE,         // radius x, y, filter
     PETRI_FILTER_COLOUR_MATRIX, // four rows of five numbers, filter
     PETRI_FILTER_PAINT,         // fills the whole area: the commands of a paint; the last is PETRI_DRAW_STROKE_STYLE
-    // Combines two filters: a composite mode, or -1 and four coefficients: of the product, of the second, of the first,
-    // and a constant; then two filters.
+    // Combines two filters: a composite mode, or -1 and four coefficients (of the product, the second filter, the first
+    // filter, and a constant); then the two filters.
     PETRI_FILTER_BLEND,
     PETRI_FILTER_SOURCE, // the unfiltered drawing
 };
 
 // Gets a picture as a display list. Works without Cairo. For a window, it contains the first canvas. Valid as long as
-// the picture. On failure, PETRI_OUT_OF_MEMORY, *numbers is NULL.
+// the picture. If out of memory, sets *numbers to NULL.
 PETRI_API PetriStatus petri_picture_display_list(PetriPicture *picture, const double **numbers, size_t *count);
 
-// Returns true if the display list describes the picture completely: it needs no effects, no pictures of other nodes
-// and no history.
+// Returns true if the display list describes the picture completely: it needs no effects, no images of other nodes and
+// no history.
 PETRI_API bool petri_picture_is_display_list(const PetriPicture *picture);
 
 // Functions of a host that draws canvases itself, for builds without Cairo. petri computes effects from the results.
@@ -278,18 +278,18 @@ PETRI_API PetriStatus petri_painter_use_backend(PetriPainter *painter, const Pet
 // Returns true if petri_picture_save supports the suffix of a file name: .png, .svg or .pdf.
 PETRI_API bool petri_picture_can_save(const char *file);
 
-// Writes a picture to a file in the format of its suffix. The file is replaced atomically. The same picture gives the
-// same PNG file with the same libraries. Returns PETRI_UNSUPPORTED without Cairo, and PETRI_INVALID, with a diagnostic,
-// if the suffix is not supported or the file cannot be written.
+// Writes a picture to a file in the format of its suffix. The file is replaced atomically. With the same library
+// versions, the same picture gives an identical PNG file. Returns PETRI_UNSUPPORTED without Cairo, and PETRI_INVALID,
+// with a diagnostic, if the suffix is not supported or the file cannot be written.
 PETRI_API PetriStatus petri_picture_save(PetriPicture *picture, PetriPainter *painter, const char *file);
 
 // Like petri_picture_save, but passes the bytes of the file to a function. `suffix` selects the format, such as ".png".
-// Returns PETRI_INVALID also if `write` returned false.
+// Also returns PETRI_INVALID if `write` returned false.
 PETRI_API PetriStatus petri_picture_encode(PetriPicture *picture, PetriPainter *painter, const char *suffix,
                                            PetriWriteCallback *write, void *user_data);
 
-// Reports the diagnostics of drawing and saving a picture to the session's on_diagnostic, each once per load. Called by
-// the thread that uses the session, while no other thread uses the picture.
+// Reports the diagnostics of drawing and saving a picture to the session's on_diagnostic, each once per load. Must be
+// called by the thread that uses the session, while no other thread uses the picture.
 PETRI_API void petri_picture_report(PetriSession *session, PetriPicture *picture);
 
 #ifdef __cplusplus

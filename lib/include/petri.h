@@ -1,26 +1,25 @@
 // petri.h: the C interface of libpetri, an engine for Flitter scripts with particle systems.
 //
-// A session holds one loaded script and all that belongs to it: the state dictionary (values that persist from frame to
-// frame), the particle systems that the script describes with `!physics` nodes, and a clock. Load a script, then step
-// it. Each step computes one frame: it evaluates the script, which results in a tree of nodes, and then advances the
-// particle systems, which store positions and velocities in the state dictionary. To draw frames, use petri-draw.h.
+// A session holds one loaded script and its data: the state dictionary (values that persist from frame to frame), the
+// particle systems that the script describes with `!physics` nodes, and a clock. Load a script, then step it. Each step
+// computes one frame. It evaluates the script, which produces a tree of nodes, and then advances the particle systems.
+// The systems store positions and velocities in the state dictionary. To draw frames, use petri-draw.h.
 //
 // Rules for all functions, unless a comment says otherwise:
-// - A session is used by one thread at a time, and so is all that is obtained from it: values, nodes, configurations,
-//   snapshots. Different sessions are independent.
-//   Functions that take no handle may be called by any thread at any time.
-// - A parameter struct is read only during the call. Text is UTF-8; the length PETRI_NUL_TERMINATED means that it ends
-//   at a NUL byte. Numbers and indices count from 0.
-// - Functions that can fail return a PetriStatus. All of them may return PETRI_OUT_OF_MEMORY, or PETRI_INVALID for
-//   invalid arguments. Those that load, step, print or evaluate may also return PETRI_LIMIT_EXCEEDED or
-//   PETRI_INTERRUPTED.
-// - A call that fails changes nothing. A script that cannot be loaded leaves the loaded one running, and an aborted
-//   frame leaves the state as it was (petri_step lists the exceptions).
+// - Only one thread at a time may use a session or an object obtained from it: a value, node, configuration or
+//   snapshot. Different sessions are independent. Functions that take no handle may be called by any thread at any
+//   time.
+// - A struct argument is accessed only during the call. Text is UTF-8. The length PETRI_NUL_TERMINATED means that the
+//   text ends at a NUL byte. Indices, and numbers of items, start at 0.
+// - Functions that can fail return a PetriStatus. They may all return PETRI_OUT_OF_MEMORY, or PETRI_INVALID for invalid
+//   arguments. Functions that load, step, print or evaluate may also return PETRI_LIMIT_EXCEEDED or PETRI_INTERRUPTED.
+// - A call that fails changes nothing. If a script cannot be loaded, the current script stays loaded. An aborted frame
+//   leaves the state unchanged (petri_step lists the exceptions).
 // - Errors and warnings about scripts are reported through PetriOptions.on_diagnostic, each once per position and load.
 //   The library never prints or exits, and never changes the locale, signal handlers or working directory of the
 //   process.
-// - A function that is called with NULL does nothing and returns PETRI_INVALID, false, NULL or 0.
-// - After fork, the child may close the sessions of its parent, and must not use them otherwise.
+// - If a required pointer is NULL, a function does nothing and returns PETRI_INVALID, false, NULL or 0.
+// - After fork, the child process may close the sessions of its parent, but must not use them for anything else.
 #ifndef PETRI_H
 #define PETRI_H
 
@@ -32,7 +31,7 @@
 extern "C" {
 #endif
 
-// Version of this header. petri_version_number returns that of the library, which may be newer.
+// Version of this header. petri_version_number returns the version of the library, which may be newer.
 #define PETRI_VERSION_MAJOR 0
 #define PETRI_VERSION_MINOR 3
 #define PETRI_VERSION_PATCH 0
@@ -44,7 +43,7 @@ extern "C" {
 #define PETRI_API
 #endif
 
-// As the length of a string: it ends at a NUL byte.
+// Passed as the length of a string that ends at a NUL byte.
 #define PETRI_NUL_TERMINATED SIZE_MAX
 
 // A session. Created by petri_open, freed by petri_close.
@@ -59,22 +58,23 @@ typedef enum PetriStatus {
     PETRI_INTERRUPTED, // petri_interrupt was called; the call was aborted
 } PetriStatus;
 
-// Returns a status as a short text for messages, or "unknown status". Lives as long as the library.
+// Returns a short description of a status for messages, or "unknown status". The string is static.
 PETRI_API const char *petri_status_text(PetriStatus status);
 
-// Memory functions for the whole process, for hosts with their own heap or accounting. To limit one script, use
-// PetriOptions.memory_limit.
+// Memory functions of the whole process, for hosts with their own allocator or memory accounting. To limit one script,
+// use PetriOptions.memory_limit.
 //
-// Any thread may call the functions, several at once. They must return normally (no longjmp, no exception) and must not
-// call the library. They are needed until the last session, picture and painter is closed. Memory that the C library,
-// Cairo, Pango, libpng, libjpeg and OpenGL allocate internally does not come from here.
+// The functions may be called by several threads at once. They must return normally (no longjmp, no exception) and must
+// not call the library. They must stay valid until all sessions, pictures and painters are closed. The C library,
+// Cairo, Pango, libpng, libjpeg and OpenGL do not use them for their internal allocations.
 typedef struct PetriAllocator {
     size_t size; // sizeof(PetriAllocator)
-    // Returns `bytes` (1 or more) aligned to 16, or NULL; the call in progress then returns PETRI_OUT_OF_MEMORY.
+    // Returns a block of `bytes` bytes (at least 1), aligned to 16, or NULL on failure. The library function that
+    // needed the block then returns PETRI_OUT_OF_MEMORY.
     void *(*allocate)(void *user_data, size_t bytes);
     // Resizes a block, which may move, and keeps its contents. Returns NULL on failure, with the block unchanged.
     void *(*resize)(void *user_data, void *block, size_t bytes);
-    void (*release)(void *user_data, void *block); // frees a block; never NULL
+    void (*release)(void *user_data, void *block); // frees `block`, which is never NULL
     void *user_data;                               // passed to the functions
 } PetriAllocator;
 
@@ -87,35 +87,35 @@ PETRI_API PetriStatus petri_set_allocator(const PetriAllocator *allocator);
 // Severity of a diagnostic.
 typedef enum PetriLevel { PETRI_ERROR, PETRI_WARNING, PETRI_NOTE } PetriLevel;
 
-// An error, warning or note about a script. The texts are valid during the callback; copy them to keep them.
+// An error, warning or note about a script. The strings are valid only during the callback.
 typedef struct PetriDiagnostic {
     PetriLevel level;
-    const char *file; // NULL if it has no position
+    const char *file; // NULL if the diagnostic has no position
     uint32_t line;    // from 1; 0 without a position
     uint32_t column;  // in characters, from 1
     const char *text;
     const char *code;     // short name of the kind, such as "unbound-name"; may be NULL
     const char *rendered; // `FILE:LINE:COLUMN: level: text [code]`, source line and carets; ends in a newline
     const char *hint;     // advice, such as "did you mean 'cos'?"; "": none
-    uint32_t end_line;    // line of the first character after the marked text
-    uint32_t end_column;
+    uint32_t end_line;    // line of the first character after the marked range
+    uint32_t end_column;  // column of that character
 } PetriDiagnostic;
 
-// When physics uses neighbour lists instead of testing all pairs of particles. Results never depend on it.
+// When physics uses neighbour lists instead of testing all pairs of particles. Does not affect results.
 typedef enum PetriNeighbours {
-    PETRI_NEIGHBOURS_AUTO, // where they are faster
+    PETRI_NEIGHBOURS_AUTO, // when they are faster
     PETRI_NEIGHBOURS_NEVER,
     PETRI_NEIGHBOURS_ALWAYS,
 } PetriNeighbours;
 
 // Communication between processes (ranks) that run one script together, for example over MPI. Each rank has its own
-// session and makes the same calls. All ranks compute the same results, bit for bit, as a single process, and divide
-// the work of large systems.
+// session and makes the same calls. The ranks divide the work of large systems. All ranks get the same results as a
+// single process, bit for bit.
 //
 // The functions transfer `count` blocks of `block_length` doubles; consecutive blocks start `stride` doubles apart, as
 // in MPI_Type_vector. Messages between two ranks must arrive in the order in which they were sent. After
-// petri_interrupt was called on all ranks, the functions need not wait any longer; numbers that were not received are
-// then set to 0.
+// petri_interrupt has been called on all ranks, the functions may return without waiting. Numbers that were not
+// received must then be set to 0.
 typedef struct PetriRanks {
     int rank;       // number of this process, from 0
     int rank_count; // number of processes
@@ -132,9 +132,10 @@ typedef struct PetriRanks {
     void (*allgatherv)(void *user_data, double *numbers, const size_t *starts);
     // Replaces each number by its maximum over all ranks. No number is NaN.
     void (*allreduce_max)(void *user_data, double *numbers, size_t count);
-    // Returns memory for `count` doubles that all ranks share, for ranks on one machine. Valid until its next call. All
-    // ranks call it together, and all get NULL if there is no shared memory. NULL on all ranks: not supported. Data
-    // that a rank writes before one of the three functions above is visible to all ranks after it.
+    // Returns memory for `count` doubles that all ranks share, if they run on one machine. Valid until the next call of
+    // alloc_shared. All ranks call it together, and all get NULL if the memory is not available. If shared memory is
+    // not supported, set alloc_shared to NULL on all ranks. Data that a rank writes before broadcast, allgatherv or
+    // allreduce_max must be visible to all ranks after that call.
     double *(*alloc_shared)(void *user_data, size_t count);
 } PetriRanks;
 
@@ -145,26 +146,28 @@ typedef struct PetriOptions {
     // Follow the wall clock: petri_step waits until the frame is due, and the script's `time` is the time since frame
     // 0. Default false (lockstep): petri_step does not wait, and `time` is the frame number divided by fps.
     bool realtime;
-    double run_time; // seconds, as the script's `run_time`; NaN (the default): unlimited
-    bool simplify;   // evaluate constant parts once, when loading; results never depend on it. Default true
+    double run_time; // the script's `run_time` in seconds; NaN (the default): unlimited
+    bool simplify;   // fold constant expressions at load time; does not affect results. Default true
     bool colour;     // colour PetriDiagnostic.rendered with ANSI escapes. Default false
     bool profile;    // measure the time of each source line, for petri_profile. Default false
-    // Bytes of C stack that evaluation may use; deeper recursion is an error in the script. Default 4 MiB, for which a
-    // thread with a stack of 8 MiB is sufficient.
+    // Bytes of C stack that evaluation may use. Deeper recursion is reported as an error in the script. The default of
+    // 4 MiB suits a thread with a stack of 8 MiB.
     size_t stack_limit;
-    // Limits for each call, such as petri_step. A frame, load or picture that exceeds one is aborted with a diagnostic
-    // that names its source. Work is counted, not timed, so a script stops at the same point on every machine: one unit
-    // (about 10 ns) per loop iteration, call, node or sixteen numbers.
-    size_t memory_limit; // bytes held for the script, besides at most about 64 MiB of petri's own; default 2 GiB
-    uint64_t work_limit; // units per call; default 2^30, about 10 s
-    int threads;         // number of worker threads; 0 (the default): one per processor. Results never depend on it
+    // Limits of each call, such as petri_step. A frame, load or picture that exceeds a limit is aborted with a
+    // diagnostic that gives the position in the script. Work is counted, not timed, so a script is aborted at the same
+    // point on every machine. A loop iteration, a call, a node or a group of sixteen numbers costs one unit (about 10
+    // ns).
+    size_t memory_limit;        // bytes held for the script; petri itself uses up to about 64 MiB more. Default 2 GiB
+    uint64_t work_limit;        // units per call; default 2^30, about 10 s
+    int threads;                // number of worker threads; 0 (the default): one per processor. Does not affect results
     PetriNeighbours neighbours; // default PETRI_NEIGHBOURS_AUTO
-    // Keeps a copy of the state while a frame is computed, so that an aborted frame is rolled back completely. If false
-    // (the default), each system has either finished that frame or not started it, which is enough if the host exits.
+    // Keep a copy of the state while a frame is computed, so that an aborted frame can be rolled back completely. If
+    // false (the default), each system has either completed or not started an aborted frame, which is enough for a host
+    // that then exits.
     bool rollback_frames;
-    // Folders that the script may use, as arrays of names that end in NULL, or NULL. A script may read files in and
-    // below its own folder, the current directory and `read_folders`. It may write files (`!record`) in and below its
-    // own folder and `write_folders`. "/" allows everything. petri_open copies the names.
+    // Folders that the script may use: NULL-terminated arrays of names, or NULL for none. A script may read files in
+    // and below its own folder, the current directory and `read_folders`. It may write files (`!record`) in and below
+    // its own folder and `write_folders`. "/" allows everything. petri_open copies the names.
     const char *const *read_folders;
     const char *const *write_folders;
     bool no_files;    // the script may not read, write or import any file. Default false
@@ -172,24 +175,26 @@ typedef struct PetriOptions {
     // Called for each diagnostic by the thread that uses the session. NULL (the default): not reported.
     void (*on_diagnostic)(void *user_data, const PetriDiagnostic *diagnostic);
     void *user_data; // passed to on_diagnostic and should_interrupt
-    // Best vector instructions that physics may use: "scalar", "avx2" or "avx512". NULL (the default), or another text:
-    // the best available. The environment variable PETRI_CPU, read when the library is loaded, limits the whole
-    // process. Results never depend on it.
+    // The most advanced vector instructions that physics may use: "scalar", "avx2" or "avx512". NULL (the default) or
+    // any other string: the best available. The environment variable PETRI_CPU, read when the library is loaded, limits
+    // the whole process. Does not affect results.
     const char *cpu;
     // Other processes that run the script together with this one; NULL (the default): none. petri_open copies the
-    // struct. All ranks need the same options, including `cpu`. If one rank is interrupted, all must be, and none may
-    // continue.
+    // struct. All ranks need the same options, including `cpu`. If one rank is interrupted, all ranks must be
+    // interrupted, and none may continue its session.
     const PetriRanks *ranks;
-    // Provides the files that are loaded and that scripts use: modules, includes, images, `read` and `csv`. NULL (the
-    // default): they are read from disk. Returns the bytes and sets *length, or returns NULL if there is no such file.
-    // If set, scripts may read every file that it provides, and no other.
+    // Provides the contents of all files: loaded scripts, modules, included files, images, and files that scripts read
+    // with `read` and `csv`. NULL (the default): files are read from disk. Returns the bytes and sets *length, or
+    // returns NULL if there is no such file. If this function is set, scripts may read every file that it provides, and
+    // no others.
     //
-    // `name` is the name that was passed to petri_load. For files that a script names, it is that name after the
-    // script's folder, without `.` and `..`. For a name that ends in a slash (`./` is the current directory), return
-    // the names in this folder, one per line, or NULL; `glob` then finds nothing.
+    // `name` is the name passed to petri_load. For a file named by a script, it is the script's folder followed by that
+    // name, with `.` and `..` resolved. A name that ends in a slash requests a folder (`./`: the current directory):
+    // return the names of its files, one per line, or NULL. With NULL, `glob` finds nothing.
     //
-    // The bytes must stay unchanged until the session is closed: the same address and length mean the same bytes. It is
-    // called in any frame, and by threads that draw pictures. It must not call the session.
+    // The bytes must not change until the session is closed, because the same address and length are assumed to mean
+    // the same contents. The function may be called in any frame, and by threads that draw pictures. It must not call
+    // the session.
     const char *(*read_file)(void *read_user_data, const char *name, size_t *length);
     void *read_user_data; // passed to read_file and read_unsaved
     // Provides the contents of a file that replace those on disk when a script imports or includes it, such as the
@@ -212,35 +217,37 @@ static inline PetriOptions petri_default_options(void) {
 }
 
 // Creates a session without a script. Free it with petri_close. Returns NULL if out of memory, if the options were not
-// initialised or are those of a newer petri.h, or if `fps` is not positive and finite.
+// initialised or come from a newer petri.h, or if `fps` is not positive and finite.
 PETRI_API PetriSession *petri_open(const PetriOptions *options);
 
-// Frees a session and sets the handle to NULL. NULL handles are ignored. Free its configurations and snapshots before.
+// Frees a session and sets the handle to NULL. NULL handles are ignored. Free its configurations and snapshots first.
 PETRI_API void petri_close(PetriSession **session);
 
 // Defines a name for the scripts that are loaded from now on, like the option `-D`. `definition` is "name=value", where
 // the value is one or more elements separated by `;`: numbers, time codes, `:symbols` or strings. Returns PETRI_INVALID
-// without an equals sign, or if the name is not valid. Loading a script warns about definitions that it does not use.
+// without an equals sign, or if the name is not valid. Loading a script warns about definitions that the script does
+// not use.
 PETRI_API PetriStatus petri_define(PetriSession *session, const char *definition);
 
-// Loads a script from a file. The next frame is frame 0. The state dictionary is kept; petri_reset clears it. `file` is
-// used in messages, and relative file names in the script start from its folder. Returns PETRI_INVALID if the file
-// cannot be read or is not a valid script, and within a callback.
+// Loads a script from a file. The next frame is frame 0. The state dictionary is kept; petri_reset clears it. `file`
+// appears in messages, and relative file names in the script start from its folder. Returns PETRI_INVALID if the file
+// cannot be read or is not a valid script, or if called within a callback.
 PETRI_API PetriStatus petri_load(PetriSession *session, const char *file);
 
-// Like petri_load, but loads the script from memory. `name` is used in messages, and its folder for relative file
-// names; use a name such as `<stdin>` for a stream. Returns PETRI_INVALID if the text is not a valid script. Copies the
-// text.
+// Like petri_load, but loads the script from memory. `name` appears in messages, and relative file names start from its
+// folder. For a stream, use a name such as `<stdin>`. Returns PETRI_INVALID if the text is not a valid script. Copies
+// the text.
 PETRI_API PetriStatus petri_load_text(PetriSession *session, const char *name, const char *text, size_t length);
 
 // Loads a changed script while frame numbers, time and beat continue. Pipes cannot be reloaded. Tempo and fps change
-// only if their pragma changed. NULL compiles the text that was loaded last again, for changed definitions; diagnostics
-// of its last load are not repeated. Returns PETRI_INVALID like petri_load, or for NULL if no script is loaded.
+// only if their pragma changed. If `file` is NULL, compiles the loaded text again with the current definitions, and
+// does not repeat diagnostics that were already reported. Returns PETRI_INVALID like petri_load, or for NULL if no
+// script is loaded.
 PETRI_API PetriStatus petri_reload(PetriSession *session, const char *file);
 
-// Returns the path of a file that the loaded script consists of, or NULL past the last. 0 is the script itself; then
-// come the files it includes, and the modules that it imported so far with the files they include. Scripts that were
-// loaded from memory are not listed. Valid until the next load or step.
+// Returns the path of a source file of the loaded script by number, or NULL past the last. Number 0 is the script
+// itself. The files that it includes follow, then the modules imported so far, each followed by its included files.
+// Scripts that were loaded from memory are not listed. Valid until the next load or step.
 PETRI_API const char *petri_source_file(PetriSession *session, size_t number);
 
 // Checks a script without running it: compiles it with the current definitions, evaluates its first frame and reports
@@ -248,40 +255,41 @@ PETRI_API const char *petri_source_file(PetriSession *session, size_t number);
 // does not affect the loaded script. Returns PETRI_INVALID if the file cannot be read or is not a valid script.
 PETRI_API PetriStatus petri_check(PetriSession *session, const char *file);
 
-// Like petri_check, but checks a script in memory. `name` is used in messages. Returns PETRI_INVALID if it is not a
-// valid script.
+// Like petri_check, but checks a script in memory. `name` appears in messages. Returns PETRI_INVALID if the text is not
+// a valid script.
 PETRI_API PetriStatus petri_check_text(PetriSession *session, const char *name, const char *text, size_t length);
 
 // Computes the next frame, starting with frame 0: evaluates the script, then advances its particle systems. In real
-// time, waits until the frame is due. Returns PETRI_INVALID if no script is loaded, or within a callback.
+// time, waits until the frame is due. Returns PETRI_INVALID if no script is loaded, or if called within a callback.
 //
 // An aborted frame leaves the session as it was before the call. If PetriOptions.rollback_frames is false, there are
 // two exceptions. If the evaluation exceeds a limit, frame number and time advance, but the systems do not. If the
-// frame is aborted while systems are advanced, the frame counts, and each system has either finished it or not started
-// it.
+// frame is aborted while systems are advanced, frame number and time advance, and each system has either completed or
+// not started the frame.
 PETRI_API PetriStatus petri_step(PetriSession *session);
 
 // Like petri_step, but with a given time (seconds) and beat, from which petri_step continues later. Never waits. If the
-// time is not later than that of the last frame, the systems are not advanced. Returns PETRI_INVALID also if a number
-// is not finite.
+// time is not later than that of the last frame, the systems are not advanced. Also returns PETRI_INVALID if `time` or
+// `beat` is not finite.
 PETRI_API PetriStatus petri_step_at(PetriSession *session, double time, double beat);
 
 // Returns the seconds until the next frame is due in real time, so that a host can do other work instead of waiting in
-// petri_step. Returns 0 if it is due already, before the first frame, and in lockstep.
+// petri_step. Returns 0 if the frame is already due, before the first frame, and in lockstep.
 PETRI_API double petri_seconds_until_due(const PetriSession *session);
 
-// Drops the time by which the next frame is late, so that it follows the last frame as if no time had passed. Call it
-// in real time after a pause or a slow operation of the host. It has no effect in lockstep.
+// Discards the delay of a late frame, so that it follows the last frame as if no time had passed in between. Call it in
+// real time after a pause or a slow operation of the host. It has no effect in lockstep.
 PETRI_API void petri_resync_clock(PetriSession *session);
 
-// A parameter of the loaded script, declared at its top level by `let NAME=NAME or DEFAULT -- RANGE DESCRIPTION`. It
-// has the value that petri_define or petri_set_parameter gave it, if that is true, else its default. RANGE is optional:
-// `1..500`, `0..1|0.05` with a step, or `0..` with one end. It is meant for users; a value outside causes a warning.
+// A parameter of the loaded script, declared at its top level by `let NAME=NAME or DEFAULT -- RANGE DESCRIPTION`. Its
+// value is the one set with petri_define or petri_set_parameter if that value is true as a condition, else the default.
+// RANGE is optional: `1..500`, `0..1|0.05` with a step, or `0..` with one end. The range is a recommendation: a value
+// outside it causes a warning.
 typedef struct PetriParameter {
     const char *name;
     const char *default_value; // source text of the default
-    const char *value;         // current value in printed form; default_value if it varies from frame to frame
-    const char *comment;       // comment after it on its line, without the range; "": none
+    const char *value;         // current value in printed form; default_value if the value varies from frame to frame
+    const char *comment;       // comment after the declaration, without the range; "": none
     double number;             // current value; NaN if it is not known to be a single number
     double default_number;     // default; NaN if it is not known to be a single number
     double min;                // lower end of the range; -INFINITY: none
@@ -294,20 +302,21 @@ typedef struct PetriParameter {
     uint32_t column;           // in characters, from 1
 } PetriParameter;
 
-// Gets a parameter of the script by number: first its own and those of included files, then those of the modules that
-// it imports at its top level. Returns false past the last, or if out of memory. The texts are valid until the next
-// call on the session.
+// Gets a parameter of the script by number: first the parameters of the script and its included files, then those of
+// modules imported at its top level. Returns false past the last, or if out of memory. The strings are valid until the
+// next call that uses the session.
 PETRI_API bool petri_parameter(PetriSession *session, size_t number, PetriParameter *parameter);
 
-// Sets a parameter of the script to a value, written as in petri_define, or back to its default if `value` is NULL. It
-// takes effect in the next frame; state, frame numbers, time and beat continue. Returns PETRI_INVALID if the script has
-// no such parameter, if the default is a number and the value is not, or if an included file can no longer be read.
+// Sets a parameter of the script to a value written as in petri_define, or resets it to its default if `value` is NULL.
+// The change takes effect in the next frame. State, frame numbers, time and beat continue. Returns PETRI_INVALID if the
+// script has no such parameter, if the default is a number and the value is not, or if an included file can no longer
+// be read.
 PETRI_API PetriStatus petri_set_parameter(PetriSession *session, const char *name, const char *value);
 
 // The frame that was computed last.
 typedef struct PetriFrame {
     int64_t number; // -1: no frame yet
-    double time;    // seconds; 0 in frame 0, and frame number / fps after petri_restore, in real time as well
+    double time;    // seconds; 0 in frame 0; frame number / fps after petri_restore, even in real time
     double beat;
     double fps;
     double tempo;              // beats per minute
@@ -320,8 +329,9 @@ typedef struct PetriFrame {
 PETRI_API PetriFrame petri_frame(const PetriSession *session);
 
 // User input, for scripts with `!pointer` and `!key` nodes in a `!window`. Report input when it happens. The next frame
-// finds it in the state dictionary, from the second frame that contains the node. A key or button that is pressed and
-// released between two frames counts as pressed for one frame. If the host never reports input, nothing is written.
+// finds the input in the state dictionary, but not before the second frame that contains the node. A key or button that
+// is pressed and released between two frames counts as pressed for one frame. If the host never reports input, the
+// dictionary contains none.
 enum {
     PETRI_BUTTON_LEFT = 1,
     PETRI_BUTTON_MIDDLE = 2,
@@ -334,20 +344,20 @@ typedef struct PetriPointer {
     unsigned buttons; // bits of the pressed buttons
 } PetriPointer;
 
-// Reports the pointer's position and buttons. NULL means that the window lost the focus: the pointer is outside, and
-// all buttons and keys are released. Returns PETRI_INVALID if the position is not finite.
+// Reports the pointer's position and buttons. NULL means that the window lost focus: the pointer is outside, and all
+// buttons and keys are released. Returns PETRI_INVALID if the position is not finite.
 PETRI_API PetriStatus petri_report_pointer(PetriSession *session, const PetriPointer *pointer);
 
 // Reports that a key was pressed or released. `name` is a letter, a digit, or a word such as "space", "left",
 // "page_up", "f1" or "left_shift" (see src/manual/view.md). Returns PETRI_INVALID for unknown names.
 PETRI_API PetriStatus petri_report_key(PetriSession *session, const char *name, bool pressed);
 
-// Returns true if a `!key` node of the last frame uses the key. The host should then give the key no other meaning.
+// Returns true if a `!key` node of the last frame uses the key. The host should then not use the key for anything else.
 PETRI_API bool petri_key_is_bound(PetriSession *session, const char *name);
 
-// Interrupts the session's current call, or its next one if there is none. A step, load, picture, print or evaluation
-// then returns PETRI_INTERRUPTED within a few milliseconds. May be called by any thread and by signal handlers, unlike
-// all other functions.
+// Interrupts the session's current call, or its next call if none is in progress. A step, load, picture, print or
+// evaluation then returns PETRI_INTERRUPTED within a few milliseconds. May be called by any thread and by signal
+// handlers, unlike all other functions.
 PETRI_API void petri_interrupt(PetriSession *session);
 
 // Returns true if an interrupt is pending, and clears it.
@@ -361,8 +371,8 @@ PETRI_API PetriStatus petri_set_tempo(PetriSession *session, double tempo);
 // is positive and finite.
 PETRI_API PetriStatus petri_set_fps(PetriSession *session, double fps);
 
-// Sets the maximum simulation step of all systems, which replaces the `resolution` that systems set themselves. The
-// unit is that of the system's time: seconds, unless it sets `time`. 0 (the default) uses the systems' own. Returns
+// Sets the maximum simulation time step of all systems, overriding their `resolution` attributes. The unit is that of a
+// system's time: seconds, unless the system sets `time`. 0 (the default) uses the systems' own attributes. Returns
 // PETRI_INVALID if it is negative or not finite.
 PETRI_API PetriStatus petri_set_resolution(PetriSession *session, double resolution);
 
@@ -372,8 +382,8 @@ PETRI_API double petri_resolution(const PetriSession *session);
 // Clears the state dictionary. The next frame is frame 0 of the loaded script.
 PETRI_API void petri_reset(PetriSession *session);
 
-// A configuration of a session: script, definitions, statements of the prompt, fps, tempo and resolution. It is shared
-// and not copied, so that a history of configurations takes little memory.
+// A configuration of a session: script, definitions, statements of the prompt, fps, tempo and resolution.
+// Configurations are shared, not copied, so a history of configurations takes little memory.
 typedef struct PetriConfig PetriConfig;
 
 // Returns the current configuration, or NULL if out of memory. Free it with petri_config_free before the session is
@@ -383,10 +393,10 @@ PETRI_API PetriConfig *petri_config_get(PetriSession *session);
 // Frees a configuration. NULL is ignored.
 PETRI_API void petri_config_free(PetriConfig *config);
 
-// Returns to a configuration of the same session. State, frame number, time and beat continue.
+// Restores a configuration of the same session. State, frame number, time and beat continue.
 PETRI_API void petri_config_apply(PetriSession *session, PetriConfig *config);
 
-// Returns a number that changes whenever the configuration changes, also when an imported module changed on disk.
+// Returns a number that changes whenever the configuration changes, including when an imported module changes on disk.
 PETRI_API uint64_t petri_config_revision(const PetriSession *session);
 
 // A copy of everything that determines how a session continues: state, systems, input, clock and configuration.
@@ -402,30 +412,30 @@ PETRI_API void petri_snapshot_free(PetriSnapshot *snapshot);
 // Returns the size of a snapshot in bytes, without its configuration, which is shared.
 PETRI_API size_t petri_snapshot_bytes(const PetriSnapshot *snapshot);
 
-// Returns to a snapshot of the same session, directly after its frame. The next frames are then identical to the last
-// bit, if the files that the script reads are unchanged. petri_tree is null until the next step. Returns
-// PETRI_OUT_OF_MEMORY, with nothing changed, on failure.
+// Restores a snapshot of the same session, to the point directly after the snapshot's frame. The following frames are
+// bit-identical to those computed before, if the files that the script reads are unchanged. petri_tree returns null
+// until the next step. On failure, returns PETRI_OUT_OF_MEMORY and changes nothing.
 PETRI_API PetriStatus petri_rewind(PetriSession *session, const PetriSnapshot *snapshot);
 
-// Writes the state dictionary, the frame number and what the systems need to resume to a file. User input is not saved.
-// Replaces the file atomically and flushes it to disk. Returns PETRI_INVALID, with a diagnostic, if it cannot be
-// written.
+// Writes a state file: the state dictionary, the frame number and the data that the systems need to resume. User input
+// is not saved. Replaces the file atomically and flushes it to disk. Returns PETRI_INVALID, with a diagnostic, if it
+// cannot be written.
 PETRI_API PetriStatus petri_save(PetriSession *session, const char *file);
 
-// Restores a state that petri_save wrote, after petri_load. The next frame is the one after the saved frame, and is
-// identical to the last bit. If the file does not exist, returns PETRI_OK and changes nothing. Returns PETRI_INVALID,
-// with a diagnostic, if the file cannot be read, is truncated or corrupt.
+// Restores a state written by petri_save. Call it after petri_load. The next frame is the one after the saved frame,
+// bit-identical to the frame that the saving session would have computed. If the file does not exist, returns PETRI_OK
+// and changes nothing. Returns PETRI_INVALID, with a diagnostic, if the file cannot be read or is truncated or corrupt.
 PETRI_API PetriStatus petri_restore(PetriSession *session, const char *file);
 
 // A value of the language: a vector of numbers, strings, nodes or functions. null is the vector of length 0. Symbols
 // are numbers (petri_symbol).
 //
 // A value refers to memory of the session, and each function documents how long its result is valid. A host may build
-// values from its own memory; functions that take a value copy what they keep.
+// values from its own memory; functions that take a value copy the data that they keep.
 typedef enum PetriType { PETRI_NUMBER, PETRI_STRING, PETRI_NODE, PETRI_FUNCTION } PetriType;
 typedef struct PetriNode PetriNode;
 typedef struct PetriString {
-    const char *bytes; // UTF-8; may contain NUL bytes and does not end in one
+    const char *bytes; // UTF-8; may contain NUL bytes; not NUL-terminated
     size_t length;     // in bytes
 } PetriString;
 typedef struct PetriItem {
@@ -456,23 +466,23 @@ PETRI_API double petri_symbol(PetriSession *session, const char *name);
 PETRI_API const char *petri_symbol_name(const PetriSession *session, double number);
 
 // Returns the value of a key in the state dictionary, which scripts read with `$`. Returns null if there is no such
-// key, if it is invalid, or if out of memory. Valid until the state may change: until the next step, load,
+// key, if the key is invalid, or if out of memory. Valid until the state may change: until the next step, load,
 // petri_state_set, petri_reset, petri_rewind or petri_restore.
 PETRI_API PetriValue petri_state_get(PetriSession *session, PetriValue key);
 
 // Stores a value in the state dictionary, or removes the key if the value is null. The next frame reads it. Keys and
-// values consist of numbers and strings. Returns PETRI_INVALID for other elements, for values that are not finite, for
-// keys with NaN, and within a callback.
+// values consist of numbers and strings. Returns PETRI_INVALID if an element has another type, if a number in the value
+// is not finite, if the key contains NaN, or if called within a callback.
 PETRI_API PetriStatus petri_state_set(PetriSession *session, PetriValue key, PetriValue value);
 
 // Iterates over the state dictionary in the order in which the keys were added. Set *cursor to 0 before the first call.
-// Returns false after the last entry. Keys and values are valid as those of petri_state_get.
+// Returns false after the last entry. Keys and values are valid as long as the results of petri_state_get.
 PETRI_API bool petri_state_next(PetriSession *session, uint32_t *cursor, PetriValue *key, PetriValue *value);
 
 // Sets a global name that scripts read like any other name. Only scripts that are loaded after the first call for a
-// name see it; later calls need no reload and may change the value in each frame, also to null. Modules do not see it.
+// name see it; later calls need no reload and may change the value in each frame, even to null. Modules do not see it.
 // The name cannot be removed. Returns PETRI_INVALID if the name is not valid or belongs to the engine (such as `time`),
-// for nodes and functions, and within a callback.
+// if the value contains nodes or functions, or if called within a callback.
 PETRI_API PetriStatus petri_set_global(PetriSession *session, const char *name, PetriValue value);
 
 // Returns the tree of the last frame: its top-level nodes, and possibly other elements. Returns null if there is no
@@ -499,10 +509,11 @@ PETRI_API PetriValue petri_tree_get(const PetriNode *node, const char *name);
 // A call of a host function, valid until the function returns.
 typedef struct PetriCall PetriCall;
 
-// A function of the host that scripts call like a built-in function. `arguments` holds the positional arguments, then
-// null for each parameter without one; with `...` there may be more. They are valid during the call. The result is
-// copied, unless its numbers come from petri_call_alloc_numbers; an invalid result becomes null. The function may only
-// call petri_symbol_name and the functions that take a PetriCall. It must return normally: no longjmp, no exception.
+// A function of the host that scripts call like a built-in function. `arguments` holds one value per parameter, null if
+// the call omits the argument. With `...`, further values may follow. The arguments are valid during the call. The
+// result is copied, unless its numbers come from petri_call_alloc_numbers; an invalid result becomes null. The function
+// may only call petri_symbol_name and the functions that take a PetriCall. It must return normally: no longjmp, no
+// exception.
 typedef PetriValue PetriFunctionCall(PetriCall *call, void *user_data, const PetriValue *arguments, uint32_t count);
 
 // Description of a host function.
@@ -518,16 +529,16 @@ typedef struct PetriFunction {
 } PetriFunction;
 
 // Adds a host function for the scripts and modules that are loaded from now on. It cannot be removed. Copies the struct
-// and its texts. Returns PETRI_INVALID if the name is not valid or already in use by the engine, a built-in or another
-// host function, if the parameters are not valid, and within a callback.
+// and its strings. Returns PETRI_INVALID if the name is not valid or already in use by the engine, a built-in or
+// another host function, if the parameters are not valid, or if called within a callback.
 PETRI_API PetriStatus petri_add_function(PetriSession *session, const PetriFunction *function);
 
-// Allocates the numbers of a host function's result, which then need not be copied. Returns NULL if out of memory.
-// Valid until the function returns. Freed by the session.
+// Allocates memory for the numbers of a host function's result, which then needs no copy. Returns NULL if out of
+// memory. Valid until the function returns. Freed by the session.
 PETRI_API double *petri_call_alloc_numbers(PetriCall *call, uint32_t count);
 
-// Reports an error in the arguments of a host function as the diagnostic `NAME: text` at the call, once. The result of
-// the call is then null. Copies the text, truncated to 199 bytes.
+// Reports an error in the arguments of a host function as the diagnostic `NAME: text` at the position of the call,
+// once. The result of the call is then null. Copies the text, truncated to 199 bytes.
 PETRI_API void petri_call_error(PetriCall *call, const char *text);
 
 // A property of all particles of a system. The numbers of particle i start at `data[i * stride]`.
@@ -552,25 +563,25 @@ typedef struct PetriSystem {
     PetriColumn radius;
     PetriColumn mass;
     PetriColumn charge;
-    const bool *anchor; // true for anchors; that of particle i is `anchor[i * anchor_stride]`
+    const bool *anchor; // true for anchors; the entry of particle i is `anchor[i * anchor_stride]`
     size_t anchor_stride;
 } PetriSystem;
 
 // Gets a particle system by number, in the order of the script. Returns false past the last, or if out of memory.
 PETRI_API bool petri_system(PetriSession *session, size_t number, PetriSystem *system);
 
-// Keeps the memory of columns that are no longer valid readable, with unspecified contents. For hosts that cannot
-// control when columns are last read, such as garbage-collected languages. The memory counts towards the memory limit.
-// It is freed when this is called with false, or by petri_close.
+// Sets whether the memory of columns stays readable, with unspecified contents, after they become invalid. Use it in
+// hosts that cannot control when columns are last read, such as garbage-collected languages. The memory counts towards
+// the memory limit. It is freed by a call with `keep` false, or by petri_close.
 PETRI_API void petri_keep_columns(PetriSession *session, bool keep);
 
 // Returns the id of a particle by its number in the system, or null if there is no such particle. Valid until the next
-// petri_particle_id or petri_system_force, and as long as the columns.
+// petri_particle_id or petri_system_force, at most as long as the columns.
 PETRI_API PetriValue petri_particle_id(PetriSession *session, size_t system, uint32_t particle);
 
 // Returns the ids of all particles, if each id is a single number or symbol. Otherwise, or if out of memory, `data` is
-// NULL. The column is built at the first request and when the particles change; its memory counts towards the memory
-// limit. Valid as long as the other columns.
+// NULL. The column is built on the first request and again after the particles change. Its memory counts towards the
+// memory limit. Valid as long as the other columns.
 PETRI_API PetriColumn petri_particle_ids(PetriSession *session, size_t system);
 
 // How the ranks (PetriOptions.ranks) divide the work of a system.
@@ -580,7 +591,7 @@ typedef enum PetriDecomposition {
     PETRI_DOMAIN_DECOMPOSED, // each rank owns the particles of a region
 } PetriDecomposition;
 
-// What a rank has communicated for a system so far. A message to all ranks counts once.
+// Communication of a rank for a system so far. A message to all ranks counts once.
 typedef struct PetriRankStats {
     PetriDecomposition decomposition; // in the last frame
     uint64_t frames;                  // frames with simulation steps
@@ -596,12 +607,12 @@ typedef struct PetriRankStats {
 // Gets the communication statistics of a system. Returns false if there is no such system.
 PETRI_API bool petri_rank_stats(PetriSession *session, size_t system, PetriRankStats *stats);
 
-// Finds the number of the particle with an id. Returns false if there is none, or if out of memory.
+// Finds the number of the particle with the given id. Returns false if there is none, or if out of memory.
 PETRI_API bool petri_find_particle(PetriSession *session, size_t system, PetriValue id, uint32_t *particle);
 
 // A force applier or barrier of a system.
 typedef struct PetriForce {
-    const char *kind;       // kind of its node without the `!`, such as "distance"; lives as long as the library
+    const char *kind;       // kind of its node without the `!`, such as "distance"; static
     double strength;        // without the effect of `ease`
     uint32_t from;          // `!distance` only: numbers of the two particles that it connects
     uint32_t to;            //
@@ -610,33 +621,33 @@ typedef struct PetriForce {
 } PetriForce;
 
 // Gets a force applier or barrier by number, in the order of the script. Returns false past the last, or if out of
-// memory. The vectors are valid until the next petri_system_force or petri_particle_id, and as long as the columns of
-// the system.
+// memory. The vectors are valid until the next petri_system_force or petri_particle_id, at most as long as the columns
+// of the system.
 PETRI_API bool petri_system_force(PetriSession *session, size_t system, uint32_t number, PetriForce *force);
 
 // Returns true if the last frame has something to draw: a window with a canvas, or a particle system. petri-draw.h
 // draws it.
 PETRI_API bool petri_has_picture(PetriSession *session);
 
-// A kind of node that has a meaning to petri, for help and completion. The texts live as long as the library.
+// A kind of node that petri interprets, for help and completion. The strings are static.
 typedef struct PetriNodeKind {
     const char *name; // without the `!`
-    const char *area; // "physics", "canvas" or "canvas3d"; `group` occurs in each
+    const char *area; // "physics", "canvas" or "canvas3d"; `group` exists in all three
     const char *help;
-    // Formula of a force, else "". One or more lines `F = …`; of lines with `if`, the first whose condition holds
-    // applies. Lines before them define names. A positive F pushes the particles of a pair apart. The unit of F is
-    // mass·length/time², in the units of the script. n: dimensions; δ: length of the step; l: distance of the pair; s:
-    // distance from the barrier. Of the particle, or of the first and second of a pair: r: radius; m: mass; q: charge;
-    // v: velocity.
+    // Formula of a force, else "". It has one or more lines `F = …`. If lines have an `if`, the first line whose
+    // condition holds applies. Lines before them define names. A positive F pushes the particles of a pair apart. The
+    // unit of F is mass·length/time², in the units of the script. n: number of dimensions; δ: time step; l: distance
+    // between the particles of a pair; s: distance from the barrier. r, m, q, v: radius, mass, charge and velocity of
+    // the particle; with index 1 or 2, of that particle of the pair.
     const char *formula;
 } PetriNodeKind;
 
-// An attribute of a kind of node. The texts live as long as the library.
+// An attribute of a kind of node. The strings are static.
 typedef struct PetriNodeAttribute {
     const char *name;
     const char *type;          // in words, such as "number" or ":butt, :round or :square"
     const char *default_value; // in words; "": none
-    const char *help;          // "": the name is sufficient
+    const char *help;          // "": the name is self-explanatory
     const char *unit;          // in words, such as "turns"; "": none
 } PetriNodeAttribute;
 
@@ -655,7 +666,7 @@ enum {
     PETRI_PRINT_HASH = 16, // SHA-256 of the text of PETRI_PRINT_STATE, which need not be printed
 };
 
-// Receives part of the output, which need not end at a line break. Returns false to stop.
+// Receives a chunk of the output, which need not end at a line break. Returns false to stop.
 typedef bool PetriWriteCallback(void *user_data, const char *text, size_t length);
 
 // Writes the last frame as text: a line `@FRAME time=T beat=B`, then the given sections. Returns PETRI_INVALID if
@@ -666,17 +677,17 @@ PETRI_API PetriStatus petri_print(PetriSession *session, unsigned sections, Petr
 // false.
 PETRI_API PetriStatus petri_print_log(PetriSession *session, PetriWriteCallback *write, void *user_data);
 
-// Writes the time spent since the script was loaded, longest first: a line for each source line that was evaluated, for
-// the particle systems, and for `output_seconds`, the time that the host has spent on output. Returns PETRI_INVALID
-// without PetriOptions.profile, or if `write` returned false.
+// Writes how much time each part took since the script was loaded, longest first. There is a line for each source line
+// that was evaluated, one for the particle systems, and one for `output_seconds`, the time that the host spent on
+// output. Returns PETRI_INVALID without PetriOptions.profile, or if `write` returned false.
 PETRI_API PetriStatus petri_profile(PetriSession *session, double output_seconds, PetriWriteCallback *write,
                                     void *user_data);
 
 // The prompt evaluates text that a user types, using the state after the last frame. Names of the script's top level
-// have the values of the last frame, before its systems were advanced. If the configuration changed since, the script
-// is evaluated again for that frame. It then uses the state before the frame, if petri_step computed the frame in this
-// session and PetriOptions.rollback_frames is set, else the state after it. Before the first frame, the script is
-// evaluated for frame 0.
+// have the values of the last frame, before its systems were advanced. If the configuration has changed since then, the
+// script is evaluated again for that frame. It then uses the state before the frame, if petri_step computed the frame
+// in this session and PetriOptions.rollback_frames is set, else the state after it. Before the first frame, the script
+// is evaluated for frame 0.
 //
 // Result of petri_prompt_check: whether the input needs more lines.
 typedef enum PetriCompleteness {
@@ -696,18 +707,17 @@ typedef struct PetriPromptResult {
     uint32_t bindings; // `let`, `func` and `import`: retained and evaluated in each frame, after the script
     // Nodes, also in `if` or `for`: written, retained, evaluated in each frame and added to the nodes of the script.
     uint32_t nodes;
-    // A bound name that the script's top level also binds; the script keeps using its own. NULL: none. Valid as long as
-    // the session.
+    // One of the bound names that the script also binds at its top level; NULL: none. The script keeps using its own
+    // binding. Valid as long as the session.
     const char *shadowed;
 } PetriPromptResult;
 
-// Executes statements. Writes values in printed form, nodes as trees and debug() output as `> text`;
-// `write` may be NULL. Returns PETRI_INVALID if the text is not valid. A statement that fails is not retained, and ends
-// the execution.
+// Executes statements. Writes values in printed form, nodes as trees and debug() output as `> text`; `write` may be
+// NULL. Returns PETRI_INVALID if the text is not valid. A statement that fails is not retained and stops the execution.
 PETRI_API PetriStatus petri_prompt(PetriSession *session, const char *text, size_t length, PetriWriteCallback *write,
                                    void *user_data, PetriPromptResult *result);
 
-// Removes the retained nodes of the prompt, and with `bindings` also the bindings. Returns the number of removed
+// Removes the retained nodes of the prompt and, if `bindings` is true, also the bindings. Returns the number of removed
 // statements; 0 if out of memory.
 PETRI_API uint32_t petri_prompt_clear(PetriSession *session, bool bindings);
 
@@ -731,14 +741,14 @@ PETRI_API PetriStatus petri_evaluate(PetriSession *session, const char *text, si
 // configuration. petri_tree and petri_print then show the result. Returns PETRI_INVALID if no script is loaded.
 PETRI_API PetriStatus petri_preview(PetriSession *session);
 
-// Returns a name that the prompt can use, besides built-in functions, by number, or NULL past the last. Names may occur
-// twice. Valid as long as the session.
+// Returns a name that the prompt can use by number, or NULL past the last. Built-in functions are not included. A name
+// may occur twice. Valid as long as the session.
 PETRI_API const char *petri_visible_name(const PetriSession *session, size_t number);
 
 // Kinds of tokens that petri_tokenise finds.
 typedef enum PetriTokenKind {
     PETRI_TOKEN_NAME,
-    PETRI_TOKEN_KEYWORD, // where the word is a keyword; also %pragma and %include
+    PETRI_TOKEN_KEYWORD, // a word used as a keyword; also %pragma and %include
     PETRI_TOKEN_NUMBER,  // also time codes
     PETRI_TOKEN_STRING,
     PETRI_TOKEN_SYMBOL,
@@ -746,8 +756,8 @@ typedef enum PetriTokenKind {
     PETRI_TOKEN_TAG,
     PETRI_TOKEN_OPERATOR, // also brackets and punctuation
     PETRI_TOKEN_COMMENT,  // without the end of the line; also a `#!` line
-    PETRI_TOKEN_INVALID,  // a character that starts no token
-    PETRI_TOKEN_NEWLINE,  // end of a statement or of a block's head; empty, like the following two
+    PETRI_TOKEN_INVALID,  // a character that cannot start a token
+    PETRI_TOKEN_NEWLINE,  // end of a statement or of a block's header; empty, like the next two kinds
     PETRI_TOKEN_INDENT,   // start of a block
     PETRI_TOKEN_DEDENT,   // end of a block
 } PetriTokenKind;
@@ -761,13 +771,14 @@ typedef struct PetriToken {
 typedef void PetriTokenCallback(void *user_data, const PetriToken *token);
 
 // Passes the tokens of a script to a callback, in order, for editors. Lines must end in LF, and there must be no byte
-// order mark. Continues after syntax errors; text that is not UTF-8 has no tokens. Returns PETRI_OK in both cases.
+// order mark. Continues after syntax errors. Text that is not valid UTF-8 has no tokens. Returns PETRI_OK in both
+// cases.
 PETRI_API PetriStatus petri_tokenise(PetriSession *session, const char *text, size_t length,
                                      PetriTokenCallback *callback, void *user_data);
 
 // Kinds of names that petri_bindings finds.
 typedef enum PetriNameKind {
-    PETRI_NAME_USE, // a use of a name; all others bind one
+    PETRI_NAME_USE, // a use of a name; all other kinds bind a name
     PETRI_NAME_LET, // also `where`
     PETRI_NAME_FUNC,
     PETRI_NAME_PARAMETER,
@@ -775,7 +786,8 @@ typedef enum PetriNameKind {
     PETRI_NAME_IMPORT,
 } PetriNameKind;
 
-// A use or binding of a name. Positions are bytes from the start of the text; each end is the first byte after.
+// A use or binding of a name. Positions are bytes from the start of the text. An end is the position after the last
+// byte.
 typedef struct PetriBinding {
     PetriNameKind kind;
     size_t start; // of the name
@@ -792,12 +804,13 @@ typedef struct PetriBinding {
 // Receives a use or binding. Must not call the session.
 typedef void PetriBindingCallback(void *user_data, const PetriBinding *name);
 
-// Passes the names that a script uses or binds to a callback, for editors, with the same rules as petri_tokenise.
-// Built-in functions, names of the engine and attributes are not included. Returns PETRI_OK even if the text has syntax
-// errors.
+// Calls a callback for each use and each binding of a name in a script, for editors, with the same rules as
+// petri_tokenise. Built-in functions, names of the engine and attributes are not included. Returns PETRI_OK even if the
+// text has syntax errors.
 PETRI_API PetriStatus petri_bindings(PetriSession *session, const char *text, size_t length,
                                      PetriBindingCallback *callback, void *user_data);
 
+// Contents that petri_dump writes.
 typedef enum PetriDump { PETRI_DUMP_AST, PETRI_DUMP_CODE } PetriDump;
 
 // Writes the syntax tree or the compiled code of the loaded script. Returns PETRI_INVALID if no script is loaded, or if
@@ -808,13 +821,14 @@ PETRI_API PetriStatus petri_dump(PetriSession *session, PetriDump what, PetriWri
 PETRI_API uint64_t petri_diagnostic_count(const PetriSession *session, PetriLevel level);
 
 // Gets one of the last 100 diagnostics by number, oldest first, for hosts without on_diagnostic. Returns false past the
-// last. The texts are valid until the next diagnostic, petri_clear_diagnostics or petri_close.
+// last. The strings are valid until the next diagnostic, petri_clear_diagnostics or petri_close.
 PETRI_API bool petri_diagnostic(const PetriSession *session, size_t number, PetriDiagnostic *diagnostic);
 
-// Forgets the diagnostics so far, so that petri_diagnostic returns only those of the following calls.
+// Removes the diagnostics so far, so that petri_diagnostic returns only those of the following calls.
 PETRI_API void petri_clear_diagnostics(PetriSession *session);
 
-// A function, for help. The texts live as long as the library, or those of a host function as long as the session.
+// A built-in function or host function, for help. The strings of a built-in function are static. Those of a host
+// function are valid as long as the session.
 typedef struct PetriBuiltin {
     const char *name;
     const char *parameters;
@@ -827,11 +841,11 @@ PETRI_API bool petri_builtin(size_t index, PetriBuiltin *builtin);
 // Gets a function that the host added (petri_add_function) by number. Returns false past the last.
 PETRI_API bool petri_host_function(const PetriSession *session, size_t number, PetriBuiltin *function);
 
-// Parses a number as scripts and options write it, with an optional suffix, or a time code, into seconds. Returns false
-// if the text is not a number.
+// Parses a number with an optional suffix, as in scripts and options, or a time code, which is converted to seconds.
+// Returns false if the text is not a number.
 PETRI_API bool petri_parse_number(const char *text, double *x);
 
-// Returns the version of the library as text, such as "0.3.0". Lives as long as the library.
+// Returns the version of the library as a static string, such as "0.3.0".
 PETRI_API const char *petri_version(void);
 
 // Returns the version of the library as a number, like PETRI_VERSION_NUMBER.
