@@ -1,5 +1,5 @@
-// drawing.h: a window's tree in the form in which it is drawn: kinds and attribute names are numbers, and values are
-// typed.
+// drawing.h: a window's tree of nodes, prepared for drawing: kinds and attribute names are enum constants, and values
+// are typed.
 //
 // The tree is translated and checked in the session's thread. The code that draws, perhaps in another thread, never
 // sees symbols or values of the language.
@@ -13,10 +13,11 @@ struct DrawNode {
     uint8_t kind; // NodeKind
     uint32_t attr_count;
     uint32_t child_count;
-    const AttrValue *attrs; // in the order written, in which transforms are applied
+    const AttrValue *attrs; // in the order written, which is also the order of transforms
     const DrawNode *const *children;
-    Str tags;      // tags of a picture node, each followed by a space; they identify the node in the next frame
-    Origin origin; // position of the shader text or of the node; the source may no longer exist when it is reported
+    Str tags; // tags of a picture node, each followed by a space; they identify the node in the next frame
+    Origin
+        origin; // position of the shader source or of the node; it may be reported when the script is no longer loaded
 };
 
 // Returns the attribute; NULL if it is not set.

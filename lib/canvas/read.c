@@ -21,7 +21,8 @@ static void report_misplaced(const Reader *reader, const Node *child, bool known
                      node_origin(child, NULL), name, text_str(&out));
 }
 
-// Checks the access to a node's file here, because the position in the script is known. Writing checks it again.
+// Returns true if the script may access the file of a node. The check is done here because the position in the script
+// is known; writing the file checks again.
 static bool can_use_file(const Reader *reader, const DrawNode *node) {
     const FileAccess *reach = reader->schema->file_access;
     const AttrValue *name = reach && schema_row(reader->kind, ATTR_FILENAME) ? draw_attr(node, ATTR_FILENAME) : NULL;

@@ -4,11 +4,12 @@
 
 #include "canvas/drawing.h"
 
-// Returns the next window of a frame's tree, `!window` or `!offscreen`, from element *at on, and moves *at to the
-// element after it. Returns NULL if there is none.
+// Returns the next window (`!window` or `!offscreen`) in a frame's tree. The search starts at element *at, and *at is
+// set to the element after the window. Returns NULL if there are no more windows.
 const Node *canvas_next_window(const Schema *schema, Value tree, uint32_t *at);
-// Limit of the nodes that are checked before a window is read. A node can occur many times in a tree that a short
-// script builds. Larger windows count as having a picture, and reading them then exceeds the limits of work and memory.
+// Maximum number of nodes that canvas_window_has_picture checks. A short script can build a huge tree, because a node
+// can occur in it many times. Larger windows are assumed to have a picture; reading them then exceeds the work or
+// memory limit.
 enum { CANVAS_MAX_CHECKED = 1 << 22 };
 // Returns true if the window contains a `!canvas` or another node that makes a picture.
 bool canvas_window_has_picture(const Schema *schema, const Node *window);

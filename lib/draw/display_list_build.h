@@ -22,8 +22,7 @@ void display_list_build_rectangle(DisplayListBuild *build, DisplayPath *path, co
 void display_list_build_paint_node(DisplayListBuild *build, GraphicsState *state, const DrawNode *node);
 
 // display_list_paints.c
-// Adds a paint source and returns its index. Returns DISPLAY_NONE if a required attribute is
-// missing.
+// Adds a paint source and returns its index. Returns DISPLAY_NONE if a required attribute is missing.
 uint32_t display_list_build_source(DisplayListBuild *build, const GraphicsState *state, const DrawNode *node);
 // Converts the colour of a gradient stop to sRGB, rounded to 8 bits.
 void display_list_build_stop_color(const DisplayListBuild *build, const double color[4], double out[4]);

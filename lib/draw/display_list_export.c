@@ -263,7 +263,7 @@ static void add_path_with_effect(DisplayListExport *numbers, const DisplayComman
         numbers->effect_elements += outline.elements.count;
     }
     if (numbers->effect_elements > MAX_EFFECT_ELEMENTS)
-        add_unsupported(numbers, "path effects on more than two million pieces");
+        add_unsupported(numbers, "path effects with more than two million path elements");
 }
 
 static void add_path_command(DisplayListExport *numbers, const DisplayCommand *command) {

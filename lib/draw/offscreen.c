@@ -1,5 +1,5 @@
-// offscreen.c: temporary resources of a drawing: temporary memory, and surfaces to draw on. If a drawing is aborted,
-// draw_close frees them.
+// offscreen.c: temporary resources of a drawing: memory, and surfaces to draw on. If a drawing is aborted, draw_close
+// frees them.
 #include "draw/float_image.h"
 
 bool draw_reserve(Canvas *canvas, size_t bytes) {

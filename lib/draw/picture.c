@@ -250,7 +250,7 @@ static bool make_picture(Request *request) {
         return false;
     }
     if (!window && (!automatic || options->window >= 0)) {
-        request->problem = options->window > 0 ? "nothing to draw: the frame has no window of this number"
+        request->problem = options->window > 0 ? "nothing to draw: the frame has no window with this number"
                                                : "nothing to draw: the frame has neither a !window with a "
                                                  "!canvas nor !physics";
         return false;

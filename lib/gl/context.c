@@ -7,11 +7,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Contexts of one process are not independent: with Mesa 22.3 a thread that draws reads the scenes of other contexts,
-// and crashes while another thread draws there. So only one thread at a time may use OpenGL.
+// The contexts of a process are not independent: with Mesa 22.3, a thread that draws also reads the scenes of other
+// contexts, and crashes if another thread is drawing in them. Therefore only one thread at a time may use OpenGL.
 static pthread_mutex_t one_thread = PTHREAD_MUTEX_INITIALIZER;
 
-// Prefers Mesa's platform without a display; otherwise uses the default display without a surface.
+// Returns Mesa's surfaceless platform if it is available, else the default display.
 static EGLDisplay find_display(void) {
     const char *extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     if (extensions && strstr(extensions, "EGL_MESA_platform_surfaceless"))
@@ -28,7 +28,7 @@ static bool find_own(Gl *gl, const char **problem) {
     *problem = "EGL cannot be initialised";
     if (gl->display == EGL_NO_DISPLAY || !eglInitialize(gl->display, NULL, NULL))
         return false;
-    *problem = "EGL has no OpenGL ES 3 that works without a window";
+    *problem = "EGL has no OpenGL ES 3 context for drawing without a window";
     if (!eglBindAPI(EGL_OPENGL_ES_API) || !eglChooseConfig(gl->display, wanted, &config, 1, &count) || count < 1)
         return false;
     gl->context = eglCreateContext(gl->display, config, EGL_NO_CONTEXT, version);
@@ -36,23 +36,23 @@ static bool find_own(Gl *gl, const char **problem) {
 }
 
 static bool find_current(Gl *gl, const char **problem) {
-    *problem = "no context of EGL is current";
+    *problem = "no EGL context is current";
     gl->context = eglGetCurrentContext();
     gl->adopted = true;
     if (gl->context == EGL_NO_CONTEXT)
         return false;
-    *problem = "the window's context is not one of OpenGL ES 3";
+    *problem = "the window's context is not an OpenGL ES 3 context";
     return !epoxy_is_desktop_gl() && epoxy_gl_version() >= 30;
 }
 
-// libepoxy ends the process if one of these libraries is missing. They stay loaded, so that libepoxy finds them.
+// libepoxy aborts the process if one of these libraries is missing. They stay loaded, so that libepoxy finds them.
 static bool are_installed(const char **problem) {
     *problem = "EGL or OpenGL ES is not installed (Debian: libegl1, libgles2)";
     return dlopen("libEGL.so.1", RTLD_LAZY) && dlopen("libGLESv2.so.2", RTLD_LAZY);
 }
 
 static bool open_context(Gl *gl, bool (*find_context)(Gl *gl, const char **problem), const char **problem) {
-    // Drivers that are missing print long messages on standard error; *problem is enough.
+    // If a driver is missing, Mesa prints long messages to standard error; *problem is enough.
     if (!getenv("EGL_LOG_LEVEL"))
         setenv("EGL_LOG_LEVEL", "fatal", 0);
     pthread_mutex_lock(&one_thread);
@@ -78,7 +78,7 @@ void gl_context_close(Gl *gl) {
 
 bool gl_context_has(const Gl *gl, const char *extension) {
     (void)gl;
-    bool drawn = strcmp(extension, "GL_EXT_color_buffer_float") == 0; // OpenGL ES 3.2 has it without the extension
+    bool drawn = strcmp(extension, "GL_EXT_color_buffer_float") == 0; // part of OpenGL ES 3.2
     return (drawn && epoxy_gl_version() >= 32) || epoxy_has_gl_extension(extension);
 }
 
@@ -88,12 +88,12 @@ bool gl_context_is(const Gl *gl, const char *renderer) {
     return name && strstr(name, renderer);
 }
 
-// Mesa's llvmpipe checks without a lock that its threads have signalled a fence, and frees the fence when the next one
-// arrives. The last thread may still use it then, and waits forever or writes to memory of others (Mesa 22.3:
-// lp_fence_signalled and lp_fence_signal in lp_fence.c). A fence that a GLsync refers to is not freed. Threads signal
-// fences in order, so after waiting for the newest one, all older ones can be deleted. The newest is deleted with its
-// context. (A draw of more than 36 MB of triangles is split, and its internal fences are not held. They are not freed
-// soon either.)
+// Works around a use-after-free in Mesa's llvmpipe (Mesa 22.3: lp_fence_signalled and lp_fence_signal in lp_fence.c).
+// It checks without a lock whether its threads have signalled a fence, and frees the fence when the next one is
+// created. The last thread may still be using the freed fence; it then waits forever or corrupts memory. A fence is not
+// freed while a GLsync refers to it. Threads signal fences in order, so after waiting for the newest fence, all older
+// ones can be deleted. The newest fence is deleted with its context. (A draw of more than 36 MB of triangles is split.
+// No GLsync refers to its internal fences, but they are not freed soon either.)
 static void delete_fences(Gl *gl) {
     for (int i = 0; i + 1 < gl->fence_count; i++)
         glDeleteSync(gl->fences[i]);
@@ -115,11 +115,11 @@ void gl_after_draw(Gl *gl) {
 }
 
 bool gl_enter(Gl *gl, const char **problem) {
-    *problem = "OpenGL's context cannot be used";
+    *problem = "the OpenGL context cannot be used";
     pthread_mutex_lock(&one_thread);
     if (gl->adopted ? eglGetCurrentContext() == gl->context
                     : eglMakeCurrent(gl->display, EGL_NO_SURFACE, EGL_NO_SURFACE, gl->context)) {
-        gl_after_draw(gl); // for drawing by the host
+        gl_after_draw(gl); // the host may have drawn since the last fence
         return true;
     }
     pthread_mutex_unlock(&one_thread);

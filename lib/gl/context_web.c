@@ -27,7 +27,7 @@ bool gl_context_has(const Gl *gl, const char *extension) {
     return gl_web_has(extension);
 }
 
-// Browsers do not report the renderer.
+// Returns false, because browsers do not report the renderer.
 bool gl_context_is(const Gl *gl, const char *renderer) {
     (void)gl;
     (void)renderer;
@@ -40,7 +40,7 @@ void gl_after_draw(Gl *gl) {
 
 bool gl_enter(Gl *gl, const char **problem) {
     (void)gl;
-    *problem = "the browser dropped the WebGL context";
+    *problem = "the WebGL context was lost";
     return gl_web_ready();
 }
 

@@ -12,12 +12,12 @@ typedef struct Sorted {
     uint32_t segments;
     uint32_t instance;
     uint32_t rank; // rank of its model and textures
-    bool last;     // transparent, in a group that sorts
+    bool last;     // transparent, in a group with depth_sort; drawn last
     bool disc;     // can be drawn as a disc
 } Sorted;
 
-// Order: opaque instances by model, nearest first; then transparent ones, farthest first, those at equal depth by
-// model.
+// Orders opaque instances by model and from near to far, then transparent instances from far to near and, at equal
+// depth, by model.
 static int compare_sorted(const void *a, const void *b) {
     const Sorted *one = a, *two = b;
     if (one->last != two->last)
@@ -63,7 +63,7 @@ static bool is_seen(const Matrix *clip, const SceneBox *box) {
 }
 
 typedef struct Ranks {
-    uint64_t *ranks; // by model and textures: rank, with the number of the group + 1 in the upper half
+    uint64_t *ranks; // by model and textures: rank in the lower half, index of the group + 1 in the upper half
     uint32_t count;  // number of ranks in this group
 } Ranks;
 
@@ -91,7 +91,7 @@ static bool can_extend(const SceneDraw *draw, const SceneDraw *wanted, bool spli
 
 static void add_draws(const Scene *scene, DrawOrder *order, uint32_t number, const Sorted *sorted, uint32_t count,
                       bool deep) {
-    enum { MAX_SPLIT = 2000 }; // limited because each draw has a cost
+    enum { MAX_SPLIT = 2000 }; // from this number of draws, segments no longer separate draws
     const SceneGroup *group = scene->groups[number];
     for (uint32_t i = 0; i < count; i++) {
         const SceneInstance *instance = &group->instances[sorted[i].instance];
@@ -117,7 +117,8 @@ static void add_draws(const Scene *scene, DrawOrder *order, uint32_t number, con
     }
 }
 
-// Returns the pixels of a model's edge of length 1 at its nearest point. `scale` is that number at a distance of 1.
+// Returns the length in pixels of an edge of length 1 at the nearest point of a model. `scale` is this length at a
+// distance of 1.
 static double pixels_of(const Matrix *placed, double depth, bool perspective, double scale) {
     double max = 0;
     for (int column = 0; column < 3; column++)
@@ -125,15 +126,15 @@ static double pixels_of(const Matrix *placed, double depth, bool perspective, do
     return perspective ? scale * sqrt(max) / fmax(depth, 1e-9) : scale * sqrt(max);
 }
 
-static const double CHORD = 4.93; // distance between an arc and its chord, in units of radius / segments²
+static const double CHORD = 4.93; // maximum distance between an arc and its chord, in units of radius / segments²
 
 static bool is_ball(const Scene *scene, const SceneInstance *instance) {
     const SceneModel *model = &scene->models[instance->model];
     return model->kind == KIND_SPHERE && !model->flat && model->snap == 0.5 && instance->material->textures == 0;
 }
 
-// Returns the number of segments of a sphere of this size: as few as keep every point within a twentieth of a pixel.
-// Shiny surfaces need more.
+// Returns the smallest number of segments that keeps every point of a sphere of this size within a twentieth of a
+// pixel. Shiny surfaces need more.
 static uint32_t segments_of(const Scene *scene, const SceneInstance *instance, double pixels) {
     double roughness = instance->material->surface.roughness, max = 0.05 * roughness * roughness;
     bool ball = is_ball(scene, instance);
@@ -156,7 +157,7 @@ typedef struct Sight {
     const Matrix *view;
     const Matrix *projection;
     Matrix both;
-    double scale; // pixels of an edge of length 1 at a distance of 1
+    double scale; // length in pixels of an edge of length 1 at a distance of 1
 } Sight;
 
 // Fills all fields but `rank` and `last`. Returns false if the instance is not visible.
@@ -179,9 +180,9 @@ static bool measure_instance(const Scene *scene, const SceneGroup *group, const 
     return true;
 }
 
-// Decides which spheres are drawn as discs; all discs of a model are drawn at once. If other depth was written, a few
-// spheres are better drawn as triangles, because then each sample of a pixel is compared. Returns true if any draw so
-// far writes depth.
+// Decides which spheres are drawn as discs. If draws so far write depth, a small number of spheres is drawn as
+// triangles instead, because triangles are depth-tested for each sample of a pixel. Returns true if any draw so far
+// writes depth.
 static bool choose_discs(const Scene *scene, const SceneGroup *group, Sorted *sorted, uint32_t count, bool deep) {
     enum { MANY = 50 };
     uint32_t discs = 0;

@@ -24,7 +24,7 @@ typedef struct SceneDraw {
     bool deep;        // for discs: earlier draws have written depth
     uint32_t first;
     uint32_t count;
-    uint32_t segments; // segments of the model; fewer than it has where that looks the same
+    uint32_t segments; // number of segments to draw; fewer than the model has if that looks the same
 } SceneDraw;
 
 typedef struct DrawOrder {
@@ -37,7 +37,7 @@ typedef struct DrawOrder {
     bool cut; // true if instances were left out because there are too many triangles
 } DrawOrder;
 
-// Determines the draws of all groups in a picture of this width. `boxes` has an entry for each model.
+// Determines the draws of all groups for a picture of this width in pixels. `boxes` has an entry for each model.
 DrawOrder draw_order(const Scene *scene, const Eye *eye, const Matrix *view, const Matrix *projection, int width,
                      const SceneBox *boxes);
 

@@ -1,5 +1,5 @@
-// effect.c: runs effects; see effect.h. An effect is a file in shaders/: the declarations that its passes share, then a
-// `main` for each pass, after a line with the size of the pass.
+// effect.c: runs effects; see effect.h. The source of an effect is a file in shaders/. It contains the declarations
+// that all passes share, then for each pass a line with the size of the pass and a function `main`.
 #include "gl/effect.h"
 
 #include "gl/input_composite.h"
@@ -67,7 +67,7 @@ static uint32_t split_passes(const char *text, Str *common, Pass passes[MAX_PASS
 
 void gl_report(DiagSink *faults, const DrawNode *node, const char *code, Str problem) {
     Text text = text_new(faults->arena);
-    size_t line = 0; // only the first line is reported; the others usually follow from it
+    size_t line = 0; // only the first line is reported; later errors usually result from the first
     while (line < problem.len && problem.bytes[line] != '\n')
         line++;
     text_add_format(&text, "!%s: %.*s", schema_kinds[node->kind].name, (int)line, problem.bytes);
@@ -110,7 +110,7 @@ bool gl_run_passes(Gl *gl, const GlEffect *effect, const GlPass *passes, uint32_
     return good;
 }
 
-// Adds functions that read the picture to change: the result of merging, or else the only input.
+// Adds functions that read the picture to process: the composited inputs if `merged`, else the only input.
 static void add_source(Text *text, const GlEffect *effect, bool merged, bool reduced) {
     const char *name = merged ? "first" : "texture0";
     bool same = merged || (effect->count > 0 && gl_fits(effect, effect->inputs[0])), near = same && !reduced;

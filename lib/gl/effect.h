@@ -25,7 +25,8 @@ typedef struct GlEffect {
     const GlFrame *frame;
 } GlEffect;
 
-// Runs the shader of a node. The caller owns the picture. Its texture is 0, after a report, if that failed.
+// Runs the shader of a node. Returns its picture, which the caller owns. On failure, reports the problem and returns an
+// image with texture 0.
 GlImage gl_effect(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults);
 
 #endif

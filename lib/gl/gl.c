@@ -2,7 +2,7 @@
 #include "base/heap.h"
 #include "gl/internal.h"
 
-// Samplers have low precision by default, and then return 16-bit floats.
+// The default precision of samplers is low; they would return 16-bit floats.
 const char gl_header[] = "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n";
 
 static void read_limits(Gl *gl) {

@@ -1,8 +1,8 @@
-// gl.h: OpenGL ES 3, in a separate context or in that of a window: pictures on the GPU and shader programs.
+// gl.h: OpenGL ES 3 in a separate context or in a window's context: pictures on the GPU, and shader programs.
 //
 // A Gl belongs to one painter. Between gl_enter and gl_leave its context is current in the calling thread and the other
-// functions may be called. Other threads wait in gl_enter meanwhile. Files that need more include <epoxy/gl.h> and call
-// OpenGL directly. Machines without a GPU use Mesa's llvmpipe. Shaders are also valid in WebGL 2.
+// functions may be called. Other threads wait in gl_enter meanwhile. Files that need other functions include
+// <epoxy/gl.h> and call OpenGL directly. Machines without a GPU use Mesa's llvmpipe. Shaders are also valid in WebGL 2.
 #ifndef PETRI_GL_GL_H
 #define PETRI_GL_GL_H
 
@@ -13,16 +13,16 @@
 
 typedef struct Gl Gl;
 
-// Returns NULL, with the reason, if OpenGL ES 3 is not available; without a reason if out of memory.
+// Returns NULL if OpenGL ES 3 is not available, with the reason in *problem. If out of memory, *problem is NULL.
 Gl *gl_open(const char **problem);
-// Like gl_open, but adopts the context that is current in this thread. The host keeps it, and makes it current whenever
-// the Gl is used.
+// Like gl_open, but adopts the context that is current in this thread. The host owns the context, and must make it
+// current whenever the Gl is used.
 Gl *gl_adopt(const char **problem);
-// Charges the GPU memory of pictures and scenes to this budget from now on. The budget must outlive the Gl. If it
-// refuses memory, allocations fail as if the GPU were out of memory, and `memory_refused` is set.
+// Charges the GPU memory of pictures and scenes to this budget from now on. The budget must outlive the Gl. If the
+// budget refuses memory, allocations fail as if the GPU were out of memory, and `memory_refused` is set.
 void gl_charge(Gl *gl, Budget *budget);
 void gl_close(Gl *gl); // NULL is ignored; not between gl_enter and gl_leave
-// Returns false, with the reason, if the context was lost.
+// Returns false, with the reason in *problem, if the context was lost.
 bool gl_enter(Gl *gl, const char **problem);
 void gl_leave(Gl *gl);
 
@@ -37,11 +37,11 @@ typedef struct GlImage {
     GlFormat format;
 } GlImage;
 
-// Returns the format for this number of bits per channel; one of 8 bits if the GPU cannot render to more.
+// Returns the format for this number of bits per channel, or an 8-bit format if the GPU cannot render to more bits.
 GlFormat gl_format(const Gl *gl, int bits);
 int gl_max_size(const Gl *gl); // maximum width and height of a picture
-// Returns an image with undefined content. Freed images are reused for others of the same size and format, so steady
-// frames create none. Its texture is 0 if the GPU is out of memory.
+// Returns an image with undefined content. Freed images are reused for others of the same size and format, so no images
+// are created while all frames need the same sizes. The texture is 0 if the GPU is out of memory.
 GlImage gl_image_new(Gl *gl, int width, int height, GlFormat format);
 void gl_image_free(Gl *gl, GlImage image);
 // Upload rows from the top: ARGB32 of an sRGB picture, or r, g, b, a in linear light.
@@ -61,22 +61,23 @@ typedef struct GlShaderError {
     bool in_vertex; // true: in the vertex shader; false: in the fragment shader or in linking
 } GlShaderError;
 
-// Returns the program of two shaders. Programs are cached by their texts, also those that do not compile. Returns 0,
-// with the error in the arena, if the program does not compile. Texts must begin with the version line.
+// Returns the program linked from two shaders. Programs are cached by their source, including those that do not
+// compile. Returns 0, with the error in the arena, if the program does not compile. Shader sources must begin with the
+// version line.
 unsigned gl_program(Gl *gl, Arena *arena, Str vertex, Str fragment, GlShaderError *fault);
 extern const char gl_header[]; // version and precision lines, which replace ${HEADER}
-extern const char gl_quad[];   // vertex shader of a strip that covers the target: out vec2 coord, 0 to 1, v up
+extern const char gl_quad[]; // vertex shader for a triangle strip that covers the target: out vec2 coord, 0 to 1, v up
 // Draws over the whole target with a program whose vertex shader is gl_quad or has the same inputs.
 void gl_draw_quad(Gl *gl, unsigned program);
 
 // The following functions draw on the window of an adopted context. Boxes are in pixels from the window's bottom left.
-// They return false if the GPU is out of memory. The arena is for temporaries.
+// They return false if the GPU is out of memory. Temporary data is allocated from the arena.
 typedef struct GlBox {
     double x, y, width, height;
 } GlBox;
 // Draws a picture into a box of the window, whose size is width x height, with black around it. Colours are encoded
-// with the table: thresholds[b] is the linear value from which the byte is larger than b. If `opaque`, the picture is
-// composited over black. Otherwise colours are encoded without their alpha and then multiplied by it.
+// with a table: thresholds[b] is the smallest linear value that is encoded as a byte larger than b. If `opaque`, the
+// picture is composited over black. Otherwise colours are unpremultiplied, encoded and premultiplied again.
 bool gl_present_image(Gl *gl, Arena *arena, GlImage image, const GlBox *box, int width, int height,
                       const float thresholds[256], bool opaque);
 // Draws premultiplied ARGB32 pixels, rows from the top. If `over`, composites them over the window; otherwise replaces

@@ -112,7 +112,7 @@ const SceneShape *gpu_cache_shape(GpuCache *store, const Scene *scene, const Sce
             model_entry->used = store->now;
             if (model_entry->shape.array || model_entry->model.kind != KIND_MODEL)
                 return &model_entry->shape;
-            break; // create it again, to report its problem in each scene
+            break; // create it again, so that its problem is reported in each scene
         }
     ArenaMark mark = arena_mark(scene->arena);
     Mesh mesh;
@@ -120,7 +120,7 @@ const SceneShape *gpu_cache_shape(GpuCache *store, const Scene *scene, const Sce
     if (!model_entry)
         arena_exhausted(scene->arena);
     *model_entry = (CachedModel){.next = store->models, .model = *model, .used = store->now};
-    store->models = model_entry; // from now on it is freed with the cache
+    store->models = model_entry; // from now on, the cache owns the entry
     evict_old_models(store);
     if (scene_mesh(scene, model, scene->arena, &mesh)) {
         upload_mesh(&model_entry->shape, &mesh);

@@ -1,4 +1,4 @@
-// gpu_cache.h: GPU resources that are kept from scene to scene: triangles of models, buffers, targets.
+// gpu_cache.h: GPU resources that are kept between scenes: triangles of models, buffers and render targets.
 #ifndef PETRI_GL_GPU_CACHE_H
 #define PETRI_GL_GPU_CACHE_H
 
@@ -16,7 +16,7 @@ typedef struct SceneShape {
 // A depth buffer and, with multisampling, a colour buffer.
 typedef struct SceneTarget {
     GLuint framebuffer;
-    GLuint color; // 0: not multisampled, draws to the picture itself
+    GLuint color; // 0: not multisampled; draws directly to the picture
     GLuint depth;
     int width;
     int height;

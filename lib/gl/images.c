@@ -38,7 +38,7 @@ static void drop_oldest(Gl *gl) {
     memmove(gl->spare, gl->spare + 1, (size_t)--gl->spare_count * sizeof *gl->spare);
 }
 
-// Spare images are not charged, but are freed if they exceed the memory that is left.
+// Frees spare images while their size exceeds the remaining memory. Spare images are not charged.
 static void free_spare(Gl *gl) {
     size_t spare = 0;
     for (int i = 0; i < gl->spare_count; i++)

@@ -56,7 +56,7 @@ static void add_sampling(Text *out, const DrawNode *node, GlEdge edge) {
                     : edge == GL_EDGE_REPEAT ? repeat_sampling
                                              : clamped_sampling);
     text_add_c(out, nearest                 ? nearest_sampling
-                    : edge == GL_EDGE_CLAMP ? filtered_sampling // the sampler does the same
+                    : edge == GL_EDGE_CLAMP ? filtered_sampling // the GPU sampler clamps
                                             : smooth_sampling);
 }
 

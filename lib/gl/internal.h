@@ -48,13 +48,13 @@ void gl_context_close(Gl *gl);
 bool gl_context_has(const Gl *gl, const char *extension);
 // Returns true if the name of the renderer contains this string.
 bool gl_context_is(const Gl *gl, const char *renderer);
-// Must be called after drawing, before the target changes or the context is released. context.c keeps a fence.
+// Must be called after drawing, before the target changes or the context is released. In context.c, it creates a fence.
 void gl_after_draw(Gl *gl);
 
 void gl_images_close(Gl *gl);
 // Returns the bytes of a pixel.
 size_t gl_pixel_size(GlFormat format);
-// Returns true if the budget has refused memory, which its owner reports.
+// Returns true if the budget has refused memory. The owner of the budget reports this.
 static inline bool gl_is_refused(const Gl *gl) {
     return gl->budget && gl->budget->memory_refused;
 }

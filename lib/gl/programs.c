@@ -1,4 +1,4 @@
-// programs.c: compiles shader programs and caches them by their texts.
+// programs.c: compiles shader programs and caches them by their source.
 #include "base/heap.h"
 #include "gl/internal.h"
 
@@ -89,7 +89,7 @@ static GlProgram *find_program(Gl *gl, Str vertex, Str fragment) {
 }
 
 unsigned gl_program(Gl *gl, Arena *arena, Str vertex, Str fragment, GlShaderError *fault) {
-    enum { MAX_PROGRAMS = 200 }; // limited because a script may create a new text in each frame
+    enum { MAX_PROGRAMS = 200 }; // limited because a script may create a new shader in each frame
     GlProgram *program = find_program(gl, vertex, fragment);
     if (!program) {
         int count = 0;

@@ -10,7 +10,7 @@
 
 enum { SCENE_TEXTURES = 6, SCENE_MAX_INSTANCES = 200000, SCENE_MAX_MODELS = 2000, SCENE_MAX_LIGHTS = 4000 };
 
-// A light as four vectors, as the shader reads it. LIGHT_BALL is a point light with a radius.
+// A light, stored as the four vectors that the shader reads. LIGHT_BALL is a point light with a radius.
 typedef enum LightKind {
     LIGHT_AMBIENT,
     LIGHT_DIRECTIONAL,
@@ -23,14 +23,14 @@ typedef enum LightKind {
 typedef struct SceneLight {
     float color[3];
     float kind;
-    float position[3]; // of a line: its start
-    float radius;      // of a spot: cosine of the outer half angle
+    float position[3]; // for a line light: its start
+    float radius;      // for a spot light: cosine of the outer half angle
     float direction[3];
-    float length; // of a line; for a spot: cosine of the inner half angle
+    float length; // of a line light; for a spot light: cosine of the inner half angle
     float falloff[4];
 } SceneLight;
 
-// The properties from which the triangles of an instance are created.
+// The properties that determine the triangles of a model.
 typedef struct SceneModel {
     uint64_t source; // hash of the file's name and version, or of the vectors; 0: none
     double snap;
@@ -40,13 +40,13 @@ typedef struct SceneModel {
     uint8_t remap;
     bool flat;
     bool invert;
-    bool disc;            // of a sphere: draws only its outline, seen from the camera (sphere_impostor.h)
+    bool disc;            // for a sphere: drawn as a disc that faces the camera (sphere_impostor.h)
     const DrawNode *node; // a node with this model
 } SceneModel;
 
 // Texture maps of a surface, and how they are sampled.
 typedef struct SceneTextures {
-    Str ids[SCENE_TEXTURES]; // of colour, metal, roughness, ao, emissive, transparency; empty: none
+    Str ids[SCENE_TEXTURES]; // ids of pictures: colour, metal, roughness, ao, emissive, transparency; empty: none
     bool border;
     bool repeat[2];
     float border_color[4];
@@ -107,7 +107,7 @@ typedef struct Scene {
     SceneGroup **groups; // in drawing order
     uint32_t group_count;
     uint32_t group_capacity;
-    SceneCamera *cameras; // the first one is the scene's own
+    SceneCamera *cameras; // the first camera is that of the `!canvas3d` itself
     uint32_t camera_count;
     uint32_t camera_capacity;
     SceneModel *models;
@@ -118,9 +118,9 @@ typedef struct Scene {
     uint32_t texture_capacity;
     uint32_t instance_count;
     uint32_t light_count;
-    uint32_t shown; // index of the camera whose picture is that of the node
+    uint32_t shown; // index of the camera that renders the node's picture
     double width;   // width of the node in pixels
-    double detail;  // pixels per unit; below 1 edges are not multisampled
+    double detail;  // pixels per unit; if below 1, edges are not multisampled
     int bits;       // bits per channel of the window
 } Scene;
 
@@ -141,13 +141,14 @@ uint32_t scene_lights(const SceneGroup *group, SceneLight *lights, uint32_t max)
 // Reports a problem of a node.
 void scene_report(const Scene *scene, const char *code, const DrawNode *node, const char *problem);
 
-// The source of texture maps: `find` returns the current picture of an id; texture 0: none.
+// The source of texture maps: `find` returns the current picture with this id; texture 0: none.
 typedef struct ScenePictures {
     void *user_data;
     GlImage (*find)(void *user_data, Str id);
 } ScenePictures;
 
-// Renders a camera's view. The caller owns the picture. Its texture is 0, after a report, if that failed.
+// Renders a camera's view and returns the picture, which the caller owns. On failure, reports the problem and returns
+// an image with texture 0.
 GlImage gl_scene(Gl *gl, const Scene *scene, const SceneCamera *camera, const ScenePictures *pictures);
 
 #endif

@@ -6,9 +6,9 @@
 #include <math.h>
 #include <string.h>
 
-enum { BLOCK_LIGHTS = 255 }; // fit into the minimum size of a uniform block
+enum { BLOCK_LIGHTS = 255 }; // number of lights that fit into the guaranteed size of a uniform block
 
-// The rendering of a camera's view.
+// The state of rendering a camera's view.
 typedef struct Drawing {
     Gl *gl;
     GpuCache *store;
@@ -20,10 +20,10 @@ typedef struct Drawing {
     Matrix projection;
     DrawOrder order;
     SceneTarget *target;         // buffers of the picture
-    GlImage backs;               // light that enters translucent bodies of the current group at their backs
+    GlImage backs;               // light that enters through back faces of translucent bodies of the current group
     bool many;                   // true if the group's lights are in a texture, false if in a uniform block
     double ambient[3];           // sum of the group's ambient lights
-    GLint ends[LIGHT_KINDS - 1]; // index after the lights of each other kind
+    GLint ends[LIGHT_KINDS - 1]; // by non-ambient kind: index after its last light
 } Drawing;
 
 static void make_record(const SceneInstance *instance, SceneRecord *record) {
@@ -119,7 +119,7 @@ static void send_light_texture(const Drawing *drawing, const SceneLight *lights,
     glActiveTexture(GL_TEXTURE0);
 }
 
-// Adds up the ambient lights and sorts the others by kind. Returns the number of the others.
+// Sums the ambient lights and sorts the other lights by kind. Returns the number of other lights.
 static uint32_t sort_lights(Drawing *drawing, const SceneLight *all, uint32_t count, SceneLight *sorted) {
     uint32_t made = 0;
     memset(drawing->ambient, 0, sizeof drawing->ambient);
@@ -276,8 +276,8 @@ static void draw_shape(const Drawing *drawing, const SceneDraw *draw, GLuint pro
     glDrawElementsInstanced(GL_TRIANGLES, shape->index_count, GL_UNSIGNED_INT, NULL, (GLsizei)draw->count);
 }
 
-// Renders the backs of translucent bodies in the group that starts with this draw (spec 5.6): the light that enters
-// there, and its distance. Returns false if that is not possible.
+// Renders the back faces of translucent bodies in the group that starts with this draw (spec 5.6): the light that
+// enters through them, and their distance. Returns false on failure.
 static bool draw_backs(Drawing *drawing, uint32_t first) {
     const DrawOrder *order = &drawing->order;
     GlFormat format = drawing->gl->floats ? GL_FORMAT_RGBA32F : GL_FORMAT_RGBA16F;

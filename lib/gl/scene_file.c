@@ -13,7 +13,7 @@
 bool mesh_from_lists(Arena *arena, const double *vertices, uint32_t vertex_numbers, const double *faces,
                      uint32_t face_numbers, const double *uv, uint32_t uv_numbers, Mesh *mesh, const char **problem) {
     uint32_t count = vertex_numbers / 3;
-    *problem = "vertices and faces are three numbers each, uv is two for each vertex";
+    *problem = "vertices and faces need three numbers each, and uv two per vertex";
     if (vertex_numbers % 3 || face_numbers % 3 || count == 0 || face_numbers == 0 ||
         (uv_numbers && uv_numbers != 2 * count))
         return false;

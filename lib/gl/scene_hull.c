@@ -18,7 +18,7 @@ typedef struct Hull {
     Face *faces;
     uint32_t count;
     uint32_t capacity;
-    double thick; // points nearer to a plane count as being in it
+    double thick; // points nearer to a plane than this are treated as points of the plane
 } Hull;
 
 static double plane_distance(const Face *face, const double point[3]) {
@@ -36,7 +36,7 @@ static void add_face(Hull *hull, uint32_t a, uint32_t b, uint32_t c) {
     face->offset = vector_dot(face->normal, p);
 }
 
-// Returns the distance of a point from the first `count` points: from a point, a line or a plane.
+// Returns the distance of p from the point, line or plane through the first `count` points (1 to 3).
 static double distance_from(const Hull *hull, const uint32_t *first, int count, const double p[3]) {
     const double *a = hull->points[first[0]];
     double d[3] = {p[0] - a[0], p[1] - a[1], p[2] - a[2]}, axis[3], across[3];

@@ -83,7 +83,7 @@ static Matrix scaling(const double v[3]) {
 // Returns a rotation about an axis: 0 x, 1 y, 2 z.
 static Matrix rotation_about(int axis, double turns) {
     Matrix out = matrix_identity;
-    double part = turns - floor(turns); // multiples of a quarter are exact
+    double part = turns - floor(turns); // quarter turns are exact
     double cosine = part == 0.25 || part == 0.75 ? 0 : maths_cos(TURN * part);
     double sine = part == 0.5 ? 0 : maths_sin(TURN * part);
     int a = (axis + 1) % 3, b = (axis + 2) % 3;
@@ -166,7 +166,7 @@ static bool place_along(Matrix *a, const DrawNode *node, const double end[3]) {
     double length = sqrt(vector_dot(axis, axis));
     if (!(radius > 0) || !vector_normalise(axis))
         return false;
-    // The shortest rotation from z to the axis: the quaternion halfway between them.
+    // The shortest rotation from z to the axis, computed from the half-way quaternion.
     Matrix turn = axis[2] < -0.9999999999 ? rotation_about(1, 0.5) : matrix_identity;
     if (axis[2] >= -0.9999999999) {
         double q[4] = {1 + axis[2], -axis[1], axis[0], 0}, size = sqrt(2 * q[0]);

@@ -16,7 +16,7 @@ bool matrix_is_finite(const Matrix *a);
 void matrix_point(const Matrix *a, const double p[3], double out[3]);
 // Computes the cofactors of the upper 3 x 3, column-major. They transform normals and directions.
 void matrix_cofactors(const Matrix *a, double out[9]);
-void matrix_direction(const Matrix *a, const double d[3], double out[3]); // length 1, or 0;0;0
+void matrix_direction(const Matrix *a, const double d[3], double out[3]); // the result has length 1, or is 0;0;0
 
 // Returns a times the node's transform attributes, in the order written.
 Matrix matrix_transformed(Matrix a, const DrawNode *node);

@@ -30,7 +30,7 @@ static void add_triangle(Mesh *mesh, uint32_t a, uint32_t b, uint32_t c) {
 }
 
 Mesh mesh_box(Arena *arena, bool repeat) {
-    // For each face, the corners at (0, 0), (1, 0) and (0, 1) of its texture, in half sides.
+    // For each face, the corners at texture coordinates (0, 0), (1, 0) and (0, 1), in units of half an edge.
     static const int corners[6][3][3] = {
         {{1, -1, 1}, {1, -1, -1}, {1, 1, 1}},  {{-1, -1, -1}, {-1, -1, 1}, {-1, 1, -1}},
         {{-1, 1, 1}, {1, 1, 1}, {-1, 1, -1}},  {{-1, -1, -1}, {1, -1, -1}, {-1, -1, 1}},
@@ -67,7 +67,7 @@ static void add_octant(Mesh *mesh, uint32_t n, uint32_t side, int half) {
                                i ? maths_sin(TURN * latitude) : half};
             add_vertex(mesh, place, place, longitude, 2 * latitude + 0.5);
         }
-    // Row i starts after 1 + 2 + … + i vertices. Columns run counter-clockwise when seen from the north.
+    // Row i starts after 1 + 2 + … + i vertices. Columns are in counter-clockwise order when seen from the north pole.
     for (uint32_t i = 1; i <= n; i++)
         for (uint32_t j = 1; j <= i; j++) {
             uint32_t a = start + i * (i + 1) / 2 + j, b = start + (i - 1) * i / 2 + j - 1;
@@ -88,7 +88,7 @@ Mesh mesh_sphere(Arena *arena, uint32_t segments) {
 }
 
 // Fills the area between an arc of corners and its chord with triangles that are as large as possible, so that few
-// pixels are in more than one.
+// pixels are covered by more than one triangle.
 static void add_arc(Mesh *mesh, uint32_t from, uint32_t to, uint32_t n) {
     uint32_t middle = (from + to) / 2;
     if (to - from < 2)
@@ -110,7 +110,7 @@ Mesh mesh_disc(Arena *arena, uint32_t segments) {
     return mesh;
 }
 
-// Adds a point of the rim. `slope` of the normal: 0 for a cylinder, 1 for a cone.
+// Adds a vertex of the rim. `slope` is the slope of its normal: 0 for a cylinder, 1 for a cone.
 static uint32_t add_rim(Mesh *mesh, double turns, double z, double slope, double v) {
     double cosine = maths_cos(TURN * turns), sine = maths_sin(TURN * turns), part = slope != 0 ? 0.7071067811865476 : 1;
     return add_vertex(mesh, (double[3]){cosine, sine, z}, (double[3]){part * cosine, part * sine, part * slope}, turns,

@@ -13,7 +13,7 @@ typedef struct MeshVertex {
     float uv[2];
 } MeshVertex;
 
-// Triangles. The arrays are in the arena that was passed to the function that created them.
+// A triangle mesh. Its arrays are in the arena that was passed to the function that created the mesh.
 typedef struct Mesh Mesh;
 struct Mesh {
     MeshVertex *vertices;

@@ -1,4 +1,4 @@
-// shader.h: shaders written by scripts (spec pictures.md 8), and the functions that effects share with them.
+// shader.h: custom shaders of scripts (spec pictures.md 8), and the functions that they share with effects.
 #ifndef PETRI_GL_SHADER_H
 #define PETRI_GL_SHADER_H
 

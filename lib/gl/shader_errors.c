@@ -4,7 +4,7 @@
 #include <ctype.h>
 #include <string.h>
 
-// A compiler's message. The line of the text counts from 1; 0: unknown.
+// A compiler's message. `line` is the line number in the shader source, from 1; 0: unknown.
 typedef struct CompilerMessage {
     uint32_t line;
     Str text;
@@ -26,21 +26,21 @@ static bool skip_char(Str *text, char c) {
     return true;
 }
 
-// Drivers write `0:5(22): error: …`, `ERROR: 0:5: …` or `0(5) : error …`. Only the first line is used, because the
-// others usually follow from it.
+// Drivers write `0:5(22): error: …`, `ERROR: 0:5: …` or `0(5) : error …`. Only the first line is used, because later
+// errors usually result from the first.
 static CompilerMessage read_message(Str problem) {
     const char *end = memchr(problem.bytes, '\n', problem.len);
     Str all = str_trim((Str){problem.bytes, end ? (size_t)(end - problem.bytes) : problem.len}), rest = all;
     CompilerMessage message = {.text = all};
     while (rest.len > 0 && !isdigit((unsigned char)*rest.bytes))
         rest.bytes++, rest.len--;
-    read_number(&rest); // number of the text
+    read_number(&rest); // index of the source string
     bool colon = skip_char(&rest, ':');
     if (!colon && !skip_char(&rest, '('))
         return message;
     message.line = read_number(&rest);
     if (colon && skip_char(&rest, '('))
-        read_number(&rest); // the column, which Mesa counts after its preprocessor
+        read_number(&rest); // the column, which Mesa counts in preprocessed source
     while (rest.len > 0 && (*rest.bytes == ')' || *rest.bytes == ':' || *rest.bytes == ' '))
         rest.bytes++, rest.len--;
     if (str_starts_with(rest, STR("error: ")))
@@ -53,8 +53,8 @@ static bool is_letter(char c) {
     return isalnum((unsigned char)c) || c == '_';
 }
 
-// Returns the offset of the first occurrence of a string in another one at or after `from`. If it is a word, only whole
-// words match. UINT32_MAX: not found.
+// Returns the offset of the first occurrence of `text` in `in` at or after `from`; UINT32_MAX: not found. If `text` is
+// a word, only whole words match.
 static uint32_t find_text(Str in, Str text, size_t from) {
     for (size_t i = from; text.len > 0 && i + text.len <= in.len; i++) {
         size_t end = i + text.len;
@@ -66,7 +66,7 @@ static uint32_t find_text(Str in, Str text, size_t from) {
     return UINT32_MAX;
 }
 
-// Returns the text that a compiler has put in quotes: `blue' or 'blue'.
+// Returns the first quoted part of a compiler message: `blue' or 'blue'.
 static Str find_quoted(Str text) {
     for (size_t i = 0; i + 2 < text.len; i++) {
         const char *end =
@@ -77,7 +77,7 @@ static Str find_quoted(Str text) {
     return (Str){0};
 }
 
-// Returns the span of the error in a text that starts at `start`: the quoted word, or the whole line.
+// Returns the span of the error in a shader that starts at `start`: the quoted word, or the whole line.
 static Span span_of(Str source, uint32_t start, const CompilerMessage *message) {
     size_t at = start;
     for (uint32_t line = 1; line < message->line && at < source.len; at++)

@@ -5,9 +5,9 @@
 #include "canvas/drawing.h"
 #include "gl/gl.h"
 
-// Reports a compiler's message about a node's shader. If the shader text is written literally in the script, the
-// position is its line and column there. Otherwise it is the attribute, and the message has the line in the file or
-// text.
+// Reports a compiler's message about a node's shader. If the shader is a string literal in the script, the reported
+// position is that of the error within the literal. Otherwise the position is that of the attribute, and the message
+// contains the line number in the shader.
 void gl_report_shader_error(DiagSink *faults, const DrawNode *node, const GlShaderError *fault);
 
 #endif

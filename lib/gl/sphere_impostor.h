@@ -2,8 +2,8 @@
 //
 // Seen from a camera, a sphere is the disc within its outline. The fragment shader intersects the ray through each
 // point of the disc with the sphere, which gives position and normal. A disc of 64 corners has 62 triangles, a sphere
-// 2048, most of which are smaller than the blocks of pixels that GPUs shade. If there is other depth to compare with,
-// the shader also writes the sphere's depth, once for all samples of a pixel.
+// 2048, most of which are smaller than the blocks of pixels that GPUs shade. If earlier draws have written depth, the
+// shader also writes the sphere's depth, once for all samples of a pixel.
 #ifndef PETRI_GL_SPHERE_IMPOSTOR_H
 #define PETRI_GL_SPHERE_IMPOSTOR_H
 
@@ -16,8 +16,8 @@ typedef struct SphereImpostor {
     double near;   // radius / distance from the camera; 0 without perspective
 } SphereImpostor;
 
-// Computes the disc of a unit sphere with this transform. Returns false if the result is not a sphere, or is too near
-// or too far to be seen whole.
+// Computes the disc of a unit sphere with this transform. Returns false if the result is not a sphere, is clipped by
+// the near or far plane, or almost touches the camera.
 bool sphere_impostor(const Eye *eye, const Matrix *view, const Matrix *place, SphereImpostor *disc);
 
 #endif

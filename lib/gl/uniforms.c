@@ -156,13 +156,13 @@ static void find_numbers(const GlState *state, const char *name, Numbers *out) {
         scale_lengths(effect, name, out);
     } else {
         set_scalar(out, 0);
-        for (uint32_t i = effect->frame->name_count; i-- > 0;) // the first of several equal names counts
+        for (uint32_t i = effect->frame->name_count; i-- > 0;) // if names are equal, the first takes precedence
             if (strcmp(effect->frame->names[i], name) == 0)
                 set_scalar(out, effect->frame->numbers[i]);
     }
 }
 
-// Returns how many numbers a type has; 0: not supported. *is_integer: values are rounded down.
+// Returns the number of components of a type; 0: not supported. *is_integer is true if values are rounded down.
 static uint32_t size_of(GLenum type, bool *is_integer) {
     static const struct {
         GLenum type;
@@ -201,7 +201,7 @@ static void send_uniform(GLint at, GLenum type, uint32_t size, GLsizei count, bo
 }
 
 // Sets a uniform. Lists of matching length are used as they are. One number fills all elements, and a vector fills each
-// element of an array. Other lists count as 0.
+// element of an array. Other lists are treated as 0.
 static void set_numbers(GLint at, GLenum type, GLsizei count, const Numbers *numbers) {
     enum { MAX_NUMBERS = 256 };
     bool is_integer;
@@ -246,7 +246,7 @@ void gl_set_uniforms(const Gl *gl, unsigned program, const GlState *state) {
         Numbers numbers = {.list = NULL};
         glGetActiveUniform(program, (GLuint)i, sizeof name, NULL, &size, &type, name);
         GLint at = glGetUniformLocation(program, name);
-        name[strcspn(name, "[")] = 0; // of the elements of arrays
+        name[strcspn(name, "[")] = 0; // removes the index of array elements
         if (type == GL_SAMPLER_2D) {
             set_picture(gl, at, state, name, unit++);
         } else {

@@ -4,7 +4,7 @@
 
 static const uint32_t ONE = 1;
 
-// Creates a texture that contains the table.
+// Creates the texture of the encoding table on the first call.
 static void init_curve(Gl *gl, const float thresholds[256]) {
     if (gl->curve)
         return;
@@ -53,7 +53,7 @@ bool gl_present_pixels(Gl *gl, Arena *arena, const uint32_t *pixels, int x, int 
     Budget *budget = gl->budget;
     gl->budget = NULL; // the window's pixels are not charged to the script
     GlImage image = gl_image_new(gl, width, height, GL_FORMAT_RGBA8);
-    gl_image_free(gl, image); // for reuse, but not before this function returns
+    gl_image_free(gl, image); // makes it available for reuse after this function returns
     gl->budget = budget;
     if (!image.texture)
         return false;

@@ -38,7 +38,7 @@ static const Row rows[] = {
      "        !model vertices=1;2 faces=0;1;2 color=1\n",
      "5 [bad-model] !model: faces refers to a vertex that does not exist\n"
      "6 [bad-model] !model: vertices without faces must be at most 2000, and not all in one plane\n"
-     "7 [bad-model] !model: vertices and faces are three numbers each, uv is two for each vertex\n"},
+     "7 [bad-model] !model: vertices and faces need three numbers each, and uv two per vertex\n"},
     {"missing textures", "        !box position=-1.5;0;0 color=0;1;0 color_id=:none emissive_id=''\n", ""},
     {"textures that refer to each other",
      "        !camera id=:a secondary=true size=32;32\n        !camera id=:b secondary=true size=32;32\n"

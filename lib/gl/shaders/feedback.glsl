@@ -1,7 +1,7 @@
 // feedback.glsl (spec pictures.md 7.6)
 uniform float timebase, mixer, glow, rotate, beats;
 uniform vec2 translate, scale;
-uniform bool past; // there is a previous frame
+uniform bool past; // true if there is a previous frame
 
 //: full
 void main() {

@@ -57,7 +57,7 @@ vec3 point() {
 void main() {
     vec3 p = (point() + vec3(origin, z) + merged_here().rgb * tscale) * scale;
     float h = seed;
-    vec4 made = other; // WebGL does not allow variable indices of an `out`
+    vec4 made = other; // WebGL does not allow dynamic indexing of an `out` variable
     for (int j = 0; j < 4 && float(j) < components; j++) {
         float sum = 0.0, total = 0.0, k = 1.0;
         for (float i = 0.0; i < octaves; i++) {

@@ -13,7 +13,7 @@ in vec2 coord;
 flat in vec4 albedo_transparency, emissive_translucency, surface;
 out vec4 color;
 
-uniform vec3 eye, ahead; // position of the camera; direction from its focus to it
+uniform vec3 eye, ahead; // position of the camera; direction from the focus to the camera
 uniform bool orthographic, monochrome;
 uniform float fog_min, fog_max, fog_curve;
 uniform vec3 fog_color, tint;
@@ -36,7 +36,8 @@ vec3 entering, entering_share;
 #endif
 float alpha2, k, NV, GV;
 
-// Adds one light, or one step of it, from a direction and distance.
+// Adds the light c from direction L and distance d, scaled by b: the diffuse part if `first`, the specular part if
+// `last`.
 void shine(vec3 c, vec4 falloff, vec3 L, float d, float b, bool first, bool last) {
     float NL = clamp(dot(N, L), 0.0, 1.0);
     vec3 I = c * (b * NL / (falloff.x + d * (falloff.y + d * (falloff.z + d * falloff.w))));

@@ -1,9 +1,9 @@
-// scene_through.glsl: light that enters a translucent body at its back (spec canvas3d.md 5.6).
-uniform sampler2D backs; // light that enters, and its distance
+// scene_through.glsl: light transmitted through translucent bodies (spec canvas3d.md 5.6).
+uniform sampler2D backs; // light that enters through back faces, and their distance
 uniform mat4 view, projection;
 
-// Adds the light that comes through, and returns the remaining opacity. Light from around the back point is sampled in
-// a wider area the thicker the body is, at points of a spiral with the density of a Gaussian.
+// Adds the transmitted light, and returns the remaining opacity. The light is sampled around the back point, in an area
+// that grows with the thickness of the body, at points of a spiral with Gaussian density.
 float come_through(float translucency, float away) {
     vec4 sum = texelFetch(backs, ivec2(gl_FragCoord.xy), 0);
     if (sum.a <= away)

@@ -1,4 +1,4 @@
-// scene_vertex.glsl: transforms a corner of a model by its instance (spec canvas3d.md 1.4).
+// scene_vertex.glsl: transforms a vertex of a model by the matrix of an instance (spec canvas3d.md 1.4).
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;

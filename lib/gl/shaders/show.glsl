@@ -5,7 +5,7 @@ uniform vec4 box; // left, bottom, width, height
 uniform bool opaque;
 out vec4 color;
 float limit(int n) { return texelFetch(curve, ivec2(n, 0), 0).r; }
-// Rounds by the table, because `pow` is not exact.
+// Returns the byte that encodes c. Corrects it with the table, because `pow` is not exact.
 float byte_of(float c) {
     if (!(c > 0.0))
         return 0.0;
