@@ -12,13 +12,13 @@
 #include <stdio.h>
 #include <unistd.h>
 
-// Seconds within which signals count as one, because timeout(1) sends its signal twice.
+// Signals within this many seconds count as one signal, because timeout(1) sends its signal twice.
 static const double SAME_SIGNAL = 0.2;
 
 // Globals, because the signal handler needs them.
 static volatile sig_atomic_t interrupted; // number of the first signal; 0: none
 static PetriSession *volatile working;    // session to interrupt; NULL: none is computing a frame
-static void (*leave_ranks)(void);         // ends the MPI communication; NULL: a single process
+static void (*leave_ranks)(void);         // stops waiting for the other ranks; NULL: a single process
 
 static pthread_t main_thread;
 
@@ -114,7 +114,7 @@ static void rank_barrier(const PetriRanks *ranks) {
     }
 }
 
-// Restores the state on all ranks. Only rank 0 saves it, and only after the others have read the file.
+// Restores the state on all ranks. Only rank 0 saves the state, and only after all other ranks have read the file.
 static void restore_state(Frames *frames) {
     bool first = !frames->ranks || frames->ranks->rank == 0;
     if (first)

@@ -14,9 +14,10 @@ typedef struct Frames {
     Options *options;
     PetriSession *session;
     Progress progress;
-    int64_t done;                 // number of computed frames
-    int64_t before_first_picture; // number of these with nothing to draw yet, which --frames and --runtime do not count
-    double start;                 // seconds of the monotonic clock
+    int64_t done; // number of computed frames
+    // Number of computed frames before the first picture. --frames and --runtime do not count them.
+    int64_t before_first_picture;
+    double start; // seconds of the monotonic clock
     StateFile state;
     const PetriRanks *ranks; // MPI ranks; NULL: a single process
     bool abandoned;          // true if a signal aborted the current frame
@@ -28,20 +29,20 @@ typedef struct Frames {
 int frames_open(Frames *frames, const CommandContext *context, Options *options);
 // Loads the script. Returns false after a diagnostic.
 bool frames_load(Frames *frames);
-// Restores the state from its file, and begins to catch signals and to show progress.
+// Restores the state from its file, then starts to catch signals and to show progress.
 void frames_begin(Frames *frames);
 // Returns true if another frame must be computed.
 bool frames_due(const Frames *frames);
-// Computes one frame. Returns false, after a message, if the run must end: on failure, including an exceeded limit,
-// which the next frame would exceed as well. Also returns false if a signal aborted the frame (`abandoned`).
+// Computes one frame. Returns false if the run must end: after a message if the frame failed or exceeded a limit, or
+// without a message if a signal aborted the frame (`abandoned`).
 bool frames_step(Frames *frames);
-// Saves the state if it is due. Must be called after the frame's output is written.
+// Saves the state if the time of the next save has come. Must be called after the frame's output is written.
 void frames_save_state(Frames *frames);
-// Sets whether a signal interrupts the session.
+// Sets whether a signal interrupts the session (`begins`) or only requests the end of the run.
 void frames_set_interruptible(Frames *frames, bool begins);
 // Erases the progress line and, if the run succeeded (`going`), saves the state.
 void frames_end(Frames *frames, bool going);
-// Returns the signal that asked the run to end, or 0.
+// Returns the number of the signal that requested the end of the run, or 0.
 int frames_signal(void);
 double frames_fps(const Frames *frames);
 

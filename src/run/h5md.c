@@ -20,7 +20,7 @@ static bool is_text(const void *owner, uint32_t entry, const void *key) {
     return strcmp(((const H5md *)owner)->texts.items[entry], key) == 0;
 }
 
-// Sets *number to the negative number that represents the text of an id in the whole file. Returns false if out of
+// Sets *number to the negative number that represents the string `text` as an id in the file. Returns false if out of
 // memory.
 static bool number_text(H5md *file, const char *text, int64_t *number) {
     uint64_t hash = hash_bytes(0, text, strlen(text));
@@ -35,9 +35,10 @@ static bool number_text(H5md *file, const char *text, int64_t *number) {
     return true;
 }
 
-// Appends an id: an integer >= 0 as it is, any other value as the number of its text. Returns false if out of memory.
+// Appends an id: an integer >= 0 unchanged, any other value as the number of its string. Returns false if out of
+// memory.
 static bool add_id(H5md *file, PetriSession *session, PetriValue value) {
-    const double MAX_INTEGER = 9007199254740992; // 2^53: above it, doubles cannot represent every integer
+    const double MAX_INTEGER = 9007199254740992; // 2^53; doubles cannot represent every larger integer
     double number = value.length == 1 && value.numbers ? value.numbers[0] : -1;
     int64_t id = number >= 0 && number <= MAX_INTEGER ? (int64_t)number : -1;
     if (id < 0 || (double)id != number) {

@@ -11,9 +11,9 @@
 
 typedef struct H5md {
     Hdf5 writer;
-    TextList texts;  // ids that are not integers >= 0, as text
+    TextList texts;  // ids that are not integers >= 0, as strings
     HashIndex index; // index of `texts`
-    size_t sent;     // number of `texts` that petri-hdf5 has
+    size_t sent;     // number of `texts` that were sent to petri-hdf5
     ByteBuffer ids;  // int64_t ids of the frame's particles
 } H5md;
 
@@ -21,7 +21,7 @@ typedef struct H5md {
 bool h5md_open(H5md *file, const char *path, const Resume *resume, Output *output);
 // Adds the last frame of a session. Returns false if out of memory. Write errors are stored in `output`.
 bool h5md_add(H5md *file, PetriSession *session, Output *output);
-// Waits until all frames are on the disk. Returns false after a message of petri-hdf5.
+// Waits until all frames are on disk. Returns false after a message of petri-hdf5.
 bool h5md_sync(H5md *file, Output *output);
 // Completes the file, or discards it if `keep` is false. Returns false, after a message of petri-hdf5, on failure.
 bool h5md_close(H5md *file, bool keep, Output *output);

@@ -24,8 +24,7 @@ typedef struct Lines {
     size_t end; // offset of the line's end in the file
 } Lines;
 
-// Reads the next line. Returns false at the end of the file, and for a last line without line feed, which is
-// incomplete.
+// Reads the next line. Returns false at the end of the file and at an incomplete last line, which has no line feed.
 static bool next_line(Lines *lines) {
     ssize_t length = getline(&lines->line, &lines->capacity, lines->stream);
     if (length <= 0 || lines->line[length - 1] != '\n')
@@ -35,7 +34,7 @@ static bool next_line(Lines *lines) {
     return true;
 }
 
-// Parses an integer >= 0 that is followed by one of the characters `ends`. Returns false if there is none.
+// Parses an integer >= 0 that is followed by one of the characters in `ends`. Returns false if there is none.
 static bool read_integer(const char *text, const char *ends, int64_t *number) {
     char *end = NULL;
     errno = 0;

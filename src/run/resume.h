@@ -1,7 +1,7 @@
 // resume.h: continuing an existing trajectory file in a run that continues from a state (`--state`).
 //
-// Such a file is extended, not replaced. When a state is saved, the file on the disk has all frames up to that state.
-// A run that continues from the state truncates later frames and computes them again.
+// Such a file is extended, not replaced. Whenever a state is saved, the file contains all frames up to that state.
+// A run that continues from the state removes later frames from the file and computes them again.
 #ifndef PETRI_SRC_RESUME_H
 #define PETRI_SRC_RESUME_H
 
@@ -24,7 +24,7 @@ typedef struct ResumeFile {
 } ResumeFile;
 
 // Opens an XYZ or CSV file and truncates the frames after `after`. Returns false after a message. Does not modify a
-// file that is not a trajectory of petri.
+// file that was not written by petri.
 bool resume_open(ResumeFile *file, const char *path, bool csv, int64_t after);
 // Reports frames that are missing between the end of the file and the state.
 void resume_report_gap(const char *path, int64_t last, const Resume *resume);

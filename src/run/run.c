@@ -19,7 +19,7 @@ typedef struct Run {
     Frames frames;
     bool to_terminal;    // true if standard output is a terminal
     size_t after_signal; // bytes printed since a signal
-    bool truncated;      // true if the text of a frame was cut
+    bool truncated;      // true if the output of a frame is incomplete
     Stats stats;
     Trajectory trajectory;
     Output output;
@@ -35,7 +35,7 @@ static void report_frame(Run *run, const PetriFrame *frame, bool printed) {
 
 // Writes text to the output. On a terminal, erases the progress line first.
 static bool write_text(void *host, const char *text, size_t length) {
-    enum { MAX_AFTER_SIGNAL = 1 << 22 }; // bytes; after a signal, a longer text is cut
+    enum { MAX_AFTER_SIGNAL = 1 << 22 }; // bytes; after a signal, longer output is truncated
     Run *run = host;
     run->after_signal += frames_signal() != 0 ? length : 0;
     if (run->after_signal > MAX_AFTER_SIGNAL)
@@ -45,12 +45,12 @@ static bool write_text(void *host, const char *text, size_t length) {
     return output_write(&run->output, text, length);
 }
 
-// Records if a frame's text was cut, other than by a signal or a write error.
+// Sets `truncated` if a frame's output is incomplete for another reason than a signal or a write error.
 static void note_status(Run *run, PetriStatus status) {
     run->truncated = run->truncated || (status != PETRI_OK && run->output.error == 0 && frames_signal() == 0);
 }
 
-// Prints logs and errors only. A frame that has neither is not printed (spec cli.md 3.3).
+// Prints only logs and errors. Prints nothing for a frame that has neither (spec cli.md 3.3).
 static void print_if_any(Run *run, unsigned sections) {
     SCOPED_BYTE_BUFFER text = {0};
     note_status(run, petri_print(run->frames.session, sections, byte_buffer_collect, &text));
@@ -120,8 +120,8 @@ static void report_summary(Run *run) {
             run->stats.physics_steps, run->stats.physics_steps == 1 ? "" : "s");
 }
 
-// Opens the trajectory; called after the state was restored. If the state file is unreadable, the trajectory that
-// belongs to it is not modified either. Returns false after a message.
+// Opens the trajectory. Must be called after the state was restored. If the state file is unreadable, its trajectory is
+// not modified either. Returns false after a message.
 static bool open_trajectory(Run *run) {
     Frames *frames = &run->frames;
     const Options *options = frames->options;
@@ -170,7 +170,7 @@ static int list_parameters(Run *run) {
         message("%s has no parameters; to add one, write `let SIZE=SIZE or 20 -- 1..100 how large`",
                 script_display_name(run->frames.options->script));
     }
-    // A list cut by the memory limit is a failure.
+    // Fails if the memory limit truncated the list.
     return petri_diagnostic_count(run->frames.session, PETRI_ERROR) == errors ? STATUS_DONE : STATUS_FAILED;
 }
 
@@ -192,7 +192,7 @@ static bool is_named(const char *word, const char *name) {
     return strncmp(word, "--", 2) == 0 && strncmp(word + 2, name, length) == 0 && strchr("=", word[2 + length]);
 }
 
-// Returns true if `petri view` accepts the option. All other options request text or files.
+// Returns true if `petri view` accepts the option. The options that it does not accept request text or files.
 static bool is_view_option(const char *word) {
     for (const OptionSpec *spec = OPTIONS; spec->name; spec++)
         if (spec->commands & FOR_VIEW && is_named(word, spec->name))
@@ -223,7 +223,7 @@ static bool has_end(const Options *options) {
     return has;
 }
 
-// Ignores diagnostics, because the run or view that follows reports them.
+// Ignores diagnostics, because the later run or view reports them.
 static void ignore_diagnostic(void *context, const PetriDiagnostic *diagnostic) {
     (void)context;
     (void)diagnostic;
@@ -240,8 +240,8 @@ static bool is_drawable(const Options *options, const CommandContext *host) {
     return drawable;
 }
 
-// Replaces the process by `petri view --terminal` with the same options, for ten seconds unless they set an end.
-// Returns if the script has no picture or petri-pictures cannot be started.
+// Replaces the process with `petri view --terminal` and passes the same options. The view lasts ten seconds unless the
+// options set its duration. Returns if the script has no picture or petri-pictures cannot be started.
 static void exec_view(const Options *options, const CommandContext *host) {
     if (!is_drawable(options, host))
         return;

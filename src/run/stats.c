@@ -17,7 +17,7 @@ void stats_count(Stats *stats, PetriSession *session) {
         stats->particle_steps += (double)system.steps * system.particle_count;
 }
 
-// Prints communication statistics of a system: for each number, the maximum over the ranks.
+// Prints communication statistics of a system. Each value is the maximum over all ranks.
 static void print_traffic(PetriSession *session, size_t number, const PetriRanks *ranks) {
     static const char *const how[] = {"replicated: small, one step per frame, or forces that cannot be distributed",
                                       "by pairs", "by region"};

@@ -18,8 +18,9 @@ typedef struct Stats {
 
 // Counts a computed frame. Does not change output_seconds, which the caller maintains.
 void stats_count(Stats *stats, PetriSession *session);
-// Writes the table to standard error: the sums, and the energy, momentum and fastest particle of each system of the
-// last frame. If `ranks` is not NULL, all ranks must call this, and the table has communication statistics.
+// Writes the table to standard error: the sums, and for each system of the last frame its kinetic energy, momentum and
+// fastest particle. If `ranks` is not NULL, all ranks must call this function, and the table has communication
+// statistics.
 void stats_print(const Stats *stats, PetriSession *session, double seconds, const PetriRanks *ranks);
 
 #endif

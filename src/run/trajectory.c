@@ -1,7 +1,8 @@
 // trajectory.c: the file of `petri run --trajectory`; see trajectory.h.
 //
 // Extended XYZ, as ASE and OVITO read it, has one block per frame with all systems. The format has three dimensions:
-// missing ones are 0, further ones are omitted. The species is always X, which both programs accept for "no element".
+// missing components are 0, and components after the third are omitted. The species is always X, which both programs
+// accept as "no element".
 // CSV: cli/particles.h. H5MD: h5md.h.
 #include "run/trajectory.h"
 
@@ -25,7 +26,7 @@
 enum { XYZ_DIMENSIONS = 3 };
 
 static bool report_error(Trajectory *trajectory, int error) {
-    // petri-hdf5 has reported its error and ended; ECONNRESET if it had not read all input.
+    // petri-hdf5 has reported its error and exited. The error is ECONNRESET if it had not read all data.
     bool reported = trajectory->format == TRAJECTORY_H5MD && (error == EPIPE || error == ECONNRESET);
     if (!trajectory->failed && !reported)
         message("cannot write %s: %s", trajectory->path, strerror(error));
@@ -41,7 +42,7 @@ static void commit_on_signal(void *context) {
     bool begun = trajectory->file.file >= 0 && !trajectory->file.direct && trajectory->complete_bytes > 0;
     if ((!begun && !trajectory->named) || trajectory->failed)
         return;
-    // A part of the buffer may have been written just before the signal, so all of it is written again.
+    // Part of the buffer may already be in the file, so the whole buffer is written again.
     if (output->error == 0 && lseek(fd, (off_t)output->written, SEEK_SET) >= 0 &&
         file_write(fd, output->buffer, output->used) && file_truncate(fd, trajectory->complete_bytes) &&
         !trajectory->named)

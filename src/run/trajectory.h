@@ -33,12 +33,12 @@ typedef struct Trajectory {
 // Opens a file whose name ends in .xyz, .csv, .h5 or .h5md. Returns false, after a message, if it cannot be created or
 // continued.
 bool trajectory_open(Trajectory *trajectory, const char *path, const Resume *resume);
-// Adds the last frame of a session. On failure prints a message and sets `failed`.
+// Adds the last frame of a session. On failure, prints a message and sets `failed`.
 void trajectory_add(Trajectory *trajectory, PetriSession *session);
-// Writes all frames to the disk. Must be called before a state is saved, so that a run can continue from that state; if
-// it returns false, the state must not be saved. `trajectory` is a Trajectory.
+// Writes all frames to disk. Must be called before a state is saved, so that a run can continue from that state. If it
+// returns false, the state must not be saved. `trajectory` points to a Trajectory.
 bool trajectory_sync(void *trajectory);
-// Completes the file with all complete frames; so does a signal that ends the process. Returns false, after a message,
+// Completes the file with all complete frames, like a signal that terminates the process. Returns false after a message
 // if this or an earlier write failed. An old file is kept on failure, and if the run failed (`good` is false) before
 // its first complete frame.
 bool trajectory_close(Trajectory *trajectory, bool good);

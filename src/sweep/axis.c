@@ -1,4 +1,4 @@
-// axis.c: parsing the values of a name: `1;5;20`, `1..10|0.5`, both mixed, or vectors in parentheses: `(1;2);(3;4)`.
+// axis.c: parser for the values of a name: `1;5;20`, `1..10|0.5`, both mixed, or vectors in parentheses: `(1;2);(3;4)`.
 #include "petri.h"
 #include "sweep/sweep.h"
 
@@ -40,7 +40,7 @@ static bool read_range(const char *item, Range *range) {
            (!bar || (read_number(bar + 1, strlen(bar + 1), &range->step) && range->step > 0));
 }
 
-// Adds the values of a range, rounded to twelve digits, so that 0..1|0.1 has 0.3 and not 0.30000000000000004.
+// Adds the values of a range, rounded to twelve digits, so that 0..1|0.1 contains 0.3, not 0.30000000000000004.
 static bool add_range(Axis *axis, const Range *range) {
     double step = range->step > 0 ? range->step : 1;
     double count = floor((range->max - range->min) / step + 1e-9) + 1;

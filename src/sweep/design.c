@@ -1,4 +1,4 @@
-// design.c: the runs of a sweep: all combinations of values or a sample of them, each with all seeds.
+// design.c: the runs of a sweep: all combinations of values, or a sample of them, each repeated for all seeds.
 #include "base/hash_index.h"
 #include "petri.h"
 #include "sweep/sweep.h"
@@ -63,7 +63,7 @@ static bool read_axes(Design *design, const Options *options) {
     return read_axis(design, seeds);
 }
 
-// Allocates the runs. Returns false, after a message, if there are too many.
+// Allocates the runs. Returns false after a message if there are too many.
 static bool alloc_runs(Design *design, double runs) {
     if (runs > MAX_RUNS) {
         message("too many runs: %.0f, at most %d; select some with --sample latin:N", runs, MAX_RUNS);
@@ -74,7 +74,7 @@ static bool alloc_runs(Design *design, double runs) {
     return true;
 }
 
-// Makes all combinations of values. The first name changes most slowly.
+// Creates a run for every combination of values. The first name changes most slowly.
 static bool make_grid(Design *design) {
     double runs = 1;
     for (size_t i = 0; i < design->axis_count; i++)
@@ -122,8 +122,8 @@ static uint64_t next_random(Random *random) {
     return hash_mix(random->key + ++random->count * UINT64_C(0x9e3779b97f4a7c15));
 }
 
-// Samples an axis of a Latin hypercube: each of `count` samples has a different slice of the axis and a random position
-// in it.
+// Samples an axis of a Latin hypercube. The axis is divided into `count` equal intervals; each sample is at a random
+// position in a different interval.
 static void sample_axis(Design *design, size_t number, const Sample *sample, size_t seeds) {
     Axis *axis = &design->axes[number];
     Random random = {.key = hash_bytes(sample->seed, axis->name, strlen(axis->name))};

@@ -1,8 +1,8 @@
-// journal.h: the journal of finished runs, with which the same command resumes an interrupted sweep.
+// journal.h: the journal of finished runs, from which the same command resumes an interrupted sweep.
 //
-// The journal is a file beside the table: OUT.part, or OUT.part-2-of-4 for the second of four shards. It has a line
-// that identifies the sweep, followed by the results in the order in which runs finished. An incomplete result at the
-// end is ignored. The table is made from all journals of the same sweep.
+// The journal is a file beside the table: OUT.part, or OUT.part-2-of-4 for the second of four shards. Its first line
+// identifies the sweep. The results follow in the order in which runs finished. An incomplete result at the end is
+// ignored. The table contains the results in all journals of the sweep.
 #ifndef PETRI_SRC_JOURNAL_H
 #define PETRI_SRC_JOURNAL_H
 
@@ -19,9 +19,9 @@ typedef struct Journal {
 int journal_open(Journal *journal, Sweep *sweep, const char *output);
 // Appends a result. Returns false after a message.
 bool journal_add(Journal *journal, size_t run, const Result *result);
-// Reads the results that other shards have added meanwhile.
+// Reads the results that other shards have added to their journals since the last call.
 void journal_merge(const Journal *journal, Sweep *sweep);
-// Removes all journals of the sweep, after the table was written.
+// Removes all journals of the sweep. Must be called after the table was written.
 void journal_remove(const Journal *journal, Sweep *sweep);
 void journal_close(Journal *journal);
 

@@ -135,8 +135,8 @@ void measure_run(Measure *measure, size_t run) {
     byte_buffer_add(&measure->rows, "", 0);
 }
 
-// Returns true if the text is a valid expression. Also returns true if limits stopped its evaluation, since runs report
-// that. Else returns false after a message.
+// Returns true if the expression is valid. Also returns true if its evaluation exceeded a limit, because the runs
+// report such errors. Otherwise returns false after a message.
 static bool try_expression(Measure *measure, const char *option, const char *expression) {
     PetriEvaluation result = {0};
     uint64_t errors = petri_diagnostic_count(measure->session, PETRI_ERROR);
@@ -153,7 +153,7 @@ int measure_dry_run(Measure *measure) {
     if (begin_run(measure, 0) != PETRI_OK)
         return measure->invalid_definition ? STATUS_USAGE : STATUS_FAILED;
     if (petri_step(measure->session) != PETRI_OK)
-        return STATUS_DONE; // a failed run is a row of the table
+        return STATUS_DONE; // a failed run becomes a row of the table
     bool good = !sweep->options->until || try_expression(measure, "until", sweep->options->until);
     for (size_t i = 0; i < sweep->metric_count; i++)
         good = try_expression(measure, "metric", sweep->metrics[i].expression) && good;

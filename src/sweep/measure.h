@@ -1,5 +1,5 @@
-// measure.h: execution of runs, one after the other in one session. The script is loaded once; each run sets other
-// definitions.
+// measure.h: execution of runs, one after the other in the same session. The script is loaded once. Each run has its
+// own definitions.
 #ifndef PETRI_SRC_MEASURE_H
 #define PETRI_SRC_MEASURE_H
 
@@ -25,10 +25,10 @@ bool measure_open(Measure *measure, const Sweep *sweep,
 void measure_close(Measure *measure);
 // Executes a run. Sets `frames` and `rows`.
 void measure_run(Measure *measure, size_t run);
-// Computes the first frame of the first run, to find errors in the script, names and expressions early. Returns
-// STATUS_DONE, or the exit status after a message.
+// Computes the first frame of the first run, to find errors in the script, its parameters and the expressions early.
+// Returns STATUS_DONE, or the exit status after a message.
 int measure_dry_run(Measure *measure);
-// Adds all files that the script consists of to the hash.
+// Adds the contents of all source files of the script to the hash.
 void measure_hash_sources(Measure *measure, Sha256 *hash);
 
 #endif

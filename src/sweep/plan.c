@@ -1,4 +1,4 @@
-// plan.c: the file of --plan: script and options of a long command line, as YAML.
+// plan.c: parser for the YAML file of --plan, which contains a script and options.
 #include "base/source.h"
 #include "cli/script.h"
 #include "sweep/plot_support.h"
@@ -25,7 +25,7 @@ static bool report_error(const Plan *plan, yaml_mark_t mark, const char *what, c
     return false;
 }
 
-// Appends a value, or a list of values in the form of -D.
+// Appends a value, or a list of values in the syntax of -D.
 static bool add_values(const Plan *plan, ByteBuffer *word, const yaml_node_t *value) {
     if (text_of(value)) {
         byte_buffer_add_text(word, text_of(value));

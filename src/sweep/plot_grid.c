@@ -1,5 +1,5 @@
-// plot_grid.c: the plots of a sweep, drawn by a generated script. The grid has a row for each metric, and a column for
-// each name with several values and, with --every, for the frame.
+// plot_grid.c: the plots of a sweep, drawn by a generated script. The grid has one row per metric. It has one column
+// per name with several values and, with --every, one for the frame.
 #include "petri-draw.h"
 #include "sweep/plot_support.h"
 #include "sweep/table.h"
@@ -40,7 +40,7 @@ static void pad_scale(Scale *scale) {
     scale->max += margin;
 }
 
-// Returns a value of an axis as a number, or its index if the values are not all numbers.
+// Returns a value of an axis as a number. If some values of the axis are not numbers, returns its index.
 static double axis_number(const Axis *axis, uint32_t index) {
     double x = 0;
     for (size_t i = 0; i < axis->values.count; i++)
@@ -50,7 +50,8 @@ static double axis_number(const Axis *axis, uint32_t index) {
     return x;
 }
 
-// Collects the points of a plot. Over the frame: all rows. Over a name: of each run the last row that has a number.
+// Collects the points of a plot of a metric. If the x axis is the frame, uses all rows. Otherwise uses the last row of
+// each run in which the metric is a number.
 static Plot collect_points(const Sweep *sweep, size_t axis, size_t metric) {
     const Design *design = &sweep->design;
     Plot plot = {.x = {INFINITY, -INFINITY}, .y = {INFINITY, -INFINITY}};
@@ -86,7 +87,7 @@ static double scale_position(const Scale *scale, double x, double length) {
     return scale->max > scale->min ? (x - scale->min) / (scale->max - scale->min) * length : length / 2;
 }
 
-// Returns 1, 2 or 5 times a power of ten, which gives about four ticks.
+// Returns a distance between ticks of 1, 2 or 5 times a power of ten that gives about four ticks.
 static double tick_step(const Scale *scale) {
     double rough = (scale->max - scale->min) / 4, power = pow(10, floor(log10(rough)));
     double times = rough / power;

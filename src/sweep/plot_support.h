@@ -5,7 +5,7 @@
 #include "sweep/sweep.h"
 
 typedef struct PlotSupport {
-    // Appends the arguments of a plan, options and a script, as on a command line. Returns false after a message.
+    // Appends the options and the script of a plan as command-line arguments. Returns false after a message.
     bool (*plan_read)(const char *path, TextList *words);
     // Returns true if a plot can be written to a file with this suffix.
     bool (*plot_fits)(const char *path);

@@ -1,4 +1,4 @@
-// summary.c: mean, deviation and quantiles of each metric over runs that differ only in SEED.
+// summary.c: mean, standard deviation and quantiles of each metric over runs that differ only in SEED.
 #include "sweep/table.h"
 
 #include <inttypes.h>

@@ -108,7 +108,7 @@ static bool read_shard(Sweep *sweep) {
     return true;
 }
 
-// Collects the options that apply to single runs and change their results.
+// Collects the options that apply to individual runs and can change their results.
 static bool read_shared_options(Sweep *sweep, const Command *command) {
     static const char *const free_ones[] = {"color", "quiet", "threads", "neighbours", NULL};
     Options again = *sweep->options;
@@ -171,7 +171,7 @@ static void compute_identity(Sweep *sweep, Measure *measure) {
     sha256_end(&hash, sweep->identity);
 }
 
-// Finds errors of the script before the runs start, in a session that is then closed: workers have their own.
+// Finds errors in the script before the runs start. Uses a temporary session, because each worker has its own.
 static int dry_run(Sweep *sweep) {
     Measure measure;
     if (!measure_open(&measure, sweep, report_diagnostic, sweep))
@@ -239,7 +239,7 @@ static void print_report(const Sweep *sweep, double seconds, size_t made) {
     }
 }
 
-// Writes the table if all runs of all shards are done, so the shard that finishes last writes it.
+// Writes the table if all runs of all shards are done. Hence the last shard to finish writes it.
 static int finish_sweep(Sweep *sweep, Journal *journal, double start, size_t made) {
     size_t done = count_done(sweep, false);
     if (done < sweep->design.run_count && journal->path) {
@@ -281,7 +281,8 @@ static int make_runs(Sweep *sweep, Journal *journal) {
     return status;
 }
 
-// Checks early that petri-hdf5 can write the table. It discards a table without data.
+// Checks early that petri-hdf5 can write the table. Nothing is written, because petri-hdf5 discards a table without
+// data.
 static bool can_write(const char *output) {
     Hdf5 writer;
     return !output || !hdf5_has_suffix(output) || (hdf5_start(&writer, "table", output, NULL) && hdf5_end(&writer));
@@ -318,7 +319,7 @@ static void free_sweep(Sweep *sweep) {
     design_free(&sweep->design);
 }
 
-// Runs the command with the plan's arguments followed by those of the command line without `--plan FILE`.
+// Runs the command with the arguments of the plan, followed by the command-line arguments except `--plan FILE`.
 static int run_plan(const CommandContext *host, const Options *options) {
     TextList words = {0};
     int status = STATUS_USAGE;
@@ -335,7 +336,7 @@ static int run_plan(const CommandContext *host, const Options *options) {
     return status;
 }
 
-// Replaces the process by petri-pictures with the same arguments. Returns the exit status if that fails.
+// Replaces the process with petri-pictures and passes the same arguments. On failure, returns the exit status.
 static int exec_pictures(const CommandContext *host, const Options *options) {
     TextList words = {0};
     texts_add(&words, host->invoked_as);

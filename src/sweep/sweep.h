@@ -7,11 +7,11 @@
 #include "cli/options.h"
 #include "cli/progress.h"
 
-// A name of -D and its values, each in the form that `petri run -D` accepts.
+// A name given with -D and its values, as strings that `petri run -D` accepts.
 typedef struct Axis {
     char *name;
     TextList values;
-    bool continuous; // true for a range without a step: --sample picks any number in it
+    bool continuous; // true for a range without a step: --sample chooses any number in the range
     double min;
     double max;
 } Axis;
@@ -34,7 +34,7 @@ typedef struct Metric {
 typedef struct Result {
     char *rows;     // lines of tab-separated cells: frame, value of each metric, error; NULL: not done yet
     int64_t frames; // number of computed frames
-    bool killed;    // true if its process was killed from outside; it is run once more
+    bool killed;    // true if its process was killed by SIGKILL; the run is repeated once
 } Result;
 
 typedef struct Sweep {
@@ -46,14 +46,16 @@ typedef struct Sweep {
     ByteBuffer shared;                // options that apply to every run, quoted for a shell
     char identity[SHA256_DIGITS + 1]; // hash of everything that the table depends on
     Result *results;                  // by run
-    size_t shard;                     // from 0: this process does runs with run % shards == shard
+    size_t shard;                     // shard of this process, from 0; it executes the runs with run % shards == shard
     size_t shards;
-    TextList reported; // diagnostics already shown, each of which is shown once
+    TextList reported; // diagnostics that were already shown
 } Sweep;
 
-// Makes the design from the options. Returns false after a message. The caller frees it with design_free in any case.
+// Creates the design from the options. Returns false after a message. The caller frees *design with design_free even
+// after a failure.
 bool design_make(Design *design, const Options *options, const CommandContext *context);
 void design_free(Design *design);
+// Returns the value of an axis in a run.
 const char *design_value(const Design *design, size_t run, size_t axis);
 // Parses `NAME=VALUES`. Returns false after a message.
 bool axis_read(Axis *axis, const char *text);
@@ -62,6 +64,7 @@ void axis_add_literal(ByteBuffer *out, const char *value);
 
 // Returns true if the run belongs to the shard of this process.
 bool sweep_owns_run(const Sweep *sweep, size_t run);
+// Stores the result of a run and copies `rows`. Does nothing if the run already has a result.
 void sweep_store_result(Sweep *sweep, size_t run, int64_t frames, const char *rows, size_t length);
 bool sweep_is_failed(const Result *result);
 // Shows a diagnostic, unless it was shown before or --quiet hides it.

@@ -22,7 +22,7 @@ bool row_next(const char **at, Row *row) {
 Str row_cell(const Row *row, size_t number) {
     Str cells = row->cells;
     for (;; number--) {
-        cells = (Str){cells.bytes + 1, cells.len - 1}; // the tab
+        cells = (Str){cells.bytes + 1, cells.len - 1}; // skip the tab
         const char *end = memchr(cells.bytes, '\t', cells.len);
         size_t length = !end ? cells.len : (size_t)(end - cells.bytes);
         if (number == 0 || !end)
@@ -41,7 +41,7 @@ const char *row_number_name(const Sweep *sweep, size_t number) {
 
 double row_number(const Sweep *sweep, const Row *row, size_t number) {
     if (row_cell(row, sweep->metric_count).len > 0)
-        return NAN; // an error
+        return NAN; // the row has an error
     if (number == sweep->metric_count)
         return (double)row->frame;
     Str cell = row_cell(row, number);
@@ -115,7 +115,7 @@ void table_commands(const Sweep *sweep, ByteBuffer *out) {
             byte_buffer_format(out, " -D ");
             shell_add_word(out, word.data);
         }
-        // A failed run fails in the frame after its computed frames.
+        // A failed run has failed in the frame after the last computed one.
         const Result *result = &sweep->results[run];
         byte_buffer_format(out, " --frames %" PRId64 "\n", result->frames + sweep_is_failed(result));
     }

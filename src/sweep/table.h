@@ -1,21 +1,21 @@
-// table.h: access to results, and the output made from them: the table, the command lines and the summary.
+// table.h: access to the results of runs, and their output: the table, the command lines and the summary.
 #ifndef PETRI_SRC_SWEEP_TABLE_H
 #define PETRI_SRC_SWEEP_TABLE_H
 
 #include "sweep/sweep.h"
 
-// A row of a result: its frame and the text of the other cells, each after a tab.
+// A row of a result: its frame and the text of the other cells, each preceded by a tab.
 typedef struct Row {
     int64_t frame;
     Str cells;
 } Row;
 // Reads the row at *at and advances *at; start with *at = Result.rows. Returns false after the last row.
 bool row_next(const char **at, Row *row);
-// Returns the cell of a metric, or with number == metric_count the error. Empty if there is none.
+// Returns the cell of a metric. Number metric_count is the error. The cell can be empty.
 Str row_cell(const Row *row, size_t number);
 // Returns the value of a metric if it is one finite number, else NaN. Number metric_count is the frame.
 double row_number(const Sweep *sweep, const Row *row, size_t number);
-// Returns how many numbers a row has: one per metric, and the frame if --until was given without --every.
+// Returns the number of numeric cells per row: one per metric, and the frame if --until was given without --every.
 size_t row_numbers(const Sweep *sweep);
 const char *row_number_name(const Sweep *sweep, size_t number);
 
@@ -25,7 +25,7 @@ void csv_add(ByteBuffer *out, Str cell);
 void table_make(const Sweep *sweep, ByteBuffer *out);
 // Appends one line per run: the command that repeats it.
 void table_commands(const Sweep *sweep, ByteBuffer *out);
-// Appends mean, deviation and quantiles of each metric over runs that differ only in SEED.
+// Appends mean, standard deviation and quantiles of each metric over runs that differ only in SEED.
 void summary_make(const Sweep *sweep, ByteBuffer *out);
 
 #endif

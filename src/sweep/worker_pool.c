@@ -1,8 +1,8 @@
 // worker_pool.c: pre-forked workers that execute sweep runs. A worker reads run numbers from one pipe and writes
-// results to another; it is given the next run in advance, so that it does not wait.
+// results to another. The next run is assigned in advance, so that the worker does not wait for it.
 //
-// Over MPI, each rank has such a pool, and rank 0 assigns runs: a rank sends one request per free slot; each result
-// counts as the next request.
+// Under MPI, each rank has such a pool, and rank 0 assigns runs. A rank first sends one request per slot. After that,
+// each result also serves as the next request.
 #include "sweep/worker_pool.h"
 
 #include <errno.h>
@@ -46,7 +46,7 @@ typedef struct WorkerPool {
     PoolWorker *workers;
     int64_t jobs;
     size_t next;       // first run that has not been assigned yet, apart from those in `returned`
-    int64_t *returned; // runs to assign first: those of workers that have ended, or those received from rank 0
+    int64_t *returned; // runs to assign first: from workers that have ended, or received from rank 0
     size_t returned_count;
     const MpiChannel *channel; // NULL: no other ranks
     bool ended;                // true if rank 0 has announced the end
@@ -63,7 +63,7 @@ static void on_signal(int number) {
     stopped = number;
 }
 
-// Reads exactly `length` bytes. Returns false if the pipe ends before.
+// Reads exactly `length` bytes. Returns false if the pipe ends earlier.
 static bool read_all(int fd, void *data, size_t length) {
     for (char *at = data; length > 0;) {
         ssize_t count = read(fd, at, length);
@@ -77,7 +77,7 @@ static bool read_all(int fd, void *data, size_t length) {
 
 // --- in a worker process
 
-// Stores a diagnostic for the parent: a letter for the level, the text, NUL. Ignores further ones after 64 KiB.
+// Stores a diagnostic for the parent: a letter for the level, the text, NUL. Ignores diagnostics after 64 KiB.
 static void add_diagnostic(void *context, PetriLevel level, const char *rendered) {
     enum { MAX_DIAGNOSTIC_BYTES = 1 << 16 };
     ByteBuffer *diagnostics = context;
@@ -116,7 +116,8 @@ static void become_worker(const WorkerPool *pool, int requests, int results, pid
 #ifdef __linux__
     prctl(PR_SET_PDEATHSIG, SIGKILL);
 #endif
-    for (int64_t i = 0; i < pool->jobs; i++) { // else other workers would not notice when the parent exits
+    // Closes the pipes of other workers, or those workers would not notice when the parent exits.
+    for (int64_t i = 0; i < pool->jobs; i++) {
         if (pool->workers[i].pid > 0) {
             close(pool->workers[i].run_pipe);
             close(pool->workers[i].result_pipe);
@@ -165,7 +166,7 @@ static int64_t next_run(WorkerPool *pool) {
     return -1;
 }
 
-// Assigns runs in turn, so that no worker has two runs while another has none.
+// Assigns runs round-robin, so that no worker has two runs while another has none.
 static void assign_runs(WorkerPool *pool) {
     for (int max = 1; max <= RUNS_PER_WORKER; max++) {
         for (int64_t i = 0; i < pool->jobs; i++) {
@@ -180,7 +181,7 @@ static void assign_runs(WorkerPool *pool) {
     }
 }
 
-// Stores a result, or sends it to rank 0. `bytes` has the rows followed by the diagnostics. Returns false after a
+// Stores a result, or sends it to rank 0. `bytes` contains the rows followed by the diagnostics. Returns false after a
 // message.
 static bool store_result(WorkerPool *pool, const ResultHeader *head, const char *bytes) {
     size_t length = (size_t)(head->rows + head->diagnostics), run = (size_t)head->run;
@@ -238,8 +239,8 @@ static bool receive_messages(WorkerPool *pool) {
     return good;
 }
 
-// Handles the end of a worker. The cause becomes the row of its current run. After SIGKILL, which comes from outside,
-// for example if the machine is out of memory, the run is executed once more. Returns false after a message.
+// Handles the end of a worker. Its current run gets a row with the cause as its error. After the first SIGKILL, which
+// the kernel sends if the machine is out of memory, the run is repeated instead. Returns false after a message.
 static bool reap_worker(WorkerPool *pool, PoolWorker *worker) {
     int status = 0;
     while (waitpid(worker->pid, &status, 0) < 0 && errno == EINTR) {
@@ -293,7 +294,7 @@ static void request_runs(const WorkerPool *pool) {
         pool->channel->send(0, "", 1);
 }
 
-// Tells the other ranks that all runs are done.
+// Informs the other ranks that all runs are done.
 static void announce_end(const WorkerPool *pool) {
     for (int rank = 1; pool->channel && pool->channel->rank == 0 && rank < pool->channel->count; rank++)
         pool->channel->send(rank, &END_OF_RUNS, sizeof END_OF_RUNS);

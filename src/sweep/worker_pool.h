@@ -1,4 +1,4 @@
-// worker_pool.h: worker processes that execute runs. A crash affects one run only and becomes a row of the table.
+// worker_pool.h: worker processes that execute runs. A crash ends only one run and becomes a row of the table.
 #ifndef PETRI_SRC_WORKER_POOL_H
 #define PETRI_SRC_WORKER_POOL_H
 
