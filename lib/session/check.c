@@ -3,8 +3,8 @@
 
 #include <string.h>
 
-// Returns the kind of top-level node that is spelled most similarly, or an empty text if none is similar. Other nodes
-// at the top level are allowed and have no meaning.
+// Returns the kind of top-level node whose name is most similar, or an empty string if none is similar. Other top-level
+// nodes are allowed, but have no effect.
 static Str nearest_top_kind(Str kind) {
     StrNearest nearest = {.wanted = kind, .limit = (int)kind.len < 6 ? (int)kind.len / 3 + 1 : 3};
     for (int i = 0; i < KIND_COUNT && nearest.limit > 0; i++)
@@ -14,7 +14,7 @@ static Str nearest_top_kind(Str kind) {
 }
 
 void session_lint_top_nodes(PetriSession *session) {
-    const Symbol *last = NULL; // skips repeated kinds, because a loop creates many
+    const Symbol *last = NULL; // kind of the node before; a loop creates many nodes of one kind
     for (uint32_t i = 0; session->frame.tree.kind == VALUE_MIXED && i < session->frame.tree.len; i++) {
         const Item *item = &session->frame.tree.as.items[i];
         if (item->type != ITEM_NODE || item->as.node->kind == last)
@@ -50,7 +50,7 @@ typedef struct CheckLog {
     Arena arena;
     PetriDiagnostic *items;
     size_t count;
-    bool incomplete; // diagnostics are missing because of too little memory
+    bool incomplete; // true if diagnostics are missing because memory ran out
 } CheckLog;
 
 static const char *copy_text(CheckLog *log, const char *text) {
@@ -113,7 +113,7 @@ static void open_scratch(PetriSession *session, CheckLog *log) {
     log->scratch = petri_open(&options);
     if (log->scratch) {
         log->scratch->budget.user_data = session->options.user_data; // for the host's should_interrupt
-        log->scratch->reach = session->reach;                        // shares lists that live longer
+        log->scratch->reach = session->reach;                        // shares lists that outlive the scratch session
         session_copy_host_globals(session, log->scratch);
         log->scratch->functions = session->functions;
     }
@@ -133,7 +133,7 @@ static PetriStatus run_checks(PetriSession *scratch, const char *file, const cha
     return status;
 }
 
-// Checks a file, or a text with this name if `text` is not NULL.
+// Checks a file or, if `text` is not NULL, a script in memory with this name.
 static PetriStatus check_script(PetriSession *session, const char *file, const char *text, size_t length) {
     CheckLog log = {0};
     PetriStatus status = PETRI_OUT_OF_MEMORY;

@@ -2,8 +2,9 @@
 //
 // A checkpoint is a sequence of 64-bit words: the number of slots of the dictionary, then the key and value of each;
 // the number of systems, then each with its slots; the input bindings, and the input state if there is one. A value
-// starts with a word for its length and kind. Numbers follow; in mixed values, each element has a word for type and
-// length, and strings are padded. Slots keep their numbers, so that a restored session behaves identically.
+// starts with a word for its length and kind. In a numeric value, the numbers follow. In a mixed value, each element
+// starts with a word for its type and length, and strings are padded to whole words. Slots keep their numbers, so that
+// a restored session behaves identically.
 #include "base/heap.h"
 #include "session/session.h"
 
@@ -57,10 +58,10 @@ static void write_value(CheckpointWriter *writer, Value v) {
 
 static void write_state(CheckpointWriter *writer, const State *state) {
     uint32_t count = state_slot_count(state);
-    double room[STATE_KEY_BUFFER];
+    double buffer[STATE_KEY_BUFFER];
     write_word(writer, count);
     for (uint32_t i = 0; i < count; i++) {
-        write_value(writer, state_slot_key_in(state, i, room));
+        write_value(writer, state_slot_key_in(state, i, buffer));
         write_value(writer, state_slot_get(state, i));
     }
 }
@@ -264,7 +265,8 @@ PetriSnapshot *petri_snapshot(PetriSession *session) {
         petri_snapshot_free(snapshot);
         return NULL;
     }
-    unsigned char *exact = heap_resize(snapshot->at.bytes, snapshot->at.size); // hosts keep many snapshots
+    unsigned char *exact =
+        heap_resize(snapshot->at.bytes, snapshot->at.size); // trim it, because hosts keep many snapshots
     snapshot->at.bytes = exact ? exact : snapshot->at.bytes;
     return snapshot;
 }

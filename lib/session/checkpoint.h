@@ -1,7 +1,7 @@
 // checkpoint.h: copies of the state, systems, input and clock, which determine how a session continues.
 //
 // Rollback of frames, snapshots and state files share this code. Restoring is atomic: the new data is built completely
-// beside the current data, and then both are swapped.
+// before it replaces the current data.
 #ifndef PETRI_SESSION_CHECKPOINT_H
 #define PETRI_SESSION_CHECKPOINT_H
 
@@ -16,9 +16,10 @@ typedef struct Checkpoint {
     size_t capacity;
 } Checkpoint;
 
-// Data that will replace the session's. Its systems are restored into the scene, whose systems are detached meanwhile.
+// Data that will replace that of the session. Its systems are restored into the scene, whose current systems are
+// detached meanwhile.
 typedef struct Incoming {
-    Arena arena; // temporaries
+    Arena arena; // temporary data
     State *state;
     Clock clock;
     InputState input_state;
@@ -26,9 +27,10 @@ typedef struct Incoming {
     bool has_input; // false: the session keeps its input
     bool valid;     // false: the source is invalid
 } Incoming;
+// Fills in `incoming`. Clears incoming->valid if the source of the data is invalid.
 typedef void FillIncoming(PetriSession *session, Incoming *incoming, void *context);
 
-// Calls `fill` within a protected call and then replaces the session's data. On failure nothing changes; returns
+// Calls `fill` within a protected call and then replaces the session's data. On failure nothing changes. Returns
 // PETRI_INVALID if `fill` cleared incoming->valid.
 PetriStatus checkpoint_replace(PetriSession *session, FillIncoming *fill, void *context);
 // Restores a system into the scene. Called by `fill`.

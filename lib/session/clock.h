@@ -11,7 +11,7 @@ typedef struct ClockRates {
     double quantum; // the script's `quantum`
 } ClockRates;
 
-// The frame at which the current rates were set; all 0 at first.
+// The frame at which the current rates were set. Initially all 0.
 typedef struct ClockBase {
     int64_t number;
     double time;
@@ -21,8 +21,8 @@ typedef struct ClockBase {
 // State of the clock in real time. It measures the script's `time`, which is 0 in frame 0 and excludes time that the
 // host dropped with petri_resync_clock. Units are seconds.
 typedef struct WallClock {
-    bool running;       // false: the next frame is the first, or the first after a restored state
-    double origin;      // monotonic clock at time 0
+    bool running;       // false: the next frame is the first, or the first after a restore
+    double origin;      // value of the monotonic clock at time 0
     double due;         // the time of the next frame
     double performance; // the script's `performance`, also used in lockstep
     bool slow_frame;    // the script's `slow_frame`
@@ -33,7 +33,7 @@ typedef struct Clock {
     int64_t number; // current frame; -1: before the first
     double time;
     double beat;
-    double delta; // beats since the frame before
+    double delta; // beats since the previous frame
     ClockRates rates;
     ClockBase base;
     WallClock wall;
@@ -46,7 +46,7 @@ double clock_of_day(void);
 
 // Rewinds to before frame 0.
 void clock_rewind(Clock *clock);
-// Changes the rates from the current frame on, without a jump of time and beat.
+// Changes the rates at the current frame, without a jump in time or beat.
 void clock_set_rates(Clock *clock, const ClockRates *rates);
 // Advances to the next frame. In real time, waits until it is due.
 void clock_advance(Clock *clock);
@@ -54,11 +54,11 @@ void clock_advance(Clock *clock);
 void clock_advance_to(Clock *clock, double time, double beat);
 // Sets the clock to a frame that was restored, with time and beat at the current rates.
 void clock_resume(Clock *clock, int64_t number);
-// Lets real time continue from the time of the current frame, after the clock was replaced.
+// Makes real time continue from the time of the current frame. Call it after the clock was replaced.
 void clock_follow_frame(Clock *clock);
 // Returns the seconds until the next frame is due in real time, else 0.
 double clock_seconds_until_due(const Clock *clock);
-// See petri_resync_clock.
+// Implements petri_resync_clock.
 void clock_resync(Clock *clock);
 
 #endif

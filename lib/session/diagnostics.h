@@ -16,7 +16,7 @@ typedef struct Diagnostics {
     uint32_t reported_count;
     uint32_t reported_capacity;
     HashIndex reported_index;
-    bool repeat;        // report diagnostics again that were reported before
+    bool repeat;        // report diagnostics even if they were reported before
     uint64_t counts[3]; // number reported since the session was opened, by level
 } Diagnostics;
 
@@ -30,7 +30,8 @@ void diagnostics_forward(PetriSession *session, const PetriDiagnostic *diagnosti
 
 // Reports a diagnostic to the host, unless it was reported since the last load.
 void session_report(PetriSession *session, const Diag *diag);
-// Like session_report, but compares the key instead of the text. An empty key means the text.
+// Like session_report, but uses `key` instead of the rendered text to recognise a repeated diagnostic. If `key` is
+// empty, uses the rendered text.
 void session_report_keyed(PetriSession *session, const Diag *diag, Str key);
 // Reports a diagnostic without a position.
 void session_report_text(PetriSession *session, DiagLevel level, const char *code, Str text);

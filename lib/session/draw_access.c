@@ -31,7 +31,8 @@ uint32_t session_frame_numbers(PetriSession *session, Arena *arena, const char *
         names[count] = all[i];
         numbers[count++] = v.as.number;
     }
-    for (uint32_t i = session->config.define_count; i-- > 0 && count < capacity;) { // the last of one name comes first
+    for (uint32_t i = session->config.define_count;
+         i-- > 0 && count < capacity;) { // the newest definition of a name comes first
         const Define *define = &session->config.defines[i];
         if (define->value.kind != VALUE_NUMBERS || define->value.len != 1)
             continue;

@@ -23,25 +23,27 @@ typedef struct DrawAccess {
 // Returns access to the last frame.
 DrawAccess session_draw_access(PetriSession *session);
 
-// Gets the names with numeric values, for shaders: names of the engine such as `beat`, then definitions, the last of
-// one name first. Stores at most `capacity` and returns how many. Names are allocated in the arena.
+// Gets the names with numeric values, for shaders: names of the engine such as `beat`, then definitions, the newest of
+// each name first. Stores at most `capacity` names and numbers, and returns their count. Names are allocated in the
+// arena.
 uint32_t session_frame_numbers(PetriSession *session, Arena *arena, const char *names[], double numbers[],
                                uint32_t capacity);
 
 // Returns true if the source of a diagnostic still exists. It may have been freed by a reload.
 bool session_has_source(const PetriSession *session, const Diag *fault);
 
-// Returns memory for lib/draw that lives as long as the session and is zeroed before frame 0. All calls must have the
+// Returns memory for lib/draw that lives as long as the session and is zeroed before frame 0. All calls must pass the
 // same size. Called within a protected call.
 void *session_draw_memory(PetriSession *session, size_t size);
 
-// Calls `call` so that it is aborted if an arena of the session, or `extra` (may be NULL), cannot allocate or is
-// interrupted. Returns PETRI_OUT_OF_MEMORY, PETRI_LIMIT_EXCEEDED or PETRI_INTERRUPTED then. Resources that the call
-// acquired must be reachable from `context`, so that the caller can free them.
+// Runs `call` as a protected call. If an arena of the session or `extra` (may be NULL) cannot allocate, exceeds a limit
+// or is interrupted, `call` is aborted. Returns PETRI_OK, or the reason for the abort: PETRI_OUT_OF_MEMORY,
+// PETRI_LIMIT_EXCEEDED or PETRI_INTERRUPTED. Resources that the call acquired must be reachable from `context`, so that
+// the caller can free them.
 typedef void SessionCall(PetriSession *session, void *context);
 PetriStatus session_protect(PetriSession *session, Arena *extra, SessionCall *call, void *context);
-// Reports a diagnostic if a protected call was aborted for lack of memory or work, with `what` ("the frame") and the
-// position. Clears the interrupt if it was interrupted. Returns `status`.
+// If a protected call ran out of memory or exceeded a limit, reports that `what` (such as "the frame") was aborted,
+// with the position. If the call was interrupted, clears the interrupt. Returns `status`.
 PetriStatus session_report_abort(PetriSession *session, PetriStatus status, const char *what);
 
 #endif

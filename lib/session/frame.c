@@ -7,9 +7,9 @@
 
 enum { TEMPO = 120, QUANTUM = 4 }; // defaults without pragmas
 
-// Returns the value of a pragma: a number, or a string that contains one (L12), or the default with a warning.
-// `positive` rejects numbers that are not above 0. If a pragma is repeated, the last one is used, even if it is
-// invalid.
+// Returns the value of a pragma, a number or a string that contains a number (L12). Otherwise warns and returns the
+// default. `positive` rejects numbers that are not above 0. If a pragma is repeated, the last one is used, even if it
+// is invalid.
 static double pragma_number(PetriSession *session, const Pragma *pragma, bool positive, double default_value) {
     Value v = pragma->value;
     double number = NAN;
@@ -177,7 +177,8 @@ void session_set_globals(const PetriSession *session, Vm *vm) {
         isnan(session->options.run_time) ? VALUE_NULL : value_number(session->options.run_time);
 }
 
-// Runs one program. Its parameters are the values so far; its exports are appended to them.
+// Runs a program and returns its value. Its parameters are the values of the frame so far. Its exports are appended to
+// them.
 static Value run_program(PetriSession *session, const Program *program) {
     SessionFrame *frame = &session->frame;
     Value result = vm_run(&session->vm, program, frame->values, frame->values + frame->value_count);
@@ -210,7 +211,7 @@ void session_evaluate(PetriSession *session, const State *state) {
     frame->evaluated = true;
 }
 
-// Evaluates the frame in the state from which it was computed, if that is known.
+// Evaluates the frame in the state from which it was computed, if known, else in the current state.
 static void preview(PetriSession *session, void *context) {
     State **before = context;
     diag_sink_free(&session->frame.log); // the evaluation writes it again
@@ -241,7 +242,7 @@ PetriStatus petri_preview(PetriSession *session) {
     PetriStatus status = session_protect(session, NULL, preview, &before);
     session->vm.state = session->state;
     state_free(before);
-    return session_report_abort(session, status, "the text");
+    return session_report_abort(session, status, "the evaluation");
 }
 
 static void update_names(PetriSession *session, void *context) {
@@ -266,7 +267,7 @@ PetriStatus session_update_names(PetriSession *session) {
     PetriStatus status = session_protect(session, NULL, update_names, NULL);
     diag_sink_free(&session->frame.log);
     session->frame.log = log;
-    return session_report_abort(session, status, "the text");
+    return session_report_abort(session, status, "the evaluation");
 }
 
 static void evaluate_script(PetriSession *session, void *context) {
@@ -319,7 +320,7 @@ static PetriStatus evaluate_frame(PetriSession *session) {
     if (!counts)
         input_undo_write(scene_input(session->scene), session->state, &undo);
     if (status != PETRI_OK)
-        state_clear_exhausted(session->state); // reported now; must not end the next frame as well
+        state_clear_exhausted(session->state); // already reported; must not abort the next frame as well
     if (status != PETRI_OK)
         session_drop_frame(session);
     return status;

@@ -29,7 +29,8 @@ void petri_call_error(PetriCall *call, const char *text) {
                  STR_ARGS(str_truncate(str_from(text), sizeof call->error - 1)));
 }
 
-// Calls a host function. Memory is only allocated before and after it, because an escape must not unwind through it.
+// Calls a host function. Memory is only allocated before and after its call, because an escape must not unwind through
+// host code.
 static Value call_host(BuiltinContext *context, const Value *args, uint32_t count) {
     const HostFunction *function = (const HostFunction *)(const void *)context->called;
     PetriCall call = {.context = context};
@@ -56,7 +57,7 @@ static bool parse_parameters(Builtin *row) {
         if (!row->variadic && (!session_is_name((Str){at, name}) || row->fixed > MAX_PARAMETERS))
             return false;
         if (!row->variadic && name == whole && ++row->required < row->fixed)
-            return false; // follows a parameter with a default
+            return false; // a parameter without a default follows one with a default
         at += whole;
         if (*at && (at[1] != ' ' || !at[2]))
             return false;

@@ -7,7 +7,8 @@
 
 // --- the state dictionary
 
-// A request. Looking up a key of numbers allocates nothing and therefore needs no protected call.
+// A request to read or write an entry. Looking up a key of numbers allocates nothing and therefore needs no protected
+// call.
 typedef struct StateRequest {
     PetriValue key;
     PetriValue value; // value to store
@@ -33,9 +34,9 @@ PetriValue petri_state_get(PetriSession *session, PetriValue key) {
         find_entry(session, &request);
     else if (session->call_depth == 0)
         session_protect(session, NULL, find_entry, &request);
-    Value room;
+    Value buffer;
     return request.slot == STATE_NO_SLOT ? (PetriValue){0}
-                                         : session_export_value(state_slot_at(session->state, request.slot, &room));
+                                         : session_export_value(state_slot_at(session->state, request.slot, &buffer));
 }
 
 // Returns true if a value consists of finite numbers and strings.
@@ -67,7 +68,7 @@ PetriStatus petri_state_set(PetriSession *session, PetriValue key, PetriValue va
     if (!session || session->call_depth > 0)
         return PETRI_INVALID;
     PetriStatus status = session_protect(session, NULL, set_entry, &request);
-    return session_report_abort(session, status == PETRI_OK ? request.status : status, "the state");
+    return session_report_abort(session, status == PETRI_OK ? request.status : status, "the assignment");
 }
 
 bool petri_state_next(PetriSession *session, uint32_t *cursor, PetriValue *key, PetriValue *value) {
@@ -78,9 +79,9 @@ bool petri_state_next(PetriSession *session, uint32_t *cursor, PetriValue *key, 
         ++*cursor;
     if (*cursor >= state_slot_count(state))
         return false;
-    Value room;
-    *key = session_export_value(state_slot_key_at(state, *cursor, &room));
-    *value = session_export_value(state_slot_at(state, *cursor, &room));
+    Value buffer;
+    *key = session_export_value(state_slot_key_at(state, *cursor, &buffer));
+    *value = session_export_value(state_slot_at(state, *cursor, &buffer));
     ++*cursor;
     return true;
 }
@@ -100,7 +101,7 @@ static HostGlobal *find_host_global(PetriSession *session, const Symbol *name) {
     return NULL;
 }
 
-// Adds a name with two arenas for its values. Freed with the session.
+// Adds a name with two arenas for its values, which are freed with the session.
 static HostGlobal *add_host_global(PetriSession *session, const Symbol *name) {
     HostGlobals *global = &session->host_globals;
     HostGlobal *added = arena_alloc(&session->arena, sizeof *added);
@@ -156,7 +157,7 @@ PetriStatus petri_set_global(PetriSession *session, const char *name, PetriValue
         return PETRI_INVALID;
     GlobalRequest request = {str_from(name), value, PETRI_OK};
     PetriStatus status = session_protect(session, NULL, set_global, &request);
-    return session_report_abort(session, status == PETRI_OK ? request.status : status, "the name");
+    return session_report_abort(session, status == PETRI_OK ? request.status : status, "the assignment");
 }
 
 void session_copy_host_globals(const PetriSession *session, PetriSession *to) {

@@ -84,8 +84,8 @@ static const Ast *cache_parsed(PetriSession *session, Unit *cache, const Source 
     return ast;
 }
 
-// Reads and parses an included file. Returns false with a borrowed reason if it cannot be read. *ast is NULL if it has
-// syntax errors.
+// Reads and parses an included file. If it cannot be read, sets *problem to the reason and returns false. *ast is NULL
+// if the file has syntax errors.
 static bool read_include(PetriSession *session, Unit *unit, Str path, Str canonical, const Source **source,
                          const Ast **ast, const char **problem) {
     const char *file = str_to_c(&unit->arena, path);
@@ -131,8 +131,8 @@ static const Ast *host_include(void *host, Str path, const Source **source, Str 
     return ast_new(&unit->scratch, AST_SUITE, ast->span, NULL, ast->children + skip, ast->count - skip);
 }
 
-// Limits of folding: memory (bytes) and work units of one expression, and work units of a load. Expressions that exceed
-// one are evaluated in each frame instead.
+// Limits of constant folding: bytes and work units per expression, and work units per load. An expression that exceeds
+// a limit is evaluated in each frame instead.
 #define STATIC_BUDGET ((size_t)1 << 29)
 enum { STATIC_WORK = 3 << 24, MAX_STATIC_WORK = 1 << 26 };
 
@@ -148,7 +148,7 @@ static void evaluate_static(PetriSession *session, void *context) {
         vm_run_static(&session->static_vm, &session->loader.compiling->arena, evaluation->code, &evaluation->value);
 }
 
-// Folds an expression. Returns false if it exceeds a limit; frames then evaluate it.
+// Folds a constant expression. Returns false if it exceeds a limit, so that each frame evaluates it instead.
 static bool host_evaluate(void *host, const Code *code, Value *value) {
     PetriSession *session = host;
     Arena *arena = &session->loader.compiling->arena;
@@ -171,7 +171,8 @@ static bool host_evaluate(void *host, const Code *code, Value *value) {
     return done;
 }
 
-// Sorts diagnostics of the same file by position: a name is known to be unused only at the end of its scope.
+// Sorts diagnostics of the same file by position. They can be out of order because, for example, an unused name is
+// reported only at the end of its scope.
 static void sort_by_place(DiagSink *sink) {
     for (uint32_t i = 1; i < sink->count; i++) {
         Diag diag = sink->items[i];
@@ -286,7 +287,7 @@ Unit *unit_reload(PetriSession *session, Unit *unit) {
 
 Unit *unit_load_file(PetriSession *session, const char *file, bool module, bool regular) {
     Unit *unit = unit_new(session);
-    if (module) { // listed at once, so that an escape during loading does not leak it
+    if (module) { // added to the list before loading, so that an escape does not leak it
         unit->next = session->loader.modules;
         session->loader.modules = unit;
         unit->retired = true; // until it is complete
@@ -297,7 +298,7 @@ Unit *unit_load_file(PetriSession *session, const char *file, bool module, bool 
     Str text;
     const char *problem;
     unit->path = file_canonical(&unit->arena, &session->reach, file);
-    const FileAccess *reach = module ? &session->reach : host_files(session); // the host chose the script itself
+    const FileAccess *reach = module ? &session->reach : host_files(session); // a script was chosen by the host
     if (file_read(&unit->arena, reach, file, regular, MAX_SOURCE_BYTES, &text, &unit->version, &problem))
         load_text(session, unit, str_from(file), text, module);
     else

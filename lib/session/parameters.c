@@ -19,7 +19,7 @@ static bool has_module(const ModuleList *list, const Program *module) {
     return false;
 }
 
-// Called within a protected call. The depth of recursion is at most MAX_MODULES.
+// Adds the modules that a program imports. Called within a protected call. The recursion depth is at most MAX_MODULES.
 static void collect_modules(PetriSession *session, const Program *program, ModuleList *list) {
     for (uint32_t i = 0; i < program->import_count; i++) {
         Str reason;
@@ -69,7 +69,7 @@ static Str range_text(Arena *arena, const Parameter *parameter) {
     return str_format(arena, "%.*s..%.*s", (int)before, min, (int)after, max);
 }
 
-// A definition that is checked.
+// A definition that is being checked.
 typedef struct Check {
     PetriSession *session;
     Unit *unit;
@@ -230,7 +230,7 @@ static bool check_definition(const Check *check) {
 
 bool session_check_definitions(PetriSession *session, Unit *unit) {
     bool good = true, outer = diagnostics_repeat(&session->diagnostics, true);
-    // When recompiling, only new definitions are checked, and reported even if the same text was reported before.
+    // When recompiling, checks only new definitions. They are reported even if the same diagnostic was reported before.
     uint32_t first = session->recompiling ? session->reported_defines : 0;
     diagnostics_repeat(&session->diagnostics, outer || session->recompiling);
     for (uint32_t i = first; i < session->config.define_count && !unit->empty; i++)

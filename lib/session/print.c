@@ -26,11 +26,11 @@ static void print_tree(TextSink *out, PetriSession *session) {
             text_sink_add_tree(out, &session->symbols, tree.as.items[i].as.node);
 }
 
-// Returns true if the key of one slot is ordered after that of another.
+// Returns true if the key of slot `one` sorts after the key of slot `other`.
 static bool comes_after(const PetriSession *session, StateSlot one, StateSlot other) {
-    double rooms[2][STATE_KEY_BUFFER];
-    return format_key_compare(&session->symbols, state_slot_key_in(session->state, one, rooms[0]),
-                              state_slot_key_in(session->state, other, rooms[1])) > 0;
+    double buffers[2][STATE_KEY_BUFFER];
+    return format_key_compare(&session->symbols, state_slot_key_in(session->state, one, buffers[0]),
+                              state_slot_key_in(session->state, other, buffers[1])) > 0;
 }
 
 // Sorts slots by key with a merge sort, which is stable and, unlike qsort, can pass the session to the comparison.
@@ -53,11 +53,11 @@ static void sort_slots(const PetriSession *session, StateSlot *slots, StateSlot 
 
 static void print_state(TextSink *out, PetriSession *session) {
     const State *state = session->state;
-    uint32_t count = 0, room = state_count(state), cursor = 0;
-    StateSlot *slots = arena_alloc_array(&session->text_arena, room, sizeof *slots);
-    StateSlot *scratch = arena_alloc_array(&session->text_arena, room, sizeof *scratch);
+    uint32_t count = 0, capacity = state_count(state), cursor = 0;
+    StateSlot *slots = arena_alloc_array(&session->text_arena, capacity, sizeof *slots);
+    StateSlot *scratch = arena_alloc_array(&session->text_arena, capacity, sizeof *scratch);
     double numbers[STATE_KEY_BUFFER];
-    for (Value key, value; count < room && state_next(state, &cursor, &key, &value, numbers); count++)
+    for (Value key, value; count < capacity && state_next(state, &cursor, &key, &value, numbers); count++)
         slots[count] = cursor - 1;
     sort_slots(session, slots, scratch, count);
     for (uint32_t i = 0; i < count && !out->stopped; i++) {
@@ -89,16 +89,16 @@ static void print_hash(TextSink *out, Sha256 *hash) {
     text_sink_end_line(out);
 }
 
-// Writes each text on a line, with its position if `places` is true.
-static void print_lines(TextSink *out, const DiagSink *sink, const char *mark, bool places) {
+// Writes each diagnostic on a line that starts with `mark`, with its position if `positions` is true.
+static void print_lines(TextSink *out, const DiagSink *sink, const char *mark, bool positions) {
     for (uint32_t i = 0; i < sink->count && !out->stopped; i++) {
         text_add_c(&out->text, mark);
-        text_add(&out->text, places ? diag_one_line(out->text.arena, &sink->items[i]) : sink->items[i].text);
+        text_add(&out->text, positions ? diag_one_line(out->text.arena, &sink->items[i]) : sink->items[i].text);
         text_sink_end_line(out);
     }
 }
 
-// A text that is written to the host.
+// Arguments and result of an output function.
 typedef struct Printing {
     void (*print)(TextSink *out, PetriSession *session, unsigned what);
     unsigned selection; // sections, or PetriDump
@@ -118,7 +118,7 @@ static void run_print(PetriSession *session, void *context) {
 
 static PetriStatus print_protected(PetriSession *session, Printing printing) {
     PetriStatus status = session_protect(session, NULL, run_print, &printing);
-    return status == PETRI_OK ? printing.status : session_report_abort(session, status, "the text");
+    return status == PETRI_OK ? printing.status : session_report_abort(session, status, "the output");
 }
 
 static void print_log(TextSink *out, PetriSession *session, unsigned sections) {

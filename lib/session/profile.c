@@ -1,4 +1,4 @@
-// profile.c: petri_profile: time per source line as text.
+// profile.c: output of the time spent per source line (petri_profile).
 #include "vm/profile.h"
 
 #include "session/session.h"
@@ -7,13 +7,13 @@
 
 typedef struct Row {
     double seconds;
-    double times;
+    double times;         // number of evaluations
     const Source *source; // NULL: the row has the label `what`
     uint32_t line;
     const char *what;
 } Row;
 
-// Orders by time, longest first, then by line.
+// Orders rows by time, longest first, then by line.
 static int compare_rows(const void *left, const void *right) {
     const Row *a = left, *b = right;
     if (a->seconds != b->seconds)
@@ -75,8 +75,8 @@ static void print_profile(PetriSession *session, void *context) {
     double total = 0, frames = frame->profiled_frames ? (double)frame->profiled_frames : 1;
     for (uint32_t i = 0; i < count; i++)
         total += rows[i].seconds;
-    text_add_format(&out, "   share   ms/frame   times/frame of %.4f ms a frame in %.0f frames\n", 1e3 * total / frames,
-                    (double)frame->profiled_frames);
+    text_add_format(&out, "   share   ms/frame   evals/frame; total: %.4f ms per frame, %.0f frames\n",
+                    1e3 * total / frames, (double)frame->profiled_frames);
     for (uint32_t i = 0; i < count; i++)
         add_row(&out, &rows[i], total, frames);
     request->stopped = !request->write(request->host, out.bytes, out.len);

@@ -27,13 +27,13 @@ typedef struct Job {
     double seconds;
     DiagSink log; // output of debug()
     TextSink out;
-    bool binds;
-    bool adds_nodes;
-    // If it is retained: new contents of the frame and the prompt
+    bool binds;      // binds names
+    bool adds_nodes; // its value is added to the tree
+    // If the statement is retained: new contents of the frame and the prompt
     PromptList *list;
     Value *values;
     Value tree;
-    const Symbol *shadowed; // bound by the script as well
+    const Symbol *shadowed; // a name bound by both the statement and the script; NULL: none
 } Job;
 
 // --- lists
@@ -112,7 +112,7 @@ PetriCompleteness petri_prompt_check(PetriSession *session, const char *text, si
     arena_reset(&session->prompt.arena);
     PetriStatus status = session_protect(session, NULL, probe_text, &job);
     arena_reset(&session->prompt.arena);
-    status = session_report_abort(session, status, "the text");
+    status = session_report_abort(session, status, "the input");
     return status == PETRI_OK ? (PetriCompleteness)job.value.as.number : PETRI_COMPLETE;
 }
 
@@ -131,14 +131,14 @@ static void run_program(PetriSession *session, void *context) {
     session->vm.arena = session->vm.builtins.arena = &session->frame.arena;
 }
 
-// Runs a statement. Collects up to max_lines lines of its debug() output separately from those of the frame.
+// Runs a statement. Collects up to max_lines lines of its debug() output, separately from the output of the frame.
 static PetriStatus run_statement(PetriSession *session, Job *job, uint32_t max_lines) {
     DiagSink log = session->frame.log;
     session->frame.log = diag_sink_new(&session->prompt.arena, max_lines);
     PetriStatus status = session_protect(session, NULL, run_program, job);
     job->log = session->frame.log;
     session->frame.log = log;
-    return session_report_abort(session, status, "the text");
+    return session_report_abort(session, status, "the input");
 }
 
 static void parse_text(PetriSession *session, void *context) {
@@ -157,7 +157,7 @@ static PetriStatus begin_job(PetriSession *session, const char *text, size_t len
     PetriStatus status = session_protect(session, NULL, parse_text, job);
     if (status != PETRI_OK) {
         unit_free(session->loader.pending);
-        return session_report_abort(session, status, "the text");
+        return session_report_abort(session, status, "the input");
     }
     if (!job->unit->ast)
         return PETRI_INVALID;
@@ -289,7 +289,7 @@ static PetriStatus prompt_statement(PetriSession *session, Job *job, PetriPrompt
     job->list = NULL;
     PetriStatus status = run_statement(session, job, MAX_LINES);
     if (status == PETRI_OK)
-        status = session_report_abort(session, session_protect(session, NULL, finish_statement, job), "the text");
+        status = session_report_abort(session, session_protect(session, NULL, finish_statement, job), "the input");
     else if (status != PETRI_OUT_OF_MEMORY)
         session_protect(session, NULL, write_log, job);
     diag_sink_free(&job->log);
@@ -338,7 +338,7 @@ PetriStatus petri_prompt(PetriSession *session, const char *text, size_t length,
         status = PETRI_INVALID;
     for (uint32_t i = 0; status == PETRI_OK && i < job.unit->ast->count; i++) {
         job.ast = job.unit->ast->children[i];
-        status = session_report_abort(session, session_protect(session, NULL, wrap_statement, &job), "the text");
+        status = session_report_abort(session, session_protect(session, NULL, wrap_statement, &job), "the input");
         if (status == PETRI_OK)
             status = prompt_statement(session, &job, done);
     }
@@ -390,7 +390,7 @@ PetriStatus petri_evaluate(PetriSession *session, const char *text, size_t lengt
                                     .number = one ? job.value.as.number : NAN,
                                     .seconds = job.seconds};
         if (write)
-            status = session_report_abort(session, session_protect(session, NULL, write_line, &job), "the text");
+            status = session_report_abort(session, session_protect(session, NULL, write_line, &job), "the input");
     }
     unit_free(job.unit);
     return status;
@@ -418,7 +418,7 @@ uint32_t petri_prompt_clear(PetriSession *session, bool bindings) {
         dropped_count += bindings || list->statements[i].adds_nodes;
     if (dropped_count == 0)
         return 0;
-    if (session_report_abort(session, session_protect(session, NULL, clear_statements, &dropped), "the text") !=
+    if (session_report_abort(session, session_protect(session, NULL, clear_statements, &dropped), "the input") !=
         PETRI_OK) {
         prompt_list_free(dropped.list);
         return 0;

@@ -16,8 +16,8 @@ typedef struct PromptStatement {
 
 typedef struct PromptList {
     uint32_t references;
-    uint32_t count;
-    Names names; // names set by the host, exports of the script, then exports of each statement
+    uint32_t count; // number of statements
+    Names names;    // names set by the host, exports of the script, then exports of each statement
     PromptStatement statements[];
 } PromptList;
 
@@ -32,8 +32,9 @@ PromptList *prompt_list_new(Names host_names, const Program *script);
 PromptList *prompt_list_add(const PromptList *list, const PromptStatement *statement);
 // Releases a reference and frees the list with the last. NULL is ignored.
 void prompt_list_free(PromptList *list);
-// Compiles the chosen statements of a list again for another script: all, only bindings, or none. Called within a
-// protected call. If the call is aborted, the caller frees the partial list in *result.
+// Recompiles the statements of a list for another script and stores them as a list in *result. `choice` selects all
+// statements, only bindings, or none. Called within a protected call. If the call is aborted, the caller frees the
+// partial list in *result.
 typedef enum PromptChoice { PROMPT_ALL, PROMPT_BINDINGS, PROMPT_NONE } PromptChoice;
 void prompt_list_compile(PetriSession *session, const PromptList *list, const Program *script, PromptChoice choice,
                          PromptList **result);

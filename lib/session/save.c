@@ -22,7 +22,7 @@
 #include <string.h>
 
 #define HEADER "petri-state 1\n"
-// Highest frame number that can be restored: low enough that it cannot overflow later.
+// Highest frame number that can be restored. It is low enough that later frame numbers cannot overflow.
 #define MAX_FRAMES INT64_C(100000000000000000)
 #define MAX_STATE_BYTES ((size_t)8 << 30)
 
@@ -34,8 +34,8 @@ static void add_key(Text *out, const PetriSession *session, Value key) {
 
 static void add_entries(Text *out, const PetriSession *session) {
     uint32_t cursor = 0;
-    double room[STATE_KEY_BUFFER];
-    for (Value key, value; state_next(session->state, &cursor, &key, &value, room);) {
+    double buffer[STATE_KEY_BUFFER];
+    for (Value key, value; state_next(session->state, &cursor, &key, &value, buffer);) {
         add_key(out, session, key);
         text_add_c(out, " = ");
         format_value(out, &session->symbols, value);
@@ -45,14 +45,14 @@ static void add_entries(Text *out, const PetriSession *session) {
 
 static void add_systems(Text *out, const PetriSession *session) {
     const void *cursor = NULL;
-    double room[STATE_KEY_BUFFER];
+    double buffer[STATE_KEY_BUFFER];
     for (SceneSystem system; scene_next_system(session->scene, &cursor, &system);) {
         text_add_format(out, "system %u ", system.occurrence);
-        add_key(out, session, state_slot_key_in(session->state, system.prefix, room));
+        add_key(out, session, state_slot_key_in(session->state, system.prefix, buffer));
         text_add_char(out, '\n');
         for (uint32_t i = 0; i < system.slot_count; i += 2) {
             text_add_c(out, "particle ");
-            add_key(out, session, state_slot_key_in(session->state, system.slots[i], room));
+            add_key(out, session, state_slot_key_in(session->state, system.slots[i], buffer));
             text_add_char(out, '\n');
         }
     }
@@ -100,7 +100,7 @@ typedef struct Restore {
     State *state; // the new dictionary
     Incoming *incoming;
     int64_t frame;
-    uint32_t omitted; // number of values that are not finite (possible before 0.2.0)
+    uint32_t omitted; // number of non-finite values, which versions before 0.2.0 could save
 } Restore;
 
 static bool consume_prefix(Restore *restore, Str prefix) {
@@ -110,8 +110,8 @@ static bool consume_prefix(Restore *restore, Str prefix) {
     return true;
 }
 
-// Returns the length of the first element: a quoted string, or everything up to ";", ")", a space or the line's end.
-// Returns 0 if a string is not terminated.
+// Returns the length of the first element: a quoted string, or everything up to ";", ")", a space or the end of the
+// line. Returns 0 if a string is not terminated.
 static size_t element_length(Str rest) {
     size_t at = 0;
     char quote = rest.len && (rest.bytes[0] == '\'' || rest.bytes[0] == '"') ? rest.bytes[0] : 0;

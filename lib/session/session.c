@@ -11,7 +11,8 @@
 #include <string.h>
 
 enum { MAX_LINES = 100000 };
-// Bytes that a session may hold besides PetriOptions.memory_limit, for its own data. Scripts can hardly increase it.
+// Bytes that a session may hold for its own data, in addition to PetriOptions.memory_limit. They hardly depend on the
+// script.
 #define OWN_BYTES ((size_t)64 << 20)
 
 void petri_options_init(PetriOptions *options, size_t size) {
@@ -26,7 +27,7 @@ void petri_options_init(PetriOptions *options, size_t size) {
 }
 
 // Reads the options of a host, which may have been compiled with an older petri.h and a shorter struct. Returns false
-// if they were not initialised, are those of a newer petri.h, or are not valid.
+// if they were not initialised, come from a newer petri.h, or are not valid.
 static bool read_options(PetriOptions *options, const PetriOptions *given) {
     if (!given || given->size < offsetof(PetriOptions, cpu) || given->size > sizeof *options)
         return false;
@@ -58,7 +59,7 @@ static void report_vm(void *host, const Diag *diag) {
     session_report(session, diag);
 }
 
-// An error in an expression that is folded at load time is reported when a frame evaluates it.
+// An error in an expression that is folded at load time is reported when a frame evaluates the expression.
 static void ignore_diagnostic(void *host, const Diag *diag) {
     (void)host;
     (void)diag;
@@ -161,7 +162,7 @@ PetriStatus session_report_abort(PetriSession *session, PetriStatus status, cons
 }
 
 bool session_rollback(PetriSession *session) {
-    session->rollback_pending = false; // protected calls try to roll back otherwise
+    session->rollback_pending = false; // otherwise protected calls would try to roll back
     session->uninterruptible = true;
     session->rollback_pending = checkpoint_restore(session, &session->undo) != PETRI_OK;
     session->uninterruptible = false;
@@ -187,14 +188,14 @@ static void init_components(PetriSession *session, void *context) {
     file_access_add(&session->arena, &session->reach, FILE_ACCESS_READ, (const char *const[]){".", NULL});
     file_access_add(&session->arena, &session->reach, FILE_ACCESS_READ, options->read_folders);
     file_access_add(&session->arena, &session->reach, FILE_ACCESS_WRITE, options->write_folders);
-    session->options.read_folders = session->options.write_folders = NULL; // the host's memory
+    session->options.read_folders = session->options.write_folders = NULL; // pointed to the host's memory
     session->vm.builtins.noise = session->static_vm.builtins.noise = session->noise;
     session->config.prompts = prompt_list_new((Names){0}, NULL);
     if (!session->state || !session->files || !session->noise || !session->config.prompts ||
         (options->profile && !session->vm.profile))
         arena_exhausted(&session->arena);
     PhysOptions physics = physics_options(options);
-    session->options.cpu = NULL; // the host's memory
+    session->options.cpu = NULL; // pointed to the host's memory
     session->options.ranks = NULL;
     scene_set_physics(session->scene, &physics);
 }
@@ -354,10 +355,10 @@ typedef enum LoadPurpose { LOAD_RESTART, LOAD_CONTINUE } LoadPurpose;
 
 typedef struct Load {
     const char *file; // NULL: load `text`
-    bool regular;     // the file must not be a pipe, because it was read before
+    bool regular;     // the file must not be a pipe, which can be read only once
     Str name;         // name for messages
     Str text;
-    Unit *reload_of; // compile this script again; else NULL
+    Unit *reload_of; // script to compile again, or NULL
     // Results
     Unit *unit;
     ClockRates rates;

@@ -1,6 +1,6 @@
 // session.h: internal declarations of the session; petri.h is its public interface.
 //
-// Each part of a session is written by one file: config.c, load.c, clock.c, frame.c, prompt.c, diagnostics.c,
+// Each part of a session is modified by only one file: config.c, load.c, clock.c, frame.c, prompt.c, diagnostics.c,
 // checkpoint.c. Every public function that allocates does so within session_protect.
 #ifndef PETRI_SESSION_SESSION_H
 #define PETRI_SESSION_SESSION_H
@@ -29,7 +29,7 @@ typedef struct Config {
     double resolution; // seconds; 0: each system's own
 } Config;
 
-// A name that the host sets (petri_set_global). If a new value cannot be copied, the old one stays.
+// A name that the host sets (petri_set_global). If a new value cannot be copied, the old value is kept.
 typedef struct HostGlobal {
     const Symbol *name;
     Value value;
@@ -38,7 +38,8 @@ typedef struct HostGlobal {
     bool turn;
 } HostGlobal;
 
-// In the order in which they were first set, which is also the order of the parameters of scripts loaded since then.
+// Names that the host sets, in the order in which they were first set. A script loaded since then receives their values
+// as parameters in this order.
 typedef struct HostGlobals {
     const Symbol *const *names;
     HostGlobal *const *items;
@@ -66,14 +67,14 @@ struct PetriSnapshot {
 struct PetriSession {
     PetriOptions options;
     Arena arena;      // session lifetime: symbols, definitions
-    Arena text_arena; // texts returned to the host; reset by most functions that return one
+    Arena text_arena; // strings returned to the host; reset by most functions that return a string
     Arena view_arena; // data about systems, until the next petri_particle_id or petri_system_force
     Arena key_arena;  // values received from the host, during the call
     SymbolTable symbols;
     State *state;
     Scene *scene;
     FileCache *files;
-    FileAccess reach; // access rights of the loaded script, or of the one that is being loaded
+    FileAccess reach; // files that the script, loaded or being loaded, may access
     NoiseCache *noise;
     Schema schema;
     void *draw_memory; // data of lib/draw (session_draw_memory); NULL: none yet
@@ -102,7 +103,7 @@ struct PetriSession {
     Diagnostics diagnostics;
     Checkpoint undo;       // state before the frame that is being computed, or was computed last
     bool undo_of_frame;    // `undo` is the state from which the current frame was computed
-    bool rollback_pending; // the frame was aborted, but there was not enough memory yet to roll it back
+    bool rollback_pending; // an aborted frame could not be rolled back yet, for lack of memory
 };
 
 // Initialises an arena that is charged to the session.
@@ -115,13 +116,13 @@ bool session_rollback(PetriSession *session);
 bool session_is_name(Str text);
 // Returns the public form of a value. Valid as long as `v` itself and the data that it points to.
 PetriValue session_export_value(const Value *v);
-// Converts a public value. Elements are copied to the arena; numbers and texts still refer to the host's memory.
-// Returns false if it is not a valid value.
+// Converts a public value. The items of a mixed value are copied to the arena. Arrays of numbers and the bytes of
+// strings still refer to the host's memory. Returns false if the value is not valid.
 bool session_import_value(Arena *arena, PetriValue host_value, Value *value);
 
 // Copies the names that the host set to another session.
 void session_copy_host_globals(const PetriSession *session, PetriSession *to);
-// Frees the memory of their values.
+// Frees the values of the names that the host set.
 void session_free_host_globals(PetriSession *session);
 
 // Defines a name; `value` is text as in petri_define. Called within a protected call.
@@ -136,14 +137,15 @@ void session_set_prompts(PetriSession *session, PromptList *list);
 
 // Sets the rates of a new script and rewinds to before frame 0.
 void session_start(PetriSession *session, const ClockRates *rates);
-// Sets those rates whose pragma differs from that of the script before.
+// Sets the rates whose pragmas differ from those of the previous script.
 void session_apply_rates(PetriSession *session, const ClockRates *rates);
 // Returns the rates of a program's pragmas, or the defaults. Called within a protected call.
 ClockRates session_pragma_rates(PetriSession *session, const Program *program);
-// Sets the engine's names (`time`, `beat` ...) for the current frame; before the first, only constant ones are valid.
+// Sets the names of the engine, such as `time` and `beat`, for the current frame. Before the first frame, only constant
+// names have valid values.
 void session_set_globals(const PetriSession *session, Vm *vm);
-// Warns about nodes at the top level of the frame that have no meaning but are spelled similarly to one that has.
-// Called within a protected call.
+// Warns about top-level nodes of the frame that have no effect, but whose kind is spelled similarly to a kind that has
+// one. Called within a protected call.
 void session_lint_top_nodes(PetriSession *session);
 
 #endif

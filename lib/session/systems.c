@@ -104,8 +104,8 @@ static void find_id(PetriSession *session, void *context) {
     Arena *arena = &session->view_arena;
     if (!scene_view(session->scene, session->state, request->system, &view) || request->number >= view.particle_count)
         return;
-    Value room;
-    const Value *key = state_slot_key_at(session->state, view.slots[2 * (size_t)request->number], &room);
+    Value buffer;
+    const Value *key = state_slot_key_at(session->state, view.slots[2 * (size_t)request->number], &buffer);
     PetriValue *id = request->out;
     request->found = true;
     if (key->kind == VALUE_NUMBERS) {

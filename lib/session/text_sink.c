@@ -4,7 +4,7 @@
 #include <stdio.h>
 
 enum { FLUSH_SIZE = 64 << 10 };
-#define MAX_BYTES ((size_t)512 << 20) // maximum size of the trees in one text
+#define MAX_BYTES ((size_t)512 << 20) // maximum size of an output that contains trees
 
 void text_sink_flush(TextSink *out) {
     if (out->hash)

@@ -1,4 +1,4 @@
-// text_sink.h: text output to a callback of the host, in parts.
+// text_sink.h: text output to a callback of the host, in chunks.
 #ifndef PETRI_SESSION_TEXT_SINK_H
 #define PETRI_SESSION_TEXT_SINK_H
 
@@ -17,14 +17,14 @@ typedef struct TextSink {
     bool muted;               // the host does not receive the text
 } TextSink;
 
-// Passes the text to the host and the hash.
+// Passes the accumulated text to the host and the hash.
 void text_sink_flush(TextSink *out);
 // Ends a line; flushes if enough text has accumulated.
 void text_sink_end_line(TextSink *out);
-// Adds a tree as text. Shared nodes are written each time they occur, so even a small tree may result in a huge text;
-// it is truncated at 512 MiB.
+// Adds a tree as text. Shared nodes are written each time they occur, so even a small tree may result in a huge output.
+// The output is truncated at 512 MiB.
 void text_sink_add_tree(TextSink *out, const SymbolTable *symbols, const Node *node);
-// Returns the status after the last flush, and reports a truncated text.
+// Returns the status of the output after the last flush. Reports an error if a tree was truncated.
 PetriStatus text_sink_finish(PetriSession *session, const TextSink *out);
 
 #endif

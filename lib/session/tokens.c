@@ -1,4 +1,4 @@
-// tokens.c: tokens and bindings of a text, for editors (petri_tokenise, petri_bindings).
+// tokens.c: tokens and bindings of a script, for editors (petri_tokenise, petri_bindings).
 #include "syntax/tokens.h"
 
 #include "session/session.h"
@@ -49,7 +49,7 @@ static PetriStatus read_protected(PetriSession *session, Reading reading) {
     arena_reset(&session->prompt.arena);
     PetriStatus status = session_protect(session, NULL, read_text, &reading);
     arena_reset(&session->prompt.arena);
-    return session_report_abort(session, status, "the text");
+    return session_report_abort(session, status, "the input");
 }
 
 PetriStatus petri_tokenise(PetriSession *session, const char *text, size_t length, PetriTokenCallback *callback,

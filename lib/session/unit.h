@@ -16,7 +16,7 @@ struct Unit {
     Arena scratch;   // data of the compilation: syntax tree, expressions
     Str path;        // canonical; NUL-terminated
     Str folder;      // of a script: its canonical folder, which it may read and write
-    Str version;     // changes with the file: modification time, size, inode; empty: not from a file
+    Str version;     // identifies the contents: modification time, size, inode; empty: not from a file
     const Source *source;
     const Ast *ast;         // syntax tree, if it is compiled repeatedly (prompt statements, parse caches); else NULL
     uint64_t work;          // work units of parsing
@@ -24,7 +24,7 @@ struct Unit {
     Unit *parse_cache;      // counted reference to the syntax trees of the same text and its includes, or NULL
     bool empty;             // contains no statements
     const Program *program; // NULL: could not be loaded
-    Str error;              // reason for which it could not be loaded
+    Str error;              // why the unit could not be loaded
     uint32_t references;    // reference count
     Str *included;          // canonical paths of included files; NUL-terminated
     uint32_t included_count;
@@ -47,8 +47,8 @@ typedef struct Loader {
     Unit *modules;                // list of imported modules
     Unit *by_path[MODULE_CHAINS]; // hash table of modules by path
     uint64_t generation;          // number of units that frames have used so far (session_use_unit)
-    Unit *pending;                // script or text being loaded, to be freed if the load is aborted
-    Unit *compiling;              // unit whose compiler calls the host functions; NULL: none
+    Unit *pending;                // unit being loaded, which is freed if the load is aborted
+    Unit *compiling;              // unit that is being compiled; NULL: none
     bool lint;                    // report likely mistakes, for petri_check
     uint64_t static_work;         // work units that constant folding has used in this load
 } Loader;
@@ -61,20 +61,20 @@ typedef struct Names {
 
 // Returns the unit's arena, after setting its escape to that of the current protected call.
 Arena *unit_arena(const PetriSession *session, Unit *unit);
-// Reads, parses and compiles a file. Returns a unit even on failure; its program is NULL then. `regular` rejects pipes,
+// Reads, parses and compiles a file. Returns a unit even on failure, with a NULL program. `regular` rejects pipes,
 // which could block. Called within a protected call.
 Unit *unit_load_file(PetriSession *session, const char *file, bool module, bool regular);
 // Like unit_load_file, for a script in memory.
 Unit *unit_load_text(PetriSession *session, Str name, Str text);
 // Compiles the text of a unit again for changed definitions. Only the first call parses the text.
 Unit *unit_reload(PetriSession *session, Unit *unit);
-// Parses a text without compiling it. The unit's `ast` is NULL if the text has syntax errors.
+// Returns a unit with parsed but uncompiled text. Its `ast` is NULL if the text has syntax errors.
 Unit *unit_parse(PetriSession *session, Str name, Str text);
-// Compiles a syntax tree of the unit to a program with the given parameters.
+// Compiles a syntax tree of the unit into a program with the given parameters.
 const Program *unit_compile(PetriSession *session, Unit *unit, const Ast *ast, bool module, Names params);
 // Releases a reference and frees the unit with the last. NULL is ignored.
 void unit_free(Unit *unit);
-// Must be called for each unit that frames start to use. Changes the generation, because data of the unit may have the
+// Must be called for each unit that frames begin to use. Changes the generation, because data of the unit may have the
 // same addresses as data of a freed unit. Returns the unit.
 Unit *session_use_unit(PetriSession *session, Unit *unit);
 // Returns the module at a path, for the VM, or NULL with a reason. Called within a protected call.

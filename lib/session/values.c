@@ -73,16 +73,16 @@ typedef struct SymbolRequest {
 } SymbolRequest;
 
 static void intern_symbol(PetriSession *session, void *context) {
-    SymbolRequest *known = context;
-    known->symbol = symbol_register(&session->symbols, str_from(known->name));
+    SymbolRequest *request = context;
+    request->symbol = symbol_register(&session->symbols, str_from(request->name));
 }
 
 double petri_symbol(PetriSession *session, const char *name) {
     if (!session || !name || !session_is_name(str_from(name)))
         return NAN;
-    SymbolRequest known = {name, NULL};
-    session_protect(session, NULL, intern_symbol, &known);
-    return known.symbol ? known.symbol->number : NAN;
+    SymbolRequest request = {name, NULL};
+    session_protect(session, NULL, intern_symbol, &request);
+    return request.symbol ? request.symbol->number : NAN;
 }
 
 const char *petri_symbol_name(const PetriSession *session, double number) {

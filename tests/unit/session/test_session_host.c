@@ -203,7 +203,7 @@ static void test_profile_has_row_per_line(void **state) {
         player->printed.len = 0;
         assert_int_equal(petri_profile(player->session, 0.5, note, &player->printed), PETRI_OK);
         const char *text = player->printed.text;
-        assert_non_null(strstr(text, "ms a frame in 3 frames\n"));
+        assert_non_null(strstr(text, " ms per frame, 3 frames\n"));
         assert_non_null(strstr(text, "166.6667               output\n"));
         assert_non_null(strstr(text, " 1  t.fl:1: let a=frame\n"));
         assert_non_null(strstr(text, " 1  t.fl:3: !b x=a\n"));
