@@ -1,4 +1,5 @@
 // domain_halo.c: transfers of particles between ranks: migration and halos.
+//
 // Ranks exchange the numbers of particles first, so each rank knows which messages it will receive.
 #include "physics/domain.h"
 

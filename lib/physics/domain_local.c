@@ -1,15 +1,15 @@
 // domain_local.c: the local system of a rank: its owned particles and its halo.
 //
-// Its handles are the columns of the whole system, with gaps. Its columns are in the same order, or in that of a list
-// (reorder.c). In the latter case, owned particles keep their columns when the halo is rebuilt, and arrivals fill the
-// gaps.
+// Its handles are the columns of the whole system, with gaps. Its columns are in ascending order of handles, or in the
+// sorted order of a list (reorder.c). In sorted order, owned particles keep their columns when the halo is rebuilt, and
+// arrivals fill the gaps.
 #include "physics/domain.h"
 #include "physics/threads.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-enum { LINE = 8 }; // particles; the capacity of the columns is rounded up to it
+enum { LINE = 8 }; // particles in a cache line; the capacity of the columns is a multiple of this
 
 static int compare_columns(const void *left, const void *right) {
     uint32_t a = *(const uint32_t *)left, b = *(const uint32_t *)right;
@@ -87,7 +87,8 @@ static bool build_groups(const PhysSystem *system, const Domain *domain) {
     return true;
 }
 
-// Counts for each particle those before it in its group that are not anchors: its position in the random streams.
+// For each particle, counts the earlier particles of its group that are not anchors. This is its position in the random
+// streams.
 static bool count_movers(PhysSystem *system, Domain *domain) {
     const Columns *columns = &system->columns;
     Group *groups = system->groups.bytes;
@@ -144,7 +145,7 @@ typedef struct ColumnCopy {
     const PhysSystem *system;
     const Domain *domain;
     Columns from;
-    const uint32_t *sources; // columns of `from` by column
+    const uint32_t *sources; // by local column: column of `from`
 } ColumnCopy;
 
 static void copy_attributes(const ColumnCopy *copy, size_t first, size_t end) {
@@ -256,7 +257,7 @@ static bool copy_all(PhysSystem *system, Domain *domain) {
     return true;
 }
 
-// Fills the columns of particles that have left with arrivals, or else with the last columns.
+// Fills the gaps that departed particles have left: first with arrivals, then with the last columns.
 static void fill_gaps(const PhysSystem *system, const Domain *domain) {
     PhysSystem *local = domain->local;
     const uint32_t *arriving = domain->arrivals.columns.bytes;
@@ -334,8 +335,8 @@ bool phys_domain_build_local(PhysSystem *system, Domain *domain) {
     return true;
 }
 
-// Translates the columns of a link. Returns false for links that do not act on owned particles. Otherwise both ends are
-// in the local system.
+// Replaces the column numbers of a link by local ones. Returns false for a link that acts on no owned particle. The
+// ends of all other links are in the local system.
 static bool localise_force(const PhysSystem *system, const Domain *domain, Force *force) {
     if (phys_force_row(force->given.kind).stage != STAGE_LINK)
         return true;

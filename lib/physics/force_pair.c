@@ -37,14 +37,14 @@ PairPass phys_columns_pass(const Columns *columns) {
 }
 
 static Pass prepare_pass(PhysSystem *system, ForceRange forces) {
-    enum { MIN_FOR_LANES = 4 }; // particles; fewer are not worth a vector
+    enum { MIN_FOR_LANES = 4 }; // particles; with fewer, vectors do not pay off
     const Columns *columns = &system->columns;
     Pass pass = {.system = system};
     fill_terms(system->terms.bytes, forces);
     pass.pairs = phys_columns_pass(columns);
     pass.pairs.term_count = (size_t)(forces.end - forces.begin);
     pass.pairs.terms = system->terms.bytes;
-    // With several ranks, no row may be skipped, because others wait for it.
+    // With several ranks, no row may be skipped, because other ranks wait for it.
     pass.pairs.stop = system->options.ranks.rank_count > 1 ? NULL : phys_stop(system);
     if (columns->dimensions <= PHYS_VECTOR_DIMENSIONS && pass.pairs.term_count <= PHYS_MAX_TERMS &&
         columns->count >= MIN_FOR_LANES) {
@@ -132,7 +132,7 @@ static bool charge_pairs(const Pass *pass, uint64_t pairs) {
 }
 
 // Computes the pair forces that `level`, the group itself or an enclosing one, declares. The partners of a particle are
-// the later ones of its group, then those of the enclosing groups up to `level`.
+// the later particles of its group, then the particles of the enclosing groups up to `level`.
 static void pair_pass(PhysSystem *system, const Group *group, uint32_t level, Move *move) {
     const Group *groups = system->groups.bytes;
     uint32_t number = (uint32_t)(group - groups);
@@ -147,7 +147,8 @@ static void pair_pass(PhysSystem *system, const Group *group, uint32_t level, Mo
     if (!charge_pairs(&pass, (uint64_t)group->count * group->count / 2))
         return;
     pass_triangle(&pass, first, end);
-    // Group numbers ascend from parent to child, so groups below `level` are outside it.
+    // Group numbers ascend from parent to child, so an enclosing group with a smaller number than `level` is outside
+    // it.
     for (uint32_t g = number ? groups[group->parent].populated : NO_GROUP; g != NO_GROUP && g >= level;) {
         if (!charge_pairs(&pass, (uint64_t)group->count * groups[g].count))
             return;

@@ -1,9 +1,9 @@
 // grid.c: sorts the particles of a pass into the cells of a grid.
 //
-// Cells are at least as wide as the range of a regular particle, so its neighbours are in the same cell and the
-// adjacent ones. The grid covers the area of most particles. Particles outside belong to the cells at its edge, which
-// still keeps neighbours in the same or in adjacent cells. A few particles may be much larger than the others. They are
-// in no cell; every particle tests them.
+// Cells are at least as wide as the range of a regular particle, so its neighbours are in the same cell or an adjacent
+// one. The grid covers the area of most particles. Particles outside it belong to the cells at its edge, so their
+// neighbours are still in the same or an adjacent cell. A few particles may be much larger than the others. They are in
+// no cell. Every other particle tests all of them.
 #include "physics/grid.h"
 
 #include "maths/maths.h"
@@ -20,7 +20,7 @@ typedef struct Samples {
     size_t count;
 } Samples;
 
-// Extent, radii and numbers of the particles before they are sorted.
+// Extent, range of radii, and counts of the particles before they are sorted.
 typedef struct Survey {
     double low[PHYS_VECTOR_DIMENSIONS], high[PHYS_VECTOR_DIMENSIONS];
     double max_radius, min_radius; // of regular particles
@@ -108,7 +108,7 @@ static uint32_t chunk_start(const NeighbourList *list, int chunk, int chunks) {
 static void survey_particle(const PairPass *pass, Survey *survey, size_t column) {
     survey->regular++;
     double radius = pass->radius[column];
-    survey->max_radius = radius > survey->max_radius ? radius : survey->max_radius; // fmax may be a call
+    survey->max_radius = radius > survey->max_radius ? radius : survey->max_radius; // fmax may be a function call
     survey->min_radius = radius < survey->min_radius ? radius : survey->min_radius;
     for (size_t k = 0; k < pass->dimensions; k++) {
         double x = pass->position[k * pass->stride + column];
@@ -119,7 +119,7 @@ static void survey_particle(const PairPass *pass, Survey *survey, size_t column)
 
 // Extends *low and *high to cover `count` numbers. Returns false if one of them is not finite.
 static bool find_extremes(const double *numbers, size_t count, double *low, double *high) {
-    enum { WIDE = 8 }; // numbers that a compiler can vectorise
+    enum { WIDE = 8 }; // numbers processed together, so that a compiler can vectorise the loop
     double min[WIDE], max[WIDE], rest[WIDE], lost = 0;
     for (size_t m = 0; m < WIDE; m++) {
         min[m] = INFINITY;
@@ -143,7 +143,7 @@ static bool find_extremes(const double *numbers, size_t count, double *low, doub
     return lost == 0;
 }
 
-// Surveys a chunk if all of its particles are regular, as in most chunks. Otherwise returns false.
+// Surveys a chunk quickly if all of its particles are regular, which is the common case. Otherwise returns false.
 static bool survey_regular(const Sorting *sorting, size_t first, size_t count, Survey *survey) {
     const PairPass *pass = sorting->pass;
     bool regular = find_extremes(pass->radius + first, count, &survey->min_radius, &survey->max_radius);
@@ -314,7 +314,7 @@ static void pad_arrays(const PairPass *pass, NeighbourList *list, uint32_t dummy
         list->view.radius[index] = 0;
     }
     ListView *view = &list->view;
-    // PHYS_PAIR uses only half of the memory for PHYS_QUAD.
+    // PHYS_PAIR uses only half of `packed`, so `next_packed` can use the other half.
     list->next_packed = view->width == PHYS_PAIR ? view->packed + PHYS_PAIR * ((size_t)dummy + PHYS_MAX_LANES) : NULL;
     for (size_t m = 0; m < view->width; m++) {
         size_t last = view->width * (size_t)dummy + m;
@@ -326,7 +326,8 @@ static void pad_arrays(const PairPass *pass, NeighbourList *list, uint32_t dummy
         list->view.sources[2 * (size_t)dummy] = list->view.sources[2 * (size_t)dummy + 1] = 0;
 }
 
-// Determines the skin, the large particles and the cells, at most about `max`.
+// Determines the skin, the large particles, and a grid of at most about `max` cells. Returns false if the typical
+// distance of interacting particles is too small or too large.
 static bool layout_cells(Sorting *sorting, double max, Survey *survey, Grid *grid) {
     NeighbourList *list = sorting->list;
     Samples samples;

@@ -5,7 +5,7 @@
 #include "physics/neighbour_list.h"
 
 enum {
-    PHYS_MAX_LANES = 8,         // maximum of all kernels
+    PHYS_MAX_LANES = 8,         // maximum number of lanes of all kernels
     PHYS_MAX_NEIGHBOURS = 1024, // maximum length of a list
 };
 
@@ -17,6 +17,7 @@ typedef struct Grid {
     uint32_t *start; // particles of cell c: sorted indices start[c] to start[c + 1] - 1
 } Grid;
 
+// Returns the cell of coordinate x along axis k. Coordinates outside the grid belong to the first or last cell.
 static inline uint32_t phys_axis_cell(const Grid *grid, size_t k, double x) {
     if (grid->cells[k] == 1)
         return 0;
@@ -24,6 +25,7 @@ static inline uint32_t phys_axis_cell(const Grid *grid, size_t k, double x) {
     return (uint32_t)(cell > 0 ? cell < last ? cell : last : 0);
 }
 
+// Returns the cell of a position whose components are `stride` doubles apart.
 static inline uint32_t phys_cell_of(const Grid *grid, const double *position, size_t stride) {
     uint32_t cell = 0;
     for (size_t k = grid->dimensions; k-- > 0;)
@@ -32,29 +34,29 @@ static inline uint32_t phys_cell_of(const Grid *grid, const double *position, si
 }
 
 // Special values of NeighbourList.cell.
-#define PHYS_CELL_IDLE UINT32_MAX        // particle without a list: not finite, or too small for contact
+#define PHYS_CELL_IDLE UINT32_MAX // particle without a list: not finite, or with radius 0 where all forces need contact
 #define PHYS_CELL_LARGE (UINT32_MAX - 1) // particle much larger than the others
 
-// Search for the lists of all regular particles, which kernels do chunk by chunk.
+// A search for the lists of all regular particles. Kernels perform it chunk by chunk.
 typedef struct ListSearch {
     const NeighbourList *list;
     const Grid *grid;
     const bool *remote;  // by column: true for particles that need no list; NULL: all need one
     uint32_t own;        // particles with a smaller key belong to the pass's own group
-    uint32_t dummy;      // sorted index that pads the lists
+    uint32_t dummy;      // sorted index with which lists are padded
     uint64_t scan_limit; // maximum number of candidates per chunk
 } ListSearch;
 
 typedef struct ListChunk {
     uint32_t block, block_end; // blocks of LANES sorted indices
-    uint64_t begin, used, end; // range in ListView.entries, and the first unused entry
+    uint64_t begin, used, end; // range in ListView.entries; `used` is its first unused entry
     uint64_t scanned;          // number of candidates tested
-    bool crowded, full;        // stopped early: too many neighbours; entries full
+    bool crowded, full;        // reasons for stopping early: too many neighbours; no entries left
 } ListChunk;
 
 // grid.c: chooses a grid of at most `max` cells, and sets list->contact_distance, list->skin and the largest radius of
-// a regular particle. Sets list->cell to PHYS_CELL_IDLE, PHYS_CELL_LARGE or another value. Returns false if the
-// particles are distributed so that a grid cannot sort them.
+// a regular particle. Sets list->cell to PHYS_CELL_IDLE, PHYS_CELL_LARGE or another value. Returns false if the typical
+// distance of interacting particles is too small or too large.
 bool phys_grid_layout(const PairPass *pass, NeighbourList *list, double max, Grid *grid, double *max_radius);
 
 // grid_search.c: builds the lists of all regular particles, padded with the sorted index `dummy`. Returns false if out

@@ -8,7 +8,7 @@ enum {
     ENTRIES_SPARE = PHYS_MAX_NEIGHBOURS * PHYS_MAX_LANES,
 };
 
-// A search for the lists of all blocks. Each chunk has its part of the blocks and of the memory.
+// A search for the lists of all blocks. Each chunk searches some of the blocks and has part of the memory.
 typedef struct SearchJob {
     const Kernels *kernels;
     const ListSearch *search;
@@ -29,7 +29,8 @@ static void search_chunk(void *context, int chunk, int chunks) {
     job->kernels->list_search(job->search, list_chunk);
 }
 
-// Runs the search, and repeats it with more memory if necessary.
+// Runs the search, and repeats it with more memory if necessary. Returns false if out of memory, or if lists would not
+// pay off.
 static bool search_all(PhysSystem *system, SearchJob *job, NeighbourList *list) {
     uint64_t first = (uint64_t)FIRST_ENTRIES * list->total + ENTRIES_SPARE;
     uint64_t max_entries = (uint64_t)MAX_ENTRIES * list->total + ENTRIES_SPARE;

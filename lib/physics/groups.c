@@ -45,7 +45,7 @@ static Force arranged_force(const PhysSystem *system, const ForceRecord *record)
     return force;
 }
 
-// Sorts forces by group and stage with the same counting sort.
+// Sorts forces by group and stage with a stable counting sort, as in arrange_particles.
 static void arrange_forces(PhysSystem *system) {
     ForceRecord *records = system->force_records.bytes;
     Force *forces = system->forces.bytes;

@@ -9,6 +9,7 @@
 //   - the particles of a group are one contiguous range, with or without its sub-groups;
 //   - the partners of a particle in a pass over pairs are its own range and one range per enclosing group;
 //   - all forces that one stage applies for one group are contiguous.
+//
 // Kernels use columns rather than rows, because each lane processes a different particle.
 #ifndef PETRI_PHYSICS_INTERNAL_H
 #define PETRI_PHYSICS_INTERNAL_H

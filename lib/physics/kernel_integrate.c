@@ -41,7 +41,7 @@ void integrate_all_one(IntegratePass *pass, size_t first, size_t end) {
 
 #else
 
-// Returns the lanes that must be reflected at some barrier: not x ≥ 0.
+// Returns the lanes that some barrier must reflect, because x ≥ 0 does not hold there.
 KERNEL Mask lanes_behind_barrier(const IntegratePass *pass, size_t n, const Block *block) {
     Mask clear = block->live;
     const Force *const *barriers = phys_barriers(pass);
@@ -141,7 +141,7 @@ void PER_ISA(integrate_all)(IntegratePass *pass, size_t first, size_t end) {
         integrate_3(pass, first, end);
 }
 
-// Returns true if all lanes are finite. Sets `zeros` to the lanes in which one of the parts is 0.
+// Returns true if all lanes are finite. Sets `zeros` to the lanes in which some part is 0.
 KERNEL bool all_finite(const Real *parts, size_t count, Lanes *zeros) {
     Mask finite = mask_first(LANES), large = finite;
     for (size_t k = 0; k < count; k++) {
@@ -152,6 +152,7 @@ KERNEL bool all_finite(const Real *parts, size_t count, Lanes *zeros) {
     return mask_bits(finite) == ALL_LANES;
 }
 
+// Returns true if a part is a zero whose sign differs from the zero in the row.
 KERNEL bool has_other_zero(const double *row, const Real *parts, size_t count, size_t lane) {
     for (size_t k = 0; k < count; k++)
         if (row[k] == 0 && parts[k][lane] == 0 && signbit(row[k]) != signbit(parts[k][lane]))
@@ -177,11 +178,11 @@ KERNEL void write_lane_rows(size_t n, const uint32_t *order, double *rows, const
         real_store_rows(row, parts + 2);
 }
 
-// If all numbers are finite, PhysTime.keep_last_finite means a plain copy, because equal numbers have the same bits,
-// except zeros.
+// With PhysTime.keep_last_finite, finite numbers can simply be copied: equal numbers have the same bits, except for
+// zeros of different sign.
 KERNEL size_t write_range(const Columns *columns, size_t n, const uint32_t *order, double *rows, size_t first,
                           size_t end) {
-    enum { AHEAD = 64, MANY = 30000 }; // distance of prefetching in rows; number of rows that exceeds the caches
+    enum { AHEAD = 64, MANY = 30000 }; // prefetch distance in rows; number of rows that no longer fit into the caches
     bool many = columns->count > MANY;
     for (; first + LANES <= end; first += LANES) {
         Real parts[2 * PHYS_VECTOR_DIMENSIONS];

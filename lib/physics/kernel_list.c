@@ -2,7 +2,7 @@
 // the order of the pass. Every pair is computed twice, once for each particle.
 #include "physics/pair_sum.h"
 
-// Returns the index of the radius in ListView.packed: x y r, or x y z r.
+// Returns the index of the radius in a quad of ListView.packed, which holds x, y, radius or x, y, z, radius.
 KERNEL size_t radius_component(size_t dimensions) {
     return dimensions < 3 ? 2 : 3;
 }

@@ -14,8 +14,8 @@ typedef struct Rows {
     Real sum[PHYS_VECTOR_DIMENSIONS];
 } Rows;
 
-// Adds all forces between the `live` rows and one column. `lead_applies`: the leading force is known to act on the
-// column.
+// Adds all forces between the `live` rows and one column. If `lead_applies`, the leading force must be known to act on
+// the column. Otherwise this is tested.
 KERNEL void add_column(const PairPass *pass, PairShape shape, Rows *rows, Mask live, size_t j, bool lead_applies,
                        Tile *tile, size_t k) {
     const PairEnd *target = &rows->target;
@@ -147,7 +147,7 @@ KERNEL void tile_rows(const PairPass *pass, PairShape shape, size_t row, size_t 
     }
 #define PAIR_ENTRY(n, name, lead, rest) [n - 1][lead][rest] = {triangle_##n##name##rest, tiles_##n##name##rest},
 
-// Every force that may have no bound has kernels with it as the lead, in 1, 2 and 3 dimensions.
+// Every force that may be unbounded has kernels in which it is the lead, in 1, 2 and 3 dimensions.
 #define LEAD_CONTACT(MAKE, KIND)
 #define LEAD_FAR(MAKE, KIND)                                                                                           \
     MAKE(1, KIND, PHYS_##KIND, REST_NONE)                                                                              \

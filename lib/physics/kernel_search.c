@@ -30,7 +30,7 @@ typedef struct Finder {
     uint32_t cell;      // of the current particle
     uint32_t low, high; // range of cells in one row for which `first` and `end` were found
     uint32_t rows;
-    uint32_t candidates; // number in all rows
+    uint32_t candidates; // number of candidates in all rows
     uint32_t first[MAX_ROWS], end[MAX_ROWS];
     uint32_t near[PHYS_MAX_NEIGHBOURS + LANES];
     Words keys[PHYS_MAX_NEIGHBOURS / WORDS + 2];  // of `near`: position in the order of the pass
@@ -80,10 +80,10 @@ typedef struct Measure {
     bool one_size; // all particles have the same radius, and all forces need contact
 } Measure;
 
-// LANES copies of a particle whose neighbours are searched.
+// A particle whose neighbours are searched for, copied to all lanes.
 typedef struct SearchTarget {
     Real position[PHYS_VECTOR_DIMENSIONS], radius, bound, skin;
-    Real square; // square of the distance up to which neighbours are listed; if one_size
+    Real square; // with one_size: square of the distance up to which neighbours are listed
 } SearchTarget;
 
 KERNEL Real square_of_reach(const SearchTarget *target, Real radius) {
@@ -102,7 +102,7 @@ KERNEL SearchTarget search_target_of(const ListSearch *search, Measure shape, ui
     return target;
 }
 
-// Returns the candidates of `mask` whose distance is at most max(radius + radius, bound) + skin.
+// Returns the candidates of `mask` whose distance is at most max(sum of the radii, bound) + skin.
 KERNEL Mask is_near(const SearchTarget *target, Measure shape, const double *const *built, const double *radius,
                     size_t s, Mask mask) {
     Real square = real_zero();
@@ -115,7 +115,8 @@ KERNEL Mask is_near(const SearchTarget *target, Measure shape, const double *con
                               shape.one_size ? target->square : square_of_reach(target, real_load(radius + s)));
 }
 
-// Collects the particles near `index` in finder->near and returns their number. Stops above PHYS_MAX_NEIGHBOURS.
+// Collects the particles near `index` in finder->near and returns their number. Stops if there are more than
+// PHYS_MAX_NEIGHBOURS.
 KERNEL size_t find_near(const ListSearch *search, Finder *finder, Measure shape, uint32_t index) {
     const ListView *view = &search->list->view;
     const double *built[] = {view->built[0], view->built[1], view->built[2]};
@@ -129,7 +130,8 @@ KERNEL size_t find_near(const ListSearch *search, Finder *finder, Measure shape,
     return count;
 }
 
-// Removes the particle itself, and pairs of two particles of enclosing groups, which belong to other passes.
+// Removes the particle itself. If it belongs to an enclosing group, also removes particles of enclosing groups, whose
+// pairs belong to other passes. Returns the number left.
 KERNEL size_t exclude_self(const ListSearch *search, Finder *finder, uint32_t index, size_t found) {
     const uint32_t *key = search->list->key;
     uint32_t limit = key[index] < search->own ? UINT32_MAX : search->own;
@@ -155,7 +157,7 @@ KERNEL Words count_less(Words rank, int32_t key, Words mine) {
 #endif
 }
 
-// Counts for each key how many are smaller, which is faster than sorting for such numbers of keys.
+// For each key, counts the smaller keys. This is faster than sorting, because there are few keys.
 KERNEL void rank_keys(Finder *finder, size_t count) {
     const int32_t *keys = (const int32_t *)finder->keys;
     for (size_t v = 0; v * WORDS < count; v += 2) {
@@ -238,8 +240,8 @@ KERNEL size_t list_from_batch(const ListSearch *search, const Batch *batch, Meas
     return count;
 }
 
-// Fills the list of a particle that searches separately, and returns its length. Above PHYS_MAX_NEIGHBOURS the list is
-// not filled.
+// Fills the list of a particle that searches separately, and returns its length. The list is not filled if the length
+// exceeds PHYS_MAX_NEIGHBOURS.
 KERNEL size_t list_single(const ListSearch *search, Finder *finder, Measure shape, uint32_t index, uint32_t *list) {
     finder->cell = cell_from(search->grid, finder->cell, index);
     if (finder->low != finder->cell || finder->high != finder->cell)
@@ -254,7 +256,7 @@ KERNEL size_t list_single(const ListSearch *search, Finder *finder, Measure shap
     return count;
 }
 
-// Builds the lists of one block side by side. Returns false and sets chunk->crowded or chunk->full if that fails.
+// Builds the interleaved lists of one block. If that fails, returns false and sets chunk->crowded or chunk->full.
 KERNEL bool search_block(const ListSearch *search, ListChunk *chunk, Finder *finder, Measure shape, uint32_t block) {
     const ListView *view = &search->list->view;
     uint32_t first = block * LANES, dummy = search->dummy * view->width;

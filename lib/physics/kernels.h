@@ -2,10 +2,10 @@
 //
 // The kernels are written once (kernel_*.c over lanes.h) and compiled once per instruction set. They use the formulas
 // of pair_formulas.h and single_formulas.h. More dimensions, more forces and very few particles use the same formulas
-// with one lane (pair_rows.c and kernel_integrate.c). All variants give the same bits, because:
+// with one lane (pair_rows.c and kernel_integrate.c). All variants give bit-identical results, because:
 //
 //   - a lane is a target, or a pair whose term is added to two targets one after the other in the right order;
-//   - a term that does not apply does not change its sum. Adding +0.0 could (-0.0 + +0.0 is +0.0), so lanes are blended
+//   - a term that does not apply does not change its sum. Adding +0.0 would change a sum of -0.0, so lanes are blended
 //     or use the neutral zero of the operation: x + -0.0 and x - +0.0 are x for all x;
 //   - nothing is contracted, reassociated or approximated.
 #ifndef PETRI_PHYSICS_KERNELS_H
@@ -29,7 +29,7 @@ typedef struct PairTerm {
     PhysForceKind kind;
     double strength;
     double power;
-    double bound; // the force applies only if the distance is less; infinite: no bound
+    double bound; // the force applies only at smaller distances; infinite: no bound
     double overlap;
 } PairTerm;
 
@@ -51,7 +51,8 @@ static inline bool phys_pass_stopped(const PairPass *pass) {
     return pass->stop && atomic_load_explicit(pass->stop, memory_order_relaxed);
 }
 
-// All pairs inside one range, or between a range of rows and one of columns that do not overlap.
+// PairTriangle computes all pairs within one range. PairTiles computes all pairs between a range of rows and a range of
+// columns, which must not overlap.
 typedef void PairTriangle(const PairPass *pass, size_t first, size_t end);
 typedef void PairTiles(const PairPass *pass, size_t row, size_t row_end, size_t column, size_t column_end);
 
@@ -69,7 +70,7 @@ typedef struct ListView {
     double *built[PHYS_VECTOR_DIMENSIONS]; // by component and sorted index: positions for which the lists were built
     double *radius;                        // by sorted index: radii for which the lists were built
     bool same_radii;                       // `radius` holds the current radii
-    double one_radius;       // radius of all listed particles if it is the same and `sources` is NULL; else 0
+    double one_radius;       // common radius of all listed particles; 0: radii differ, or `sources` is set
     double *packed;          // current position and radius, `width` doubles per sorted index, then a dummy
     uint32_t width;          // PHYS_QUAD, or PHYS_PAIR in two dimensions if `one_radius` is set
     double *sources;         // mass and charge, two doubles per sorted index; NULL: no force needs them
@@ -98,7 +99,8 @@ typedef struct Kernels {
     void (*list_search)(const struct ListSearch *search, struct ListChunk *chunk);
     // Adds the forces on the regular particles of blocks first to end - 1.
     void (*list_forces)(const PairPass *pass, const ListView *view, size_t first, size_t end);
-    // Adds the forces from columns first to end - 1 on `count` particles, at most LANES. `targets` holds LANES columns.
+    // Adds the forces that columns first to end - 1 exert on `count` particles, at most LANES. `targets` holds LANES
+    // column numbers.
     void (*range_forces)(const PairPass *pass, const uint32_t *targets, size_t count, size_t first, size_t end);
     // Applies single-particle forces, barriers and motion to some particles.
     IntegrateKernel *integrate;

@@ -1,9 +1,9 @@
 // lanes.h: SIMD operations for formulas and kernels: those of maths/lanes.h, and masks.
 //
 // Real holds LANES doubles, and Mask holds one boolean per lane. All operations on Real are single IEEE operations, so
-// a formula gives the same bits for every width. 8 lanes use AVX-512 and 4 use AVX2. 2 lanes use the vector extension
-// of gcc and clang with SSE2, NEON or SIMD128, which every processor with vectors has. One lane is plain C, for cases
-// without vectors: any number of dimensions, groups of a few particles, links and reflections.
+// a formula gives bit-identical results for every width. 8 lanes use AVX-512 and 4 use AVX2. 2 lanes use the vector
+// extension of gcc and clang, which compiles to SSE2, NEON or SIMD128. One lane is plain C, for cases without vectors:
+// any number of dimensions, groups of a few particles, links and reflections.
 #ifndef PETRI_PHYSICS_LANES_H
 #define PETRI_PHYSICS_LANES_H
 
@@ -38,6 +38,7 @@ typedef __mmask8 Mask;
 typedef int64_t Mask __attribute__((vector_size(8 * LANES))); // a lane has all bits set or none
 #endif
 
+// Returns a mask of the first `count` lanes.
 KERNEL Mask mask_first(size_t count) {
 #if LANES == 1
     return count > 0;
@@ -83,7 +84,7 @@ KERNEL bool mask_any(Mask a) {
     return mask_bits(a) != 0;
 }
 
-// Returns the lanes of `mask` in which a < b, and so on.
+// Gives the lanes of `mask` in which the comparison holds.
 #if LANES == 8
 #define COMPARE(mask, a, operator, b, predicate) _mm512_mask_cmp_pd_mask(mask, a, b, predicate)
 #elif LANES == 1
@@ -279,7 +280,7 @@ KERNEL void real_load_pairs(const double *const *rows, Real *columns) {
 #endif
 }
 
-// Stores LANES pairs side by side; parts[m] holds element m of each.
+// Stores LANES pairs contiguously. parts[m] holds element m of each pair.
 KERNEL void real_store_pairs(double *pairs, const Real *parts) {
 #if LANES == 2
     for (int lane = 0; lane < LANES; lane++)
@@ -324,7 +325,7 @@ KERNEL void real_store_rows(double *const *rows, const Real *parts) {
 #endif
 }
 
-// Stores LANES groups of 4 doubles side by side; parts[m] holds element m of each.
+// Stores LANES groups of 4 doubles contiguously. parts[m] holds element m of each group.
 KERNEL void real_store_quads(double *quads, const Real *parts) {
     double *rows[LANES];
     for (int lane = 0; lane < LANES; lane++)
@@ -332,7 +333,8 @@ KERNEL void real_store_quads(double *quads, const Real *parts) {
     real_store_rows(rows, parts);
 }
 
-// Writes base + lane for the lanes of a mask side by side, and returns how many. `to` has room for LANES elements.
+// Writes base + lane for each lane of the mask contiguously, and returns their number. `to` must have space for LANES
+// elements.
 KERNEL size_t mask_indices(Mask mask, uint32_t base, uint32_t *to) {
     Lanes bits = mask_bits(mask);
 #if LANES == 8
@@ -347,8 +349,8 @@ KERNEL size_t mask_indices(Mask mask, uint32_t base, uint32_t *to) {
 #endif
 }
 
-// Writes the elements of `from` that are in the mask and differ from `except` side by side, and returns how many. Both
-// arrays have room for LANES elements.
+// Copies the elements of `from` that are in the mask and differ from `except`. Stores them contiguously and returns
+// their number. Both arrays must have space for LANES elements.
 KERNEL size_t mask_compress(Mask mask, const uint32_t *from, uint32_t except, uint32_t *to) {
 #if LANES == 8
     __m256i numbers = _mm256_loadu_si256((const __m256i *)from);

@@ -7,13 +7,13 @@
 #include <string.h>
 
 enum {
-    MIN_FOR_LISTS = 160, // particles of a pass
-    FIRST_COOLDOWN = 64, // steps without lists after they did not pay off; doubled each time
+    MIN_FOR_LISTS = 160, // minimum number of particles in a pass
+    FIRST_COOLDOWN = 64, // steps without lists after lists did not pay off; doubled each time
     MAX_COOLDOWN = 1024,
     ENTRIES_A_UNIT = 4,
     FIRST_LIFETIME = 8, // steps that the first list is expected to serve
     MIN_LIFETIME = 8,   // steps that a list should serve
-    MANY = 250000,      // particles that do not fit into the cache
+    MANY = 250000,      // number of particles that no longer fit into the cache
 };
 
 void phys_neighbour_list_free(NeighbourList *list) {
@@ -22,7 +22,7 @@ void phys_neighbour_list_free(NeighbourList *list) {
     phys_buffer_free(&list->entries);
 }
 
-// Finds the range of a pass. Returns false if one of its forces has no bound.
+// Finds the interaction range of a pass. Returns false if one of its forces has no bound.
 static bool is_bounded(const PairPass *pass, double *bound, bool *contact_only) {
     *bound = 0;
     *contact_only = true;
@@ -48,7 +48,8 @@ static bool find_ranges(const PhysSystem *system, uint32_t group, uint32_t level
     return true;
 }
 
-// Returns the list of this pass, else the least recently used one of earlier frames, or NULL.
+// Returns the list of this pass, or else the list that has not been used for the longest time. Returns NULL if other
+// passes of this frame use all lists.
 static NeighbourList *find_list(PhysSystem *system, uint32_t group, uint32_t level) {
     NeighbourList *spare = NULL;
     for (int i = 0; i < PHYS_MAX_LISTS; i++) {
@@ -240,8 +241,9 @@ static double cost_of_step(const NeighbourList *list) {
     return build / list->lifetime + ((double)list->scanned * SCAN_COST / list->lifetime + (double)list->padded) / width;
 }
 
-// A larger skin makes longer lists that serve more steps. Each list tries another skin, in the same direction as long
-// as the cost falls. Motion also changes the cost, so the skin never shrinks below MIN_LIFETIME steps.
+// A larger skin makes longer lists that serve more steps. Each new list tries another skin. The skin changes in the
+// same direction as long as the cost falls. Motion also changes the cost, so the skin never shrinks below MIN_LIFETIME
+// steps.
 static void tune_skin(NeighbourList *list) {
     double cost = cost_of_step(list);
     bool worse = list->cost > 0 && cost > list->cost;
@@ -259,7 +261,7 @@ void phys_adapt_skin(NeighbourList *list, uint32_t lifetime) {
 }
 
 // Sorts the particles and builds the list. Restores the order of the columns if there are large particles or no list,
-// because they are then summed in column order.
+// because forces are then summed in column order.
 static bool sort_particles(PhysSystem *system, const Kernels *kernels, const PairPass *pass, NeighbourList *list) {
     bool sorted = phys_grid_build(system, kernels, pass, list);
     if (!system->in_cell_order || (sorted && list->view.listed == list->view.regular))
@@ -272,7 +274,7 @@ static bool build_list(PhysSystem *system, const Kernels *kernels, const PairPas
     list->next_motion_version = 0;
     list->built = sort_particles(system, kernels, pass, list);
     list->radius_version = system->radius_version;
-    system->failed = false; // a frame can do without lists
+    system->failed = false; // running out of memory here is not an error, because a pass can do without a list
     list->age = 0;
     if (list->built && (system->options.neighbours == PHYS_NEIGHBOURS_ALWAYS || pays_off(list))) {
         list->backoff = 0;
@@ -281,7 +283,7 @@ static bool build_list(PhysSystem *system, const Kernels *kernels, const PairPas
         return true;
     }
     list->built = false;
-    if (system->remote) { // no list until the next halo
+    if (system->remote) { // no list until the halo is rebuilt
         list->cooldown = UINT32_MAX;
         return false;
     }

@@ -35,7 +35,7 @@ typedef struct PassRanges {
 
 typedef struct NeighbourList {
     // the pass that the list is for
-    uint32_t group; // whose particles the forces act on
+    uint32_t group; // group whose particles the forces act on
     uint32_t level; // group that declares the forces
     uint64_t frame; // frame of the last use; 0: never used
     PassRanges ranges;
@@ -46,14 +46,14 @@ typedef struct NeighbourList {
     // contents
     bool built;
     ListView view;
-    double *next_packed;          // `view.packed` of the next step, written by the current one; NULL: no room
+    double *next_packed;          // `view.packed` of the next step, written by the current step; NULL for PHYS_QUAD
     uint64_t next_motion_version; // PhysSystem.motion_version that `next_packed` matches; 0: none
     bool next_valid;              // no particle had moved beyond the skin in `next_packed`
     uint32_t *key;                // by sorted index: position in the order of the pass
     uint32_t *cell;               // by position in the ranges: grid cell, later sorted index
     const uint32_t *order;        // by column: position in the order of the pass; NULL: columns are in that order
-    uint32_t total; // number of particles; those after view.listed are idle: not finite, or too small for contact
-    double contact_distance; // typical distance of interacting particles, the unit of the skin
+    uint32_t total;               // number of particles; those after view.listed are idle (PHYS_CELL_IDLE)
+    double contact_distance;      // typical distance of interacting particles, the unit of the skin
     double skin;
     uint64_t radius_version; // PhysSystem.radius_version for which it was built
     bool skin_is_fixed;      // set by the domain decomposition
@@ -63,7 +63,7 @@ typedef struct NeighbourList {
     uint32_t age;      // steps since it was built
     uint32_t lifetime; // steps that the previous build served
     double cost;       // of a step with the previous build; 0: unknown
-    bool shrinking;    // the skin was last reduced, else increased
+    bool shrinking;    // true: the last adjustment reduced the skin; false: it increased the skin
     uint32_t cooldown; // remaining steps that compute all pairs instead
     uint32_t backoff;  // length of the last `cooldown`; 0: none
     Buffer arrays;
@@ -86,11 +86,11 @@ void phys_adapt_skin(NeighbourList *list, uint32_t lifetime);
 //
 // Refreshes the lists, which have served `age` steps. Returns false if they must be rebuilt.
 bool phys_lists_valid(PhysSystem *system, uint32_t age);
-// Drops all lists. The next ones use this skin.
+// Drops all lists. New lists use this skin.
 void phys_lists_drop(PhysSystem *system, double skin);
 
-// grid.c: builds a list for the current positions with list->skin. Returns false if out of memory, or if the particles
-// are distributed so that a grid cannot sort them.
+// grid.c: builds a list for the current positions with list->skin. Returns false if out of memory, if the typical
+// distance of interacting particles is too small or too large, or if lists would not pay off.
 bool phys_grid_build(PhysSystem *system, const Kernels *kernels, const PairPass *pass, NeighbourList *list);
 
 // neighbour_list.c: returns the number of entries above which a list costs more than all pairs.

@@ -35,7 +35,7 @@ typedef struct Pairs {
     const PairEnd *target;
     const PairEnd *partner;
     Mask contact; // lanes with l < r₁+r₂ where neither radius is 0
-    bool plain;   // no exponent in the pass needs a function (pow_lanes.h)
+    bool plain;   // no exponent in the pass needs a function call (pow_lanes.h)
     bool linear;  // all exponents are 1
 } Pairs;
 
@@ -122,7 +122,7 @@ KERNEL Mask pair_apply(const Pairs *pairs, bool contact_only, Real *k) {
 #undef PAIR
 #undef OTHER
     case PHYS_FORCE_KINDS:
-        __builtin_unreachable(); // a pass has pair forces only
+        __builtin_unreachable(); // a pass contains only pair forces
     }
     double bound = pairs->term->bound;
     return bound < INFINITY ? real_less_where(applies, pairs->geometry->length, real_set(bound)) : applies;

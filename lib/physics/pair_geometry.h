@@ -1,5 +1,5 @@
-// pair_geometry.h: distances and directions of LANES pairs: targets in the lanes, and one common partner or one for
-// each.
+// pair_geometry.h: distances and directions of LANES pairs. Each lane has its own target. The partner is the same in
+// all lanes, or each lane has its own.
 #ifndef PETRI_PHYSICS_PAIR_GEOMETRY_H
 #define PETRI_PHYSICS_PAIR_GEOMETRY_H
 
@@ -10,7 +10,7 @@ enum { LEAD_NONE = PHYS_FORCE_KINDS }; // other values are a PhysForceKind
 typedef enum PairRest {
     REST_NONE,
     REST_SPRING,  // one collision force with power 1; no radius is 0
-    REST_PLAIN,   // contact forces only, and no exponent needs a function (pow_lanes.h)
+    REST_PLAIN,   // contact forces only, and no exponent needs a function call (pow_lanes.h)
     REST_CONTACT, // contact forces only
     REST_ANY,
 } PairRest;

@@ -1,8 +1,8 @@
 // pair_ranks.c: force decomposition: computes all pairs of a pass on several ranks, each pair once.
 //
 // The blocks are those of pair_wavefront.c. Rows of blocks are assigned to ranks in turn. The partial sums of a block's
-// columns are sent from row to row, one message per block. So all sums have the order of a single process. At the end
-// every rank broadcasts the sums of its rows, and all ranks move all particles.
+// columns are sent to the rank of the next row, one message per block. So all sums have the order of a single process.
+// At the end every rank broadcasts the sums of its rows, and all ranks move all particles.
 #include "physics/pair_wavefront.h"
 
 enum {
@@ -27,7 +27,7 @@ static int row_owner(const Shared *shared, size_t row) {
     return (int)(row % (size_t)shared->ranks->rank_count);
 }
 
-// Returns the sums of a block's rows or columns, and their number.
+// Returns the force sums of the rows or columns of block `number`, and sets *length to their number.
 static double *block_sums(const Shared *shared, size_t first, size_t end, size_t number, size_t *length) {
     size_t begin = first + number * shared->blocks.block, rest = end - begin;
     *length = shared->blocks.block < rest ? shared->blocks.block : rest;

@@ -4,14 +4,14 @@
 
 #include "physics/pair_geometry.h"
 
-// Terms of one tile for its columns, by component and column.
+// The terms that a tile subtracts from the sums of its columns, by component and column.
 typedef struct Tile {
     Real lead[PHYS_VECTOR_DIMENSIONS][LANES];
     Real rest[PHYS_MAX_TERMS][PHYS_VECTOR_DIMENSIONS][LANES];
     unsigned hits; // bit set of the forces that have written to `rest`
 } Tile;
 
-// Adds a force to `sum` where it applies. `column`, unless NULL, receives the same terms, with +0.0 elsewhere.
+// Adds a force to `sum` where it applies. `column`, unless NULL, receives the same terms, and +0.0 in the other lanes.
 KERNEL void add_term(PairShape shape, const PairGeometry *pair, Mask applies, Real coefficient, Real *sum,
                      Real (*column)[LANES], size_t k) {
     for (size_t m = 0; m < shape.dimensions; m++) {

@@ -1,13 +1,13 @@
 // pair_wavefront.c: computes all pairs of a pass on several threads.
 //
-// The pairs form a triangle or a rectangle, which is divided into blocks. A block may be computed when the one to its
-// left and the one above it are done: then the sums of its rows and columns have received all earlier terms in order.
-// Threads claim rows of blocks in turn and follow each other through them, so all sums have the order of a single
-// thread. When a row of a triangle is done, the positions of its particles are no longer needed. Waiting threads may
-// then move them.
+// The pairs form a triangle or a rectangle, which is divided into blocks. A block may be computed when the blocks to
+// its left and above it are done, because the sums of its rows and columns have then received all earlier terms in
+// order. Threads claim rows of blocks in turn and follow each other through them, so all sums have the order of a
+// single thread. When a row of a triangle is done, the positions of its particles are no longer needed. Waiting threads
+// may then move them.
 //
-// A thread sees the result of another after about 300 ns, in which it would compute six tiles of pairs. So blocks are
-// small, and data written by two threads is in different cache lines.
+// A thread sees the result of another thread after about 300 ns, in which it could compute six tiles of pairs. So
+// blocks are small, and different threads write to different cache lines.
 #include "physics/pair_wavefront.h"
 
 #include "physics/threads.h"
@@ -15,13 +15,13 @@
 #include <stdatomic.h>
 
 enum {
-    PAIRS_FOR_THREADS = 60000, // smallest job for which sleeping threads are woken
-    PAIRS_FOR_AWAKE = 10000,   // smallest job for threads that are awake
+    PAIRS_FOR_THREADS = 60000, // pairs in the smallest job for which sleeping threads are woken
+    PAIRS_FOR_AWAKE = 10000,   // pairs in the smallest job for threads that are awake
     MIN_BLOCK = 24,            // minimum number of rows in a block
     BLOCKS_PER_COLUMN = 24,    // number of blocks in a column, unless limited by MIN_BLOCK
     MAX_BLOCKS = BLOCKS_PER_COLUMN + 1,
     BLOCK_ALIGN = 8, // rows; a multiple of every number of lanes
-    LINE_BYTES = 64, // of a cache line
+    LINE_BYTES = 64, // size of a cache line
 };
 
 // A row of blocks.
@@ -37,7 +37,7 @@ typedef struct Wavefront {
     PairPass pass;
     PhysThreads *threads;
     const PairMotion *motion;                 // NULL: none
-    _Alignas(LINE_BYTES) atomic_size_t moved; // number of leading rows whose particles are moved or being moved
+    _Alignas(LINE_BYTES) atomic_size_t moved; // number of leading rows whose particles have moved or are being moved
     Row rows[MAX_BLOCKS];
 } Wavefront;
 
@@ -72,7 +72,7 @@ static bool is_done_to(const Row *row, size_t column) {
     return atomic_load_explicit(&row->done, memory_order_acquire) >= column;
 }
 
-// Moves the particles of the next row that is done. Returns false if there is none.
+// Moves the particles of the next row whose forces are complete. Returns false if there is no such row.
 static bool move_next_row(Wavefront *wavefront) {
     size_t row = atomic_load_explicit(&wavefront->moved, memory_order_relaxed);
     if (!wavefront->motion || row >= wavefront->blocks.rows ||
@@ -87,6 +87,7 @@ static bool move_next_row(Wavefront *wavefront) {
     return true;
 }
 
+// Waits until `column` blocks of a row are done. Meanwhile, moves particles of complete rows.
 static void wait_for_row(Wavefront *wavefront, const Row *row, size_t column, bool caller) {
     PhysSpinWait wait = {0};
     while (!is_done_to(row, column))

@@ -14,7 +14,7 @@ typedef struct PairRegion {
     size_t column, column_end;
 } PairRegion;
 
-// A region divided into square blocks; the last ones may be smaller.
+// A region divided into square blocks. The last blocks of a row or column may be smaller.
 typedef struct PairBlocks {
     const PairRegion *pairs;
     size_t block;   // side of a block, in particles
@@ -24,6 +24,7 @@ typedef struct PairBlocks {
 
 // Divides a region into about `blocks_per_column` blocks per column, each with at least `min_rows` rows.
 PairBlocks phys_pair_blocks(const PairRegion *pairs, size_t blocks_per_column, size_t min_rows);
+// Computes the pairs of one block.
 void phys_pair_block(const PairBlocks *blocks, size_t row, size_t column);
 
 // pair_rows.c: computes the pairs of particle i with particles first to end - 1, in ascending order.

@@ -10,7 +10,8 @@
 bool phys_reserve_columns(PhysSystem *system, uint64_t spare) {
     Columns *columns = &system->columns;
     uint64_t n = system->dimensions, count = system->particle_count;
-    // The last element of each is used only with own forces. The first own force causes new columns.
+    // The last element of each array is used only if particles have `force` attributes. When the first such attribute
+    // is set, the columns are reserved again.
     double **vectors[] = {&columns->position, &columns->velocity, &columns->force, &columns->own_force};
     double **scalars[] = {&columns->radius,  &columns->mass,   &columns->charge,
                           &columns->section, &columns->volume, &columns->ease};
@@ -37,8 +38,8 @@ bool phys_reserve_columns(PhysSystem *system, uint64_t spare) {
         *scalars[i] = next;
     columns->scratch = next;
     columns->anchor = (bool *)(next + SCRATCH * n);
-    // Kernels also compute the lanes beyond the last particle and discard the results, so these must be defined
-    // numbers.
+    // Kernels also compute the lanes beyond the last particle and discard the results, so these lanes must be
+    // initialised.
     size_t padding = (size_t)(stride - count) * sizeof(double);
     for (unsigned i = 0; i < vector_count; i++)
         for (uint64_t k = 0; k < n && padding; k++)
@@ -119,8 +120,8 @@ typedef struct RowWriter {
 } RowWriter;
 
 // Applies PhysTime.keep_last_finite to one vector: writes the column's value to the row, or restores the row's value in
-// `home`. Returns false if the column's value was not finite. Only this function keeps inf and nan of `!physics` out of
-// the state, whose entries reference the rows (scene/mirror.h).
+// `home`. Returns false if the column's value was not finite. Only this function prevents inf and nan of `!physics`
+// from reaching the state, whose entries reference the rows (scene/mirror.h).
 static inline bool keep_last_finite(const Columns *columns, const double *column, double *row, bool from_attribute,
                                     double *home, size_t home_stride) {
     size_t n = columns->dimensions, stride = columns->stride;

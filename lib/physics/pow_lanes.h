@@ -13,14 +13,14 @@ static __attribute__((noinline, unused)) Real pow_by_lane(Mask mask, Real base, 
     return real_load(lanes);
 }
 
-// Returns true if the exponent needs no call of a function.
+// Returns true if the exponent needs no function call.
 static inline bool pow_is_plain(double power) {
     return power == 1 || power == 2 || power <= 0;
 }
 
-// Returns base^power in the lanes of the mask; other lanes are undefined. A negative exponent counts as 0. `plain`:
-// pow_is_plain holds, which should be a constant in loops: even a call that never happens makes the compiler spill
-// registers.
+// Returns base^power in the lanes of the mask; other lanes are undefined. A negative exponent counts as 0. `plain` may
+// be true only if pow_is_plain(power). In loops it should be a compile-time constant, because even a call that never
+// happens makes the compiler spill registers.
 KERNEL Real real_pow(bool plain, Mask mask, Real base, double power) {
     if (power == 1)
         return base;

@@ -35,7 +35,7 @@ static void add_arrays(Reordering *reordering, bool positions) {
         add_vector(reordering, columns->ease, 1);
     }
     if (system->has_own_forces || positions)
-        add_vector(reordering, columns->force, columns->dimensions); // else they are 0 before the pair forces
+        add_vector(reordering, columns->force, columns->dimensions); // otherwise the forces are 0 before the pair pass
     if (!system->record_stride)
         return;
     double *numbers[] = {columns->radius, columns->mass, columns->charge, columns->section, columns->volume};
@@ -154,8 +154,8 @@ void phys_restore_order(PhysSystem *system) {
     Reordering reordering = {.system = system};
     uint32_t *order = system->order, *column_of = system->column_of, next = 0;
     add_arrays(&reordering, true);
-    for (uint32_t handle = 0; handle < system->handle_count;
-         handle++) // order[i] is the column where the particle in column i belongs
+    // In this loop, order[i] becomes the column to which the particle in column i belongs.
+    for (uint32_t handle = 0; handle < system->handle_count; handle++)
         if (column_of[handle] != NO_COLUMN)
             order[column_of[handle]] = next++;
     for (uint32_t i = 0; i < system->columns.count; i++)

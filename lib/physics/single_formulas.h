@@ -1,5 +1,5 @@
 // single_formulas.h: formulas for single particles, LANES at once: forces (4.2), motion (4.3) and soft bounds of
-// barriers (4.4). v velocity, p position, r radius, m mass, q charge, S strength.
+// barriers (4.4). Symbols: v velocity, p position, r radius, m mass, q charge, S strength.
 #ifndef PETRI_PHYSICS_SINGLE_FORMULAS_H
 #define PETRI_PHYSICS_SINGLE_FORMULAS_H
 
@@ -96,8 +96,8 @@ KERNEL void single_drag(const Singles *s) {
     Real c = real_set(s->force->strength) * real_sqrt(square);
     c *= real_load(s->columns->section + s->block->first);
     Real limit = s->block->mass / real_set(s->pass->delta);
-    // This order of the comparison preserves a NaN (0 · ∞), so the force does not act. The other would stop the
-    // particle.
+    // This order of the comparison preserves a NaN (0 · ∞), so the force does not act. The opposite order would stop
+    // the particle.
     c = real_select(real_less(limit, c), limit, c);
     Mask applies = where_not_zero(s->block->live, real_load(s->columns->radius + s->block->first));
     for (size_t k = 0; k < s->n; k++) {
@@ -158,7 +158,7 @@ KERNEL void single_random(const Singles *s) {
         size_t count = consecutive_draws(s, lane, bits, s->block->active - drawn);
         random_normals(LANES_LEVEL, s->force->given.key, items_before(s, lane), s->n * count, normals + s->n * drawn);
         drawn += count;
-        lane += count - 1; // without `draws` this was the last iteration
+        lane += count - 1; // without random_offset, this was the last iteration
     }
     const double *next = normals;
     for (size_t lane = 0; lane < LANES; lane++)

@@ -12,8 +12,8 @@ static void ease_strengths(const PhysSystem *system, double clock) {
         forces[i].strength = forces[i].given.strength * phys_ramp(forces[i].given.ease, clock);
 }
 
-// Initial value of a particle's force in a step: its own force, times clock / ease while it is eased in. A factor of 1
-// changes no bit.
+// Initial value of a particle's force in a step: its `force` attribute, times clock / ease while it is eased in. A
+// factor of 1 changes no bit.
 typedef struct StartForces {
     const PhysSystem *system;
     double clock;
@@ -28,7 +28,7 @@ static void start_chunk(void *context, int chunk, int chunks) {
     size_t count = phys_chunk_begin(columns->count, chunk + 1, chunks) - first;
     for (size_t k = 0; k < n; k++) {
         double *force = columns->force + k * stride + first;
-        if (!system->has_own_forces) { // the column does not exist either
+        if (!system->has_own_forces) { // the column own_force does not exist
             memset(force, 0, count * sizeof *force);
             continue;
         }
@@ -60,7 +60,7 @@ bool phys_step(PhysSystem *system, double clock, double delta, double speed_of_l
         return false;
     ease_strengths(system, clock);
     start_forces(system, clock);
-    // 1. Forces between particles. All are computed before a particle moves that another one still needs.
+    // 1. Forces between particles. A particle moves only when no other force needs its position.
     Move move = {delta, speed_of_light, false};
     for (uint32_t g = 0; g < system->group_count; g++) {
         phys_apply_links(columns, phys_forces(system, g, STAGE_LINK));

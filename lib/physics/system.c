@@ -20,7 +20,7 @@ PhysSystem *phys_new(void) {
         NeighbourList lists[PHYS_MAX_LISTS];
     } * memory;
     arena_init(&home, "physics", SIZE_MAX);
-    memory = arena_try_alloc(&home, sizeof *memory); // one block, so that nothing must be freed on failure
+    memory = arena_try_alloc(&home, sizeof *memory); // one block, so that nothing needs to be freed on failure
     if (!memory)
         return NULL;
     PhysSystem *system = &memory->system;
@@ -114,7 +114,7 @@ static void copy_vector(double *to, PhysVector from, size_t dimensions) {
         memset(to, 0, dimensions * sizeof *to);
 }
 
-// Stores a particle's own force. The buffer is allocated only when the first own force is set.
+// Stores a particle's `force` attribute. The buffer is allocated only when the first such attribute is set.
 static void set_own_force(PhysSystem *system, uint32_t handle, PhysVector force, double ease) {
     size_t n = system->dimensions, first = system->has_own_forces ? handle : 0;
     if (!force && !(ease > 0) && !system->has_own_forces)
@@ -125,7 +125,7 @@ static void set_own_force(PhysSystem *system, uint32_t handle, PhysVector force,
     double *own_forces = system->own_forces.bytes;
     if (!system->has_own_forces) {
         memset(own_forces, 0, system->particle_count * n * sizeof *own_forces);
-        system->arranged = false; // the columns have no own forces yet
+        system->arranged = false; // the columns own_force and ease do not exist yet
     }
     if (ease > 0 && !system->has_eased_forces)
         system->arranged = false;
@@ -194,7 +194,7 @@ uint32_t phys_add_particle(PhysSystem *system, uint32_t group, const PhysParticl
     return handle;
 }
 
-// Also updates the columns with a particle's new attributes, if the columns exist.
+// Updates the columns, if they exist, with a particle's new attributes.
 static void update_columns(PhysSystem *system, uint32_t handle, const ParticleRecord *record, const double *row) {
     if (!system->arranged)
         return;

@@ -153,6 +153,7 @@ void phys_expect_particles(PhysSystem *system, uint64_t more);
 uint32_t phys_add_force(PhysSystem *system, uint32_t group, const PhysForce *force);
 
 // The functions below change a description between frames. Values that they do not set stay as in the last frame.
+//
 // Parts of a particle that phys_update_particle does not change.
 typedef struct PhysPreserve {
     bool position;
@@ -214,6 +215,7 @@ bool phys_position_finite(const PhysSystem *system, uint32_t particle);
 bool phys_velocity_finite(const PhysSystem *system, uint32_t particle);
 
 // Access to a system after phys_simulate, for display. All pointers are valid until the next phys_begin.
+//
 // One attribute of all particles, indexed by handle.
 typedef struct PhysColumn {
     const double *numbers; // value of handle 0; NULL: no particles

@@ -13,18 +13,18 @@
 #include <time.h>
 #include <unistd.h>
 
-// Fields of the ticket, one word: the number of the job, its number of chunks, and how many are claimed from the back
-// and from the front. Every other thread claims from the back, so that a thread processes nearly the same particles in
-// each job and finds them in its cache.
+// Fields of the ticket, a 64-bit word: the number of the job, its number of chunks, and how many are claimed from the
+// back and from the front. Every other thread claims from the back, so that a thread processes nearly the same
+// particles in each job and finds them in its cache.
 enum { COUNT_BITS = 8, BACK_SHIFT = COUNT_BITS, CHUNKS_SHIFT = 2 * COUNT_BITS, JOB_SHIFT = 3 * COUNT_BITS };
 _Static_assert(PHYS_MAX_CHUNKS < 1 << COUNT_BITS, "the number of claimed chunks must fit");
 
 enum {
     TUNERS = 3,
-    MIN_TUNER_BITS = 13,  // tuners are for jobs below 2^14 units, below 2^15 units, and larger
-    LINE_BYTES = 64,      // of a cache line
+    MIN_TUNER_BITS = 13,  // the tuners are for jobs below 2^14 units, below 2^15 units, and above
+    LINE_BYTES = 64,      // size of a cache line
     POLLS_PER_CHECK = 64, // polls between two readings of the clock
-    SPIN_NS = 50000,      // a thread polls for work before it sleeps; about the time that waking takes
+    SPIN_NS = 50000,      // a thread polls for work before it sleeps; about as long as waking it takes
     YIELD_NS = 50000      // a thread polls for other threads before it yields the processor
 };
 
@@ -32,7 +32,7 @@ struct PhysThreads {
     int count;          // number of running threads, without the caller
     atomic_int serving; // number of threads that have started
     pthread_t threads[PHYS_MAX_THREADS];
-    pid_t process; // that created the pool; a forked child has none of its threads
+    pid_t process; // process that created the pool; a forked child has none of its threads
     bool started;
     void *block; // allocated memory that contains this struct
     int wanted;  // number of threads, with the caller
@@ -50,7 +50,7 @@ struct PhysThreads {
     // sleeping
     _Alignas(LINE_BYTES) atomic_int sleeping;
     atomic_uint wakeups;          // number of broadcasts of `wake`
-    atomic_uint answered_wakeups; // last of them that a thread has followed
+    atomic_uint answered_wakeups; // value of `wakeups` to which a thread last responded
     bool stop;
     pthread_mutex_t mutex;
     pthread_cond_t wake;
@@ -106,7 +106,7 @@ static bool has_work(PhysThreads *threads) {
     return any_left(atomic_load(&threads->ticket));
 }
 
-// Sleeps until there may be work. Returns false if the threads must end.
+// Sleeps until there may be work. Returns false if the threads must exit.
 static bool sleep_until_woken(PhysThreads *threads) {
     pthread_mutex_lock(&threads->mutex);
     unsigned calls = atomic_load(&threads->wakeups);
@@ -156,7 +156,7 @@ PhysThreads *phys_threads_new(int count) {
     return threads;
 }
 
-// Starts as many threads as the system allows. They block all signals, which are for the host's threads.
+// Starts as many threads as the system allows. They block all signals, so that only the host's threads receive them.
 static void start_threads(PhysThreads *threads) {
     sigset_t all, before;
     sigfillset(&all);

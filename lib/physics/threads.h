@@ -21,14 +21,15 @@ typedef void PhysTask(void *context, int chunk, int chunks);
 void phys_parallel(const PhysSystem *system, int chunks, PhysTask *work, void *context);
 
 // Returns how many threads to use for a job of 10 to 50 µs, too short to wake a sleeping thread: 0 to run it inline, 1
-// to run it alone but measured. Wakes a thread for later jobs if such jobs arrive in quick succession.
+// to run it with phys_parallel_short on the caller's thread, which measures its time. Wakes a thread for later jobs if
+// such jobs arrive in quick succession.
 int phys_short_job_threads(const PhysSystem *system, uint64_t units);
 // Like phys_parallel, for a job of `units` of work for which phys_short_job_threads did not return 0.
 void phys_parallel_short(const PhysSystem *system, int chunks, uint64_t units, PhysTask *work, void *context);
 
-// Waiting within a chunk for work that another thread has claimed. The wait starts as {0}; call phys_spin_wait until
-// the work is done. It yields the processor after a long wait. Chunk 0, which runs on the caller's thread, then reports
-// the wait with phys_spin_wait_end.
+// State of a wait, within a chunk, for work that another thread has claimed. Initialise it with {0}, then call
+// phys_spin_wait until the work is done. phys_spin_wait yields the processor after a long wait. Chunk 0, which runs on
+// the caller's thread, then reports the wait with phys_spin_wait_end.
 typedef struct PhysSpinWait {
     int spins;
     uint64_t since;
@@ -36,7 +37,8 @@ typedef struct PhysSpinWait {
 void phys_spin_wait(PhysSpinWait *wait);
 void phys_spin_wait_end(PhysThreads *threads, const PhysSpinWait *wait);
 
-// Returns the number of chunks for `count` elements: 1 if `count` is below `min_count`, which is not worth a thread.
+// Returns the number of chunks for `count` elements: 1 if `count` is below `min_count`, because several threads would
+// not pay off.
 int phys_chunk_count(const PhysSystem *system, size_t count, size_t min_count);
 
 // Returns the first element of a chunk if `count` elements are divided evenly.

@@ -1,7 +1,7 @@
 // counter_bind.c: `!counter`, a value in the state that grows with time (spec counters.md).
 //
-// The value is a vector as long as the longest vector it is computed from, and all operations are element by element.
-// Value and time are stored only if finite, so that an invalid frame does not affect later ones.
+// All operations are element-wise. The value is as long as the longest vector from which it is computed. Value and time
+// are stored only if finite, so that an invalid frame does not affect later frames.
 #include "base/number.h"
 #include "scene/systems.h"
 

@@ -16,7 +16,7 @@ static const char long_names[] =
     "kp_3 kp_4 kp_5 kp_6 kp_7 kp_8 kp_9 kp_decimal kp_divide kp_multiply kp_subtract kp_add kp_enter kp_equal "
     "left_shift left_control left_alt left_super right_shift right_control right_alt right_super menu";
 static const char short_names[] = "abcdefghijklmnopqrstuvwxyz0123456789";
-enum { LONG_KEYS = INPUT_KEYS - (sizeof short_names - 1) }; // every key has an InputSwitch
+enum { LONG_KEYS = INPUT_KEYS - (sizeof short_names - 1) }; // number of long names
 
 static const char *const button_names[INPUT_BUTTONS] = {"left",     "middle",   "right",    "button_4",
                                                         "button_5", "button_6", "button_7", "button_8"};
@@ -155,7 +155,7 @@ void input_bind(Input *input, Schema *schema, Value tree, Arena *arena) {
     bindings->arena.escape = NULL;
 }
 
-// Updates a switch from the reports to what the frame of this beat sees.
+// Updates what the frame of this beat sees of a switch from the reports.
 static void advance_switch(InputSwitch *item, double beat) {
     bool down = item->down || item->pushes > 0;
     if (item->pushes > 0)

@@ -73,12 +73,13 @@ void input_release_all(Input *input);
 
 // Adds a binding. Copies the state key.
 void input_add_binding(InputBindings *bindings, Value state, int key);
-// Reads the bindings from the windows of a frame's tree. `arena` is used for messages, and its escape also for errors.
+// Reads the bindings from the windows of a frame's tree. Messages are allocated from `arena`, and its `escape` is also
+// used if memory for the bindings runs out.
 void input_bind(Input *input, Schema *schema, Value tree, Arena *arena);
-// Changes of a write, to undo them if the frame is aborted.
+// Changes made by input_write, which are undone if the frame is aborted.
 typedef struct InputChange InputChange;
 typedef struct InputUndo {
-    const InputChange *last; // in the arena of the write
+    const InputChange *last; // last change, in the arena of input_write; NULL: none
     bool has_reports;
     InputState state;
 } InputUndo;

@@ -111,7 +111,7 @@ static bool is_missing(const PhysicsTree *tree, StateSlot slot, const double *ro
     return false;
 }
 
-// Returns true if no missing entry and no entry of a single number was written, which the owner does not notice.
+// Returns true if no missing entry and no entry of a single number was written. The owner does not notice such writes.
 static bool unreferenced_in_sync(const PhysicsTree *tree) {
     const Mirror *mirror = &tree->system->mirror;
     if (tree->dimensions > 1 && mirror->missing == 0)
@@ -158,8 +158,8 @@ static void copy_body(const PhysicsTree *tree, uint32_t body) {
             state_slot_set(tree->frame->state, slots[i], value_numbers_view(rows[i], n));
 }
 
-// Detaches the entries of anchors, because one that was a particle in the last frame still references a row. Stores
-// copies if `store` is set.
+// Detaches the entries of anchors, because an anchor may have been a particle in the last frame and still reference a
+// row. Stores copies if `store` is set.
 static void copy_anchors(const PhysicsTree *tree, bool store) {
     const Mirror *mirror = &tree->system->mirror;
     for (uint32_t i = 0; i < mirror->anchor_count; i++) {
@@ -169,8 +169,8 @@ static void copy_anchors(const PhysicsTree *tree, bool store) {
     }
 }
 
-// Lets an entry reference a row that holds a finite result or the state's old value. Returns false if they are not in
-// sync afterwards.
+// Lets an entry reference a row that holds a finite result or the state's old value. Returns false if entry and row are
+// not in sync afterwards.
 static bool lend_entry(const PhysicsTree *tree, StateSlot slot, const double *row, bool result) {
     Mirror *mirror = &tree->system->mirror;
     State *state = tree->frame->state;
@@ -181,7 +181,7 @@ static bool lend_entry(const PhysicsTree *tree, StateSlot slot, const double *ro
         return true;
     }
     bool same_source =
-        stored.len == 0 || tree->from_state; // else the run started with other values than the stored ones
+        stored.len == 0 || tree->from_state; // otherwise the run started with values other than the stored ones
     bool in_sync = same_source && (result || (stored.kind == VALUE_NUMBERS && stored.len == n));
     if (n > 1 && in_sync) {
         state_slot_reference(state, slot, mirror->owner, row, n);

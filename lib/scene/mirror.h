@@ -6,14 +6,14 @@
 // without copying. It also decides whether the engine's description of the last frame can be used for the next one.
 //
 // Ownership of the numbers:
-//   - An entry of two or more numbers *references* the engine's row: it points to it (state.h, StateOwner), so a result
-//     is in the state as soon as it is in the row. If anything else writes to such an entry, the entry owns the new
-//     numbers. The owner is then *modified*: the row is out of date.
-//   - Every other entry owns a *copy*: entries of one number, which the value itself holds; entries of anchors, which
-//     are few and have the values of their attributes; all entries of a system in which two particles share a key,
-//     where the later one wins; and those of a system that is skipped in a frame or removed.
+//   - An entry of two or more numbers *references* the engine's row through a pointer (state.h, StateOwner). So a
+//     result is in the state as soon as it is in the row. If anything else writes to such an entry, the entry owns the
+//     new numbers. Its owner is then marked as *modified*, because the row is out of date.
+//   - Every other entry owns a *copy*. Entries of one number do, because the value itself holds the number, and
+//     entries of anchors, which are few. If two particles of a system share a key, all of its entries own copies, and
+//     the later particle wins. The same applies to a system that is skipped in a frame or removed.
 // Rows have a fixed address until phys_begin, and are readable until the phys_begin after that. So before mirror_store
-// returns, each entry that references the previous description is changed to the new one or receives a copy.
+// returns, each entry that references the previous description is changed to reference the new one or receives a copy.
 //
 // A result may be stored if it is finite and does not equal the stored value (0 does not become -0). Both rules hold
 // for rows (PhysTime.keep_last_finite) as well as for copies (numbers_finite; state_slot_set). Otherwise a referencing
@@ -36,7 +36,7 @@
 //         a mistake in the tree, which must be reported in each frame; system skipped in a frame
 //
 //   STALE    The tree must be read from scratch, with positions and velocities from the state, which is authoritative.
-//   OPEN     A description was begun and not finished: some entries reference the previous one.
+//   OPEN     A description was begun and not finished: some entries reference the previous description.
 //   CURRENT  Rows and entries are in sync, and the description matches the last frame's tree. Only differences of the
 //            next tree must be passed to the engine: none if the tree is the same.
 #ifndef PETRI_SCENE_MIRROR_H
@@ -51,7 +51,7 @@ typedef enum MirrorState { MIRROR_STALE, MIRROR_OPEN, MIRROR_CURRENT } MirrorSta
 typedef struct Mirror {
     MirrorState state;
     StateOwner owner; // 0: none yet, or out of memory
-    StateSlot *slots; // of the particles and anchors in the last tree
+    StateSlot *slots; // slots of the particles and anchors in the last tree
     uint32_t slot_count;
     uint32_t slot_capacity;
     StateSlot *last_slots; // while OPEN: slots of the last tree that was read completely
@@ -72,9 +72,10 @@ typedef struct PhysicsTree PhysicsTree;
 void mirror_free(Mirror *mirror);
 // Copies the slots of saved particles to a new mirror. Returns false if out of memory.
 bool mirror_restore(Mirror *mirror, const StateSlot *slots, uint32_t count);
-// Handles a system that is absent from a frame or removed: its entries remain as copies, and it has no particles.
+// Removes all particles from the mirror of a system that is absent from a frame or removed. The entries remain in the
+// state as copies.
 void mirror_leave(Mirror *mirror, State *state);
-// Removes the entries, because the run restarts.
+// Removes the entries from the state when a run restarts.
 void mirror_remove(Mirror *mirror, State *state);
 
 // Begins a description from scratch. Referenced rows remain readable.
@@ -82,8 +83,8 @@ void mirror_open(PhysicsTree *tree);
 // Adds the next particle or anchor. physics_read_bodies sets slot_count when all are added. Returns false if out of
 // memory.
 bool mirror_add(PhysicsTree *tree, StateSlot position, StateSlot velocity, bool anchor);
-// Returns the vector with which a particle starts the frame: that of the state if the run continues and it has n
-// numbers, else the attribute (and sets *from_attribute). A single number is copied to *single.
+// Returns the vector with which a particle starts the frame: the stored vector if the run continues and the vector has
+// n numbers, else the attribute (and sets *from_attribute). A single number is copied to *single.
 PhysVector mirror_start(const PhysicsTree *tree, StateSlot slot, PhysVector attribute, double *single,
                         bool *from_attribute);
 // Removes the entries of particles that are no longer in the tree, except keys that another particle uses:
@@ -92,7 +93,7 @@ void mirror_remove_vanished(const PhysicsTree *tree);
 
 // Returns true if the description can be updated to this frame's tree. If so, the mirror is STALE until mirror_store.
 bool mirror_reuse(PhysicsTree *tree);
-// Returns which values of a particle the engine has from earlier frames.
+// Returns which values of a particle the engine keeps from earlier frames.
 PhysPreserve mirror_preserve(const PhysicsTree *tree, uint32_t body);
 
 // Returns true if entries can reference the rows of this tree. If not, results are copied.

@@ -1,4 +1,5 @@
-// physics_bind.c: updates a `!physics` system in a frame, with its tree, state and engine (spec physics.md section 2).
+// physics_bind.c: updates the tree, the state and the engine of a `!physics` system in a frame (spec physics.md section
+// 2).
 #include "base/heap.h"
 #include "scene/systems.h"
 
@@ -19,7 +20,7 @@ static double scene_number(const State *state, StateSlot slot, double default_va
 }
 
 // Returns a system with this prefix that has not been updated in this frame, or NULL. Sets *occurrence to the number of
-// those that have.
+// systems with this prefix that have already been updated.
 static PhysicsSystem *known_system(const Scene *scene, StateSlot start, uint32_t *occurrence, Arena *arena) {
     PhysicsSystem *expected = scene->next_expected; // the order of the last frame
     *occurrence = 0;

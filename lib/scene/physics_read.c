@@ -66,13 +66,14 @@ static bool register_body(PhysicsTree *tree, bool anchor, StateSlot position, St
     return true;
 }
 
-// Adds a body. Returns false if out of memory, or if its id is invalid or a duplicate, which it reports.
+// Adds a body. Returns false and reports an error if its id is invalid or a duplicate. Also returns false if out of
+// memory.
 static bool add_body(PhysicsTree *tree, const Node *node, Value id, bool anchor) {
     double numbers[PHYSICS_KEY_NUMBERS];
     Reader reader = reader_of(tree, node, anchor ? KIND_ANCHOR : KIND_PARTICLE);
     StateSlot slot = id.len ? state_slot(tree->frame->state, physics_key(tree, id, false, numbers)) : STATE_NO_SLOT;
     if (slot == STATE_NO_SLOT) {
-        if (!id.len || !state_key_valid(id)) // else out of memory, which the state reports
+        if (!id.len || !state_key_valid(id)) // otherwise out of memory, which the state reports
             reader_report(&reader, "missing-id", "",
                           id.len ? STR("this id cannot be a state key; ignored") : STR("no id; ignored"));
         return false;
@@ -147,13 +148,15 @@ static void read_group_bodies(PhysicsTree *tree, const Node *parent, uint32_t gr
 void physics_read_bodies(PhysicsTree *tree) {
     physics_clear_marks(tree);
     tree->system->node_count = 0;
-    phys_expect_particles(tree->engine, node_child_count(tree->root) - tree->root->child_count); // those in batches
+    phys_expect_particles(tree->engine,
+                          node_child_count(tree->root) - tree->root->child_count); // the particles in batches
     read_group_bodies(tree, tree->root, 0);
     tree->scene->marked_system = tree->system;
     tree->system->mirror.slot_count = 2 * tree->body_count;
 }
 
-// Finds the ends of a distance force. First tries those of the same force in the last frame.
+// Finds the ends of a distance force. First tries the ends that the force had in the last frame. Returns false if one
+// does not exist, and sets *has_first to whether `from` exists.
 static bool find_ends(PhysicsTree *tree, Value from, Value to, Link *link, bool *has_first) {
     PhysicsSystem *system = tree->system;
     uint32_t number = tree->next_link++;
@@ -209,7 +212,7 @@ uint64_t physics_random_key(PhysicsTree *tree, uint32_t randoms_before) {
     return tree->random_key;
 }
 
-// Resolves one bound; `fixed` sets both. Returns false if there is no bound.
+// Resolves one bound, which `fixed` replaces unless it is NaN. Returns false if there is no bound.
 static bool resolve_bound(double fixed, double *bound) {
     *bound = isnan(fixed) ? *bound : fixed;
     bool given = !isnan(*bound);
@@ -244,7 +247,7 @@ static void report_unknown_kind(const Reader *reader) {
     reader_report(reader, "unknown-node", "", text_str(&out));
 }
 
-// Reads one force of a group. A separate function, because the stack frames of the recursion must be small.
+// Reads one force of a group. It is separate from the recursive function, whose stack frames must be small.
 __attribute__((noinline)) static void read_applier(PhysicsTree *tree, const Node *node, NodeKind kind, uint32_t group,
                                                    uint32_t randoms) {
     Reader reader = reader_of(tree, node, kind);

@@ -1,8 +1,8 @@
 // physics_reuse.c: updates a system whose tree has the same particles as in the last frame.
 //
-// The engine's values are not read again if the state has the same ones (mirror.h). Nodes with program lifetime
-// (value/node.h) are unchanged if their address is the same. Other nodes are compared: a node is the same particle if
-// its id and group equal those of the particle at the same position in the last frame.
+// The engine keeps its values if they equal those in the state (mirror.h). Nodes with program lifetime (value/node.h)
+// are unchanged if their address is the same. Other nodes are compared: a node is the same particle if its id and group
+// equal those of the particle at the same position in the last frame.
 #include "scene/systems.h"
 
 // Updates the next particle. Returns false if it is not the particle at this position in the last frame. `identity` is

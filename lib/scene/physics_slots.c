@@ -1,7 +1,8 @@
 // physics_slots.c: ids, keys and slots of particles, if possible without hashing.
 //
-// The scene marks the slots of the tree read last with their particles, in one array for all systems: 2 * (base +
-// handle) for a position, one more for a velocity. Smaller values than 2 * base are outdated marks of earlier trees.
+// The scene marks each slot of the tree that was read last with its particle. One array of marks serves all systems. A
+// mark is 2 * (base + handle) for a position, plus 1 for a velocity. Marks below 2 * base are outdated: they belong to
+// earlier trees.
 #include "base/heap.h"
 #include "scene/systems.h"
 
@@ -83,7 +84,7 @@ void physics_free_marks(const PhysicsTree *tree) {
     scene->body_capacity = 0;
 }
 
-// Marks the slots of a tree that was not the last one to be read.
+// Marks the slots of the tree again if another tree has been read since.
 static void rebuild_marks(PhysicsTree *tree) {
     const PhysicsSystem *system = tree->system;
     if (tree->scene->marked_system == system)

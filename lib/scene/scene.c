@@ -104,7 +104,7 @@ static void own_slots(PhysicsSystem *system, StateSlot *slots[OWN_SLOTS]) {
     memcpy(slots, all, sizeof all);
 }
 
-// Removes unused slots of the state if they are many, because ids that come and go would fill it.
+// Removes unused slots from the state if there are many of them. Otherwise ids that come and go would fill it.
 static void compact_state(Scene *scene, const SceneFrame *frame) {
     enum { MIN_COMPACTED = 4096 };
     uint32_t count = state_slot_count(frame->state), held = 0;

@@ -1,8 +1,7 @@
 // scene.h: top-level nodes and the systems that they drive.
 //
-// After each evaluation, scene_update processes the frame's top-level nodes: kinds in the order in which they first
-// appear, and nodes of a kind in order. Systems read and write the state dictionary. Of windows, only the bindings of
-// user input are read.
+// After each evaluation, scene_update processes the frame's top-level nodes in document order. Systems read and write
+// the state dictionary. In `!window` nodes, only the bindings of user input are read.
 #ifndef PETRI_SCENE_SCENE_H
 #define PETRI_SCENE_SCENE_H
 
@@ -25,18 +24,19 @@ typedef struct SceneFrame {
 // Returns a new scene. The arena and the schema must outlive it. Systems are also charged to the arena's budget.
 Scene *scene_new(Arena *arena, Schema *schema);
 void scene_free(Scene *scene);
-// Sets how the physics of new systems is computed. Results do not depend on it.
+// Sets how the physics of new systems is computed. Results do not depend on the options.
 void scene_set_physics(Scene *scene, const PhysOptions *options);
 // Removes all systems and the memory of the last frame's tree. Call it when the state dictionary is cleared.
 void scene_reset(Scene *scene);
-// Detach the systems while others are restored with another dictionary. If that fails, scene_attach_systems replaces
-// those by the detached ones. Otherwise free the detached systems after their dictionary.
+// Detach the systems while others are restored with another state dictionary. If restoring fails, scene_attach_systems
+// frees the restored systems and brings back the detached ones. Otherwise free the detached systems after their
+// dictionary.
 typedef struct PhysicsSystem PhysicsSystem;
 PhysicsSystem *scene_detach_systems(Scene *scene);
 void scene_attach_systems(Scene *scene, PhysicsSystem *systems);
 void scene_free_systems(PhysicsSystem *systems);
-// For saving: a system and the state keys of the particles in its last tree, from which a later frame finds the entries
-// to remove. Slots are in pairs: position, velocity.
+// A system to save, with the state slots of the particles in its last tree. A later frame needs them to find the
+// entries to remove. Slots are in pairs: position, velocity.
 typedef struct SceneSystem {
     StateSlot prefix;
     uint32_t occurrence; // number among systems with the same prefix, from 0
@@ -53,12 +53,12 @@ typedef struct SceneView {
     Value prefix;
     uint32_t dimensions;
     uint32_t particle_count;
-    uint64_t steps;         // taken in the last update
+    uint64_t steps;         // steps taken in the last update
     bool had_simulated;     // its clock was above 0 before the last update
     const StateSlot *slots; // by handle: a pair of position and velocity
     PhysicsSystem *system;
 } SceneView;
-// Fills the view of system `number` from 0. Returns false beyond the last.
+// Fills the view of a system. `number` counts from 0. Returns false if there is no such system.
 bool scene_view(Scene *scene, const State *state, size_t number, SceneView *view);
 // Returns the id of a particle: its state key without the prefix.
 Value scene_view_id(Arena *arena, const State *state, const SceneView *view, uint32_t particle);

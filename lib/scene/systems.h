@@ -11,7 +11,7 @@
 // A force whose key changes from frame to frame.
 typedef struct RandomForce {
     uint32_t force;   // number of the force in the engine
-    uint32_t randoms; // number of random forces before it in its groups
+    uint32_t randoms; // number of random forces before it in its group and the enclosing groups
 } RandomForce;
 
 // The ends of a distance force, as particle handles.
@@ -20,11 +20,11 @@ typedef struct Link {
     uint32_t to;
 } Link;
 
-// A system, which is retained between frames. It is the same system as long as its prefix is the same.
+// A system, which is retained between frames and identified by its prefix.
 struct PhysicsSystem {
     PhysicsSystem *next;
     StateSlot start;     // slot of the prefix, which identifies the system
-    uint32_t occurrence; // 0; 1, 2 … for further systems with the same prefix in one frame
+    uint32_t occurrence; // 0, or 1, 2, … for further systems with the same prefix in one frame
     StateSlot run;
     StateSlot iteration;
     StateSlot clock;
@@ -32,7 +32,7 @@ struct PhysicsSystem {
     PhysSystem *engine;
     Budget *budget; // charged for the memory of this struct, not of the engine
     Mirror mirror;
-    uint64_t steps;      // taken in the last update
+    uint64_t steps;      // steps taken in the last update
     bool had_simulated;  // its clock was above 0 before the last update, so the script could see its particles
     uint64_t last_frame; // scene->frame_number of the last update
 
@@ -62,14 +62,14 @@ struct Scene {
     Input input;
     PhysicsSystem *systems;
     PhysicsSystem **systems_end;  // link where the next system is added
-    PhysicsSystem *next_expected; // system after that of the last node; or NULL
+    PhysicsSystem *next_expected; // system that the next node probably drives; or NULL
     PhysicsSystem *viewed;        // last result of scene_view; or NULL
     size_t viewed_number;
     uint64_t frame_number;
     PhysOptions physics;
     uint32_t *bodies; // by slot: mark of its particle (physics_slots.c)
     uint32_t body_capacity;
-    uint32_t body_base;                 // base of the tree read last; smaller marks are of earlier trees
+    uint32_t body_base;                 // base of the tree read last; smaller marks belong to earlier trees
     uint32_t body_count;                // number of particles in that tree
     const PhysicsSystem *marked_system; // system of that tree
     // Symbols of state keys
@@ -96,7 +96,7 @@ struct PhysicsTree {
     bool out_of_memory;
     double run;
     double iteration;
-    uint32_t random_count; // number of random forces before the one of `random_key`
+    uint32_t random_count; // number of random forces before the one with key `random_key`
     uint64_t random_key;   // last key of a random force; 0: none yet
     uint32_t next_group;
     uint32_t next_link;

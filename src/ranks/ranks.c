@@ -1,5 +1,5 @@
-// ranks.c: the callbacks of PetriRanks over MPI (ranks.h). MPI delivers messages between two ranks in the order of
-// sending.
+// ranks.c: the callbacks of PetriRanks over MPI (ranks.h). MPI delivers messages between two ranks in the order in
+// which they were sent.
 #include "ranks/ranks.h"
 
 #include "base/cpu.h"
@@ -28,7 +28,7 @@ typedef struct Ranks {
     PendingSend *pending;
     size_t count;
     size_t pending_capacity;
-    double *numbers; // buffer of a received message
+    double *numbers; // buffer for received or broadcast numbers
     size_t numbers_capacity;
     bool same_node; // all ranks are on one machine and can share memory
     double *shared; // memory that all ranks share; NULL: none yet
@@ -153,7 +153,7 @@ static void reduce_max(void *user_data, double *numbers, size_t count) {
 static void *map_memory(const char *name, int flags, size_t bytes) {
     void *memory = MAP_FAILED;
     int file = shm_open(name, O_RDWR | flags, S_IRUSR | S_IWUSR);
-    // Allocates all memory now, because a lack of memory later would end in a bus error.
+    // Allocates all memory now, because a lack of memory later would cause a bus error.
     if (file >= 0 && (!(flags & O_CREAT) || posix_fallocate(file, 0, (off_t)bytes) == 0))
         memory = mmap(NULL, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
     if (file >= 0)
@@ -187,14 +187,14 @@ static double *alloc_shared(void *user_data, size_t count) {
     if (ranks.same_node && ranks.shared_capacity < count) {
         if (ranks.shared)
             munmap(ranks.shared, ranks.shared_capacity * sizeof *ranks.shared);
-        ranks.shared_capacity = count + count / 8; // spare capacity, because the numbers vary between frames
+        ranks.shared_capacity = count + count / 8; // spare capacity, because the size varies between frames
         ranks.shared = map_shared(ranks.shared_capacity * sizeof *ranks.shared);
         ranks.same_node = ranks.shared;
     }
     return ranks.same_node ? ranks.shared : NULL;
 }
 
-enum { NUMBERS, MESSAGE }; // tags
+enum { NUMBERS, MESSAGE }; // message tags
 
 static void send_message(int to, const void *bytes, size_t length) {
     MPI_Send(bytes, (int)length, MPI_BYTE, to, MESSAGE, MPI_COMM_WORLD);
@@ -243,7 +243,7 @@ void ranks_begin(CommandContext *context) {
                             .alloc_shared = alloc_shared};
     MPI_Comm_rank(MPI_COMM_WORLD, &options->rank);
     MPI_Comm_size(MPI_COMM_WORLD, &options->rank_count);
-    // Decisions that all ranks must take alike depend on the CPU level, so all use the lowest.
+    // All ranks must make the same decisions, some of which depend on the CPU level. So all use the lowest level.
     MPI_Allreduce(&level, &min_level, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
     context->cpu = cpu_name((CpuLevel)min_level);
     context->ranks = options;
@@ -260,9 +260,9 @@ void ranks_begin(CommandContext *context) {
         silence_output();
 }
 
-// If a process ends without MPI_Finalize, mpirun ends all ranks with its status, including those that wait for it. Most
-// failures happen on all ranks, so the others sleep while rank 0 reports the error. The end of rank 0 interrupts the
-// sleep.
+// If a process exits without MPI_Finalize, mpirun terminates all ranks, including those that wait for it, and exits
+// with its status. Most failures happen on all ranks, so the other ranks sleep while rank 0 reports the error. mpirun
+// terminates them when rank 0 exits.
 void ranks_end(int status) {
     enum { GRACE_SECONDS = 5 };
     if (status != STATUS_DONE) {

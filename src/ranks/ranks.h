@@ -7,8 +7,8 @@
 // Initialises MPI and sets the ranks, the channel and the CPU level of the context. Afterwards only rank 0 uses its
 // standard streams.
 void ranks_begin(CommandContext *context);
-// Finalises MPI. If `status` is a failure, ends the process, whereupon mpirun ends all ranks, because they would wait
-// for it.
+// Finalises MPI. If `status` is a failure, exits the process instead. mpirun then terminates all ranks, which would
+// otherwise wait for this one.
 void ranks_end(int status);
 
 #endif
