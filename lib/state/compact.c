@@ -30,12 +30,12 @@ typedef struct Compaction {
     Arena keys;
     Value *copies;                       // by entry: copy of its key
     Value heads[MAX_KEY_RANGES];         // by range: copy of its head
-    bool range_retained[MAX_KEY_RANGES]; // by range: true if it is kept with all its slots
+    bool range_retained[MAX_KEY_RANGES]; // by range: true if the range is kept with all its slots
     uint32_t count;                      // number of slots
     uint32_t entry_count;
 } Compaction;
 
-// Determines which slots are kept and numbers them.
+// Determines which slots are kept, and assigns new numbers to them.
 static void number_slots(const State *state, const uint8_t *used, StateSlot *moved, Compaction *compaction) {
     for (uint32_t k = 0; k < state->range_count; k++) {
         const KeyRange *range = &state->ranges[k];

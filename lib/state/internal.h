@@ -1,4 +1,4 @@
-// internal.h: declarations shared by the files of lib/state only.
+// internal.h: internal declarations of lib/state.
 #ifndef PETRI_STATE_INTERNAL_H
 #define PETRI_STATE_INTERNAL_H
 

@@ -1,8 +1,9 @@
 // key_range.h: compact storage for the state keys of consecutive particle ids.
 //
-// A particle has two slots, prefix;id and prefix;id;symbol. For consecutive ids, the keys follow from the first key and
-// the values from the address of the first value in the owner (state.h). So a range of any length uses constant memory.
-// Other keys are stored as separate entries (state.c). Any other kind of write converts a range to entries.
+// A particle has two slots, prefix;id and prefix;id;symbol. For consecutive ids, the keys can be computed from the
+// first key. The values are found from the address of the first value in the owner's array (state.h). A range of any
+// length therefore uses constant memory. Other keys are stored as separate entries (state.c). A write that does not fit
+// this pattern converts the range to entries.
 #ifndef PETRI_STATE_KEY_RANGE_H
 #define PETRI_STATE_KEY_RANGE_H
 
@@ -19,7 +20,7 @@ typedef struct KeyRange {
     StateOwner owner;
     uint32_t len;           // numbers per value
     uint32_t stored;        // number of slots whose values start at `numbers`
-    uint32_t referenced;    // number of slots with values; those from `stored` still point into `previous`
+    uint32_t referenced;    // number of slots with values; slots from index `stored` still point into `previous`
     const double *numbers;  // current array of the owner
     const double *previous; // array that the owner used before
 } KeyRange;
@@ -30,7 +31,7 @@ static inline bool key_range_has_slot(const KeyRange *range, StateSlot slot) {
 
 // Returns the slot of a key, or STATE_NO_SLOT if it is not in the range.
 StateSlot key_range_find(const KeyRange *range, Value key);
-// Returns true if this is the key of the slot after the last one of the range.
+// Returns true if `key` is the key that would extend the range by one slot.
 bool key_range_is_next(const KeyRange *range, Value key);
 // Returns true if the keys of two particles are consecutive in a range.
 bool key_range_follows(Value position, Value velocity, Value next_position, Value next_velocity);

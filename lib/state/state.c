@@ -192,7 +192,7 @@ static void begin_key_range(State *state) {
     budget_release(state->budget, SLOTS * SLOT_BYTES);
 }
 
-// Called after an entry was created. Converts the last entries to a range if enough consecutive pairs exist.
+// Converts the last entries to a range if enough consecutive pairs exist. Called after an entry was created.
 static void detect_key_range(State *state) {
     const StateEntry *end = state->entries + state->entry_count;
     if (state->range_count == MAX_KEY_RANGES || state->entry_count < 4 || end[-1].key.kind != VALUE_NUMBERS ||
@@ -212,7 +212,7 @@ static bool is_next_in_key_range(const State *state, Value key) {
     return last && last->first + last->count == state->count && key_range_is_next(last, key);
 }
 
-// Makes room for more entries. Returns false if out of memory.
+// Reserves memory for `count` more entries. Returns false if out of memory.
 static bool reserve_entries(State *state, uint32_t count) {
     if (!budget_reserve(state->budget, count * SLOT_BYTES))
         return set_exhausted(state);
@@ -369,7 +369,7 @@ static bool expand_key_range(State *state, KeyRange *gone) {
     return true;
 }
 
-// If a slot is in a range, converts the range to entries.
+// If a slot is in a range, converts the range to entries. Returns false if out of memory.
 static bool ensure_entry(State *state, StateSlot slot) {
     KeyRange *range = state_key_range(state, slot);
     return !range || expand_key_range(state, range);

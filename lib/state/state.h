@@ -12,8 +12,8 @@ typedef struct State State;
 typedef uint32_t StateSlot;
 #define STATE_NO_SLOT UINT32_MAX
 
-// Returns NULL if out of memory. Memory is charged to the budget (NULL: none). If the budget is exceeded, functions
-// fail as if out of memory.
+// Creates an empty dictionary. Returns NULL if out of memory. Memory is charged to the budget (NULL: none). If the
+// budget is exceeded, functions fail as if out of memory.
 State *state_new(Budget *budget);
 void state_free(State *state);
 // Removes all entries. Slots become invalid.
@@ -24,8 +24,8 @@ bool state_key_valid(Value key);
 
 // Returns the value of a key, or null. Valid until the key is written or removed.
 Value state_get(const State *state, Value key);
-// Stores a copy of the value; null removes the key. An invalid key is ignored. A value equal to the stored one changes
-// nothing, so 0 is not replaced by -0. Returns false if out of memory.
+// Stores a copy of the value; null removes the key. An invalid key is ignored. Storing a value that equals the stored
+// value changes nothing, so -0 does not replace 0. Returns false if out of memory.
 bool state_set(State *state, Value key, Value value);
 
 // Returns the slot of a valid key and creates it if necessary. A slot without a value does not count as an entry. Slots
@@ -33,11 +33,12 @@ bool state_set(State *state, Value key, Value value);
 StateSlot state_slot(State *state, Value key);
 // Returns the slot of a key, or STATE_NO_SLOT if it has none.
 StateSlot state_find(const State *state, Value key);
+// Returns the value of a slot, or null. Valid until the slot is written.
 Value state_slot_get(const State *state, StateSlot slot);
 // Returns the key of a slot. Valid until state_clear or state_compact. The keys of a range (key_range.h) are all
 // created when the first is requested; returns null if that runs out of memory.
 Value state_slot_key(const State *state, StateSlot slot);
-// Like state_slot_key, but needs no memory: the key may be stored in `buffer`.
+// Like state_slot_key, but allocates nothing: the key may be stored in `buffer`.
 enum { STATE_KEY_BUFFER = 16 };
 Value state_slot_key_in(const State *state, StateSlot slot, double buffer[STATE_KEY_BUFFER]);
 bool state_slot_has_key(const State *state, StateSlot slot, Value key);
@@ -51,13 +52,13 @@ const Value *state_slot_at(const State *state, StateSlot slot, Value *buffer);
 // Like state_set. Numbers are overwritten in place if their count does not change.
 bool state_slot_set(State *state, StateSlot slot, Value value);
 
-// Owners. A physics system that keeps numbers across frames need not copy them to the dictionary. It is an owner, and
-// entries reference its numbers. If such an entry is written or removed in another way, the entry gets its own value
-// and the owner is marked as modified. The reason is explained in scene/mirror.h.
+// Owners. A physics system that keeps numbers across frames need not copy them to the dictionary. It registers as an
+// owner, and entries reference its numbers. If another function writes or removes such an entry, the entry gets its own
+// value and the owner is marked as modified. The reason is explained in scene/mirror.h.
 typedef uint32_t StateOwner; // 0: none
-// Returns 0 if out of memory.
+// Registers an owner. Returns 0 if out of memory.
 StateOwner state_add_owner(State *state);
-// Returns true if an entry of the owner was modified since the last call, also by the owner's own state_slot_set.
+// Returns true if an entry of the owner was modified since the last call, even by the owner itself with state_slot_set.
 bool state_clear_modified(State *state, StateOwner owner);
 // Makes an entry reference `len` > 1 numbers. They must not move until the entry is written or detached.
 void state_slot_reference(State *state, StateSlot slot, StateOwner owner, const double *numbers, uint32_t len);
@@ -76,9 +77,10 @@ bool state_compact(State *state, const uint8_t *used, StateSlot *moved);
 // Iterates over the entries with a value in slot order. *cursor starts at 0. Returns false at the end. The key is valid
 // as long as `buffer`.
 bool state_next(const State *state, uint32_t *cursor, Value *key, Value *value, double buffer[STATE_KEY_BUFFER]);
+// Returns the number of entries with a value.
 uint32_t state_count(const State *state);
 
-// Returns true if a function has failed because it was out of memory since the last call.
+// Returns true if a function ran out of memory since the last call of this function.
 bool state_clear_exhausted(State *state);
 
 #endif

@@ -1,7 +1,7 @@
 // compare.c: equality and order of vectors and nodes (spec language.md L5.4 to L5.6, L7.5).
 //
-// Nodes are shared, so a script can build a tree of 2^60 nodes from 60. Therefore comparisons cache pairs that are
-// equal (tree_memo.h), and each visited pair is charged.
+// Nodes are shared, so 60 nodes in memory can form a tree of 2^60 nodes. Comparisons therefore cache pairs that are
+// equal (tree_memo.h), and charge each visited pair.
 #include "value/node_batch.h"
 #include "value/tree_memo.h"
 
@@ -107,7 +107,7 @@ bool node_equal(Arena *arena, const Node *a, const Node *b) {
 // Compares two elements that are not equal.
 static int item_compare_unequal(Item a, Item b) {
     if (a.type == ITEM_NUMBER && b.type == ITEM_NUMBER)
-        return a.as.number < b.as.number ? -1 : 1; // 1 if one of them is NaN
+        return a.as.number < b.as.number ? -1 : 1; // 1 if either number is NaN
     if (a.type == ITEM_STRING && b.type == ITEM_STRING)
         return str_compare(a.as.string->text, b.as.string->text);
     return VALUE_INCOMPARABLE;

@@ -1,7 +1,7 @@
 // node.h: immutable tree nodes (spec language.md L7) and function values.
 //
 // Every operation returns a new node and does not modify its operand. Children and attribute values are shared. To read
-// the children of a node, use node_children (value/node_batch.h), because some may be stored as rows.
+// the children of a node, use node_children (value/node_batch.h), because some children may be stored as batches.
 #ifndef PETRI_VALUE_NODE_H
 #define PETRI_VALUE_NODE_H
 
@@ -36,8 +36,8 @@ struct Node {
     uint32_t child_count;
     uint16_t height; // 1 + maximum height of the children and of nodes in attributes
     // True if the node lives as long as the program that created it, not only for a frame. Until a program is freed,
-    // the same address then means the same node with the same contents. program_lifetime_children is the same for only
-    // the children: the same `children` and `child_count` then mean the same children.
+    // the same address then means the same node with the same contents. program_lifetime_children guarantees this for
+    // the children only: the same `children` and `child_count` then mean the same children.
     bool program_lifetime : 1;
     bool program_lifetime_children : 1;
     bool is_batch : 1;    // represents several children of its parent (value/node_batch.h)
@@ -46,7 +46,7 @@ struct Node {
 
 _Static_assert(sizeof(Node) <= 56, "scripts create thousands of nodes per frame");
 
-enum { NODE_MAX_HEIGHT = 12000 }; // higher trees are rejected, so that recursion cannot overflow the stack
+enum { NODE_MAX_HEIGHT = 12000 }; // taller trees are rejected, so that recursion cannot overflow the stack
 
 // A function value. The virtual machine extends the struct for closures, which are identified by address.
 struct Function {
@@ -54,12 +54,14 @@ struct Function {
     const void *builtin; // table row of a built-in function; NULL: defined by a script
 };
 
+// Returns a node of a kind, without tags, attributes or children.
 Node *node_new(Arena *arena, const Symbol *kind);
+// Returns a copy of a node with an additional tag.
 Node *node_add_tag(Arena *arena, const Node *node, const Symbol *tag);
 // Sets attributes in order. A null or stream value removes the attribute (L7.2). Returns NULL if the tree would exceed
 // NODE_MAX_HEIGHT.
 Node *node_set_attrs(Arena *arena, const Node *node, const Attr *attrs, uint32_t count);
-// Nodes to be appended to a node. A node without children shares the array.
+// Nodes that will be appended to another node. If that node has no children, it shares the array.
 typedef struct NodeList {
     const Node *const *nodes;
     uint32_t count;
@@ -69,7 +71,7 @@ typedef struct NodeList {
 } NodeList;
 // Returns the nodes of a vector. Other elements are ignored.
 NodeList node_list(Arena *arena, Value children);
-// Like node_list, but stores the nodes in an array with at least as many places as the vector has elements.
+// Like node_list, but stores the nodes in an array of the caller, at least as long as the vector.
 NodeList node_list_in(const Node **nodes, Value children);
 // Returns the maximum height of the nodes in a vector, or 0 if it has none.
 uint32_t value_height(Value v);
@@ -85,11 +87,12 @@ Value node_get(const Node *node, const Symbol *name);
 Origin node_origin(const Node *node, const Symbol *attr);
 // Returns true if the nodes are structurally equal (L7.5). The arena is used as by value_equal.
 bool node_equal(Arena *arena, const Node *a, const Node *b);
+// Returns a deep copy.
 const Node *node_copy(Arena *arena, const Node *node);
 
-// These functions extend every node of a vector, as the node_ functions do. Other elements are kept.
+// These functions extend every node of a vector like the node_ functions above. Other elements are kept.
 Value value_add_tag(Arena *arena, Value v, const Symbol *tag);
-// The next two set *too_high if a node would become too high. That node is not changed.
+// If a node would exceed NODE_MAX_HEIGHT, the next two functions keep it unchanged and set *too_high.
 Value value_set_attrs(Arena *arena, Value v, const Attr *attrs, uint32_t count, bool *too_high);
 Value value_append(Arena *arena, Value v, const NodeList *list, bool *too_high);
 

@@ -6,7 +6,7 @@
 #include <assert.h>
 #include <string.h>
 
-enum { NODE_WORK = 2 }; // units per created node
+enum { NODE_WORK = 2 }; // work units per created node
 
 static bool in_row(uint32_t numbers) {
     return numbers != NODE_BATCH_UNIFORM && numbers != NODE_BATCH_COUNTING;
@@ -111,7 +111,7 @@ uint64_t node_child_count(const Node *node) {
     return count;
 }
 
-// Creates the nodes of a batch in `to`. Returns the address after the last.
+// Creates the nodes of a batch and stores their addresses from `to`. Returns the position after the last address.
 static const Node **make_row_nodes(Arena *arena, const NodeBatch *batch, const Node **to) {
     uint32_t attr_count = batch->node.attr_count;
     NodeRow row;

@@ -1,4 +1,4 @@
-// node_batch.h: compact storage of similar nodes created by a loop.
+// node_batch.h: compact storage of similar nodes that a loop creates.
 //
 // If a loop creates one child of a node per iteration, all of the same kind and with the same number of values in each
 // attribute, the nodes form a batch. Common values are stored once; the numbers that differ form a row per node. In
@@ -33,11 +33,12 @@ static inline const NodeBatch *node_batch(const Node *node) {
     return (const NodeBatch *)node;
 }
 
-// Returns a batch of one node: `first` with the given attributes. It has room for `capacity` nodes, or fewer if that
+// Returns a batch of one node: `first` with the given attributes. Its capacity is `capacity` nodes, or fewer if that
 // exceeds the limits. Attributes whose `numbers` is not NODE_BATCH_UNIFORM must be numeric. The caller sets `from`.
 NodeBatch *node_batch_new(Arena *arena, const Node *first, const Attr *attrs, const uint32_t *numbers,
                           uint32_t attr_count, uint32_t capacity);
-// Adds a node whose attribute i is values[from[i]]. The batch must have room. Returns false if the node does not fit.
+// Adds a node whose attribute i is values[from[i]]. The batch must not be full. Returns false if a value does not fit
+// the layout of the batch.
 bool node_batch_add(NodeBatch *batch, const Value *values);
 const Node *node_batch_copy(Arena *arena, const NodeBatch *batch);
 

@@ -70,7 +70,7 @@ static bool array_powers(const double *x, uint32_t x_len, const double *y, uint3
     return true;
 }
 
-// Computes operators that have array functions, one chunk at a time. Returns false for others.
+// Computes operators that have array functions, one chunk at a time. Returns false for other operators.
 static bool arith_in_chunks(Arena *arena, ArithOp op, const double *x, uint32_t x_len, const double *y, uint32_t y_len,
                             double *result, uint32_t len) {
     for (uint32_t at = 0; at < len; at += BUDGET_CHUNK) {
@@ -122,7 +122,7 @@ Value op_plus(Value v) {
     return value_is_numeric(v) ? v : VALUE_NULL;
 }
 
-// Gets a bound of a range, which is a number or null for the default. Returns false for other values.
+// Gets a parameter of a range, which is a number, or null for the default. Returns false for other values.
 static bool range_bound(Value v, double fallback, double *x) {
     *x = v.len == 0 ? fallback : v.as.number;
     return v.len == 0 || (v.len == 1 && v.kind == VALUE_NUMBERS);

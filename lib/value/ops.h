@@ -10,6 +10,7 @@ typedef enum ArithOp { ARITH_ADD, ARITH_SUB, ARITH_MUL, ARITH_DIV, ARITH_FLOORDI
 double op_number(ArithOp op, double x, double y);
 // Applies the operator element by element and repeats the shorter vector (L5.1). Returns null unless both are numeric.
 Value op_arith(Arena *arena, ArithOp op, Value a, Value b);
+// Returns -v, or null if v is not numeric.
 Value op_negate(Arena *arena, Value v);
 // Returns v if it is numeric, else null.
 Value op_plus(Value v);
@@ -21,7 +22,9 @@ typedef struct OpRange {
     double step;
     uint32_t len;
 } OpRange;
+// Like op_range, but does not store the numbers. `len` is 0 if op_range would return null.
 OpRange op_range_bounds(Value start, Value stop, Value step, bool *too_long);
+// Returns number i of a range.
 static inline double op_range_number(const OpRange *range, uint32_t i) {
     return range->start + range->step * i;
 }

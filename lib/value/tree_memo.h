@@ -18,8 +18,8 @@ typedef struct TreeMemo {
     uint32_t visits;        // counted until `entries` is allocated
 } TreeMemo;
 
-// Visits a node, or a pair of nodes (b may be NULL). If the result is cached, gets it and returns true. With a NULL
-// arena nothing is charged or cached.
+// Charges the visit of a node, or of a pair of nodes (b may be NULL). If the result is cached, stores it in *value and
+// returns true. If the arena is NULL, nothing is charged or cached.
 bool tree_memo_find(TreeMemo *memo, Arena *arena, const Node *a, const Node *b, uint64_t *value);
 // Caches the result for a node or a pair of nodes.
 void tree_memo_store(TreeMemo *memo, const Node *a, const Node *b, uint64_t value);

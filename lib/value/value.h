@@ -6,7 +6,8 @@
 // operands.
 //
 // Invariants: A vector of length 0 is VALUE_NUMBERS (null) or VALUE_STREAM. A vector that contains only numbers is
-// always VALUE_NUMBERS, so a VALUE_MIXED has at least one other element. A single number is stored inline.
+// always VALUE_NUMBERS, so a VALUE_MIXED has at least one element that is not a number. A single number is stored
+// inline.
 #ifndef PETRI_VALUE_VALUE_H
 #define PETRI_VALUE_VALUE_H
 
@@ -113,7 +114,8 @@ bool value_contains(Arena *arena, Value x, Value y);
 
 // Returns v[index] (L5.7). v must not be a stream.
 Value value_index(Arena *arena, Value v, Value index);
-// Returns element k modulo the length as a vector, or null if v is null. Used for unpacking. v must not be a stream.
+// Returns the element at index k modulo the length as a vector, or null if v is null. Used for unpacking. v must not be
+// a stream.
 Value value_element(Arena *arena, Value v, uint32_t k);
 // Returns elements start to start + count - 1, which must exist.
 Value value_slice(Arena *arena, Value v, uint32_t start, uint32_t count);
@@ -123,12 +125,12 @@ uint32_t value_wrap_index(double x, uint32_t n);
 // Returns a deep copy. Only functions and symbols are not copied.
 Value value_copy(Arena *arena, Value v);
 
-enum { VALUE_TEXT_WORK = 16 }; // units per element converted to text
+enum { VALUE_TEXT_WORK = 16 }; // work units per element converted to text
 // Returns the concatenated texts of the elements (L6).
 Str value_text(Arena *arena, const SymbolTable *symbols, Value v);
 
-// A builder that composes values to a vector (L4.7). A stream is kept only if it is the single part, where nulls count
-// as parts.
+// A builder that concatenates values, its parts, into a vector (L4.7). A stream is kept only if it is the only part,
+// counting nulls.
 typedef struct Vector {
     Arena *arena;
     union {
@@ -147,7 +149,7 @@ typedef struct Vector {
 
 Vector vector_new(Arena *arena);
 void vector_add(Vector *vector, Value part);
-// Like vector_add, but inline for the most common case: one number or item, and the vector has room.
+// Like vector_add, but inline for the most common case: one number or item, and spare capacity.
 static inline void vector_add_part(Vector *vector, const Value *part) {
     if (vector->parts > 1 && part->len == 1 && vector->len < vector->capacity) {
         if (part->kind == VALUE_NUMBERS && !vector->mixed) {

@@ -7,7 +7,7 @@ Vector vector_new(Arena *arena) {
     return (Vector){.arena = arena};
 }
 
-// Makes room for `more` elements. Beyond VALUE_MAX_LEN it sets `overflow` and returns false.
+// Reserves memory for `more` elements. If the vector would exceed VALUE_MAX_LEN, sets `overflow` and returns false.
 static bool vector_reserve(Vector *vector, uint32_t more) {
     if (vector->overflow || more > VALUE_MAX_LEN - vector->len) {
         vector->overflow = true;
