@@ -82,7 +82,7 @@ static void format_script(Formatting *formatting, const char *name) {
     if (!read_script(name, &text) || !format_text(formatting, name, &text, &out)) {
         formatting->failed++;
         if (script_is_stdin(name) && !formatting->only_checks)
-            write_stdout(&text); // editors may replace the script by whatever is written
+            write_stdout(&text); // because editors may replace the script with the output
         return;
     }
     bool changed = text.length != out.length || memcmp(text.data, out.data, out.length) != 0;

@@ -16,7 +16,8 @@ typedef struct Line {
     uint32_t width;      // width of the code in characters
 } Line;
 
-// A word with which later lines can be aligned: the first word in a bracket, or after the first `=` of a statement.
+// A word with which later lines can be aligned: the first word after an opening bracket, or after the first `=` of a
+// statement.
 typedef struct Anchor {
     const Word *word; // NULL: none yet
     uint32_t indent;  // indent of the line with the opening bracket, in the result
@@ -47,7 +48,7 @@ static void end_line(Writer *writer) {
     current_line(writer)->end = writer->text.length;
     Str code = {writer->text.data + current_line(writer)->start, writer->text.length - current_line(writer)->start};
     for (size_t i = code.len; i > 0; i--) {
-        if (code.bytes[i - 1] == '\n') { // newline in a string: only its last line counts
+        if (code.bytes[i - 1] == '\n') { // newline in a string: the width is that of the last line
             code = (Str){code.bytes + i, code.len - i};
             break;
         }
@@ -164,8 +165,8 @@ static void add_word(Writer *writer, size_t at) {
     byte_buffer_add(&writer->text, word->text.bytes, word->text.len);
 }
 
-// Returns the column for the comments after code on consecutive lines. Keeps their column if it is the same for all and
-// the code leaves room.
+// Returns the column for the comments after code on consecutive lines. Keeps the original column if all comments have
+// the same column and the code ends before it.
 static uint32_t comment_column(const Writer *writer, size_t at) {
     uint32_t max_width = 0, column = word_column(writer->words, writer->lines[at].comment);
     for (size_t i = at; i < writer->line_count && writer->lines[i].comment; i++) {
@@ -210,7 +211,7 @@ bool layout_text(PetriSession *session, Str text, ByteBuffer *out) {
     return read;
 }
 
-// Adds the compiled code of a text. Removes the first two columns, which include line numbers.
+// Adds the compiled code of a script. Removes the first two columns, which include line numbers.
 static bool read_code(PetriSession *session, const char *name, Str text, ByteBuffer *code) {
     SCOPED_BYTE_BUFFER dump = {0};
     if (petri_load_text(session, name, text.bytes, text.len) != PETRI_OK ||

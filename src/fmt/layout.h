@@ -1,18 +1,18 @@
 // layout.h: the standard format of scripts.
 //
 // Line breaks are kept; only white space changes. Each level has four spaces. Spaces show precedence (a*b + c, but
-// f(a+b) and x=a+b), with none around the `=` of a name. There is at most one empty line in blocks and two between
-// them. Comments after code are aligned. Tokens never change, and formatted text stays as it is.
+// f(a+b) and x=a+b). There are no spaces around the `=` of a binding. There is at most one empty line in a block, and
+// at most two between blocks. Comments after code are aligned. Tokens never change, and formatting is idempotent.
 #ifndef PETRI_SRC_LAYOUT_H
 #define PETRI_SRC_LAYOUT_H
 
 #include "cli/byte_buffer.h"
 #include "petri.h"
 
-// Adds the formatted text. Returns false if the text has an invalid token, or if out of memory. `text` must have LF
+// Adds the formatted script. Returns false if the script has an invalid token, or if out of memory. `text` must have LF
 // line endings and no byte-order mark.
 bool layout_text(PetriSession *session, Str text, ByteBuffer *out);
-// Returns true if both texts have the same tokens and the same compiled code. `name` is the file name in messages.
+// Returns true if both scripts have the same tokens and the same compiled code. `name` is the file name in messages.
 bool layout_same(PetriSession *session, const char *name, Str before, Str after);
 
 #endif

@@ -1,4 +1,4 @@
-// tokens.h: the tokens of a script with the properties that decide its format.
+// tokens.h: the tokens of a script, with the properties that determine its format.
 #ifndef PETRI_SRC_FMT_TOKENS_H
 #define PETRI_SRC_FMT_TOKENS_H
 
@@ -46,11 +46,11 @@ typedef struct Words {
     Segment *segments;
     size_t segment_count;
     size_t segment_capacity;
-    bool invalid; // the text has an invalid token
+    bool invalid; // true if the script has an invalid token
 } Words;
 
-// Reads a text. The caller frees the words with words_free, also on failure. Returns false if the text has an invalid
-// token or if out of memory.
+// Reads a script. The caller frees the words with words_free, even after a failure. Returns false if the script has an
+// invalid token, or if out of memory.
 bool words_read(PetriSession *session, Str text, Words *words);
 void words_free(Words *words);
 // Returns the column of the word in the original text, in characters.

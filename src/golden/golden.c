@@ -17,7 +17,7 @@ static void add_word(TextList *words, ByteBuffer *word) {
 }
 
 // Splits a line into words like a shell: at spaces, except in '...' or "..." or after a backslash. In '...', a
-// backslash has no meaning.
+// backslash has no special meaning.
 static bool split_options(Golden *golden, const char *line, size_t length, ByteBuffer *error_text) {
     SCOPED_BYTE_BUFFER word = {0};
     char quote = '\0';
@@ -87,7 +87,7 @@ static const OptionSpec *find_option(const char *word, size_t length) {
     return NULL;
 }
 
-// Rejects options that write files: a golden from another author must not write files on this machine.
+// Rejects options that write files, because a golden from another author must not write files on this machine.
 static bool check_options(const Golden *golden, ByteBuffer *error_text) {
     for (size_t i = 0; i < golden->options.count; i++) {
         const char *word = golden->options.items[i];

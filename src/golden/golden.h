@@ -1,11 +1,12 @@
 // golden.h: recorded output (NAME.golden) and its comparison with the current output (spec cli.md 3.4).
 //
-// The first line contains the options of the run. Further lines at the top that start with # are remarks:
+// The first line contains the options of the run. The following lines that start with # are remarks:
 //     # run --frames 61 --every 20 --print state
 //     # tolerance 1e-9
 //     # horizon 40 strict 25
-// With a tolerance, close numbers are considered equal. Frames after the horizon are chaotic and are not compared.
-// Frames between `strict` and the horizon are compared loosely. Without a tolerance the horizon is ignored.
+// With a tolerance, close numbers are considered equal. Frames after the horizon are not compared, because they are
+// chaotic. Frames between `strict` and the horizon are compared with a larger tolerance. Without a tolerance, the
+// horizon is ignored.
 #ifndef PETRI_SRC_GOLDEN_H
 #define PETRI_SRC_GOLDEN_H
 
@@ -30,15 +31,15 @@ void golden_free(Golden *golden);
 
 // Returns true if `output` agrees with the golden. Otherwise adds the first difference to error_text.
 bool golden_compare(const Golden *golden, const ByteBuffer *output, ByteBuffer *error_text);
-// Replaces the recorded output in the file and keeps the lines above it. Sets *changed to whether the output differed.
-// On failure, returns false and adds the reason to error_text.
+// Replaces the recorded output in the file and keeps the lines above it. Sets *changed to true if the output differed,
+// else to false. On failure, returns false and adds the reason to error_text.
 bool golden_update(const Golden *golden, const char *path, const ByteBuffer *output, bool *changed,
                    ByteBuffer *error_text);
 
 // Comparison of lines (golden_line.c).
 //
-// Lines are compared token by token: words and signs as text, strings by their contents, whatever their quotes, and
-// numbers by value. With a tolerance R, the numbers a and b of one value agree if
+// Lines are compared token by token: words and signs as text, strings by their contents regardless of the type of
+// quotes, and numbers by value. With a tolerance R, two values with the numbers a_i and b_i agree if
 //     max |a_i - b_i| <= R * max(1, max |a_i|, max |b_i|)
 // Keys of the state and hashes are always compared exactly.
 
@@ -48,14 +49,14 @@ typedef struct LineDifference {
     size_t got_at;
 } LineDifference;
 
-// Returns true if two lines agree. A tolerance of 0 means exact; nan equals nan, and -0 equals 0. Each text must be
-// followed by a newline or NUL.
+// Returns true if two lines agree. A tolerance of 0 means exact; nan equals nan, and -0 equals 0. Both lines must
+// be followed by a newline or NUL.
 bool line_same(Str expected, Str got, double tolerance, LineDifference *difference);
 
 // Scripts that must be rejected: NAME.err beside NAME.fl (rejection.c).
 
-// Returns true if a run was rejected as the .err file `path` says: `line N`, or `line *` for any line. `status` is that
-// of waitpid. On failure, adds the reason to error_text.
+// Returns true if a run was rejected with an error in the line that the .err file `path` names: `line N`, or `line *`
+// for any line. `status` is the status from waitpid. On failure, adds the reason to error_text.
 bool rejection_check(const char *path, const char *name, int status, const ByteBuffer *errors, ByteBuffer *error_text);
 
 // Reports: one line per result, and a file for CI systems (report.c).
@@ -63,7 +64,7 @@ bool rejection_check(const char *path, const char *name, int status, const ByteB
 typedef struct Result {
     const char *name;
     bool passed;
-    bool updated;          // the golden was rewritten
+    bool updated;          // true if the golden was rewritten
     ByteBuffer error_text; // reason for a failure
     double seconds;
 } Result;

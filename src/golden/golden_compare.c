@@ -13,7 +13,7 @@ enum { EXCERPT_LENGTH = 100, EXCERPT_BEFORE = 30 };
 typedef struct Line {
     Str text;
     uint32_t number;
-    bool matched; // has been matched with a line of the other output
+    bool matched; // true if the line agrees with a line of the other output
 } Line;
 
 typedef struct LineList {
@@ -22,11 +22,12 @@ typedef struct LineList {
     size_t capacity;
 } LineList;
 
-// The sections of a frame. Head: the @ line, if there is one. Body: tree and state, in order. Logs and errors: in any
-// order.
+// The sections of a frame. HEAD contains the @ line, if there is one; BODY the tree and the state. The lines of LOGS
+// and of ERRORS can be in any order.
 typedef enum Section { HEAD, BODY, LOGS, ERRORS, SECTION_COUNT } Section;
 
-// Reads an output frame by frame. Lines before the first header count as frame 0; an output of logs has no headers.
+// Reads an output frame by frame. Lines before the first header belong to frame 0. Output with only logs has no
+// headers.
 typedef struct Reader {
     const char *at;
     const char *end;
@@ -79,10 +80,10 @@ static int64_t frame_number(const Reader *reader) {
     return reader->sections[HEAD].count == 0 ? 0 : strtoll(reader->sections[HEAD].items[0].text.bytes + 1, NULL, 10);
 }
 
-// Adds the part of a line around the offset `at`.
+// Adds an excerpt of a line around the offset `at`.
 static void add_excerpt(ByteBuffer *error_text, Str line, size_t at) {
     size_t start = line.len <= EXCERPT_LENGTH || at <= EXCERPT_BEFORE ? 0 : at - EXCERPT_BEFORE;
-    // Do not cut a character in two.
+    // Do not split a UTF-8 character.
     while (start > 0 && ((unsigned char)line.bytes[start] & 0xC0U) == 0x80U)
         start--;
     size_t end = line.len - start <= EXCERPT_LENGTH ? line.len : start + EXCERPT_LENGTH;

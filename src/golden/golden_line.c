@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// TOKEN_INDENT is white space at the start of a line, where its width is significant.
+// TOKEN_INDENT is white space at the start of a line. Its width is significant.
 typedef enum TokenKind { TOKEN_END, TOKEN_INDENT, TOKEN_SIGN, TOKEN_WORD, TOKEN_NUMBER, TOKEN_STRING } TokenKind;
 
 typedef struct Token {
@@ -25,7 +25,7 @@ static bool is_number(const char *word, size_t length, double *number) {
     char copy[MAX_NUMBER_LENGTH + 1];
     memcpy(copy, word, length);
     copy[length] = '\0';
-    // strtod accepts forms that petri never prints, such as 0x10 and infinity.
+    // strtod also accepts forms that petri never prints, such as 0x10 and infinity.
     if (strspn(copy, "0123456789+-.e") != length && strcmp(copy, "nan") != 0 && strcmp(copy, "inf") != 0 &&
         strcmp(copy, "-inf") != 0)
         return false;

@@ -22,7 +22,7 @@ typedef struct Case {
     char *name;        // its file name
     char *recorded;    // path of the golden or .err file
     bool is_rejection; // `recorded` is an .err file
-    Golden golden;     // while the script runs
+    Golden golden;     // valid while the script runs
     Subprocess child;
     bool done;
 } Case;
@@ -65,7 +65,7 @@ static void add_case(Suite *suite, const Script *script) {
     };
 }
 
-// Adds an option that overrides that of the golden. `petri run` checks its value.
+// Adds an option that overrides the same option in the golden. `petri run` checks its value.
 static void add_override(char **argv, int *argc, ByteBuffer *text, const char *name, const char *value) {
     if (value) {
         byte_buffer_format(text, "--%s=%s", name, value);
@@ -82,7 +82,8 @@ static void start_child(Suite *suite, Case *item) {
     int argc = 0;
     argv[argc++] = "petri";
     argv[argc++] = "run";
-    // Scripts already run in parallel. Results never depend on the number of threads; a golden can set another number.
+    // Scripts already run in parallel. Results never depend on the number of threads, and a golden can set another
+    // number.
     argv[argc++] = "--threads=1";
     if (item->is_rejection)
         argv[argc++] = "--frames=1";
@@ -140,7 +141,7 @@ static Case *find_running(Suite *suite, size_t started, pid_t pid) {
     return NULL;
 }
 
-// Prints results in the order of the scripts, as far as they are known.
+// Prints results in the order of the scripts, up to the first script that is not done.
 static void report_done(Suite *suite, size_t started) {
     while (suite->reported < started && suite->cases[suite->reported].done)
         report_result(&suite->output, &suite->cases[suite->reported++].result);

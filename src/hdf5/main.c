@@ -15,7 +15,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-// Reads `length` bytes. Returns false if the stream ends before.
+// Reads `length` bytes. Returns false if the stream ends earlier.
 static bool read_stream(void *bytes, size_t length) {
     char *at = bytes;
     while (length > 0) {
@@ -35,12 +35,12 @@ static bool receive_block(char **block, Hdf5Head *head) {
     return read_stream(*block, head->bytes);
 }
 
-// Sends a byte to petri. MSG_NOSIGNAL, because petri may have ended.
+// Sends a byte to petri. MSG_NOSIGNAL, because petri may have exited.
 static void acknowledge(void) {
     send(STDIN_FILENO, "!", 1, MSG_NOSIGNAL);
 }
 
-// The point where a run with --state resumes a trajectory; see hdf5_start.
+// The position at which a run with --state resumes a trajectory; see hdf5_start.
 typedef struct Resumed {
     Spool *spool;
     int64_t after;    // number of the frame to resume after; -1: none
@@ -156,6 +156,6 @@ int main(int argc, char **argv) {
         return STATUS_USAGE;
     }
     bool good = is_table ? run_table(argv[2]) : run_trajectory(argv[2], argv[3]);
-    // _exit, because libhdf5's exit handlers would try again to write what could not be written.
+    // _exit, because libhdf5's exit handlers would retry failed writes.
     _exit(good ? STATUS_DONE : STATUS_FAILED);
 }

@@ -1,7 +1,7 @@
 // spool.c: see spool.h.
 //
-// The file starts with a line that shows its kind (KINDS). Blocks follow, each after an Entry. The first block whose
-// hash is wrong ends the valid part.
+// The first line of the file is one of KINDS. Blocks follow, each preceded by an Entry. The valid part ends before the
+// first block with a wrong hash.
 #include "hdf5/spool.h"
 
 #include "base/file.h"
@@ -19,7 +19,7 @@
 
 // First line of a spool: [0] continues an HDF5 file, [1] contains the whole trajectory.
 static const char *const KINDS[] = {"petri way 1 lengthens\n", "petri way 1 is whole \n"};
-enum { LINE = 22 }; // length of that line
+enum { LINE = 22 }; // length of the first line
 
 typedef struct Entry {
     Hdf5Head head;
@@ -58,7 +58,7 @@ static bool open_locked(Spool *spool) {
         if (!locked)
             return report_error(spool, "the file is in use by another petri-hdf5 process");
     }
-    return report_error(spool, "another process deletes the file");
+    return report_error(spool, "another process has deleted the file");
 }
 
 static bool read_at(const Spool *spool, uint64_t at, void *bytes, size_t length) {
@@ -92,7 +92,7 @@ bool spool_open(Spool *spool, const char *path, bool begins) {
     bool read = read_at(spool, 0, line, LINE);
     spool->complete = memcmp(line, KINDS[1], LINE) == 0;
     if (spool->size >= LINE && !spool->complete && memcmp(line, KINDS[0], LINE) != 0)
-        return report_error(spool, "the existing file is of another kind");
+        return report_error(spool, "the existing file was not written by petri");
     spool->at = LINE;
     spool->has_frames = spool->size > LINE + sizeof(Entry); // more than one HDF5_NEW_RUN
     return !begins && read ? true : reset_spool(spool, begins);

@@ -12,7 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
-// Finds errno in the text of an error. libhdf5 does not report it in any other way.
+// Finds errno in the text of an error. libhdf5 reports it in no other way.
 static herr_t find_cause(unsigned depth, const H5E_error2_t *error, void *context) {
     (void)depth;
     Store *store = context;
@@ -142,10 +142,10 @@ void store_numbers(Store *store, hid_t object, const char *name, const int *numb
     add_attribute(store, object, name, H5T_NATIVE_INT, space, numbers);
 }
 
-// Chooses the chunk size: many short rows or a part of a long one. Large chunks waste the space that is not filled;
-// each chunk costs time.
+// Chooses the chunk size: a chunk contains many short rows, or a part of a long row. Unfilled large chunks waste space,
+// and many small chunks waste time.
 static void choose_chunk(int rank, const hsize_t sizes[STORE_RANKS], hsize_t chunk[STORE_RANKS]) {
-    enum { SHORT = 1024, LONG = 65536 }; // minimum and maximum of values in a chunk
+    enum { SHORT = 1024, LONG = 65536 }; // minimum and maximum number of values in a chunk
     hsize_t row = 1;
     for (int k = rank - 1; k > 0; k--) {
         hsize_t size = sizes[k] > LONG / row ? LONG / row : sizes[k];
@@ -217,8 +217,8 @@ void store_read_row(Store *store, const StoreColumn *column, hsize_t row, const 
     move_row(store, column, row, sizes, numbers, NULL);
 }
 
-// Copies a column to a new one with larger chunks, because rows have become much longer. In small chunks, each row
-// would be split into very many.
+// Copies a column to a new column with larger chunks, because its rows have become much longer. With small chunks, each
+// row would be split into too many chunks.
 static void recreate_column(Store *store, StoreColumn *column, const hsize_t sizes[STORE_RANKS]) {
     StoreColumn old = *column;
     store_check(store, H5Ldelete(old.parent, old.name, H5P_DEFAULT)); // the data set exists until it is closed
@@ -282,8 +282,8 @@ hid_t store_open(Store *store, hid_t parent, const char *name) {
     return check_id(store, H5Gopen2(parent, name, H5P_DEFAULT));
 }
 
-// Reads `count` texts of fixed length from a data set, or from an attribute if `set` is negative. Sets *bytes to the
-// size of each text with its NUL. Closes the type.
+// Reads `count` strings of fixed length from a data set, or from an attribute if `set` is negative. Sets *bytes to the
+// size of each string with its NUL. Closes the type.
 static char *read_fixed(Store *store, hid_t type, size_t count, hid_t attribute, hid_t set, size_t *bytes) {
     *bytes = H5Tget_size(type) + 1;
     hid_t memory = store_text_type(*bytes - 1);

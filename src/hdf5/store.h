@@ -17,13 +17,13 @@ typedef struct Store {
     const char *path;
     Replacement replacement;
     hid_t file;
-    bool existing; // an existing file is being extended
-    bool failed;   // an error has occurred
-    bool reported; // a message about it was printed
+    bool existing; // true if an existing file is extended
+    bool failed;   // true if an error has occurred
+    bool reported; // true if a message about the error was printed
     int cause;     // errno of the error; 0: unknown
 } Store;
 
-enum { STORE_RANKS = 3 }; // maximum number of dimensions
+enum { STORE_RANKS = 3 }; // maximum number of dimensions of a column
 
 // A data set of eight-byte values that grows in all dimensions. The first dimension counts rows.
 typedef struct StoreColumn {
@@ -47,11 +47,11 @@ void store_check(Store *store, int64_t result);
 
 // Creates a group. It stays open until store_end.
 hid_t store_group(Store *store, hid_t parent, const char *name);
-// Adds a text attribute.
+// Adds a string attribute.
 void store_text(Store *store, hid_t object, const char *name, const char *text);
-// Adds an attribute that is a list with the same text `count` times.
+// Adds an attribute: an array of `count` copies of a string.
 void store_texts(Store *store, hid_t object, const char *name, const char *text, hsize_t count);
-// Adds an integer attribute: a list or, if `count` is 1, a scalar.
+// Adds an integer attribute: an array or, if `count` is 1, a scalar.
 void store_numbers(Store *store, hid_t object, const char *name, const int *numbers, hsize_t count);
 // Creates an empty column. `sizes` are the expected sizes of a row; sizes[0] is ignored. The column keeps the pointers
 // `name` and `fill`.
@@ -61,7 +61,7 @@ StoreColumn store_column(Store *store, hid_t parent, const char *name, hid_t typ
 StoreColumn store_open_column(Store *store, hid_t parent, const char *name, hid_t type, int rank, const void *fill);
 // Reduces a column to these sizes.
 void store_truncate(Store *store, StoreColumn *column, const hsize_t sizes[STORE_RANKS]);
-// Reads the first elements of a row.
+// Reads the first elements of a row; `sizes` is their number in each dimension.
 void store_read_row(Store *store, const StoreColumn *column, hsize_t row, const hsize_t sizes[STORE_RANKS],
                     void *numbers);
 // Extends a column to at least these sizes.
@@ -69,21 +69,21 @@ void store_grow(Store *store, StoreColumn *column, const hsize_t sizes[STORE_RAN
 // Writes the first elements of a row and extends the column if necessary.
 void store_write_row(Store *store, StoreColumn *column, hsize_t row, const hsize_t sizes[STORE_RANKS],
                      const void *numbers);
-// Returns a type for texts up to this length.
+// Returns a string type for up to `length` bytes.
 hid_t store_text_type(size_t length);
-// Writes a complete list as a data set. Closes the type.
+// Writes an array as a data set. Closes `type`.
 void store_list(Store *store, hid_t parent, const char *name, hid_t type, hsize_t count, const void *list);
-// Writes a complete list of texts. `texts` contains the NUL-terminated texts one after the other.
+// Writes an array of strings as a data set. `texts` contains the NUL-terminated strings one after the other.
 void store_text_list(Store *store, hid_t parent, const char *name, const char *texts, hsize_t count);
 // Opens a group. It stays open until store_end.
 hid_t store_open(Store *store, hid_t parent, const char *name);
-// Returns the text of an attribute. The caller frees it.
+// Returns the value of a string attribute. The caller frees it.
 char *store_read_text(Store *store, hid_t object, const char *name);
 // Returns the value of an integer attribute.
 int store_read_number(Store *store, hid_t object, const char *name);
-// Sets `name` to the name of a member of a group, numbered from 0. Returns false after the last.
+// Sets `name` to the name of the group's member `number`, from 0. Returns false if there is no such member.
 bool store_name_at(Store *store, hid_t group, hsize_t number, ByteBuffer *name);
-// Returns a list of *count texts, each in *bytes bytes. The caller frees it.
+// Reads a data set of strings. Returns *count strings of *bytes bytes each. The caller frees them.
 char *store_read_texts(Store *store, hid_t parent, const char *name, size_t *count, size_t *bytes);
 // Adds a second name (a hard link) for an object.
 void store_link(Store *store, hid_t from, const char *old, hid_t to, const char *name);

@@ -16,7 +16,7 @@ typedef struct Column {
 } Column;
 
 typedef struct Table {
-    ByteBuffer texts; // texts of all cells, each NUL-terminated
+    ByteBuffer texts; // contents of all cells, each NUL-terminated
     size_t *cells;    // offsets of the cells in `texts`
     size_t count;     // number of cells
     size_t width;     // number of cells in a row
@@ -28,7 +28,7 @@ static void read_cell(Table *table, const char **at, const char *end) {
     for (; *at < end && (quoted || (**at != ',' && **at != '\n')); (*at)++) {
         bool quote = **at == '"';
         if (quote && quoted && *at + 1 < end && (*at)[1] == '"') {
-            (*at)++; // a doubled quote is a quote
+            (*at)++; // two quotes mean one
         } else if (quote) {
             quoted = !quoted;
             continue;
@@ -39,11 +39,11 @@ static void read_cell(Table *table, const char **at, const char *end) {
 }
 
 static void read_csv(Table *table, const char *csv, size_t length) {
-    size_t room = 0;
+    size_t capacity = 0;
     for (const char *at = csv, *end = csv + length; at < end; at++) {
-        if (table->count == room) {
-            room = 2 * room + 64;
-            table->cells = memory_realloc(table->cells, room * sizeof *table->cells);
+        if (table->count == capacity) {
+            capacity = 2 * capacity + 64;
+            table->cells = memory_realloc(table->cells, capacity * sizeof *table->cells);
         }
         table->cells[table->count++] = table->texts.length;
         read_cell(table, &at, end);

@@ -5,7 +5,7 @@
 #include "hdf5/store.h"
 
 // Writes a CSV table, whose first line contains the column names, as the data set `table`. A column is stored as
-// integers or as numbers if all its cells are; empty cells of a number column become NaN. All other columns are text.
+// integers if all its cells are integers, and as doubles if all are numbers or empty (NaN). Other columns are strings.
 void table_store(Store *store, const char *csv, size_t length);
 
 #endif

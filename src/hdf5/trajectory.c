@@ -1,7 +1,7 @@
 // trajectory.c: see trajectory.h.
 //
 // Each system is a group of particles with its own list of steps, because it can be absent from frames. Its number of
-// particles can change: all rows have the largest number, and unused places at the end have the fill value -1 as id.
+// particles can change: all rows have the maximum length, and unused elements at the end have the id -1.
 #include "hdf5/trajectory.h"
 
 #include "cli/hdf5.h"
@@ -65,7 +65,7 @@ static bool is_name_used(const TrajectoryFile *file, const char *name) {
     return H5Lexists(file->particles, name, H5P_DEFAULT) > 0;
 }
 
-// Chooses the name of a group: `:cells` becomes cells, slashes become `|`, and a number is added if the name is used.
+// Chooses the name of a group: `:cells` becomes cells, slashes become `|`, and a number is added if the name is in use.
 static void choose_name(const TrajectoryFile *file, const char *called, ByteBuffer *name) {
     byte_buffer_add_text(name, called + (called[0] == ':' && called[1] != '\0'));
     for (char *c = name->data; *c != '\0'; c++)
@@ -121,7 +121,7 @@ static Group *find_group(TrajectoryFile *file, const char *called, const Hdf5Sys
     return &file->groups[file->group_count - 1];
 }
 
-// Computes the edges of the smallest box that contains all particle centres. H5MD requires a box, but petri has none.
+// Computes the edges of the smallest box that contains all particle centres, because H5MD requires a box.
 static void compute_extent(const double *position, const Hdf5System *system, double *edges) {
     for (uint64_t k = 0; k < system->dimensions; k++) {
         double min = INFINITY, max = -INFINITY;
@@ -184,7 +184,8 @@ void trajectory_file_begin_run(TrajectoryFile *file) {
     file->run_texts = 0;
 }
 
-// Reads the new texts of a frame. Each run numbers its texts from 0, so they are mapped to the ids in the file.
+// Reads the new id strings of a frame. Each run numbers its strings from 0, so the numbers are mapped to ids in the
+// file.
 static void read_id_texts(TrajectoryFile *file, const char *text, uint64_t count) {
     file->numbers = memory_realloc(file->numbers, (file->run_texts + count + 1) * sizeof *file->numbers);
     for (uint64_t i = 0; i < count; i++, text += strlen(text) + 1)

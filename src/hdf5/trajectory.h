@@ -13,10 +13,10 @@ typedef struct TrajectoryFile {
     hid_t particles;
     Group *groups;
     size_t group_count;
-    TextList texts;   // ids that are texts
+    TextList texts;   // ids that are strings
     HashIndex index;  // index of `texts`
-    int64_t *numbers; // by text number of the current run: the id stored in the file
-    size_t run_texts; // number of texts of the current run
+    int64_t *numbers; // by string number of the current run: the id stored in the file
+    size_t run_texts; // number of strings of the current run
     int64_t last;     // number of the last frame; -1: none
 } TrajectoryFile;
 
@@ -26,9 +26,9 @@ void trajectory_file_begin(TrajectoryFile *file, Store *store);
 // Like trajectory_file_begin, but keeps the frames of an existing file up to `after` and removes later ones. Returns
 // false if the file was not written by petri.
 bool trajectory_file_resume(TrajectoryFile *file, Store *store, int64_t after);
-// Must be called before the first frame of another run, whose text numbers start at 0 again.
+// Must be called before the first frame of another run, because each run numbers its strings from 0.
 void trajectory_file_begin_run(TrajectoryFile *file);
-// Adds a frame (Hdf5Frame and its data) unless it is not later than the last one. Modifies the ids in `bytes`.
+// Adds a frame (Hdf5Frame and its data) if it is later than the last frame. Modifies the ids in `bytes`.
 void trajectory_file_add(TrajectoryFile *file, char *bytes);
 // Writes the parts that are only known at the end, and frees the memory.
 void trajectory_file_end(TrajectoryFile *file);

@@ -1,7 +1,7 @@
 // frame_writer.c: threads that draw and write pictures; see frame_writer.h.
 //
-// Files are renamed to their final names in the order of their frames. Hence an interrupted series has no gaps, and if
-// several frames write the same file, the last one remains.
+// Files are renamed to their final names in the order of their frames. An interrupted series thus has no gaps. If
+// several frames write the same file, the last of them remains.
 #include "render/frame_writer.h"
 
 #include "base/file.h"
@@ -49,10 +49,11 @@ struct FrameWriter {
     Job *ready;  // written jobs that wait for earlier jobs, in any order
     int ready_count;
     uint64_t added;
-    uint64_t next_committed; // all jobs before this number are committed: their files have their names
-    Job *done;               // jobs to be reported and freed
-    bool begun;              // true if the first worker has started
-    bool ending;             // true if no more jobs will be added
+    uint64_t
+        next_committed; // number of the first job that is not committed; files of earlier jobs have their final names
+    Job *done;          // jobs to be reported and freed
+    bool begun;         // true if the first worker has started
+    bool ending;        // true if no more jobs will be added
     bool failed;
     bool abandoned;      // true if no more files are renamed
     bool drawing;        // true while a frame of the video is drawn; such a frame can be abandoned
@@ -77,8 +78,8 @@ static void set_error_text(FrameWriter *writer, const char *text) {
     pthread_mutex_unlock(&writer->lock);
 }
 
-// Draws a frame of the video. Never returns if the frame is abandoned meanwhile, because then another thread ends the
-// video.
+// Draws a frame of the video. Never returns if the frame is abandoned in the meantime, because another thread then
+// completes the video.
 static bool draw_for_film(FrameWriter *writer, PetriPicture *picture, PetriPainter *painter) {
     const Video *video = &writer->video;
     pthread_mutex_lock(&writer->lock);
@@ -172,7 +173,7 @@ static bool run_job(FrameWriter *writer, Job *job, PetriPainter *painter) {
     return good;
 }
 
-// Removes the job to be committed next from the ready jobs. Returns NULL if it is not ready or has failed.
+// Removes the next job to be committed from the ready jobs. Returns NULL if that job is not ready or has failed.
 static Job *pop_ready_job(FrameWriter *writer) {
     Job **at = &writer->ready;
     while (*at && (*at)->number != writer->next_committed)
@@ -284,7 +285,7 @@ FrameWriter *frame_writer_start(const char *film, double film_fps, double fps) {
     writer->fps = film_fps;
     writer->recording.fps = fps;
     writer->video = (Video){.frames = -1, .errors = -1, .cleanup_id = -1};
-    sigset_t all, before; // workers block all signals: the main thread handles them
+    sigset_t all, before; // workers block all signals, because the main thread handles them
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
     while (writer->worker_count < wanted &&
@@ -299,7 +300,7 @@ FrameWriter *frame_writer_start(const char *film, double film_fps, double fps) {
     return writer;
 }
 
-// Waits for a change, at most 20 ms, because a signal does not wake the condition variable.
+// Waits at most 20 ms for a change, because a signal does not wake the condition variable.
 static void wait_briefly(FrameWriter *writer) {
     enum { NANOSECONDS = 20000000, SECOND = 1000000000 };
     struct timespec until;
@@ -342,7 +343,7 @@ void frame_writer_report(FrameWriter *writer, PetriSession *session) {
     }
 }
 
-// Waits until all jobs are finished. After a signal, waits only GRACE_SECONDS and until the video has no half-written
+// Waits until all jobs are finished. After a signal, waits only GRACE_SECONDS, but until the video has no incomplete
 // frame. Returns the number of abandoned jobs.
 static int wait_for_end(FrameWriter *writer) {
     double signalled = 0;

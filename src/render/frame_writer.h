@@ -1,7 +1,7 @@
 // frame_writer.h: threads that draw and write pictures while the next frames are computed.
 //
-// Pictures wait in a short queue. Frames of a video are drawn in order by one thread; for files there is one thread per
-// processor. After the first failure nothing more is written.
+// Pictures wait in a short queue. Frames of a video are drawn in order by one thread. Image files are drawn by one
+// thread per processor. After the first failure, nothing more is written.
 #ifndef PETRI_SRC_FRAME_WRITER_H
 #define PETRI_SRC_FRAME_WRITER_H
 
@@ -20,12 +20,12 @@ FrameWriter *frame_writer_start(const char *film, double film_fps, double fps);
 bool frame_writer_add(FrameWriter *writer, PetriPicture *picture, bool for_film, const char *file);
 // Reports the diagnostics of finished pictures to the session's callback and frees the pictures.
 void frame_writer_report(FrameWriter *writer, PetriSession *session);
-// Waits for all pictures and completes the video; with `abandon`, discards unfinished pictures. After a signal, files
-// get a moment to be finished; the current frame of a video gets as long as it needs. Returns false if writing has
-// failed. *error_text is then a reason that no picture's diagnostics contain, or NULL; valid until frame_writer_free.
+// Waits for all pictures and completes the video. With `abandon`, discards unfinished pictures. After a signal, waits
+// only briefly for files, but until the current frame of a video is complete. Returns false if writing has failed.
+// *error_text is then the reason, or NULL if a picture's diagnostics contain it. Valid until frame_writer_free.
 bool frame_writer_finish(FrameWriter *writer, PetriSession *session, bool abandon, const char **error_text);
-// Returns how many pictures frame_writer_finish abandoned. If it is not 0, threads may still be drawing, and only the
-// end of the process stops them.
+// Returns the number of pictures that frame_writer_finish has abandoned. If it is not 0, threads may still be drawing.
+// They stop only when the process ends.
 int frame_writer_unfinished_count(const FrameWriter *writer);
 // Returns the seconds that all threads together spent drawing and writing.
 double frame_writer_seconds(const FrameWriter *writer);

@@ -46,7 +46,7 @@ static bool add_frame(Recording *recording, RecordedFile *file, const PetriRecor
     if (over)
         return close_film(recording, file);
     bool good = file->frames > 0 || video_open(&file->video, file->name, record->width, record->height, recording->fps);
-    // All frames of a video have the same size; others are skipped.
+    // All frames of a video have the same size. Frames of another size are skipped.
     if (good && record->width == file->video.width && record->height == file->video.height) {
         good = video_add(&file->video, record->pixels);
         file->frames++;
@@ -56,7 +56,7 @@ static bool add_frame(Recording *recording, RecordedFile *file, const PetriRecor
     return good;
 }
 
-// Writes a picture once per name and run, and again only if the file has been removed.
+// Writes a picture once per file name. Writes it again only if the file has been removed.
 static bool save_picture(Recording *recording, PetriPicture *picture, PetriPainter *painter, size_t index,
                          const char *name) {
     RecordedFile *file = find_file(recording, name);

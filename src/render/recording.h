@@ -8,16 +8,16 @@
 
 typedef struct RecordedFile RecordedFile;
 
-// Must be initialised with zeros and the frames per second.
+// Initialise with `fps` set and all other fields zero.
 typedef struct Recording {
     double fps;
     RecordedFile *files;
-    const char *error_text; // reason of a failure that no picture's diagnostics contain; NULL: none
+    const char *error_text; // reason for a failure, if no picture's diagnostics contain it; else NULL
 } Recording;
 
-// Renders a picture, if it is not rendered yet, and writes its records. Returns false on failure.
+// Renders a picture, if it is not rendered yet, and writes the files of its `!record` nodes. Returns false on failure.
 bool recording_add(Recording *recording, PetriPicture *picture, PetriPainter *painter);
-// Completes all videos, or discards them if `abandon`. Returns false on failure. error_text remains valid.
+// Completes all videos, or discards them if `abandon` is true. Returns false on failure. error_text remains valid.
 bool recording_end(Recording *recording, bool abandon);
 void recording_free(Recording *recording);
 

@@ -1,4 +1,4 @@
-// render.c: `petri render`, which writes frames as a picture, a series of pictures or a video.
+// render.c: `petri render`, which writes an image of a frame, a series of images or a video.
 #include "cli/byte_buffer.h"
 #include "cli/script.h"
 #include "cli/stdout_file.h"
@@ -27,8 +27,8 @@ typedef struct Render {
     const char *display_name; // name of the output in messages
 } Render;
 
-// Finds the placeholder of the frame number in a file name, `%d` or `%05d`. *end is its end. Returns NULL if there is
-// none.
+// Finds the placeholder for the frame number in a file name, `%d` or `%05d`, and sets *end to its end. Returns NULL if
+// there is none.
 static const char *find_number(const char *name, const char **end) {
     const char *at = strchr(name, '%');
     if (!at)
@@ -104,7 +104,7 @@ static void draw_frame(Render *render, bool for_film, const char *file) {
     PetriStatus status = petri_picture(render->frames.session, &render->picture, &picture);
     frames_set_interruptible(&render->frames, false);
     if (status == PETRI_INTERRUPTED)
-        return; // by a signal: frames drawn before are kept
+        return; // aborted by a signal; frames that were drawn before are kept
     if (status == PETRI_OUT_OF_MEMORY) {
         progress_erase(&render->frames.progress);
         message("out of memory");
@@ -135,7 +135,7 @@ static bool is_before_first_picture(const Render *render) {
     return render->frames.options->frame < 0 && !petri_picture_ready(render->frames.session, &render->picture);
 }
 
-// Draws a single picture: the last frame, which must be that of --frame if it was given.
+// Draws a single image of the last frame. If --frame was given, the last frame must be that frame.
 static void output_picture(Render *render) {
     const Options *options = render->frames.options;
     int64_t number = petri_frame(render->frames.session).number;
@@ -182,7 +182,7 @@ static int end_render(Render *render, bool going) {
     if (frame_writer_unfinished_count(render->writer) > 0) {
         render->thread_running = true;
         render->drawn -= frame_writer_unfinished_count(render->writer);
-        stopped = frames_signal(); // may have arrived only now
+        stopped = frames_signal(); // a signal may have arrived in the meantime
         keeps = keeps && render->drawn > 0;
     }
     frames_end(frames, going);
@@ -257,7 +257,7 @@ static int render_run(const CommandContext *context, Options *options) {
     stdout_file_close(&render.stdout_file);
     if (render.thread_running) {
         fflush(NULL);
-        _exit(status); // without freeing what the threads still use
+        _exit(status); // frees nothing, because threads may still use it
     }
     petri_close(&render.frames.session);
     return status;

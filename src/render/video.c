@@ -37,7 +37,7 @@ static const struct {
     {".webm",
      {"-vf", EVEN, COLOURS, "-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-deadline", "realtime", "-cpu-used", "6",
       "-row-mt", "1", "-f", "webm", NULL}},
-    // A palette per frame: one palette for all would need all frames in memory.
+    // Each frame has its own palette, because a common palette would require all frames in memory.
     {".gif",
      {"-filter_complex", "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1:dither=bayer", "-f",
       "gif", NULL}},
@@ -57,7 +57,7 @@ bool video_has_suffix(const char *file) {
     return find_format(file) >= 0;
 }
 
-// Pixels are 32-bit integers; ffmpeg names formats by the order of the bytes.
+// Returns ffmpeg's name of the pixel format. Pixels are 32-bit integers, but ffmpeg's names give the order of bytes.
 static const char *pixel_format(void) {
     const uint32_t one = 1;
     unsigned char first;
@@ -129,7 +129,7 @@ static int wait_for(pid_t pid) {
     return status;
 }
 
-// Kills ffmpeg and discards the video. Called when a signal ends this process.
+// Kills ffmpeg and discards the video. Called when a signal terminates this process.
 static void abort_on_signal(void *context) {
     Video *video = context;
     pid_t pid = atomic_exchange(&video->pid, 0);
@@ -194,7 +194,7 @@ static void report_failure(Video *video, int status) {
     }
 }
 
-// Closes ffmpeg's input and waits for its end. If it failed, discards the video, sets error_text and returns false.
+// Closes ffmpeg's input and waits until it exits. If it failed, discards the video, sets error_text and returns false.
 static bool finish_ffmpeg(Video *video) {
     close(video->frames);
     video->frames = -1;
@@ -211,7 +211,7 @@ bool video_add(Video *video, const uint32_t *pixels) {
     size_t length = (size_t)video->width * (size_t)video->height * sizeof *pixels;
     if (file_write(video->frames, (const char *)pixels, length))
         return true;
-    // ffmpeg has ended too early: even if it reports success, frames are missing.
+    // ffmpeg has exited too early. Even if it reports success, frames are missing.
     if (finish_ffmpeg(video)) {
         set_error_text(video, "cannot write '%s': ffmpeg ended early", video->file);
         reset_video(video);
