@@ -1,6 +1,6 @@
-// engine.c: petri.h for JavaScript: functions whose arguments and results are only numbers and texts (host.h).
-// Functions of petri.h that already have this form are exported directly (meson.build); those with structs or callbacks
-// are wrapped here.
+// engine.c: petri.h for JavaScript, as functions whose arguments and results are only numbers and strings (host.h).
+// Functions of petri.h that already have this form are exported directly (meson.build). Functions with structs or
+// callbacks are wrapped here.
 #include "cli/particles.h"
 #include "petri-draw.h"
 #include "web/host.h"
@@ -30,7 +30,7 @@ static bool should_interrupt(void *user_data) {
     return host_should_interrupt();
 }
 
-// fps, memory in bytes, work per call and stack in bytes; 0: default.
+// Opens a session. `memory` and `stack` are limits in bytes, `work` is the limit per call; 0 means the default.
 EXPORT(PetriSession *, web_open, double fps, double memory, double work, double stack) {
     PetriOptions options = petri_default_options();
     options.fps = fps > 0 ? fps : options.fps;
@@ -55,7 +55,7 @@ EXPORT(void, web_frame, const PetriSession *session) {
                frame.evaluation_seconds, frame.physics_seconds);
 }
 
-// Collects short texts, because each call of JavaScript is slow.
+// Collects short strings, because every call of JavaScript is slow.
 typedef struct TextBuffer {
     size_t used;
     char text[1 << 14];
@@ -77,9 +77,9 @@ static bool append_text(void *user_data, const char *text, size_t length) {
     return true;
 }
 
-// Writes the particles of the last frame as rows of a table with vectors of `dimensions` components. 0: as many as
-// needed, after a header. Returns the number of components, 0 if out of memory, or UINT32_MAX if interrupted; the
-// interrupt is then cleared.
+// Writes the particles of the last frame as rows of a table whose vectors have `dimensions` components. If `dimensions`
+// is 0, writes a header first and uses as many components as needed. Returns the number of components, or 0 if out of
+// memory. If interrupted, clears the interrupt and returns UINT32_MAX.
 EXPORT(uint32_t, web_particles, PetriSession *session, uint32_t dimensions) {
     TextBuffer gathered = {.used = 0};
     uint32_t have = dimensions ? dimensions : particles_dimensions(session);
@@ -119,7 +119,7 @@ EXPORT(void, web_systems, PetriSession *session) {
     }
 }
 
-// `text` is only set for a value that is not all numbers.
+// Passes the entries of the state to the host. `text` is NULL if all elements of a value are numbers.
 EXPORT(void, web_state, PetriSession *session) {
     PetriValue key, value;
     for (uint32_t at = 0; petri_state_next(session, &at, &key, &value);) {
@@ -150,7 +150,8 @@ EXPORT(PetriStatus, web_prompt, PetriSession *session, const char *text, size_t 
     return petri_prompt(session, text, length, write_text, NULL, &done);
 }
 
-// Evaluates an expression. Its text is written; its number is passed as an entry, NaN if it is not a number.
+// Evaluates an expression and writes its value as text. Also passes the value as an entry with one number, NaN if the
+// value is not a number.
 EXPORT(PetriStatus, web_evaluate, PetriSession *session, const char *text, size_t length) {
     PetriEvaluation result = {.number = __builtin_nan("")};
     PetriStatus status = petri_evaluate(session, text, length, &result, write_text, NULL);
@@ -168,7 +169,7 @@ static const uint32_t *find_image(void *user_data, const char *file, int *width,
     return host_image(file, width, height);
 }
 
-// Returns NULL without WebGL 2.
+// Returns a painter, or NULL if WebGL 2 is not available.
 EXPORT(PetriPainter *, web_painter, void) {
     const PetriCanvasBackend host = {.draw = draw_canvas, .image = find_image};
     PetriPainter *painter = petri_painter_open();
@@ -190,8 +191,8 @@ static PetriStatus send_display_list(PetriPicture *picture, bool ready) {
     return status;
 }
 
-// Renders the picture of the last frame, which web_picture and the pictures of later frames need. Returns NULL if there
-// is none.
+// Renders and returns the picture of the last frame, for web_picture and for the pictures of later frames. Returns NULL
+// if there is no picture.
 EXPORT(PetriPicture *, web_render_if_needed, PetriSession *session, PetriPainter *painter) {
     PetriPictureOptions options = petri_default_picture_options();
     PetriPicture *picture;
@@ -202,7 +203,7 @@ EXPORT(PetriPicture *, web_render_if_needed, PetriSession *session, PetriPainter
     return picture;
 }
 
-// Updates the view of the automatic picture, which depends on previous frames.
+// Updates the visible region of the automatic picture, which depends on previous frames.
 EXPORT(void, web_follow_frame, PetriSession *session) {
     PetriPictureOptions options = petri_default_picture_options();
     petri_picture_follow(session, &options);
@@ -223,8 +224,9 @@ static PetriStatus render_picture(PetriSession *session, PetriPainter *painter, 
     return status;
 }
 
-// Passes the picture of the last frame (`followed`, or NULL to create it) to the host as numbers, valid during the
-// call. If it is not a pure display list and there is a painter, draws it on the host's screen instead.
+// Passes the picture of the last frame to the host as a display list, valid during the call. If the picture is not a
+// pure display list and there is a painter, draws it on the host's screen instead. `followed` is the result of
+// web_render_if_needed, or NULL to create the picture.
 EXPORT(PetriStatus, web_picture, PetriSession *session, PetriPainter *painter, PetriPicture *followed, bool automatic) {
     PetriPictureOptions options = petri_default_picture_options();
     options.automatic = automatic ? PETRI_AUTO_ALWAYS : PETRI_AUTO_IF_NEEDED;
@@ -233,7 +235,7 @@ EXPORT(PetriStatus, web_picture, PetriSession *session, PetriPainter *painter, P
     bool ready = petri_picture_ready(session, &options);
     bool shown = status == PETRI_OK && painter && !petri_picture_is_display_list(picture) &&
                  render_picture(session, painter, picture, ready) == PETRI_OK;
-    if (status == PETRI_OK && !shown) // the part of it that needs no screen
+    if (status == PETRI_OK && !shown) // the part of the picture that needs no screen
         status = send_display_list(picture, ready);
     if (!followed)
         petri_picture_free(&picture);

@@ -1,7 +1,5 @@
-// host.h: the functions that the WebAssembly engine imports from JavaScript; petri.mjs provides them in the module
-// `petri`.
-//
-// Texts are valid during the call. 64-bit integers are passed as doubles.
+// host.h: functions that the WebAssembly engine imports from JavaScript. petri.mjs provides them as the import module
+// `petri`. Strings are valid during the call. 64-bit integers are passed as doubles.
 #ifndef PETRI_WEB_HOST_H
 #define PETRI_WEB_HOST_H
 
@@ -14,11 +12,11 @@
     __attribute__((export_name(#name))) type name(__VA_ARGS__);                                                        \
     type name(__VA_ARGS__)
 
-// Receives a part of the requested text.
+// Receives a part of the text that the current call produces.
 HOST(write) void host_write(const char *text, size_t length);
 // Returns true to interrupt the current call. Polled about every 10 µs.
 HOST(should_interrupt) bool host_should_interrupt(void);
-// Returns the bytes of a file, or NULL if there is none. They must stay valid until the session is closed.
+// Returns the bytes of a file, or NULL if there is no such file. The bytes must stay valid until the session is closed.
 HOST(read) const char *host_read(const char *name, size_t *length);
 HOST(diagnostic)
 void host_diagnostic(int level, const char *file, const char *text, const char *code, const char *hint,
@@ -30,21 +28,22 @@ HOST(parameter)
 void host_parameter(const char *name, const char *fallback, const char *value, const char *comment, double number,
                     double default_number, double least, double most, double step, bool defined, bool settable,
                     uint32_t line, uint32_t column);
-// Columns: `data` points to the numbers of the first particle; `stride` is the number of doubles per particle.
+// Receives a system; host_column then receives its columns. `data` points to the numbers of the first particle;
+// `stride` is the number of doubles from one particle to the next.
 HOST(system)
 void host_system(const char *name, uint32_t dimensions, uint32_t particles, uint32_t forces, double steps);
 HOST(column) void host_column(const char *name, const double *data, size_t stride);
 HOST(entry) void host_entry(const char *key, const double *numbers, uint32_t length, const char *text);
 // Receives a picture in the format of petri_picture_display_list.
 HOST(picture) void host_picture(const double *numbers, size_t count, const char *title, bool ready);
-// Sets the size of the host's screen before a painter draws on it; host_shown follows.
+// Sets the size of the host's screen before a painter draws on it. host_shown is called after the drawing.
 HOST(screen) void host_screen(int width, int height);
 HOST(shown) void host_shown(const char *title, bool ready);
-// Draw a canvas into cleared pixels, and return an image, as in PetriCanvasBackend.
+// Implement PetriCanvasBackend: host_draw draws a canvas into cleared pixels, host_image returns an image.
 HOST(draw) bool host_draw(const double *numbers, size_t count, int width, int height, uint32_t *pixels);
 HOST(image) const uint32_t *host_image(const char *file, int *width, int *height);
 HOST(token) void host_token(int kind, size_t start, size_t end);
-// Receives a row of the tables for help.
+// Receives a row of the help tables.
 HOST(help)
 void host_help(const char *area, const char *name, const char *parameters, const char *fallback, const char *unit,
                const char *help);

@@ -18,7 +18,7 @@ function shade({ charged }, value) {
     return value < 0.5 ? mix(SPEEDS[0], SPEEDS[1], value * 2) : mix(SPEEDS[1], SPEEDS[2], value * 2 - 1);
 }
 
-// Returns the position of a point in a panel: x, y, depth away from the eye, scale.
+// Returns the projection of a point: x and y in the panel, depth (greater is farther from the camera), and size in pixels per unit.
 function see(panel, p) {
     const { middle, half, dimensions } = panel.system;
     const x = (p[0] - middle[0]) / half, y = (p[1] - middle[1]) / half;
@@ -109,7 +109,7 @@ function drawWall(context, panel, { point, normal }) {
     context.fill();
 }
 
-// Draws a 3-D wall as a grid of lines, around its point nearest to the centre.
+// Draws a 3-D wall as a grid of lines around the wall's point nearest to the centre.
 function drawGrid(context, panel, { point, normal: n }) {
     const { middle, half } = panel.system, away = n.reduce((sum, x, k) => sum + (middle[k] - point[k]) * x, 0);
     if (!(Math.abs(away) < 1.6 * half))
@@ -186,7 +186,7 @@ function readSystem(n, at) {
     return [{ dimensions, charged, middle, half, bodies, links, barriers, scale }, at];
 }
 
-// Draws the systems that begin at n[at] and returns the index after them.
+// Draws the systems whose data begins at n[at]. Returns the index after the data.
 export function drawSystems(context, n, at, [scale, x0, y0]) {
     const count = n[at++], columns = Math.ceil(Math.sqrt(Math.max(count, 1))), rows = Math.ceil(Math.max(count, 1) / columns);
     const width = n[0] / columns, height = n[1] / rows, side = Math.min(width, height) / 2 * (1 - 2 * MARGIN);

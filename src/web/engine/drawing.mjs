@@ -9,7 +9,7 @@ const CAPS = ['butt', 'round', 'square'];
 const SLANTS = ['normal', 'oblique', 'italic'];
 const STRETCHES = ['ultra-condensed', 'extra-condensed', 'condensed', 'semi-condensed', 'normal', 'semi-expanded', 'expanded',
     'extra-expanded', 'ultra-expanded'];
-// In the order of lib/schema/composite_list.h; null: nothing is drawn.
+// Modes of Canvas 2D in the order of lib/schema/composite_list.h; null: nothing is drawn.
 const MODULATE = 0, COMPOSITES = ['multiply', 'clear', 'copy', null, 'source-over', 'destination-over', 'source-in',
     'destination-in', 'source-out', 'destination-out', 'source-atop', 'destination-atop', 'xor', 'lighter', 'multiply',
     'screen', 'overlay', 'darken', 'lighten', 'color-dodge', 'color-burn', 'hard-light', 'soft-light', 'difference',
@@ -19,7 +19,7 @@ const UNBOUNDED = new Set(['clear', 'copy', 'source-in', 'destination-in', 'sour
 const PATH_ELEMENT_SIZES = [2, 2, 4, 6, 6, 6, 7, 0];
 const FONTS = { Helvetica: '"Liberation Sans"', Arial: '"Liberation Sans"', Menlo: '"DejaVu Sans Mono"' };
 
-// Multiplies two canvases, including alpha, which Canvas 2D cannot do.
+// Multiplies a canvas by another canvas, including alpha. Canvas 2D has no such mode.
 function multiply(context, { canvas }) {
     const { width, height } = canvas, image = context.getImageData(0, 0, width, height);
     const other = canvas.getContext('2d').getImageData(0, 0, width, height).data;
@@ -155,7 +155,7 @@ class Painter {
         return path;
     }
 
-    // Returns the path with its outside instead of its inside.
+    // Returns the inverse of a path: its inside is the outside of the path.
     inverse(path) {
         const inverse = new Path2D(path);
         inverse.addPath(this.everywhere());
@@ -188,8 +188,8 @@ class Painter {
         context.restore();
     }
 
-    // Paints fill and stroke as one shape. A mask is used if overlaps would show, if the mode affects pixels outside the path, or if the
-    // paint has a different transform (`masked`).
+    // Paints fill and stroke as one shape. Uses a mask if the overlap of fill and stroke would be visible, if the composite mode affects
+    // pixels outside the path, or if the paint has a different transform (`masked`).
     paintPath(fill, stroke, act, masked) {
         const composite = COMPOSITES[this.line.composite];
         if (!composite)
@@ -231,7 +231,7 @@ class Painter {
         context.restore();
     }
 
-    // Draws on a separate canvas whose corner is at x, y of the current one, and returns its context.
+    // Calls `act` to draw on a separate canvas whose corner is at x, y of the current canvas. Returns the context of the separate canvas.
     apart(width, height, x, y, act) {
         const { context, base, line, filter } = this, apart = this.beside({ width, height }, true);
         Object.assign(this, { context: apart, base: [base[0], base[1] - x, base[2] - y], line: { ...line, composite: 4 }, filter: null });
@@ -240,7 +240,8 @@ class Painter {
         return apart;
     }
 
-    // Reads the commands of a paint up to one that `ends`, and keeps the resulting paint for later.
+    // Executes the commands of a paint up to and including the one for which `ends` returns true. Returns the paint and restores the
+    // current paint.
     readUpTo(ends) {
         const keep = ({ paint, alpha, solid, round, line, filter }) => ({ paint, alpha, solid, round, line, filter });
         const before = keep(this);
@@ -260,7 +261,7 @@ class Painter {
     readSource() {
         const source = this.readUpTo(() => true);
         while (this.n[this.at] === 13)
-            this.command(this.n[this.at++]); // commands for unsupported parts
+            this.command(this.n[this.at++]); // skip commands for unsupported parts
         return source;
     }
 
@@ -272,7 +273,7 @@ class Painter {
         Object.assign(this, { paint: before, alpha, solid, round });
     }
 
-    // Combines another canvas with that of a context. `composite` is the number of a mode.
+    // Composites another canvas over the context's canvas. `composite` is the number of a mode.
     combine(context, other, composite) {
         if (COMPOSITES[composite])
             this.compositeOver(context, other, COMPOSITES[composite]);
@@ -290,7 +291,7 @@ class Painter {
         this.setMatrix();
         if (!(size * this.scale > 0.1))
             return;
-        const drawn = 100; // pixels; some browsers do not draw sizes below 1
+        const drawn = 100; // font size in pixels, scaled afterwards: some browsers do not draw sizes below 1
         const font = `${SLANTS[slant]} ${Math.min(Math.max(weight, 1), 1000)} ${STRETCHES[width] ?? 'normal'} `
             + `${drawn}px ${families.join(',') || 'sans-serif'}`;
         this.paintPath(fill, stroke, (here, isFill) => {
@@ -377,7 +378,7 @@ class Painter {
         };
     }
 
-    // Returns the image with an opacity, because patterns have none.
+    // Returns a copy of the image with this opacity, because patterns have no opacity.
     faded(image, alpha) {
         if (alpha >= 1)
             return image;
@@ -387,7 +388,7 @@ class Painter {
         return context.canvas;
     }
 
-    // Returns a paint made of pixels in the resolution of the canvas; `make` draws it on a separate canvas.
+    // Sets the paint to pixels at the resolution of the canvas. `make` draws them on a separate canvas.
     imageOfPixels(alpha, make) {
         Object.assign(this, { solid: false, alpha, round: null });
         return () => {
@@ -478,14 +479,14 @@ class Painter {
         case 17: this.filter = readFilter(this); break;
         case 18: this.paint = this.blend(); break;
         case 19: this.paint = this.noise(); break;
-        default: throw new Error(`the picture has a kind ${kind}, which this drawing.mjs does not know`);
+        default: throw new Error(`unknown command ${kind} in the display list: drawing.mjs is older than the engine`);
         }
     }
 
     systems() {
         const { canvas } = this.context, [scale, x, y] = this.base, [width, height] = this.n;
         if (this.at === 3 && x <= 0 && y <= 0 && scale * width >= canvas.width && scale * height >= canvas.height)
-            this.background = null; // the background would be invisible, and costs more than all discs
+            this.background = null; // the background would be hidden, and drawing it costs more than all discs
         this.at = drawSystems(this.context, this.n, this.at, this.base);
     }
 
@@ -497,14 +498,14 @@ class Painter {
         return color(given, 0);
     }
 
-    // Gradients are created when they are used, because they follow the current transform.
+    // Gradients are created on each use, because they depend on the current transform.
     linear() {
         const ends = this.take(4), stops = this.readStops();
         this.round = null;
         return () => this.addStops(this.context.createLinearGradient(...ends), stops);
     }
 
-    // Canvas 2D only has gradients on circles; for others, the shape is filled in a transformed space.
+    // Canvas 2D has only circular gradients. For elliptical gradients, the shape is filled in a transformed coordinate system.
     radial() {
         const matrix = this.take(6), [xx, yx, xy, yy, x0, y0] = matrix, stops = this.readStops();
         const radius = Math.sqrt(Math.abs(xx * yy - xy * yx)), even = Math.hypot(xx - yy, xy + yx) < 1e-6 * radius;
@@ -537,7 +538,7 @@ class Painter {
         while (this.at < this.n.length)
             this.command(this.n[this.at++]);
         this.context.restore();
-        if (this.background) { // drawn last but behind everything, so that it does not affect compositing
+        if (this.background) { // drawn last but behind everything, so that the background does not affect compositing
             this.context.save();
             Object.assign(this.context, { globalCompositeOperation: 'destination-over', fillStyle: this.background });
             this.context.setTransform(1, 0, 0, 1, 0, 0);
@@ -548,8 +549,8 @@ class Painter {
     }
 }
 
-// Draws on a CanvasRenderingContext2D, scaled to fit its canvas and centred. `image(name)` returns an image of the script for drawImage.
-// Returns descriptions of unsupported parts.
+// Draws a display list on a CanvasRenderingContext2D, scaled to fit its canvas and centred. `image(name)` returns the image that a script
+// names, for drawImage. Returns descriptions of unsupported parts.
 export function drawPicture(context, numbers, options = {}) {
     return new Painter(context, numbers, options).draw();
 }

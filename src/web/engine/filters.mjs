@@ -2,7 +2,7 @@
 // filtered.
 import { FloatImage } from './float_image.mjs';
 
-const MAX_SIGMA = 256, MAX_OFFSET = 2000; // of a blur and of an offset, pixels
+const MAX_SIGMA = 256, MAX_OFFSET = 2000; // maximum blur and offset, in pixels
 const KINDS = ['blur', 'shadow', 'offset', 'dilate', 'erode', 'matrix', 'paint', 'blend', 'drawn'];
 
 // Reads the filter at painter.at (petri-draw.h, PETRI_FILTER_…).
@@ -32,7 +32,7 @@ export function readFilter(painter) {
     return filter;
 }
 
-// Returns how far a filter extends a shape, and whether it changes transparent pixels.
+// Returns `margin`, the distance in pixels by which a filter extends a shape, and `everywhere`, true if it changes transparent pixels.
 function needsOf(filter, matrix) {
     if (!filter.input)
         return { margin: 0, everywhere: filter.kind === 'paint' };
@@ -49,7 +49,8 @@ function needsOf(filter, matrix) {
 const inPixels = (radii, { a, b, c, d }) => [radii[0] * Math.hypot(a, b), radii[1] * Math.hypot(c, d)];
 const moved = ([dx, dy], { a, b, c, d }) => [a * dx + c * dy, b * dx + d * dy];
 
-// Returns a new image. `host` has matrix, drawn, paintAll(paint) and blend(composite, below, above), which return images.
+// Applies a filter and returns a new image. `host` has a matrix, the image `drawn`, and the functions paintAll(paint) and blend(composite,
+// below, above), which return images.
 function applyFilter(filter, host) {
     if (filter.kind === 'drawn')
         return host.drawn.copy();
@@ -94,7 +95,7 @@ function boxOf({ width, height }, ink, edge) {
     return [x, y, Math.min(ink.right + 1 + edge, width) - x, Math.min(ink.bottom + 1 + edge, height) - y];
 }
 
-// Draws what `act` draws through the painter's filter, and adds it with `composite`, a mode of Canvas 2D.
+// Draws with `act` through the painter's filter, and composites the result with `composite`, a mode of Canvas 2D.
 export function drawFiltered(painter, act, composite) {
     const { filter, context } = painter;
     painter.setMatrix();

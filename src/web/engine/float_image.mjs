@@ -1,7 +1,7 @@
-// float_image.mjs: images with premultiplied numbers from 0 to 1, and filters for them (lib/draw/float_image.c, for hosts that only have
-// Canvas 2D).
+// float_image.mjs: floating-point images with premultiplied values from 0 to 1, and their filters. A port of lib/draw/float_image.c for
+// hosts that have only Canvas 2D.
 
-const MAX_SIGMA = 256, MAX_EXACT_SIGMA = 8; // standard deviations of a blur, pixels
+const MAX_SIGMA = 256, MAX_EXACT_SIGMA = 8; // standard deviations of a blur, in pixels
 
 // Rounds to the nearest integer, ties to even.
 const nearest = x => (Math.abs(x % 1) === 0.5 ? 2 * Math.round(x / 2) : Math.round(x));
@@ -38,7 +38,8 @@ export class FloatImage {
         return new FloatImage(this.width, this.height, this.pixels.slice());
     }
 
-    // Applies `change` to all rows (axis 0) or columns; it returns the four numbers of a pixel of the line.
+    // Applies `change` to each row (axis 0) or column (axis 1). `change` gets a line of pixels with four numbers each, and returns the new
+    // line.
     lines(axis, change) {
         const { width, height, pixels } = this, count = axis ? height : width, step = axis ? 4 * width : 4;
         const line = new Float32Array(4 * count);
@@ -59,7 +60,7 @@ export class FloatImage {
         return this;
     }
 
-    // Enlarges shapes, or shrinks them if `least`.
+    // Dilates shapes, or erodes them if `least`.
     spread(radii, least) {
         radii.forEach((radius, axis) => {
             const reach = Math.min(nearest(radius), axis ? this.height : this.width);
@@ -79,7 +80,7 @@ export class FloatImage {
         return out;
     }
 
-    // Sets one colour everywhere, and multiplies its alpha by that of the image.
+    // Sets all pixels to one colour, whose alpha is multiplied by the alpha of each pixel.
     shade([red, green, blue, alpha]) {
         for (let i = 0; i < this.pixels.length; i += 4) {
             const there = this.pixels[i + 3] * alpha;
@@ -114,10 +115,10 @@ export class FloatImage {
         return this;
     }
 
-    // Combines two images: factors of the product, of `above`, of this image, and a constant.
+    // Combines two images arithmetically: both·above·this + other·above + own·this + more.
     combine({ pixels: above }, [both, other, own, more]) {
         const { pixels } = this;
-        for (let i = pixels.length - 1; i >= 0; i--) { // alpha first
+        for (let i = pixels.length - 1; i >= 0; i--) { // from the end, so that the alpha of a pixel is computed before its colours
             const sum = both * above[i] * pixels[i] + other * above[i] + own * pixels[i] + more;
             pixels[i] = Math.min(Math.max(sum, 0), i % 4 === 3 ? 1 : pixels[i | 3]);
         }
@@ -125,7 +126,7 @@ export class FloatImage {
     }
 }
 
-// Computes the weighted sum of neighbouring pixels; pixels beyond the ends count as 0.
+// Computes the weighted sum of neighbouring pixels. Pixels beyond the ends of the line are 0.
 function weigh(weights, from, count, at, to, i) {
     const reach = weights.length - 1;
     for (let k = 0; k < 4; k++)
@@ -135,8 +136,8 @@ function weigh(weights, from, count, at, to, i) {
             to[i + k] += weights[Math.abs(at - j)] * from[4 * j + k];
 }
 
-// A wide blur is computed on cells of several pixels and interpolated between their centres. Both steps add to the variance: (cell² − 1)/12
-// and twice that.
+// Returns a function that blurs a line. A wide blur is computed on cells of several pixels and interpolated between their centres. The
+// averaging of cells adds (cell² − 1)/12 to the variance, and the interpolation adds twice as much.
 function blurOf(sigma) {
     const cell = sigma > MAX_EXACT_SIGMA ? Math.floor(sigma / 4) : 1;
     const narrow = Math.sqrt(sigma * sigma - (cell * cell - 1) / 4) / cell;
@@ -149,7 +150,7 @@ function blurOf(sigma) {
         const cells = Math.ceil(count / cell), from = cell > 1 ? new Float32Array(4 * cells) : line;
         for (let i = 0; cell > 1 && i < 4 * count; i++)
             from[4 * Math.floor((i >> 2) / cell) + i % 4] += line[i] / cell;
-        const margin = cell > 1 ? 1 : 0, weighed = new Float32Array(4 * (cells + 2 * margin)); // for cells from -1 on
+        const margin = cell > 1 ? 1 : 0, weighed = new Float32Array(4 * (cells + 2 * margin)); // begins with cell -margin
         for (let i = -margin; i < cells + margin; i++)
             weigh(weights, from, cells, i, weighed, 4 * (i + margin));
         if (cell === 1)
@@ -164,7 +165,8 @@ function blurOf(sigma) {
     };
 }
 
-// Returns a function that computes the maximum or minimum within reach, by doubling the length of runs.
+// Returns a function that computes the maximum or minimum within `reach` pixels of each pixel. It doubles the length of the runs in each
+// step.
 function spreadOf(reach, choose) {
     return (line, count) => {
         const all = count + 2 * reach, other = new Float32Array(4 * all), wanted = 2 * reach + 1;

@@ -1,8 +1,8 @@
-// noise.mjs: the noise of SVG's feTurbulence, and Perlin's improved noise, as pixels (lib/draw/noise.c).
+// noise.mjs: computes pixels of the noise of SVG's feTurbulence and of Perlin's improved noise (lib/draw/noise.c).
 
 const LATTICE = 256, CHANNELS = 4, FOLDED = 1, IMPROVED = 2;
 
-// Yields the random numbers of SVG, from 1 to 2³¹ − 2.
+// Yields the random numbers of SVG's feTurbulence, from 1 to 2³¹ − 2.
 function* numbersFrom(seed) {
     const MODULUS = 2147483647, FACTOR = 16807, MAX_VALUE = MODULUS - 1, whole = Math.trunc(seed);
     let number = whole <= 0 ? 1 - whole % MAX_VALUE : Math.min(whole, MAX_VALUE);
@@ -26,7 +26,7 @@ function makeLattice(seed) {
     return { slopes, order };
 }
 
-// Returns the nearest frequency with a whole number of waves per tile, and that number; 0 without tiles.
+// Returns the nearest frequency with a whole number of waves per tile, and the number of waves; 0 waves means no tiles.
 function fitTile(given, side, other) {
     const frequency = Math.abs(given);
     if (!(side > 0 && other > 0 && frequency > 0))
@@ -57,7 +57,7 @@ function smooth({ slopes, order }, channel, x, y) {
         mix(across, at(x.cell, y.next, x.part, y.part - 1), at(x.next, y.next, x.part - 1, y.part - 1)));
 }
 
-// Perlin's noise of 2002 in the plane z = channel, with the directions to the twelve edge centres of a cube.
+// Perlin's improved noise (2002) in the plane z = channel. The gradients point to the midpoints of the twelve edges of a cube.
 function improved({ order }, channel, x, y) {
     const at = (i, j, dx, dy) => {
         const edge = order[(order[(order[i] + j) & (LATTICE - 1)] + channel) & (LATTICE - 1)] & 15;
@@ -79,7 +79,7 @@ export function noisePixels([fx, fy, tileX, tileY, seed, octaves, type, alpha], 
             const u = column + 0.5, v = row + 0.5, x = (a * u + c * v + e) * frequencyX, y = (b * u + d * v + f) * frequencyY;
             sums.fill(0);
             for (let octave = 0, ratio = 1; octave < octaves && ratio < Infinity; octave++, ratio *= 2) {
-                if (!(Math.abs(x * ratio) < 1e15 && Math.abs(y * ratio) < 1e15)) // the coordinates have no fraction any more
+                if (!(Math.abs(x * ratio) < 1e15 && Math.abs(y * ratio) < 1e15)) // the coordinates have no fractional part
                     break;
                 const placeX = placeOf(x * ratio, cellsX * ratio), placeY = placeOf(y * ratio, cellsY * ratio);
                 for (let channel = 0; channel < CHANNELS; channel++) {

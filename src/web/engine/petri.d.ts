@@ -1,6 +1,6 @@
 // petri.d.ts: types and documentation of petri.mjs.
 
-/** Bytes, a compiled module, the URL of engine.wasm, or the response of a fetch. Default: engine.wasm next to petri.mjs. */
+/** The bytes of engine.wasm, a compiled module, a URL, or the response of a fetch. Default: engine.wasm next to petri.mjs. */
 export type EngineSource = BufferSource | WebAssembly.Module | Response | URL | string;
 
 /** Compiles the engine, which takes about ten milliseconds. */
@@ -9,7 +9,7 @@ export function loadEngine(source?: EngineSource): Promise<Engine>;
 export type Status = 'ok' | 'invalid' | 'limit' | 'memory' | 'missing' | 'interrupted';
 export const STATUS: Status[];
 
-/** A message about a script. Lines and columns count from 1, columns in characters. */
+/** A message about a script. Lines and columns count from 1. Columns count characters. */
 export interface Diagnostic {
     level: 'error' | 'warning' | 'note';
     file: string | null;
@@ -20,9 +20,9 @@ export interface Diagnostic {
     text: string;
     /** Identifier of the kind of message, such as "unbound-name". */
     code: string | null;
-    /** Advice; "" for none. */
+    /** How to fix the problem; "": no hint. */
     hint: string;
-    /** With position, source line and carets, as printed by the command. */
+    /** The message with position, source line and carets, as printed by the petri command. */
     rendered: string;
 }
 
@@ -32,56 +32,56 @@ export class PetriError extends Error {
 }
 
 export interface Options {
-    /** Frames per second, unless the script sets it. Default 60. */
+    /** Frames per second, unless the script sets the rate. Default: 60. */
     fps?: number;
-    /** Memory limit of the script in bytes. Default 1 GiB. */
+    /** Memory limit of the script in bytes. Default: 1 GiB. */
     memory?: number;
-    /** Work limit of a call in units of about ten nanoseconds; a frame that exceeds it is aborted. Default 2^28. */
+    /** Work limit of a call in units of about ten nanoseconds. A frame that exceeds the limit is aborted. Default: 2^28. */
     work?: number;
-    /** Files that scripts can read and import, by name. They have no other access. */
+    /** Files that scripts can read and import, by name. Scripts cannot access any other files. */
     files?: Record<string, string | Uint8Array>;
     onDiagnostic?: (diagnostic: Diagnostic) => void;
     /**
      * Polled about every ten microseconds during calls that may take long. Return true to end the call with the status
-     * "interrupted"; nothing has changed then. Calls that only read values are not interrupted.
-     * It can check a clock, or a SharedArrayBuffer that another thread writes.
+     * "interrupted"; it then changes nothing. Calls that only read values are not interrupted.
+     * The callback can check a clock, or a SharedArrayBuffer that another thread writes.
      */
     shouldInterrupt?: () => boolean;
 }
 
 export interface Engine {
     readonly version: string;
-    /** The exception that made the engine unusable; load another engine then. */
+    /** The exception that made the engine unusable; undefined while the engine works. If it is set, load a new engine. */
     readonly broken?: Error;
     open(options?: Options): Session;
 }
 
 export interface Frame {
-    /** From 0; -1 before the first frame. */
+    /** Counts from 0; -1 before the first frame. */
     number: number;
     time: number;
     beat: number;
     fps: number;
     tempo: number;
-    /** Simulation steps of all systems in this frame. */
+    /** Number of simulation steps of all systems in this frame. */
     steps: number;
     evaluationSeconds: number;
     physicsSeconds: number;
 }
 
-/** A name that can be set from outside: `let NAME=NAME or DEFAULT -- MIN..MAX|STEP comment`. */
+/** A name whose value the host can set: `let NAME=NAME or DEFAULT -- MIN..MAX|STEP comment`. */
 export interface Parameter {
     name: string;
     defaultValue: string;
     value: string;
     comment: string;
-    /** NaN unless the value is one number. */
+    /** The value as a number; NaN unless the value is a single number. */
     number: number;
     defaultNumber: number;
-    /** The range; infinite if there is none. */
+    /** The range; infinite if the comment contains no range. */
     min: number;
     max: number;
-    /** 0: none. */
+    /** Step size; 0: none. */
     step: number;
     defined: boolean;
     settable: boolean;
@@ -89,7 +89,7 @@ export interface Parameter {
     column: number;
 }
 
-/** Numbers in the engine's memory; those of particle i begin at `data[i * stride]`. */
+/** Numbers in the engine's memory. The numbers of particle i begin at `data[i * stride]`. */
 export interface Column {
     data: Float64Array;
     stride: number;
@@ -113,12 +113,12 @@ export interface System {
 export interface Token {
     kind: 'name' | 'keyword' | 'number' | 'string' | 'symbol' | 'node' | 'tag' | 'operator' | 'comment' | 'invalid'
         | 'newline' | 'indent' | 'dedent';
-    /** Positions in bytes of UTF-8. */
+    /** Offsets in bytes of UTF-8; `end` is the offset after the token. */
     start: number;
     end: number;
 }
 
-/** A row of petri's tables; a node is followed by its attributes. */
+/** A row of petri's help tables. The row of a node is followed by the rows of its attributes. */
 export interface Help {
     kind: 'function' | 'node' | 'attribute' | 'name';
     name: string;
@@ -131,7 +131,7 @@ export interface Help {
 
 export type Section = 'tree' | 'state' | 'log' | 'error' | 'hash';
 
-/** A picture drawn with WebGL 2. */
+/** A picture rendered with WebGL 2. */
 export interface RenderedImage {
     image: ImageBitmap;
     title: string;
@@ -141,17 +141,17 @@ export interface RenderedImage {
     screen: true;
 }
 
-/** A running script. Calls that fail throw a PetriError and change nothing. */
+/** A session, which runs a script. Calls that fail throw a PetriError and change nothing. */
 export interface Session {
-    /** Loads a script. Frames count from 0 again; the state is kept. */
+    /** Loads a script. Frame numbers restart at 0; the state is kept. */
     load(text: string | Uint8Array, name?: string): this;
     /** Replaces the text of the running script; frames, time and state continue. */
     reload(text: string | Uint8Array, name?: string): this;
     /** Returns the diagnostics of a script without changing anything. */
     diagnose(text: string | Uint8Array, name?: string): Diagnostic[];
-    /** Defines a name, as in "SIZE=20", for scripts loaded from now on. */
+    /** Defines a name, as in "SIZE=20", for scripts that are loaded later. */
     define(definition: string): this;
-    /** Adds a file for scripts; null removes it. */
+    /** Adds a file that scripts can read and import. null removes the file. */
     setFile(name: string, content: string | Uint8Array | null): void;
     /** Computes the next frame. */
     step(): this;
@@ -160,46 +160,45 @@ export interface Session {
     clear(): void;
     readonly frame: Frame;
     readonly parameters: Parameter[];
-    /** Sets a parameter to a value, written as in a script; null: to its default. */
+    /** Sets a parameter to a value, written as in a script, or to its default if `value` is null. */
     setParameter(name: string, value: string | number | null): this;
-    /** Sets a global for scripts loaded from now on. Its value can be changed at any time. */
+    /** Sets a global for scripts that are loaded later. Its value can be changed at any time. */
     setGlobal(name: string, value: number | ArrayLike<number>): this;
-    /** Columns are views, valid until the next call that changes something; copy them to keep them. */
+    /** The systems of the last frame. Columns are views, valid until the next call that changes the session. Copy them to keep them. */
     readonly systems: System[];
-    /** Printed keys with numbers, or with the printed value if it is not all numbers. */
+    /** Maps printed keys to arrays of numbers, or to the printed value if not all elements are numbers. */
     readonly state: Map<string, number[] | string>;
-    /** The SHA-256 of the state: the same on every machine. */
+    /** Returns the SHA-256 of the state, which is the same on every machine. */
     hash(): string;
-    /**
-     * The particles of the last frame as comma-separated values, as written by `petri run --trajectory run.csv`. The first
-     * call includes a header and returns the number of dimensions, which must be passed in later frames.
+    /** Returns the particles of the last frame as comma-separated values, as written by `petri run --trajectory run.csv`. The first
+     * call includes a header and returns the number of dimensions, which must be passed to later calls.
      */
     table(dimensions?: number): { text: string; dimensions: number };
-    /** The last frame as printed by `petri run --print`. */
+    /** Returns the last frame as printed by `petri run --print`. */
     print(...sections: Section[]): string;
-    /** The output of debug() in the last frame. */
+    /** Returns the output of debug() in the last frame. */
     log(): string;
     evaluate(expression: string): { text: string; number: number };
     /** Evaluates a line typed at the prompt and returns its output. Bindings and nodes persist. */
     prompt(text: string): string;
     /** True if the last frame has anything to draw. */
     readonly drawable: boolean;
-    /** The display list of the last frame for `drawPicture`; null if there is nothing to draw. */
+    /** Returns the display list of the last frame for `drawPicture`, or null if there is nothing to draw. */
     displayList(options?: { automatic?: boolean }): Picture | null;
     /**
      * Like `displayList`, but content that needs WebGL 2 (3-D scenes, effects, several canvases) is rendered to an image,
-     * which the caller owns. Returns a display list if that is sufficient, or without WebGL 2.
+     * which the caller owns. Returns a display list if no such content exists or WebGL 2 is not available.
      */
     render(options?: { automatic?: boolean }): Picture | RenderedImage | null;
-    /** True if the pictures of the last frame depend on earlier ones (`!feedback`, `!reference`, …). */
+    /** True if the picture of the last frame depends on earlier pictures (`!feedback`, `!reference`, …). */
     readonly needsHistory: boolean;
-    /** Call this after every step whose picture is not shown. Renders it if later ones depend on it, and returns whether they do. */
+    /** Must be called after every step whose picture is not shown. If later pictures depend on it, renders it and returns true. */
     renderIfNeeded(): boolean;
     tokens(text: string): Token[];
     help(): Help[];
     symbol(name: string): number;
     symbolName(number: number): string | null;
-    /** Reports the pointer's position in the picture, 0 to 1 from the top left; buttons as bits. */
+    /** Reports the pointer's position in the picture, from 0 to 1 from the top left. Each bit of `buttons` is a button. */
     pointer(inside: boolean, x?: number, y?: number, buttons?: number): this;
     key(name: string, pressed: boolean): this;
     /** Stores the complete state of the session for `rewind`. */
@@ -212,7 +211,7 @@ export interface Picture {
     /** The display list (petri-draw.h, petri_picture_display_list). */
     numbers: Float64Array;
     title: string;
-    /** false: particles are not at their positions yet. */
+    /** False if particles are not at their positions yet. */
     ready: boolean;
     /** Set by `render`: true if WebGL 2 is available. */
     screen?: boolean;

@@ -1,5 +1,5 @@
-// petri.mjs: petri sessions for JavaScript: load a script, step it, read values. petri.d.ts has the types and documents the calls;
-// otherwise the contracts of petri.h apply.
+// petri.mjs: petri sessions for JavaScript, which load a script, step it and read values. petri.d.ts documents types and calls; otherwise
+// the contracts of petri.h apply.
 import { drawPicture } from './drawing.mjs';
 import { pixelContext, readPixels } from './pixels.mjs';
 import { compile, instantiate } from './wasm.mjs';
@@ -9,11 +9,11 @@ const LEVELS = ['error', 'warning', 'note'];
 const TOKENS = ['name', 'keyword', 'number', 'string', 'symbol', 'node', 'tag', 'operator', 'comment', 'invalid', 'newline',
     'indent', 'dedent'];
 const SECTIONS = { tree: 1, state: 2, log: 4, error: 8, hash: 16 };
-// Browsers provide about 1 MiB of stack in addition to the part that petri can measure. This limit allows 500 nested calls of a function,
-// and reports deeper recursion before the browser's stack overflows.
+// petri can measure only the engine's stack; JavaScript engines also use a stack of about 1 MiB. This limit allows 500 nested calls of a
+// function, and reports deeper recursion before the browser's stack overflows.
 const STACK = 1536 << 10;
 const MEMORY = 1 << 30;
-const CALL_WORK = 2 ** 28; // a second or two
+const CALL_WORK = 2 ** 28; // one or two seconds
 
 // Thrown when a call fails; `diagnostics` are the messages of that call.
 export class PetriError extends Error {
@@ -26,12 +26,12 @@ export class PetriError extends Error {
     }
 }
 
-// Compiles the engine, which then opens sessions. `source`: see wasm.mjs.
+// Compiles the engine and returns it. `source` is that of `compile` in wasm.mjs.
 export async function loadEngine(source) {
     return new Engine(await compile(source));
 }
 
-// The sessions of an engine share its memory; a crash makes all of them unusable.
+// All sessions of an engine share its memory, so a crash makes all of them unusable.
 class Engine {
     constructor(module) {
         this.module = module;
@@ -97,7 +97,7 @@ export class Session {
         this.shouldInterrupt = shouldInterrupt;
         this.image = image;
         this.painter = null; // 0: not available
-        this.followed = null; // the last rendered picture, if later ones depend on it
+        this.followed = null; // the last rendered picture, if later pictures depend on it
         this.unsupported = new Set();
         this.files = new Map();
         this.kept = []; // addresses of file contents, freed when the session is closed
@@ -121,7 +121,7 @@ export class Session {
         this.kept = [];
     }
 
-    // Adds a file that scripts can read or import, from a string or bytes; null removes it.
+    // Adds a file, given as a string or bytes, that scripts can read or import. null removes the file.
     setFile(name, content) {
         if (content === null)
             this.files.delete(name);
@@ -129,8 +129,8 @@ export class Session {
             this.files.set(name, { bytes: typeof content === 'string' ? new TextEncoder().encode(content) : content, at: 0 });
     }
 
-    // Runs every call of the engine. An exception from it leaves the engine in an undefined state, so it is not used again. Only calls that
-    // can report an interruption may be interrupted.
+    // Makes a call of the engine; all calls are made here. After an exception the state of the engine is undefined, so the engine is not
+    // used again. Only calls that can report an interruption may be interrupted.
     run(act, mayInterrupt = false) {
         if (this.engine.broken)
             throw this.engine.broken;
@@ -150,7 +150,7 @@ export class Session {
         }
     }
 
-    // Like run, for calls that return a status.
+    // Like run, for calls that return a status. Throws a PetriError unless it is 'ok'.
     check(what, act) {
         const status = STATUS[this.run(act, true)];
         if (status !== 'ok')
@@ -207,7 +207,7 @@ export class Session {
         return this.taken[0];
     }
 
-    // The text of the last frame; sections as in `petri run --print`.
+    // Returns the text of the last frame, with sections as in `petri run --print`.
     print(...sections) {
         const bits = sections.reduce((sum, name) => sum | SECTIONS[name], 0);
         this.check('print', wasm => wasm.web_print(this.handle, bits));
@@ -219,8 +219,8 @@ export class Session {
         return this.written.join('');
     }
 
-    // The particles of the last frame as rows of a table, as in `petri run --trajectory`. `dimensions` is the result of the first call, or
-    // 0 to include a header.
+    // Returns the particles of the last frame as rows of a table, as in `petri run --trajectory`. `dimensions` is the number that the first
+    // call returned, or 0 to include a header.
     table(dimensions = 0) {
         const has = this.run(wasm => wasm.web_particles(this.handle, dimensions), true);
         if (has <= 0)
@@ -228,7 +228,7 @@ export class Session {
         return { text: this.written.join(''), dimensions: has };
     }
 
-    // The SHA-256 of the state.
+    // Returns the SHA-256 of the state.
     hash() {
         return this.print('hash').match(/[0-9a-f]{64}/)[0];
     }
@@ -238,7 +238,7 @@ export class Session {
         return this.taken;
     }
 
-    // `value` as a script would write it; null: the default.
+    // Sets a parameter. `value` has the form that it has in a script; null means the default.
     setParameter(name, value) {
         const set = (wasm, at) => value === null
             ? wasm.petri_set_parameter(this.handle, at, 0)
@@ -246,7 +246,7 @@ export class Session {
         return this.check(`the parameter ${name}`, this.with(name, set));
     }
 
-    // The systems of the last frame. Columns are views of the engine's memory, valid until the next call that changes something. The
+    // The systems of the last frame. Columns are views of the engine's memory, valid until the next call that changes the session. The
     // numbers of particle i begin at i * stride.
     get systems() {
         this.run(wasm => wasm.web_systems(this.handle));
@@ -260,13 +260,13 @@ export class Session {
             : null;
     }
 
-    // The state: printed keys with numbers, or with the printed value if it is not all numbers.
+    // The state: a map from printed keys to arrays of numbers, or to the printed value if not all elements are numbers.
     get state() {
         this.run(wasm => wasm.web_state(this.handle));
         return new Map(this.taken.map(entry => [entry.key, entry.value]));
     }
 
-    // Sets a global for scripts loaded from now on: one or more numbers, which may be changed at any time.
+    // Sets a global, one or more numbers, for scripts that are loaded later. Its value may be changed at any time.
     setGlobal(name, value) {
         const numbers = Float64Array.from(typeof value === 'number' ? [value] : value);
         return this.check(`the name ${name}`, this.with(name, (wasm, called) =>
@@ -294,13 +294,13 @@ export class Session {
         return this.taken[0] ?? null;
     }
 
-    // True if the pictures of the last frame depend on earlier ones; call `renderIfNeeded` after every step then.
+    // True if the picture of the last frame depends on earlier pictures. `renderIfNeeded` must then be called after every step.
     get needsHistory() {
         return !!this.run(wasm => wasm.petri_needs_history(this.handle));
     }
 
-    // Renders the last frame, although it is not shown, if later pictures depend on it. Returns true if they do. Also updates the view of
-    // the automatic picture.
+    // If later pictures depend on the last frame, renders this frame without showing it and returns true. Also updates the visible region
+    // of the automatic picture.
     renderIfNeeded() {
         this.run(wasm => wasm.web_follow_frame(this.handle));
         if (!this.needsHistory)
@@ -373,7 +373,7 @@ export class Session {
         return this.taken;
     }
 
-    // The rows of petri's tables: functions; nodes, each followed by its attributes; names of the script.
+    // Returns the rows of petri's tables: functions; nodes, each followed by its attributes; names bound in the script.
     help() {
         this.run(wasm => wasm.web_help(this.handle));
         return this.taken;
@@ -396,7 +396,7 @@ export class Session {
             wasm.petri_report_key(this.handle, at, pressed ? 1 : 0)));
     }
 
-    // The complete state of the session. Free it before the session is closed.
+    // Returns a snapshot of the complete state of the session. It must be freed before the session is closed.
     snapshot() {
         const at = this.run(wasm => wasm.petri_snapshot(this.handle));
         if (!at)
@@ -404,7 +404,7 @@ export class Session {
         return new Snapshot(this, at);
     }
 
-    // Pictures that depend on earlier ones start again.
+    // Restores a snapshot. Pictures that depend on earlier pictures start again.
     rewind(snapshot) {
         this.closePainter();
         return this.check('rewind', wasm => wasm.petri_rewind(this.handle, snapshot.at));
@@ -415,7 +415,7 @@ export class Session {
         this.onDiagnostic?.(diagnostic);
     }
 
-    // For `glob`, a folder is a file with the names in it.
+    // For `glob`, a folder is a file that contains the names in the folder, one per line.
     listFolder(prefix, name) {
         const below = [...this.files.keys()].filter(file => file.startsWith(prefix) && !file.endsWith('/'));
         const names = new Set(below.map(file => file.slice(prefix.length).replace(/\/.*/, '/')));

@@ -17,7 +17,7 @@ export function readPixels(context, out) {
         const p = pixels[i], alpha = p >>> 24;
         if (alpha === 255)
             out[i] = (p & 0xff00ff00) | (p & 255) << 16 | (p >> 16 & 255);
-        else // the canvas divided by alpha; multiplying again restores the bytes
+        else // getImageData has divided by alpha; multiplying by alpha restores the premultiplied bytes
             out[i] = alpha && (alpha << 24 | Math.round((p & 255) * alpha / 255) << 16
                 | Math.round((p >> 8 & 255) * alpha / 255) << 8 | Math.round((p >> 16 & 255) * alpha / 255));
     }

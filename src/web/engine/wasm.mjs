@@ -1,4 +1,4 @@
-// wasm.mjs: loads engine.wasm in pages, workers and Node.js, without emscripten's runtime: the engine needs only a clock from the system,
+// wasm.mjs: loads engine.wasm in pages, workers and Node.js without emscripten's runtime. The engine needs only a clock from the system,
 // and calls JavaScript through the functions of src/web/host.h.
 import { Screen } from './webgl.mjs';
 
@@ -9,7 +9,7 @@ const decoder = new TextDecoder();
 const LEFT = Symbol('longjmp');
 const ENOSYS = 52, EBADF = 8;
 
-// Compiles bytes, a WebAssembly.Module, a URL or a Response. Default: engine.wasm next to this file.
+// Compiles the engine from bytes, a WebAssembly.Module, a URL or a Response. Default: engine.wasm next to this file.
 export async function compile(source = new URL('./engine.wasm', import.meta.url)) {
     if (source instanceof WebAssembly.Module)
         return source;
@@ -40,7 +40,7 @@ export function instantiate(module, host) {
         const all = bytes();
         return decoder.decode(all.subarray(at, length === undefined ? all.indexOf(0, at) : at + length));
     };
-    // Functions that use setjmp make their calls through this function.
+    // Functions that use setjmp call other functions through this wrapper, which catches longjmp.
     const invoke = (index, ...args) => {
         const stack = wasm.stackSave();
         try {
@@ -90,7 +90,7 @@ export function instantiate(module, host) {
         ...memory,
         wasm,
         screen,
-        // Calls `use` with the address and length of a string, which is in memory only during the call.
+        // Copies a string to the engine's memory for the duration of a call, and calls `use` with its address and length.
         withText: (string, use) => {
             const encoded = typeof string === 'string' ? encoder.encode(string) : string;
             const at = wasm.malloc(encoded.length + 1);

@@ -1,5 +1,5 @@
-// webgl.mjs: implements the OpenGL ES 3 functions that the engine calls (lib/gl) with WebGL 2, which uses objects instead of numbers and
-// arrays instead of addresses.
+// webgl.mjs: implements the OpenGL ES 3 functions that lib/gl calls with WebGL 2, which uses objects instead of names and arrays instead of
+// addresses.
 
 const SETTINGS = { alpha: true, antialias: false, depth: false, premultipliedAlpha: true, stencil: false };
 const EXTENSIONS = ['EXT_color_buffer_float', 'EXT_color_buffer_half_float', 'OES_texture_float_linear', 'EXT_float_blend'];
@@ -15,7 +15,7 @@ const PLAIN = ['activeTexture', 'blendEquation', 'blendFunc', 'checkFramebufferS
     'cullFace', 'disable', 'drawArrays', 'drawElementsInstanced', 'enable', 'enableVertexAttribArray', 'getError',
     'renderbufferStorageMultisample', 'texParameteri', 'texStorage2D', 'vertexAttribDivisor', 'viewport'];
 
-// Creates the engine's only context when it is first needed. `memory`: functions of wasm.mjs.
+// The engine's WebGL 2 context, which is created when it is first needed. `memory`: the functions of wasm.mjs that access memory.
 export class Screen {
     constructor(memory) {
         this.memory = memory;
@@ -117,7 +117,7 @@ export class Screen {
             put(`uniformMatrix${size}fv`, (at, count, turned, from) =>
                 this.gl[`uniformMatrix${size}fv`](location(at), !!turned, memory.floats(from, size * size * count)));
         put('bindAttribLocation', (program, at, name) => this.gl.bindAttribLocation(objects[program], at, memory.text(name)));
-        // Without a flush, Chromium's SwiftShader copies later drawing instead of the current content.
+        // Without a flush, SwiftShader in Chromium copies the result of later drawing instead of the current content.
         put('blitFramebuffer', (...args) => {
             this.gl.blitFramebuffer(...args);
             this.gl.flush();

@@ -17,7 +17,7 @@ export const CONTROLS = `
 <div id="parameters" part="parameters" aria-label="Parameters" role="group"></div>`;
 
 export class Controls {
-    // root: contains the elements; ready: loads the script, returns false if that failed.
+    // root: contains the elements. ready: loads the script, and returns false on failure.
     constructor(root, dish, ready) {
         this.root = root;
         this.dish = dish;

@@ -1,15 +1,15 @@
-// dish.mjs: a script on a canvas, which can be loaded, run and moved to a frame. Used by the page and by <petri-dish>.
+// dish.mjs: loads a script, runs it on a canvas, and goes to frames. Used by the page and by <petri-dish>.
 import { Remote } from './engine.mjs';
 import { addImage, paint, sizeOf } from './paint.mjs';
 import { NO_ENGINE, hasEngine } from './feature_check.mjs';
 
-const MAX_STEPS = 8; // frames between two pictures; slower scripts lag behind
-const SLOW = 500; // ms after which the user is offered to stop
+const MAX_STEPS = 8; // maximum number of frames between two pictures; slower scripts run in slow motion
+const SLOW = 500; // ms after which the page offers to stop the computation
 const FIRST_SEEN = 2; // first frame in which particles are at their positions
 
 export class Dish {
-    // host: callbacks: shown(answer, unsupported), failed(error, diagnostics), changed() when it starts or stops running; optional:
-    // loaded() and slow(boolean).
+    // host: the callbacks shown(answer, unsupported), failed(error, diagnostics) and changed(), which is called when the script starts or
+    // stops running; optionally loaded() and slow(boolean).
     constructor(canvas, host, { source, worker }) {
         Object.assign(this, {
             canvas, host, running: false, loaded: null, name: null, frame: -1, lastFrame: -1, fps: 60, speed: 1, behind: 0, last: 0, turn: 0,
@@ -26,7 +26,7 @@ export class Dish {
         return this.remote?.ask(act, message) ?? Promise.reject(new Error(NO_ENGINE));
     }
 
-    // Sends a request to the engine. Returns null after a failure, which is reported to the host.
+    // Sends a request to the engine and returns the answer. On failure, reports the error to the host and returns null.
     async attempt(act, message) {
         const slow = setTimeout(() => this.host.slow?.(true), SLOW);
         try {
@@ -97,7 +97,7 @@ export class Dish {
         return true;
     }
 
-    // Loads a script and goes to a frame. Returns true; false after a failure; or the hash of the state if it differs.
+    // Loads a script and goes to a frame. Returns true on success, false on failure, or the hash of the state if it differs from `hash`.
     async open(text, name, { changes = [], frame = 0, hash = null } = {}) {
         if (!await this.load(text, name, changes) || !await this.showAnswer('seek', { frame: frame || (hash ? 0 : FIRST_SEEN) }))
             return false;
@@ -119,8 +119,8 @@ export class Dish {
         this.host.changed();
     }
 
-    // Runs at display rate, computing as many frames as have become due while the engine was busy. Pausing and running again starts a new
-    // turn; ticks of the previous turn then end.
+    // Runs at the display rate. Each tick computes the frames that became due while the engine was busy. After a pause, running starts a
+    // new turn, and ticks of the previous turn do nothing.
     async tick(now, turn) {
         if (!this.running || turn !== this.turn)
             return;
@@ -138,7 +138,7 @@ export class Dish {
         await this.showAnswer('step', { count: 1 });
     }
 
-    // Sends one request at a time; while dragging, only the latest position is requested.
+    // Sends one request at a time. While the user drags the slider, only the latest position is requested.
     async seek(frame) {
         this.running = false;
         const waits = this.wanted !== null;
@@ -158,7 +158,7 @@ export class Dish {
             this.show(answer);
     }
 
-    // Stops the engine's current call. Returns true if it could be interrupted; otherwise the engine is restarted.
+    // Interrupts the engine's current call and returns true. If this fails, restarts the engine and returns false.
     async stop() {
         const busy = this.remote?.busy;
         this.pause();
@@ -177,7 +177,7 @@ export class Dish {
 
     // --- files and input
 
-    // Scripts can only read the files that are added.
+    // Adds a file. Scripts can read only added files.
     async addFile(name, bytes) {
         this.files.set(name, bytes);
         await addImage(this.images, name, bytes);
@@ -187,7 +187,7 @@ export class Dish {
         return this.attempt('files', { files: Object.fromEntries(this.files) });
     }
 
-    // Sends pointer and keys to the script while the picture has the focus.
+    // Reports the pointer and, while the picture has the focus, keys to the script.
     listen() {
         const { canvas } = this;
         canvas.onpointermove = canvas.onpointerdown = canvas.onpointerup = event => this.point(event, true);
@@ -208,7 +208,7 @@ export class Dish {
         });
     }
 
-    // Tab and keys with Control or Alt are left to the browser; keys that scroll go to the script.
+    // Reports a key to the script and prevents the browser from scrolling. The browser handles Tab and keys with Control or Alt.
     press(event) {
         const name = keyName(event);
         if (this.loaded === null || !name || event.ctrlKey || event.metaKey || event.altKey)
@@ -225,7 +225,7 @@ export class Dish {
     }
 }
 
-// petri's names of keys, by the browser's names.
+// Maps the browser's key names to petri's key names.
 const KEYS = {
     ' ': 'space', ArrowLeft: 'left', ArrowRight: 'right', ArrowUp: 'up', ArrowDown: 'down', Enter: 'enter', Escape: 'escape',
     Backspace: 'backspace', Insert: 'insert', Delete: 'delete', PageUp: 'page_up', PageDown: 'page_down', Home: 'home', End: 'end',
@@ -239,11 +239,11 @@ function keyName({ key, code }) {
     return /^([a-z0-9]|F\d+)$/i.test(key) ? key.toLowerCase() : KEYS[key] ?? null;
 }
 
-// Returns the text for the user about an error.
+// Returns the message for the user about an error.
 export const errorText = error => error.type === 'stopped' ? 'Stopped. The previous frame is shown.'
     : error.type === 'ended' ? 'Stopped. Press Run to restart.'
         : error.type === 'broken' ? `${error.message}. Press Run to restart.` : error.message.split('\n')[0];
 
-// Returns the text for the user about unsupported parts of a picture.
+// Returns the message for the user about unsupported parts of a picture.
 export const unsupportedText = ({ picture }, left) =>
     `Not supported in this browser${picture.screen ? '' : ' (no WebGL 2)'}: ${left.join(', ')}.`;

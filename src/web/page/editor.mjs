@@ -1,4 +1,4 @@
-// editor.mjs: CodeMirror for scripts: colours, underlined problems, completion and help from petri's tables.
+// editor.mjs: the CodeMirror editor, with syntax highlighting, underlined problems, and completion and help from petri's tables.
 import { autocompletion, closeBrackets, closeBracketsKeymap, completionKeymap } from '@codemirror/autocomplete';
 import { defaultKeymap, history, historyKeymap, indentWithTab } from '@codemirror/commands';
 import { HighlightStyle, StreamLanguage, bracketMatching, indentUnit, syntaxHighlighting } from '@codemirror/language';
@@ -36,7 +36,7 @@ const flitter = StreamLanguage.define({
     languageData: { commentTokens: { line: '--' } },
 });
 
-// Colours for light and dark themes. Custom properties do not work in CodeMirror's style sheet.
+// Syntax colours for light and dark themes, given as values because custom properties do not work in CodeMirror's style sheet.
 const colours = HighlightStyle.define([
     { tag: tags.comment, color: 'light-dark(#5a636e, #98a1ad)', fontStyle: 'italic' },
     { tag: tags.keyword, color: 'light-dark(#8a1c7c, #e59be0)' },
@@ -58,7 +58,7 @@ const theme = EditorView.theme({
     '.cm-help': { padding: '.3em .6em', maxWidth: '40em' },
 });
 
-// petri's columns count characters, CodeMirror's UTF-16 units.
+// Converts a position to an offset. petri's columns count characters; CodeMirror's offsets count UTF-16 code units.
 function offset(state, line, column) {
     if (line < 1 || line > state.doc.lines)
         return state.doc.length;
@@ -115,7 +115,8 @@ export class Editor {
         this.view.focus();
     }
 
-    // Completes from petri's tables: first attributes of the node on this line, then other rows and names of the script.
+    // Completes a word from petri's tables: first the attributes of the node on this line, then other rows and the names bound in the
+    // script.
     complete(context) {
         const word = context.matchBefore(/[!]?[\p{L}_][\p{L}\p{N}_]*$|!$/u);
         if (!word || (word.from === word.to && !context.explicit))
@@ -164,7 +165,7 @@ export class Editor {
 
 const TYPES = { node: 'class', function: 'function', attribute: 'property' };
 
-// Adds the name of the node to the rows of its attributes.
+// Adds the name of the node to each row of an attribute.
 function owned(rows) {
     let node = null;
     return rows.map(row => {

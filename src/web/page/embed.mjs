@@ -1,5 +1,5 @@
-// embed.mjs: <petri-dish>, a script in any page. src/manual/playground.md lists its attributes and events. The engine is loaded from this
-// file's folder when the element comes into view.
+// embed.mjs: <petri-dish>, an element that runs a script in any page. src/manual/playground.md lists its attributes and events. The engine
+// is loaded from this file's folder when the element comes into view.
 import { loadEngine } from '../engine/petri.mjs';
 import { CONTROLS, Controls } from './controls.mjs';
 import { Dish, errorText, unsupportedText } from './dish.mjs';
@@ -28,7 +28,7 @@ class PetriDish extends HTMLElement {
             this.attachShadow({ mode: 'open' }).innerHTML = TEMPLATE;
         this.get = id => this.shadowRoot.getElementById(id);
         this.arrange();
-        // The element's content may be parsed after the element itself.
+        // The parser may add the element's content later than the element itself.
         this.seen = new IntersectionObserver(entries => this.look(entries.at(-1).isIntersecting), { rootMargin: '300px' });
         if (document.readyState === 'loading')
             document.addEventListener('DOMContentLoaded', () => this.seen?.observe(this), { once: true });
@@ -109,7 +109,8 @@ class PetriDish extends HTMLElement {
         this.tell('petri-ready', { frame: dish.frame });
     }
 
-    // Reads the script from `src`, with the files named by `files` in the same folder, or from the element's content.
+    // Reads the script from `src`, and the files named by `files` from the same folder. Without `src`, the script is the content of the
+    // element, and the files are in the folder of the page.
     async read() {
         const from = this.getAttribute('src'), url = new URL(from ?? '', document.baseURI);
         const fetched = async (name, place = new URL(name, url)) => {
@@ -194,7 +195,7 @@ class PetriDish extends HTMLElement {
         this.get('start').hidden = this.dish?.running || this.hasAttribute('controls') || this.dish?.frame > 2;
     }
 
-    // Opens the page with a link to the current script.
+    // Opens the playground with a link to the current script.
     async linkOut(event) {
         event.preventDefault();
         const answer = this.dish.loaded === this.text ? await this.dish.attempt('hash') : null;
@@ -204,7 +205,7 @@ class PetriDish extends HTMLElement {
     }
 }
 
-// Returns a script in HTML without surrounding lines and common indentation.
+// Returns a script from HTML without surrounding blank lines and common indentation.
 function plain(text) {
     const lines = text.replace(/^\s*\n/, '').trimEnd().split('\n');
     const indent = Math.min(...lines.filter(line => line.trim()).map(line => line.match(/^ */)[0].length));

@@ -1,8 +1,8 @@
 // engine.mjs: the page's side of the worker: requests, answers, and restarting a worker that does not respond.
 
-const PATIENCE = 3000; // ms: a request that takes longer to stop is ended together with the engine
+const PATIENCE = 3000; // ms that an interrupted request may take to stop; after that, the engine is terminated
 
-// A worker must have the page's origin; on other origins, a local worker imports the script.
+// Creates a worker. A worker must have the same origin as the page. If the script has another origin, a local worker imports it.
 function makeWorker(url) {
     if (url.origin === location.origin)
         return new Worker(url, { type: 'module' });
@@ -11,7 +11,7 @@ function makeWorker(url) {
     return new Worker(own, { type: 'module' });
 }
 
-// `broken` resolves when the worker fails, which may be before the first request.
+// Starts a worker. Its property `broken` is a promise that resolves when the worker fails, possibly before the first request.
 export function startWorker() {
     const worker = makeWorker(new URL('./worker.js', import.meta.url));
     worker.broken = new Promise(resolve => {
@@ -21,10 +21,10 @@ export function startWorker() {
 }
 
 export class Remote {
-    // source: the argument of `loadEngine`, or a promise of it; worker: a worker that is already started.
+    // source: the argument of `loadEngine`, or a promise for it. worker: a worker that was already started, or undefined.
     constructor(source, worker) {
         this.source = source;
-        // The last request to interrupt. Shared memory needs a cross-origin isolated page.
+        // The id of the last request to interrupt. Shared memory requires a cross-origin isolated page; otherwise null.
         this.flag = globalThis.crossOriginIsolated ? new Int32Array(new SharedArrayBuffer(4)) : null;
         this.number = 0;
         this.start(worker);
@@ -50,7 +50,7 @@ export class Remote {
             this.fail(message, begun ? 'broken' : 'failed');
         });
         this.ready = Promise.resolve(this.source).then(source => this.ask('open', { source, flag: this.flag }));
-        this.ready.then(() => (begun = true), () => {}); // errors are handled by users of `ready`
+        this.ready.then(() => (begun = true), () => {}); // users of `ready` handle errors
         return this.ready;
     }
 
@@ -64,7 +64,7 @@ export class Remote {
         return this.waiting.size > 0;
     }
 
-    // Sends a request. Requests wait until the engine is loaded.
+    // Sends a request and returns a promise for the answer. Requests wait until the engine is loaded.
     ask(act, message = {}) {
         const id = ++this.number, { worker } = this;
         if (worker.dead)
@@ -79,7 +79,7 @@ export class Remote {
         });
     }
 
-    // Interrupts all pending requests. Returns true if the engine has stopped; otherwise it must be ended.
+    // Interrupts all pending requests. Returns true if they have ended. Otherwise the engine must be terminated.
     async stop() {
         if (!this.flag)
             return !this.busy;
@@ -91,7 +91,7 @@ export class Remote {
         return !goesOn();
     }
 
-    // Ends the engine permanently.
+    // Terminates the engine.
     end() {
         this.worker.terminate();
         this.fail('stopped', 'ended');

@@ -31,7 +31,7 @@ export async function makeFilm(player, images, show, range) {
     return film.end();
 }
 
-// A table as written by `petri run --trajectory run.csv`.
+// Returns a table of particles as written by `petri run --trajectory run.csv`.
 export async function makeTable(player, range) {
     const parts = [];
     let columns = 0;

@@ -1,10 +1,10 @@
-// film.mjs: encodes pictures as a video with one picture per frame of the script, however long rendering takes.
+// film.mjs: encodes pictures as a video. Each frame of the script is one frame of the video, regardless of the rendering time.
 import { packFilm } from './webm.mjs';
 
 const CODECS = [['vp09.00.51.08', 'V_VP9'], ['vp8', 'V_VP8']];
-const BITS = 0.2; // per pixel and frame
+const BITS = 0.2; // bits per pixel and frame
 const KEY_EVERY = 60; // frames
-const MAX_WAITING = 4; // frames queued in the encoder
+const MAX_WAITING = 4; // maximum number of frames queued in the encoder
 
 async function chooseCodec(settings) {
     for (const [codec, name] of globalThis.VideoEncoder ? CODECS : []) {

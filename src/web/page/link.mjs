@@ -1,9 +1,9 @@
-// link.mjs: scripts in links: `#` and compressed JSON (deflate-raw, base64url). v: version, t: text, n: file name, c: parameter changes as
-// [last frame before it, name, value], f: frame, h: hash of its state.
+// link.mjs: links that contain a script: `#` and compressed JSON (deflate-raw, base64url). v: version, t: text, n: file name, c: parameter
+// changes as [last frame before the change, name, value], f: frame, h: hash of the state after this frame.
 
 const VERSION = 1;
 const MAX_LENGTH = 100000; // characters; longer links are truncated by some browsers and mail programs
-const MAX_TEXT = 4 << 20; // limit of the uncompressed text
+const MAX_TEXT = 4 << 20; // maximum length of the uncompressed text
 
 async function through(stream, bytes, most = Infinity) {
     const reader = new Blob([bytes]).stream().pipeThrough(stream).getReader(), parts = [];
@@ -37,7 +37,7 @@ export async function packLink({ text, name, changes = [], frame, hash }) {
 const isChange = change => Array.isArray(change) && change.length === 3 && Number.isInteger(change[0])
     && typeof change[1] === 'string' && typeof change[2] === 'string';
 
-// Returns the argument of packLink. Throws an error with a message for the user if the link is invalid.
+// The inverse of packLink. Throws an error with a message for the user if the link is invalid.
 export async function readLink(link) {
     const packed = link.replace(/^#/, '').replaceAll('-', '+').replaceAll('_', '/');
     let json;

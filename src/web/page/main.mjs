@@ -1,4 +1,4 @@
-// main.mjs: the page: an editor beside a dish, and the actions of the buttons.
+// main.mjs: the playground page: an editor beside a dish, and the actions of the buttons.
 import { CONTROLS, Controls } from './controls.mjs';
 import { Dish, errorText, unsupportedText } from './dish.mjs';
 import { Editor } from './editor.mjs';
@@ -52,7 +52,7 @@ const host = {
     },
 };
 
-// Updates the panels, but not in every frame.
+// Updates the panels, at most five times a second while the script runs.
 let looking = 0;
 function look() {
     looking ||= setTimeout(() => {
@@ -79,7 +79,7 @@ function changed(text) {
     if (!opening) {
         keeper.keep(name, text);
         if (location.hash)
-            history.replaceState(null, '', location.pathname + location.search); // the text is no longer that of the link
+            history.replaceState(null, '', location.pathname + location.search); // the text no longer matches the link
     }
     clearTimeout(checking);
     checking = setTimeout(async () => {
@@ -119,7 +119,7 @@ async function copyLink() {
     say(copied ? 'Link copied. Nothing was uploaded.' : 'The link is in the address bar.');
 }
 
-// Opens the script of the page's link. Returns '' or the reason why there is nothing to open.
+// Opens the script in the page's link. Returns '' on success, or the reason why no script was opened.
 async function openLink() {
     if (location.hash.length < 2)
         return 'no link';
@@ -135,7 +135,8 @@ async function openLink() {
 
 const stem = () => name.replace(/\.fl$/, '');
 
-// Adds scripts and files that they read. Runs the script that no other script refers to, or restarts the current one if it uses the files.
+// Adds scripts and the files that they read. Opens the script that no other script refers to. If there is no such script, restarts the
+// current script if it uses the files.
 async function takeFiles(files) {
     for (const file of files)
         await dish.addFile(file.name, new Uint8Array(await file.arrayBuffer()));

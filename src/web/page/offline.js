@@ -1,5 +1,5 @@
-// offline.js: service worker that lets the page work offline after the first visit. Files are cached, and fetched again when there is a
-// network.
+// offline.js: service worker with which the page works offline after the first visit. Files are cached, and fetched again when the network
+// is available.
 const KEPT = 'petri';
 
 self.addEventListener('install', event => {

@@ -1,9 +1,9 @@
-// paint.mjs: paints a picture from the worker on a canvas, of the page or of a video frame.
+// paint.mjs: paints a picture from the worker on a canvas of the page or of a video frame.
 import { drawPicture, pictureSize } from '../engine/drawing.mjs';
 
 export const sizeOf = ({ image, numbers }) => image ?? pictureSize(numbers);
 
-// Paints an image made with WebGL 2, or draws a display list. Returns descriptions of unsupported parts.
+// Paints an image rendered with WebGL 2, or draws a display list. Returns descriptions of unsupported parts.
 export function paint(context, { image, numbers, unsupported }, images) {
     if (!image)
         return drawPicture(context, numbers, { image: name => imageOf(images, name) });
@@ -17,7 +17,7 @@ export function paint(context, { image, numbers, unsupported }, images) {
 const IMAGE = /\.(png|jpe?g|gif|webp)$/i;
 const baseName = name => name.replace(/^.*\//, '');
 
-// Images that scripts can name, by file name without folders.
+// Returns the image that a script names. Folders in the name are ignored.
 export const imageOf = (images, name) => images.get(baseName(name));
 
 export async function addImage(images, name, bytes) {

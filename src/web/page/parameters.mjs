@@ -8,7 +8,7 @@ export class Parameters {
         this.rows = new Map();
     }
 
-    // Creates the rows again if the script's parameters are different; otherwise updates values, except the one being edited.
+    // If the script's parameters have changed, creates the rows again. Otherwise updates the values, except the value being edited.
     show(parameters) {
         const settable = parameters.filter(parameter => parameter.settable);
         const signature = JSON.stringify(settable.map(({ name, min, max, step, comment, defaultValue }) =>

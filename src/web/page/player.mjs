@@ -1,11 +1,11 @@
-// player.mjs: a running script with keyframes for going back, and parameter changes; used in the worker.
+// player.mjs: runs a script in the worker, with keyframes for going back, and records parameter changes.
 
 const EVERY = 20; // frames between keyframes
-const MAX_KEYFRAMES = 64; // besides those of parameter changes
+const MAX_KEYFRAMES = 64; // not counting keyframes after parameter changes
 const MAX_BYTES = 256 << 20;
 
 export class Player {
-    // options: of sessions, except files; watches: notified of every frame.
+    // options: options for sessions, except files. watches: an object that is notified of every frame.
     constructor(engine, options, watches) {
         this.engine = engine;
         this.watches = watches;
@@ -14,7 +14,7 @@ export class Player {
         this.session = null;
     }
 
-    // Opens a new session for a script, before frame 0. Throws as `load` does; the current session then stays.
+    // Opens a new session for a script, before frame 0. If loading fails, throws the error and keeps the current session.
     load(text, name, changes = []) {
         const session = this.engine.open({ ...this.options, files: this.files });
         try {
@@ -31,7 +31,7 @@ export class Player {
         Object.assign(this, { session, text, name, changes, keyframes: [], every: EVERY, frame: -1, lastFrame: -1, torn: false });
     }
 
-    // Drops keyframes after a frame.
+    // Frees the keyframes after a frame.
     forget(frame) {
         const keep = this.keyframes?.filter(key => key.frame <= frame) ?? [];
         this.keyframes?.filter(key => key.frame > frame).forEach(key => key.snapshot.free());
@@ -39,7 +39,7 @@ export class Player {
     }
 
     step() {
-        this.torn = true; // the session has no valid frame until this one is complete
+        this.torn = true; // the session has no valid frame until this step is complete
         this.session.step();
         this.needsHistory = this.session.renderIfNeeded();
         this.torn = false;
@@ -77,11 +77,11 @@ export class Player {
         this.keyframes = this.keyframes.filter(key => !dropped.includes(key));
     }
 
-    // Goes to a frame, by way of the keyframe before it, so that the frame's tree is computed. Makes at most `most` steps and returns false
-    // if the frame is not reached yet.
+    // Goes to a frame. To go back, restores the last keyframe before the frame and steps from there, so that the frame's tree is computed.
+    // Takes at most `most` steps. Returns false if the frame is not reached yet.
     seek(frame, most = Infinity) {
         if (frame < this.frame || (frame === this.frame && this.torn)) {
-            // Pictures that depend on earlier ones are rendered again from the first.
+            // If pictures depend on earlier pictures, all of them are rendered again from the first.
             const key = this.needsHistory ? null : this.keyframes.findLast(other => other.frame < frame);
             const end = this.lastFrame;
             if (key) {
@@ -100,7 +100,7 @@ export class Player {
         return this.frame >= frame;
     }
 
-    // Changes a parameter from the next frame on and drops later keyframes.
+    // Changes a parameter for the next and all later frames. Frees later keyframes.
     set(name, value) {
         this.session.setParameter(name, value);
         this.changes = this.changes.filter(([frame, other]) => frame < this.frame || (frame === this.frame && other !== name));

@@ -6,7 +6,7 @@ const LEFT = 56, RIGHT = 8, TOP = 8, BOTTOM = 20;
 
 const short = x => Math.abs(x) >= 1e5 || (x !== 0 && Math.abs(x) < 1e-3) ? x.toExponential(1) : String(Number(x.toPrecision(4)));
 
-// Returns a round step that divides a range into about five parts.
+// Returns a round step size that divides a range into about five parts.
 function stepOf(range) {
     const power = 10 ** Math.floor(Math.log10(range / 5)), share = range / 5 / power;
     return power * (share > 5 ? 10 : share > 2 ? 5 : share > 1 ? 2 : 1);
@@ -57,7 +57,7 @@ export class Plot {
         this.tell(answer.frame);
     }
 
-    // Describes the last values in words, for screen readers.
+    // Describes the values in a frame as text, for screen readers.
     tell(frame) {
         const shown = line => frame in line && !Number.isNaN(line[frame]) ? short(line[frame]) : 'none';
         this.said.textContent = this.series.map(({ text, error, lines }) =>

@@ -1,4 +1,4 @@
-// preload.mjs: starts loading the engine and its worker before the page's editor, because they take longest.
+// preload.mjs: starts loading the engine and its worker before the page's editor, because they take the longest to load.
 import { startWorker } from './engine.mjs';
 import { hasEngine } from './feature_check.mjs';
 
@@ -6,6 +6,6 @@ const url = new URL('petri/engine.wasm', location.href).href;
 if (hasEngine())
     globalThis.petriStart = {
         worker: startWorker(),
-        // Continue even if the server does not know the MIME type of the file.
+        // Fall back to the URL if the server sends the wrong MIME type.
         source: WebAssembly.compileStreaming(fetch(url)).catch(() => url),
     };

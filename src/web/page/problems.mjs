@@ -1,4 +1,4 @@
-// problems.mjs: the problems of the script, underlined in the editor and as a list.
+// problems.mjs: the diagnostics of the script, underlined in the editor and shown as a list.
 
 const MAX_SHOWN = 50;
 

@@ -1,7 +1,7 @@
-// save.mjs: saves files: the script, and by a dialog the picture, a video, the particles or the state.
+// save.mjs: saves files: the script, or, with a dialog, the picture, a video, the particles or the state.
 
 const SUFFIXES = { picture: 'png', film: 'webm', particles: 'csv', state: 'csv' };
-const SECONDS = 5; // default length of a video, unless there are more frames
+const SECONDS = 5; // default length of a video; longer if more frames have been computed
 
 export function saveAs(name, blob) {
     const link = document.createElement('a');
@@ -12,7 +12,7 @@ export function saveAs(name, blob) {
 }
 
 export class SaveDialog {
-    // stem: returns the start of file names.
+    // stem: a function that returns the start of file names.
     constructor(root, dish, stem) {
         const $ = this.get = id => root.getElementById(id);
         Object.assign(this, { dish, stem, dialog: $('saving') });

@@ -1,4 +1,4 @@
-// saved_scripts.mjs: the last few edited scripts, in the browser's storage.
+// saved_scripts.mjs: stores the last few edited scripts in the browser.
 
 const PLACE = 'petri.scripts';
 const MAX_SCRIPTS = 12;
@@ -13,7 +13,7 @@ export function savedScripts() {
 }
 
 export class ScriptSaver {
-    // Begins a new entry for the next text.
+    // Starts a new entry: the next text does not replace the current entry.
     begin() {
         this.when = null;
     }
@@ -22,13 +22,13 @@ export class ScriptSaver {
         const others = savedScripts().filter(({ when, text: same }) => when !== this.when && same !== text);
         this.when ??= Date.now();
         const scripts = [{ name, text, when: this.when }, ...others];
-        // Storage is limited to some millions of characters, so older scripts are dropped. Private windows may store nothing.
+        // The browser limits storage to a few million characters, so older scripts are dropped. Private windows may store nothing.
         for (let count = Math.min(MAX_SCRIPTS, scripts.length); count > 0; count--)
             try {
                 localStorage.setItem(PLACE, JSON.stringify(scripts.slice(0, count)));
                 return;
             } catch {
-                // retry with one script less
+                // retry with one script fewer
             }
     }
 }

@@ -7,11 +7,11 @@ import { fileURLToPath } from 'node:url';
 const TYPES = { '.html': 'text/html; charset=utf-8', '.js': 'text/javascript', '.mjs': 'text/javascript', '.css': 'text/css',
     '.json': 'application/json', '.wasm': 'application/wasm' };
 
-// The page runs untrusted scripts, so it may not load from or send to other sites.
+// The page runs untrusted scripts, so it must not exchange data with other sites.
 const HEADERS = {
     'Content-Security-Policy': "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; "
         + "img-src 'self' data: blob:; connect-src 'self'; object-src 'none'; base-uri 'none'",
-    // The stop button needs shared memory, which browsers only allow on cross-origin isolated pages.
+    // The stop button needs shared memory, which browsers allow only on cross-origin isolated pages.
     'Cross-Origin-Opener-Policy': 'same-origin', 'Cross-Origin-Embedder-Policy': 'require-corp',
     // Allow <petri-dish> in pages of other sites.
     'Cross-Origin-Resource-Policy': 'cross-origin', 'Access-Control-Allow-Origin': '*',
@@ -35,5 +35,5 @@ export function serve(folder, port = 0) {
 
 if (process.argv[1] === fileURLToPath(import.meta.url)) {
     const { url } = await serve(process.argv[2], Number(process.argv[3] ?? 0));
-    console.log(`petri is at ${url}; Ctrl-C ends it`);
+    console.log(`petri is at ${url}; press Ctrl-C to stop the server`);
 }

@@ -18,7 +18,8 @@ export class Table {
             head.querySelector('button').onclick = () => this.sort(head.dataset.by);
     }
 
-    // A click on a head sorts in ascending order, a second click in descending order, a third restores the state's order.
+    // Handles a click on a column header. The first click sorts in ascending order, the second in descending order, and the third restores
+    // the order of the state.
     sort(by) {
         [this.by, this.down] = this.by !== by ? [by, false] : this.down ? [null, false] : [by, true];
         for (const head of this.heads)
@@ -32,7 +33,7 @@ export class Table {
         this.refresh();
     }
 
-    // Sends one request at a time.
+    // Requests the visible rows, one request at a time.
     async refresh() {
         if (!this.seen || this.asking || this.dish.loaded === null)
             return;

@@ -1,9 +1,9 @@
 // tables.mjs: the state and watched expressions, in the worker.
 
-const COMPONENTS = 4; // maximum of a watched vector
-const REFILL = 1000; // maximum ms for computing earlier frames again when an expression is added
+const COMPONENTS = 4; // maximum number of components of a watched vector
+const REFILL = 1000; // maximum time in ms for recomputing earlier frames when an expression is added
 
-// The state as rows. They are sorted and filtered here, and the page gets only the visible ones.
+// The state as rows. Rows are sorted and filtered here; the page receives only the visible rows.
 export class StateTable {
     constructor() {
         this.made = null;
@@ -64,7 +64,7 @@ export class Watches {
         }
     }
 
-    // Computes earlier frames again to record their values, within REFILL.
+    // Recomputes earlier frames to record their values. Stops after REFILL ms.
     refill(player, shouldInterrupt) {
         const at = player.frame, end = performance.now() + REFILL;
         for (let frame = 0; frame <= player.lastFrame && performance.now() < end && !shouldInterrupt(); frame++)
@@ -72,7 +72,7 @@ export class Watches {
         player.seek(at);
     }
 
-    // Returns, for each component of each expression, one number per frame; NaN if unknown.
+    // Returns the values of each expression: for each component, an array with one number per frame, NaN if the value is unknown.
     series(most) {
         return this.all.map(({ text, values, error }) => {
             const width = values.reduce((widest, value) => Math.max(widest, value?.length ?? 0), 1);

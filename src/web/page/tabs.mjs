@@ -1,7 +1,7 @@
-// tabs.mjs: panels of which one is visible. The selected tab has the focus; arrow keys select another tab.
+// tabs.mjs: a tab list with panels, only one of which is visible. Arrow keys select the next or previous tab and move the focus to it.
 
 export class Tabs {
-    // change: called with the id of the visible panel.
+    // change: a function that is called with the id of the visible panel.
     constructor(list, change) {
         this.tabs = [...list.querySelectorAll('[role=tab]')];
         this.change = change;

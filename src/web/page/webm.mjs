@@ -1,6 +1,6 @@
 // webm.mjs: writes WebM files: EBML elements, each with an id, a length and content.
 
-const TICKS = 1e6; // nanoseconds per tick of time stamps; those of clusters are whole milliseconds
+const TICKS = 1e6; // nanoseconds per tick of a timestamp, so that timestamps are in milliseconds
 const encoder = new TextEncoder();
 
 const join = parts => {
@@ -13,7 +13,7 @@ const join = parts => {
     return all;
 };
 
-// Encodes an integer in as few bytes as possible, but at least `least`.
+// Encodes an integer in as few bytes as possible, but in at least `least` bytes.
 function whole(value, least = 1) {
     const bytes = [];
     for (let left = value; left > 0 || bytes.length < least; left = Math.floor(left / 256))
@@ -29,13 +29,13 @@ function real(value) {
 
 const content = part => typeof part === 'number' ? whole(part) : typeof part === 'string' ? encoder.encode(part) : part;
 
-// The length always takes eight bytes; the first one marks this.
+// Returns an element. Its length always takes eight bytes, which the first byte indicates.
 function element(id, ...parts) {
     const inside = join(parts.map(content));
     return join([whole(id), Uint8Array.of(1), whole(inside.length, 7), inside]);
 }
 
-// The index of key frames. Positions are relative to the start of the segment.
+// Returns the index of the key frames. Positions are relative to the start of the segment.
 const cues = (clusters, before) => {
     let at = before;
     return element(0x1C53BB6B, ...clusters.map(({ time, bytes }) => {

@@ -1,4 +1,4 @@
-// worker.mjs: the engine's thread. It answers every message, one at a time, so that the page knows when it is free.
+// worker.mjs: the engine's thread. It answers every message, one at a time, so the page knows when the thread is idle.
 import { loadEngine } from '../engine/petri.mjs';
 import { makeFilm, makeState, makeTable } from './exports.mjs';
 import { addImage, imageOf } from './paint.mjs';
@@ -8,7 +8,7 @@ import { StateTable, Watches } from './tables.mjs';
 const SEEK_STEPS = 50; // frames between checks for new requests
 let engine, player, checker, told = [], flag = null, current = 0;
 
-// The page sets the flag to the last request to interrupt; all earlier ones are interrupted as well.
+// The page sets the flag to the id of the last request to interrupt. All earlier requests are interrupted as well.
 const shouldInterrupt = () => flag !== null && Atomics.load(flag, 0) >= current;
 const images = new Map();
 const tell = diagnostic => told.push(diagnostic);
@@ -17,7 +17,7 @@ const watches = new Watches(told), stateTable = new StateTable();
 
 const picture = automatic => player.frame >= 0 ? player.session.render({ automatic }) : null;
 
-// Returns the data that the page shows after a frame.
+// Returns the data of the current frame that the page shows.
 function shown(extra = {}) {
     const { session } = player;
     return {
@@ -53,10 +53,10 @@ const acts = {
         watches.forget(-1);
         player.automatic = false;
         player.step();
-        // Before frame 2, particles are not at their positions.
+        // No picture: before frame 2, particles are not at their positions.
         return shown({ loaded: true });
     },
-    // Replaces the text of the running script. Frames before this one are no longer available.
+    // Replaces the text of the running script. Earlier frames are then no longer available.
     reload({ text, name }) {
         player.session.reload(text, name);
         Object.assign(player, { text, name });
@@ -74,12 +74,12 @@ const acts = {
             await new Promise(resolve => setTimeout(resolve));
         return shown();
     },
-    // Shows the current frame again after an aborted one.
+    // Shows the current frame again after a frame was aborted.
     shown() {
         player.seek(player.frame);
         return shown();
     },
-    // Draws the particles if the page cannot draw the script's picture.
+    // Draws the automatic picture of the particles if the page cannot draw the script's picture.
     automatic() {
         player.automatic = true;
         return shown();

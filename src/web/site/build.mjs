@@ -1,4 +1,4 @@
-// build.mjs ROOT OUTPUT TABLES: builds the manual in OUTPUT/manual from the texts of the tree. OUTPUT contains the engine (petri/) and
+// build.mjs ROOT OUTPUT TABLES: builds the manual in OUTPUT/manual from the documentation in ROOT. OUTPUT contains the engine (petri/) and
 // <petri-dish>; TABLES is the output of `petri-manual tables.json`.
 import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { dirname, join, resolve } from 'node:path';
@@ -21,7 +21,7 @@ const site = {
 };
 site.text = new Text(site);
 
-// Modules that the scripts of a text import or include: code blocks with a name.
+// Returns the modules that the scripts on a page import or include, which are the named code blocks.
 const modulesOf = markdown => Object.fromEntries([...markdown.matchAll(/^```flitter (\S+\.fl)\n(.*?)^```/gms)]
     .map(([, name, text]) => [name, text])
     .filter(([name]) => markdown.includes(`"${name}"`)));
@@ -54,7 +54,7 @@ const html = (page, title, body, sections) => `<!doctype html>
 <a href="../index.html">Playground</a>
 <button id="theme">Dark or light</button>
 </header>
-<div id="found" role="region" aria-label="What was found" aria-live="polite" hidden></div>
+<div id="found" role="region" aria-label="Search results" aria-live="polite" hidden></div>
 <div id="columns">
 <nav aria-label="Pages"><details open><summary>Pages</summary>
 ${nav(page)}</details></nav>
@@ -73,7 +73,7 @@ const index = { pages: [], sections: [] };
 const words = text => text.replaceAll(/<\/?(span|code|a|em|strong)\b[^>]*>/g, '').replaceAll(/<[^>]*>/g, ' ')
     .replaceAll('&lt;', '<').replaceAll('&gt;', '>').replaceAll('&quot;', '"').replaceAll('&amp;', '&').replaceAll(/\s+/g, ' ').trim();
 
-// A section contains the text up to the next heading. A page is always found by its title.
+// Adds a page to the index. A section contains the text up to the next heading. Every page can be found by its title.
 function addToIndex(page, body, sections) {
     const number = index.pages.push([`${page.name}.html`, page.title]) - 1;
     index.sections.push([number, page.title, 'text', page.about]);
@@ -115,4 +115,4 @@ await build({
     external: ['node:fs/promises'], logLevel: 'warning',
 });
 const count = kind => site.examples.all.filter(one => one.kind === kind || (kind === 'text' && one.kind !== 'dish')).length;
-console.log(`${PAGES.length + 1} pages, ${count('dish')} dishes, ${count('text')} other examples that run`);
+console.log(`${PAGES.length + 1} pages, ${count('dish')} dishes, ${count('text')} other runnable examples`);

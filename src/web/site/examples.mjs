@@ -1,11 +1,11 @@
-// examples.mjs: examples of the manual that run on its pages: as <petri-dish> if they draw something, else as text with the result
-// (try.mjs). The results are computed here with the same engine.
+// examples.mjs: runnable examples on the pages of the manual. Examples that draw something become a <petri-dish>; others become text with
+// their result (try.mjs). The results are computed here with the same engine.
 import { copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync } from 'node:fs';
 import { basename, dirname, join } from 'node:path';
 import { drawPicture } from '../engine/drawing.mjs';
 import { escape } from './text.mjs';
 
-// A Canvas 2D context that draws nothing, and other browser objects that drawing needs.
+// A stub for the Canvas 2D context and other browser objects that drawing needs; it draws nothing.
 const nothing = new Proxy(function () {}, {
     get: (_, name) => name === 'canvas' ? { width: 1, height: 1 } : name === Symbol.toPrimitive ? () => 0 : nothing,
     apply: () => nothing, construct: () => nothing, set: () => true,
@@ -21,12 +21,12 @@ export class Examples {
             .map(name => [name.slice(0, -3), readFileSync(join(folder, name), 'utf8')]));
     }
 
-    // File names of the page's modules.
+    // Begins a page. `files` contains its modules by file name.
     begin(files) {
         this.files = files;
     }
 
-    // Returns `dish` if the script draws something that browsers support, `text` if it only loads, else `none`.
+    // Returns 'dish' if the script draws something that browsers support, 'text' if it only loads, and 'none' if it has errors.
     kindOf(text, files = this.files) {
         const session = this.engine.open({ files });
         try {
@@ -36,7 +36,7 @@ export class Examples {
             if (!session.drawable)
                 return session.told?.some(({ level }) => level === 'error') ? 'none' : 'text';
             const picture = session.displayList();
-            // Unsupported nodes are drawn with WebGL, which is not available here; other unsupported parts are not drawn at all.
+            // Browsers draw unsupported nodes with WebGL, which is not available here. Other unsupported parts are never drawn.
             const left = picture ? drawPicture(nothing, picture.numbers, { image: name => name in files ? nothing : null }) : [' '];
             return left.every(what => /^\w+$/.test(what)) ? 'dish' : 'text';
         } catch {
@@ -69,7 +69,7 @@ export class Examples {
         return `<pre tabindex="0" class="script"><code>${this.coloured(text)}</code></pre>\n`;
     }
 
-    // A dish with an editable script; without JavaScript, only the script is shown.
+    // Returns a dish with an editable script. Without JavaScript, only the script is shown.
     dish(text, label, env, files = []) {
         this.all.push({ page: env.page, kind: 'dish', text, files: {} });
         const given = files.length ? ` files="${escape(files.join(' '))}"` : '';
@@ -87,13 +87,13 @@ export class Examples {
 
     fence({ info, content }, next, env) {
         const [kind, name = ''] = info.trim().split(/\s+/);
-        const label = `What this example shows: ${env.sections.at(-1)?.title ?? env.page}`;
+        const label = `Picture of the example: ${env.sections.at(-1)?.title ?? env.page}`;
         if (kind === 'formula')
             return `<pre tabindex="0" class="formula"><code>${escape(content)}</code></pre>\n`;
         if (kind === 'flitter-eval')
             return this.evaluations(content, env);
         if (kind === 'tree' || kind === 'state')
-            return ''; // already shown below its script
+            return ''; // the output is already shown below its script
         if (kind !== 'flitter')
             return this.plain(content);
         if (name.endsWith('.png'))
@@ -106,21 +106,21 @@ export class Examples {
         return this.kindOf(content) === 'dish' ? this.dish(content, label, env) : this.code(content);
     }
 
-    // A block with lines `EXPRESSION => RESULT`.
+    // Returns the HTML of a block with lines `EXPRESSION => RESULT`.
     evaluations(content, env) {
         const lines = content.trimEnd().split('\n').map(line => line.split(/ => (?!.* => )/));
         const texts = lines.map(([text]) => `${text.trimEnd()}\n`), results = lines.map(([, result = '']) => `${result}\n`);
         return this.try('eval', 0, texts.join(''), results.join(''), env);
     }
 
-    // Images and models that a script names, next to the script.
+    // Returns the images and models that a script names and that exist in its folder.
     beside(file, text) {
         const folder = dirname(join(this.root, file));
         const names = new Set([...text.matchAll(/(["'])(\w[\w/]*\.(?:png|jpg|obj|stl))\1/g)].map(([, , name]) => name));
         return [...names].filter(name => existsSync(join(folder, name))).map(name => [name, join(folder, name)]);
     }
 
-    // The script of a picture, shown as a dish below it.
+    // Returns the HTML of a dish with the script of a picture, to be shown below the picture.
     behind(file, env) {
         const text = readFileSync(join(this.root, file), 'utf8'), files = this.beside(file, text);
         if (this.kindOf(text, Object.fromEntries(files.map(([name, from]) => [name, readFileSync(from)]))) !== 'dish')
@@ -133,10 +133,10 @@ export class Examples {
         return `<details><summary>Run ${basename(file)}</summary>\n${dish}</details>\n`;
     }
 
-    // The dish below the heading of a physics node.
+    // Returns the HTML of the dish below the heading of a physics node.
     under(title, env) {
         const name = title.match(/^!(\w+)$/)?.[1];
         return env.page === 'physics' && this.nodes.has(name)
-            ? this.dish(this.nodes.get(name), `!${name}, with what can be changed`, env) : '';
+            ? this.dish(this.nodes.get(name), `!${name}, with parameters to change`, env) : '';
     }
 }

@@ -1,4 +1,4 @@
-// generated.mjs: pages generated from petri's tables (petri-manual tables.json), its headers and the samples.
+// generated.mjs: generates pages from petri's tables (petri-manual tables.json), its headers and the samples.
 import { copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { slug } from './pages.mjs';
@@ -14,11 +14,11 @@ const table = (heads, rows) => `<div class="table" tabindex="0" role="region" ar
     cells('th', heads)}${rows.map(row => cells('td', row)).join('')}</table></div>\n`;
 const code = text => text ? `<code>${escape(text)}</code>` : '';
 
-// Paragraphs in the format of `petri help`: words in quotes become code.
+// Converts paragraphs in the format of `petri help` to HTML. Words in quotes become code.
 const paragraphs = text => text.trim().split('\n\n').map(part =>
     `<p>${escape(part.replaceAll('\n', ' ')).replace(/(?<![\w])'([^']+)'/g, '<code>$1</code>')}</p>\n`).join('');
 
-// Returns an option as it is typed.
+// Returns an option as users type it.
 const written = ({ letter, name, value }) => `${letter ? `-${letter}, ` : ''}--${name}${value ? ` ${value}` : ''}`;
 
 export const GENERATED = {
@@ -66,7 +66,7 @@ export const GENERATED = {
             + table(['command', ''], prompt.map(({ name, operands, help }) => [code(`${name} ${operands}`.trim()), escape(help)]));
     },
 
-    // Comments at the start of a line become text; the declarations between them are shown as code.
+    // Generates the page of the C headers. Comments at the start of a line become text; declarations between them are shown as code.
     headers({ root, text: { md } }, env) {
         return ['petri.h', 'petri-draw.h'].map(name => {
             const [, ...lines] = readFileSync(join(root, 'lib/include', name), 'utf8').split('\n');
@@ -100,7 +100,7 @@ export const GENERATED = {
         }).join('');
     },
 
-    // The scenes of the tests, with petri's pictures of them.
+    // Generates the scenes of the tests, each with the picture that petri renders.
     scenes({ root, examples, text }, env) {
         const folder = 'tests/pictures/scenes';
         const names = readdirSync(join(root, folder)).filter(name => name.endsWith('.png')).map(name => name.slice(0, -4));
@@ -109,7 +109,7 @@ export const GENERATED = {
                 examples.behind(`${folder}/${name}.fl`, env)}`).join('');
     },
 
-    // All samples with pictures, and the modules they read. The picture is shown where the sample cannot run.
+    // Generates the gallery: all samples that draw pictures, and the modules that they read. If a sample cannot run, its picture is shown.
     gallery({ root, output, examples, text }, env) {
         const folder = join(root, 'samples'), names = readdirSync(folder).filter(name => name.endsWith('.fl'));
         const modules = readdirSync(join(folder, 'lib'));

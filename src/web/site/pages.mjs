@@ -1,12 +1,12 @@
-// pages.mjs: the pages of the manual in reading order, each with its source texts.
+// pages.mjs: the pages of the manual in reading order, with their source files.
 
-// parts: [file, from this heading, up to before this heading]; without headings: from the beginning, to the end.
-// `made`: the generator in generated.mjs whose text follows. `about`: text for the list of pages.
+// parts: [file, first heading, heading after the part]; without headings, the part extends to the beginning or the end of the file. made:
+// the generator in generated.mjs that adds further content. about: the description in the list of pages.
 export const GROUPS = [
     ['To begin', [
-        { name: 'tutorial', title: 'Tutorial', about: 'From one particle to a dish, in ten steps that run on the page',
+        { name: 'tutorial', title: 'Tutorial', about: 'From one particle to a dish, in ten steps that you can run on the page',
             parts: [['samples/TUTORIAL.md']] },
-        { name: 'gallery', title: 'Gallery', about: 'The samples, which run here',
+        { name: 'gallery', title: 'Gallery', about: 'All samples, running on the page',
             parts: [['samples/README.md', null, 'Gallery'], ['samples/README.md', 'All samples']], made: 'gallery' },
         { name: 'recipes', title: 'Recipes', about: 'Solutions for single tasks', parts: [['samples/RECIPES.md']] },
         { name: 'troubleshooting', title: 'Troubleshooting', about: 'Symptoms, causes, and commands that confirm them',
@@ -18,16 +18,16 @@ export const GROUPS = [
         { name: 'language', title: 'The language', about: 'Vectors, names, nodes, functions, the state; each example can be changed',
             parts: [['grammar/README.md']] },
         { name: 'pitfalls', title: 'Pitfalls', about: 'Symptoms of common mistakes in scripts, and their causes', parts: [['src/manual/pitfalls.md']] },
-        { name: 'functions', title: 'All functions and words', about: 'One line for each', made: 'functions' },
-        { name: 'physics', title: 'Physics', about: 'Each force with formula, limits and a dish to change',
+        { name: 'functions', title: 'All functions and words', about: 'One line for each function and word', made: 'functions' },
+        { name: 'physics', title: 'Physics', about: 'Each force with its formula, its limits and an editable dish',
             parts: [['lib/physics/README.md']] },
         { name: 'canvas', title: 'Drawing', about: 'Windows, canvases, paths, colours, text, images',
             parts: [['lib/canvas/README.md']] },
-        { name: 'effects', title: 'Effects', about: 'Blur, bloom, feedback, shaders and trees of pictures',
+        { name: 'effects', title: 'Effects', about: 'Blur, bloom, feedback, shaders and the render graph',
             parts: [['lib/gl/README.md']] },
         { name: 'scenes', title: 'Three dimensions', about: 'Scenes, materials, lights, cameras', parts: [['lib/gl/SCENE.md']],
             made: 'scenes' },
-        { name: 'nodes', title: 'All nodes', about: 'Each attribute with type, unit and default', made: 'nodes' },
+        { name: 'nodes', title: 'All nodes', about: 'Every attribute with its type, unit and default', made: 'nodes' },
     ]],
     ['To use', [
         { name: 'command', title: 'The command', about: 'Commands, examples, messages, exit status', parts: [['src/manual/command.md']] },
@@ -35,13 +35,13 @@ export const GROUPS = [
         { name: 'view', title: 'Watching a script', about: 'Keys, pointer and keyboard in scripts, code from an editor',
             parts: [['src/manual/view.md']] },
         { name: 'prompt', title: 'The prompt', about: 'Step, go back, measure, change', parts: [['src/manual/repl.md']], made: 'prompt' },
-        { name: 'sweep', title: 'Sweeps', about: 'One script over many values and seeds', parts: [['src/manual/sweep.md']] },
+        { name: 'sweep', title: 'Sweeps', about: 'One script with many parameter values and seeds', parts: [['src/manual/sweep.md']] },
         { name: 'trajectories', title: 'Trajectories', about: 'XYZ, CSV and H5MD; runs that resume', parts: [['src/manual/trajectories.md']] },
         { name: 'mpi', title: 'MPI', about: 'One script on many processes', parts: [['src/manual/mpi.md']] },
         { name: 'links', title: 'Links', about: 'Links that contain a script and the hash of its state', parts: [['src/manual/links.md']] },
         { name: 'editors', title: 'Editors', about: 'Language server, syntax highlighting, standard format', parts: [['src/manual/editors.md']] },
         { name: 'playground', title: 'The playground', about: 'The page, and <petri-dish> in any page', parts: [['src/manual/playground.md']] },
-        { name: 'c', title: 'From C and C++', about: 'petri.h and petri-draw.h, complete',
+        { name: 'c', title: 'From C and C++', about: 'All of petri.h and petri-draw.h',
             parts: [['src/manual/embedding.md']], made: 'headers' },
         { name: 'python', title: 'From Python', about: 'Sessions, numpy, sweeps, notebooks', parts: [['src/python/TUTORIAL.md']] },
         { name: 'javascript', title: 'From JavaScript', about: 'The npm package', parts: [['src/web/engine/README.md']] },
@@ -52,7 +52,7 @@ export const GROUPS = [
     ['To contribute', [
         { name: 'extending', title: 'Extending petri', about: 'New forces, nodes, functions, options',
             parts: [['src/manual/extending.md']] },
-        { name: 'dependencies', title: 'Dependencies', about: 'Packages and their purposes', parts: [['src/manual/dependencies.md']] },
+        { name: 'dependencies', title: 'Dependencies', about: 'Packages and their uses', parts: [['src/manual/dependencies.md']] },
         { name: 'parser', title: 'The parser', about: 'Tokens, layout, soft keywords, error recovery', parts: [['src/manual/parser.md']] },
         { name: 'physics-engine', title: 'The physics engine', about: 'Data, kernels, neighbour lists, threads, ranks',
             parts: [['src/manual/physics-engine.md']] },
@@ -64,7 +64,7 @@ export const PAGES = GROUPS.flatMap(([, pages]) => pages);
 
 const plain = heading => heading.replace(/^#+ /, '').trim();
 
-// The lines of a part of a file, by its headings.
+// Returns the part of a text from the heading `from` up to the heading `to`.
 export function cut(text, from, to) {
     const lines = text.split('\n');
     let fenced = false;

@@ -1,11 +1,11 @@
-// site.js: search, theme and offline use. Not a module, so that it works on a page opened from a file.
+// site.js: search, theme and offline use. This is not a module, because modules do not work on pages opened from a file.
 'use strict';
 {
     const $ = id => document.getElementById(id), find = $('find'), found = $('found');
     const THEME = 'petri.theme';
     let asked = null;
 
-    // The index is loaded with the first search. It is a script, because pages opened from a file cannot fetch.
+    // The index is loaded at the first search. It is a script, because pages opened from a file cannot use fetch.
     const index = () => (asked ??= new Promise((resolve, reject) => {
         const script = Object.assign(document.createElement('script'), { src: 'index.js' });
         script.onload = () => resolve(globalThis.PETRI_INDEX);
@@ -13,7 +13,7 @@
         document.head.append(script);
     }));
 
-    // Returns how well a section matches the words; 0: a word is missing.
+    // Returns a score for how well a section matches the words; 0 if a word is missing.
     function worth([, title, , text], words) {
         const name = title.toLowerCase().replace(/[!`]|\(.*/g, ''), all = `${title} ${text}`.toLowerCase();
         let sum = 0;
@@ -26,7 +26,7 @@
         return sum;
     }
 
-    // Returns the text around the first match.
+    // Returns an excerpt of the text around the first match.
     function around(text, words) {
         const places = words.map(word => text.toLowerCase().indexOf(word)).filter(place => place >= 0);
         const at = Math.max(0, Math.min(...places, text.length) - 60);

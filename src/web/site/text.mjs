@@ -15,7 +15,7 @@ export function freeName(id, { names }) {
     return name;
 }
 
-// Maps each heading of each file, `FILE#SLUG` (`FILE#` for its start), to the page's address.
+// Returns a map from each heading, `FILE#SLUG`, and from the start of each file, `FILE#`, to its address in the manual.
 export function placesOf(root) {
     const places = new Map(), md = new MarkdownIt();
     for (const { name, parts = [] } of PAGES)
@@ -29,7 +29,7 @@ export function placesOf(root) {
     return places;
 }
 
-// Returns width and height of a PNG or GIF.
+// Returns the width and height of a PNG or GIF file.
 function sizeOf(bytes) {
     return bytes[0] === 0x89 ? [bytes.readUInt32BE(16), bytes.readUInt32BE(20)] : [bytes.readUInt16LE(6), bytes.readUInt16LE(8)];
 }
@@ -100,13 +100,13 @@ export class Text {
         return `<img src="pictures/${name}" alt="${escape(alt)}" width="${width}" height="${height}" loading="lazy">`;
     }
 
-    // Converts a part to HTML; env collects sections for the search.
+    // Converts a part to HTML. `env` collects sections for the search.
     render(markdown, env) {
         Object.assign(env, { open: [], behind: [] });
         return this.md.render(markdown, env);
     }
 
-    // Adds the scripts of the pictures in this paragraph or table.
+    // Returns dishes with the scripts of the pictures in this paragraph or table.
     behind(env) {
         return env.behind.splice(0).map(script => this.site.examples.behind(script, env)).join('');
     }

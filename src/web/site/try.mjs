@@ -1,12 +1,12 @@
-// try.mjs: examples with text results: the reader can change the script and sees the new result. The engine is loaded when the first
+// try.mjs: examples with text results. When the reader changes the script, the new result is shown. The engine is loaded when the first
 // example is changed.
 import { loadEngine } from '../engine/petri.mjs';
 
-const LIMITS = { work: 2 ** 22, memory: 256 << 20 }; // per frame: takes some hundredths of a second, as the page waits for it
-const PAUSE = 250; // ms after the last key
+const LIMITS = { work: 2 ** 22, memory: 256 << 20 }; // per frame, short because the page is blocked meanwhile
+const PAUSE = 250; // ms between the last key press and the evaluation
 let engine = null;
 
-// Returns the result of a text in the format of the manual.
+// Returns the result of a script in the format of the manual.
 export function outcome(from, { kind, frame, text, files }) {
     const session = from.open({ ...LIMITS, files });
     try {
@@ -36,7 +36,7 @@ function change(place, button) {
     const [script, result] = place.querySelectorAll('pre'), text = document.createElement('textarea');
     const { kind, frame, files } = place.dataset;
     Object.assign(text, { value: script.textContent, rows: script.textContent.trimEnd().split('\n').length + 1, spellcheck: false });
-    text.setAttribute('aria-label', 'The example');
+    text.setAttribute('aria-label', 'Example script');
     result.setAttribute('role', 'status');
     script.replaceWith(text);
     button.remove();
@@ -57,7 +57,7 @@ function change(place, button) {
 
 if (globalThis.document)
     for (const place of document.querySelectorAll('.try')) {
-        const button = Object.assign(document.createElement('button'), { textContent: 'Change it' });
+        const button = Object.assign(document.createElement('button'), { textContent: 'Edit' });
         button.onclick = () => change(place, button);
         place.prepend(button);
     }
