@@ -1,4 +1,4 @@
-// extension.js: the VS Code extension. It starts `petri lsp`, and has commands to run, view and draw scripts.
+// extension.js: the VS Code extension, which starts `petri lsp` and provides commands that run, view and draw scripts.
 const childProcess = require("child_process");
 const os = require("os");
 const path = require("path");
@@ -6,8 +6,8 @@ const vscode = require("vscode");
 const { LanguageClient } = require("vscode-languageclient/node");
 
 let client;
-let panel; // the panel with the picture; undefined: closed
-let shown; // path of the script in the panel
+let panel; // the panel that shows the picture; undefined: closed
+let shown; // path of the script whose picture is in the panel
 const socket = path.join(os.tmpdir(), `petri-vscode-${process.pid}`); // for `petri view --listen`
 
 const setting = (name) => vscode.workspace.getConfiguration("petri").get(name);
@@ -30,7 +30,7 @@ async function startServer() {
     }
 }
 
-// Saves the script in the active editor and returns its path. Returns undefined, after a message, if there is none.
+// Saves the script in the active editor and returns its path. If there is no script, shows a message and returns undefined.
 async function script() {
     const document = vscode.window.activeTextEditor?.document;
     if (document?.languageId !== "flitter" || document.uri.scheme !== "file") {
@@ -54,7 +54,7 @@ async function inTerminal(command, ...options) {
     }
 }
 
-// Evaluates a text in the view and shows the result.
+// Evaluates code in the view and shows the result.
 function send(text) {
     childProcess.execFile(setting("path"), ["send", socket, text], { timeout: 10000 }, (problem, out, said) => {
         const answers = out.split("\n").filter(Boolean).map((line) => JSON.parse(line).text).filter(Boolean);
@@ -63,7 +63,7 @@ function send(text) {
     });
 }
 
-// Sends the selection, or the current line if nothing is selected.
+// Sends the selection, or the current line if the selection is empty.
 function sendSelection() {
     const editor = vscode.window.activeTextEditor;
     send(editor?.document.getText(editor.selection.isEmpty
@@ -72,7 +72,7 @@ function sendSelection() {
 
 const escaped = (text) => text.replace(/[&<>]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;" })[c]);
 
-// Draws a frame with `petri render`, or shows its error message.
+// Draws a frame with `petri render` in the panel. On failure, shows the error message there.
 function draw() {
     const args = ["render", shown, "-o", "-", "--format", "png", "--frame", String(setting("frame"))];
     const options = { encoding: "buffer", maxBuffer: 1 << 28, cwd: path.dirname(shown), timeout: 60000 };

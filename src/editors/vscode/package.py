@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""package.py GRAMMAR OUT.vsix: packs the extension, after `npm run bundle`, with the generated grammar. The output
-depends only on the files."""
+"""package.py GRAMMAR OUT.vsix: packs the extension with the generated grammar. `npm run bundle` must run first. The
+output is reproducible."""
 
 import json
 import sys
