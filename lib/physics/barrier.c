@@ -71,7 +71,7 @@ static void move_again(const Columns *columns, size_t i, double delta, double sp
 //   w' = Σ v_k·normal_k
 //   if outside: x' as x above; if x' < 0: put on the surface
 //   if w' < 0: reflect
-//   if b < 0 and w'/b < τ: τ = max(w'/b, 0)                    not beyond the top of the bounce
+//   if b < 0 and w'/b < τ: τ = max(w'/b, 0)                    not beyond the apex of the bounce
 //   if τ > 0: move again with τ for delta and the same force; else a = 0
 void phys_reflect(const Columns *columns, size_t i, const Force *force, double delta, double speed_of_light) {
     const PhysForce *barrier = &force->given;

@@ -159,7 +159,8 @@ bool phys_domain_begin(PhysSystem *system, const PhysTime *time) {
     return shared;
 }
 
-// Returns true if an owned particle has left its skin or has grown. Only needed if a pass has no list to detect this.
+// Returns true if an owned particle has moved by half the skin or has grown. Only needed if a pass has no list to
+// detect this.
 static bool left_skin(const PhysSystem *system, const Domain *domain) {
     const Columns *columns = &domain->local->columns;
     const double *built = domain->built.bytes;

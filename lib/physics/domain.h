@@ -37,10 +37,10 @@ typedef struct Domain {
     Buffer spare;             // memory for the next columns of `local`, which are copied from the current ones
     uint64_t columns_version; // PhysSystem.columns_version for which `local` was built
     // interaction ranges
-    bool contact;      // some force acts on contact
-    double bound;      // largest max_distance of the other forces; 0: none
-    double max_radius; // largest radius of the particles that are not in `large`
-    NeighbourList survey;
+    bool contact;                   // some force acts on contact
+    double bound;                   // largest max_distance of the other forces; 0: none
+    double max_radius;              // largest radius of the particles that are not in `large`
+    NeighbourList survey;           // patch of each particle, and the skin of all lists; holds no neighbours
     uint32_t large[PHYS_MAX_LARGE]; // columns of particles much larger than the others
     uint32_t large_count;
     // ownership
@@ -103,13 +103,15 @@ bool phys_domain_find_interior(PhysSystem *system, Domain *domain);
 // up to date.
 bool phys_domain_select(PhysSystem *system, Domain *domain);
 
-// domain_halo.c: migrates particles to the owners of their patches.
+// domain_halo.c. These functions return false if out of memory or if the frame is interrupted.
+//
+// Migrates particles to the owners of their patches.
 bool phys_domain_move(PhysSystem *system, Domain *domain);
 // Determines the new halos and receives their positions into the system's columns.
 bool phys_domain_find_halo(PhysSystem *system, Domain *domain);
 // Exchanges the positions of halo particles before a step.
 bool phys_domain_exchange(PhysSystem *system, Domain *domain);
-// Append to a list. Return false if out of memory.
+// Append to a list.
 bool phys_list_column(PhysSystem *system, ColumnList *list, uint32_t column);
 bool phys_add_transfer(PhysSystem *system, Domain *domain, uint32_t rank, uint32_t column);
 // Sets each number to its maximum over all ranks.

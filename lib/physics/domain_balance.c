@@ -45,7 +45,7 @@ uint64_t phys_hilbert_index(const uint32_t *cell, uint32_t n, uint32_t levels) {
 typedef struct Patch {
     uint64_t hilbert_index;
     uint32_t cell;
-    double load;
+    double load; // cost of its particles
 } Patch;
 
 static int compare_patches(const void *left, const void *right) {

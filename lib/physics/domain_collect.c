@@ -37,7 +37,7 @@ typedef struct Packing {
     const PhysSystem *system;
     const PhysSystem *local;
     RankSection section;
-    size_t vectors;
+    size_t vectors;                  // vectors per particle: 2: position and velocity; 3: also force
     uint32_t start[PHYS_MAX_CHUNKS]; // number of owned particles before each chunk
 } Packing;
 

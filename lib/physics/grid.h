@@ -11,10 +11,10 @@ enum {
 
 typedef struct Grid {
     size_t dimensions;
-    double low[PHYS_VECTOR_DIMENSIONS];
-    double scale[PHYS_VECTOR_DIMENSIONS]; // cells per unit of length
-    uint32_t cells[PHYS_VECTOR_DIMENSIONS];
-    uint32_t *start; // particles of cell c: sorted indices start[c] to start[c + 1] - 1
+    double low[PHYS_VECTOR_DIMENSIONS];     // lower bound of the first cell
+    double scale[PHYS_VECTOR_DIMENSIONS];   // cells per unit of length
+    uint32_t cells[PHYS_VECTOR_DIMENSIONS]; // number of cells along each axis
+    uint32_t *start;                        // particles of cell c: sorted indices start[c] to start[c + 1] - 1
 } Grid;
 
 // Returns the cell of coordinate x along axis k. Coordinates outside the grid belong to the first or last cell.

@@ -80,7 +80,7 @@ typedef struct Columns {
     double *own_force; // PhysParticle.force; like `ease`, valid only if system->has_own_forces
     double *force;     // sum of all forces of the step
     bool forces_clear; // `force` is all zeros, as the previous step left it
-    double *ease;
+    double *ease;      // ramp time of own_force
     double *radius;
     double *mass;
     bool uniform_mass; // all particles have radius[0] and mass[0]
@@ -126,7 +126,7 @@ struct PhysSystem {
                              // any_from_attribute
     Buffer not_finite;    // uint8_t by handle: PHYS_POSITION and PHYS_VELOCITY that were not finite in the last frame
     Buffer force_records; // ForceRecord in the order of the calls
-    Buffer vectors;       // double
+    Buffer vectors;       // double: copies of the forces' vectors
     // arranged for simulation
     Buffer indices;        // uint32_t: `order`, `column_of`, `starts`
     Buffer forces;         // Force, by group, then stage, then declaration
@@ -139,8 +139,8 @@ struct PhysSystem {
     uint32_t *starts;      // by g * STAGE_COUNT + s: first force of group g at stage s; the next element is the end
     Columns columns;
     // retained between steps and frames
-    uint64_t frame; // number of the current frame
-    struct NeighbourList *lists;
+    uint64_t frame;              // number of the current frame
+    struct NeighbourList *lists; // PHYS_MAX_LISTS elements
     // reordering (reorder.c)
     bool can_reorder;   // all particles are in one group, and only its single pass over pairs depends on their order
     bool in_cell_order; // columns are in the sorted order of that pass's neighbour list

@@ -27,16 +27,16 @@ typedef struct Batch {
 
 // Working memory of a search.
 typedef struct Finder {
-    uint32_t cell;      // of the current particle
-    uint32_t low, high; // range of cells in one row for which `first` and `end` were found
-    uint32_t rows;
-    uint32_t candidates; // number of candidates in all rows
-    uint32_t first[MAX_ROWS], end[MAX_ROWS];
-    uint32_t near[PHYS_MAX_NEIGHBOURS + LANES];
+    uint32_t cell;                                // of the current particle
+    uint32_t low, high;                           // range of cells in one row for which `first` and `end` were found
+    uint32_t rows;                                // number of elements of `first` and `end`
+    uint32_t candidates;                          // number of candidates in all rows
+    uint32_t first[MAX_ROWS], end[MAX_ROWS];      // by row: range of sorted indices
+    uint32_t near[PHYS_MAX_NEIGHBOURS + LANES];   // sorted indices of candidates or neighbours
     Words keys[PHYS_MAX_NEIGHBOURS / WORDS + 2];  // of `near`: position in the order of the pass
     Words ranks[PHYS_MAX_NEIGHBOURS / WORDS + 2]; // of `near`: number of smaller keys
     uint32_t dummies[SPARE];
-    uint32_t lists[LANES][PHYS_MAX_NEIGHBOURS + LANES + SPARE];
+    uint32_t lists[LANES][PHYS_MAX_NEIGHBOURS + LANES + SPARE]; // lists of the current block
     Batch batch;
 } Finder;
 
@@ -47,7 +47,8 @@ static void add_row(Finder *finder, uint32_t first, uint32_t end) {
     finder->candidates += end - first;
 }
 
-// Finds the candidates of particles in cells low_cell to high_cell: those in adjacent cells, and the large ones.
+// Finds the candidates for particles in cells low_cell to high_cell, which are in one row of cells. These are the
+// particles in the same and in adjacent cells, and the large particles.
 static void find_rows(const ListSearch *search, Finder *finder, uint32_t low_cell, uint32_t high_cell) {
     const Grid *grid = search->grid;
     uint32_t low[PHYS_VECTOR_DIMENSIONS], high[PHYS_VECTOR_DIMENSIONS], rest = low_cell;

@@ -1,4 +1,4 @@
-// lanes.h: SIMD operations for formulas and kernels: those of maths/lanes.h, and masks.
+// lanes.h: SIMD operations for formulas and kernels. Adds masks to maths/lanes.h.
 //
 // Real holds LANES doubles, and Mask holds one boolean per lane. All operations on Real are single IEEE operations, so
 // a formula gives bit-identical results for every width. 8 lanes use AVX-512 and 4 use AVX2. 2 lanes use the vector

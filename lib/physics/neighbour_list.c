@@ -83,7 +83,7 @@ typedef struct ListPass {
     NeighbourList *list;
     const Integrator *sweep;     // for step_chunk
     bool reuse;                  // for step_chunk: all blocks of a chunk reuse the same part of the force columns
-    bool valid[PHYS_MAX_CHUNKS]; // by chunk: true if no particle has left its skin
+    bool valid[PHYS_MAX_CHUNKS]; // by chunk: true if no particle has moved by half the skin
 } ListPass;
 
 // Returns the first block of a chunk.
@@ -136,7 +136,7 @@ static int chunk_count_for(const PhysSystem *system, const NeighbourList *list) 
     return phys_chunk_count(system, list->total, PHYS_MIN_FOR_THREADS);
 }
 
-// Runs `task` for all chunks. Returns false if a particle has left its skin.
+// Runs `task` for all chunks. Returns false if a particle has moved by half the skin.
 static bool run_chunks(const PhysSystem *system, ListPass *work, PhysTask *task) {
     bool held = true;
     memset(work->valid, true, sizeof work->valid);
@@ -158,7 +158,7 @@ static bool refresh_remote(const PhysSystem *system, const ListPass *work) {
     return held;
 }
 
-// Updates the list's copy of the particles. Returns false if a particle has left its skin.
+// Updates the list's copy of the particles. Returns false if a particle has moved by half the skin.
 static bool refresh_list(const PhysSystem *system, ListPass *work) {
     NeighbourList *list = work->list;
     if (list->next_motion_version && list->next_motion_version == system->motion_version) {

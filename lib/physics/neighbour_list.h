@@ -5,7 +5,7 @@
 // contribute nothing, so the sums equal those over all pairs bit for bit.
 //
 // Particles are sorted by grid cell. The index of a particle in that order is its sorted index: regular particles come
-// first, then a few that are much larger than the others, then idle ones.
+// first, then the few particles that are much larger than the others, then idle particles.
 #ifndef PETRI_PHYSICS_NEIGHBOUR_LIST_H
 #define PETRI_PHYSICS_NEIGHBOUR_LIST_H
 
@@ -40,27 +40,27 @@ typedef struct NeighbourList {
     uint64_t frame; // frame of the last use; 0: never used
     PassRanges ranges;
     size_t dimensions;
-    size_t lanes;
+    size_t lanes;      // of the kernels that use the list
     double bound;      // largest max_distance of the forces that need no contact; 0: none
     bool contact_only; // all forces need contact
     // contents
-    bool built;
+    bool built; // false: the lists must be built before use
     ListView view;
     double *next_packed;          // `view.packed` of the next step, written by the current step; NULL for PHYS_QUAD
     uint64_t next_motion_version; // PhysSystem.motion_version that `next_packed` matches; 0: none
-    bool next_valid;              // no particle had moved beyond the skin in `next_packed`
+    bool next_valid;              // in `next_packed`, no particle has moved by half the skin
     uint32_t *key;                // by sorted index: position in the order of the pass
     uint32_t *cell;               // by position in the ranges: grid cell, later sorted index
     const uint32_t *order;        // by column: position in the order of the pass; NULL: columns are in that order
     uint32_t total;               // number of particles; those after view.listed are idle (PHYS_CELL_IDLE)
     double contact_distance;      // typical distance of interacting particles, the unit of the skin
-    double skin;
-    uint64_t radius_version; // PhysSystem.radius_version for which it was built
-    bool skin_is_fixed;      // set by the domain decomposition
-    uint64_t scanned;        // candidates tested in the last build
-    uint64_t padded;         // entries of all lists, including dummies
+    double skin;                  // margin added to the range of each particle
+    uint64_t radius_version;      // PhysSystem.radius_version for which the lists were built
+    bool skin_is_fixed;           // set by the domain decomposition
+    uint64_t scanned;             // candidates tested in the last build
+    uint64_t padded;              // entries of all lists, including dummies
     // tuning
-    uint32_t age;      // steps since it was built
+    uint32_t age;      // steps since the lists were built
     uint32_t lifetime; // steps that the previous build served
     double cost;       // of a step with the previous build; 0: unknown
     bool shrinking;    // true: the last adjustment reduced the skin; false: it increased the skin

@@ -1,8 +1,8 @@
 // pair_ranks.c: force decomposition: computes all pairs of a pass on several ranks, each pair once.
 //
-// The blocks are those of pair_wavefront.c. Rows of blocks are assigned to ranks in turn. The partial sums of a block's
-// columns are sent to the rank of the next row, one message per block. So all sums have the order of a single process.
-// At the end every rank broadcasts the sums of its rows, and all ranks move all particles.
+// The pairs are divided into blocks as in pair_wavefront.c. Rows of blocks are assigned to ranks in turn. The partial
+// sums of a block's columns are sent to the rank of the next row, one message per block. So all sums have the order of
+// a single process. At the end every rank broadcasts the sums of its rows, and all ranks move all particles.
 #include "physics/pair_wavefront.h"
 
 enum {

@@ -23,7 +23,8 @@ static void add_vector(Reordering *reordering, double *vector, size_t parts) {
         reordering->arrays[reordering->count++] = vector + k * reordering->system->columns.stride;
 }
 
-// Collects the columns to permute. Attributes that all particles share (record_stride 0) are not moved.
+// Collects the columns to permute, including positions if `positions` is set. Attributes that all particles share
+// (record_stride 0) are not moved.
 static void add_arrays(Reordering *reordering, bool positions) {
     const PhysSystem *system = reordering->system;
     const Columns *columns = &system->columns;

@@ -143,11 +143,12 @@ void phys_set_options(PhysSystem *system, const PhysOptions *options);
 void phys_begin(PhysSystem *system, uint32_t dimensions);
 // Adds a sub-group and returns its number. Groups must be added in pre-order (a group before its sub-groups, in order
 // of declaration), so numbers ascend in pre-order. Particles and forces may come in any order of groups; within a group
-// the order of the calls is the order of declaration.
+// the order of the calls is the order of declaration. If memory runs out, this and the phys_add_… functions below
+// return 0, and phys_simulate returns PHYS_NO_MEMORY.
 uint32_t phys_add_group(PhysSystem *system, uint32_t parent);
 // Adds a particle to a group and returns its handle: 0, 1, 2, … in the order of the calls. Vectors are copied.
 uint32_t phys_add_particle(PhysSystem *system, uint32_t group, const PhysParticle *particle);
-// Reserves memory for `more` particles that may be added next.
+// Reserves memory for `more` particles that may be added next. A failure has no effect.
 void phys_expect_particles(PhysSystem *system, uint64_t more);
 // Adds a force applier or barrier to a group and returns its number: 0, 1, 2, … in the order of the calls.
 uint32_t phys_add_force(PhysSystem *system, uint32_t group, const PhysForce *force);
@@ -201,7 +202,8 @@ typedef struct PhysResult {
 // Simulates one frame (spec section 4). The result is deterministic to the last bit.
 PhysResult phys_simulate(PhysSystem *system, const PhysTime *time);
 
-// Handles a frame in which nothing is simulated. Returns false if memory ran out since phys_begin.
+// Call this instead of phys_simulate in a frame in which nothing is simulated. Returns false if memory ran out since
+// phys_begin.
 bool phys_skip_frame(PhysSystem *system);
 
 uint32_t phys_particle_count(const PhysSystem *system);

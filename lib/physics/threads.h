@@ -2,7 +2,7 @@
 //
 // A job is divided into chunks, which idle threads and the caller claim in turn. The caller never waits for a thread
 // that has not started; after long waits it works alone for a while (backoff.h). A chunk's work depends only on its
-// number. Threads spin briefly before they sleep; short jobs use only the spinning ones.
+// number. Threads spin briefly before they sleep. Short jobs use only spinning threads.
 #ifndef PETRI_PHYSICS_THREADS_H
 #define PETRI_PHYSICS_THREADS_H
 

@@ -38,9 +38,9 @@ typedef struct InputBindings {
 typedef struct InputState {
     InputSwitch keys[INPUT_KEYS]; // by input_key_number
     InputSwitch buttons[INPUT_BUTTONS];
-    bool has_reports; // true after the first report
-    bool inside;      // the pointer is in the window
-    double position[2];
+    bool has_reports;   // true after the first report
+    bool inside;        // the pointer is in the window
+    double position[2]; // last position inside the window
 } InputState;
 
 typedef struct Input {

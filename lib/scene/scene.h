@@ -13,10 +13,10 @@ typedef struct Scene Scene;
 typedef struct SceneFrame {
     State *state;
     Arena *arena; // for temporary data of the frame
-    double time;
+    double time;  // default of the attribute `time`
     double fps;
-    double performance;
-    bool lockstep;
+    double performance;  // PhysTime.performance
+    bool lockstep;       // PhysTime.lockstep
     uint64_t generation; // changes when programs, and nodes with program lifetime, have been freed
     double resolution;   // overrides the attribute of all systems; 0: no override
 } SceneFrame;

@@ -56,8 +56,8 @@ struct Scene {
     Schema *schema;
     BodyAttrs body_defaults[2]; // defaults of particles [0] and anchors [1]
     ForceAttrs force_defaults[PHYS_FORCE_KINDS];
-    bool exhausted; // out of memory (scene_clear_exhausted)
-    BudgetOutcome stopped;
+    bool exhausted;        // out of memory (scene_clear_exhausted)
+    BudgetOutcome stopped; // why the last update was stopped; BUDGET_OK: it was not
     Budget *budget;
     Input input;
     PhysicsSystem *systems;
@@ -94,12 +94,12 @@ struct PhysicsTree {
     bool from_state;     // positions and velocities are read from the state if it has them
     bool keys_collide;   // two particles share a key, or one has a key of the system itself
     bool out_of_memory;
-    double run;
-    double iteration;
+    double run;            // attribute `run`
+    double iteration;      // number of this frame in the run, from 0
     uint32_t random_count; // number of random forces before the one with key `random_key`
     uint64_t random_key;   // last key of a random force; 0: none yet
-    uint32_t next_group;
-    uint32_t next_link;
+    uint32_t next_group;   // number of the next group to read
+    uint32_t next_link;    // number of the next distance force to read
 };
 
 // Returns the key prefix;id or, unless `last` is NULL, prefix;id;last.

@@ -25,8 +25,8 @@ typedef struct PendingSend {
 typedef struct Ranks {
     PetriRanks as_options;
     MpiChannel channel;
-    PendingSend *pending;
-    size_t count;
+    PendingSend *pending; // sends that may still be in progress
+    size_t count;         // number of elements of `pending`
     size_t pending_capacity;
     double *numbers; // buffer for received or broadcast numbers
     size_t numbers_capacity;
