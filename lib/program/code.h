@@ -1,16 +1,16 @@
-// code.h: code of the VM: expressions lowered to instructions over registers.
+// code.h: code of the VM: instructions that work on registers.
 //
 // Each function, the main program and each module is one Code. Its registers are the function's slots, followed by
-// temporaries. An operand is the number of a register. Negative numbers are constants: they are stored directly before
-// the first register when the code is entered, so that both are read in the same way. Instructions with many operands
-// refer to a list of numbers. Every instruction has a position in the source, for diagnostics. Code does not refer to
-// data of the compiler.
+// temporaries. An operand is the number of a register. Negative numbers are constants, which are copied to the memory
+// directly before the first register when the code is entered, so that both are read in the same way. Instructions with
+// many operands refer to a list of numbers. Every instruction has a position in the source, for diagnostics. Code
+// contains no pointers to data of the compiler.
 //
 //   !particle id=i position=2*i;0       mul      r3 = 2 r0
 //                                       compose  r3 = (r3, 0)
 //                                       node     r4 = particle (r0, r3)
 //
-// Instructions are in the order in which the expressions are evaluated; none is moved or omitted.
+// Instructions are in the order of evaluation. None is moved or omitted.
 #ifndef PETRI_PROGRAM_CODE_H
 #define PETRI_PROGRAM_CODE_H
 
@@ -31,7 +31,7 @@ typedef enum Opcode {
 typedef struct NodeCode {
     const Node *base;                  // kind and tags
     const Symbol *const *names;        // names of the attributes, without duplicates
-    const Origin *decorated;           // position of the attributes, or NULL
+    const Origin *decorated;           // position of the node with its attributes; NULL: it has none
     const NodeList *constant_children; // NULL: the children are not constant
 } NodeCode;
 
@@ -39,7 +39,7 @@ typedef struct NodeCode {
 typedef enum CaptureKind {
     CAPTURE_SLOT,  // in a slot of the enclosing function
     CAPTURE_OUTER, // among the captured values of the enclosing closure
-    CAPTURE_SELF,  // it is the enclosing closure itself
+    CAPTURE_SELF,  // the enclosing closure itself
 } CaptureKind;
 
 typedef struct Capture {
@@ -57,7 +57,7 @@ typedef struct FunctionCode {
 } FunctionCode;
 
 typedef struct CallCode {
-    uint32_t arg_count;         // number of positional arguments
+    uint32_t arg_count;         // number of positional arguments, which come first
     const Symbol *const *names; // names of the named arguments
     uint32_t named_count;
 } CallCode;
@@ -79,16 +79,13 @@ typedef struct BatchPlan {
     uint32_t yield_count; // number of YIELD instructions
 } BatchPlan;
 
-enum {
-    CODE_MAX_COLUMNS = 64,
-    CODE_MAX_YIELDS = 8,
-    CODE_MAX_READ = 32
-}; // limits of a batch plan; READ: registers that one instruction reads
+// Limits of a batch plan. CODE_MAX_READ limits the registers that one instruction reads.
+enum { CODE_MAX_COLUMNS = 64, CODE_MAX_YIELDS = 8, CODE_MAX_READ = 32 };
 
 typedef struct Instr {
     uint16_t op;
-    uint16_t loop;
-    int32_t d; // register written, or first register bound; YIELD_NODE: 1 if the iteration retains nothing else
+    uint16_t loop; // nesting depth of the loop, from 0
+    int32_t d;     // register written, or first register bound; YIELD_NODE: 1 if the iteration retains nothing else
     union {
         int32_t a;
         uint32_t list; // index of the first operand in Code.operands
@@ -100,7 +97,7 @@ typedef struct Instr {
     };
     // Instruction to jump to; number of a capture, engine name or lookup; YIELD_NODE: register of the loop's name.
     uint32_t target;
-    const Origin *at;
+    const Origin *at; // position in the source
     union {
         const NodeCode *node;
         const NodeList *constant_children; // APPEND: NULL: not constant
@@ -120,7 +117,7 @@ struct Code {
     const Instr *instrs;
     uint32_t count;
     uint32_t register_count;
-    uint32_t slot_count; // registers of names, which start as null in the main program and in modules
+    uint32_t slot_count; // registers of names; null initially in the main program and in modules
     uint32_t loop_count; // maximum nesting depth of loops
     const int32_t *operands;
     const Value *constants; // the last constant is operand -1
@@ -128,8 +125,8 @@ struct Code {
     const uint32_t *lines; // source line of each instruction, from 1; NULL: not recorded
 };
 
-// Stores the operands that an instruction reads and returns their number: at most CODE_MAX_READ within a BatchPlan.
-// `operands` is Code.operands.
+// Stores the operands that an instruction reads in `reads` and returns their number, at most CODE_MAX_READ for an
+// instruction of a BatchPlan. `operands` is Code.operands.
 uint32_t program_operands_read(const int32_t *operands, const Instr *instr, int32_t *reads);
 
 #endif

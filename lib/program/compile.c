@@ -1,7 +1,7 @@
 // compile.c: compilation of syntax trees to expressions and code; see program.h.
 //
-// There is one pass, in the order of evaluation. A binding becomes visible directly after its value was compiled, which
-// is the start of its scope (spec language.md L8.2).
+// The tree is compiled in the order of evaluation. The scope of a binding starts directly after its value has been
+// compiled (spec language.md L8.2).
 #include "program/compile.h"
 
 #include "program/lower.h"
@@ -28,8 +28,8 @@ void compile_report(Compiler *compiler, Span span, DiagLevel level, const char *
     diag_report(compiler->diags, &(Diag){level, compiler->source, span, text, hint, code});
 }
 
-// Returns true if child i is the value of an expression or a part of it. It then becomes children if the expression
-// does.
+// Returns true if child i is all or part of the value of an expression. If that value becomes children of a node, so
+// does the child's value.
 static bool is_part(ExprKind kind, uint32_t i, uint32_t count) {
     return kind == EXPR_COMPOSE || (kind == EXPR_IF && (i % 2 == 1 || i + 1 == count));
 }
@@ -64,7 +64,7 @@ static const Expr *compile_arith(Compiler *compiler, const Ast *ast) {
     return expr;
 }
 
-// A name compared with itself is the same object, so even NaN is ordered (L5.5).
+// If a name is compared with itself, both operands are the same object, so that even NaN equals itself (L5.5).
 static const Expr *compile_order(Compiler *compiler, const Ast *ast) {
     const Ast *left = ast->children[0], *right = ast->children[1];
     Expr *expr = compile_same(compiler, ast, false);
@@ -97,7 +97,7 @@ static const Expr *compile_cond(Compiler *compiler, const Ast *ast, bool in_chil
     return expr;
 }
 
-// Compiles the value of a BINDING before its names become visible.
+// Compiles a BINDING. Its value is compiled before its names become visible.
 static const Expr *compile_binding(Compiler *compiler, const Ast *binding) {
     const Ast *names = binding->children[0];
     const Expr *value = compile_expr(compiler, binding->children[1]);
@@ -129,7 +129,7 @@ static const Expr *compile_where(Compiler *compiler, const Ast *ast, bool in_chi
 }
 
 static const Expr *compile_for(Compiler *compiler, const Ast *ast, bool in_children) {
-    // A loop over a range needs no vector, even if the range is constant.
+    // A loop over a range never builds a vector, so even a constant range is not folded to one.
     const Ast *source = ast->children[1];
     const Expr *parts[2] = {source->kind == AST_RANGE ? compile_range(compiler, source)
                                                       : compile_expr(compiler, source)};
@@ -303,8 +303,7 @@ static const Expr *compile_import(Compiler *compiler, const Ast *ast) {
 
 static Include find_include(Compiler *compiler, const Ast *ast, const Expr *file) {
     if (file->kind != EXPR_CONST)
-        return (Include){.span = file->origin.span,
-                         .fault = STR("the file of an %include must be known when the program is loaded")};
+        return (Include){.span = file->origin.span, .fault = STR("the file name of an %include must be constant")};
     Include include = {.span = ast->span};
     if (file->as.value.len == 0)
         return include;
@@ -317,7 +316,7 @@ static Include find_include(Compiler *compiler, const Ast *ast, const Expr *file
     return include;
 }
 
-// Compiles the statements of an included file instead of the directive.
+// Compiles an %include to the statements of the included file.
 static const Expr *compile_include(Compiler *compiler, const Ast *ast, bool in_children) {
     compiler->in_include_path = true;
     const Expr *file = compile_expr(compiler, ast->children[0]);
@@ -343,7 +342,7 @@ static const Expr *compile_include(Compiler *compiler, const Ast *ast, bool in_c
 static const Expr *compile_kind(Compiler *compiler, const Ast *ast, bool in_children) {
     switch (ast->kind) {
     case AST_LITERAL:
-        return compile_constant(compiler, ast, value_copy(compiler->arena, ast->value)); // the syntax tree is freed
+        return compile_constant(compiler, ast, value_copy(compiler->arena, ast->value)); // outlives the tree
     case AST_NODE:
         return compile_node(compiler, ast);
     case AST_NAME:
@@ -467,7 +466,7 @@ static const Program *compile_file(Compiler *compiler, const Ast *ast) {
     compiler->repeats = options->module; // a module may be imported several times
     for (uint32_t i = 0; i < options->param_count; i++) {
         compile_bind(compiler, BINDING_PARAM, options->params[i], (Span){0}, NULL);
-        compiler->function->scope->used = true; // set by the host for all scripts
+        compiler->function->scope->used = true; // passed to all scripts, so not reported as unused
     }
     const Binding *params = function.scope;
     Program *program = arena_alloc(compiler->arena, sizeof *program);

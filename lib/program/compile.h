@@ -7,7 +7,7 @@
 // The construct that binds a name. Lints depend on it.
 typedef enum BindingKind { BINDING_LET, BINDING_FUNC, BINDING_PARAM, BINDING_LOOP, BINDING_IMPORT } BindingKind;
 
-// A visible name. The bindings of a function form a list, from the innermost outwards.
+// A visible name. The bindings of a function form a linked list that starts with the innermost binding.
 typedef struct Binding Binding;
 struct Binding {
     Binding *outer;
@@ -15,23 +15,22 @@ struct Binding {
     uint32_t slot;
     Span span;
     BindingKind kind;
-    bool used;        // a name was resolved to it
-    bool is_constant; // its value is always `constant`
+    bool used;        // a use of the name was resolved to this binding
+    bool is_constant; // the value is always `constant`
     Value constant;
-    const Ast
-        *value; // syntax tree of its value; NULL: the name is bound to an element of it, or not by `let` or `func`
+    const Ast *value; // syntax tree of the value; NULL: one of several names, or not bound by `let` or `func`
 };
 
 // The function whose body is being compiled.
 typedef struct FunctionScope FunctionScope;
 struct FunctionScope {
     FunctionScope *outer;
-    const Symbol *self; // name of the function, visible in its body; NULL: anonymous
-    Binding *scope;
-    uint32_t next_slot;
-    uint32_t frame_size;
+    const Symbol *self;  // name of the function, visible in its body; NULL: anonymous
+    Binding *scope;      // innermost visible binding
+    uint32_t next_slot;  // first free slot
+    uint32_t frame_size; // maximum of next_slot
     Capture *captures;
-    const Symbol **capture_names;
+    const Symbol **capture_names; // by capture
     uint32_t capture_count;
     uint32_t capture_capacity;
 };
@@ -56,8 +55,8 @@ struct Compiler {
     bool in_include_path;  // compiling the path of an %include; lints are off
     uint32_t repeats;      // number of enclosing loops and functions; > 0: may be evaluated several times per frame
     uint32_t lookup_count; // number of state lookups so far
-    bool in_children;      // the next expression becomes children of a node, alone or as a part of them
-    bool is_module;        // the file only binds names, for other files: none of them is unused
+    bool in_children;      // the value of the next expression becomes all or some of a node's children
+    bool is_module;        // the file only binds names, which other files import, so none is reported as unused
     uint32_t depth;        // number of enclosing expressions; 1: a top-level statement
     DefineUse *define_uses;
     Parameter *parameters;
@@ -67,12 +66,12 @@ struct Compiler {
     uint32_t import_count;
     const Ast *subject;           // expression to which attributes or children are being added
     const Ast *key;               // key of the state that is being looked up
-    const Ast *parameter_use;     // NAME on the right of the last parameter `let NAME=NAME or DEFAULT`: may be unbound
-    const Ast *parameter_default; // its DEFAULT; NULL: the right side has several `or`
+    const Ast *parameter_use;     // second NAME of the last parameter `let NAME=NAME or DEFAULT`; may be unbound
+    const Ast *parameter_default; // DEFAULT of the last parameter; NULL: the right side has several `or`
     Include *includes;            // in order of the %include directives
     uint32_t include_count;
-    const Compiler
-        *folding_pass; // without the simplifier: a previous compilation with it, for include paths and defaults
+    // If the simplifier is off: an earlier compilation with the simplifier, which provides include paths and defaults.
+    const Compiler *folding_pass;
 };
 
 typedef struct ScopeMark {
@@ -95,15 +94,15 @@ void compile_scope_close(Compiler *compiler, ScopeMark mark);
 uint32_t compile_bind(Compiler *compiler, BindingKind kind, const Symbol *name, Span span, const Ast *value);
 // Binds the names of a NAMES node in consecutive slots and returns the first slot.
 uint32_t compile_bind_names(Compiler *compiler, BindingKind kind, const Ast *names, const Ast *value);
-// Returns the part of a value that is bound to one of `count` names (L8.3).
+// Returns the element of a value that is bound to name number `element` of `count` names (L8.3).
 Value compile_unpack(Compiler *compiler, Value value, uint32_t element, uint32_t count);
-// Marks the last `count` bindings as constant. The value is unpacked if there are several.
+// Marks the last `count` bindings as constant. If there are several, the value is unpacked to them.
 void compile_set_constant(Compiler *compiler, uint32_t count, Value value);
 // Returns the visible binding of a name, in this function or an enclosing one, or NULL. Does not mark it as used.
 const Binding *compile_find_binding(const Compiler *compiler, const Symbol *name);
 const Expr *compile_name(Compiler *compiler, const Ast *ast);
 void compile_function_open(Compiler *compiler, FunctionScope *function, const Symbol *self);
-// Returns to the enclosing function.
+// Continues with the enclosing function.
 void compile_function_close(Compiler *compiler, FunctionScope *function);
 // Returns the built-in or host function with this name, or NULL.
 const struct Builtin *compile_find_builtin(const Compiler *compiler, Str name);
@@ -129,7 +128,7 @@ void fold_add_dependency(Expr *expr, const Expr *child);
 
 // Lints for `petri check` (lint.c): code that is valid but unlikely to be intended. They do nothing unless enabled.
 void lint_bind(Compiler *compiler, const Binding *binding);
-// Reports unused names among the bindings from `scope` to before `end`, whose scope ends.
+// Reports unused names at the end of their scope: the bindings from `scope` up to, but not including, `end`.
 void lint_unused(Compiler *compiler, const Binding *scope, const Binding *end);
 void lint_call(Compiler *compiler, const Ast *ast, const Expr *callee, const CallCode *code);
 void lint_branches(Compiler *compiler, const Expr *expr);

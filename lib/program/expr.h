@@ -1,7 +1,7 @@
-// expr.h: expressions, the intermediate form between syntax tree and code: names are resolved to slots.
+// expr.h: expressions, the intermediate representation between syntax tree and code. Names are resolved to slots.
 //
-// The compiler creates them, the simplifier (fold.c) replaces some, and lowering (lower.c) reads them. Then they are
-// freed.
+// The compiler creates expressions, the simplifier (fold.c) replaces some, and lowering (lower.c) translates them to
+// code. Then they are freed.
 #ifndef PETRI_PROGRAM_EXPR_H
 #define PETRI_PROGRAM_EXPR_H
 
@@ -24,7 +24,7 @@ typedef struct Expr Expr;
 struct Expr {
     ExprKind kind;
     uint32_t count; // number of children
-    uint32_t slot;
+    uint32_t slot;  // see expr_list.h
     uint32_t slot_count;
     // Dependencies of the value, for the simplifier (fold.c)
     bool dynamic;         // may change from frame to frame

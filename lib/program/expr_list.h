@@ -1,8 +1,8 @@
 // expr_list.h: the kinds of expressions.
 //
-// EXPR(KIND). The comment lists the children, where `…` means repetition, then the fields in use. SAME(KIND): the syntax
-// tree has a node of this kind with the same children. PLAIN(KIND): there is also an instruction of this name, whose
-// operands are the children's values.
+// EXPR(KIND). The comment lists the children, where `…` means repetition, then the fields in use. SAME(KIND): the
+// syntax tree has a node of this kind with the same children. PLAIN(KIND): also, an instruction of this name exists,
+// whose operands are the children's values.
 // clang-format off
 #ifndef SAME
 #define SAME(kind) EXPR(kind)
@@ -16,13 +16,13 @@ EXPR(SLOT)      // slot: a local of the current frame
 EXPR(CAPTURE)   // slot: a value that the running closure captured
 EXPR(SELF)      // the running closure
 EXPR(GLOBAL)    // slot: an EngineName
-EXPR(UNBOUND)   // name: reported when reached; null
-SAME(COMPOSE)   // part or binding…; slot: number of parts
-EXPR(BIND)      // value; unpacked into slot_count slots from slot; null itself
-EXPR(LET)       // BIND…; null itself
-EXPR(FUNC)      // default… (CONST null where there is none); function: makes a closure
-EXPR(IMPORT)    // file; names to bind, in consecutive slots from slot; null itself
-EXPR(FOR)       // source, body; names in slot_count slots from slot
+EXPR(UNBOUND)   // name; null, and reported when evaluated
+SAME(COMPOSE)   // part or binding…; slot: number of parts, which are the children with values
+EXPR(BIND)      // value; unpacked to slot_count slots from slot; has no value
+EXPR(LET)       // BIND…; has no value
+EXPR(FUNC)      // default… (CONST null: none); function; creates a closure
+EXPR(IMPORT)    // file; names, bound to slot_count slots from slot; has no value
+EXPR(FOR)       // source, body; names bound to slot_count slots from slot
 SAME(IF)        // test, value, [test, value]…, [else value]
 SAME(APPEND)    // parent, children
 EXPR(DECORATE)  // subject, attribute value…; decorations
@@ -33,12 +33,12 @@ SAME(AND)       // left, right
 PLAIN(NOT)      // operand
 PLAIN(EQ)       // left, right
 PLAIN(NE)       // left, right
-PLAIN(LT)       // left, right; slot: 1 if both are one object
-PLAIN(GT)       // left, right; slot: 1 if both are one object
-PLAIN(LE)       // left, right; slot: 1 if both are one object
-PLAIN(GE)       // left, right; slot: 1 if both are one object
+PLAIN(LT)       // left, right; slot: 1 if both are the same object
+PLAIN(GT)       // left, right; slot: 1 if both are the same object
+PLAIN(LE)       // left, right; slot: 1 if both are the same object
+PLAIN(GE)       // left, right; slot: 1 if both are the same object
 PLAIN(IN)       // left, right
-EXPR(RANGE)     // start, stop, step (CONST null where left out)
+EXPR(RANGE)     // start, stop, step (CONST null: omitted)
 PLAIN(ADD)      // left, right
 PLAIN(SUB)      // left, right
 PLAIN(MUL)      // left, right

@@ -1,10 +1,10 @@
 // fold.c: the simplifier, which folds constant expressions at load time.
 //
 // An expression can be folded if nothing in it is dynamic and it reads only slots that it binds itself. Slots are
-// allocated like a stack, so these are the slots from `mark` on, the first free slot before the expression. The VM that
-// runs the program evaluates it. If the VM finds something dynamic, for example in a called function, or an error or a
-// limit, the expression is not changed. Values are therefore identical with and without the simplifier, to the last
-// bit.
+// allocated like a stack, so an expression's own slots are those >= mark, the first free slot before it was compiled.
+// The expression is evaluated by the VM. If the VM meets something dynamic (for example in a called function), reports
+// an error or exceeds a limit, the expression is not changed. Values are therefore bit-identical with and without the
+// simplifier.
 //
 // A name that is bound to a constant is replaced by the constant. So constants propagate through a program, and a
 // static tree of particles becomes one constant vector of nodes that all frames share.
@@ -60,7 +60,7 @@ static bool is_candidate(const Compiler *compiler, const Expr *expr) {
     }
 }
 
-// Searches a value for closures. After MAX_VISITS nodes the result is true.
+// A search for closures in a value stops after this many nodes and assumes that the value contains a closure.
 enum { MAX_VISITS = 100000 };
 
 static bool node_reaches_closure(const Node *node, uint32_t *visits);
@@ -88,8 +88,8 @@ static bool node_reaches_closure(const Node *node, uint32_t *visits) {
     return false;
 }
 
-// Returns false for values with closures in expressions that may be evaluated several times per frame. Each evaluation
-// creates closures that differ from all others and count their own calls, so they must not be shared.
+// Returns false if a value is too long, or if it contains closures and the expression may be evaluated several times
+// per frame. Each evaluation must create new closures, which count their own calls, so they cannot be shared.
 static bool can_fold(const Compiler *compiler, Value value) {
     uint32_t visits = 0;
     return value.len <= MAX_ELEMENTS && (compiler->repeats == 0 || !reaches_closure(value, &visits));
@@ -116,7 +116,8 @@ static void share_constant_children(Compiler *compiler, Expr *expr) {
     expr->as.constant_children = list;
 }
 
-// Replaces an `if` whose first tests are constant by one of its branches, or by an `if` that starts with a later test.
+// Replaces an `if` whose first tests are constant with one of its branches, or with an `if` that starts with a later
+// test. Returns the expression itself if its first test is not constant.
 static const Expr *prune_branches(Compiler *compiler, const Expr *expr) {
     uint32_t skip = 0;
     while (skip + 1 < expr->count && expr->children[skip]->kind == EXPR_CONST) {
@@ -162,7 +163,7 @@ const Expr *fold_expr(Compiler *compiler, Expr *expr, uint32_t mark) {
         return expr;
     Value value;
     if (!evaluate_expr(compiler, expr, &value)) {
-        expr->dynamic = true; // so that enclosing expressions are not tried
+        expr->dynamic = true; // prevents attempts to fold enclosing expressions
         return expr;
     }
     return replace_with_constant(compiler, expr, value);

@@ -29,7 +29,8 @@ void lint_bind(Compiler *compiler, const Binding *binding) {
                        (Str){0});
 }
 
-// Loop names may be unused, because a loop may only repeat; so may names that start with an underscore.
+// Returns true for the name of a loop, because the loop may only repeat something, and for names that start with an
+// underscore.
 static bool can_be_unused(const Binding *binding) {
     return binding->kind == BINDING_LOOP || binding->name->name.bytes[0] == '_';
 }
@@ -47,7 +48,8 @@ void lint_unused(Compiler *compiler, const Binding *scope, const Binding *end) {
                 str_format(compiler->arena, "unused %s '%.*s'", kinds[binding->kind], STR_ARGS(binding->name->name)));
 }
 
-// Uses the same text as the call itself (lib/builtin), so that it is reported once if the first frame evaluates it.
+// Uses the error text of lib/builtin, so that the diagnostic sink drops the duplicate if the first frame executes the
+// call.
 static void lint_builtin_call(Compiler *compiler, const Ast *ast, const Builtin *builtin, const CallCode *code) {
     uint32_t count = code->arg_count + code->named_count;
     bool few = count < builtin->required;
@@ -137,7 +139,7 @@ void lint_branches(Compiler *compiler, const Expr *expr) {
         }
 }
 
-// Warns about `!x` if x is a name: other languages write a negation like this.
+// Warns about `!x` if x is a bound name, because other languages write negations like this.
 void lint_negation(Compiler *compiler, const Ast *ast) {
     if (lint_enabled(compiler) && ast->kind == AST_NODE &&
         (compile_find_binding(compiler, ast->name) || engine_name_exists(ast->name->name)))
@@ -160,7 +162,7 @@ void lint_arith(Compiler *compiler, const Ast *ast, const Expr *expr) {
         }
 }
 
-// The VM reports the same when it executes the import, which may be much later.
+// Reports a missing module now. The VM would report it when it executes the import, which may be much later.
 void lint_import(Compiler *compiler, const Ast *ast, const Expr *file) {
     if (!lint_enabled(compiler) || file->kind != EXPR_CONST || file->as.value.len == 0)
         return;

@@ -1,14 +1,15 @@
 // lower.c: lowering of expressions to instructions; see code.h.
 //
-// Temporaries are allocated like a stack above the slots, so a pending operand is never overwritten. An operand that is
-// just a name is its slot, which is read later, but within the scope of the name. The destination of a value may be a
-// slot whose name is not visible yet and whose number was used by inner names; therefore it is written last.
+// Temporaries are allocated like a stack above the slots, so a pending operand is never overwritten. A name used as an
+// operand is not copied: the instruction reads its slot, still within the scope of the name. The destination of a value
+// may be the slot of a name that is not visible yet. Names within the value may use the same slot, so the destination
+// is written last.
 #include "program/lower.h"
 
 #include "base/source.h"
 
 // Returns the line of an instruction for the profile. An instruction that ends an expression of several lines belongs
-// to the last of them.
+// to the last line.
 static uint32_t line_of(const Lowering *lowering, Opcode op, const Expr *at) {
     uint32_t last = lowering->instr_count;
     bool ends = op == OP_COMPOSE || op == OP_JUMP || op == OP_RETURN;
@@ -67,7 +68,7 @@ int32_t lower_operand(Lowering *lowering, const Expr *expr) {
     return temporary;
 }
 
-// Called when all operands are known, because nested expressions also add lists.
+// Called after all operands have been lowered, because nested expressions also append lists.
 uint32_t lower_list(Lowering *lowering, const int32_t *operands, uint32_t count) {
     uint32_t start = lowering->operand_count;
     for (uint32_t i = 0; i < count; i++) {
@@ -223,7 +224,8 @@ static void lower_closure(Lowering *lowering, const Expr *expr, int32_t d) {
                (Instr){.op = OP_CLOSURE, .d = d, .list = list, .count = expr->count, .as.function = expr->as.function});
 }
 
-// Returns the built-in if a call has exactly its number of arguments, so that they need not be matched; else NULL.
+// Returns the built-in if a call passes one positional argument for each of its parameters, so that arguments need not
+// be matched to parameters; else NULL.
 static const Builtin *direct_builtin(const Expr *callee, const CallCode *code) {
     if (callee->kind != EXPR_CONST || callee->as.value.kind != VALUE_MIXED || callee->as.value.len != 1 ||
         callee->as.value.as.items[0].type != ITEM_FUNCTION || code->named_count > 0)
@@ -249,7 +251,7 @@ static void lower_call(Lowering *lowering, const Expr *expr, int32_t d) {
     lower_emit(lowering, expr, instr);
 }
 
-// Emits a lookup. The parts of a composed key become operands, so that the key need not be built.
+// Emits a lookup. The parts of a composed key become operands, so that the key vector need not be built.
 static void lower_lookup(Lowering *lowering, const Expr *expr, int32_t d) {
     const Expr *key = expr->children[0];
     bool parts = key->kind == EXPR_COMPOSE && key->slot > 1;
@@ -263,7 +265,7 @@ static void lower_lookup(Lowering *lowering, const Expr *expr, int32_t d) {
     lower_emit(lowering, expr, instr);
 }
 
-// Emits `vector[start..stop]` as a slice, without building the range.
+// Emits an index operation, or for `vector[start..stop]` a slice, which does not build the range.
 static void lower_subscript(Lowering *lowering, const Expr *expr, int32_t d) {
     const Expr *range = expr->children[1];
     bool slice = range->kind == EXPR_RANGE && range->children[2]->kind == EXPR_CONST &&

@@ -1,11 +1,11 @@
-// lower.h: lowering of expressions to code (lower.c; lower_node.c for loops and nodes; lower_batch.c).
+// lower.h: lowering of expressions to code (lower.c), of loops and nodes (lower_node.c), and batch plans
+// (lower_batch.c).
 #ifndef PETRI_PROGRAM_LOWER_H
 #define PETRI_PROGRAM_LOWER_H
 
 #include "program/code.h"
 #include "program/expr.h"
 
-// Options of lowering.
 typedef struct LowerOptions {
     Arena *arena;           // memory of the code
     Arena *values;          // memory of values that the code refers to, which may live longer than the code
@@ -32,10 +32,10 @@ typedef struct Lowering {
     Value *constants; // the first constant is operand -1
     uint32_t constant_count;
     uint32_t constant_capacity;
-    int32_t next_register;
-    int32_t register_count;
-    uint32_t loop_depth;
-    uint32_t loop_count;
+    int32_t next_register;    // first unused register
+    int32_t register_count;   // maximum of next_register
+    uint32_t loop_depth;      // number of enclosing loops
+    uint32_t loop_count;      // maximum of loop_depth
     const Expr *yielded_node; // the only node that an iteration of the loop creates, if it may be batched; else NULL
     uint32_t yielded_loop;    // index of the instruction that starts that loop
 } Lowering;
@@ -55,11 +55,11 @@ const Origin *lower_origin(Lowering *lowering, const Expr *expr);
 const Symbol *const *lower_names(const Lowering *lowering, const Symbol *const *names, uint32_t count);
 // Returns an unused register. It is in use until next_register is reset.
 int32_t lower_temporary(Lowering *lowering);
-// Returns the operand of a constant.
+// Adds a constant and returns its operand.
 int32_t lower_constant(Lowering *lowering, Value value);
-// Emits instructions that compute an expression, and returns the operand that contains its value.
+// Emits instructions that compute an expression. Returns the operand that contains its value.
 int32_t lower_operand(Lowering *lowering, const Expr *expr);
-// Emits several expressions and returns the list of their operands.
+// Emits several expressions and returns the start of the list of their operands.
 uint32_t lower_operands(Lowering *lowering, const Expr *const *exprs, uint32_t count);
 uint32_t lower_list(Lowering *lowering, const int32_t *operands, uint32_t count);
 // Emits instructions that compute an expression into register `d`.
@@ -71,12 +71,12 @@ void lower_patch_jump(Lowering *lowering, uint32_t jump);
 void lower_if(Lowering *lowering, const Expr *expr, const Target *target);
 
 void lower_for(Lowering *lowering, const Expr *expr, int32_t d);
-// Emits a loop's body, or a part of it, which yields its values.
+// Emits a loop's body, or a part of it, and instructions that yield its values.
 void lower_yields(Lowering *lowering, const Expr *expr, uint16_t loop);
 void lower_yield(Lowering *lowering, int32_t a, uint16_t loop, const Expr *at);
-// Returns the batch plan of the loop that starts at instruction `first` and whose body is everything after it, or NULL
-// if it must be executed iteration by iteration.
-const BatchPlan *lower_batch(const Lowering *lowering, uint32_t first);
+// Returns the batch plan of the loop that starts at instruction `start`; all later instructions are its body. Returns
+// NULL if the loop must be executed iteration by iteration.
+const BatchPlan *lower_batch(const Lowering *lowering, uint32_t start);
 // Emits a NODE, DECORATE or APPEND.
 void lower_node(Lowering *lowering, const Expr *expr, int32_t d);
 

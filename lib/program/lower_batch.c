@@ -1,4 +1,4 @@
-// lower_batch.c: selection of loops that the VM may execute in batches; see BatchPlan in code.h.
+// lower_batch.c: batch plans for loops that the VM can execute in batches; see BatchPlan in code.h.
 #include "program/lower.h"
 
 #include <string.h>
@@ -25,7 +25,7 @@ static uint32_t count_written(const Instr *instr) {
     return strchr(operand_formats[instr->op], 's') ? instr->count : strchr(operand_formats[instr->op], 'd') != NULL;
 }
 
-// Returns false for calls that may have side effects: calls of anything but pure built-ins.
+// Returns false for calls that may have side effects, which are all calls except those of pure built-ins.
 static bool calls_pure(const Lowering *lowering, const Instr *instr) {
     if (instr->op != OP_CALL)
         return instr->op != OP_BUILTIN || instr->as.builtin->pure;

@@ -11,7 +11,7 @@ static const Node *constant_node(const Expr *expr) {
     return is_node ? expr->as.value.as.items[0].as.node : NULL;
 }
 
-// Returns the node of an expression for a node without attributes and children, or NULL for other expressions.
+// Returns the node if the value of an expression is a node without attributes and children, else NULL.
 static const Node *bare_node(const Expr *expr, Arena *arena) {
     if (expr->kind == EXPR_NODE) {
         NodeOrigin origin = {.origin = expr->origin};
@@ -82,8 +82,8 @@ void lower_yield(Lowering *lowering, int32_t a, uint16_t loop, const Expr *at) {
     lower_emit(lowering, at, (Instr){.op = OP_YIELD, .a = a, .loop = loop});
 }
 
-// Returns true if an expression has at most one element and is not a stream. A composition of such parts cannot become
-// too long, so its parts can be yielded one by one.
+// Returns true if an expression has at most one element and is not a stream. A composition of such parts cannot exceed
+// the length limit, so its parts can be yielded one by one.
 static bool is_small(const Expr *expr) {
     switch (expr->kind) {
     case EXPR_NODE:
@@ -121,7 +121,7 @@ static bool retains_nothing(const Instr *instrs, uint32_t count) {
     return true;
 }
 
-// Emits the node of an iteration as a row of a node batch. Returns false if it cannot be one.
+// Emits the node of an iteration as a row of a node batch. Returns false if that is not possible.
 static bool lower_yield_node(Lowering *lowering, const Expr *expr, uint16_t loop) {
     Instr row;
     if (expr != lowering->yielded_node || !build_node(lowering, expr, &row))
@@ -135,7 +135,7 @@ static bool lower_yield_node(Lowering *lowering, const Expr *expr, uint16_t loop
     return true;
 }
 
-// Returns the only node that a loop's body creates, if its kind may be batched; else NULL.
+// Returns the expression of the only node that a loop's body creates, if nodes of its kind can be batched; else NULL.
 static const Expr *sole_node(const Expr *expr) {
     while (expr->kind == EXPR_COMPOSE && expr->slot == 1)
         for (uint32_t i = 0, count = expr->count; i < count; i++)
@@ -174,7 +174,7 @@ void lower_for(Lowering *lowering, const Expr *expr, int32_t d) {
     int32_t source[3];
     for (int i = 0; i < (spans ? 3 : 1); i++)
         source[i] = lower_operand(lowering, spans ? over->children[i] : over);
-    uint16_t loop = (uint16_t)lowering->loop_depth++; // expressions cannot be nested that deeply
+    uint16_t loop = (uint16_t)lowering->loop_depth++; // fits, because the nesting of expressions is limited
     if (lowering->loop_depth > lowering->loop_count)
         lowering->loop_count = lowering->loop_depth;
     if (spans) // without building the range

@@ -1,6 +1,6 @@
-// name_hint_list.h: hints for names of other languages that Flitter does not have (scope.c).
+// name_hint_list.h: hints for unbound names that exist in other languages (scope.c).
 //
-// HINT("NAME NAME", "hint"): names are separated by spaces.
+// HINT("NAME NAME", "hint"): the names, separated by spaces, that get the hint.
 // clang-format off
 #define TYPE "remove the type: let x=5"
 #define COLOUR "a colour is r;g;b, each from 0 to 1: "

@@ -1,21 +1,21 @@
 // opcode_list.h: the instructions of the VM.
 //
-// OPCODE(ID, "name in --dump=code", "operands"). Operands, in the order of --dump=code: d: register written; a, b, c:
-// operands read; l: list of operands read; j: jump target; s: registers bound; o: loop; i: number (Instr.target); x: other
-// data (Instr.as).
+// OPCODE(ID, "name in --dump=code", "operands"). Each letter is one operand, in the order of --dump=code. d: register
+// written; a, b, c: operands read; l: list of operands read; j: jump target; s: registers bound; o: loop; i: number
+// (Instr.target); x: other data (Instr.as).
 // clang-format off
 OPCODE(MOVE,       "move",       "da")   // d = a
 OPCODE(CAPTURE,    "capture",    "di")   // d = captured value number i of the running closure
 OPCODE(SELF,       "self",       "d")    // d = the running closure
-OPCODE(GLOBAL,     "global",     "dx")   // d = a name of the engine
-OPCODE(UNBOUND,    "unbound",    "dx")   // d = null, and reports it
+OPCODE(GLOBAL,     "global",     "dx")   // d = the value of an engine name
+OPCODE(UNBOUND,    "unbound",    "dx")   // d = null; reports the name as unbound
 OPCODE(COMPOSE,    "compose",    "dl")   // d = the composition of l
 OPCODE(UNPACK,     "unpack",     "sa")   // s = the elements of a
 OPCODE(CLOSURE,    "closure",    "dlx")  // d = a closure; l: the defaults of its parameters
 OPCODE(IMPORT,     "import",     "sa")   // s = names exported by the module with path a
 OPCODE(FOR,        "for",        "osaj") // starts loop o over a: s = first elements, or jumps if there are none
 OPCODE(RANGE_INIT,       "range init",       "oabc") // prepares loop o over the range a..b|c
-OPCODE(FOR_RANGE,   "for range",   "osj")  // starts the loop that was prepared
+OPCODE(FOR_RANGE,   "for range",   "osj")  // starts the prepared loop: s = first number, or jumps if there is none
 OPCODE(YIELD,   "yield",   "oa")   // adds a to the result of loop o
 OPCODE(YIELD_NODE,    "yield node",    "olx")  // adds a node with attributes l to a batch in the result of loop o
 OPCODE(NEXT,       "next",       "osj")  // s = next elements of loop o, and jumps back if there are any
@@ -49,6 +49,6 @@ OPCODE(NEG,        "neg",        "da")
 OPCODE(POS,        "pos",        "da")
 OPCODE(INDEX,      "index",      "dab")  // d = a[b]
 OPCODE(SLICE,      "slice",      "dabc") // d = a[b..c]
-OPCODE(LOOKUP,     "lookup",     "dli")  // d = value in the state of the key composed of l; i: number of the lookup
-OPCODE(RETURN,     "return",     "a")    // a = result of the code
+OPCODE(LOOKUP,     "lookup",     "dli")  // d = state value for the key composed of l; i: number of the lookup
+OPCODE(RETURN,     "return",     "a")    // ends the code with the result a
 // clang-format on

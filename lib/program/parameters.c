@@ -1,8 +1,8 @@
 // parameters.c: parameters of scripts, `let NAME=NAME or DEFAULT`; see program.h.
 //
 // The language needs no special rule: an undefined name is null, which is false, so `or` selects the default. This file
-// suppresses the warning about the undefined name and collects the parameters for listings. Their comments are read
-// from the source text, because the scanner drops comments.
+// suppresses the warning about the undefined name and collects the parameters for listings. The comments that describe
+// them are read from the source text, because the lexer drops comments.
 #include "ast/literal.h"
 #include "program/compile.h"
 
@@ -35,7 +35,8 @@ static Str default_text(const Source *source, const Ast *use, const Ast *value) 
     return str_trim(rest);
 }
 
-// Returns the comment after a binding on the line in which it ends, if only blanks and brackets are between.
+// Returns the comment that follows a binding on its last line, or an empty string. Only blanks and closing parentheses
+// may precede the comment.
 static Str trailing_comment(const Source *source, uint32_t at) {
     const char *text = source->text.bytes;
     while (is_blank(text[at]) || text[at] == ')')
@@ -48,7 +49,7 @@ static Str trailing_comment(const Source *source, uint32_t at) {
     return text_between(source, at, (uint32_t)(end - text));
 }
 
-// Parses one end of a range, which is `if_absent` if the text is empty.
+// Parses one end of a range; `if_absent` is its value if the text is empty. Returns false if it is not a number.
 static bool parse_bound(Str text, double if_absent, double *x) {
     *x = if_absent;
     return text.len == 0 || (literal_parse_number(text, x) && !isnan(*x));

@@ -1,4 +1,4 @@
-// print.c: code of a program as text, for --dump=code.
+// print.c: formatting of code for --dump=code.
 #include "program/code.h"
 #include "value/format.h"
 
@@ -42,7 +42,7 @@ static void print_list(Text *out, const SymbolTable *symbols, const Code *code, 
     text_add_char(out, ')');
 }
 
-// Prints the operand 'x': a name from Instr.as or Instr.target.
+// Prints the operand 'x': the name or names in Instr.as or Instr.target.
 static void print_extra(Text *out, const Instr *instr) {
     Str name = {0};
     switch ((Opcode)instr->op) {

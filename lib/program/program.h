@@ -1,6 +1,6 @@
 // program.h: compiled programs, in which all names are resolved to slots.
 //
-// A program is immutable code (code.h) in one arena, and is replaced as a whole on reload. The intermediate expressions
+// A program is immutable code (code.h) in one arena. A reload replaces the whole program. The intermediate expressions
 // (expr.h) are freed after compilation. Each function, module and main program has its own slots. A nested function
 // accesses outer values only through captures, which are copied when it is defined (spec language.md L9.1).
 #ifndef PETRI_PROGRAM_PROGRAM_H
@@ -32,25 +32,25 @@ typedef struct Pragma {
 } Pragma;
 
 // A parameter: `let NAME=NAME or DEFAULT` at the top level of a file, if only -D can give the name on the right a value
-// (parameters.c). The comment after it on its line describes it.
+// (parameters.c). A comment after the parameter on the same line describes it.
 typedef struct Parameter {
     const Symbol *name;
     const Source *source;
     Span span;        // position of the name
     Str default_text; // source text of the default
-    bool is_static;   // the default is constant: `value`
+    bool is_static;   // the default is the constant `value`
     Value value;
     Str comment; // without the range at its start
-    double min;  // inclusive range from the comment; infinite without one
-    double max;
+    double min;  // lower end of the range in the comment, inclusive; -INFINITY: none
+    double max;  // upper end, inclusive; INFINITY: none
     double step; // step of the range; 0: none
 } Parameter;
 
 // How a program uses a name that -D defines.
 typedef struct DefineUse {
-    bool read;
-    Origin bound; // position at which the program first binds the name itself; no source: nowhere
-    bool by_let;  // it is bound there by a top-level `let`
+    bool read;    // the program reads the definition's value
+    Origin bound; // position at which the program first binds the same name; source NULL: it does not
+    bool by_let;  // the binding at `bound` is a top-level `let`
 } DefineUse;
 
 typedef struct Program {
@@ -73,9 +73,10 @@ typedef struct Program {
 typedef struct CompileHost {
     void *user_data;
     // Parses a file for %include. Returns NULL with a borrowed *reason on failure. The source must live as long as the
-    // program, the tree until the end of the compilation.
+    // program, and the tree until the end of the compilation.
     const Ast *(*include)(void *host, Str path, const Source **source, Str *reason);
-    // Runs code with new slots. Returns false, and *value is null, if it is dynamic (L17.2), fails or exceeds a limit.
+    // Executes code with new slots. Returns false with *value null if the code is dynamic (L17.2), fails or exceeds a
+    // limit.
     // The value is allocated in the program's arena, which the simplifier rewinds if it does not use the value.
     bool (*evaluate)(void *host, const Code *code, Value *value);
 } CompileHost;
@@ -87,7 +88,7 @@ typedef struct Define {
 } Define;
 
 typedef struct CompileOptions {
-    bool module;           // names of the engine and -D names are not visible; unbound names are reported at run time
+    bool module;           // engine names and -D names are not visible; unbound names are reported at run time
     bool lint;             // also report code that is unlikely to be intended
     bool simplify;         // fold constant expressions (L17.1)
     bool lines;            // record the source line of each instruction

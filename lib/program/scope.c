@@ -73,7 +73,7 @@ const Binding *compile_find_binding(const Compiler *compiler, const Symbol *name
     return NULL;
 }
 
-// Captures a name that is bound in an enclosing function, once per function.
+// Captures a name that is bound in an enclosing function. Each function captures a name only once.
 static const Expr *add_capture(Compiler *compiler, FunctionScope *function, const Ast *ast, const Expr *outer) {
     Capture wanted = {outer->kind == EXPR_SLOT      ? CAPTURE_SLOT
                       : outer->kind == EXPR_CAPTURE ? CAPTURE_OUTER
@@ -180,7 +180,7 @@ static const struct {
 #include "program/name_hint_list.h"
 };
 
-// Returns true if a name follows `//`, which is a division in Flitter, not a comment.
+// Returns true if a name follows `//`, which is floor division in Flitter and not a comment.
 static bool follows_slashes(const Compiler *compiler, Span span) {
     const char *text = compiler->source->text.bytes;
     uint32_t at = span.start;
@@ -189,7 +189,7 @@ static bool follows_slashes(const Compiler *compiler, Span span) {
     return at > 1 && text[at - 1] == '/' && text[at - 2] == '/';
 }
 
-// Returns a hint "did you mean 'x'?" if a visible name is similar, else an empty text.
+// Returns a hint "did you mean 'x'?" if a visible name is similar, else an empty string.
 static Str nearest_name(Compiler *compiler, Str wanted) {
     StrNearest nearest = {.wanted = wanted, .limit = wanted.len < 4 ? 2 : 3};
     for (const FunctionScope *function = compiler->function; function; function = function->outer) {
@@ -207,7 +207,7 @@ static Str nearest_name(Compiler *compiler, Str wanted) {
     return nearest.found.len ? str_format(compiler->arena, "did you mean '%.*s'?", STR_ARGS(nearest.found)) : (Str){0};
 }
 
-// Returns a hint about the probable cause of an unbound name, or an empty text.
+// Returns a hint about the probable cause of an unbound name, or an empty string.
 static Str unbound_hint(Compiler *compiler, const Ast *ast) {
     Str name = ast->name->name;
     for (size_t i = 0; i < sizeof name_hints / sizeof name_hints[0]; i++)

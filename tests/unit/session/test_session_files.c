@@ -167,7 +167,7 @@ static void test_include(void **state) {
     check_run(desk, "%include 'none.fl'\n!a\n", "!a\n");
     check_reported(desk, "cannot include");
     check_run(desk, "%include frame;'.fl'\n!a\n", "!a\n");
-    check_reported(desk, "must be known when the program is loaded");
+    check_reported(desk, "must be constant");
     folder_write(&desk->folder, "bad.fl", "!a )\n");
     check_run(desk, "%include 'bad.fl'\n!a\n", "!a\n");
     check_reported(desk, "bad.fl:1:4 unexpected ')'");
