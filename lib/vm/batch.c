@@ -8,7 +8,7 @@ enum {
     MAX_FAILURES = 4, // failed batches after which a loop is executed iteration by iteration
 };
 
-// Binds the loop's names in all iterations.
+// Binds the loop's names in all iterations of the batch.
 static void bind_iterations(LoopBatch *batch, const Instr *start, const Loop *loop) {
     Value values[BATCH_SIZE];
     if (start->count == 1 && loop->source.kind == VALUE_ABSENT) {
@@ -27,7 +27,8 @@ static void bind_iterations(LoopBatch *batch, const Instr *start, const Loop *lo
 
 // --- branches
 
-// Removes iterations from the selection until instruction `target`: all, or those for which `continues` is false.
+// Removes iterations from the selection until execution reaches instruction `target`: those whose element of
+// `continues` is false, or all if `continues` is NULL.
 static void deselect_iterations(LoopBatch *batch, uint32_t target, const bool *continues) {
     uint32_t remaining = 0;
     for (uint32_t k = 0; k < batch->selected_count; k++) {
@@ -42,6 +43,7 @@ static void deselect_iterations(LoopBatch *batch, uint32_t target, const bool *c
     batch->selected_count = remaining;
 }
 
+// Selects the iterations that execute instruction `at`.
 static void select_iterations(LoopBatch *batch, uint32_t at) {
     batch->selected_count = 0;
     batch->reconverge_at = UINT32_MAX;
@@ -73,7 +75,7 @@ static void store_yields(LoopBatch *batch, const Instr *instr) {
     }
 }
 
-// Yields the node with which each iteration ends.
+// Executes YIELD_NODE, the last instruction of the body, for all iterations.
 static void yield_nodes(LoopBatch *batch, const Instr *instr, Loop *loop) {
     int32_t reads[CODE_MAX_READ];
     uint32_t count = program_operands_read(batch->code->operands, instr, reads);
@@ -119,7 +121,8 @@ static void run_body(LoopBatch *batch, uint32_t at) {
     }
 }
 
-// Executes one batch. Returns false if an iteration would report an error; the caller then executes them one by one.
+// Executes one batch. Returns false if an iteration would report an error. The caller then executes the iterations one
+// by one.
 static bool run_batch(LoopBatch *batch, const Instr *start, Loop *loop) {
     Vm *vm = batch->vm;
     uint32_t first = (uint32_t)(start - batch->code->instrs) + 1;

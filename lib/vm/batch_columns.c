@@ -13,7 +13,7 @@ static bool all_selected(const LoopBatch *batch) {
     return batch->selected_count == batch->count;
 }
 
-// Converts a column to COLUMN_VALUES, so that some of its values can be written.
+// Converts a column to COLUMN_VALUES, so that single values can be written.
 static void make_values(const LoopBatch *batch, int32_t d, Column *column) {
     Value same = column->kind == COLUMN_UNIFORM ? batch->frame->slots[d] : VALUE_NULL;
     if (column->kind == COLUMN_VALUES)
@@ -100,7 +100,7 @@ const double *vm_batch_numbers(const LoopBatch *batch, int32_t operand, double b
             to[k] = result;                                                                                            \
         break;
 
-// Applies an operator to arrays of numbers. Returns false for other instructions.
+// Applies an arithmetic or comparison operator to arrays of numbers. Returns false for other instructions.
 static bool apply_operator(uint16_t op, uint32_t count, const double *x, const double *y, double *to) {
     switch ((Opcode)op) {
         EACH(OP_ADD, x[k] + y[k])
@@ -121,7 +121,7 @@ static bool apply_operator(uint16_t op, uint32_t count, const double *x, const d
     return true;
 }
 
-// Computes powers as one vector operation, which is faster.
+// Computes all powers with one vector operation, which is faster than separate ones.
 static bool run_powers(LoopBatch *batch, const Instr *instr) {
     double left[BATCH_SIZE], right[BATCH_SIZE];
     const double *x = vm_batch_numbers(batch, instr->a, left);
@@ -136,7 +136,7 @@ static bool run_powers(LoopBatch *batch, const Instr *instr) {
     return true;
 }
 
-// Indexes one vector of numbers or one stream that is the same in all iterations.
+// Indexes a vector of numbers, or a stream, that is the same in all iterations.
 static bool run_index(LoopBatch *batch, const Instr *instr) {
     double buffer[BATCH_SIZE], to[BATCH_SIZE];
     const double *at = vm_batch_numbers(batch, instr->b, buffer);
@@ -200,12 +200,12 @@ static Value run_once(LoopBatch *batch, const Instr *instr) {
     }
 }
 
-// Returns true if equal operands give the same result and iterations may share it.
+// Returns true if the result depends only on the operands and can be shared by all iterations.
 static bool can_share(const Instr *instr) {
     return instr->op != OP_NODE && instr->op != OP_APPEND && instr->op != OP_DECORATE && instr->op != OP_LOOKUP;
 }
 
-// Executes an instruction for each selected iteration, with the registers set to its values.
+// Executes an instruction once per selected iteration, with the registers set to the iteration's values.
 static void run_each_iteration(LoopBatch *batch, const Instr *instr) {
     int32_t reads[CODE_MAX_READ];
     Value *registers[CODE_MAX_READ], values[BATCH_SIZE];

@@ -30,10 +30,10 @@ typedef struct LoopBatch {
     const Code *code;
     const BatchPlan *plan;
     Column *columns;
-    uint32_t count; // number of iterations
-    uint32_t selected_count;
+    uint32_t count;                    // number of iterations
+    uint32_t selected_count;           // number of elements of `selection`
     uint8_t selection[BATCH_SIZE];     // selected iterations, ascending
-    uint32_t resume_at[BATCH_SIZE];    // by iteration: instruction at which it joins the selection
+    uint32_t resume_at[BATCH_SIZE];    // by iteration: instruction at which the iteration joins the selection
     uint32_t reconverge_at;            // first instruction at which further iterations join the selection
     uint32_t yield_counts[BATCH_SIZE]; // by iteration: number of yielded values
     Value *yields;                     // plan->yield_count elements per iteration
@@ -63,8 +63,8 @@ static inline Value column_read(const LoopBatch *batch, int32_t operand, uint32_
 void vm_batch_store(LoopBatch *batch, int32_t d, const Value *values);
 // Like vm_batch_store, for numbers.
 void vm_batch_store_numbers(LoopBatch *batch, int32_t d, const double *numbers);
-// Returns the operand's number in each selected iteration, which may be stored in `buffer`. Returns NULL if it is not a
-// single number in each.
+// Returns the numbers of an operand, one per selected iteration. The result may point to `buffer`. Returns NULL unless
+// the operand is a single number in all selected iterations.
 const double *vm_batch_numbers(const LoopBatch *batch, int32_t operand, double buffer[BATCH_SIZE]);
 // Executes an operator on numbers for all selected iterations at once. Returns false if that is not possible.
 bool vm_batch_try_operator(LoopBatch *batch, const Instr *instr);

@@ -2,12 +2,12 @@
 #include "vm/machine.h"
 
 enum {
-    MIN_BATCH = 16,        // remaining iterations that are worth a batch
-    MIN_ROWS = 8,          // a batch with fewer rows counts as short
-    MAX_SHORT_BATCHES = 4, // short batches after which a loop creates single nodes
+    MIN_BATCH = 16,        // minimum number of remaining iterations for which a batch is started
+    MIN_ROWS = 8,          // a batch with fewer rows is short
+    MAX_SHORT_BATCHES = 4, // number of short batches after which a loop creates single nodes
 };
 
-// Selects how a batch stores an attribute. Returns false if it cannot store it.
+// Selects how a batch stores an attribute. Returns false if the attribute cannot be stored in a batch.
 static bool choose_column(const Loop *loop, const Instr *instr, int32_t operand, const Value *value,
                           uint32_t *numbers) {
     if (operand < 0) {
@@ -47,7 +47,7 @@ static void end_batch(Loop *loop) {
     if (!batch || batch->count == batch->capacity)
         return;
     if (batch->count == 1 && !loop->not_counting)
-        loop->not_counting = true; // the probable reason
+        loop->not_counting = true; // probably why the second node could not be added
     else
         loop->short_batches += batch->count < MIN_ROWS;
 }

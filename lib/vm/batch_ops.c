@@ -9,7 +9,7 @@ enum { MAX_SLICE_LENGTH = 16 }; // slices up to this length are copied to one ar
 
 // --- built-ins
 
-// Calls an element-wise built-in once, with vectors.
+// Calls an element-wise built-in once, with vectors of all iterations' arguments.
 static bool run_each(LoopBatch *batch, const Instr *instr) {
     enum { MAX_OPERANDS = 4 };
     const Builtin *builtin = instr->as.builtin;
@@ -75,7 +75,7 @@ static bool run_noise(LoopBatch *batch, const Instr *instr) {
     return true;
 }
 
-// Composes vectors of numbers, as rows of one array.
+// Composes one vector of numbers per iteration. The vectors are rows of one array.
 static bool run_compose(LoopBatch *batch, const Instr *instr) {
     enum { MAX_OPERANDS = 8 };
     const int32_t *list = batch->code->operands + instr->list;
@@ -97,7 +97,7 @@ static bool run_compose(LoopBatch *batch, const Instr *instr) {
     return true;
 }
 
-// Copies slices of equal length of one vector of numbers to one array.
+// Slices one vector of numbers. All slices have the same length and are copied to one array.
 static bool run_slice(LoopBatch *batch, const Instr *instr) {
     double left[BATCH_SIZE], right[BATCH_SIZE];
     const double *from = vm_batch_numbers(batch, instr->b, left);
@@ -126,7 +126,7 @@ static bool run_slice(LoopBatch *batch, const Instr *instr) {
     return true;
 }
 
-// Looks up keys of numbers and copies the values to one array, as vm_lookup copies each of them.
+// Looks up keys of numbers. Like vm_lookup, copies the values, but to one array.
 static bool run_lookups(LoopBatch *batch, const Instr *instr) {
     enum { MAX_OPERANDS = 4 };
     Vm *vm = batch->vm;
@@ -165,8 +165,8 @@ static bool run_lookups(LoopBatch *batch, const Instr *instr) {
 
 // --- nodes
 
-// Collects the attributes of the nodes: uniform values, and columns for the others. Returns false if some iterations
-// lack an attribute, or if an attribute may contain nodes.
+// Collects the attributes of the nodes: a value for each uniform attribute and a column for each other attribute.
+// Returns false if some iterations lack an attribute, or if an attribute may contain nodes.
 static bool plan_attributes(const LoopBatch *batch, const Instr *instr, Attr *attrs, const Column **columns,
                             uint32_t *count) {
     const int32_t *list = batch->code->operands + instr->list;

@@ -5,8 +5,8 @@ bool vm_stack_left(const Vm *vm) {
     const char *here = __builtin_frame_address(0);
     // The stack grows down on all supported machines; the absolute distance works in either direction.
     size_t used = vm->stack_base > here ? (size_t)(vm->stack_base - here) : (size_t)(here - vm->stack_base);
-    // The other half is reserved for the expressions of one function, whose nesting is limited (AST_MAX_HEIGHT), and
-    // for functions that they call.
+    // The other half is reserved for evaluating the expressions of one function, whose nesting is limited
+    // (AST_MAX_HEIGHT), and for the C functions called by that evaluation.
     return used < vm->stack_bytes / 2;
 }
 
@@ -54,7 +54,7 @@ static Value argument(const Closure *closure, const Arguments *args, uint32_t i)
     return closure->defaults[i];
 }
 
-// Returns the work units of executing a code once, without those that its instructions charge themselves.
+// Returns the work units of executing a code once, except those that its instructions charge themselves.
 static uint64_t cost_of(const Code *code) {
     return 1 + (code->count + code->constant_count) / VM_INSTRS_A_UNIT;
 }

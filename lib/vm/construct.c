@@ -17,7 +17,7 @@ static uint32_t add_numbers(double *numbers, uint32_t at, const Value *part) {
     return at + part->len;
 }
 
-// Composes numbers in one allocation; other values are added to a Vector.
+// If all parts are numbers, composes them in one allocation. Otherwise adds the parts to a Vector.
 Value vm_compose(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, const Origin *at) {
     vm->at = at;
     uint64_t len = 0;
@@ -112,7 +112,7 @@ static void set_children(Vm *vm, const Instr *instr, Node *node, const NodeList 
         node->height = (uint16_t)(list->height + 1);
 }
 
-// Creates the node, its vector, attributes and list of children in one allocation.
+// Creates a node, its attributes, its list of children and the vector that contains it, all in one allocation.
 Value vm_make_node(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr) {
     const NodeCode *plan = instr->as.node;
     const Value *children = instr->b == CODE_NO_OPERAND ? NULL : &slots[instr->b];
@@ -179,7 +179,7 @@ void vm_range_init(Vm *vm, const Origin *at, Loop *loop, Value start, Value stop
         range_too_long(vm, at);
 }
 
-// With integer bounds within the vector, elements are copied without building a range.
+// If the bounds are integers within the vector, copies the elements without building a range.
 Value vm_slice(Vm *vm, const Origin *at, Value vector, Value start, Value stop) {
     if (is_number(&stop) && (is_number(&start) || start.len == 0) && vector.kind == VALUE_NUMBERS) {
         double from = start.len ? start.as.number : 0, to = stop.as.number;
@@ -219,7 +219,7 @@ void vm_inline_cache_free(Vm *vm) {
     vm->inline_cache_count = 0;
 }
 
-// Maximum number of entries in an inline cache; further executions of the lookup are not cached.
+// Maximum number of entries in an inline cache. Further executions of the lookup are not cached.
 enum { MAX_CACHED = 1 << 22 };
 
 // Returns the cache entry for the next execution of a lookup, or NULL.
@@ -252,7 +252,7 @@ static Value copy_of(Vm *vm, Value v) {
     return value_copy(vm->arena, v);
 }
 
-// Keys are nearly always a few numbers, which need not be composed to a vector. The value is copied, because systems
+// Most keys are a few numbers, for which no vector needs to be built. The value is copied, because systems
 // may overwrite it in place after the evaluation.
 Value vm_lookup(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr) {
     vm->met_dynamic = true;

@@ -1,7 +1,7 @@
 // eval.c: the instruction loop of the VM; see vm.h, and program/code.h for the instructions.
 //
-// The most frequent cases are inlined. Longer or rarer ones are separate functions, so that the loop needs few
-// processor registers.
+// The most frequent cases are inlined. Long or rare cases are separate functions, so that the loop needs few processor
+// registers.
 #include "value/value_hash.h"
 #include "vm/machine.h"
 
@@ -21,7 +21,7 @@ bool vm_is_true(const Value *v) {
     return is_true(v);
 }
 
-// For !=, a stream is equal to null (L5.4).
+// Returns null for a stream, because != treats streams as null (L5.4).
 static Value stream_as_null(Value v) {
     return v.kind == VALUE_STREAM ? VALUE_NULL : v;
 }
@@ -62,7 +62,7 @@ Value vm_loop_element(Vm *vm, const Loop *loop, uint32_t i) {
                                                : value_element(vm->arena, loop->source, i);
 }
 
-// Binds the elements of one iteration (L10.1); missing ones at the end are null.
+// Binds the elements of one iteration (L10.1). Elements that are missing at the end are null.
 NOINLINE static void bind_elements(Vm *vm, const Loop *loop, Value *slots, uint32_t count) {
     for (uint32_t i = 0; i < count; i++)
         slots[i] = vm_loop_element(vm, loop, loop->at + i);
@@ -89,7 +89,7 @@ NOINLINE static Value arithmetic(Vm *vm, const Instr *instr, ArithOp op, Value a
 
 enum { MAX_STACK_ARGUMENTS = 8 };
 
-// Copies the values of a list to an array: to `buffer` if they fit.
+// Returns the values of a list of operands as an array, which is `buffer` if they fit.
 static const Value *gather_operands(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr,
                                     Value *buffer) {
     Value *values =
@@ -165,7 +165,7 @@ NOINLINE static void eval_import(Vm *vm, Frame *frame, const Instr *instr, Value
         break;                                                                                                         \
     }
 
-// The loop. It is compiled twice, so that profiling costs nothing when it is off.
+// The instruction loop, compiled with and without profiling, so that profiling costs nothing when it is off.
 static inline __attribute__((always_inline)) Value eval_code(Vm *vm, Frame *frame, const Code *code,
                                                              const bool profiled) {
     Value *const slots = frame->slots;

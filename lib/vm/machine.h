@@ -29,29 +29,29 @@ typedef struct NodeValue {
 
 // State of a running loop.
 typedef struct Loop {
-    Value source; // vector that is iterated over; VALUE_ABSENT: the range `span`, with its length here
+    Value source; // vector that is iterated over; VALUE_ABSENT: the range `span`, whose length is source.len
     OpRange span;
     uint32_t at; // index of the next element
     Vector result;
     // batch_nodes.c
     NodeBatch *batch;       // batch to which the next node may be added; NULL: none
-    uint32_t short_batches; // number of batches that were too short to be worth it
-    bool not_counting;      // the loop's name does not count up
-    ArenaMark mark;         // position of the arena after the last node
-    uint32_t reported;      // number of reported errors at that time
+    uint32_t short_batches; // number of batches with few nodes
+    bool not_counting;      // the values of the loop's name do not count up
+    ArenaMark mark;         // mark of the arena after the last node
+    uint32_t reported;      // Vm.reported_count when `mark` was set
     // batch.c
     uint32_t retry_at;       // value of `at` at which batches are tried again; 0: never
     uint32_t failed_batches; // number of batches that had to be executed iteration by iteration
 } Loop;
 
-// Activation of a code: registers, which are preceded by its constants, loops, and the closure (NULL in the main
-// program and in modules).
+// Activation record of a code.
 typedef struct Frame {
-    Value *slots;
-    Loop *loops;
-    Closure *closure;
+    Value *slots;     // registers; the constants are stored directly before them
+    Loop *loops;      // by nesting depth
+    Closure *closure; // NULL in the main program and in modules
 } Frame;
 
+// A program that is being evaluated: the main program or a module.
 struct ImportLink {
     const ImportLink *outer;
     const Source *source;
@@ -72,7 +72,8 @@ void vm_import(Vm *vm, Frame *frame, const Instr *instr, Value file);
 Value vm_make_node(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr);
 Value vm_call_builtin(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr);
 bool vm_is_true(const Value *v);
-// Return element i of a value that is unpacked, or of a loop's source, which is null past the end.
+// vm_unpack_element returns element i of a value that is bound to several names. vm_loop_element returns element i of a
+// loop's source, or null past its end.
 Value vm_unpack_element(Vm *vm, Value value, uint32_t i);
 Value vm_loop_element(Vm *vm, const Loop *loop, uint32_t i);
 // batch.c: executes as many further iterations of a loop as possible in batches. `start` is its FOR or FOR_RANGE, which
@@ -113,11 +114,12 @@ static inline void vm_set_number(Value *to, double x) {
     memcpy(to, &whole, sizeof *to);
 }
 
-// Reports a run-time error at a position: each kind, identified by the literal `format`, once per position and frame.
-// The text is formatted only if it is reported, because a deep recursion may fail a million times.
+// Reports a run-time error at a position. The address of the literal `format` identifies the error, which is reported
+// once per position and frame. The text is formatted only if it is reported, because a deep recursion may fail a
+// million times.
 void vm_fault(Vm *vm, const Origin *at, const char *code, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
-// Like vm_fault, with a finished text: each text is reported once per position and frame.
+// Like vm_fault, but takes a complete text, which is reported once per position and frame.
 void vm_fault_text(Vm *vm, const Origin *at, const char *code, Str text);
 // Like vector_finish, but reports an error if the vector was too long.
 Value vm_finish(Vm *vm, const Origin *at, Vector *vector);
@@ -131,8 +133,8 @@ static inline void vm_charge(Vm *vm, const Origin *at, uint64_t units) {
     arena_charge(vm->arena, units);
 }
 
-// Returns true if a built-in may be called now, after charging for the call and its arguments. Its errors will be
-// reported at `at`. When folding, impure built-ins are not called, so that nothing is logged and no file is read.
+// Charges for the call of a built-in and returns true if the call is allowed. Errors of the built-in are reported at
+// `at`. While folding, impure built-ins are not called, so that nothing is logged and no file is read.
 static inline bool vm_can_call(Vm *vm, const Builtin *builtin, const Origin *at, const Value *values, uint32_t count) {
     vm->met_dynamic |= !builtin->pure;
     if (vm->is_static && vm->met_dynamic)

@@ -1,4 +1,4 @@
-// profile.c: implementation of profile.h.
+// profile.c: see profile.h.
 #include "vm/profile.h"
 
 #include "base/heap.h"
@@ -65,7 +65,8 @@ static ProfileFile *add_file(Profile *profile, const Source *source) {
     return &profile->files[profile->file_count++];
 }
 
-// Returns the file of a source. Its complete text is compared once per frame, because it may have been reloaded.
+// Returns the profile of a source, and adds it if necessary. The complete text is compared once per frame, because the
+// source may have been reloaded.
 static ProfileFile *find_file(Profile *profile, const Source *source) {
     for (uint32_t i = 0; i < profile->file_count; i++)
         if (profile->files[i].frame_source == source)

@@ -1,4 +1,4 @@
-// profile.h: time that evaluation spends on each source line.
+// profile.h: a profiler that measures the evaluation time of each source line.
 //
 // The VM reports each change of line, and the time since the last change is charged to the previous line. The time of a
 // call is charged to the lines of the function. Returning from a call does not count as another hit of the line.
@@ -17,7 +17,7 @@ typedef struct ProfileLine {
 // One version of a source file.
 typedef struct ProfileFile {
     const Source *source;       // a copy, because programs may be freed
-    const Source *frame_source; // the same source in the current frame; NULL: not used yet
+    const Source *frame_source; // the program's Source with the same text; NULL: not evaluated yet in this frame
     ProfileLine *lines;         // one element per line of the source
 } ProfileFile;
 
@@ -43,15 +43,15 @@ void vm_profile_free(Profile *profile);
 // Clears all measurements.
 void vm_profile_clear(Profile *profile);
 
-// Start and end the evaluation of a frame. If memory runs out in between, control leaves through `escape`.
+// Called at the start and end of a frame's evaluation. If memory runs out in between, control leaves through `escape`.
 void vm_profile_begin(Profile *profile, jmp_buf *escape);
 void vm_profile_end(Profile *profile);
-// Changes to another line.
+// Charges the elapsed time to the previous line and counts a hit of the given line.
 void vm_profile_move(Profile *profile, const Source *source, uint32_t line);
-// Returns from a call to the position of the call.
+// Charges the elapsed time to the previous line and returns to `place`, the position of a call.
 void vm_profile_return(Profile *profile, ProfilePosition place);
 
-// Must be called for each instruction; changes to its line if it differs from the current one.
+// Must be called for each instruction, with its line.
 static inline void vm_profile_at(Profile *profile, const Source *source, uint32_t line) {
     if (line != profile->position.line || source != profile->position.source)
         vm_profile_move(profile, source, line);

@@ -49,7 +49,7 @@ static Frame new_frame(Vm *vm, const Code *code) {
     return frame;
 }
 
-// Prepares an evaluation, and discards data of one that was aborted.
+// Prepares an evaluation. Discards the data of an aborted evaluation.
 static void reset_evaluation(Vm *vm, const char *stack_base) {
     arena_reset(&vm->slots);
     vm->slots.escape = vm->arena->escape;

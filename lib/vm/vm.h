@@ -1,9 +1,9 @@
 // vm.h: the virtual machine (VM), which evaluates compiled programs.
 //
-// Evaluation never fails: every error has a value, nearly always null, and is reported through the host (spec
-// language.md L15), including limits of depth. Results are allocated in the frame's arena, which is charged for work
-// and memory. If a limit is exceeded, control leaves through the arena's escape; `at` is then the position that
-// exceeded it.
+// Evaluation never fails. An expression with an error has a value, nearly always null, and the error is reported
+// through the host (spec language.md L15). This includes exceeded limits of depth. Results are allocated in the frame's
+// arena, which is charged for work and memory. If a limit is exceeded, control leaves through the arena's escape; `at`
+// is then the position that exceeded it.
 #ifndef PETRI_VM_VM_H
 #define PETRI_VM_VM_H
 
@@ -33,7 +33,7 @@ typedef struct ImportLink ImportLink;
 // A reported error: its position and kind.
 typedef struct Reported {
     const Origin *at;
-    uint64_t what;
+    uint64_t what; // identifies the error: address of the format or hash of the text
 } Reported;
 
 // Inline cache of one lookup in the state: the slots that its first, second and further executions found in the last
@@ -42,7 +42,7 @@ typedef struct InlineCache {
     StateSlot *slots; // heap
     uint32_t count;
     uint32_t capacity;
-    uint32_t next;
+    uint32_t next; // index of the slot for the next execution
 } InlineCache;
 
 typedef struct Vm {
@@ -53,26 +53,26 @@ typedef struct Vm {
     Value globals[ENGINE_NAME_COUNT];
     BuiltinContext builtins; // arena, files, and the directory of the current program
     VmHost host;
-    const Origin *at; // current position, for errors of built-ins and for limits; NULL: none yet
-    uint32_t depth;
-    uint64_t evaluation_id; // unique among the VMs of a session, because closures may live longer than a frame
-    bool is_static;         // folds expressions; dynamic values are not available
-    bool met_dynamic;       // something dynamic was evaluated
-    size_t stack_bytes;     // bytes of C stack that evaluation may use
-    const char *stack_base;
+    const Origin *at;               // current position, for errors of built-ins and for limits; NULL: none yet
+    uint32_t depth;                 // number of active calls of user functions
+    uint64_t evaluation_id;         // unique among the VMs of a session, because closures may live longer than a frame
+    bool is_static;                 // folds expressions; dynamic values are not available
+    bool met_dynamic;               // something dynamic was evaluated
+    size_t stack_bytes;             // bytes of C stack that evaluation may use
+    const char *stack_base;         // address of the C stack where the evaluation started
     const ImportLink *imports;      // modules being evaluated, innermost first
     Reported reported[VM_REPORTED]; // hash set of the errors of this frame
     uint32_t reported_count;
-    bool speculative;            // instructions may be executed again; errors set speculation_failed instead
+    bool speculative;            // errors are not reported but set speculation_failed; the instructions are repeated
     bool speculation_failed;     // an error would have been reported
     uint64_t batched_iterations; // total number of iterations executed in batches
     InlineCache *inline_caches;  // by number of the lookup in the main program; heap
     uint32_t inline_cache_count;
-    Profile *profile; // borrowed; NULL: nothing is measured
+    Profile *profile; // borrowed; NULL: profiling is off
 } Vm;
 
-// Initialises a VM that may use `stack_bytes` of the caller's stack. Free it with vm_free. `is_static`: it is used for
-// folding; its evaluation ids then differ from those of the VM for frames.
+// Initialises a VM that may use `stack_bytes` of the caller's stack. Free it with vm_free. A VM with `is_static` is
+// used for folding; its evaluation ids differ from those of the VM that evaluates frames.
 void vm_init(Vm *vm, Arena *arena, SymbolTable *symbols, VmHost host, size_t stack_bytes, bool is_static);
 void vm_free(Vm *vm);
 
@@ -80,7 +80,7 @@ void vm_free(Vm *vm);
 // (NULL if it has none). Stores the values of its exports in `exports`, unless that is NULL.
 Value vm_run(Vm *vm, const Program *program, const Value *arguments, Value *exports);
 // Evaluates the code of an expression at load time. The value is allocated in `arena`. Returns false, with *value null,
-// if it is dynamic (L17.2), or on an error. Only for VMs initialised with `is_static`.
+// if the code is dynamic (L17.2) or reports an error. Only for VMs initialised with `is_static`.
 bool vm_run_static(Vm *vm, Arena *arena, const Code *code, Value *value);
 
 #endif
