@@ -1,4 +1,4 @@
-// check.c: petri_check, and a lint of the top-level nodes of the first frame.
+// check.c: checks of scripts (petri_check), and of the top-level nodes of the first frame.
 #include "session/session.h"
 
 #include <string.h>
@@ -14,7 +14,7 @@ static Str nearest_top_kind(Str kind) {
 }
 
 void session_lint_top_nodes(PetriSession *session) {
-    const Symbol *last = NULL; // kind of the node before; a loop creates many nodes of one kind
+    const Symbol *last = NULL; // kind of the previous node, to report a repeated kind once
     for (uint32_t i = 0; session->frame.tree.kind == VALUE_MIXED && i < session->frame.tree.len; i++) {
         const Item *item = &session->frame.tree.as.items[i];
         if (item->type != ITEM_NODE || item->as.node->kind == last)
@@ -35,7 +35,7 @@ void session_lint_top_nodes(PetriSession *session) {
     }
 }
 
-// Reads all windows as for drawing, to report errors in drawing nodes.
+// Reads all windows as drawing does, to report errors in their nodes.
 static void lint_windows(PetriSession *session, void *context) {
     const Node *window;
     (void)context;
@@ -91,7 +91,7 @@ static bool comes_before(const PetriDiagnostic *a, const PetriDiagnostic *b) {
            (a->line < b->line || (a->line == b->line && a->column < b->column));
 }
 
-// Reports the diagnostics, those of one file in order of position.
+// Reports the diagnostics. Those of one file are sorted by position.
 static void report_in_order(PetriSession *session, CheckLog *log) {
     for (size_t i = 0; i < log->count; i++) {
         PetriDiagnostic item = log->items[i];
@@ -125,7 +125,7 @@ static void open_scratch(PetriSession *session, CheckLog *log) {
 static PetriStatus run_checks(PetriSession *scratch, const char *file, const char *text, size_t length) {
     scratch->loader.lint = scratch->schema.lint = true;
     PetriStatus status = text ? petri_load_text(scratch, file, text, length) : petri_load(scratch, file);
-    scratch->loader.lint = false; // modules, which the frame loads, are checked separately
+    scratch->loader.lint = false; // the frame loads modules, which are checked separately
     if (status == PETRI_OK)
         status = petri_step(scratch);
     if (status == PETRI_OK)

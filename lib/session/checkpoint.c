@@ -1,10 +1,13 @@
 // checkpoint.c: implementation of checkpoint.h, and snapshots.
 //
-// A checkpoint is a sequence of 64-bit words: the number of slots of the dictionary, then the key and value of each;
-// the number of systems, then each with its slots; the input bindings, and the input state if there is one. A value
-// starts with a word for its length and kind. In a numeric value, the numbers follow. In a mixed value, each element
-// starts with a word for its type and length, and strings are padded to whole words. Slots keep their numbers, so that
-// a restored session behaves identically.
+// A checkpoint is a sequence of 64-bit words:
+// - the number of slots of the dictionary, then the key and value of each slot
+// - the number of systems, then each system with its slots
+// - the input bindings, then the input state if any input was reported
+//
+// A value starts with a word for its length and kind. In a numeric value, the numbers follow. In a mixed value, each
+// element starts with a word for its type and length, and strings are padded to whole words. Slots keep their numbers,
+// so that a restored session behaves identically.
 #include "base/heap.h"
 #include "session/session.h"
 

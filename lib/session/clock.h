@@ -19,11 +19,11 @@ typedef struct ClockBase {
 } ClockBase;
 
 // State of the clock in real time. It measures the script's `time`, which is 0 in frame 0 and excludes time that the
-// host dropped with petri_resync_clock. Units are seconds.
+// host discarded with petri_resync_clock. Units are seconds.
 typedef struct WallClock {
     bool running;       // false: the next frame is the first, or the first after a restore
     double origin;      // value of the monotonic clock at time 0
-    double due;         // the time of the next frame
+    double due;         // time at which the next frame is due
     double performance; // the script's `performance`, also used in lockstep
     bool slow_frame;    // the script's `slow_frame`
 } WallClock;
@@ -41,7 +41,7 @@ typedef struct Clock {
 
 // Returns the monotonic clock in seconds.
 double clock_monotonic(void);
-// Returns the seconds since 1970.
+// Returns the time of day in seconds since 1970.
 double clock_of_day(void);
 
 // Rewinds to before frame 0.

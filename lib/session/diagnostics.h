@@ -9,7 +9,7 @@
 enum { MAX_RETAINED = 100 };
 
 typedef struct Diagnostics {
-    PetriDiagnostic *retained[MAX_RETAINED]; // ring buffer of copies, each in one block with its texts
+    PetriDiagnostic *retained[MAX_RETAINED]; // ring buffer of copies, each in one block with its strings
     uint32_t retained_first;                 // index of the oldest
     uint32_t retained_count;
     uint64_t *reported; // hashes of the diagnostics reported since the last load

@@ -16,7 +16,7 @@ typedef struct DrawAccess {
     const State *state;
     Str directory;           // folder that relative file names start from
     const FileAccess *reach; // file access of the script
-    size_t memory_limit;     // bytes that a copy may hold
+    size_t memory_limit;     // maximum bytes of a copy
     Budget *budget;          // charged for copying
 } DrawAccess;
 
@@ -29,7 +29,7 @@ DrawAccess session_draw_access(PetriSession *session);
 uint32_t session_frame_numbers(PetriSession *session, Arena *arena, const char *names[], double numbers[],
                                uint32_t capacity);
 
-// Returns true if the source of a diagnostic still exists. It may have been freed by a reload.
+// Returns true if the source of a diagnostic still exists. A reload may have freed the source.
 bool session_has_source(const PetriSession *session, const Diag *fault);
 
 // Returns memory for lib/draw that lives as long as the session and is zeroed before frame 0. All calls must pass the

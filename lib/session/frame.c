@@ -47,7 +47,7 @@ void session_clear_frame(PetriSession *session) {
     session_free_retired(session);
 }
 
-// Like session_clear_frame, but also releases the arenas' blocks, after a frame that exceeded a limit.
+// Like session_clear_frame, but also frees the blocks of the arenas. Used after an aborted frame.
 static void session_drop_frame(PetriSession *session) {
     session_clear_frame(session);
     arena_free(&session->frame.arena);
@@ -214,7 +214,7 @@ void session_evaluate(PetriSession *session, const State *state) {
 // Evaluates the frame in the state from which it was computed, if known, else in the current state.
 static void preview(PetriSession *session, void *context) {
     State **before = context;
-    diag_sink_free(&session->frame.log); // the evaluation writes it again
+    diag_sink_free(&session->frame.log); // the evaluation fills it again
     if (session->undo_of_frame) {
         *before = state_new(&session->budget);
         if (!*before)
@@ -309,7 +309,7 @@ bool petri_clear_interrupt(PetriSession *session) {
     return session && atomic_exchange(&session->interrupt, false);
 }
 
-// Evaluates the next frame. If the frame is not counted, the input that was written to the state is removed.
+// Evaluates the next frame. If the frame does not count, removes the input that was written to the state.
 static PetriStatus evaluate_frame(PetriSession *session) {
     InputUndo undo = {.last = NULL};
     session_set_globals(session, &session->vm);
@@ -347,7 +347,7 @@ static PetriStatus update_frame(PetriSession *session) {
     return status;
 }
 
-// Computes the next frame at the given time and beat, or at the clock's if `at` is NULL.
+// Computes the next frame at the given time and beat or, if `at` is NULL, at those of the clock.
 static PetriStatus step_session(PetriSession *session, const ClockBase *at) {
     if (!session || !session->config.program || session->call_depth > 0)
         return PETRI_INVALID;

@@ -11,8 +11,8 @@ typedef struct SessionFrame {
     Arena arena;         // values, until the next step; limited by PetriOptions.memory_limit
     Arena systems_arena; // data of the systems; not limited, so that no system stops in the middle of an update
     Value tree;
-    DiagSink log;    // output of debug(), each text once
-    DiagSink errors; // run-time errors, each text once
+    DiagSink log;    // output of debug(), each message once
+    DiagSink errors; // run-time errors, each message once
     // Values of the names in the prompt's list; fewer if the frame was not evaluated completely.
     Value *values;
     uint32_t value_count;

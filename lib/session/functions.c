@@ -5,7 +5,7 @@
 #include <string.h>
 
 typedef struct HostFunction {
-    Builtin row; // first member, so that a call's row can be cast to HostFunction
+    Builtin row; // first member, so that a pointer to it can be cast to HostFunction
     PetriFunctionCall *call;
     void *user_data;
 } HostFunction;

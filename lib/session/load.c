@@ -290,7 +290,7 @@ Unit *unit_load_file(PetriSession *session, const char *file, bool module, bool 
     if (module) { // added to the list before loading, so that an escape does not leak it
         unit->next = session->loader.modules;
         session->loader.modules = unit;
-        unit->retired = true; // until it is complete
+        unit->retired = true; // until loading is complete
     } else {
         session->loader.pending = unit;
         set_script_folder(session, unit, str_from(file));
@@ -298,7 +298,7 @@ Unit *unit_load_file(PetriSession *session, const char *file, bool module, bool 
     Str text;
     const char *problem;
     unit->path = file_canonical(&unit->arena, &session->reach, file);
-    const FileAccess *reach = module ? &session->reach : host_files(session); // a script was chosen by the host
+    const FileAccess *reach = module ? &session->reach : host_files(session); // the host chose the script
     if (file_read(&unit->arena, reach, file, regular, MAX_SOURCE_BYTES, &text, &unit->version, &problem))
         load_text(session, unit, str_from(file), text, module);
     else

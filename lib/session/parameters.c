@@ -230,7 +230,8 @@ static bool check_definition(const Check *check) {
 
 bool session_check_definitions(PetriSession *session, Unit *unit) {
     bool good = true, outer = diagnostics_repeat(&session->diagnostics, true);
-    // When recompiling, checks only new definitions. They are reported even if the same diagnostic was reported before.
+    // When recompiling, only new definitions are checked. They are reported even if the same diagnostic was reported
+    // before.
     uint32_t first = session->recompiling ? session->reported_defines : 0;
     diagnostics_repeat(&session->diagnostics, outer || session->recompiling);
     for (uint32_t i = first; i < session->config.define_count && !unit->empty; i++)

@@ -30,7 +30,7 @@ typedef struct Prompt {
 PromptList *prompt_list_new(Names host_names, const Program *script);
 // Returns a copy of a list with one more statement, or NULL if out of memory.
 PromptList *prompt_list_add(const PromptList *list, const PromptStatement *statement);
-// Releases a reference and frees the list with the last. NULL is ignored.
+// Releases a reference. Frees the list when no reference is left. NULL is ignored.
 void prompt_list_free(PromptList *list);
 // Recompiles the statements of a list for another script and stores them as a list in *result. `choice` selects all
 // statements, only bindings, or none. Called within a protected call. If the call is aborted, the caller frees the

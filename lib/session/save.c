@@ -209,7 +209,7 @@ static StateSlot velocity_slot(Restore *restore, StateSlot position) {
 
 static bool read_system(Restore *restore) {
     int64_t occurrence;
-    uint32_t capacity = 0; // even, so that position and velocity both fit
+    uint32_t capacity = 0; // always even, so that position and velocity fit together
     SceneSystem system = {0};
     if (!read_integer(restore, &occurrence) || !consume_prefix(restore, STR(" ")) ||
         !read_key(restore, &system.prefix) || !consume_prefix(restore, STR("\n")))
@@ -257,7 +257,7 @@ static bool read_body(Restore *restore) {
     return restore->rest.len == 0;
 }
 
-// Returns NULL on success, else the reason.
+// Reads the text of a state file. Returns NULL on success, else the reason for the failure.
 static const char *restore_text(Restore *restore) {
     if (!str_starts_with(restore->rest, STR("petri-state ")))
         return "not a petri state file";
@@ -273,7 +273,7 @@ static void read_state_file(PetriSession *session, Incoming *incoming, void *con
     Restore restore = {.session = session, .arena = arena, .state = incoming->state, .incoming = incoming};
     if (file_read(arena, NULL, file, true, MAX_STATE_BYTES, &restore.rest, NULL, &reason))
         reason = restore_text(&restore);
-    if (state_clear_exhausted(incoming->state)) // otherwise reported as a corrupt file
+    if (state_clear_exhausted(incoming->state)) // would otherwise be reported as a corrupt file
         arena_exhausted(arena);
     incoming->valid = !reason;
     if (restore.omitted && !reason)

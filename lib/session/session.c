@@ -11,8 +11,8 @@
 #include <string.h>
 
 enum { MAX_LINES = 100000 };
-// Bytes that a session may hold for its own data, in addition to PetriOptions.memory_limit. They hardly depend on the
-// script.
+// Bytes that a session may hold for its own data, in addition to PetriOptions.memory_limit. The script has little
+// influence on this amount.
 #define OWN_BYTES ((size_t)64 << 20)
 
 void petri_options_init(PetriOptions *options, size_t size) {

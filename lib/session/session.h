@@ -74,7 +74,7 @@ struct PetriSession {
     State *state;
     Scene *scene;
     FileCache *files;
-    FileAccess reach; // files that the script, loaded or being loaded, may access
+    FileAccess reach; // access rights of the script that is loaded or being loaded
     NoiseCache *noise;
     Schema schema;
     void *draw_memory; // data of lib/draw (session_draw_memory); NULL: none yet
@@ -86,7 +86,7 @@ struct PetriSession {
     Budget budget;             // work and memory of the script
     uint32_t call_depth;       // nesting depth of protected calls
     bool uninterruptible;      // the current operation must not be interrupted
-    ArenaOutcome last_outcome; // reason for which the last protected call was aborted
+    ArenaOutcome last_outcome; // why the last protected call was aborted
 
     HostGlobals host_globals;
     HostFunctions functions;
@@ -127,7 +127,8 @@ void session_free_host_globals(PetriSession *session);
 
 // Defines a name; `value` is text as in petri_define. Called within a protected call.
 PetriStatus session_define(PetriSession *session, Str name, Str value);
-// Reports definitions that a script does not use. Returns false if one is an error; the script must then not run.
+// Checks the definitions for a script and reports problems, such as unused definitions. Returns false if there is an
+// error. The script must then not run.
 bool session_check_definitions(PetriSession *session, Unit *unit);
 
 // Records that the configuration has changed. `frame_valid`: the results of the last frame are still valid.

@@ -40,7 +40,7 @@ PetriStatus text_sink_finish(PetriSession *session, const TextSink *out) {
     if (!out->truncated_at)
         return out->stopped ? PETRI_INVALID : PETRI_OK;
     char text[80];
-    snprintf(text, sizeof text, "the text of the tree exceeds %zu MiB: truncated here", MAX_BYTES >> 20);
+    snprintf(text, sizeof text, "the printed tree exceeds %zu MiB: truncated here", MAX_BYTES >> 20);
     Origin place = node_origin(out->truncated_at, NULL);
     session_report(session, &(Diag){.level = DIAG_ERROR,
                                     .source = place.source,

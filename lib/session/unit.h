@@ -13,7 +13,7 @@ struct Unit {
     Unit *next;
     Unit *same_hash; // next module with the same hash of its path
     Arena arena;     // use it through unit_arena
-    Arena scratch;   // data of the compilation: syntax tree, expressions
+    Arena scratch;   // temporary data of the compiler: syntax tree, expressions
     Str path;        // canonical; NUL-terminated
     Str folder;      // of a script: its canonical folder, which it may read and write
     Str version;     // identifies the contents: modification time, size, inode; empty: not from a file
@@ -21,7 +21,7 @@ struct Unit {
     const Ast *ast;         // syntax tree, if it is compiled repeatedly (prompt statements, parse caches); else NULL
     uint64_t work;          // work units of parsing
     Parsed *parsed;         // of a parse cache: list of its included files
-    Unit *parse_cache;      // counted reference to the syntax trees of the same text and its includes, or NULL
+    Unit *parse_cache;      // counted reference to the syntax trees of this source and its includes, or NULL
     bool empty;             // contains no statements
     const Program *program; // NULL: could not be loaded
     Str error;              // why the unit could not be loaded
@@ -66,18 +66,20 @@ Arena *unit_arena(const PetriSession *session, Unit *unit);
 Unit *unit_load_file(PetriSession *session, const char *file, bool module, bool regular);
 // Like unit_load_file, for a script in memory.
 Unit *unit_load_text(PetriSession *session, Str name, Str text);
-// Compiles the text of a unit again for changed definitions. Only the first call parses the text.
+// Compiles the text of a unit again with the current definitions. Returns the new unit. Only the first call parses the
+// text.
 Unit *unit_reload(PetriSession *session, Unit *unit);
 // Returns a unit with parsed but uncompiled text. Its `ast` is NULL if the text has syntax errors.
 Unit *unit_parse(PetriSession *session, Str name, Str text);
 // Compiles a syntax tree of the unit into a program with the given parameters.
 const Program *unit_compile(PetriSession *session, Unit *unit, const Ast *ast, bool module, Names params);
-// Releases a reference and frees the unit with the last. NULL is ignored.
+// Releases a reference. Frees the unit when no reference is left. NULL is ignored.
 void unit_free(Unit *unit);
 // Must be called for each unit that frames begin to use. Changes the generation, because data of the unit may have the
 // same addresses as data of a freed unit. Returns the unit.
 Unit *session_use_unit(PetriSession *session, Unit *unit);
-// Returns the module at a path, for the VM, or NULL with a reason. Called within a protected call.
+// Returns the module at a path for the virtual machine. On failure, sets *reason and returns NULL. Called within a
+// protected call.
 const Program *session_module(void *host, Str path, Str *reason);
 // Clears all cached files and modules, because the next script may not be allowed to read them.
 void session_clear_files(PetriSession *session);

@@ -31,7 +31,7 @@ static bool set_exhausted(State *state) {
     return false;
 }
 
-// Sizes of a mixed vector, which is stored in one heap block: the items, then the Strings, then their bytes.
+// Sizes of a mixed vector. It is stored in one heap block: the items, then the Strings, then their bytes.
 typedef struct Parts {
     size_t strings; // number of strings
     size_t bytes;   // total length of the strings
