@@ -1,4 +1,4 @@
-// barrier.c: reflections at hard boundaries (4.4). Soft boundaries, and the formulas used here, are in
+// barrier.c: reflections at hard boundaries (spec physics.md 4.4). Soft boundaries, and the formulas used here, are in
 // single_formulas.h.
 #define LANES 1
 #include "physics/single_formulas.h"

@@ -1,5 +1,5 @@
-// force_link.c: forces between two given particles (4.1, `!distance`). The formulas are in pair_formulas.h. Links are
-// computed one at a time, in one lane.
+// force_link.c: forces between two given particles (`!distance`, spec physics.md 4.1). The formulas are in
+// pair_formulas.h. Links are computed one at a time, in one lane.
 #define LANES 1
 #include "physics/internal.h"
 #include "physics/pair_formulas.h"

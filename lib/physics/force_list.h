@@ -1,6 +1,6 @@
 // force_list.h: all forces, one row each. A new force needs a row here, a formula (pair_formulas.h or
 // single_formulas.h) and a test. Enums, tables and dispatch are generated from the rows, and no switch over forces has
-// a `default:`.
+// a `default:`. Numbers in parentheses are sections of spec physics.md.
 //
 //   PAIR(KIND, name, sign, source, reach)   between every two particles that interact (4.1)
 //       sign     of K in the formula: +1 where a positive strength pulls two particles together, -1 where it pushes

@@ -1,4 +1,5 @@
-// force_pair.c: forces between all pairs of particles (4.1), in passes. The formulas are in pair_formulas.h.
+// force_pair.c: forces between all pairs of particles (spec physics.md 4.1), in passes. The formulas are in
+// pair_formulas.h.
 #include "physics/integrate.h"
 #include "physics/internal.h"
 #include "physics/neighbour_list.h"

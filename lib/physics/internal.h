@@ -241,7 +241,7 @@ typedef struct Move {
     bool done;
 } Move;
 void phys_apply_pairs(PhysSystem *system, const Group *group, Move *move);
-// barrier.c: reflects particle i at one barrier after a move of `delta` (4.4).
+// barrier.c: reflects particle i at one barrier after a move of `delta` (spec physics.md 4.4).
 void phys_reflect(const Columns *columns, size_t i, const Force *barrier, double delta, double speed_of_light);
 
 static inline double *phys_acceleration(const Columns *columns) {

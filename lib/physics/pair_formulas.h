@@ -1,4 +1,4 @@
-// pair_formulas.h: formulas of the forces between two particles (4.1), for LANES pairs at once.
+// pair_formulas.h: formulas of the forces between two particles (spec physics.md 4.1), for LANES pairs at once.
 //
 //   d_k = to_k − from_k;  l = sqrt(d_0² + d_1² + …);  inv = 1 / l;  u_k = d_k · inv;  f_k = u_k · K
 //

@@ -1,4 +1,4 @@
-// pow_lanes.h: displacement^power as section 4.1 defines it, for LANES numbers at once.
+// pow_lanes.h: displacement^power as spec physics.md 4.1 defines it, for LANES numbers at once.
 #ifndef PETRI_PHYSICS_POW_LANES_H
 #define PETRI_PHYSICS_POW_LANES_H
 

@@ -1,5 +1,5 @@
-// single_formulas.h: formulas for single particles, LANES at once: forces (4.2), motion (4.3) and soft bounds of
-// barriers (4.4). Symbols: v velocity, p position, r radius, m mass, q charge, S strength.
+// single_formulas.h: formulas for single particles, LANES at once (spec physics.md): forces (4.2), motion (4.3) and
+// soft boundaries of barriers (4.4). Symbols: v velocity, p position, r radius, m mass, q charge, S strength.
 #ifndef PETRI_PHYSICS_SINGLE_FORMULAS_H
 #define PETRI_PHYSICS_SINGLE_FORMULAS_H
 

@@ -1,4 +1,4 @@
-// step.c: one step, in the order of section 4.
+// step.c: one step, in the order of spec physics.md section 4.
 #include "physics/integrate.h"
 #include "physics/threads.h"
 

@@ -1,4 +1,4 @@
-// timestep.c: the loop over the steps of a frame (section 4).
+// timestep.c: the loop over the steps of a frame (spec physics.md section 4).
 //
 //   remaining = t − last
 //   repeat
