@@ -10,14 +10,13 @@
 //   snapshot. Different sessions are independent. Functions that take no handle may be called by any thread at any
 //   time.
 // - A struct argument is accessed only during the call. Text is UTF-8. The length PETRI_NUL_TERMINATED means that the
-//   text ends at a NUL byte. Indices, and numbers of items, start at 0.
+//   text ends at a NUL byte. Indices and item numbers start at 0.
 // - Functions that can fail return a PetriStatus. They may all return PETRI_OUT_OF_MEMORY, or PETRI_INVALID for invalid
 //   arguments. Functions that load, step, print or evaluate may also return PETRI_LIMIT_EXCEEDED or PETRI_INTERRUPTED.
 // - A call that fails changes nothing. If a script cannot be loaded, the current script stays loaded. An aborted frame
 //   leaves the state unchanged (petri_step lists the exceptions).
-// - Errors and warnings about scripts are reported through PetriOptions.on_diagnostic, each once per position and load.
-//   The library never prints or exits, and never changes the locale, signal handlers or working directory of the
-//   process.
+// - Errors and warnings about scripts are reported through PetriOptions.on_diagnostic, once per position and load. The
+//   library never prints or exits, and never changes the locale, signal handlers or working directory of the process.
 // - If a required pointer is NULL, a function does nothing and returns PETRI_INVALID, false, NULL or 0.
 // - After fork, the child process may close the sessions of its parent, but must not use them for anything else.
 #ifndef PETRI_H
@@ -87,7 +86,7 @@ PETRI_API PetriStatus petri_set_allocator(const PetriAllocator *allocator);
 // Severity of a diagnostic.
 typedef enum PetriLevel { PETRI_ERROR, PETRI_WARNING, PETRI_NOTE } PetriLevel;
 
-// An error, warning or note about a script. The strings are valid only during the callback.
+// An error, warning or note about a script. In a callback, the strings are valid only during the call.
 typedef struct PetriDiagnostic {
     PetriLevel level;
     const char *file; // NULL if the diagnostic has no position
@@ -155,8 +154,8 @@ typedef struct PetriOptions {
     size_t stack_limit;
     // Limits of each call, such as petri_step. A frame, load or picture that exceeds a limit is aborted with a
     // diagnostic that gives the position in the script. Work is counted, not timed, so a script is aborted at the same
-    // point on every machine. A loop iteration, a call, a node or a group of sixteen numbers costs one unit (about 10
-    // ns).
+    // point on every machine. A loop iteration, a call, a node or a group of sixteen numbers costs one unit, about 10
+    // ns.
     size_t memory_limit;        // bytes held for the script; petri itself uses up to about 64 MiB more. Default 2 GiB
     uint64_t work_limit;        // units per call; default 2^30, about 10 s
     int threads;                // number of worker threads; 0 (the default): one per processor. Does not affect results
@@ -470,9 +469,9 @@ PETRI_API const char *petri_symbol_name(const PetriSession *session, double numb
 // petri_state_set, petri_reset, petri_rewind or petri_restore.
 PETRI_API PetriValue petri_state_get(PetriSession *session, PetriValue key);
 
-// Stores a value in the state dictionary, or removes the key if the value is null. The next frame reads it. Keys and
-// values consist of numbers and strings. Returns PETRI_INVALID if an element has another type, if a number in the value
-// is not finite, if the key contains NaN, or if called within a callback.
+// Stores a value in the state dictionary, or removes the key if the value is null. Scripts can read it in the next
+// frame. Keys and values consist of numbers and strings. Returns PETRI_INVALID if an element has another type, if a
+// number in the value is not finite, if the key contains NaN, or if called within a callback.
 PETRI_API PetriStatus petri_state_set(PetriSession *session, PetriValue key, PetriValue value);
 
 // Iterates over the state dictionary in the order in which the keys were added. Set *cursor to 0 before the first call.
@@ -480,9 +479,9 @@ PETRI_API PetriStatus petri_state_set(PetriSession *session, PetriValue key, Pet
 PETRI_API bool petri_state_next(PetriSession *session, uint32_t *cursor, PetriValue *key, PetriValue *value);
 
 // Sets a global name that scripts read like any other name. Only scripts that are loaded after the first call for a
-// name see it; later calls need no reload and may change the value in each frame, even to null. Modules do not see it.
-// The name cannot be removed. Returns PETRI_INVALID if the name is not valid or belongs to the engine (such as `time`),
-// if the value contains nodes or functions, or if called within a callback.
+// name see it; later calls need no reload and may change the value in each frame, even to null. It is not visible in
+// modules. It cannot be removed. Returns PETRI_INVALID if the name is not valid or belongs to the engine (such as
+// `time`), if the value contains nodes or functions, or if called within a callback.
 PETRI_API PetriStatus petri_set_global(PetriSession *session, const char *name, PetriValue value);
 
 // Returns the tree of the last frame: its top-level nodes, and possibly other elements. Returns null if there is no
@@ -614,8 +613,8 @@ PETRI_API bool petri_find_particle(PetriSession *session, size_t system, PetriVa
 typedef struct PetriForce {
     const char *kind;       // kind of its node without the `!`, such as "distance"; static
     double strength;        // without the effect of `ease`
-    uint32_t from;          // `!distance` only: numbers of the two particles that it connects
-    uint32_t to;            //
+    uint32_t from;          // `!distance` only: number of the first particle that it connects
+    uint32_t to;            // `!distance` only: number of the second particle
     const double *position; // `!barrier` only: a point on it; else NULL
     const double *normal;   // `!barrier` only: its unit normal; else NULL
 } PetriForce;
@@ -625,8 +624,8 @@ typedef struct PetriForce {
 // of the system.
 PETRI_API bool petri_system_force(PetriSession *session, size_t system, uint32_t number, PetriForce *force);
 
-// Returns true if the last frame has something to draw: a window with a canvas, or a particle system. petri-draw.h
-// draws it.
+// Returns true if the last frame has something to draw: a window with a canvas, or a particle system. Use petri-draw.h
+// to draw it.
 PETRI_API bool petri_has_picture(PetriSession *session);
 
 // A kind of node that petri interprets, for help and completion. The strings are static.

@@ -1,7 +1,7 @@
 // value.h: values of the Flitter language, which are all vectors (spec language.md L4).
 //
-// A Value is a 16-byte struct that is passed by value. Its data is immutable and in an arena; single values are never
-// freed. A value created in a frame is valid until the frame's arena is reset. value_copy makes a copy that lives
+// A Value is a 16-byte struct that is passed by value. Its data is immutable and in an arena; individual values are
+// never freed. A value created in a frame is valid until the frame's arena is reset. value_copy makes a copy that lives
 // longer. Functions whose first parameter is an Arena allocate their result there. Results may share memory with
 // operands.
 //
@@ -126,7 +126,7 @@ uint32_t value_wrap_index(double x, uint32_t n);
 Value value_copy(Arena *arena, Value v);
 
 enum { VALUE_TEXT_WORK = 16 }; // work units per element converted to text
-// Returns the concatenated texts of the elements (L6).
+// Returns the elements converted to text and concatenated (L6).
 Str value_text(Arena *arena, const SymbolTable *symbols, Value v);
 
 // A builder that concatenates values, its parts, into a vector (L4.7). A stream is kept only if it is the only part,

@@ -1,5 +1,4 @@
-// value_hash.h: seed hashes of vectors (spec builtins.md B9.2), which are the keys of streams and noise, and the items
-// of stream values.
+// value_hash.h: hashes of seeds (spec builtins.md B9.2), used as keys of streams and noise, and items of streams.
 #ifndef PETRI_VALUE_VALUE_HASH_H
 #define PETRI_VALUE_VALUE_HASH_H
 
