@@ -12,7 +12,7 @@
 static const double BUILTIN_PI = 3.141592653589793;
 static const double BUILTIN_TAU = 6.283185307179586;
 
-// B0.1: numeric with exactly one element.
+// Returns true if v is numeric with exactly one element (B0.1).
 static inline bool is_scalar(Value v) {
     return v.kind == VALUE_NUMBERS && v.len == 1;
 }
@@ -62,7 +62,7 @@ Value builtin_repeat(Arena *arena, const Value *args, uint32_t count, double (*f
 double *builtin_sort_numbers(Arena *arena, double *numbers, uint32_t len);
 Str *builtin_sort_texts(Arena *arena, Str *texts, uint32_t len);
 
-// Returns the number of bytes at the start of the text that are digits with single underscores between them.
+// Returns the length of the digits at the start of the text, with single underscores between them.
 size_t builtin_scan_digits(Str text);
 // Returns true if the text is an integer: digits in the form above, with an optional sign and surrounding white space.
 bool builtin_is_integer(Str text);

@@ -33,7 +33,7 @@ typedef struct FileEntry {
     FileParse *parse;
     Stamp stamp;
     bool tried;         // an attempt to read the file has finished: `stamp` and `parsed` are valid
-    const void *parsed; // in `arena`; NULL: unreadable
+    const void *parsed; // result of the parser, in `arena`; NULL: the file is unreadable
     Arena arena;
 } FileEntry;
 

@@ -16,7 +16,7 @@ const Command LSP_COMMAND = {
     .details =
         "Implements the Language Server Protocol on standard input and output; editors start it. Reports the errors\n"
         "and warnings of petri check as you type, completes names, nodes, attributes and keys, shows help and values\n"
-        "of constants, goes to definitions, renames, formats, and offers corrections. Evaluates the first frame, as\n"
+        "of constants, goes to definitions, renames, formats, and offers quick fixes. Evaluates the first frame, as\n"
         "petri check does, without drawing, printing or storing anything.",
     .examples = "  vim.lsp.start({ name = 'petri', cmd = { 'petri', 'lsp' } })    -- for Neovim\n",
     .options = FOR_LSP,

@@ -24,19 +24,19 @@ typedef struct Link {
 } Link;
 
 typedef struct Document {
-    char *uri;
+    char *uri;       // as the editor writes it
     char *path;      // name in diagnostics: the path, or the URI if it is not a file URI
     char *canonical; // canonical path (symbolic links and dots resolved) if the file exists, else `path`
-    int64_t version;
+    int64_t version; // of the editor, sent with diagnostics
     ByteBuffer text; // lines end in LF
     size_t *lines;   // offset of each line
     size_t line_count;
-    bool is_file;
+    bool is_file;       // true if the URI is a file URI
     bool unread;        // true if tokens and names are outdated: the text has changed
     bool unchecked;     // true if diagnostics are outdated
     PetriToken *tokens; // without NEWLINE, INDENT and DEDENT
     size_t token_count;
-    size_t *levels; // by token: indentation level; SIZE_MAX - level if the token begins a statement
+    size_t *levels; // indentation level of each token; SIZE_MAX - level if the token begins a statement
     PetriBinding *names;
     size_t name_count;
     Link *links;
@@ -44,8 +44,8 @@ typedef struct Document {
     DocumentDiagnostic *diagnostics;
     size_t diagnostic_count;
     TextList used;   // files that the last check read
-    Json *published; // by URI: diagnostics that the last check reported
-    Json *values;    // values of constants, by name; NULL: not evaluated yet
+    Json *published; // diagnostics of the last check, as an object with one list per URI
+    Json *values;    // values of constants by name; NULL: not evaluated yet
 } Document;
 
 Document *document_new(const char *uri, Str text, int64_t version);

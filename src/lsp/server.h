@@ -18,7 +18,7 @@ typedef struct Server {
     bool shutting_down; // true after the shutdown request
     bool checking;      // true while the document `checked` is being checked
     Document *checked;
-    Json *found; // by URI: diagnostics of the current check
+    Json *found; // diagnostics of the current check, as an object with one list per URI
 } Server;
 
 // Returns an open document, or NULL.

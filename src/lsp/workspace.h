@@ -21,8 +21,8 @@ typedef struct BindingSet {
 typedef struct Workspace {
     Server *server;
     Document **documents; // the requested document is the first
-    bool *own;            // by document: true if the workspace frees the document
-    bool *included;       // by document: true if another document includes this one
+    bool *own;            // for each document: true if the workspace frees it
+    bool *included;       // for each document: true if another document includes it
     size_t count;
     size_t files_left; // number of directory entries that may still be visited
 } Workspace;

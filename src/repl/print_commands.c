@@ -15,11 +15,11 @@ enum { RESERVED_LINES = 3 }; // screen lines reserved for the command, the closi
 // A filter for the lines of one section of petri_print.
 typedef struct Filter {
     Repl *repl;
-    const char *wanted;
-    size_t depth;     // depth of the node whose subtree is being written; SIZE_MAX: none
-    size_t found;     // number of matching entries or nodes
-    size_t lines;     // number of selected lines
-    size_t max_lines; // only the first max_lines selected lines are written
+    const char *wanted; // key or node kind to select; "": all
+    size_t depth;       // depth of the node whose subtree is being written; SIZE_MAX: none
+    size_t found;       // number of matching entries or nodes
+    size_t lines;       // number of selected lines
+    size_t max_lines;   // only the first max_lines selected lines are written
     void (*handle_line)(struct Filter *filter, const char *line, size_t length);
 } Filter;
 

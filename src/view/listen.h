@@ -10,9 +10,9 @@
 #include "view/live_script.h"
 
 typedef struct Listener {
-    char *path; // NULL: not listening
-    int socket;
-    int client;      // -1: none
+    char *path;      // NULL: not listening
+    int socket;      // accepts connections
+    int client;      // connection to the current client; -1: none
     ByteBuffer text; // what the client has sent so far
 } Listener;
 

@@ -302,7 +302,7 @@ static bool save_picture(LiveScript *live, const char *name) {
 bool live_script_screenshot(LiveScript *live, char *name, size_t size) {
     char base[200];
     if (!live->picture || live->picture_hidden) {
-        snprintf(name, size, "a picture: there is none");
+        snprintf(name, size, "a picture: nothing has been drawn");
         return false;
     }
     base_name(live->options->script, base, sizeof base);

@@ -23,7 +23,7 @@ typedef struct LiveScript {
     const Options *options;
     PetriSession *session;
     PetriPainter *painter;
-    PetriPicture *picture; // of the last frame; NULL: nothing to draw
+    PetriPicture *picture; // picture of the last frame; NULL: nothing to draw
     Recording recording;
     FileWatch *watch;
     int64_t frames; // number of frames since the view was opened, not counting those before the first picture

@@ -245,8 +245,7 @@ static void draw_view(View *view) {
     PetriPicture *picture = view->live.picture_hidden ? NULL : view->live.picture;
     PetriStatus status;
     view->redraw = false;
-    view->drawn =
-        clock_seconds(); // time at the start of drawing, so that the next picture follows at once if drawing is slow
+    view->drawn = clock_seconds(); // before drawing: if it is slow, the next picture follows at once
     if (!view->kind->show_directly || !view->kind->show_directly(view->display, picture, &view->overlay, &status))
         status = show_pixels(view, picture);
     live_script_check_drawn(&view->live, status);
@@ -432,21 +431,20 @@ const Command VIEW_COMMAND = {
     .operands = "SCRIPT.fl",
     .summary = "show a running script in a window or terminal",
     .details =
-        "Shows the pictures of a script, or its particles, while it runs, in a window or (without a display) in the\n"
-        "terminal. When the script is saved, it is reloaded and keeps its state. While it has errors, they are\n"
-        "shown and the last good version keeps running. If the display is lost, a run that has an end, a state file,\n"
-        "a socket or pictures to record continues without it.\n"
+        "Runs a script and shows its pictures, or its particles, in a window or, without a display, in the terminal.\n"
+        "When the script is saved, it is reloaded and keeps its state. If the script has errors, they are shown and\n"
+        "the last good version keeps running. If the display is lost, a run with a limited length, a state file, a\n"
+        "socket or pictures to record continues without a display.\n"
         "\n"
         "Keys: space pauses, . takes one step, r restarts, f toggles full screen, s saves the picture, h shows frame\n"
-        "rate and clocks, w lists warnings (a corner shows their number), q or Escape quits. Tab or ] and [ choose a\n"
+        "rate and clocks, w lists warnings (a corner shows their number), q or Escape quits. Tab or ] and [ select a\n"
         "parameter of the script (petri help run); up and down or + and - change it (page up and down: ten steps);\n"
-        "0 or backspace resets it to its default. Keys that the script requests with !key go to the script; with\n"
-        "Control they have the meaning above.",
-    .examples =
-        "  petri view dish.fl                              until it is closed; save dish.fl to see what changed\n"
-        "  petri view dish.fl --terminal -D DROPS=50       in the terminal\n",
+        "0 or backspace resets it to its default. Keys that the script requests with !key go to the script unless\n"
+        "Control is held.",
+    .examples = "  petri view dish.fl                              shows changes whenever dish.fl is saved\n"
+                "  petri view dish.fl --terminal -D DROPS=50       in the terminal\n",
     .missing_operand = "no script was given",
-    .no_stdin = "'petri view' follows its script's file as it is saved and cannot take it from standard input; "
+    .no_stdin = "'petri view' watches the script file and cannot read the script from standard input; "
                 "'petri render -' can",
     .options = FOR_VIEW,
     .run = view_run,

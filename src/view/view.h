@@ -8,26 +8,26 @@
 #include "view/parameters.h"
 
 typedef struct View {
-    const CommandContext *host;
+    const CommandContext *host; // borrowed
     LiveScript live;
-    Listener listener; // for `petri send`
-    const DisplayKind *kind;
-    Display *display;
+    Listener listener;       // for `petri send`
+    const DisplayKind *kind; // functions of `display`
+    Display *display;        // NULL: the null display
     Overlay overlay;
     bool paused;
-    bool step_once;
+    bool step_once; // compute one frame although the view is paused
     bool shows_status;
     bool shows_warnings;
-    bool redraw;
-    bool closing;
-    bool broken; // the view must end: the display was lost, or memory is exhausted
-    double start;
+    bool redraw;        // the picture must be drawn again
+    bool closing;       // the user has closed the view
+    bool broken;        // the view must end: the display was lost, or memory is exhausted
+    double start;       // time at which the view was opened
     double drawn;       // time at which drawing of the last picture began
     double notice_ends; // time at which the notice disappears; INFINITY: never
     // The frame rate
-    double measured;
-    int64_t measured_frames;
-    double rate;
+    double measured;         // time of the last measurement
+    int64_t measured_frames; // number of frames computed until then
+    double rate;             // frames per second
     // Pixels of the display
     uint32_t *pixels;
     int drawn_width; // 0: not drawn yet

@@ -1,6 +1,6 @@
-// prompt.mjs: a prompt for expressions and definitions, as in `petri repl`, with its output.
+// prompt.mjs: a prompt for expressions and definitions, as in `petri repl`, and its output.
 
-const LINES = 200;
+const LINES = 200; // maximum number of output lines
 
 export class Prompt {
     constructor(root, dish) {
