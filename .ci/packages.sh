@@ -105,10 +105,10 @@ STATIC_NEEDS='command -v musl-gcc: musl-tools'
 WITHOUT='-Dcairo=disabled -Dgl=disabled -Dsdl=disabled -Dchafa=disabled -Dlibedit=disabled -Dyaml=disabled
     -Dhdf5=disabled -Djson=disabled -Dzlib=disabled -Dmpi=disabled -Dpython=disabled -Dtests=false -Ddefault_library=static'
 CLEAN_INSTALL_NEEDS='command -v debootstrap: debootstrap'
-# Libraries that meson uses if they are installed. A build folder is configured again when this changes.
+# Libraries that meson uses if they are installed. If this set changes, build folders are configured again.
 OPTIONAL_LIBRARIES='cairo pangocairo libjpeg libpng chafa libedit sdl2 epoxy yaml-0.1 zlib hdf5 json-c cmocka x11 ompi-c mpfr python3'
 
-# missing NEEDS: prints the packages for the tests that fail.
+# missing NEEDS: prints the packages whose test commands fail.
 missing() {
     echo "$1" | while IFS=: read -r probe packages; do
         if [ -n "$probe" ] && ! eval "$probe" >/dev/null 2>&1; then
@@ -149,7 +149,7 @@ named() { echo "$1" | sed -n 's/.*: *//p' | wc -w; }
 # packages_of N [WORD]: prints "1 WORD package" or "N WORD packages".
 packages_of() { if [ "$1" -eq 1 ]; then echo "1 ${2:-}package"; else echo "$1 ${2:-}packages"; fi; }
 
-# confirm PACKAGES: asks whether to install, only once ever and only on a terminal outside CI.
+# confirm PACKAGES: asks whether to install the packages, once per checkout and only on a terminal outside CI.
 confirm() {
     agreed=$root/build/packages-agreed
     if [ ! -t 0 ] || [ "${CI:-}" = true ] || [ -e "$agreed" ]; then
@@ -249,7 +249,7 @@ need() {
     mkdir -p "$root/build"
     lists=$root/build/packages-lists.log
     plan=$root/build/packages-plan.log
-    # Package lists of a new machine are empty, and those of an old one may name deleted files.
+    # The package lists of a new machine are empty. Those of an old machine may name deleted files.
     say "packages: reading the lists"
     install_packages update >"$lists" 2>&1 </dev/null || true # the old lists may still work
     # shellcheck disable=SC2086 # packages are words

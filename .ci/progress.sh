@@ -19,8 +19,8 @@ die() {
     exit 1
 }
 
-# counted WHAT N M [NAME]: shows that N of M are done and NAME is in progress. On a terminal, rewrites one line;
-# elsewhere prints a line per quarter.
+# counted WHAT N M [NAME]: shows that N of M are done and NAME is in progress. On a terminal, rewrites the same line.
+# Elsewhere, prints a line after each quarter.
 counted() {
     if [ "$columns" -gt 0 ]; then
         printf "\r\033[K%.$((columns - 1))s" "dev: $1: $2 of $3${4:+, $4}" >&2
@@ -30,8 +30,8 @@ counted() {
     fi
 }
 
-# following LOG FOLLOWER COMMAND...: runs the command with its output going to LOG and to FOLLOWER. Returns the command's
-# status.
+# following LOG FOLLOWER COMMAND...: runs the command and sends its output to LOG and to FOLLOWER. Returns the status of
+# the command.
 following() {
     log=$1
     follower=$2

@@ -1,6 +1,6 @@
 # tests.sh: implements `./dev test`. Sourced by dev after progress.sh and packages.sh, with `root` and `build` defined.
 
-# counts NAME LOG: prints the number for NAME in meson's summary.
+# counts NAME LOG: prints the number that meson's summary in LOG gives for NAME.
 counts() { awk -F: -v name="$1" '$1 == name { n = $2 } END { print n + 0 }' "$2"; }
 
 # Shows progress. Tests start in the order of meson's list, so the first unfinished one is the slowest.
@@ -63,7 +63,7 @@ run_tests() {
         # shellcheck disable=SC2086 # names are words
         following $log follow_tests meson test -C build --no-rebuild --no-suite scripts --print-errorlogs \
             --num-processes "$(($(nproc) + 2))" ${1:+$chosen} || code=1
-        # Removes the lines of passed tests, also within a failed program. A test case that did not end is kept.
+        # Removes the lines of passed tests, also within a failed program. Keeps a test case that did not end.
         sed -e '/^\[ *RUN *\]/{' -e N -e '/\n\[ *OK *\]/d' -e '}' "$log" |
             grep -v -e '^ninja: ' -e ' OK  ' -e '^Full log' -e '^$' -e ':  *0 *$' -e '^ok ' || true
         [ ! -f build/meson-logs/testlog.txt ] || skipped_tests build/meson-logs/testlog.txt

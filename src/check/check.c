@@ -10,13 +10,13 @@
 
 typedef struct Check {
     Options *options;
-    bool shown_last; // the last error or warning was shown, so its notes are shown as well
+    bool shown_last; // true if the last error or warning was shown; its notes are then shown as well
     Report report;
 } Check;
 
 static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     Check *check = host;
-    // A note is shown if the diagnostic it belongs to was shown.
+    // A note is shown if the error or warning before it was shown.
     if (diagnostic->level != PETRI_NOTE)
         check->shown_last = diagnostic->level == PETRI_ERROR || check->options->verbosity != LOG_QUIET;
     if (check->shown_last && check->report.form != REPORT_TEXT)

@@ -11,7 +11,7 @@ typedef struct Report {
     ReportForm form;
     ByteBuffer text;
     size_t count;
-    TextList codes; // codes of all diagnostics so far; SARIF lists them as rules
+    TextList codes; // distinct codes of the diagnostics so far; SARIF lists them as rules
 } Report;
 
 void report_add(Report *report, const PetriDiagnostic *diagnostic);

@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-// Adds a change for each `NAME=VALUE` of -D. Invalid ones are ignored; the run reports them.
+// Adds a change for each `NAME=VALUE` of -D. Ignores invalid definitions, which the run reports.
 static void read_definitions(Linked *linked, const TextList *definitions) {
     linked->changes = memory_calloc((definitions->count + 1) * sizeof *linked->changes);
     for (size_t i = 0; i < definitions->count; i++) {
@@ -49,7 +49,7 @@ static int make_link(const CommandContext *context, Options *options, LinkSessio
     const char *name = options->script;
     linked->name = memory_strdup(script_is_stdin(name) ? "script.fl" : name + path_directory(str_from(name)).len);
     read_definitions(linked, &options->definitions);
-    // Without --frame, one frame is computed to find errors before the link is sent.
+    // Without --frame, computes one frame, so that errors are found before the link is sent.
     linked->frame = options->frame < 0 ? 0 : options->frame;
     texts_free(&options->definitions);
     int status = link_session_run(link_session, context, options);

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Records a file that the script tries to read, and returns NULL: no file exists. Folders, as for `glob`, are not
-// recorded; they are empty.
+// Records the name of a file that the script tries to read. Returns NULL, so the file appears to be missing. Folders,
+// which `glob` reads, are not recorded and appear empty.
 static const char *note_file(void *host, const char *name, size_t *length) {
     LinkSession *link_session = host;
     if (!texts_contain(&link_session->requested_files, name) && !str_ends_with(str_from(name), STR("/")))
@@ -16,7 +16,7 @@ static const char *note_file(void *host, const char *name, size_t *length) {
     return NULL;
 }
 
-// Draws the last frame to one pixel, because images are requested only when they are drawn.
+// Draws the last frame into a single pixel, because image files are requested only when they are drawn.
 static void draw_last_frame(PetriSession *session) {
     PetriPictureOptions options = {0};
     petri_picture_options_init(&options, sizeof options);
@@ -44,7 +44,7 @@ static bool set_parameters(const LinkSession *link_session, int64_t frame) {
     return true;
 }
 
-// Renders a frame before the last if the pictures of later frames depend on it.
+// Renders the current frame if it is before the frame of the link and later pictures depend on it.
 static void render_if_needed(LinkSession *link_session) {
     PetriSession *session = link_session->frames.session;
     PetriPictureOptions options = petri_default_picture_options();

@@ -1,4 +1,4 @@
-// link_session.h: a run of a script from a link, without files. Files that the script requests are recorded.
+// link_session.h: runs the script of a link without access to files, and records the names of requested files.
 #ifndef PETRI_SRC_LINK_SESSION_H
 #define PETRI_SRC_LINK_SESSION_H
 
@@ -10,11 +10,11 @@ typedef struct LinkSession {
     Linked linked;
     Frames frames;
     TextList requested_files; // files that the script tried to read
-    PetriPainter *painter;    // painter with the pictures of earlier frames, if later ones need them; else NULL
+    PetriPainter *painter;    // painter that has rendered earlier frames, if later ones need them; else NULL
 } LinkSession;
 
 // Opens a session, loads the script and computes frames up to that of the link, with its changes of parameters. Returns
-// OPTIONS_READ, or an exit status after a message. link_session_close must be called in any case.
+// OPTIONS_READ, or an exit status after a message. The caller calls link_session_close even after a failure.
 int link_session_run(LinkSession *link_session, const CommandContext *context, Options *options);
 // Returns the hash of the state. The caller frees it.
 char *link_session_hash(const LinkSession *link_session);

@@ -45,7 +45,7 @@ static int show_picture(PetriSession *session, PetriPainter *painter, const Opti
                   terminal_picture_possible() && progress_possible() && petri_has_picture(session);
     if (!wanted)
         return STATUS_DONE;
-    enum { LINES_BELOW = 6 }; // terminal rows for the hash and messages
+    enum { LINES_BELOW = 6 }; // terminal rows reserved for the hash and messages
     Output output;
     output_start(&output, STDOUT_FILENO);
     PetriStatus status = still_show(session, painter, !options->monochrome, LINES_BELOW, output_write, &output);

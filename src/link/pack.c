@@ -47,8 +47,8 @@ static void add_base64(ByteBuffer *out, const unsigned char *bytes, size_t lengt
     }
 }
 
-// Decodes base64url. Ignores white space, because mail programs break long lines, and accepts the digits `+` and `/` of
-// plain base64.
+// Decodes base64url. Ignores white space, because mail programs break long lines. Also accepts `+` and `/`, the digits
+// of plain base64.
 static bool read_base64(ByteBuffer *out, const char *text, size_t length) {
     uint32_t bits = 0;
     unsigned count = 0;
@@ -133,7 +133,7 @@ static bool unpack(ByteBuffer *json, const ByteBuffer *packed, bool *too_long) {
     return whole && !*too_long;
 }
 
-// Returns the text of a JSON string, or NULL if it is not a string or contains NUL.
+// Returns the contents of a JSON string, or NULL if the value is not a string or contains NUL.
 static const char *string_value(json_object *value) {
     bool good = json_object_is_type(value, json_type_string) &&
                 strlen(json_object_get_string(value)) == (size_t)json_object_get_string_len(value);

@@ -8,7 +8,7 @@
 #include "cli/byte_buffer.h"
 
 typedef struct LinkedChange {
-    int64_t frame; // frame after which it is made; -1: from the start
+    int64_t frame; // frame after which the change is made; -1: before the first frame
     char *name;
     char *value; // in the syntax of scripts
 } LinkedChange;
@@ -22,12 +22,12 @@ typedef struct Linked {
     char *hash;    // SHA-256 of the state in hexadecimal; NULL: not in the link
 } Linked;
 
-// Returns true if petri was built with the libraries for links. Otherwise prints a message.
+// Returns true if petri was built with the libraries for links. Otherwise returns false after a message.
 bool link_possible(void);
 // Adds the link, from `#`. Returns false after a message if it is too long.
 bool link_pack(ByteBuffer *out, const Linked *linked);
 // Reads a link: the part after the first `#`, or all of it. Returns false after a message. The caller frees *linked
-// with link_free in any case.
+// with link_free even after a failure.
 bool link_read(Linked *linked, const ByteBuffer *link);
 void link_free(Linked *linked);
 

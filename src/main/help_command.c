@@ -56,7 +56,7 @@ static int help_nodes(void) {
     return help_print(&text);
 }
 
-// Adds the help for the option `--NAME` or `-X` of each command that has it. Returns false if no command has it.
+// Adds the help for the option `--NAME` or `-X`, for each command that has the option. Returns false if none has it.
 static bool print_option(ByteBuffer *text, const char *word) {
     bool found = false, is_long = word[1] == '-';
     for (size_t i = 0; COMMANDS[i]; i++) {
@@ -119,7 +119,7 @@ static int help_topic(const char *topic) {
     return command ? help_for(command) : help_word(topic);
 }
 
-// The argument is always a topic, even if it looks like an option.
+// The argument is always a topic, even if it has the form of an option.
 static int help_run(const CommandContext *context, Options *options) {
     char **words = options->argv;
     (void)context;

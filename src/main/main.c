@@ -82,11 +82,12 @@ static int dispatch(const CommandContext *host, int argc, char **argv) {
     return helper_exec_forwards_unknown() ? helper_exec_pictures(argv) : unknown_command(first);
 }
 
-// Opens closed standard descriptors. Otherwise the next opened file would get their number and receive output.
+// Opens standard descriptors that are closed. Otherwise the next file to be opened would get such a descriptor and
+// receive output.
 static void open_standard_descriptors(void) {
     for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++) {
         if (fcntl(fd, F_GETFD) == -1) {
-            // Opened in the wrong direction, so that its use fails like that of a closed descriptor.
+            // Opened in the wrong direction, so that reading or writing fails, as with a closed descriptor.
             (void)open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY);
         }
     }
@@ -106,7 +107,7 @@ static void *run_job(void *context) {
 }
 
 // Scripts can nest thousands of calls, so evaluation gets a much larger stack than the main thread has. Unused pages
-// use no memory. If the address space is limited, smaller stacks are tried.
+// take no memory. If the address space is limited, tries smaller stacks.
 static bool run_on_large_stack(Job *job) {
     const size_t mebibyte = (size_t)1 << 20;
     for (size_t size = 512 * mebibyte; size >= 8 * mebibyte; size /= 2) {
@@ -128,7 +129,7 @@ static bool run_on_large_stack(Job *job) {
     return false;
 }
 
-// Returns a path of this program. argv[0] is only the fallback, because it can be a name that the shell found in PATH.
+// Returns the path of this program. argv[0] is only a fallback, because it may be a name that the shell found in PATH.
 static const char *program_path(const char *name, char *resolved) {
     static const char system_path[] = "/proc/self/exe";
     if (access(system_path, X_OK) == 0)
@@ -138,7 +139,8 @@ static const char *program_path(const char *name, char *resolved) {
 
 int main(int argc, char **argv) {
     open_standard_descriptors();
-    // Closed pipes and exceeded file size limits make write fail instead of ending the process.
+    // With these signals ignored, write fails at a closed pipe or an exceeded file size limit, and the process
+    // continues.
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
     char resolved[PATH_MAX];

@@ -1,6 +1,6 @@
 // completion.c: completion scripts for bash, zsh and fish.
 //
-// Each script is a short template with the commands, options and option values from the tables.
+// Each script is a short template filled with the commands, options and option values from petri's tables.
 #include "cli/options.h"
 #include "packaging/packaging.h"
 #include "petri.h"
@@ -12,7 +12,7 @@ static void write_text(Output *output, const char *text) {
     output_format(output, "%s", text);
 }
 
-// Writes text for single quotes in a shell. Characters in `escaped` get a backslash.
+// Writes text that a shell script contains in single quotes. Characters in `escaped` get a backslash.
 static void write_quoted(Output *output, const char *text, const char *escaped) {
     for (const char *c = text; *c != '\0'; c++)
         if (*c == '\'')
@@ -46,8 +46,8 @@ static void write_topics(Output *output) {
         output_format(output, " %s", kind.name);
 }
 
-// Writes a bash pattern for `COMMAND --OPTION` or `COMMAND -O`. If the first word is not a command, it is a script, and
-// the options of `run` are completed.
+// Writes a bash pattern for `COMMAND --OPTION` or `COMMAND -O`. If the first word is not a command, it is a script; the
+// pattern of `run` then applies.
 static void write_bash_pattern(Output *output, const Command *command, const OptionSpec *option) {
     output_format(output, "    '%s --%s'", command->name, option->name);
     if (option->letter != '\0')

@@ -1,6 +1,6 @@
 # header.awk: generates the manual page of a public header, such as petri.h(3). Variables: version.
 #
-# Comments at the start of a line become text. Declarations between them are copied with their trailing comments.
+# Comments at the start of a line become text. Declarations are copied with their trailing comments.
 # Preprocessor directives are omitted.
 function escaped(text) {
     gsub(/\\/, "\\e", text)

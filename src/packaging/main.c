@@ -1,5 +1,5 @@
-// main.c: a program that writes one manual page, completion script or editor grammar to standard output. It is only
-// used by the build and is not installed.
+// main.c: a program that writes one manual page, completion script or editor grammar to standard output. Only the
+// build uses it; it is not installed.
 #include "cli/help.h"
 #include "packaging/packaging.h"
 

@@ -1,6 +1,6 @@
 #!/bin/sh
 # package.sh FOLDER: builds Debian packages (source and binary) in FOLDER from the files that git tracks. The debian/
-# folder is assembled there from src/packaging/debian.
+# folder is created there from src/packaging/debian.
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 mkdir -p "$1"
@@ -10,7 +10,7 @@ source=$folder/petri-$version
 rm -rf "$source" "$folder"/*petri*_"$version"* "$folder"/petri_"$version"*
 mkdir "$source"
 cd "$root"
-# All times are that of the last commit, so that the same tree gives the same packages.
+# All time stamps are the time of the last commit, so that builds of the same tree are identical.
 SOURCE_DATE_EPOCH=$(git log -1 --format=%ct)
 export SOURCE_DATE_EPOCH
 git ls-files -z | tar -c --null --files-from=- | tar -x -C "$source"
@@ -22,7 +22,7 @@ cd "$source/debian"
 {
     echo "petri ($version-1) unstable; urgency=medium"
     echo
-    echo "  * What changed: CHANGELOG.md."
+    echo "  * See CHANGELOG.md."
     echo
     echo " -- The petri authors <petri@localhost>  $(LC_ALL=C date -uRd "@$SOURCE_DATE_EPOCH")"
 } >changelog

@@ -5,19 +5,19 @@
 #include "cli/output.h"
 #include "main/commands.h"
 
-// Returns the option of the command after `after` (NULL: the first), or NULL after the last.
+// Returns the next option of the command after `after` (NULL: the first option). Returns NULL after the last.
 const OptionSpec *option_after(const Command *command, const OptionSpec *after);
 // Returns true if the option's value has this name in help, such as "FILE", "DIR" or "LIST".
 bool option_takes(const OptionSpec *option, const char *value);
 
-// Environment variables and exit statuses for petri(1). Each table ends with a row without a name.
+// A row of the tables in petri(1): environment variables and exit statuses. Each table ends with a row without a name.
 typedef struct PageRow {
     const char *name;
     const char *help;
 } PageRow;
 extern const PageRow PAGE_VARIABLES[], PAGE_STATUSES[];
 
-// These write petri(1), the page of a command, and petri(5), in the macros of man(7).
+// These write petri(1), the page of a command, and petri(5), with the macros of man(7).
 void page_of_petri(Output *output);
 void page_of_command(Output *output, const Command *command);
 void page_of_language(Output *output);

@@ -34,7 +34,7 @@ static void write_escaped(Output *output, const char *text, size_t length) {
         if (other) {
             output_format(output, "%s", other);
         } else {
-            // A line that starts with a dot would be a request.
+            // Without the escape, a dot at the start of a line would begin a roff request.
             output_format(output, "%s%c", i == 0 && text[i] == '.' ? "\\&" : "", text[i]);
         }
     }

@@ -1,4 +1,4 @@
-// roff.h: functions that write manual pages in the macros of man(7).
+// roff.h: functions that write manual pages with the macros of man(7).
 #ifndef PETRI_SRC_ROFF_H
 #define PETRI_SRC_ROFF_H
 

@@ -1,4 +1,4 @@
-// template.c: templates of files for editors, filled with the names in petri's tables.
+// template.c: fills the templates of editor files with the names in petri's tables.
 //
 // `@builtins|@` is replaced by the names of all functions, separated by `|`. `@nodes|@` and `@values|@` are replaced by
 // the names of nodes and of predefined values. The separator can be any text without `@`.
@@ -27,7 +27,7 @@ static void list_nodes(TextList *list) {
         add_unique(list, kind.name);
 }
 
-// Lists the values that petri sets in each frame, and constants: all topics before `let`, the first keyword.
+// Lists the constants and the values that petri sets in each frame: all topics before `let`, the first keyword.
 static void list_values(TextList *list) {
     for (size_t i = 0; TOPICS[i].word && strcmp(TOPICS[i].word, "let") != 0; i++)
         add_unique(list, TOPICS[i].word);

@@ -1,9 +1,9 @@
 #!/bin/sh
-# try.sh FOLDER: installs the Debian packages in FOLDER on this machine and tests them. It runs on the minimal machine
+# try.sh FOLDER: installs the Debian packages in FOLDER on this machine and tests them. It runs on the minimal system
 # of ./dev package --test. Exits with 0 if all tests pass.
 set -eu
 [ "$(id -u)" -eq 0 ] && [ -e /root/petri ] || {
-    echo "try.sh must run on the machine of ./dev package --test" >&2
+    echo "try.sh must run on the minimal system of ./dev package --test" >&2
     exit 2
 }
 folder=$(cd "$1" && pwd)
@@ -29,7 +29,7 @@ head -c 8 dish.png | grep -q PNG
 petri help sin | grep -q Sine
 [ -s /usr/share/bash-completion/completions/petri ]
 echo "petri runs, draws and shows help"
-# shellcheck disable=SC2046 # file names without blanks
+# shellcheck disable=SC2046 # file names without spaces
 install $(debs libpetri0.3) $(debs libpetri-draw0.3) $(debs libpetri-dev) gcc libc6-dev pkg-config
 sed -n '/^```c where.c$/,/^```$/p' /root/petri/README.md | sed '1d;$d' >where.c
 # shellcheck disable=SC2046 # options are words

@@ -1,8 +1,8 @@
-// helpers.c: implementation of helpers.h, whose text is compiled before this file.
+// helpers.c: see helpers.h. build_petri.py inserts the text of helpers.h before this file.
 #include <signal.h>
 #include <string.h>
 
-static PetriSession *volatile active_session; // in the main thread
+static PetriSession *volatile active_session; // session that the main thread is stepping; NULL: none
 static volatile sig_atomic_t interrupted;
 static struct sigaction outer; // Python's handler
 
@@ -15,7 +15,8 @@ static void on_interrupt(int number, siginfo_t *info, void *context) {
         outer.sa_handler(number);
 }
 
-// Directs Ctrl-C to the session that is being stepped. Returns false if Python has no handler to pass it on to.
+// Installs a handler with which Ctrl-C interrupts the active session and is then passed to Python's handler. Returns
+// false if Python has no handler.
 static bool install_handler(void) {
     struct sigaction ours = {.sa_flags = SA_SIGINFO | SA_RESTART};
     ours.sa_sigaction = on_interrupt;
@@ -40,7 +41,7 @@ PetriStatus petri_python_step(PetriSession *session, size_t count, bool interrup
     if (interruptible && !nested) {
         sigaction(SIGINT, &outer, NULL);
         if (interrupted && status != PETRI_INTERRUPTED)
-            petri_clear_interrupt(session); // it came after the step, and must not end the next one
+            petri_clear_interrupt(session); // Ctrl-C came after the step and must not abort the next one
     }
     if (nested)
         active_session = before;

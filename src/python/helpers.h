@@ -4,14 +4,15 @@
 
 #include "petri-draw.h"
 
-// Computes `count` frames, or fewer if one fails or a Python function sets `stop` (NULL if there are no functions).
-// `interruptible`: Ctrl-C interrupts them and is then passed to Python's handler; only for the main thread.
+// Computes `count` frames, or fewer if a frame fails or a Python function sets *stop. `stop` is NULL if the session has
+// no functions. If `interruptible` is true, Ctrl-C interrupts the step and is then passed to Python's handler. Must be
+// false in threads other than the main thread.
 PetriStatus petri_python_step(PetriSession *session, size_t count, bool interruptible, const bool *stop);
 
-// Returns the index of a system, or -1 if there is none. `number` is tried first; NULL matches any name.
+// Returns the index of a system, or -1 if there is none. The index `number` is tried first. NULL matches any name.
 int petri_python_system(PetriSession *session, int number, const char *name, PetriSystem *system);
 
-// A column of a system, as memory.
+// Memory layout of a column of a system.
 typedef struct PetriPythonView {
     uintptr_t address; // 0: the system has no such column
     size_t count;      // number of particles
@@ -29,7 +30,7 @@ bool petri_python_pair(PetriSession *session, double symbol, double number, Petr
 // The PetriFunctionCall of Python functions; `user_data` is the handle of the function.
 PetriValue petri_python_call(PetriCall *call, void *user_data, const PetriValue *arguments, uint32_t count);
 
-// Finalizers, which take the handle itself; and an inline function, which Python cannot call.
+// Finalisers that take the object itself, and a wrapper of an inline function, which cffi cannot call.
 void petri_python_close(PetriSession *session);
 void petri_python_painter_close(PetriPainter *painter);
 void petri_python_picture_free(PetriPicture *picture);

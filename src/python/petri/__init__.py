@@ -1,4 +1,4 @@
-"""petri runs Flitter scripts with particle physics: fast, and with results that are the same bit for bit.
+"""petri runs Flitter scripts with particle physics. It is fast, and its results are reproducible bit for bit.
 
     import petri
     session = petri.Session("dish.fl", CELLS=200)

@@ -23,7 +23,7 @@ class Diagnostic(NamedTuple):
 
 
 class _ScriptMessage(Exception):
-    """All diagnostics, and the attributes of the first one."""
+    """A message with all its diagnostics. The other attributes are those of the first diagnostic."""
 
     def __init__(self, message: str, diagnostics: tuple[Diagnostic, ...] = ()):
         super().__init__(message)
@@ -34,7 +34,7 @@ class _ScriptMessage(Exception):
 
 
 class PetriError(_ScriptMessage):
-    """A call failed. `diagnostics` has the reasons; `file`, `line`, `column`, `code`, `text` are of the first one."""
+    """A call failed. `diagnostics` has the reasons; the other attributes are those of the first diagnostic."""
 
 
 class ScriptError(PetriError, ValueError):
@@ -42,7 +42,7 @@ class ScriptError(PetriError, ValueError):
 
 
 class LimitError(PetriError):
-    """A frame, load or picture exceeded a limit of work or memory; it was aborted and changed nothing."""
+    """A frame, load or picture exceeded the limit of work or memory. It was aborted and changed nothing."""
 
 
 class OutOfMemoryError(PetriError, MemoryError):
@@ -54,7 +54,7 @@ class MissingLibraryError(PetriError):
 
 
 class InterruptedStep(PetriError):
-    """Session.interrupt() was called; the call was aborted and changed nothing."""
+    """The call was aborted by Session.interrupt() and changed nothing."""
 
 
 class PetriWarning(_ScriptMessage, UserWarning):

@@ -23,7 +23,7 @@ class Functions:
             self._add(name, function)
 
     def lend(self, calling: bool) -> None:
-        """Makes the session unusable during a call of a function, or usable again."""
+        """Makes the session unusable while a function is called (`calling` is True), or usable again."""
         self.calling = calling
         self._session._c = self._session.state._session = ffi.NULL if calling else self.pointer
 
@@ -62,7 +62,7 @@ def _result(given: Any) -> tuple:
 
 
 def _failed(_: Any, error: BaseException, trace: Any) -> None:
-    """Records an exception, even a Ctrl-C just before or after the function, for the caller of the session."""
+    """Records an exception, which step raises later. Also handles a Ctrl-C just before or after the function."""
     arguments = trace.tb_frame.f_locals
     owner = ffi.from_handle(arguments["user_data"])[0]
     lib.petri_call_error(arguments["call"], f"{type(error).__name__}: {error}".encode())

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class Picture:
-    """The picture of a frame, independent of later frames. Notebooks display it."""
+    """The picture of a frame. It does not change with later frames. Notebooks display it."""
 
     def __init__(self, session: Session, pointer: Any):
         self._owner = session

@@ -21,7 +21,7 @@ _MAIN = threading.main_thread().ident
 
 @dataclass
 class Options:
-    """Options of a session; the fields are those of PetriOptions in petri.h. None: the default."""
+    """Options of a session: fields of PetriOptions in petri.h. None means the default."""
 
     fps: Optional[float] = None
     threads: int = 0
@@ -36,7 +36,7 @@ class Options:
 
 
 class Frame(NamedTuple):
-    """The number of a frame, from 0, and its clocks."""
+    """The number of a frame (from 0), its clocks, and the time that it took to compute."""
 
     number: int
     time: float
@@ -75,13 +75,13 @@ class Session:
     """A script and its state.
 
     `source` is the script's file, or its text if it contains a newline. Other keyword arguments set the script's
-    parameters: `petri.Session("dish.fl", CELLS=20)` corresponds to `-D CELLS=20`. Errors of the script are raised
-    (ScriptError, …); a script that is probably wrong causes a PetriWarning. `given` has globals for the script, whose
-    values can be changed between frames (set_global). Several threads may use a session, but not at the same time.
+    parameters: `petri.Session("dish.fl", CELLS=20)` corresponds to `-D CELLS=20`. Errors in the script raise
+    exceptions such as ScriptError. A script that is probably wrong causes a PetriWarning. `given` contains globals for
+    the script; set_global changes them between frames. Several threads may use a session, but not at the same time.
 
-    The script calls `functions` like built-in ones. They take and return numbers, Text, tuples of them, and None; they
-    also take symbols, as str. They must not use the session. If a function raises an exception, its result is null; the
-    frame is completed, and then step raises the exception.
+    The script can call `functions` like built-in functions. Arguments are numbers, Text, str (a symbol), None or tuples
+    of these. Results have the same types except str. Functions must not use the session. If a function raises an
+    exception, its result is null. After the frame is completed, step raises the exception.
     """
 
     def __init__(self, source: Union[str, os.PathLike], *, options: Optional[Options] = None,
@@ -92,7 +92,7 @@ class Session:
         self._painter: Any = None
         self._functions: Optional[Functions] = None
         self._stop: Any = ffi.NULL
-        self._shown: List[None] = []  # one element per array that shows the session's memory
+        self._shown: List[None] = []  # one element per array that refers to the session's memory
         self._c = self._open(options or Options())
         self.state = State(self._c, self._lock)
         self.systems = Systems(self)
@@ -147,7 +147,7 @@ class Session:
             self._finish(status, message)
 
     def _finish(self, status: int, message: Optional[str] = None) -> None:
-        """Raises the error of a call, or the exception of a function that it called."""
+        """Raises the error of a call, or the exception that a Python function raised during the call."""
         if self._functions and self._functions.calling:
             raise RuntimeError("a function that a script calls cannot use its session")
         if self._functions and self._functions.raised:
@@ -172,20 +172,20 @@ class Session:
             self._finish(status)
 
     def __iter__(self) -> Iterator[Frame]:
-        """Computes and yields frames without end."""
+        """Computes frames endlessly and yields each of them."""
         for _ in count():
             self.step()
             yield self.frame
 
     def frames(self, n: int) -> Iterator[Frame]:
-        """Computes and yields the next n frames."""
+        """Computes the next n frames and yields each of them."""
         for _ in range(n):
             self.step()
             yield self.frame
 
     @property
     def frame(self) -> Frame:
-        """The last computed frame; its number is -1 before the first."""
+        """The last computed frame. Before the first frame, its number is -1."""
         with self._lock:
             frame = lib.petri_frame(self._c)
         return Frame(*(getattr(frame, name) for name in Frame._fields))
@@ -196,7 +196,7 @@ class Session:
         return values.parse(self._collect(lib.petri_evaluate, data, len(data), ffi.new("PetriEvaluation *")))
 
     def interrupt(self) -> None:
-        """Aborts the frame that another thread computes; its step raises InterruptedStep. Any thread may call this."""
+        """Aborts the frame that another thread is computing; its step raises InterruptedStep. Thread-safe."""
         lib.petri_interrupt(self._c)
 
     def snapshot(self) -> Snapshot:
@@ -205,7 +205,7 @@ class Session:
             return Snapshot(self._c, lib.petri_frame(self._c).number)
 
     def rewind(self, snapshot: Snapshot) -> None:
-        """Returns to the end of the snapshot's frame. The following frames are the same, bit for bit."""
+        """Returns to the end of the snapshot's frame. Recomputed frames are bit-identical."""
         if snapshot._session is not self._c:
             raise ValueError("the snapshot belongs to another session")
         self._call(lib.petri_rewind, snapshot._c)
@@ -215,13 +215,13 @@ class Session:
         self._call(lib.petri_save, os.fsencode(file))
 
     def restore(self, file: Union[str, os.PathLike]) -> None:
-        """Resumes from a saved state, bit for bit."""
+        """Resumes from a saved state. The following frames are bit-identical to those of an uninterrupted run."""
         if not os.path.exists(file):
             raise FileNotFoundError(file)
         self._call(lib.petri_restore, os.fsencode(file))
 
     def set_parameter(self, name: str, value: Any) -> None:
-        """Sets a parameter (`let SIZE=SIZE or 20`) from the next frame on; None: to its default."""
+        """Sets a parameter (`let SIZE=SIZE or 20`) from the next frame on. None restores its default."""
         text = ffi.NULL if value is None else (value if isinstance(value, str) else self._printed(value)).encode()
         self._call(lib.petri_set_parameter, name.encode(), text, message=f"the script has no parameter {name}")
 
@@ -234,7 +234,7 @@ class Session:
         self._call(lib.petri_set_global, name.encode(), encoded, message=f"cannot set {name!r} to {value!r}")
 
     def text(self, *sections: str) -> str:
-        """Returns the output of `petri run --print` for the frame: any of "tree", "state", "log", "error", "hash"."""
+        """Returns output like `petri run --print`. Sections are "tree", "state", "log", "error" and "hash"."""
         bits = 0
         for section in sections:
             bits |= getattr(lib, f"PETRI_PRINT_{section.upper()}")
@@ -242,7 +242,7 @@ class Session:
 
     def picture(self, width: int = 0, height: int = 0, *, scale: float = 1, window: int = -1,
                 automatic: Optional[bool] = None) -> Picture:
-        """Returns the picture of the last frame: its window, or the particles if it has none or if `automatic`."""
+        """Returns the picture of the last frame: its window, or the particles if there is none or if `automatic`."""
         options = ffi.new("PetriPictureOptions *")
         lib.petri_python_picture_options(options)
         options.width, options.height, options.scale, options.window = width, height, scale, window
@@ -258,7 +258,7 @@ class Session:
         return self._painter
 
     def close(self) -> None:
-        """Ends the session. Its memory is freed when no array shows it any more."""
+        """Ends the session. Its memory is freed when no array refers to it any more."""
         with self._lock:
             self._c = self.state._session = ffi.NULL
 

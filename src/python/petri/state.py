@@ -12,8 +12,8 @@ from ._petri import ffi, lib
 class State(MutableMapping):
     """`session.state["cells", 3]` is `$(:cells;3)`: a float, a str, a Text, or a tuple of these.
 
-    A key is a str (a symbol), a number, a `Text` (a string) or a tuple of these. Values that are set are seen by the
-    next frame. Missing keys raise KeyError.
+    A key is a str (a symbol), a number, a `Text` (a string) or a tuple of these. Scripts read new values from the next
+    frame on. Missing keys raise KeyError.
     """
 
     __slots__ = ("_session", "_lock", "_symbols", "_value")

@@ -1,4 +1,4 @@
-"""Runs of a script over many values."""
+"""Parameter sweeps: runs of a script with many combinations of values."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from .session import Options, Session
 def sweep(source: Union[str, os.PathLike], defines: Mapping[str, Iterable[Any]], metrics: Mapping[str, str], *,
           frames: int = 600, until: Optional[str] = None, seeds: int = 0, jobs: Optional[int] = None,
           options: Optional[Options] = None) -> Mapping[str, List[Any]]:
-    """Runs a script once per combination of values, several runs at a time, and measures the results.
+    """Runs a script once per combination of values, several runs in parallel, and measures the results.
 
-    `defines` has the values of each name. `metrics` has expressions, which are evaluated after the last frame. `seeds`
-    adds a name SEED with values from 1. A run ends after `frames` frames, or with the first frame in which `until` is
-    true. The result has one list per column and one element per run, in the order of `petri sweep`: the names, frame,
-    the metrics, and error (None, or the reason for a failure; the metrics are None then).
-    `pandas.DataFrame(petri.sweep(...))` makes it a table.
+    `defines` maps names to lists of values, `metrics` maps column names to expressions, which are evaluated after the
+    last frame. If `seeds` is positive, each combination is run with SEED from 1 to `seeds`. A run ends after `frames`
+    frames, or after the first frame in which `until` is true. The result maps columns to lists with one element per
+    run, in the order of `petri sweep`. The columns are the names, frame, the metrics, and error: None, or the reason
+    for a failure, in which case the metrics are None. `pandas.DataFrame` converts the result to a table.
     """
     axes = {name: list(given) for name, given in defines.items()}
     if seeds > 0:

@@ -1,4 +1,4 @@
-"""The particle systems of a session, as numpy arrays of the session's memory."""
+"""The particle systems of a session, as numpy arrays that are views of the session's memory."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class _Memory:
-    """The memory of an array, for numpy; keeps the session and the columns alive as long as the array."""
+    """The memory of an array, for numpy. Keeps the session and the columns alive as long as the array exists."""
 
     __slots__ = ("__array_interface__", "session", "shown")
 
@@ -61,7 +61,7 @@ class System:
             if not lib.petri_python_view(session, self._number, self._printed, letter.encode(), view):
                 raise self._missing_error()
             place = address, count, width, stride = view.address, view.count, view.width, view.stride
-            # Memory in the same place is already shown by the last array.
+            # The cached array already refers to this memory.
             if letter in self._arrays:
                 if self._arrays[letter][0] == place:
                     return self._arrays[letter][1]
@@ -99,7 +99,7 @@ class System:
 
     @property
     def anchor(self) -> numpy.ndarray:
-        """Which particles are anchors: bool, N, read-only."""
+        """True for particles that are anchors: bool, N, read-only."""
         struct = self._fetch()
         if struct.particle_count == 0:
             return numpy.zeros(0, bool)
@@ -109,12 +109,12 @@ class System:
 
     @property
     def name(self) -> str:
-        """Its state key: "cells" for `state=:cells`; keys other than symbols in printed form."""
+        """Its state key: "cells" for `state=:cells`. Keys other than symbols are in printed form."""
         return _plain(self._printed)
 
     @property
     def dimensions(self) -> int:
-        """d, the number of components of a position."""
+        """The number of dimensions d."""
         return self._fetch().dimensions
 
     @property

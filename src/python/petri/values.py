@@ -12,7 +12,7 @@ from typing import Any, Iterable, List, Tuple, Union
 
 from ._petri import ffi, lib
 
-# Symbols are represented by numbers below this.
+# Symbols are represented by numbers below this value.
 _SYMBOLS_BELOW = -8.98e307
 
 
