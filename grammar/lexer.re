@@ -1,7 +1,7 @@
-// lexer.re: the scanner, from characters to tokens (spec language.md L2). re2c converts this file to C.
+// lexer.re: the lexer, which splits source code into tokens (spec language.md L2). re2c converts this file to C.
 //
-// The scanner does not know the context. The parser's driver (lib/syntax/parse.c) decides whether a word is a keyword,
-// whether %pragma and %include are allowed, and what a newline means.
+// The lexer does not depend on context. The driver of the parser (lib/syntax/parse.c) decides whether a word is a
+// keyword, whether %pragma and %include are allowed, and what a newline means.
 #include "ast/token.h"
 
 #include "base/unicode.h"
@@ -61,7 +61,7 @@ static Token bad_character(Lexer *lexer, uint32_t start) {
     return token_to(lexer, start, (uint32_t)end, GR_UNDEF);
 }
 
-// Scans a word, or a symbol, node or tag, which start with `:`, `!` or `#`.
+// Returns the token of a word, or of a symbol, node or tag, which start with `:`, `!` or `#`.
 static Token word(Lexer *lexer, uint32_t start) {
     const char *text = lexer->source->text.bytes;
     char sigil = text[start];

@@ -1,8 +1,8 @@
-// parser.y: the grammar, from tokens to syntax tree (spec language.md L3). bison converts this file to C.
+// parser.y: the grammar, which builds a syntax tree from tokens (spec language.md L3). bison converts this file to C.
 //
 // No word is reserved. Before each word, the driver calls gr_accepts to check whether the current parser state has an
-// action for the keyword. If not, it passes a name. The check uses the plain LALR(1) state directly after a shift, so
-// default reductions and LAC must be off. The tokens that the states accept are those of the keyword table in L2.12.
+// action for the keyword. If not, the driver passes the word as a name. The check uses the LALR(1) state directly after
+// a shift, so default reductions and LAC must be off. L2.12 tabulates where each keyword is accepted.
 //
 // Parse stacks contain only pointers into the program's arena, so no destructors are needed.
 %code requires {
@@ -50,12 +50,12 @@ bool gr_accepts(const gr_pstate *parser, int token);
 
 static void gr_error(const Span *span, ParseContext *context, const char *text);
 
-// Returns the node, or reports an overflow and returns a small node if the tree is too high.
+// Returns `ast`. If the tree is too high, records an overflow and returns a small node instead.
 static Ast *check_height(ParseContext *context, Ast *ast) {
     if (ast->height <= AST_MAX_HEIGHT)
         return ast;
     gr_error(&ast->span, context, NULL);
-    return ast_literal(context->arena, ast->span, VALUE_NULL); // any small tree; parsing has failed
+    return ast_literal(context->arena, ast->span, VALUE_NULL); // any small tree will do, because parsing has failed
 }
 
 static Ast *new_ast(ParseContext *context, AstKind kind, Span span, Ast *a, Ast *b, Ast *c, uint32_t count) {
@@ -107,7 +107,7 @@ static AstList *prepend_item(ParseContext *context, Ast *first, const AstList *r
 %nterm <list> pragmas items bindings lets params params_opt for_clauses name_list attrs decorations compose wbinds
 %nterm <list> args args_opt named_args elifs
 
-// A name after the bindings of a `where` continues them (L3.1).
+// A name after the bindings of a `where` starts a further binding (L3.1).
 %precedence WHERE_END
 %precedence NAME
 
@@ -139,7 +139,7 @@ items:
   ;
 
 suite: NEWLINE INDENT items DEDENT { $$ = NODE_OF(AST_SUITE, @items, NULL, $items); };
-// The suite of an `if` is a separate rule, so that `else` is a keyword only after it (L2.12, K2).
+// The suite of an `if` has its own rule, so that `else` is a keyword only after such a suite (L2.12, K2).
 if_suite: NEWLINE INDENT items DEDENT { $$ = NODE_OF(AST_SUITE, @items, NULL, $items); };
 
 item:
@@ -202,7 +202,7 @@ statement:
   | "%include" comp NEWLINE { $$ = UNARY(AST_INCLUDE, @comp, $comp); }
   ;
 
-// `parent <<`. The rest of the statement is on the same line or the next.
+// `parent <<`. The rest of the statement is on the same line or on the next.
 lead:
     decorated "<<"
   | decorated "<<" NEWLINE
@@ -214,7 +214,7 @@ attrs:
   | attrs attr { $$ = ast_list_add($1, $2); }
   ;
 
-// Several clauses form nested loops, the first being the outermost. The list alternates names and sources.
+// Several clauses form nested loops; the first clause is the outermost loop. The list alternates names and sources.
 for_statement: "for" for_clauses suite {
         $$ = $suite;
         for (uint32_t i = $for_clauses->count; i > 0; i -= 2)
@@ -378,7 +378,7 @@ static int yyreport_syntax_error(const yypcontext_t *at, ParseContext *context) 
     return 0;
 }
 
-// Records where the program is nested too deeply. bison calls this only if its stack is full.
+// Records where the program is nested too deeply. bison calls this function only if its stack is full.
 static void gr_error(const Span *span, ParseContext *context, const char *text) {
     (void)text;
     if (!context->overflow)

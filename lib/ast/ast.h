@@ -1,6 +1,6 @@
 // ast.h: the syntax tree, which the parser builds and the compiler reads.
 //
-// Nodes are immutable once built, are in the program's arena and store their location in the source. ast_list.h lists
+// Nodes are allocated in an arena, are immutable once built and store their location in the source. ast_list.h lists
 // the children of each kind.
 #ifndef PETRI_AST_AST_H
 #define PETRI_AST_AST_H
@@ -21,14 +21,14 @@ struct Ast {
     uint32_t height; // 1 + maximum height of the children
     Span span;
     const Symbol *name; // NULL for kinds without a name
-    Value value;        // of LITERAL
+    Value value;        // LITERAL: the value
     Ast *const *children;
 };
 
-// Higher trees are rejected, so that recursion cannot overflow the stack.
+// Maximum height of a tree, so that recursion cannot overflow the stack. The parser rejects higher trees.
 enum { AST_MAX_HEIGHT = 2000 };
 
-// A growing list of nodes, from which the children of a node are made.
+// A growing list of nodes, which become the children of a node.
 typedef struct AstList {
     Arena *arena;
     Ast **items;
@@ -37,10 +37,11 @@ typedef struct AstList {
 } AstList;
 
 AstList *ast_list_new(Arena *arena);
-// Both append and return the list.
+// Both functions append to the list and return it.
 AstList *ast_list_add(AstList *list, Ast *item);
 AstList *ast_list_add_all(AstList *list, const AstList *more);
 
+// Return a new node in the arena. The array of children is copied.
 Ast *ast_new(Arena *arena, AstKind kind, Span span, const Symbol *name, Ast *const *children, uint32_t count);
 Ast *ast_from_list(Arena *arena, AstKind kind, Span span, const Symbol *name, const AstList *children);
 Ast *ast_literal(Arena *arena, Span span, Value value);

@@ -1,7 +1,7 @@
 // ast_list.h: the kinds of syntax tree nodes, one row each.
 //
 // AST(KIND, "name in --dump=ast"), followed by the children. `names` is a NAMES node. `?` marks a child that may be
-// NULL. `…` means zero or more. `name` before a semicolon is the field, not a child.
+// NULL. `…` means zero or more. `name` is the field Ast.name, not a child.
 // clang-format off
 AST(LITERAL,    "literal")      // value: a number, string or symbol
 AST(NODE,       "node")         // name: kind of the new node

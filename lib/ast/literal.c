@@ -41,11 +41,11 @@ const char *literal_number(Str token, double *x) {
             return "an underscore in a number must be between two digits";
     *x = number_parse(token);
     if (suffix)
-        *x = *x * suffix->factor; // rounded separately from the digits
+        *x = *x * suffix->factor; // a second rounding, after that of the digits
     return NULL;
 }
 
-// Returns the text up to the next colon or the end, and removes it and the colon from *rest.
+// Returns the part of *rest up to the next colon or the end. Removes this part and the colon from *rest.
 static Str next_part(Str *rest) {
     const char *colon = rest->len ? memchr(rest->bytes, ':', rest->len) : NULL;
     Str part = {rest->bytes, colon ? (size_t)(colon - rest->bytes) : rest->len};
@@ -63,7 +63,8 @@ double literal_timecode(Str token) {
     return (seconds + 60 * minutes) + 3600 * hours;
 }
 
-// Decodes \x, \u and \U escapes, which have exactly `digits` hexadecimal digits. Returns NULL or an error message.
+// Decodes a \x, \u or \U escape, which has exactly `digits` hexadecimal digits. Returns NULL on success, else an error
+// message.
 static const char *hex_escape(Text *out, Str body, size_t *at, int digits) {
     uint32_t code_point = 0;
     for (int i = 0; i < digits; i++) {
@@ -128,7 +129,7 @@ const char *literal_string(Arena *arena, Str token, Str *text) {
     return NULL;
 }
 
-// Returns the length of the digits and underscores at an offset, or 0 if they do not start with a digit.
+// Returns the number of digits and underscores at an offset, or 0 if the first character is not a digit.
 static size_t skip_digits(Str text, size_t at) {
     size_t start = at;
     while (at < text.len && (is_digit(text.bytes[at]) || (at > start && text.bytes[at] == '_')))

@@ -5,16 +5,17 @@
 #include "base/arena.h"
 #include "base/str.h"
 
-// Parses a number token: digits with underscores, fraction, exponent and suffix. Returns NULL or an error message.
+// Parses a number token: digits with underscores, fraction, exponent and suffix. Returns NULL on success, else an error
+// message.
 const char *literal_number(Str token, double *x);
 // Returns the seconds of a timecode token `[h:]m:s[.f]`.
 double literal_timecode(Str token);
-// Decodes a string token: removes its quotes and resolves escapes. Returns NULL or an error message.
+// Decodes a string token: removes its quotes and resolves escapes. Returns NULL on success, else an error message.
 const char *literal_string(Arena *arena, Str token, Str *text);
-// Parses a whole text as a number according to L16.3: optional sign, digits with underscores, inf, nan, suffix, and
-// surrounding spaces. Returns false if it is not a number.
+// Parses a string as a number according to L16.3: optional sign, digits with underscores or inf or nan, suffix, and
+// surrounding spaces. Returns false if the whole string is not a number.
 bool literal_parse_number(Str text, double *x);
-// Parses a whole text as a timecode. Returns false if it is not a timecode.
+// Parses a string as a timecode. Returns false if the whole string is not a timecode.
 bool literal_parse_timecode(Str text, double *x);
 
 #endif

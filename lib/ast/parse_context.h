@@ -1,5 +1,5 @@
-// parse_context.h: data shared by the grammar's actions and the parser's driver (syntax/parse.c). The actions record
-// errors here and the driver reports them.
+// parse_context.h: data shared by the grammar's actions and the driver of the parser (syntax/parse.c). The actions
+// record errors here, and the driver reports them.
 #ifndef PETRI_AST_PARSE_CONTEXT_H
 #define PETRI_AST_PARSE_CONTEXT_H
 
@@ -9,16 +9,16 @@
 
 enum { PARSE_ALTERNATIVES = 4 };
 
-// A token that cannot continue the program.
+// A token that is not allowed where it occurs.
 typedef struct Unexpected {
     const char *found; // name of the token; NULL: no error
     Span span;
     const char *expected[PARSE_ALTERNATIVES]; // names of tokens that could follow
-    int expected_count;                       // 0: none, or more than PARSE_ALTERNATIVES
-    bool value_expected;                      // a value could follow
+    int expected_count;                       // 0: more than PARSE_ALTERNATIVES
+    bool value_expected;                      // a value is allowed instead
 } Unexpected;
 
-// Called with each token as the grammar sees it. A word that is a keyword in its context has the keyword's kind.
+// Called with each token that is passed to the grammar. A word that is a keyword in its context has the keyword's kind.
 typedef void ParseTokenCallback(void *user_data, const Token *token);
 
 typedef struct ParseContext {
@@ -30,7 +30,7 @@ typedef struct ParseContext {
     bool failed;         // an error was reported
     uint32_t error_line; // line of the last error
     bool too_deep;       // a nesting limit was exceeded; it is reported once and parsing stops
-    bool reported;       // the scanner or the layout has already reported the current error
+    bool reported;       // an invalid token was already reported, so the parser's error about it is not
     // Set by the grammar while it processes a token.
     Unexpected unexpected;
     bool overflow;                // the tree is too high, or the parser's stack is full

@@ -1,4 +1,4 @@
-// token.h: tokens, and the interface of the scanner (grammar/lexer.re).
+// token.h: tokens, and the interface of the lexer (grammar/lexer.re).
 #ifndef PETRI_AST_TOKEN_H
 #define PETRI_AST_TOKEN_H
 
@@ -7,9 +7,9 @@
 
 typedef struct Token {
     int kind;    // a token of grammar/parser.y
-    int keyword; // keyword that a NAME is spelled like; 0: none
+    int keyword; // NAME: the token of the keyword with this spelling; 0: none
     Span span;
-    const char *error; // error found by the layout; concerns the token itself if its kind is GR_UNDEF; NULL: none
+    const char *error; // error in the indentation or nesting (layout.h); NULL: none
     bool fatal;        // a limit was exceeded, so parsing stops
 } Token;
 
@@ -18,10 +18,11 @@ typedef struct Lexer {
     uint32_t at; // offset of the next character
 } Lexer;
 
-// Returns a scanner at the start of the text, after a hashbang line.
+// Returns a lexer at the start of the source, after a hashbang line.
 Lexer lexer_new(const Source *source);
-// Returns the next token. Skips white space, comments and line continuations. A NEWLINE token spans blank and comment
-// lines and the indentation of the next line. At the end of the text, every call returns END.
+// Returns the next token. Skips white space, comments and line continuations. A NEWLINE token includes
+// subsequent blank and comment lines and the indentation of the next line. At the end of the source, every call returns
+// END.
 Token lexer_next(Lexer *lexer);
 
 #endif

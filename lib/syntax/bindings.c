@@ -8,7 +8,7 @@ struct ScopeEntry {
     ScopeEntry *outer;
     const Symbol *name;
     uint32_t at;         // start of the name in the text
-    const Ast *function; // function that the name is bound to; NULL: another value
+    const Ast *function; // FUNC node that the name is bound to; NULL: another value
 };
 
 typedef struct Walker {
@@ -17,8 +17,8 @@ typedef struct Walker {
     BindingCallback *callback;
     void *user_data;
     ScopeEntry *scope;
-    uint32_t end; // end of the innermost suite or expression with a scope
-    uint32_t depth;
+    uint32_t end;   // end of the innermost suite or expression that is a scope
+    uint32_t depth; // BindingInfo.depth
 } Walker;
 
 static void walk_ast(Walker *walker, const Ast *ast);
@@ -29,7 +29,7 @@ static ScopeEntry *push_entry(Walker *walker, const Symbol *name, uint32_t at, c
     return walker->scope = entry;
 }
 
-// Reports a name at offset `at` that is visible from `start` to the end of the enclosing scope.
+// Reports a binding whose name is at offset `at` and is visible from `start` to the end of the enclosing scope.
 static void report_binding(Walker *walker, NameKind kind, const Symbol *name, uint32_t at, uint32_t start,
                            Span value_span, bool is_sole) {
     BindingInfo info = {.kind = kind,
@@ -67,7 +67,7 @@ static void walk_binding(Walker *walker, const Ast *binding) {
     bind_names(walker, NAME_LET, binding->children[0], binding->span.end, binding->children[1]);
 }
 
-// Returns the start of a FUNC's name, which follows the word func, blanks and continued lines.
+// Returns the offset of a FUNC's name: skips the word func, blanks and line continuations.
 static uint32_t function_name_start(const Walker *walker, const Ast *ast) {
     const char *text = walker->source->text.bytes;
     uint32_t at = ast->span.start + 4;
@@ -101,7 +101,7 @@ static void walk_function(Walker *walker, const Ast *ast) {
     walker->scope = self ? self : outer;
 }
 
-// Walks the children from `first` in a new scope that ends with the node.
+// Walks the children of a node, beginning with child `first`, in a new scope that ends with the node.
 static void walk_scope(Walker *walker, const Ast *ast, uint32_t first) {
     ScopeEntry *outer = walker->scope;
     uint32_t end = walker->end;
@@ -140,7 +140,7 @@ static void walk_where(Walker *walker, const Ast *ast) {
     walker->scope = outer;
 }
 
-// Argument names refer to the parameters of the called function.
+// Reports names of named arguments as uses of the called function's parameters.
 static void walk_call(Walker *walker, const Ast *ast) {
     const Ast *callee = ast->children[0];
     const ScopeEntry *entry = callee->kind == AST_NAME ? find_entry(walker, callee->name) : NULL;

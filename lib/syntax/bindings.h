@@ -1,5 +1,5 @@
-// bindings.h: name resolution for editors. It follows the rules of the compiler (lib/program/compile.c), but also
-// accepts incomplete syntax trees.
+// bindings.h: name resolution for editors. The rules are those of the compiler (lib/program/compile.c), but incomplete
+// syntax trees are accepted, too.
 #ifndef PETRI_SYNTAX_BINDINGS_H
 #define PETRI_SYNTAX_BINDINGS_H
 
@@ -8,15 +8,15 @@
 // Must match PetriNameKind of petri.h.
 typedef enum NameKind { NAME_USE, NAME_LET, NAME_FUNC, NAME_PARAM, NAME_LOOP, NAME_IMPORT } NameKind;
 
-#define NAME_FREE UINT32_MAX // binding_start of a name that is not bound in the text
+#define NAME_FREE UINT32_MAX // binding_start of a name that the script does not bind
 
 typedef struct BindingInfo {
     NameKind kind;
     Span span;              // location of the name
-    uint32_t binding_start; // start of the name that binds it; NAME_FREE: none
+    uint32_t binding_start; // offset of the name in its binding; NAME_FREE: none
     // The other fields are set for all kinds except NAME_USE.
-    Span scope;     // text in which the name is visible
-    Span value;     // text of the bound value, function or file name
+    Span scope;     // where the name is visible
+    Span value;     // source of the bound value or function, or file name of an import
     bool is_sole;   // the value is bound to this name only
     uint32_t depth; // number of enclosing blocks and functions
 } BindingInfo;

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-// Signatures of encodings other than UTF-8, the longer ones first.
+// Byte-order marks of encodings other than UTF-8. Longer marks come first.
 static const struct {
     Str bytes;
     const char *encoding;
@@ -14,7 +14,7 @@ static const struct {
     {{"\xfe\xff", 2}, "UTF-16"},
 };
 
-// Returns true if every second of the first bytes is NUL, as in UTF-16 without a signature.
+// Returns true if every other byte at the start of the text is NUL, as in UTF-16 without a byte-order mark.
 static bool alternates(Str text) {
     enum { MAX_SNIFFED = 32, MIN_LENGTH = 4 };
     size_t count[2] = {0}, len = text.len < MAX_SNIFFED ? text.len & ~(size_t)1 : MAX_SNIFFED;
@@ -30,8 +30,8 @@ const char *content_sniff_encoding(const Source *source) {
     return alternates(source->text) ? "UTF-16" : NULL;
 }
 
-// Returns true if the text is certainly meant to be a script. A text that is neither a file nor a stream such as
-// `<stdin>` comes from the host, for example from a prompt.
+// Returns true if the source is certainly meant to be a script: its name ends with .fl, its hashbang line names petri,
+// or it is neither a file nor a stream such as `<stdin>` but comes from the host, for example from a prompt.
 static bool claims_to_be_script(const Source *source) {
     Str first = source_locate(source, 0).text, petri = STR("petri");
     bool read = str_starts_with(source->path, STR("/")) || str_starts_with(source->name, STR("<"));
@@ -49,14 +49,14 @@ static bool is_blank(const Source *source, uint32_t line) {
 }
 
 typedef struct Tally {
-    uint32_t lines; // number of lines that are not empty, up to the last error
-    uint32_t bad;
+    uint32_t lines; // number of lines up to the last error, without blank lines and comments
+    uint32_t bad;   // number of lines with errors
 } Tally;
 
 static Tally count_lines(const Source *source, const DiagSink *diags) {
     Tally tally = {0};
     uint32_t last = 0;
-    for (uint32_t i = 0; i < diags->count; i++) { // in text order
+    for (uint32_t i = 0; i < diags->count; i++) { // in source order
         uint32_t line = source_line(source, diags->items[i].span.start);
         tally.bad += line > last;
         last = line > last ? line : last;

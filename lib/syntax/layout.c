@@ -31,7 +31,7 @@ static Token newline_token(Layout *layout) {
         bool silent = top->rejected;
         top = &layout->levels[--layout->level_count - 1];
         if (layout->indent > top->indent) {
-            // Between two levels: treated as the outer one, so that the following lines still parse.
+            // An indentation between two levels is treated as the outer level, so that the following lines still parse.
             layout->indent = top->indent;
             layout->indent_mismatch = true;
         }

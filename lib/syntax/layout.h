@@ -1,7 +1,7 @@
 // layout.h: conversion of newlines and indentation to NEWLINE, INDENT and DEDENT tokens (spec language.md L2.10).
 //
-// The layout filters the tokens between scanner and parser. Inside round parentheses it removes newline tokens.
-// Elsewhere it compares the indentation of the next line with a stack of indentations.
+// The layout filters the tokens between lexer and parser. Inside parentheses it removes newline tokens. Elsewhere it
+// compares the indentation of the next line with a stack of indentations.
 #ifndef PETRI_SYNTAX_LAYOUT_H
 #define PETRI_SYNTAX_LAYOUT_H
 
@@ -21,17 +21,17 @@ typedef struct Layout {
     LayoutLevel levels[LAYOUT_MAX_DEPTH + 1];
     uint32_t paren_count;
     uint32_t parens[LAYOUT_MAX_DEPTH]; // offsets of the open parentheses
-    Span line;                         // newline token that is converted to INDENT or DEDENTs
+    Span line;                         // newline token that is converted to an INDENT or DEDENTs
     uint32_t indent;                   // indentation of the line after it
-    bool indent_pending;               // INDENT or DEDENTs of `line` have not been returned yet
-    bool indent_mismatch;              // then an error follows, because no line above has this indentation
+    bool indent_pending;               // the INDENT or DEDENTs of `line` have not all been returned yet
+    bool indent_mismatch;              // no line above has the same indentation; the next token gets an error
 } Layout;
 
 void layout_init(Layout *layout, const Source *source);
 // Returns the next token. If no line above has the same indentation, `error` of the line's first token is set. If a
 // nesting limit is exceeded, the token's kind is GR_UNDEF.
 Token layout_next(Layout *layout);
-// Continues scanning at `offset`, inside or before the last returned token. That must not be a newline or parenthesis.
+// Continues scanning at `offset`, inside or before the last returned token, which must not be a newline or parenthesis.
 void layout_resume(Layout *layout, uint32_t offset);
 // Recovers from a syntax error at `token`: closes all parentheses, so that the next line is parsed normally, and marks
 // a rejected INDENT.

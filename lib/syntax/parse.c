@@ -1,4 +1,5 @@
-// parse.c: the parser's driver (parse.h). It decides which words are keywords, builds literals and reports errors.
+// parse.c: the driver of the parser; see parse.h. It decides which words are keywords, builds literals and reports
+// errors.
 #include "syntax/parse.h"
 
 #include "ast/literal.h"
@@ -9,9 +10,9 @@
 
 #include <string.h>
 
-enum { MAX_EXPECTED = 3 }; // more alternatives are not listed in messages
+enum { MAX_EXPECTED = 3 }; // if more tokens are expected, messages list none of them
 
-// Reports an error, but only the first one of a line.
+// Reports an error, unless the previous error is on the same line.
 static void report_error(ParseContext *context, Span span, const char *code, Str text, Str hint) {
     uint32_t line = source_line(context->source, span.start);
     bool follows = context->failed && line == context->error_line;
@@ -32,7 +33,7 @@ static void report_token(ParseContext *context, Span span, Str text, Str hint) {
     report_error(context, span, "syntax", text, specific_hint.len ? specific_hint : hint);
 }
 
-// Reports that the program is nested too deeply, which ends parsing.
+// Reports that the program is nested too deeply. Parsing then stops.
 static void report_overflow(ParseContext *context) {
     if (!context->too_deep)
         report_error(context, context->overflow_at, "too-deep",
@@ -56,7 +57,7 @@ static void add_token_name(Text *out, const char *name) {
     text_add_format(out, quote ? "'%s'" : "%s", name);
 }
 
-// Returns a hint for a common mistake, or an empty text.
+// Returns a hint for a common mistake, or an empty string.
 static Str syntax_hint(const char *found, bool needs_block) {
     if (needs_block)
         return STR("add an indented block below the line above");
@@ -67,11 +68,11 @@ static Str syntax_hint(const char *found, bool needs_block) {
     if (strcmp(found, "'['") == 0)
         return STR("separate vector elements with semicolons: 1;2;3");
     if (strcmp(found, "else") == 0 || strcmp(found, "elif") == 0)
-        return STR("it must follow the block of an if, at the same indentation");
+        return STR("else and elif must follow the block of an if, at the same indentation");
     return (Str){0};
 }
 
-// After a list of names the parser tables expect all tokens that can follow any such list. Returns the one that fits
+// After a list of names, the parser expects all tokens that can follow any list of names. Returns the token that fits
 // the first word of the line, or NULL.
 static const char *after_names(const ParseContext *context, Span span, const char *const *expected, int count) {
     static const struct {
@@ -238,7 +239,7 @@ static GR_STYPE token_value(ParseContext *context, Token *token) {
     return result;
 }
 
-// Shortens a token to its first `len` bytes and changes its kind. Scanning continues after these bytes.
+// Shortens a token to its first `len` bytes and changes its kind. The lexer continues after these bytes.
 static void resize_token(Layout *layout, Token *token, int kind, uint32_t len) {
     token->kind = kind;
     token->span.end = token->span.start + len;
@@ -253,7 +254,7 @@ static void resolve_keyword(const ParseContext *context, Layout *layout, const g
     } else if (token->kind == NAME && token->keyword && gr_accepts(parser, token->keyword)) {
         token->kind = token->keyword;
     } else if (token->kind == NAME && !gr_accepts(parser, NAME)) {
-        // Where only `in` or `from` can follow, they are recognised as a prefix of a word (K11).
+        // If only `in` or `from` can follow, the keyword is also recognised as the prefix of a word (K11).
         if (gr_accepts(parser, IN) && !gr_accepts(parser, AND) && str_starts_with(text, STR("in")))
             resize_token(layout, token, IN, 2);
         else if (gr_accepts(parser, FROM) && str_starts_with(text, STR("from")))
@@ -271,7 +272,8 @@ static void add_paren_hint(ParseContext *context, const Layout *layout, const To
                        open.column);
 }
 
-// Passes a token to the parser. Returns YYPUSH_MORE, 0 at the end, or 1 if the parser could not recover.
+// Passes a token to the parser. Returns YYPUSH_MORE, 0 at the end of the program, or 1 if the parser could not recover
+// from an error.
 static int push_token(ParseContext *context, Layout *layout, gr_pstate *parser, Token *token) {
     if (token->error)
         report_layout(context, token);
@@ -299,7 +301,7 @@ static void notify_token(const ParseContext *context, const Token *token) {
         context->on_token(context->user_data, token);
 }
 
-// Skips the rest of the line after an error from which the grammar cannot recover.
+// Skips the rest of the line after an error from which the grammar cannot recover. Returns NEWLINE or END.
 static int skip_line(const ParseContext *context, Layout *layout) {
     Token token;
     do {
@@ -325,7 +327,7 @@ static bool check_text(ParseContext *context) {
     return !context->failed;
 }
 
-// A parse in progress. `parser` is on the heap.
+// A parse in progress. The parser is allocated on the heap.
 typedef struct Parsing {
     ParseContext *context;
     Layout *layout;
@@ -333,7 +335,7 @@ typedef struct Parsing {
     ParseCompleteness completeness; // result of probe_completeness
 } Parsing;
 
-// Runs a parse and frees the parser, even if an arena escapes.
+// Creates a parser, executes `call` and frees the parser, even if an arena escapes.
 static void run_with_parser(Parsing *parsing, void (*call)(void *parsing)) {
     ParseContext *context = parsing->context;
     Arena *arenas[] = {context->arena, context->symbols->arena, context->diags->arena};
@@ -347,8 +349,8 @@ static void run_with_parser(Parsing *parsing, void (*call)(void *parsing)) {
         arena_escape(context->arena, end);
 }
 
-// In tolerant mode, ends an incomplete statement at the end of its line, so that the next statement and the enclosing
-// block are not lost.
+// In error-tolerant mode, ends an incomplete statement at the end of its line, so that the next statement and the
+// enclosing block are not lost. Returns the result of push_token, or YYPUSH_MORE if there was nothing to do.
 static int close_statement(const Parsing *parsing, int before, const Token *token) {
     bool begins = before == NEWLINE || before == DEDENT || token->kind == DEDENT || token->kind == END;
     if (!parsing->context->error_tolerant || !begins || token->kind == INDENT || token->kind == NEWLINE ||
@@ -358,7 +360,7 @@ static int close_statement(const Parsing *parsing, int before, const Token *toke
     return push_token(parsing->context, parsing->layout, parsing->parser, &end);
 }
 
-// Continues with a new parser after an error from which the grammar cannot recover, as in the first line.
+// Continues with a new parser after an error from which the grammar cannot recover, such as an error in the first line.
 static void restart_parser(Parsing *parsing) {
     gr_pstate_delete(parsing->parser);
     parsing->parser = gr_pstate_new();
@@ -390,7 +392,7 @@ static bool accepts_children(int kind) {
     return kind == NODE || kind == '@';
 }
 
-// Returns true if an invalid token is the third quote of an unfinished long string. The scanner reads the first two
+// Returns true if an invalid token is the third quote of an unfinished long string. The lexer reads the first two
 // quotes as an empty string.
 static bool opens_string(Str text, Span span) {
     uint32_t start = span.start < 2 ? 0 : span.start - 2;

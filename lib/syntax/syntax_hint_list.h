@@ -1,8 +1,8 @@
 // syntax_hint_list.h: hints for syntax errors caused by habits from other languages.
 //
 // HINT(BEFORE, AFTER, "hint"): the hint applies if the line before the unexpected token matches BEFORE and the rest of
-// the line matches AFTER. Both are extended regular expressions. A comment counts as the end of
-// the line. The first matching row is used, so special cases come first.
+// the line matches AFTER. Both are POSIX extended regular expressions. If the unexpected token is the start of a
+// comment, the rest of the line is empty. The first matching row is used, so special cases come first.
 // clang-format off
 #ifndef HINT
 #define HINT(before, after, hint)
@@ -81,7 +81,7 @@ HINT("", "^not" GAP "in([^A-Za-z0-9_]|$)", "write not x in v")
 HINT("[^A-Za-z0-9_]not" GAP "$", "^in([^A-Za-z0-9_]|$)", "write not x in v")
 HINT("", "^\\^", "write x**2 for a power")
 
-// Texts and numbers.
+// Strings and numbers.
 HINT("(^|[^A-Za-z0-9_])[bfruBFRU]$", "^['\"]", TEXT)
 HINT("['\"]" BLANK "$", "^['\"]", TEXT)
 HINT("['\"]" BLANK "%" BLANK "[(][^)]*$", "^,", TEXT)
@@ -105,7 +105,7 @@ HINT("", "^," BLANK "[^ \t]", VECTOR)
 HINT("[=(;,]" BLANK "$", "^[{]", VECTOR)
 HINT("", "^[{}]", NO_BRACES)
 HINT(";$", "^$", "remove the semicolon; a statement ends with its line")
-// Last, because it is a guess: words after something that looks like a tag.
+// The last row is a guess: words after what looks like a tag are probably a comment.
 HINT("[ \t]#[A-Za-z]+" GAP "[A-Za-z]+$", "^($|[A-Za-z])", COMMENT)
 // clang-format on
 

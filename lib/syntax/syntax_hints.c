@@ -14,10 +14,10 @@ static const struct {
 #include "syntax/syntax_hint_list.h"
 };
 
-enum { MAX_CONTEXT = 300 }; // bytes of the line that are matched on either side
+enum { MAX_CONTEXT = 300 }; // maximum number of bytes that are matched on either side of the token
 
-// Returns true if a pattern certainly does not match. A quick test of the first character, for patterns that start with
-// a plain one.
+// Returns true if a pattern certainly does not match. This is a quick test for patterns that start with a literal
+// character.
 static bool cannot_match(const char *pattern, const char *text) {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyz:=,&#-<>`!";
     return pattern[0] == '^' && pattern[1] && strchr(plain, pattern[1]) &&
@@ -37,8 +37,8 @@ static bool matches_pattern(const char *pattern, const char *text) {
     return found;
 }
 
-// Returns a hint for a hexadecimal colour such as `#ff8800` or `0xff8800`; the scanner reads the 0 of the latter as a
-// number.
+// Returns a hint for a hexadecimal colour such as `#ff8800` or `0xff8800`, or an empty string. In `0xff8800`, the
+// lexer reads the 0 as a number.
 static Str hex_colour(Arena *arena, const char *before, const char *after) {
     Text out = text_new(arena);
     Str left = str_trim(str_from(before));

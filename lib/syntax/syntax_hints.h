@@ -4,7 +4,7 @@
 
 #include "base/source.h"
 
-// Returns a hint for the unexpected token at `span`: how to write this in Flitter. Empty if no hint is known.
+// Returns a hint for the unexpected token at `span` about the correct syntax, or an empty string.
 Str syntax_hint_find(Arena *arena, const Source *source, Span span);
 
 #endif

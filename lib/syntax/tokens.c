@@ -12,7 +12,7 @@ typedef struct TokenReader {
     void *user_data;
 } TokenReader;
 
-// Reports the comments between the last token and `end`. There are also blanks, newlines and continuations.
+// Reports the comments between the last token and `end`. Skips blanks, newlines and line continuations.
 static void emit_comments(TokenReader *reader, uint32_t end) {
     const char *text = reader->text.bytes;
     while (reader->at < end) {

@@ -1,4 +1,4 @@
-// tokens.h: tokens of a text for editors, classified into a few kinds and including comments.
+// tokens.h: tokens for syntax highlighting and other editor features. Comments are included.
 #ifndef PETRI_SYNTAX_TOKENS_H
 #define PETRI_SYNTAX_TOKENS_H
 
