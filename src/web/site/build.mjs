@@ -47,20 +47,20 @@ const html = (page, title, body, sections) => `<!doctype html>
 <script type="module" src="try.js"></script>
 </head>
 <body>
-<a class="skip" href="#text">To the text</a>
+<a class="skip" href="#text">Skip to content</a>
 <header>
 <a href="index.html"><strong>petri</strong> manual</a>
 <form role="search"><input id="find" type="search" placeholder="Search ( / )" aria-label="Search the manual" autocomplete="off"></form>
 <a href="../index.html">Playground</a>
-<button id="theme">Dark or light</button>
+<button id="theme">Switch theme</button>
 </header>
 <div id="found" role="region" aria-label="Search results" aria-live="polite" hidden></div>
 <div id="columns">
 <nav aria-label="Pages"><details open><summary>Pages</summary>
 ${nav(page)}</details></nav>
 <main id="text">
-<p id="served" hidden>Opened from a file, this page cannot run its examples: browsers let no page do that.
-<code>./dev web --serve</code> shows it so that it can.</p>
+<p id="served" hidden>This page was opened from a file, so the browser does not allow it to run the examples.
+To run them, start <code>./dev web --serve</code> and open its address.</p>
 ${body}</main>
 <nav id="sections" aria-label="On this page">${contents(sections)}</nav>
 </div>
@@ -101,8 +101,8 @@ for (const page of PAGES) {
 const cards = GROUPS.map(([title, pages]) => `<h2>${title}</h2>\n<ul class="cards">\n${pages.map(({ name, title: its, about }) =>
     `<li><a href="${name}.html">${escape(its)}</a><br>${escape(about)}</li>`).join('\n')}\n</ul>\n`).join('');
 writeFileSync(join(output, 'index.html'), html('index', 'The manual', `<h1>The petri manual</h1>
-<p>petri ${escape(site.tables.title)}. It gives bit-identical results on every machine. The dish below is computed on yours, and so are all
-examples in these pages: change a number, or move a slider.</p>
+<p>petri ${escape(site.tables.title)}. It gives bit-identical results on every machine. Your browser computes the dish below and all examples on these
+pages. Change a number or move a slider to see the effect.</p>
 <petri-dish src="dish.fl" controls label="A dish of drops, and a spoon that stirs them">${
     site.text.image('pictures/dish.png', 'A dish of drops', { file: 'samples/README.md' })}</petri-dish>
 ${cards}`, []));

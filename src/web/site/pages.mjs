@@ -3,19 +3,19 @@
 // parts: [file, first heading, heading after the part]; without headings, the part extends to the beginning or the end of the file. made:
 // the generator in generated.mjs that adds further content. about: the description in the list of pages.
 export const GROUPS = [
-    ['To begin', [
+    ['Getting started', [
         { name: 'tutorial', title: 'Tutorial', about: 'From one particle to a dish, in ten steps that you can run on the page',
             parts: [['samples/TUTORIAL.md']] },
         { name: 'gallery', title: 'Gallery', about: 'All samples, running on the page',
             parts: [['samples/README.md', null, 'Gallery'], ['samples/README.md', 'All samples']], made: 'gallery' },
-        { name: 'recipes', title: 'Recipes', about: 'Solutions for single tasks', parts: [['samples/RECIPES.md']] },
+        { name: 'recipes', title: 'Recipes', about: 'Solutions for common tasks', parts: [['samples/RECIPES.md']] },
         { name: 'troubleshooting', title: 'Troubleshooting', about: 'Symptoms, causes, and commands that confirm them',
             parts: [['samples/TROUBLESHOOTING.md']] },
         { name: 'flitter', title: 'For Flitter users', about: 'What runs the same, what is missing, what differs',
             parts: [['src/manual/flitter.md']] },
     ]],
-    ['To look up', [
-        { name: 'language', title: 'The language', about: 'Vectors, names, nodes, functions, the state; each example can be changed',
+    ['Reference', [
+        { name: 'language', title: 'The language', about: 'Vectors, names, nodes, functions, the state; with editable examples',
             parts: [['grammar/README.md']] },
         { name: 'pitfalls', title: 'Pitfalls', about: 'Symptoms of common mistakes in scripts, and their causes', parts: [['src/manual/pitfalls.md']] },
         { name: 'functions', title: 'All functions and words', about: 'One line for each function and word', made: 'functions' },
@@ -29,27 +29,27 @@ export const GROUPS = [
             made: 'scenes' },
         { name: 'nodes', title: 'All nodes', about: 'Every attribute with its type, unit and default', made: 'nodes' },
     ]],
-    ['To use', [
+    ['Using petri', [
         { name: 'command', title: 'The command', about: 'Commands, examples, messages, exit status', parts: [['src/manual/command.md']] },
         { name: 'options', title: 'All commands and options', about: 'The text of petri help', made: 'options' },
         { name: 'view', title: 'Watching a script', about: 'Keys, pointer and keyboard in scripts, code from an editor',
             parts: [['src/manual/view.md']] },
-        { name: 'prompt', title: 'The prompt', about: 'Step, go back, measure, change', parts: [['src/manual/repl.md']], made: 'prompt' },
+        { name: 'prompt', title: 'The prompt', about: 'Step, go back, measure and change', parts: [['src/manual/repl.md']], made: 'prompt' },
         { name: 'sweep', title: 'Sweeps', about: 'One script with many parameter values and seeds', parts: [['src/manual/sweep.md']] },
         { name: 'trajectories', title: 'Trajectories', about: 'XYZ, CSV and H5MD; runs that resume', parts: [['src/manual/trajectories.md']] },
-        { name: 'mpi', title: 'MPI', about: 'One script on many processes', parts: [['src/manual/mpi.md']] },
+        { name: 'mpi', title: 'MPI', about: 'One script on several processes', parts: [['src/manual/mpi.md']] },
         { name: 'links', title: 'Links', about: 'Links that contain a script and the hash of its state', parts: [['src/manual/links.md']] },
-        { name: 'editors', title: 'Editors', about: 'Language server, syntax highlighting, standard format', parts: [['src/manual/editors.md']] },
+        { name: 'editors', title: 'Editors', about: 'Language server, syntax highlighting, formatting', parts: [['src/manual/editors.md']] },
         { name: 'playground', title: 'The playground', about: 'The page, and <petri-dish> in any page', parts: [['src/manual/playground.md']] },
         { name: 'c', title: 'From C and C++', about: 'All of petri.h and petri-draw.h',
             parts: [['src/manual/embedding.md']], made: 'headers' },
         { name: 'python', title: 'From Python', about: 'Sessions, numpy, sweeps, notebooks', parts: [['src/python/TUTORIAL.md']] },
         { name: 'javascript', title: 'From JavaScript', about: 'The npm package', parts: [['src/web/engine/README.md']] },
         { name: 'research', title: 'For research', about: 'Reproducible runs, recording, speed', parts: [['src/manual/research.md']] },
-        { name: 'security', title: 'Untrusted scripts', about: 'What a script can do, and its limits', parts: [['src/manual/security.md']] },
+        { name: 'security', title: 'Untrusted scripts', about: 'What scripts can do, and their limits', parts: [['src/manual/security.md']] },
         { name: 'migrating', title: 'Migrating to 0.3', about: 'Names that changed', parts: [['src/manual/migrating.md']] },
     ]],
-    ['To contribute', [
+    ['Contributing', [
         { name: 'extending', title: 'Extending petri', about: 'New forces, nodes, functions, options',
             parts: [['src/manual/extending.md']] },
         { name: 'dependencies', title: 'Dependencies', about: 'Packages and their uses', parts: [['src/manual/dependencies.md']] },
