@@ -90,7 +90,8 @@ class Engine {
 }
 
 export class Session {
-    constructor(engine, { fps = 0, memory = MEMORY, work = CALL_WORK, files = {}, image = () => null, onDiagnostic, shouldInterrupt } = {}) {
+    constructor(engine,
+        { fps = 0, memory = MEMORY, work = CALL_WORK, files = {}, image = () => null, onDiagnostic, shouldInterrupt } = {}) {
         this.engine = engine;
         this.memory = engine.memory;
         this.onDiagnostic = onDiagnostic;

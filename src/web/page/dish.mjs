@@ -12,8 +12,8 @@ export class Dish {
     // stops running; optionally loaded() and slow(boolean).
     constructor(canvas, host, { source, worker }) {
         Object.assign(this, {
-            canvas, host, running: false, loaded: null, name: null, frame: -1, lastFrame: -1, fps: 60, speed: 1, behind: 0, last: 0, turn: 0,
-            files: new Map(), images: new Map(), wanted: null, pressed: new Set(),
+            canvas, host, running: false, loaded: null, name: null, frame: -1, lastFrame: -1, fps: 60, speed: 1, behind: 0, last: 0,
+            turn: 0, files: new Map(), images: new Map(), wanted: null, pressed: new Set(),
         });
         this.remote = hasEngine() ? new Remote(source, worker) : null;
     }

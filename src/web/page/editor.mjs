@@ -182,4 +182,5 @@ function nodeAt(state, at) {
 }
 
 const describe = ({ kind, help, parameters, defaultValue, unit }) => kind !== 'attribute' ? help
-    : [help, [parameters, unit && `in ${unit}`, defaultValue && `default ${defaultValue}`].filter(Boolean).join(', ')].filter(Boolean).join(' · ');
+    : [help, [parameters, unit && `in ${unit}`, defaultValue && `default ${defaultValue}`].filter(Boolean).join(', ')]
+        .filter(Boolean).join(' · ');

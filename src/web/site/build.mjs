@@ -101,8 +101,8 @@ for (const page of PAGES) {
 const cards = GROUPS.map(([title, pages]) => `<h2>${title}</h2>\n<ul class="cards">\n${pages.map(({ name, title: its, about }) =>
     `<li><a href="${name}.html">${escape(its)}</a><br>${escape(about)}</li>`).join('\n')}\n</ul>\n`).join('');
 writeFileSync(join(output, 'index.html'), html('index', 'The manual', `<h1>The petri manual</h1>
-<p>petri ${escape(site.tables.title)}. It gives bit-identical results on every machine. Your browser computes the dish below and all examples on these
-pages. Change a number or move a slider to see the effect.</p>
+<p>petri ${escape(site.tables.title)}. It gives bit-identical results on every machine. Your browser computes the dish below and all
+examples on these pages. Change a number or move a slider to see the effect.</p>
 <petri-dish src="dish.fl" controls label="A dish of drops, and a spoon that stirs them">${
     site.text.image('pictures/dish.png', 'A dish of drops', { file: 'samples/README.md' })}</petri-dish>
 ${cards}`, []));
