@@ -3,55 +3,55 @@
 
 #define TRANSFORM3D_ROWS(kind) \
     ATTR(kind, TRANSLATE, TRIPLE, NOWHERE, DESCRIBED(0, "0"), "", "move the origin; these attributes are applied in the order written") \
-    ATTR(kind, SCALE, TRIPLE, NOWHERE, DESCRIBED(1, "1"), "", "enlarge") \
-    ATTR(kind, ROTATE, LIST, NOWHERE, DESCRIBED(0, "0"), "turns", "about z, then y, then x: three numbers or one for all; four numbers are a quaternion w;x;y;z") \
-    ATTR(kind, ROTATE_X, AMOUNT, NOWHERE, IS(0), "turns", "about the x axis") \
-    ATTR(kind, ROTATE_Y, AMOUNT, NOWHERE, IS(0), "turns", "about the y axis") \
-    ATTR(kind, ROTATE_Z, AMOUNT, NOWHERE, IS(0), "turns", "about the z axis") \
-    ATTR(kind, SHEAR_X, AMOUNTS, NOWHERE, IS(0), "", "a;b: x grows by a*y + b*z") \
-    ATTR(kind, SHEAR_Y, AMOUNTS, NOWHERE, IS(0), "", "a;b: y grows by a*x + b*z") \
-    ATTR(kind, SHEAR_Z, AMOUNTS, NOWHERE, IS(0), "", "a;b: z grows by a*x + b*y") \
-    ATTR(kind, MATRIX, LIST, NOWHERE, NONE, "", "16 numbers in column-major order")
+    ATTR(kind, SCALE, TRIPLE, NOWHERE, DESCRIBED(1, "1"), "", "scale factors along x, y and z") \
+    ATTR(kind, ROTATE, LIST, NOWHERE, DESCRIBED(0, "0"), "turns", "rotate about z, then y, then x: three angles, or one for all axes; four numbers are a quaternion w;x;y;z") \
+    ATTR(kind, ROTATE_X, AMOUNT, NOWHERE, IS(0), "turns", "rotate about the x axis") \
+    ATTR(kind, ROTATE_Y, AMOUNT, NOWHERE, IS(0), "turns", "rotate about the y axis") \
+    ATTR(kind, ROTATE_Z, AMOUNT, NOWHERE, IS(0), "turns", "rotate about the z axis") \
+    ATTR(kind, SHEAR_X, AMOUNTS, NOWHERE, IS(0), "", "a;b: a*y + b*z is added to x") \
+    ATTR(kind, SHEAR_Y, AMOUNTS, NOWHERE, IS(0), "", "a;b: a*x + b*z is added to y") \
+    ATTR(kind, SHEAR_Z, AMOUNTS, NOWHERE, IS(0), "", "a;b: a*x + b*y is added to z") \
+    ATTR(kind, MATRIX, LIST, NOWHERE, NONE, "", "a 4 by 4 matrix in column-major order")
 #define MATERIAL_ROWS(kind) \
     ATTR(kind, COLOR, TRIPLE, TO_GRAPHICS3D(color), INHERITED(0, "0"), "", "fraction of light that is reflected: red;green;blue or grey") \
-    ATTR(kind, ROUGHNESS, AMOUNT, TO_GRAPHICS3D(roughness), INHERITED(1, "1"), "", "0 is a mirror; nodes inside can only reduce it") \
-    ATTR(kind, METAL, AMOUNT, TO_GRAPHICS3D(metal), INHERITED(0, "0"), "", "0 to 1") \
+    ATTR(kind, ROUGHNESS, AMOUNT, TO_GRAPHICS3D(roughness), INHERITED(1, "1"), "", "0 is a perfect mirror; nodes inside can only reduce the roughness") \
+    ATTR(kind, METAL, AMOUNT, TO_GRAPHICS3D(metal), INHERITED(0, "0"), "", "from 0 (not a metal) to 1 (metal)") \
     ATTR(kind, IOR, AMOUNT, TO_GRAPHICS3D(ior), INHERITED(1.5, "1.5"), "", "index of refraction; larger values make the surface shinier") \
     ATTR(kind, AO, AMOUNT, TO_GRAPHICS3D(ao), INHERITED(1, "1"), "", "fraction of ambient light that reaches the surface") \
     ATTR(kind, EMISSIVE, TRIPLE, TO_GRAPHICS3D(emissive), INHERITED(0, "0"), "", "emitted light") \
-    ATTR(kind, TRANSPARENCY, AMOUNT, TO_GRAPHICS3D(transparency), INHERITED(0, "0"), "", "0 to 1; specular highlights remain") \
-    ATTR(kind, TRANSLUCENCY, AMOUNT, TO_GRAPHICS3D(translucency), INHERITED(0, "0"), "", "how far light penetrates") \
+    ATTR(kind, TRANSPARENCY, AMOUNT, TO_GRAPHICS3D(transparency), INHERITED(0, "0"), "", "from 0 (opaque) to 1 (only specular highlights are visible)") \
+    ATTR(kind, TRANSLUCENCY, AMOUNT, TO_GRAPHICS3D(translucency), INHERITED(0, "0"), "", "distance that light penetrates into the body") \
     ATTR(kind, COLOR_ID, TEXT, TO_GRAPHICS3D(ids[0]), INHERITED_TEXT(""), "", "id of a node or camera whose picture is the texture") \
     ALIAS(kind, TEXTURE_ID, COLOR_ID, "color_id", TEXT, TO_GRAPHICS3D(ids[0]), "") \
-    ATTR(kind, METAL_ID, TEXT, TO_GRAPHICS3D(ids[1]), INHERITED_TEXT(""), "", "") \
+    ATTR(kind, METAL_ID, TEXT, TO_GRAPHICS3D(ids[1]), INHERITED_TEXT(""), "", "like color_id, for metal") \
     ALIAS(kind, METAL_TEXTURE_ID, METAL_ID, "metal_id", TEXT, TO_GRAPHICS3D(ids[1]), "") \
-    ATTR(kind, ROUGHNESS_ID, TEXT, TO_GRAPHICS3D(ids[2]), INHERITED_TEXT(""), "", "") \
+    ATTR(kind, ROUGHNESS_ID, TEXT, TO_GRAPHICS3D(ids[2]), INHERITED_TEXT(""), "", "like color_id, for roughness") \
     ALIAS(kind, ROUGHNESS_TEXTURE_ID, ROUGHNESS_ID, "roughness_id", TEXT, TO_GRAPHICS3D(ids[2]), "") \
-    ATTR(kind, AO_ID, TEXT, TO_GRAPHICS3D(ids[3]), INHERITED_TEXT(""), "", "") \
+    ATTR(kind, AO_ID, TEXT, TO_GRAPHICS3D(ids[3]), INHERITED_TEXT(""), "", "like color_id, for ao") \
     ALIAS(kind, AO_TEXTURE_ID, AO_ID, "ao_id", TEXT, TO_GRAPHICS3D(ids[3]), "") \
-    ATTR(kind, EMISSIVE_ID, TEXT, TO_GRAPHICS3D(ids[4]), INHERITED_TEXT(""), "", "") \
+    ATTR(kind, EMISSIVE_ID, TEXT, TO_GRAPHICS3D(ids[4]), INHERITED_TEXT(""), "", "like color_id, for emissive") \
     ALIAS(kind, EMISSIVE_TEXTURE_ID, EMISSIVE_ID, "emissive_id", TEXT, TO_GRAPHICS3D(ids[4]), "") \
-    ATTR(kind, TRANSPARENCY_ID, TEXT, TO_GRAPHICS3D(ids[5]), INHERITED_TEXT(""), "", "") \
+    ATTR(kind, TRANSPARENCY_ID, TEXT, TO_GRAPHICS3D(ids[5]), INHERITED_TEXT(""), "", "like color_id, for transparency") \
     ALIAS(kind, TRANSPARENCY_TEXTURE_ID, TRANSPARENCY_ID, "transparency_id", TEXT, TO_GRAPHICS3D(ids[5]), "") \
     ATTR(kind, BORDER, LIST, NOWHERE, INHERITED(0, "clamped to the edge"), "", "colour of textures beyond their edges: r;g;b, r;g;b;a or one number; takes precedence over repeat") \
     ATTR(kind, REPEAT, AMOUNTS, NOWHERE, INHERITED(0, "clamped to the edge"), "", "whether textures repeat, along u and v")
 #define GROUP3D_ROWS(kind) \
-    ATTR(kind, MAX_LIGHTS, FINITE_INTEGER, TO_GRAPHICS3D(max_lights), INHERITED(50, "50"), "", "maximum number of lights in the group; lights of enclosing groups come last") \
+    ATTR(kind, MAX_LIGHTS, FINITE_INTEGER, TO_GRAPHICS3D(max_lights), INHERITED(50, "50"), "", "maximum number of lights in the group; lights of enclosing groups are dropped first") \
     ATTR(kind, DEPTH_SORT, FLAG, TO_GRAPHICS3D(depth_sort), INHERITED(true, "true"), "", "transparent surfaces are drawn last, from back to front") \
     ATTR(kind, DEPTH_TEST, FLAG, TO_GRAPHICS3D(depth_test), INHERITED(true, "true"), "", "near surfaces hide far ones") \
-    ATTR(kind, FACE_CULL, FLAG, TO_GRAPHICS3D(face_cull), INHERITED(true, "true"), "", "one side of each surface is not drawn") \
-    ATTR(kind, CULL_FACE, FACE, TO_GRAPHICS3D(cull_face), INHERITED(FACE_BACK, ":back"), "", "which side is not drawn") \
+    ATTR(kind, FACE_CULL, FLAG, TO_GRAPHICS3D(face_cull), INHERITED(true, "true"), "", "do not draw one side of each surface") \
+    ATTR(kind, CULL_FACE, FACE, TO_GRAPHICS3D(cull_face), INHERITED(FACE_BACK, ":back"), "", "the side that is not drawn") \
     ATTR(kind, COMPOSITE, MIX3D, TO_GRAPHICS3D(composite), INHERITED(MIX3D_OVER, ":over"), "", "how colours are combined with those already drawn")
 #define CAMERA_ROWS(kind) \
-    ATTR(kind, POSITION, TRIPLE, NOWHERE, DESCRIBED(0, "0;0;half the width"), "", "where the camera is") \
+    ATTR(kind, POSITION, TRIPLE, NOWHERE, DESCRIBED(0, "0;0;half the width"), "", "position of the camera") \
     ALIAS(kind, VIEWPOINT, POSITION, "position", TRIPLE, NOWHERE, "") \
-    ATTR(kind, FOCUS, TRIPLE, NOWHERE, DESCRIBED(0, "0"), "", "the point it looks at") \
+    ATTR(kind, FOCUS, TRIPLE, NOWHERE, DESCRIBED(0, "0"), "", "point that the camera looks at") \
     ATTR(kind, UP, TRIPLE, NOWHERE, DESCRIBED(0, "0;1;0"), "", "direction that points up in the picture") \
     ATTR(kind, FOV, AMOUNT, TO_GRAPHICS3D(fov), IS(0.25), "turns", "angle of view") \
     ATTR(kind, FOV_REF, FOV_REF, TO_GRAPHICS3D(fov_ref), DESCRIBED(FOV_HORIZONTAL, ":horizontal"), "", "direction in which fov is measured") \
     ATTR(kind, NEAR, AMOUNT, TO_GRAPHICS3D(near), IS(1), "", "nearer surfaces are clipped") \
     ATTR(kind, FAR, AMOUNT, TO_GRAPHICS3D(far), DESCRIBED(NAN, "the width"), "", "farther surfaces are clipped") \
-    ATTR(kind, ORTHOGRAPHIC, FLAG, TO_GRAPHICS3D(orthographic), IS(false), "", "without perspective") \
+    ATTR(kind, ORTHOGRAPHIC, FLAG, TO_GRAPHICS3D(orthographic), IS(false), "", "project without perspective") \
     ATTR(kind, WIDTH, AMOUNT, TO_GRAPHICS3D(width), DESCRIBED(NAN, "the width of the picture"), "", "width of the view, if orthographic") \
     ATTR(kind, SAMPLES, FINITE_INTEGER, TO_GRAPHICS3D(samples), IS(0), "", "samples per pixel, for smooth edges: 2, 4 or 8") \
     ATTR(kind, COLORBITS, FINITE_INTEGER, TO_GRAPHICS3D(colorbits), DESCRIBED(0, "the window's"), "", "bits per channel: 8, 16 or 32") \
@@ -63,16 +63,16 @@
     ATTR(kind, TINT, TRIPLE, TO_GRAPHICS3D(tint), IS(1), "", "factor for all colours")
 #define SURFACE_ROWS(kind) \
     ATTR(kind, FLAT, FLAG, NOWHERE, IS(false), "", "flat shading: each triangle has its own normal") \
-    ATTR(kind, SNAP_EDGES, AMOUNT, NOWHERE, DESCRIBED(0.5, "0.5"), "turns", "edges with a larger angle stay sharp") \
+    ATTR(kind, SNAP_EDGES, AMOUNT, NOWHERE, DESCRIBED(0.5, "0.5"), "turns", "edges at which faces meet at a larger angle stay sharp") \
     ATTR(kind, INVERT, FLAG, NOWHERE, IS(false), "", "turn inside out, so that the inside is visible") \
     ATTR(kind, UV_REMAP, UV_REMAP, NOWHERE, DESCRIBED(REMAP_NONE, "not at all"), "", "how textures are mapped onto the model")
 #define MODEL_ROWS(kind) \
-    ATTR(kind, POSITION, TRIPLE, NOWHERE, DESCRIBED(0, "0"), "", "its centre") \
-    ATTR(kind, ROTATION, TRIPLE, NOWHERE, DESCRIBED(0, "0"), "turns", "about z, then y, then x") \
-    ATTR(kind, SIZE, TRIPLE, NOWHERE, DESCRIBED(1, "1"), "", "along its three axes") \
-    ATTR(kind, START, TRIPLE, NOWHERE, DESCRIBED(0, "0"), "", "with end: where its axis begins") \
-    ATTR(kind, END, TRIPLE, NOWHERE, NONE, "", "where its axis ends; replaces position, rotation and size") \
-    ATTR(kind, RADIUS, AMOUNT, NOWHERE, IS(1), "", "radius about the axis, with end") \
+    ATTR(kind, POSITION, TRIPLE, NOWHERE, DESCRIBED(0, "0"), "", "centre of the model") \
+    ATTR(kind, ROTATION, TRIPLE, NOWHERE, DESCRIBED(0, "0"), "turns", "rotation about z, then y, then x") \
+    ATTR(kind, SIZE, TRIPLE, NOWHERE, DESCRIBED(1, "1"), "", "scale along x, y and z") \
+    ATTR(kind, START, TRIPLE, NOWHERE, DESCRIBED(0, "0"), "", "start of the axis; used only with end") \
+    ATTR(kind, END, TRIPLE, NOWHERE, NONE, "", "end of the axis; replaces position, rotation and size") \
+    ATTR(kind, RADIUS, AMOUNT, NOWHERE, IS(1), "", "radius around the axis; used only with end") \
     SURFACE_ROWS(kind) \
     MATERIAL_ROWS(kind)
 
@@ -95,38 +95,38 @@ TRANSFORM3D_ROWS(TRANSFORM3D)
 NODE(MATERIAL, "material", SCENE3D, SCENE3D, "material of the surfaces inside")
 MATERIAL_ROWS(MATERIAL)
 
-NODE(LIGHT, "light", SCENE3D, NOTHING, "a light: ambient, or with position, direction or start and end a point, directional, spot or line light")
+NODE(LIGHT, "light", SCENE3D, NOTHING, "a light: ambient, or point (position), directional (direction), spot (position and direction) or line (start and end)")
 ATTR(LIGHT, COLOR, TRIPLE, NOWHERE, NONE, "", "can be brighter than white or negative")
-ATTR(LIGHT, POSITION, TRIPLE, NOWHERE, NONE, "", "of a point or spot light")
-ATTR(LIGHT, DIRECTION, TRIPLE, NOWHERE, NONE, "", "direction in which it shines")
+ATTR(LIGHT, POSITION, TRIPLE, NOWHERE, NONE, "", "position of a point or spot light")
+ATTR(LIGHT, DIRECTION, TRIPLE, NOWHERE, NONE, "", "direction in which the light shines")
 ATTR(LIGHT, FOCUS, TRIPLE, NOWHERE, NONE, "", "the point at which a spot light shines")
-ATTR(LIGHT, START, TRIPLE, NOWHERE, NONE, "", "of a line light")
-ATTR(LIGHT, END, TRIPLE, NOWHERE, NONE, "", "of a line light")
-ATTR(LIGHT, RADIUS, AMOUNT, NOWHERE, IS(0), "", "of a point or line light")
+ATTR(LIGHT, START, TRIPLE, NOWHERE, NONE, "", "start of a line light")
+ATTR(LIGHT, END, TRIPLE, NOWHERE, NONE, "", "end of a line light")
+ATTR(LIGHT, RADIUS, AMOUNT, NOWHERE, IS(0), "", "radius of a point or line light")
 ATTR(LIGHT, OUTER, AMOUNT, NOWHERE, IS(0.25), "turns", "angle of a spot light's whole cone")
-ATTR(LIGHT, INNER, AMOUNT, NOWHERE, IS(0), "turns", "angle of the cone in which it has its full strength")
-ATTR(LIGHT, FALLOFF, QUAD, NOWHERE, DESCRIBED(0, "0;0;1;0"), "", "a;b;c;d: its strength at a distance x is 1/(a + b*x + c*x^2 + d*x^3)")
+ATTR(LIGHT, INNER, AMOUNT, NOWHERE, IS(0), "turns", "angle of the cone in which a spot light has its full strength")
+ATTR(LIGHT, FALLOFF, QUAD, NOWHERE, DESCRIBED(0, "0;0;1;0"), "", "a;b;c;d: the strength at a distance x is 1/(a + b*x + c*x^2 + d*x^3)")
 
 NODE(CAMERA, "camera", SCENE3D, NOTHING, "a camera; missing attributes are taken from the canvas3d")
-ATTR(CAMERA, ID, TEXT, NOWHERE, NONE, "", "name for camera_id, and for textures that use its picture")
-ATTR(CAMERA, SECONDARY, FLAG, NOWHERE, IS(false), "", "also render its picture")
+ATTR(CAMERA, ID, TEXT, NOWHERE, NONE, "", "name for camera_id, and for textures that show the view of this camera")
+ATTR(CAMERA, SECONDARY, FLAG, NOWHERE, IS(false), "", "render the view of this camera for use as a texture")
 ATTR(CAMERA, SIZE, AMOUNTS, NOWHERE, DESCRIBED(0, "the size of the canvas3d"), "pixels", "")
 CAMERA_ROWS(CAMERA)
 
-NODE(BOX, "box", SCENE3D, NOTHING, "a cube with edges of 1")
-ATTR(BOX, UV_MAP, UV_MAP, NOWHERE, DESCRIBED(UV_STANDARD, ":standard"), "", "whether the faces share a texture or repeat it")
+NODE(BOX, "box", SCENE3D, NOTHING, "a cube with edges of length 1")
+ATTR(BOX, UV_MAP, UV_MAP, NOWHERE, DESCRIBED(UV_STANDARD, ":standard"), "", "whether the faces share one texture, or each face shows all of it")
 MODEL_ROWS(BOX)
 
 NODE(SPHERE, "sphere", SCENE3D, NOTHING, "a sphere of radius 1")
-ATTR(SPHERE, SEGMENTS, FINITE_INTEGER, NOWHERE, IS(64), "", "number of segments around it, a multiple of 4")
+ATTR(SPHERE, SEGMENTS, FINITE_INTEGER, NOWHERE, IS(64), "", "number of segments around the sphere, rounded up to a multiple of 4")
 MODEL_ROWS(SPHERE)
 
 NODE(CYLINDER, "cylinder", SCENE3D, NOTHING, "a cylinder of radius 1 and length 1 along z")
-ATTR(CYLINDER, SEGMENTS, FINITE_INTEGER, NOWHERE, IS(64), "", "number of segments around it")
+ATTR(CYLINDER, SEGMENTS, FINITE_INTEGER, NOWHERE, IS(64), "", "number of segments around the axis")
 MODEL_ROWS(CYLINDER)
 
 NODE(CONE, "cone", SCENE3D, NOTHING, "a cone of radius 1 and height 1, its apex towards +z")
-ATTR(CONE, SEGMENTS, FINITE_INTEGER, NOWHERE, IS(64), "", "number of segments around it")
+ATTR(CONE, SEGMENTS, FINITE_INTEGER, NOWHERE, IS(64), "", "number of segments around the axis")
 MODEL_ROWS(CONE)
 
 NODE(MODEL, "model", SCENE3D, NOTHING, "triangles from an OBJ or STL file, or from vectors")

@@ -2,21 +2,21 @@
 // effects. Included only by schema_list.h.
 // clang-format off
 
-// Attributes of nodes that make a picture.
+// Attributes of nodes that create a picture.
 #define SOURCE_ROWS(kind) \
     ATTR(kind, SIZE, SIZE, NOWHERE, DESCRIBED(0, "the size of the enclosing node"), "pixels", "") \
     ATTR(kind, ID, TEXT, NOWHERE, NONE, "", "name by which !reference and images refer to this picture") \
-    ATTR(kind, HIDDEN, FLAG, NOWHERE, IS(false), "", "make the picture, but do not pass it to the enclosing node")
-// Attributes of effect nodes, which make a picture from the pictures inside.
+    ATTR(kind, HIDDEN, FLAG, NOWHERE, IS(false), "", "create the picture, but do not pass it to the enclosing node")
+// Attributes of effect nodes, which create a picture from the pictures inside.
 #define PROGRAM_ROWS(kind) \
     SOURCE_ROWS(kind) \
     ATTR(kind, COMPOSITE, MIX, NOWHERE, DESCRIBED(MIX_OVER, ":over"), "", "how each picture inside is combined with the previous ones") \
     ALIAS(kind, BLEND, COMPOSITE, "composite", MIX, NOWHERE, "") \
     ATTR(kind, ALPHA, AMOUNT, NOWHERE, IS(1), "", "factor for all four channels of the result") \
     ATTR(kind, COLORBITS, FINITE_INTEGER, NOWHERE, DESCRIBED(0, "the window's"), "", "bits per channel: 8, 16 or 32") \
-    ATTR(kind, PASSES, FINITE_INTEGER, NOWHERE, DESCRIBED(0, ""), "", "how many times the shader is run, each time on its previous result") \
-    ATTR(kind, DOWNSAMPLE, FINITE_INTEGER, NOWHERE, IS(2), "", "divides width and height of the passes in downsample_passes") \
-    ATTR(kind, DOWNSAMPLE_PASSES, LIST, NOWHERE, NONE, "", "") \
+    ATTR(kind, PASSES, FINITE_INTEGER, NOWHERE, DESCRIBED(0, ""), "", "number of times that the shader runs, each time on its previous result") \
+    ATTR(kind, DOWNSAMPLE, FINITE_INTEGER, NOWHERE, IS(2), "", "divisor for the width and height of the passes in downsample_passes") \
+    ATTR(kind, DOWNSAMPLE_PASSES, LIST, NOWHERE, NONE, "", "numbers of the passes that are rendered at a smaller size; the first pass is 0") \
     ATTR(kind, BORDER, QUAD, NOWHERE, DESCRIBED(0, "0;0;0;0"), "", "colour beyond the edges of the pictures inside") \
     ATTR(kind, REPEAT, AMOUNTS, NOWHERE, NONE, "", "whether the pictures inside repeat beyond their edges, along x and y") \
     ATTR(kind, NEAREST, FLAG, NOWHERE, IS(false), "", "nearest-neighbour sampling of pictures of a different size, instead of bilinear") \
@@ -46,18 +46,18 @@ PROGRAM_ROWS(OFFSCREEN)
 
 NODE(RECORD, "record", PICTURE, PICTURES, "write the pictures inside to a file when rendering or viewing")
 PROGRAM_ROWS(RECORD)
-ATTR(RECORD, FILENAME, TEXT, NOWHERE, NONE, "", "an image, written once per name, or a video; null: nothing is written")
-ATTR(RECORD, QUALITY, FINITE_INTEGER, NOWHERE, IS(75), "", "quality of JPEG, at most 100")
+ATTR(RECORD, FILENAME, TEXT, NOWHERE, NONE, "", "an image file, written once per name, or a video file; null: nothing is written")
+ATTR(RECORD, QUALITY, FINITE_INTEGER, NOWHERE, IS(75), "", "JPEG quality, at most 100")
 ATTR(RECORD, KEEP_ALPHA, FLAG, NOWHERE, IS(false), "", "also write alpha; colours stay premultiplied")
 ATTR(RECORD, CODEC, TEXT, NOWHERE, DESCRIBED(0, "h264"), "", "codec of videos")
 ATTR(RECORD, PIXFMT, TEXT, NOWHERE, DESCRIBED(0, "yuv420p"), "", "pixel format of videos")
-ATTR(RECORD, LIMIT, AMOUNT, NOWHERE, NONE, "seconds", "time after which a video ends")
+ATTR(RECORD, LIMIT, AMOUNT, NOWHERE, NONE, "seconds", "maximum length of a video")
 
-NODE(POINTER, "pointer", INPUT, NOTHING, "write the pointer's position to the state when viewing")
+NODE(POINTER, "pointer", INPUT, NOTHING, "when viewing, write the position of the pointer to the state")
 ATTR(POINTER, STATE, ANY, TO_INPUT(state), NONE, "", "state key that is written")
 
-NODE(KEY, "key", INPUT, NOTHING, "write to the state whether a key is pressed when viewing")
-ATTR(KEY, NAME, ANY, TO_INPUT(name), NONE, "", "which key")
+NODE(KEY, "key", INPUT, NOTHING, "when viewing, write to the state whether a key is pressed")
+ATTR(KEY, NAME, ANY, TO_INPUT(name), NONE, "", "name of the key")
 ATTR(KEY, STATE, ANY, TO_INPUT(state), NONE, "", "state key that is written")
 
 NODE(PICTURE_IMAGE, "image", PICTURE, NOTHING, "an image from a PNG or JPEG file")
@@ -65,12 +65,12 @@ ATTR(PICTURE_IMAGE, FILENAME, TEXT, NOWHERE, NONE, "", "")
 ATTR(PICTURE_IMAGE, SIZE, SIZE, NOWHERE, DESCRIBED(0, "the size of the file"), "pixels", "")
 ATTR(PICTURE_IMAGE, FLIP, FLIP, NOWHERE, DESCRIBED(0, "not at all"), "", "")
 ATTR(PICTURE_IMAGE, ID, TEXT, NOWHERE, NONE, "", "name by which !reference and images refer to this picture")
-ATTR(PICTURE_IMAGE, HIDDEN, FLAG, NOWHERE, IS(false), "", "make the picture, but do not pass it to the enclosing node")
+ATTR(PICTURE_IMAGE, HIDDEN, FLAG, NOWHERE, IS(false), "", "create the picture, but do not pass it to the enclosing node")
 
-NODE(REFERENCE, "reference", PICTURE, NOTHING, "shows the picture of another node")
-ATTR(REFERENCE, ID, TEXT, NOWHERE, NONE, "", "id of that node")
+NODE(REFERENCE, "reference", PICTURE, NOTHING, "show the picture of another node")
+ATTR(REFERENCE, ID, TEXT, NOWHERE, NONE, "", "id of the other node")
 
-NODE(SHADER, "shader", PICTURE, PICTURES, "runs a GLSL shader for each pixel")
+NODE(SHADER, "shader", PICTURE, PICTURES, "run a GLSL shader for each pixel")
 PROGRAM_ROWS(SHADER)
 
 NODE(ADJUST, "adjust", PICTURE, PICTURES, "change colours")
@@ -99,8 +99,8 @@ ATTR(EDGES, MIXER, AMOUNT, NOWHERE, IS(0), "", "fraction of the original picture
 
 NODE(CHROMAKEY, "chromakey", PICTURE, PICTURES, "make one hue transparent")
 PROGRAM_ROWS(CHROMAKEY)
-ATTR(CHROMAKEY, HUE, AMOUNT, NOWHERE, DESCRIBED(1.0 / 3, "1/3"), "turns", "")
-ATTR(CHROMAKEY, RANGE, AMOUNT, NOWHERE, IS(0.1), "turns", "range of the hue")
+ATTR(CHROMAKEY, HUE, AMOUNT, NOWHERE, DESCRIBED(1.0 / 3, "1/3"), "turns", "hue that becomes transparent")
+ATTR(CHROMAKEY, RANGE, AMOUNT, NOWHERE, IS(0.1), "turns", "width of the range of hues")
 ATTR(CHROMAKEY, SATURATION, AMOUNT, NOWHERE, IS(0.75), "", "minimum saturation")
 ATTR(CHROMAKEY, BRIGHTNESS, AMOUNT, NOWHERE, IS(0.1), "", "minimum brightness")
 ATTR(CHROMAKEY, RADIUS, AMOUNTS, NOWHERE, IS(10), "pixels", "blur radius of the mask")
@@ -109,7 +109,7 @@ ATTR(CHROMAKEY, HARD, AMOUNT, NOWHERE, IS(4), "", "sharpness of the mask after t
 
 NODE(FEEDBACK, "feedback", PICTURE, PICTURES, "mix with the picture of the previous frame, to draw trails")
 PROGRAM_ROWS(FEEDBACK)
-ATTR(FEEDBACK, TIMEBASE, AMOUNT, NOWHERE, IS(1), "beats", "time after which the other attributes have taken full effect")
+ATTR(FEEDBACK, TIMEBASE, AMOUNT, NOWHERE, IS(1), "beats", "time in which the other attributes take full effect")
 ATTR(FEEDBACK, MIXER, AMOUNT, NOWHERE, IS(0), "", "fraction of the previous picture that is kept")
 ATTR(FEEDBACK, GLOW, AMOUNT, NOWHERE, IS(0), "", "how much brighter the new picture is")
 ATTR(FEEDBACK, TRANSLATE, AMOUNTS, NOWHERE, IS(0), "pixels", "movement of the previous picture, y down")
@@ -121,11 +121,11 @@ PROGRAM_ROWS(PICTURE_TRANSFORM)
 ATTR(PICTURE_TRANSFORM, SCALE, AMOUNTS, NOWHERE, IS(1), "", "")
 ATTR(PICTURE_TRANSFORM, ROTATE, AMOUNT, NOWHERE, IS(0), "turns", "counter-clockwise")
 ATTR(PICTURE_TRANSFORM, TRANSLATE, AMOUNTS, NOWHERE, IS(0), "pixels", "y up")
-ATTR(PICTURE_TRANSFORM, KEYSTONE, AMOUNTS, NOWHERE, IS(0), "", "perspective")
+ATTR(PICTURE_TRANSFORM, KEYSTONE, AMOUNTS, NOWHERE, IS(0), "", "perspective distortion")
 
 NODE(VIGNETTE, "vignette", PICTURE, PICTURES, "fade towards the edges")
 PROGRAM_ROWS(VIGNETTE)
-ATTR(VIGNETTE, INSET, AMOUNT, NOWHERE, IS(0.25), "widths", "distance from the edge")
+ATTR(VIGNETTE, INSET, AMOUNT, NOWHERE, IS(0.25), "widths", "distance from the edge over which the picture fades")
 ATTR(VIGNETTE, FADE, FADE, NOWHERE, DESCRIBED(FADE_LINEAR, ":linear"), "", "")
 
 NODE(NOISE, "noise", PICTURE, PICTURES, "animated noise")
@@ -137,8 +137,8 @@ ATTR(NOISE, ROUGHNESS, AMOUNT, NOWHERE, IS(0.5), "", "amplitude of each octave r
 ATTR(NOISE, ORIGIN, AMOUNTS, NOWHERE, IS(0), "", "")
 ATTR(NOISE, Z, AMOUNT, NOWHERE, IS(0), "", "")
 ATTR(NOISE, SCALE, TRIPLE, NOWHERE, IS(1), "", "")
-ATTR(NOISE, TSCALE, TRIPLE, NOWHERE, IS(1), "", "how far the colours of pictures inside move the point")
-ATTR(NOISE, MULTIPLIER, AMOUNT, NOWHERE, IS(0.5), "", "")
+ATTR(NOISE, TSCALE, TRIPLE, NOWHERE, IS(1), "", "factor by which the colours of pictures inside move the point")
+ATTR(NOISE, MULTIPLIER, AMOUNT, NOWHERE, IS(0.5), "", "factor for the noise")
 ATTR(NOISE, OFFSET, AMOUNT, NOWHERE, IS(0.5), "", "added to the noise")
 ATTR(NOISE, DEFAULT, QUAD, NOWHERE, IS(1), "", "value of the channels without noise")
 ATTR(NOISE, SHAPE, NOISE_SHAPE, NOWHERE, DESCRIBED(NOISE_PLANE, ":plane"), "", "surface on which noise is evaluated")

@@ -15,7 +15,7 @@ static bool is_in_window(PlaceKind place) {
     return place >= PLACE_TOP;
 }
 
-// Returns the slot of by_name that holds the kinds with this name, or the empty slot for it.
+// Returns the slot of by_name that contains the kinds with this name, or an empty slot in which the name can be stored.
 static size_t find_name(const Schema *schema, const Symbol *name) {
     enum { SLOTS = sizeof schema->by_name };
     _Static_assert(KIND_COUNT < 255 && 2 * KIND_COUNT < SLOTS, "kinds are few");
@@ -249,7 +249,8 @@ static bool store_checked(const Reader *reader, const SchemaRow *row, const Valu
     return true;
 }
 
-// Stores one attribute that the fast path did not accept. `row` is the end of the kind's rows if it is unknown.
+// Stores one attribute that the fast path did not accept. If the attribute is unknown, `row` is the end of the kind's
+// rows.
 static __attribute__((noinline)) void fill_checked(const Reader *reader, const Attr *attr, int row, char *record) {
     const SchemaRow *found = &schema_rows[row];
     if (row == reader->schema->first_row[reader->kind + 1]) {
@@ -268,7 +269,7 @@ static __attribute__((noinline)) void fill_checked(const Reader *reader, const A
         report_shape(reader, found, attr->value);
 }
 
-// Sets vectors that the node does not have to their defaults: 0;…;0;x.
+// Sets vector attributes that are missing in the node to their defaults: 0;…;0;x.
 static void fill_vector_defaults(const Reader *reader, char *record) {
     int first = reader->schema->first_row[reader->kind], end = reader->schema->first_row[reader->kind + 1];
     for (int i = first; i < end; i++) {
@@ -311,7 +312,7 @@ void reader_fill(const Reader *reader, void *record) {
         fill_vector_defaults(reader, record);
 }
 
-// Returns true for a finite number that is not a symbol; the numbers of symbols lie beyond -8e307.
+// Returns true for a finite number that is not a symbol. Symbols are represented by numbers below -8e307.
 static bool is_finite_number(double x) {
     return isfinite(x) && x > -8e307;
 }
@@ -426,8 +427,8 @@ static bool read_drawing_attr(const Reader *reader, const SchemaRow *row, Value 
     }
 }
 
-// Returns true if the value has a valid count of numbers, even if these are out of range. Otherwise the attribute
-// counts as missing.
+// Returns true if the value has a valid count of numbers, even if these are out of range. Otherwise the attribute is
+// treated as missing.
 static bool has_shape(const SchemaRow *row, Value v) {
     AttrShape shape = schema_types[row->type].shape;
     return value_is_numeric(v) && v.len > 0 && (shape == SHAPE_POINTS || v.len <= (shape == SHAPE_PAIR ? 2u : 1u));

@@ -14,8 +14,8 @@
 
 typedef struct SchemaSink {
     void *user_data;
-    // Reports a mistake in a node. Messages with the same node, code and key count as one, so `text` may contain values
-    // that change from frame to frame.
+    // Reports a mistake in a node. Messages with the same node, code and key are reported only once, so `text` may
+    // contain values that change from frame to frame.
     void (*report)(void *sink, DiagLevel level, const char *code, const Origin *origin, Str node, Str key, Str text);
 } SchemaSink;
 
@@ -61,7 +61,7 @@ NodeKind schema_kind_in(const Schema *schema, const Node *node, PlaceKind childr
 // The node being read, with its context.
 typedef struct Reader {
     Schema *schema;
-    Arena *arena; // owns texts and vectors
+    Arena *arena; // owns strings and vectors
     const Node *node;
     NodeKind kind;
     uint32_t dimensions; // number of elements of a vector
@@ -88,7 +88,7 @@ typedef struct AttrValue {
     uint16_t name;           // AttrName
     uint16_t row;            // index in schema_rows
     uint32_t count;          // number of elements
-    const char *custom_name; // for ATTR_NONE: name of a shader's own uniform, whose values are in `list`
+    const char *custom_name; // for ATTR_NONE: name of a custom uniform of a shader; its values are in `list`
     union AttrData {
         double numbers[4]; // points, sizes, colours (always four numbers), weights, up to four numbers
         const double *list;

@@ -1,18 +1,18 @@
-// schema_list.h: all kinds of nodes with a meaning, and their attributes. The table drives reading, error messages, help
-// and tests; defaults and limits are defined only here.
+// schema_list.h: all kinds of nodes that petri interprets, and their attributes. The table drives reading, error
+// messages, help and tests; defaults and limits are defined only here.
 //
 // TYPE(ID, SHAPE, low, high, required, "expected value in words"): how an attribute is read (AttrShape of table.h).
-//     Numbers outside the limits are moved to them in systems, and are malformed in drawings. A drawing node with
-//     numbers outside the limits of a required attribute is omitted.
+//     In systems, numbers outside the limits are clamped. In drawings they are malformed, and a node is omitted if such
+//     a number is in a required attribute.
 // NAME(ID, "attribute"): the names of attributes, each once.
 // NODE(ID, "kind", PLACE, CHILDREN, "help"), followed by its attributes. PLACE is where the node may be, CHILDREN which
-//     nodes may be in it (PlaceKind). FORCE(ID, "kind", "help", "formula"): a node of force_list.h with the same ID. The
-//     formula has the lines of the one in lib/physics/README.md; tests/docs/formulas.sh compares them.
+//     nodes may be in it (PlaceKind). FORCE(ID, "kind", "help", "formula"): a node of force_list.h with the same ID.
+//     The formula has the same lines as in lib/physics/README.md; tests/docs/formulas.sh compares them.
 // ATTR(KIND, NAME, TYPE, field, default, "unit", "help"). The value is stored in the field (records.h). NOWHERE: it is
 //     ignored or, in drawings, looked up by name. The default is IS(x), DESCRIBED(x, "in words"), INHERITED(x, "in
-//     words") with the initial value x, or NONE: NaN for a number, else null. For a vector x is the last element, and
+//     words") with the initial value x, or NONE: NaN for a number, else null. For a vector, x is the last element, and
 //     the others are 0.
-// ALIAS(KIND, NAME, OF, "of", TYPE, field, "unit"): another name of attribute OF of the same kind, which takes precedence.
+// ALIAS(KIND, NAME, OF, "of", TYPE, field, "unit"): another name for attribute OF of the same kind. OF takes precedence.
 // clang-format off
 #ifndef TYPE
 #define TYPE(id, shape, low, high, required, text)
@@ -306,7 +306,7 @@ NAME(MODE, "mode")
 #define EASE_ROW(kind) \
     ATTR(kind, EASE, NUMBER, TO_FORCE(force.ease), IS(0), "", "time from the system's start in which the strength grows from 0 to its full value")
 #define POWER_ROW(kind) \
-    ATTR(kind, POWER, FROM_ZERO, TO_FORCE(force.power), IS(1), "", "of the displacement: 1 is a linear spring")
+    ATTR(kind, POWER, FROM_ZERO, TO_FORCE(force.power), IS(1), "", "exponent of the displacement; 1 is a linear spring")
 #define REACH_ROW(kind) \
     ATTR(kind, MAX_DISTANCE, ABOVE_ZERO, TO_FORCE(force.max_distance), DESCRIBED(0, ""), "", "distance beyond which the force is 0")
 #define BOUND_ROWS(kind) \
@@ -318,24 +318,24 @@ NAME(MODE, "mode")
 
 NODE(PHYSICS, "physics", SCENE, PHYSICS, "a particle system")
 ATTR(PHYSICS, STATE, ANY, TO_SYSTEM(state), NONE, "", "the key under which particles are written: $(key;id), $(key;id;:velocity)")
-ATTR(PHYSICS, DIMENSIONS, DIMENSIONS, TO_SYSTEM(dimensions), DESCRIBED(0, ""), "", "how many components vectors have")
+ATTR(PHYSICS, DIMENSIONS, DIMENSIONS, TO_SYSTEM(dimensions), DESCRIBED(0, ""), "", "number of components of vectors")
 ATTR(PHYSICS, TIME, TIME, TO_SYSTEM(time), DESCRIBED(0, "the frame's, in seconds"), "", "the clock to follow, such as beat")
 ATTR(PHYSICS, RESOLUTION, ABOVE_ZERO, TO_SYSTEM(resolution), DESCRIBED(0, "1/fps"), "units of time", "longest simulation step")
 ATTR(PHYSICS, RUN, INTEGER, TO_SYSTEM(run), IS(0), "", "a new number restarts the system")
 ATTR(PHYSICS, SPEED_OF_LIGHT, NUMBER, TO_SYSTEM(speed_of_light), DESCRIBED(0, ""), "", "highest speed; 0 or less: no limit")
 
 NODE(PARTICLE, "particle", PHYSICS, NOTHING, "a particle; position and velocity are read when it appears, and come from the state afterwards")
-ATTR(PARTICLE, ID, ANY, TO_BODY(id), NONE, "", "unique in its system; without it the particle is ignored")
-ATTR(PARTICLE, POSITION, VECTOR, TO_BODY(numbers.position), IS(0), "", "where it starts")
-ATTR(PARTICLE, VELOCITY, VECTOR, TO_BODY(numbers.velocity), IS(0), "length per unit of time", "at the start")
+ATTR(PARTICLE, ID, ANY, TO_BODY(id), NONE, "", "unique in its system; a particle without an id is ignored")
+ATTR(PARTICLE, POSITION, VECTOR, TO_BODY(numbers.position), IS(0), "", "initial position")
+ATTR(PARTICLE, VELOCITY, VECTOR, TO_BODY(numbers.velocity), IS(0), "length per unit of time", "initial velocity")
 ATTR(PARTICLE, FORCE, VECTOR, TO_BODY(numbers.force), IS(0), "", "a force on this particle alone")
 ATTR(PARTICLE, EASE, NUMBER, TO_BODY(numbers.ease), IS(0), "", "time from the system's start in which its force grows from 0 to its full value")
 ATTR(PARTICLE, RADIUS, FROM_ZERO, TO_BODY(numbers.radius), IS(0), "", "0: no collisions, adhesion, drag or buoyancy")
-ATTR(PARTICLE, MASS, FROM_ZERO, TO_BODY(numbers.mass), IS(1), "", "0: it is never accelerated")
+ATTR(PARTICLE, MASS, FROM_ZERO, TO_BODY(numbers.mass), IS(1), "", "0: the particle is never accelerated")
 ATTR(PARTICLE, CHARGE, NUMBER, TO_BODY(numbers.charge), IS(0), "", "for !electrostatic and !field")
 
 NODE(ANCHOR, "anchor", PHYSICS, NOTHING, "a particle fixed at its attribute position")
-ATTR(ANCHOR, ID, ANY, TO_BODY(id), NONE, "", "unique in its system; without it the particle is ignored")
+ATTR(ANCHOR, ID, ANY, TO_BODY(id), NONE, "", "unique in its system; an anchor without an id is ignored")
 ATTR(ANCHOR, POSITION, VECTOR, TO_BODY(numbers.position), IS(0), "", "its position in every frame")
 ATTR(ANCHOR, VELOCITY, VECTOR, NOWHERE, IS(0), "", "ignored: anchors are at rest")
 ATTR(ANCHOR, FORCE, VECTOR, NOWHERE, IS(0), "", "ignored: nothing moves an anchor")
@@ -348,8 +348,8 @@ NODE(GROUP, "group", PHYSICS, PHYSICS, "particles and forces that do not interac
 
 FORCE(CONSTANT, "constant", "the same force, or acceleration, on all particles",
     "F = (force + acceleration · m) · strength")
-ATTR(CONSTANT, FORCE, VECTOR, TO_FORCE(force.vector), IS(0), "", "the same on each particle")
-ATTR(CONSTANT, ACCELERATION, VECTOR, TO_FORCE(force.vector2), IS(0), "", "added to the force, times the particle's mass")
+ATTR(CONSTANT, FORCE, VECTOR, TO_FORCE(force.vector), IS(0), "", "force on each particle")
+ATTR(CONSTANT, ACCELERATION, VECTOR, TO_FORCE(force.vector2), IS(0), "", "acceleration of each particle, added to the force")
 STRENGTH_ROW(CONSTANT)
 EASE_ROW(CONSTANT)
 
@@ -358,7 +358,7 @@ FORCE(RANDOM, "random", "a random force on each particle",
 ATTR(RANDOM, STRENGTH, NUMBER, TO_FORCE(force.strength), IS(1), "", "standard deviation of each component of the force")
 EASE_ROW(RANDOM)
 
-FORCE(FIELD, "field", "a force that grows with the charge",
+FORCE(FIELD, "field", "a force proportional to the charge",
     "F = strength · direction · q")
 ATTR(FIELD, DIRECTION, VECTOR, TO_FORCE(force.vector), IS(0), "", "force on a charge of 1")
 STRENGTH_ROW(FIELD)
@@ -366,8 +366,8 @@ EASE_ROW(FIELD)
 
 FORCE(DISTANCE, "distance", "a spring between two particles",
     "F = strength · (min − l)^power if l < min\nF = −strength · (l − max)^power if l > max\nF = 0")
-ATTR(DISTANCE, FROM, ID, TO_FORCE(from), NONE, "", "one end")
-ATTR(DISTANCE, TO, ID, TO_FORCE(to), NONE, "", "the other end")
+ATTR(DISTANCE, FROM, ID, TO_FORCE(from), NONE, "", "one end of the spring")
+ATTR(DISTANCE, TO, ID, TO_FORCE(to), NONE, "", "the other end of the spring")
 BOUND_ROWS(DISTANCE)
 POWER_ROW(DISTANCE)
 STRENGTH_ROW(DISTANCE)
@@ -386,7 +386,7 @@ STRENGTH_ROW(GRAVITY)
 EASE_ROW(GRAVITY)
 REACH_ROW(GRAVITY)
 
-FORCE(ELECTROSTATIC, "electrostatic", "equal charges repel each other, others attract",
+FORCE(ELECTROSTATIC, "electrostatic", "like charges repel each other, opposite charges attract each other",
     "D = max(l, r₁ + r₂)\nF = strength · q₁ · q₂ / D² if max_distance ≤ 0 or l < max_distance\nF = 0")
 STRENGTH_ROW(ELECTROSTATIC)
 EASE_ROW(ELECTROSTATIC)
@@ -405,18 +405,18 @@ ATTR(DRAG, FLOW, VECTOR, TO_FORCE(force.vector), IS(0), "", "velocity of the med
 STRENGTH_ROW(DRAG)
 EASE_ROW(DRAG)
 
-FORCE(BUOYANCY, "buoyancy", "weight in a medium",
+FORCE(BUOYANCY, "buoyancy", "weight and buoyancy in a medium",
     "F = strength · gravity · (m − density·r^n)")
-ATTR(BUOYANCY, GRAVITY, VECTOR, TO_FORCE(force.vector), DESCRIBED(-1, "0;...;0;-1"), "", "acceleration of a free fall in vacuum")
+ATTR(BUOYANCY, GRAVITY, VECTOR, TO_FORCE(force.vector), DESCRIBED(-1, "0;...;0;-1"), "", "acceleration of free fall in a vacuum")
 ATTR(BUOYANCY, DENSITY, NUMBER, TO_FORCE(force.density), IS(1), "", "mass of the medium that a particle of radius 1 displaces")
 STRENGTH_ROW(BUOYANCY)
 EASE_ROW(BUOYANCY)
 
 FORCE(BARRIER, "barrier", "a wall",
     "F = strength · (min − s)^power if 0 ≤ s and s < min\nF = −strength · (s − max)^power if s > max\nF = 0")
-ATTR(BARRIER, POSITION, VECTOR, TO_FORCE(force.vector), IS(0), "", "a point of the wall")
+ATTR(BARRIER, POSITION, VECTOR, TO_FORCE(force.vector), IS(0), "", "a point on the wall")
 ATTR(BARRIER, NORMAL, NORMAL, TO_FORCE(force.vector2), IS(0), "", "direction away from the wall, of any length except 0; required")
-ATTR(BARRIER, RESTITUTION, PART, TO_FORCE(force.restitution), IS(1), "", "fraction of the speed that is left after a bounce")
+ATTR(BARRIER, RESTITUTION, PART, TO_FORCE(force.restitution), IS(1), "", "fraction of the speed that remains after a bounce")
 BOUND_ROWS(BARRIER)
 POWER_ROW(BARRIER)
 STRENGTH_ROW(BARRIER)
@@ -424,26 +424,26 @@ EASE_ROW(BARRIER)
 
 NODE(COUNTER, "counter", SCENE, NOTHING, "a clock with its own rate, written to the state")
 ATTR(COUNTER, STATE, ANY, TO_COUNTER(state), NONE, "", "the key under which the value is written")
-ATTR(COUNTER, INITIAL, NUMBERS, TO_COUNTER(initial), IS(0), "", "value at the start, and while reset")
+ATTR(COUNTER, INITIAL, NUMBERS, TO_COUNTER(initial), IS(0), "", "value at the start, and while reset is true")
 ATTR(COUNTER, RATE, NUMBERS, TO_COUNTER(rate), IS(0), "", "growth per unit of time")
 ATTR(COUNTER, TIME, NUMBERS, TO_COUNTER(time), DESCRIBED(0, "the frame's, in seconds"), "", "the clock to follow, such as beat")
 ATTR(COUNTER, MINIMUM, NUMBERS, TO_COUNTER(minimum), NONE, "", "smallest value")
 ALIAS(COUNTER, MIN, MINIMUM, "minimum", NUMBERS, TO_COUNTER(minimum), "")
 ATTR(COUNTER, MAXIMUM, NUMBERS, TO_COUNTER(maximum), NONE, "", "largest value")
 ALIAS(COUNTER, MAX, MAXIMUM, "maximum", NUMBERS, TO_COUNTER(maximum), "")
-ATTR(COUNTER, RESET, NUMBERS, TO_COUNTER(reset), NONE, "", "if true, the value is reset to the initial one")
+ATTR(COUNTER, RESET, NUMBERS, TO_COUNTER(reset), NONE, "", "if true, the value is reset to the initial value")
 
 #define TRANSFORM_ROWS(kind) \
     ATTR(kind, TRANSLATE, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "move the origin; translate, scale and rotate are applied in the order written") \
-    ATTR(kind, SCALE, SCALE, NOWHERE, DESCRIBED(1, "1;1"), "", "enlarge") \
-    ATTR(kind, ROTATE, FINITE, NOWHERE, IS(0), "turns", "clockwise")
+    ATTR(kind, SCALE, SCALE, NOWHERE, DESCRIBED(1, "1;1"), "", "scale factors along x and y") \
+    ATTR(kind, ROTATE, FINITE, NOWHERE, IS(0), "turns", "rotation, clockwise")
 #define PAINT_ROWS(kind) \
     ATTR(kind, COLOR, COLOR, TO_GRAPHICS(color), INHERITED(0, "0"), "", "replaces an inherited source, such as a gradient") \
     ATTR(kind, STROKE_WIDTH, WIDTH, TO_GRAPHICS(stroke_width), INHERITED(0, "0"), "", "0: one pixel at any scale") \
-    ATTR(kind, STROKE_JOIN, JOIN, TO_GRAPHICS(join), INHERITED(JOIN_MITER, ":miter"), "", "corners of lines") \
-    ATTR(kind, STROKE_CAP, CAP, TO_GRAPHICS(cap), INHERITED(CAP_BUTT, ":butt"), "", "ends of lines") \
+    ATTR(kind, STROKE_JOIN, JOIN, TO_GRAPHICS(join), INHERITED(JOIN_MITER, ":miter"), "", "shape of line corners") \
+    ATTR(kind, STROKE_CAP, CAP, TO_GRAPHICS(cap), INHERITED(CAP_BUTT, ":butt"), "", "shape of line ends") \
     ATTR(kind, COMPOSITE, COMPOSITE, TO_GRAPHICS(composite), INHERITED(COMPOSITE_OVER, ":over"), "", "how colours are combined with those already drawn") \
-    ATTR(kind, ANTIALIAS, FLAG, TO_GRAPHICS(antialias), INHERITED(true, "true"), "", "smooth edges; text always has them") \
+    ATTR(kind, ANTIALIAS, FLAG, TO_GRAPHICS(antialias), INHERITED(true, "true"), "", "smooth edges; text is always smooth") \
     ATTR(kind, DITHER, FLAG, NOWHERE, IS(false), "", "ignored")
 #define FONT_ROWS(kind) \
     ATTR(kind, FONT_FAMILY, TEXT, TO_GRAPHICS(family), INHERITED_TEXT("Helvetica"), "", "one or more names, separated by commas; the first available one is used") \
@@ -453,14 +453,14 @@ ATTR(COUNTER, RESET, NUMBERS, TO_COUNTER(reset), NONE, "", "if true, the value i
     ATTR(kind, FONT_SLANT, SLANT, TO_GRAPHICS(slant), INHERITED(SLANT_UPRIGHT, ":upright"), "", "")
 #define SHAPE_ROWS(kind) \
     ATTR(kind, FILL, FLAG, NOWHERE, IS(false), "", "fill the shape; the current path does not change") \
-    ATTR(kind, STROKE, FLAG, NOWHERE, IS(false), "", "draw its outline; the current path does not change")
+    ATTR(kind, STROKE, FLAG, NOWHERE, IS(false), "", "draw the outline; the current path does not change")
 
 #include "schema/pictures_list.h"
 
 NODE(CANVAS, "canvas", PICTURE, DRAWING, "a drawing surface: origin at the top left, y down, angles in turns")
 SOURCE_ROWS(CANVAS)
 ATTR(CANVAS, LINEAR, FLAG, NOWHERE, IS(false), "", "colours are linear, and are combined in linear light")
-ATTR(CANVAS, COLORBITS, FINITE_INTEGER, NOWHERE, IS(8), "", "for linear=true: 8, or 16 or 32 for values above 1 (HDR)")
+ATTR(CANVAS, COLORBITS, FINITE_INTEGER, NOWHERE, IS(8), "", "bits per channel if linear=true: 8, or 16 or 32 for values above 1 (HDR)")
 TRANSFORM_ROWS(CANVAS)
 PAINT_ROWS(CANVAS)
 FONT_ROWS(CANVAS)
@@ -485,15 +485,15 @@ ALIAS(FONT, WEIGHT, FONT_WEIGHT, "font_weight", WEIGHT, TO_GRAPHICS(weight), "")
 ALIAS(FONT, SLANT, FONT_SLANT, "font_slant", SLANT, TO_GRAPHICS(slant), "")
 
 NODE(LAYER, "layer", DRAWING, DRAWING, "draw the nodes inside separately, then the result as one image")
-ATTR(LAYER, SIZE, SIZE, NOWHERE, NONE, "", "size of the layer, which also clips the rest of the enclosing group; required")
+ATTR(LAYER, SIZE, SIZE, NOWHERE, NONE, "", "size of the layer; it also clips the rest of the enclosing group; required")
 ATTR(LAYER, ORIGIN, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "top left corner of the layer, before its own transform")
-ATTR(LAYER, ALPHA, FINITE, NOWHERE, IS(1), "", "0 is invisible")
+ATTR(LAYER, ALPHA, FINITE, NOWHERE, IS(1), "", "opacity; 0 is invisible")
 TRANSFORM_ROWS(LAYER)
 PAINT_ROWS(LAYER)
 FONT_ROWS(LAYER)
 
 NODE(PATH, "path", DRAWING, DRAWING, "begin a new path; the nodes inside add to it and fill or stroke it")
-ATTR(PATH, FILL_TYPE, FILL_TYPE, NOWHERE, DESCRIBED(FILL_WINDING, ":winding"), "", "which regions are inside where the path crosses itself; inverse rules swap inside and outside")
+ATTR(PATH, FILL_TYPE, FILL_TYPE, NOWHERE, DESCRIBED(FILL_WINDING, ":winding"), "", "fill rule where the path crosses itself; inverse rules swap inside and outside")
 
 NODE(MOVE_TO, "move_to", DRAWING, NOTHING, "begin another subpath")
 ATTR(MOVE_TO, POINT, POINT, NOWHERE, NONE, "", "")
@@ -509,22 +509,22 @@ ATTR(CURVE_TO, C2, POINT, NOWHERE, NONE, "", "second control point, for a cubic 
 NODE(ARC, "arc", DRAWING, NOTHING, "an arc of an ellipse, joined to the path by a line")
 ATTR(ARC, POINT, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "centre")
 ATTR(ARC, RADIUS, SIZE, NOWHERE, NONE, "", "one radius, or the radii along x and y")
-ATTR(ARC, START, FINITE, NOWHERE, IS(0), "turns", "clockwise from the x axis")
-ATTR(ARC, SWEEP, FINITE, NOWHERE, DESCRIBED(NAN, "end - start"), "turns", "full turns are removed; this or end is required")
-ATTR(ARC, END, FINITE, NOWHERE, NONE, "turns", "sweep takes precedence")
-ATTR(ARC, MOVE_TO, FLAG, NOWHERE, IS(false), "", "begin another subpath instead of drawing the line")
+ATTR(ARC, START, FINITE, NOWHERE, IS(0), "turns", "start angle, clockwise from the x axis")
+ATTR(ARC, SWEEP, FINITE, NOWHERE, DESCRIBED(NAN, "end - start"), "turns", "angle of the arc, modulo 1; sweep or end is required")
+ATTR(ARC, END, FINITE, NOWHERE, NONE, "turns", "end angle; sweep takes precedence")
+ATTR(ARC, MOVE_TO, FLAG, NOWHERE, IS(false), "", "begin another subpath instead of drawing a line to the arc")
 
 NODE(ARC_TO, "arc_to", DRAWING, NOTHING, "an arc of an ellipse from the end of the path, or from 0;0")
 ATTR(ARC_TO, POINT, POINT, NOWHERE, NONE, "", "end of the arc")
 ATTR(ARC_TO, RADIUS, SIZE, NOWHERE, NONE, "", "one radius, or the radii along x and y; enlarged if too small")
-ATTR(ARC_TO, ROTATION, FINITE, NOWHERE, IS(0), "degrees", "of the ellipse, clockwise")
+ATTR(ARC_TO, ROTATION, FINITE, NOWHERE, IS(0), "degrees", "rotation of the ellipse, clockwise")
 ATTR(ARC_TO, LARGE, FLAG, NOWHERE, IS(false), "", "take the longer arc")
 ATTR(ARC_TO, CCW, FLAG, NOWHERE, IS(false), "", "counter-clockwise")
 
 NODE(RECT, "rect", DRAWING, NOTHING, "a rectangle")
 ATTR(RECT, POINT, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "a corner: the top left one unless the size is negative")
 ATTR(RECT, SIZE, SCALE, NOWHERE, NONE, "", "")
-ATTR(RECT, RADIUS, SIZE, NOWHERE, IS(0), "", "radius of the corners, at most what fits")
+ATTR(RECT, RADIUS, SIZE, NOWHERE, IS(0), "", "radius of the corners; reduced if it does not fit")
 SHAPE_ROWS(RECT)
 PAINT_ROWS(RECT)
 
@@ -555,31 +555,31 @@ PAINT_ROWS(STROKE)
 
 NODE(TEXT, "text", DRAWING, NOTHING, "one line of text")
 ATTR(TEXT, TEXT, TEXT, NOWHERE, NONE, "", "")
-ATTR(TEXT, POINT, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "its centre; with center=false, the start of its baseline")
+ATTR(TEXT, POINT, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "centre of the text; if center=false, start of the baseline")
 ATTR(TEXT, CENTER, FLAG, NOWHERE, IS(true), "", "")
-ATTR(TEXT, FILL, FLAG, NOWHERE, DESCRIBED(true, "true unless stroke"), "", "draw the letters")
-ATTR(TEXT, STROKE, FLAG, NOWHERE, IS(false), "", "draw their outlines")
+ATTR(TEXT, FILL, FLAG, NOWHERE, DESCRIBED(true, "true unless stroke"), "", "fill the letters")
+ATTR(TEXT, STROKE, FLAG, NOWHERE, IS(false), "", "draw the outlines of the letters")
 PAINT_ROWS(TEXT)
 FONT_ROWS(TEXT)
 
 NODE(IMAGE, "image", DRAWING, NOTHING, "an image from a PNG or JPEG file or from another node")
 ATTR(IMAGE, FILENAME, TEXT, NOWHERE, NONE, "", "")
-ATTR(IMAGE, IMAGE_ID, TEXT, NOWHERE, NONE, "", "id of the node that makes the picture")
+ATTR(IMAGE, IMAGE_ID, TEXT, NOWHERE, NONE, "", "id of the node whose picture is used")
 ALIAS(IMAGE, TEXTURE_ID, IMAGE_ID, "image_id", TEXT, NOWHERE, "")
 ATTR(IMAGE, POINT, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "top left corner")
-ATTR(IMAGE, SIZE, SCALE, NOWHERE, DESCRIBED(0, "that of the picture"), "", "size to which it is stretched")
-ATTR(IMAGE, FIT, SIZE, NOWHERE, NONE, "", "size of a box into which it is fitted")
-ATTR(IMAGE, FILL, SIZE, NOWHERE, NONE, "", "size of a box that it fills; the rest is cut off")
+ATTR(IMAGE, SIZE, SCALE, NOWHERE, DESCRIBED(0, "that of the picture"), "", "size to which the image is stretched")
+ATTR(IMAGE, FIT, SIZE, NOWHERE, NONE, "", "size of a box into which the image is fitted")
+ATTR(IMAGE, FILL, SIZE, NOWHERE, NONE, "", "size of a box that the image fills; the rest of the image is cut off")
 
 NODE(GRADIENT, "gradient", SOURCE, STOP, "a colour gradient for nodes drawn after it")
-ATTR(GRADIENT, START, POINT, NOWHERE, NONE, "", "of a linear gradient")
-ATTR(GRADIENT, END, POINT, NOWHERE, NONE, "", "of a linear gradient")
-ATTR(GRADIENT, RADIUS, SIZE, NOWHERE, NONE, "", "of a radial gradient: one radius, or the radii along x and y")
+ATTR(GRADIENT, START, POINT, NOWHERE, NONE, "", "start of a linear gradient")
+ATTR(GRADIENT, END, POINT, NOWHERE, NONE, "", "end of a linear gradient")
+ATTR(GRADIENT, RADIUS, SIZE, NOWHERE, NONE, "", "radius of a radial gradient: one number, or the radii along x and y")
 ATTR(GRADIENT, POINT, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "centre of a radial gradient")
-ATTR(GRADIENT, ROTATE, FINITE, NOWHERE, IS(0), "turns", "of a radial gradient")
+ATTR(GRADIENT, ROTATE, FINITE, NOWHERE, IS(0), "turns", "rotation of a radial gradient")
 
 NODE(STOP, "stop", STOP, NOTHING, "a colour of a gradient")
-ATTR(STOP, OFFSET, FINITE, NOWHERE, DESCRIBED(NAN, "evenly spread"), "", "from 0 to 1")
+ATTR(STOP, OFFSET, FINITE, NOWHERE, DESCRIBED(NAN, "evenly spread"), "", "position in the gradient, from 0 to 1")
 ATTR(STOP, COLOR, COLOR, NOWHERE, DESCRIBED(0, "the current colour"), "", "")
 
 NODE(COLOR, "color", SOURCE, NOTHING, "one colour for nodes drawn after it")
@@ -587,7 +587,7 @@ ATTR(COLOR, COLOR, COLOR, NOWHERE, DESCRIBED(0, "the current colour"), "", "")
 
 NODE(PATTERN, "pattern", SOURCE, NOTHING, "an image repeated in both directions, for nodes drawn after it")
 ATTR(PATTERN, FILENAME, TEXT, NOWHERE, NONE, "", "")
-ATTR(PATTERN, IMAGE_ID, TEXT, NOWHERE, NONE, "", "id of the node that makes the picture")
+ATTR(PATTERN, IMAGE_ID, TEXT, NOWHERE, NONE, "", "id of the node whose picture is used")
 ALIAS(PATTERN, TEXTURE_ID, IMAGE_ID, "image_id", TEXT, NOWHERE, "")
 ATTR(PATTERN, TRANSLATE, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "translate, scale and rotate are applied in the order written")
 ATTR(PATTERN, SCALE, SCALE, NOWHERE, DESCRIBED(1, "1;1"), "", "")
@@ -605,16 +605,16 @@ ATTR(CANVAS_NOISE, SIZE, SIZE, NOWHERE, DESCRIBED(0, "endless"), "", "size of a 
 ATTR(CANVAS_NOISE, TYPE, NOISE_TYPE, NOWHERE, DESCRIBED(TURBULENCE_FRACTAL, ":fractal"), "", ":turbulence takes the absolute value of each wave")
 
 NODE(CANVAS_BLUR, "blur", FILTER, FILTER, "blur nodes drawn after it")
-ATTR(CANVAS_BLUR, RADIUS, SIZE, NOWHERE, NONE, "", "standard deviation: one, or those along x and y")
+ATTR(CANVAS_BLUR, RADIUS, SIZE, NOWHERE, NONE, "", "standard deviation: one number, or two for x and y")
 
 NODE(SHADOW, "shadow", FILTER, FILTER, "a shadow behind nodes drawn after it")
-ATTR(SHADOW, RADIUS, SIZE, NOWHERE, NONE, "", "standard deviation: one, or those along x and y")
+ATTR(SHADOW, RADIUS, SIZE, NOWHERE, NONE, "", "standard deviation: one number, or two for x and y")
 ATTR(SHADOW, OFFSET, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "from the object to its shadow")
 ATTR(SHADOW, COLOR, COLOR, NOWHERE, IS(0), "", "")
 ATTR(SHADOW, SHADOW_ONLY, FLAG, NOWHERE, IS(false), "", "draw the shadow without the object")
 
 NODE(CANVAS_OFFSET, "offset", FILTER, FILTER, "move nodes drawn after it")
-ATTR(CANVAS_OFFSET, OFFSET, POINT, NOWHERE, NONE, "", "how far")
+ATTR(CANVAS_OFFSET, OFFSET, POINT, NOWHERE, NONE, "", "displacement along x and y")
 
 NODE(DILATE, "dilate", FILTER, FILTER, "thicken the shapes drawn after it (dilation)")
 ATTR(DILATE, RADIUS, SIZE, NOWHERE, NONE, "", "each channel becomes the largest value within this distance along x and y")
@@ -623,15 +623,15 @@ NODE(ERODE, "erode", FILTER, FILTER, "thin the shapes drawn after it (erosion)")
 ATTR(ERODE, RADIUS, SIZE, NOWHERE, NONE, "", "each channel becomes the smallest value within this distance along x and y")
 
 NODE(FILTER_MATRIX, "color_matrix", FILTER, FILTER, "change the colours of nodes drawn after it")
-ATTR(FILTER_MATRIX, MATRIX, TWENTY, NOWHERE, NONE, "", "four rows, for red, green, blue and alpha, of five factors for r;g;b;a;1; takes precedence over all others")
-ATTR(FILTER_MATRIX, RED, FIVE, NOWHERE, DESCRIBED(0, "1;0;0;0;0"), "", "a row of the matrix; rows take precedence over scale and offset, and these over the rest")
+ATTR(FILTER_MATRIX, MATRIX, TWENTY, NOWHERE, NONE, "", "rows for red, green, blue and alpha, each with five factors for r;g;b;a;1; takes precedence over all other attributes")
+ATTR(FILTER_MATRIX, RED, FIVE, NOWHERE, DESCRIBED(0, "1;0;0;0;0"), "", "a row of the matrix; rows take precedence over scale and offset, and these over the other attributes")
 ATTR(FILTER_MATRIX, GREEN, FIVE, NOWHERE, DESCRIBED(0, "0;1;0;0;0"), "", "")
 ATTR(FILTER_MATRIX, BLUE, FIVE, NOWHERE, DESCRIBED(0, "0;0;1;0;0"), "", "")
 ATTR(FILTER_MATRIX, ALPHA, FIVE, NOWHERE, DESCRIBED(0, "0;0;0;1;0"), "", "")
 ATTR(FILTER_MATRIX, SCALE, TRIPLE, NOWHERE, IS(1), "", "factors for red, green and blue")
 ATTR(FILTER_MATRIX, OFFSET, TRIPLE, NOWHERE, IS(0), "", "added after scaling")
 ATTR(FILTER_MATRIX, BRIGHTNESS, FINITE, NOWHERE, IS(0), "", "added to red, green and blue")
-ATTR(FILTER_MATRIX, CONTRAST, FINITE, NOWHERE, IS(1), "", "around grey")
+ATTR(FILTER_MATRIX, CONTRAST, FINITE, NOWHERE, IS(1), "", "contrast factor; 0.5 grey does not change")
 ATTR(FILTER_MATRIX, SATURATION, FINITE, NOWHERE, IS(1), "", "0 is grey")
 
 NODE(DRAWN, "source", FILTER, NOTHING, "the unfiltered drawing, as input to another filter")
@@ -653,14 +653,14 @@ ATTR(ROUND_CORNERS, RADIUS, WIDTH, NOWHERE, NONE, "", "distance from a corner at
 
 NODE(JITTER, "jitter", EFFECT, EFFECT, "roughen nodes drawn after it")
 ATTR(JITTER, LENGTH, WIDTH, NOWHERE, NONE, "", "length of the segments into which lines are cut")
-ATTR(JITTER, DEVIATION, FINITE, NOWHERE, NONE, "", "largest sideways displacement of their ends")
+ATTR(JITTER, DEVIATION, FINITE, NOWHERE, NONE, "", "maximum sideways displacement of the ends of segments")
 ATTR(JITTER, SEED, FINITE, NOWHERE, IS(0), "", "selects the displacements")
 
 NODE(PATH_MATRIX, "path_matrix", EFFECT, EFFECT, "transform paths drawn after it, but not their line width")
-ATTR(PATH_MATRIX, MATRIX, NINE, NOWHERE, NONE, "", "three rows of three; takes precedence over all others")
-ATTR(PATH_MATRIX, SCALE, SCALE, NOWHERE, DESCRIBED(1, "1;1"), "", "first")
-ATTR(PATH_MATRIX, ROTATE, FINITE, NOWHERE, IS(0), "turns", "second, clockwise")
-ATTR(PATH_MATRIX, TRANSLATE, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "last")
+ATTR(PATH_MATRIX, MATRIX, NINE, NOWHERE, NONE, "", "three rows of three numbers; takes precedence over all other attributes")
+ATTR(PATH_MATRIX, SCALE, SCALE, NOWHERE, DESCRIBED(1, "1;1"), "", "applied first")
+ATTR(PATH_MATRIX, ROTATE, FINITE, NOWHERE, IS(0), "turns", "applied second, clockwise")
+ATTR(PATH_MATRIX, TRANSLATE, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "applied last")
 
 NODE(SUM, "sum", EFFECT, EFFECT, "the paths of all effects inside, for nodes drawn after it")
 #include "schema/canvas3d_list.h"

@@ -12,7 +12,7 @@
 typedef enum NodeKind {
 #define NODE(id, text, place, children, help) KIND_##id,
 #include "schema/schema_list.h"
-    KIND_COUNT // number of kinds; also: not a known kind
+    KIND_COUNT // number of kinds; also used for unknown kinds
 } NodeKind;
 
 typedef enum AttrName {
@@ -57,7 +57,7 @@ typedef enum PlaceKind {
 typedef enum AttrShape {
     SHAPE_VALUE,   // Value
     SHAPE_NUMBERS, // Value with at least one number
-    SHAPE_NUMBER,  // double, moved to the limits of its type
+    SHAPE_NUMBER,  // double, clamped to the limits of its type
     SHAPE_INTEGER, // double, rounded down
     SHAPE_TIME,    // double; NaN is allowed
     SHAPE_VECTOR,  // PhysVector with one element per dimension of the system; a single number is repeated
@@ -87,7 +87,7 @@ enum { FADE_LINEAR, FADE_QUAD, FADE_CUBIC };
 enum { FLIP_NOT, FLIP_HORIZONTAL, FLIP_VERTICAL, FLIP_BOTH };
 enum { TURBULENCE_FRACTAL, TURBULENCE_FOLDED, TURBULENCE_IMPROVED };
 enum { NOISE_PLANE, NOISE_CYLINDER, NOISE_SPHERE };
-// How pictures are combined, in linear light. MIX_UNKNOWN: the word is not known.
+// How pictures are combined, in linear light. MIX_UNKNOWN: the word is unknown.
 enum { MIX_OVER, MIX_DEST_OVER, MIX_LIGHTEN, MIX_DARKEN, MIX_ADD, MIX_DIFFERENCE, MIX_MULTIPLY, MIX_UNKNOWN };
 enum { FACE_BACK, FACE_FRONT };
 enum { MIX3D_OVER, MIX3D_SOURCE, MIX3D_DEST, MIX3D_DEST_OVER, MIX3D_ADD, MIX3D_SUBTRACT, MIX3D_LIGHTEN, MIX3D_DARKEN };
