@@ -41,7 +41,7 @@ struct ArenaBlock {
 _Static_assert(offsetof(ArenaBlock, bytes) % ARENA_ALIGNMENT == 0, "block payload must be aligned");
 
 typedef struct Arena {
-    ArenaBlock *first;   // chain of blocks, oldest first; a reset keeps them
+    ArenaBlock *first;   // linked list of blocks, oldest first; a reset does not free them
     ArenaBlock *current; // the block that is being filled
     size_t used;         // bytes allocated since the last reset, with padding
     size_t high_water;   // largest value of `used` at a rewind or reset
@@ -58,7 +58,7 @@ typedef struct ArenaMark {
     size_t used;
 } ArenaMark;
 
-// How a protected call ended.
+// Result of a protected call.
 typedef enum ArenaOutcome {
     ARENA_OK,
     ARENA_OUT_OF_MEMORY, // the machine is out of memory

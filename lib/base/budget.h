@@ -23,7 +23,7 @@ typedef struct Budget {
     bool (*should_interrupt)(void *user_data); // polled by the charging thread to set `interrupt`; NULL: not polled
     void *user_data;                           // passed to should_interrupt
     bool retains;   // true: arena_retire keeps blocks in `retained`, because the host may still read them
-    void *retained; // chain of ArenaBlock
+    void *retained; // linked list of ArenaBlock
 } Budget;
 
 // How many bytes or numbers of an array a simple loop reads or fills for one unit of work.

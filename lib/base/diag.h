@@ -42,7 +42,7 @@ Str diag_text(const Diag *diag);
 // Appends `FILE:LINE:COLUMN: level: text`, the source line, a caret line and the hint (spec cli.md 3.5). Every line
 // ends with a newline.
 void diag_format(Text *out, const Diag *diag, bool colour);
-// Returns `text (FILE:LINE)`, the form in the `?` section of a frame.
+// Returns `text (FILE:LINE)`, the format used in the `?` section of a printed frame.
 Str diag_one_line(Arena *arena, const Diag *diag);
 
 #endif

@@ -207,7 +207,7 @@ bool file_access_make_folders(const FileAccess *file_access, const char *path) {
     char resolved[PATH_MAX], prefix[PATH_MAX];
     struct stat info;
     if (strlen(path) >= sizeof prefix)
-        return true; // writing will report the error
+        return true; // the error is reported when the file is written
     for (const char *slash = strchr(path + 1, '/'); path[0] && slash; slash = strchr(slash + 1, '/')) {
         memcpy(prefix, path, (size_t)(slash - path));
         prefix[slash - path] = '\0';

@@ -6,7 +6,7 @@
 #include <string.h>
 
 // The only mutable global state outside sessions. Some callers have no session, such as painters that share a shader.
-static HeapAllocator current_allocator; // `allocate` is NULL: use the C library
+static HeapAllocator current_allocator; // `allocate` NULL: the C library is used
 static atomic_size_t block_count;       // allocated blocks
 
 static void *count_block(void *block) {

@@ -104,7 +104,7 @@ static bool shortest_of_fraction(double x, Decimal *decimal) {
     // Excludes powers of two, because the next double below is nearer than the one above.
     if (!(x >= MIN_FRACTION && x < 9007199254740992.0) || significand == UINT64_C(1) << 52)
         return false;
-    // 78913 / 2^18 approximates log10(2). The estimate is exact or one too low.
+    // 78913 / 2^18 approximates log10(2). The estimate is exact or too low by one.
     int first = (int)floor((exponent + 52) * (78913.0 / 262144));
     Scaled scaled;
     if (!scale_by(&scaled, significand, exponent, MAX_DIGITS - 1 - first))

@@ -22,7 +22,7 @@ Str str_from(const char *text);
 bool str_equal(Str a, Str b);
 // Returns -1, 0 or 1. Compares bytes, which for UTF-8 is the order of code points. A prefix sorts first.
 int str_compare(Str a, Str b);
-// Both return a copy that is followed by a NUL byte.
+// Both functions return a copy that is followed by a NUL byte.
 Str str_copy(Arena *arena, Str text);
 char *str_to_c(Arena *arena, Str text);
 bool str_starts_with(Str text, Str prefix);

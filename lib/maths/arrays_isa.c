@@ -1,4 +1,5 @@
-// arrays_isa.c: the functions of arrays.h for one instruction set, LANES numbers at a time. MATHS_ISA is its name.
+// arrays_isa.c: the functions of arrays.h for one instruction set, LANES numbers at a time. MATHS_ISA is the name of
+// the instruction set.
 //
 // If the fast path cannot round a lane with certainty, the scalar function recomputes that lane.
 #include "maths/arrays_isa.h"

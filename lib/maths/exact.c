@@ -3,8 +3,8 @@
 // Ziv's method (ACM TOMS 17, 1991): the result is computed with a fraction of 192 bits, then 384 and 768, until all
 // numbers within the error bound round to the same double. This terminates, because no result is exactly halfway
 // between two doubles. By Lindemann's theorem the results of atan2 and the functions of one argument are not algebraic,
-// except in cases that are handled first (0, 1, tiny ratios). Halfway cases of pow are found by integer arithmetic. The
-// hardest known arguments (tables by Lefèvre and Muller, and later work) need a relative accuracy of fewer than 128
+// except in cases that are handled first (0, 1, tiny ratios). Halfway cases of pow are found with integer arithmetic.
+// The hardest known arguments (tables by Lefèvre and Muller, and later work) need a relative accuracy of fewer than 128
 // bits. 384 bits of fraction give more than 300.
 //
 // The error of each function of fixed.h is below 2^16 ulps. 2^SLACK ulps also cover the few operations added here.
@@ -128,7 +128,7 @@ double exact_acos(double x) {
     if (!(double_absolute(x) <= 1))
         return double_is_nan(x) ? x + x : DOUBLE_NAN;
     if (double_absolute(x) < 0x1p-60)
-        return HALF_PI_HIGH; // pi/2 differs from it by 2^-53.9, clearly less than half an ulp (2^-53)
+        return HALF_PI_HIGH; // differs from pi/2 by 2^-53.9, clearly less than half an ulp (2^-53)
     return x == 1 ? 0 : x == -1 ? PI_HIGH : exact_circle(x, true);
 }
 
@@ -306,7 +306,7 @@ static bool pow_is_exact(double x, double y, double *result) {
         return true;
     }
     if (f > 12 || k >> (12 - f))
-        return false; // out of range, or too many bits
+        return false; // the power is out of range or has too many bits
     int n = (int)(k << f);
     if (m > 1 && (y < 0 || n > 40))
         return false;

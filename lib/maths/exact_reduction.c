@@ -27,7 +27,7 @@ void exact_reduction(double x, uint64_t *n, double *high, double *low) {
         product[i] = (uint64_t)t;
         carry = (uint64_t)(t >> 64);
     }
-    // Rounded to units of pi/512: the integer part and 8 bits of the fraction become n.
+    // Round to a multiple of pi/512: the integer part and 8 bits of the fraction become n.
     uint64_t upper = product[2] << 8 | product[1] >> 56, rest = product[1] << 8 | product[0] >> 56;
     *n = (product[3] << 8 | product[2] >> 56) + (upper >> 63);
     // The remainder in [-1/2, 1/2) steps of pi/512, in units of 2^-64: its first 53 bits, then the next 75.

@@ -34,7 +34,7 @@ MATHS_FUNCTIONS(DECLARE_ONE, DECLARE_TWO)
 #undef DECLARE_ONE
 #undef DECLARE_TWO
 
-// Returns the sign of x^y for a negative x: -1 for odd integers y, 1 for even ones, 0 if the result is NaN.
+// Returns the sign of x^y for a negative x: -1 for odd integers y, 1 for even integers y, else 0 (the result is NaN).
 double exact_pow_sign(double x, double y);
 
 // fast_log_near returns an approximation of ln m for m in [1/2, 2), fast_atan_near of atan q for q in [0, 1].

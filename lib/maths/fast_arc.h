@@ -62,7 +62,8 @@ KERNEL void arc_series(const double *row, double d, double *high, double *low) {
     arc_sum(row[0], p, small, high, low);
 }
 
-// Adds first_high + first_low to high + low. Sets *result to the rounded sum and returns true if it is certain.
+// Adds first_high + first_low to high + low and sets *result to the rounded sum. Returns true if the rounding is
+// certain.
 KERNEL bool arc_decide(double first_high, double first_low, double high, double low, double error, double *result) {
     arc_sum(first_high, high, low + first_low, &high, &low);
     return lanes_decide(high, low, error, result);

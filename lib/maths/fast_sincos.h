@@ -85,7 +85,7 @@ KERNEL Row sincos_quarter(const Row *row) {
     return (Row){row->ch, row->cl, -row->sh, -row->sl};
 }
 
-// Computes the sine of the angle given by row and arc.
+// Computes the sine of the angle that `row` and `arc` describe, as high + low.
 KERNEL void sincos_sine(const Row *row, const Arc *arc, Real *high, Real *low) {
     Real p = row->ch * arc->high, pl = real_two_product_error(row->ch, arc->high, p);
     Real small = real_muladd(row->cl, arc->high, row->sl) + pl;

@@ -45,7 +45,7 @@ typedef unsigned Lanes;
 #define LANES_BOTH(a, b) ((a) & (b))
 #endif
 
-// True if the instruction set has a fused multiply-add. Its use never changes results.
+// 1 if the instruction set has a fused multiply-add, else 0. Final results do not depend on it.
 #if defined(__FMA__) || defined(__aarch64__)
 #define HAS_FMA 1
 #else

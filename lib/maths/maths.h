@@ -21,8 +21,8 @@ double maths_log2(double x);
 double maths_log10(double x);
 double maths_pow(double x, double y);
 
-// Returns sqrt(x^2 + y^2) without intermediate overflow. The result is not correctly rounded, but
-// bit-identical on every machine.
+// Returns sqrt(x^2 + y^2) without intermediate overflow. The result is not correctly rounded,
+// but bit-identical on every machine.
 double maths_hypot(double x, double y);
 
 #endif

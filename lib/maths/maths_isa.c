@@ -1,4 +1,5 @@
-// maths_isa.c: the scalar functions for one instruction set. MATHS_ISA is its name, as in maths_sin_plain.
+// maths_isa.c: the scalar functions for one instruction set. MATHS_ISA is the name of the set,
+// such as `plain` in maths_sin_plain.
 //
 // Each function tries its fast path first. If the rounding is uncertain (about one in a thousand arguments), or if the
 // argument is special, it calls the exact_ function.

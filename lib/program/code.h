@@ -1,6 +1,6 @@
 // code.h: code of the VM: instructions that work on registers.
 //
-// Each function, the main program and each module is one Code. Its registers are the function's slots, followed by
+// A Code is compiled from a function, the main program or a module. Its registers are the slots, followed by
 // temporaries. An operand is the number of a register. Negative numbers are constants, which are copied to the memory
 // directly before the first register when the code is entered, so that both are read in the same way. Instructions with
 // many operands refer to a list of numbers. Every instruction has a position in the source, for diagnostics. Code

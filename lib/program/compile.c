@@ -86,7 +86,7 @@ static const Expr *compile_node(Compiler *compiler, const Ast *ast) {
     return expr;
 }
 
-// Compiles `then if test else other` to an IF with one branch.
+// Compiles `then if test else other` to an IF with one test.
 static const Expr *compile_cond(Compiler *compiler, const Ast *ast, bool in_children) {
     const Expr *test = compile_expr(compiler, ast->children[1]);
     const Expr *parts[3] = {test, compile_part(compiler, ast->children[0], in_children)};

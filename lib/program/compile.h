@@ -4,7 +4,7 @@
 
 #include "program/expr.h"
 
-// The construct that binds a name. Lints depend on it.
+// The construct that binds a name. It determines which lints apply.
 typedef enum BindingKind { BINDING_LET, BINDING_FUNC, BINDING_PARAM, BINDING_LOOP, BINDING_IMPORT } BindingKind;
 
 // A visible name. The bindings of a function form a linked list that starts with the innermost binding.
@@ -30,7 +30,7 @@ struct FunctionScope {
     uint32_t next_slot;  // first free slot
     uint32_t frame_size; // maximum of next_slot
     Capture *captures;
-    const Symbol **capture_names; // by capture
+    const Symbol **capture_names; // name of each capture
     uint32_t capture_count;
     uint32_t capture_capacity;
 };
@@ -94,7 +94,7 @@ void compile_scope_close(Compiler *compiler, ScopeMark mark);
 uint32_t compile_bind(Compiler *compiler, BindingKind kind, const Symbol *name, Span span, const Ast *value);
 // Binds the names of a NAMES node in consecutive slots and returns the first slot.
 uint32_t compile_bind_names(Compiler *compiler, BindingKind kind, const Ast *names, const Ast *value);
-// Returns the element of a value that is bound to name number `element` of `count` names (L8.3).
+// Returns the value of the name at index `element` if `value` is unpacked to `count` names (L8.3).
 Value compile_unpack(Compiler *compiler, Value value, uint32_t element, uint32_t count);
 // Marks the last `count` bindings as constant. If there are several, the value is unpacked to them.
 void compile_set_constant(Compiler *compiler, uint32_t count, Value value);
@@ -106,7 +106,7 @@ void compile_function_open(Compiler *compiler, FunctionScope *function, const Sy
 void compile_function_close(Compiler *compiler, FunctionScope *function);
 // Returns the built-in or host function with this name, or NULL.
 const struct Builtin *compile_find_builtin(const Compiler *compiler, Str name);
-// Returns true if only a definition (-D) can give a top-level name a value here.
+// Returns true if a name can get a value only from a definition (-D) at this point of the top level.
 bool compile_is_free(const Compiler *compiler, const Symbol *name);
 
 // Parameters (parameters.c).

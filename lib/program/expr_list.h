@@ -1,8 +1,8 @@
 // expr_list.h: the kinds of expressions.
 //
 // EXPR(KIND). The comment lists the children, where `…` means repetition, then the fields in use. SAME(KIND): the
-// syntax tree has a node of this kind with the same children. PLAIN(KIND): also, an instruction of this name exists,
-// whose operands are the children's values.
+// syntax tree has a node of this kind with the same children. PLAIN(KIND): like SAME; also, an instruction with this
+// name exists, whose operands are the children's values.
 // clang-format off
 #ifndef SAME
 #define SAME(kind) EXPR(kind)

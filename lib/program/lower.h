@@ -53,7 +53,7 @@ void lower_emit(Lowering *lowering, const Expr *at, Instr instr);
 const Origin *lower_origin(Lowering *lowering, const Expr *expr);
 // Returns a copy of names, in the code's arena.
 const Symbol *const *lower_names(const Lowering *lowering, const Symbol *const *names, uint32_t count);
-// Returns an unused register. It is in use until next_register is reset.
+// Allocates a register, which stays in use until next_register is reset.
 int32_t lower_temporary(Lowering *lowering);
 // Adds a constant and returns its operand.
 int32_t lower_constant(Lowering *lowering, Value value);

@@ -49,7 +49,8 @@ static Str trailing_comment(const Source *source, uint32_t at) {
     return text_between(source, at, (uint32_t)(end - text));
 }
 
-// Parses one end of a range; `if_absent` is its value if the text is empty. Returns false if it is not a number.
+// Parses one end of a range; `if_absent` is its value if the text is empty. Returns false if the text is not
+// a number.
 static bool parse_bound(Str text, double if_absent, double *x) {
     *x = if_absent;
     return text.len == 0 || (literal_parse_number(text, x) && !isnan(*x));

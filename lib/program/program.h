@@ -31,7 +31,7 @@ typedef struct Pragma {
     Span span;
 } Pragma;
 
-// A parameter: `let NAME=NAME or DEFAULT` at the top level of a file, if only -D can give the name on the right a value
+// A parameter: `let NAME=NAME or DEFAULT` at the top level of a file, if the NAME after = can get a value only from -D
 // (parameters.c). A comment after the parameter on the same line describes it.
 typedef struct Parameter {
     const Symbol *name;

@@ -137,7 +137,7 @@ Value vm_make_node(Vm *vm, const int32_t *list, const Value *slots, const Instr 
 
 // --- elements
 
-enum { STREAM_WORK = 4 }; // work units of one item of a stream
+enum { STREAM_WORK = 4 }; // work units per item of a stream
 
 static Value index_stream(Vm *vm, Value stream, Value index) {
     if (!value_is_numeric(index))
