@@ -1,6 +1,7 @@
-// line.h: reading lines at the prompt. On a terminal, libedit provides editing, history and completion. Without
-// libedit, lines are read without editing. Lines from a file or a pipe are echoed after the prompt, so that the output
-// looks like an interactive session.
+// line.h: reading lines at the prompt.
+//
+// On a terminal, libedit provides editing, history and completion. Without libedit, lines are read without editing.
+// Lines from a file or a pipe are echoed after the prompt, so that the output looks like an interactive session.
 #ifndef PETRI_SRC_REPL_LINE_H
 #define PETRI_SRC_REPL_LINE_H
 

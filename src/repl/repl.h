@@ -87,10 +87,10 @@ const ReplCommand *repl_command_at(size_t index);
 const ReplCommand *repl_find_command(const char *name, size_t length);
 void repl_command(Repl *repl, const char *line);
 
-// Commands without a dot (arguments.c). Executes `help`, `?`, `h`, `quit`, `exit` and `q`. Returns true if the text was
-// one of these, or, after a message, if it begins with the name of another command. If the script, the prompt or petri
-// binds the word, the text is code: sets *remark and returns false. The caller prints the remark if the code fails, or
-// if the word is one of these six.
+// Commands without a dot (arguments.c).
+// Executes `help`, `?`, `h`, `quit`, `exit` and `q`. Returns true if the text was one of these, or, after a message, if
+// it begins with the name of another command. If the script, the prompt or petri binds the word, the text is code: sets
+// *remark and returns false. The caller prints the remark if the code fails, or if the word is one of these six.
 bool bare_execute(Repl *repl, const char *text, ByteBuffer *remark);
 // Returns the command of one of these six words, such as ".quit" for "q". Returns NULL for other words.
 const char *bare_alias(const char *name, size_t length);

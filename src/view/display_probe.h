@@ -1,6 +1,7 @@
-// display_probe.h: finds the screens that environment variables name, and checks whether they can be reached. If no
-// screen can be reached, SDL falls back to drivers such as an invisible window in memory. If a network does not answer,
-// libraries wait for minutes. So petri checks first.
+// display_probe.h: finds the screens that environment variables name, and checks whether they can be reached.
+//
+// If no screen can be reached, SDL falls back to drivers such as an invisible window in memory. If a network does not
+// answer, libraries wait for minutes. So petri checks first.
 #ifndef PETRI_SRC_DISPLAY_PROBE_H
 #define PETRI_SRC_DISPLAY_PROBE_H
 

@@ -1,4 +1,5 @@
 // terminal_view.c: the terminal display. libchafa converts pictures; keys and mouse events arrive as escape sequences.
+//
 // While the display is open, the terminal uses its alternate screen, reports single keys and the mouse, and hides the
 // cursor. The terminal is restored when the process ends, except after SIGKILL.
 #include "base/file.h"
