@@ -21,13 +21,14 @@ typedef struct AutoBody {
     bool anchor;
 } AutoBody;
 
+// A line between two bodies that a `!distance` force connects.
 typedef struct AutoLink {
-    uint32_t from;
+    uint32_t from; // index in `bodies`
     uint32_t to;
 } AutoLink;
 
 typedef struct AutoBarrier {
-    double position[3];
+    double position[3]; // a point on the wall
     double normal[3];
 } AutoBarrier;
 
@@ -58,7 +59,7 @@ typedef struct AutoSystem {
     AutoBarrier *barriers;
     uint32_t barrier_count;
     AutoFrame frame;
-    AutoLine *scale;
+    AutoLine *scale; // lines of the scale bar
     uint32_t scale_count;
 } AutoSystem;
 

@@ -40,7 +40,7 @@ typedef struct DisplayPath {
     uint32_t first; // DISPLAY_NONE: empty
     uint32_t last;
     uint32_t end;
-    uint8_t fill_type;
+    uint8_t fill_type; // FILL_WINDING and so on
 } DisplayPath;
 
 typedef enum DisplaySourceKind {
@@ -84,12 +84,12 @@ typedef enum DisplayFilterKind {
 
 typedef struct DisplayFilter {
     DisplayFilterKind kind;
-    double radius[2];
+    double radius[2];   // standard deviation of blur and shadow; reach of dilate and erode
     double offset[2];
     double color[4];
-    bool only;
-    int mode;
-    uint32_t paint;
+    bool only;          // true: draw the shadow without the object
+    int mode;           // composite mode of a blend
+    uint32_t paint;     // for FILTER_PAINT
     uint32_t numbers;   // index in `numbers` of 20 matrix elements or 4 blend coefficients; DISPLAY_NONE: use `mode`
     uint32_t inputs[2]; // indices of filters; DISPLAY_NONE: the unfiltered drawing, or no input
     Origin place;       // position of its node in the script

@@ -14,7 +14,7 @@ typedef struct FilterContext {
     cairo_matrix_t matrix; // transform of the drawing
     double x;              // position of the images on the target
     double y;
-    const FloatImage *drawn;
+    const FloatImage *drawn; // the unfiltered drawing
 } FilterContext;
 
 static double scale_in(const cairo_matrix_t *m, int axis) {

@@ -22,13 +22,13 @@ typedef struct SceneDraw {
     bool translucent; // drawn last, from back to front, and writes depth
     bool disc;        // spheres drawn as discs (sphere_impostor.h)
     bool deep;        // for discs: earlier draws have written depth
-    uint32_t first;
+    uint32_t first;   // index in the `instances` of the order
     uint32_t count;
     uint32_t segments; // number of segments to draw; fewer than the model has if that looks the same
 } SceneDraw;
 
 typedef struct DrawOrder {
-    const SceneInstance **instances;
+    const SceneInstance **instances; // in drawing order
     uint32_t count;
     SceneDraw *draws;
     uint32_t draw_count;

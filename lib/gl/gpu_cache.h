@@ -35,9 +35,9 @@ struct GpuCache {
     CachedModel *models;
     uint64_t now; // number of scenes drawn so far
     SceneTarget targets[SCENE_TARGETS];
-    GLuint instances; // buffer of SceneRecords
-    GLuint light_block;
-    GLuint light_texture;
+    GLuint instances;     // buffer of SceneRecords
+    GLuint light_block;   // uniform buffer
+    GLuint light_texture; // for groups with more lights than fit into the buffer
 };
 
 // Returns the cache, which the first call creates. Returns NULL if out of memory.

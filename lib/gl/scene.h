@@ -72,7 +72,7 @@ typedef struct SceneMaterial {
 typedef struct SceneInstance {
     Matrix matrix;
     const SceneMaterial *material;
-    uint32_t model;
+    uint32_t model; // index in the scene's models
 } SceneInstance;
 
 typedef struct SceneGroup SceneGroup;
@@ -90,12 +90,12 @@ struct SceneGroup {
 typedef struct SceneCamera {
     const DrawNode *node;
     Str id;
-    bool secondary;
+    bool secondary; // true if the view is rendered as a separate picture
     GraphicsState3D state;
     double position[3];
     double focus[3];
     double up[3];
-    int width;
+    int width; // size of the picture in pixels
     int height;
 } SceneCamera;
 

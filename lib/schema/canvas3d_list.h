@@ -57,7 +57,7 @@
     ATTR(kind, COLORBITS, FINITE_INTEGER, TO_GRAPHICS3D(colorbits), DESCRIBED(0, "the window's"), "", "bits per channel: 8, 16 or 32") \
     ATTR(kind, FOG_MIN, AMOUNT, TO_GRAPHICS3D(fog_min), IS(0), "", "distance at which fog begins") \
     ATTR(kind, FOG_MAX, AMOUNT, TO_GRAPHICS3D(fog_max), IS(0), "", "distance beyond which there is only fog") \
-    ATTR(kind, FOG_COLOR, TRIPLE, TO_GRAPHICS3D(fog_color), IS(0), "", "") \
+    ATTR(kind, FOG_COLOR, TRIPLE, TO_GRAPHICS3D(fog_color), IS(0), "", "colour of the fog") \
     ATTR(kind, FOG_CURVE, AMOUNT, TO_GRAPHICS3D(fog_curve), IS(1), "", "the fraction of fog is raised to the power 1/fog_curve") \
     ATTR(kind, MONOCHROME, FLAG, TO_GRAPHICS3D(monochrome), IS(false), "", "render in grey") \
     ATTR(kind, TINT, TRIPLE, TO_GRAPHICS3D(tint), IS(1), "", "factor for all colours")
@@ -110,7 +110,7 @@ ATTR(LIGHT, FALLOFF, QUAD, NOWHERE, DESCRIBED(0, "0;0;1;0"), "", "a;b;c;d: the s
 NODE(CAMERA, "camera", SCENE3D, NOTHING, "a camera; missing attributes are taken from the canvas3d")
 ATTR(CAMERA, ID, TEXT, NOWHERE, NONE, "", "name for camera_id, and for textures that show the view of this camera")
 ATTR(CAMERA, SECONDARY, FLAG, NOWHERE, IS(false), "", "render the view of this camera for use as a texture")
-ATTR(CAMERA, SIZE, AMOUNTS, NOWHERE, DESCRIBED(0, "the size of the canvas3d"), "pixels", "")
+ATTR(CAMERA, SIZE, AMOUNTS, NOWHERE, DESCRIBED(0, "the size of the canvas3d"), "pixels", "size of the camera's picture")
 CAMERA_ROWS(CAMERA)
 
 NODE(BOX, "box", SCENE3D, NOTHING, "a cube with edges of length 1")
