@@ -11,7 +11,7 @@ const Node *canvas_next_window(const Schema *schema, Value tree, uint32_t *at);
 // can occur in it many times. Larger windows are assumed to have a picture; reading them then exceeds the work or
 // memory limit.
 enum { CANVAS_MAX_CHECKED = 1 << 22 };
-// Returns true if the window contains a `!canvas` or another node that makes a picture.
+// Returns true if the window contains a `!canvas` or another node that creates a picture.
 bool canvas_window_has_picture(const Schema *schema, const Node *window);
 
 // Copies a `!window` or `!offscreen` into the arena. Unknown, misplaced and malformed nodes are reported and left out.

@@ -86,7 +86,7 @@ static void set_luminance(float c[3], float wanted) {
         c[k] = wanted + (c[k] - wanted) * scale;
 }
 
-// Stretches a colour so that its largest and smallest channels differ by `wanted`.
+// Stretches a colour until its largest and smallest channels differ by `wanted`.
 static void set_saturation(float c[3], float wanted) {
     float min = fminf(fminf(c[0], c[1]), c[2]), now = saturation_of(c);
     for (int k = 0; k < 3; k++)

@@ -169,7 +169,7 @@ static void make_opaque(uint32_t *pixels, int width, int height, size_t stride) 
     }
 }
 
-// Returns a surface with the pixels of a texture, of the same size. The caller destroys it.
+// Returns a surface with the size and pixels of a texture. The caller destroys the surface.
 static cairo_surface_t *surface_of_texture(const Texture *texture, bool opaque) {
     cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, texture->width, texture->height);
     if (cairo_surface_status(surface) == CAIRO_STATUS_SUCCESS) {
@@ -242,7 +242,7 @@ static PetriStatus encode_vector(PetriPainter *painter, const Page *page, bool p
                                  DiagSink *faults) {
     cairo_surface_t *surface = pdf ? cairo_pdf_surface_create_for_stream(append_bytes, out, width, height)
                                    : cairo_svg_surface_create_for_stream(append_bytes, out, width, height);
-    if (pdf) // a fixed date, so that equal pictures are encoded to equal bytes
+    if (pdf) // a fixed date makes the bytes reproducible
         cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
     else
         cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PX);

@@ -20,8 +20,8 @@ static bool charge_pixels(Canvas *canvas, const DisplayPaint *paint, double pixe
 }
 
 // Estimates the painted pixels. A fill covers the bounding box of the path, or much less if the path is narrow and
-// slanted. The estimate is therefore its signed area, but at least a quarter of the box, because areas of opposite
-// orientation cancel. A stroke covers its length times its width.
+// slanted. The estimate is therefore the signed area of the path. It is at least a quarter of the box, because areas of
+// opposite orientation cancel. A stroke covers its length times its width.
 static double pixels_of(const Canvas *canvas, const DisplayPaint *paint, bool fill, bool stroke) {
     const PathSize *size = &canvas->size;
     double width = stroke ? paint->stroke_width * draw_scale_of(canvas->cr) : 0;

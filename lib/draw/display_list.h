@@ -1,6 +1,6 @@
 // display_list.h: a drawing as a list of commands in flat arrays of plain numbers. Nodes are translated and inherited
-// attributes resolved, so any backend that can fill, stroke and clip paths can draw a list (cairo_backend.c uses
-// Cairo).
+// attributes resolved. Any backend that can fill, stroke and clip paths can therefore draw a list; cairo_backend.c uses
+// Cairo.
 //
 // All references are indices; DISPLAY_NONE is the null reference. A list is allocated from the arena that it is built
 // with, and is immutable afterwards. Its strings are borrowed from the nodes.
@@ -84,7 +84,7 @@ typedef enum DisplayFilterKind {
 
 typedef struct DisplayFilter {
     DisplayFilterKind kind;
-    double radius[2];   // standard deviation of blur and shadow; reach of dilate and erode
+    double radius[2]; // standard deviation of blur and shadow; reach of dilate and erode
     double offset[2];
     double color[4];
     bool only;          // true: draw the shadow without the object

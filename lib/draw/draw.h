@@ -86,7 +86,7 @@ void draw_report_degraded(Canvas *canvas, const Origin *place, const char *what,
 void draw_close(Canvas *canvas);
 
 // cairo_backend.c
-// Draws a list. The current transform must be that of the list's units.
+// Draws a list. The current transform must map the list's units to the target.
 void cairo_draw_list(Canvas *canvas, const DisplayList *list);
 // Draws a command without the paint's filter.
 void draw_unfiltered(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint);
@@ -158,7 +158,7 @@ void draw_image(Canvas *canvas, const DisplayImage *image, const DisplayPaint *p
 // Returns the pixels of an image. The caller destroys them. Returns NULL, after a report, if there is none.
 cairo_surface_t *draw_find_image(Canvas *canvas, const DisplayImage *image);
 // Like draw_find_image, but does not copy the pixels: sets *texture to the rendered picture of a node, or *file to the
-// cached pixels of a file, and the other one to NULL. Returns false if both are NULL.
+// cached pixels of a file. The other pointer is set to NULL. Returns false if both are NULL.
 bool draw_find_pixels(Canvas *canvas, const DisplayImage *image, const Texture **texture, cairo_surface_t **file);
 void draw_images_close(PetriPainter *painter);
 // Decodes a JPEG file. Returns NULL with a reason in *problem; without a reason if out of memory.

@@ -21,7 +21,7 @@ void float_image_write(const FloatImage *image, cairo_surface_t *surface);
 void float_image_blur(Canvas *canvas, FloatImage *image, const double sigma[2]);
 void float_image_morphology(Canvas *canvas, FloatImage *image, const double radius[2], bool erode);
 void float_image_move(Canvas *canvas, FloatImage *image, double dx, double dy);
-// Gives all pixels one colour. Their alpha is multiplied by the alpha of the colour.
+// Sets all pixels to one colour. The alpha of each pixel is multiplied by the alpha of the colour.
 void float_image_tint(FloatImage *image, const double color[4]);
 void float_image_composite_over(FloatImage *below, const FloatImage *above);
 void float_image_fill(FloatImage *image, const double color[4]);

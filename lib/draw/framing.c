@@ -36,7 +36,7 @@ static double distance(const double a[3], const double b[3]) {
     return maths_hypot(maths_hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
 }
 
-// Returns a distance from the middle beyond which bodies are ignored. A few bodies that fly away must not make the
+// Returns the distance from the centre beyond which bodies are ignored. A few bodies that fly away must not make the
 // others too small to see.
 static double outlier_distance(const AutoSystem *system, const double middle[3], double *numbers) {
     for (uint32_t i = 0; i < system->body_count; i++)
@@ -136,8 +136,8 @@ static void include_walls(Bounds *shown, const AutoSystem *system, int axes) {
     }
 }
 
-// Chooses the first view. Bodies that start close together get space to move apart. If the centre is almost at the
-// origin, it is moved there.
+// Chooses the first view. Bodies that start close together get space to move apart. A centre close to the origin is
+// moved to the origin.
 static void choose(AutoFrame *frame, const AutoSystem *system, const Extents *extents, int axes) {
     enum { RADII = 8, SLOW = 50 };
     Bounds shown = extents->discs;

@@ -45,7 +45,7 @@ PetriStatus petri_painter_draw_labels(PetriPainter *painter, const PetriLabel *l
     return PETRI_UNSUPPORTED;
 }
 
-// A drawing by the host's backend.
+// The arguments and result of drawing with the host's backend.
 typedef struct BackendDrawing {
     PetriPainter *painter;
     const CanvasPicture *picture;

@@ -1,4 +1,4 @@
-// picture.c: chooses and copies the visible part of the last frame, so that it can be drawn later and in another thread
+// picture.c: chooses and copies the visible part of the last frame. The copy can be drawn later, also in another thread
 // (painter.c).
 #include "draw/picture.h"
 

@@ -288,7 +288,7 @@ static GlImage find_texture(void *user_data, Str id) {
     if (found && !texture_upload(walk->painter->gl, found)) {
         if (!walk->painter->budget.memory_refused)
             arena_exhausted(&walk->frame->arena);
-        found = NULL; // the scene is left out as well
+        found = NULL; // the scene will also be left out
     }
     return found ? found->image : (GlImage){0};
 }

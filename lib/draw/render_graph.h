@@ -27,7 +27,7 @@ Texture *render_graph_find(const RenderGraph *pictures, Str id);
 
 // Computes the size of a node's picture in pixels. *width and *height contain the parent's size and are replaced.
 void render_graph_node_size(const DrawNode *node, int *width, int *height);
-// Returns the canvas whose pixels are the node's picture without changes, so that it can be drawn at any resolution.
+// Returns the canvas whose pixels equal the node's picture. This canvas can be drawn directly at any resolution.
 // Returns NULL if the picture needs effects or compositing.
 const DrawNode *render_graph_direct_canvas(const DrawNode *node, int width, int height);
 // Returns true if the picture can be rendered with fewer pixels and differs only in sharpness: no node of the tree has

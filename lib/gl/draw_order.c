@@ -180,9 +180,9 @@ static bool measure_instance(const Scene *scene, const SceneGroup *group, const 
     return true;
 }
 
-// Decides which spheres are drawn as discs. If draws so far write depth, a small number of spheres is drawn as
-// triangles instead, because triangles are depth-tested for each sample of a pixel. Returns true if any draw so far
-// writes depth.
+// Decides which spheres are drawn as discs. If draws so far write depth, fewer than MANY spheres are drawn as
+// triangles, because triangles are depth-tested for each sample of a pixel. Returns true if any draw so far writes
+// depth.
 static bool choose_discs(const Scene *scene, const SceneGroup *group, Sorted *sorted, uint32_t count, bool deep) {
     enum { MANY = 50 };
     uint32_t discs = 0;

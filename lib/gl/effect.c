@@ -1,5 +1,5 @@
-// effect.c: runs effects; see effect.h. The source of an effect is a file in shaders/. It contains the declarations
-// that all passes share, then for each pass a line with the size of the pass and a function `main`.
+// effect.c: runs effects; see effect.h. The source of an effect is a file in shaders/. The file contains the
+// declarations that all passes share. Then each pass has a line with its size, and a function `main`.
 #include "gl/effect.h"
 
 #include "gl/input_composite.h"

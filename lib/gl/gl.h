@@ -40,8 +40,8 @@ typedef struct GlImage {
 // Returns the format for this number of bits per channel, or an 8-bit format if the GPU cannot render to more bits.
 GlFormat gl_format(const Gl *gl, int bits);
 int gl_max_size(const Gl *gl); // maximum width and height of a picture
-// Returns an image with undefined content. Freed images are reused for others of the same size and format, so no images
-// are created while all frames need the same sizes. The texture is 0 if the GPU is out of memory.
+// Returns an image with undefined content. Freed images are reused for images of the same size and format. The texture
+// is 0 if the GPU is out of memory.
 GlImage gl_image_new(Gl *gl, int width, int height, GlFormat format);
 void gl_image_free(Gl *gl, GlImage image);
 // Upload rows from the top: ARGB32 of an sRGB picture, or r, g, b, a in linear light.

@@ -15,11 +15,11 @@ GlEdge gl_edge(const DrawNode *node, GlEdge default_edge);
 // - the version and precision lines, `in vec2 coord` and `out vec4 color`
 // - the uniforms texture0 and so on, first, last and border
 // - vec4 take(sampler2D t, vec2 uv) and vec4 texel(sampler2D t, ivec2 p), which read a picture and apply the node's
-// edge mode
+//   edge mode
 // - ivec2 here(), the position of this pixel
 // - vec4 merged(vec2 uv), the composite of all inputs
 // - vec4 merged_here(), which is merged(coord) in a full-size pass, but reads inputs of the node's size without
-// interpolation
+//   interpolation
 bool gl_add_input_composite(Text *out, const GlEffect *effect, GlEdge edge);
 // Returns true if the picture has the size of the node.
 static inline bool gl_fits(const GlEffect *effect, GlImage image) {

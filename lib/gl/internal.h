@@ -30,7 +30,7 @@ struct Gl {
     GLuint nothing; // texture of one transparent pixel
     GLuint curve;   // texture of the table that encodes colours for windows; 0: not created yet
     uint64_t readback_count;
-    bool retains_fences; // keeps fences, see gl_after_draw
+    bool retains_fences; // true if fences must be retained; see delete_fences in context.c
     int fence_count;
     GLsync fences[GL_MAX_FENCES]; // of recent drawing, oldest first
     Budget *budget;               // NULL: not charged
@@ -40,8 +40,8 @@ struct Gl {
     GpuCache *cache; // created by the first scene
 };
 
-// context.c or context_web.c: the platform part of gl_open, gl_adopt and gl_close. gl_enter and gl_leave are defined
-// there as well.
+// context.c or context_web.c: the platform part of gl_open, gl_adopt and gl_close. These files also define gl_enter and
+// gl_leave.
 bool gl_context_open(Gl *gl, const char **problem);
 bool gl_context_adopt(Gl *gl, const char **problem);
 void gl_context_close(Gl *gl);

@@ -79,7 +79,7 @@ typedef struct SceneGroup SceneGroup;
 struct SceneGroup {
     const SceneGroup *parent; // NULL: the top group
     GraphicsState3D state;
-    SceneLight *lights; // of this group, without those of its parents
+    SceneLight *lights; // lights of this group only, not of its parents
     uint32_t light_count;
     uint32_t light_capacity;
     SceneInstance *instances;
@@ -107,7 +107,7 @@ typedef struct Scene {
     SceneGroup **groups; // in drawing order
     uint32_t group_count;
     uint32_t group_capacity;
-    SceneCamera *cameras; // the first camera is that of the `!canvas3d` itself
+    SceneCamera *cameras; // the first camera is the default camera of the `!canvas3d`
     uint32_t camera_count;
     uint32_t camera_capacity;
     SceneModel *models;

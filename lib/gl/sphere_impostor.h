@@ -1,9 +1,9 @@
 // sphere_impostor.h: spheres drawn as discs.
 //
 // Seen from a camera, a sphere is the disc within its outline. The fragment shader intersects the ray through each
-// point of the disc with the sphere, which gives position and normal. A disc of 64 corners has 62 triangles, a sphere
-// 2048, most of which are smaller than the blocks of pixels that GPUs shade. If earlier draws have written depth, the
-// shader also writes the sphere's depth, once for all samples of a pixel.
+// point of the disc with the sphere to compute position and normal. A disc of 64 corners has 62 triangles. A sphere of
+// 64 segments has 2048, and most of them are smaller than the blocks of pixels that GPUs shade. If earlier draws have
+// written depth, the shader also writes the sphere's depth, once for all samples of a pixel.
 #ifndef PETRI_GL_SPHERE_IMPOSTOR_H
 #define PETRI_GL_SPHERE_IMPOSTOR_H
 

@@ -55,7 +55,8 @@ static inline NodeKind schema_kind(const Schema *schema, const Node *node) {
     return KIND_COUNT;
 }
 NodeKind schema_window_kind(const Schema *schema, const Node *node);
-// Returns the kind of a node whose parent accepts `children`; KIND_COUNT if the node is not accepted there.
+// Returns the kind of a node whose parent accepts `children`. Returns KIND_COUNT if the parent does not accept the
+// node.
 NodeKind schema_kind_in(const Schema *schema, const Node *node, PlaceKind children);
 
 // The node being read, with its context.
@@ -79,8 +80,8 @@ void schema_add_nearest_kind(Text *out, Str kind, PlaceKind place, const char *b
 
 // Stores the defaults of a kind in its record. Vectors become NULL.
 void schema_defaults(NodeKind kind, void *record);
-// Reads the attributes into a record that holds the defaults. Unknown or malformed attributes are reported and keep the
-// default. Vectors are borrowed from the node or allocated from the reader's arena.
+// Reads the attributes into a record that contains the defaults. Unknown or malformed attributes are reported and keep
+// the default. Vectors are borrowed from the node or allocated from the reader's arena.
 void reader_fill(const Reader *reader, void *record);
 
 // An attribute of a drawing node.

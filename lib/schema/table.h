@@ -134,7 +134,7 @@ typedef struct SchemaRow {
     uint8_t kind;   // NodeKind
     uint8_t type;   // AttrType
     uint16_t name;  // AttrName
-    uint16_t alias; // AttrName of the attribute of which this is another name; ATTR_NONE: not an alias
+    uint16_t alias; // AttrName of the attribute that this row is an alias for; ATTR_NONE: not an alias
     uint16_t field; // offset in the record of its kind, or FIELD_NOWHERE
     AttrDefault default_value;
     const char *unit; // "": none, or named in `help`

@@ -2,8 +2,8 @@
 uniform sampler2D backs; // light that enters through back faces, and their distance
 uniform mat4 view, projection;
 
-// Adds the transmitted light, and returns the remaining opacity. The light is sampled around the back point, in an area
-// that grows with the thickness of the body, at points of a spiral with Gaussian density.
+// Adds the transmitted light, and returns the remaining opacity. The light is sampled around the back point, at points
+// of a spiral with Gaussian density. The sampled area grows with the thickness of the body.
 float come_through(float translucency, float away) {
     vec4 sum = texelFetch(backs, ivec2(gl_FragCoord.xy), 0);
     if (sum.a <= away)
