@@ -88,8 +88,7 @@ Mesh mesh_sphere(Arena *arena, uint32_t segments) {
 }
 
 // Fills the area between an arc of corners and its chord with triangles. The triangles are as large as possible,
-// because pixels in several
-// triangles are shaded more than once.
+// because pixels in several triangles are shaded more than once.
 static void add_arc(Mesh *mesh, uint32_t from, uint32_t to, uint32_t n) {
     uint32_t middle = (from + to) / 2;
     if (to - from < 2)
