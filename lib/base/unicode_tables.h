@@ -1,8 +1,8 @@
 // unicode_tables.h: code point classes as inclusive, ascending ranges. Data, included by unicode.c only.
 //
 // Alphabetic and decimal digits: Unicode 16.0, from the specification's name_ranges.txt. Not printable: the general
-// categories Cc Cf Cs Co Cn Zl Zp Zs above U+007F as of Unicode 14.0, except characters that are Alphabetic or digits in
-// 16.0.
+// categories Cc Cf Cs Co Cn Zl Zp Zs above U+007F as of Unicode 14.0, except characters that are Alphabetic or digits
+// in 16.0.
 // clang-format off
 #ifndef PETRI_BASE_UNICODE_TABLES_H
 #define PETRI_BASE_UNICODE_TABLES_H

@@ -12,7 +12,8 @@
 //     ignored or, in drawings, looked up by name. The default is IS(x), DESCRIBED(x, "in words"), INHERITED(x, "in
 //     words") with the initial value x, or NONE: NaN for a number, else null. For a vector, x is the last element, and
 //     the others are 0.
-// ALIAS(KIND, NAME, OF, "of", TYPE, field, "unit"): another name for attribute OF of the same kind. OF takes precedence.
+// ALIAS(KIND, NAME, OF, "of", TYPE, field, "unit"): another name for attribute OF of the same kind. OF takes
+// precedence.
 // clang-format off
 #ifndef TYPE
 #define TYPE(id, shape, low, high, required, text)
