@@ -49,18 +49,18 @@ static void test_rewind_drops_later_allocations(void **state) {
     ArenaMark mark = arena_mark(&arena);
     size_t used = arena.used;
     char *first = arena_alloc(&arena, 100);
-    for (int i = 0; i < 50; i++) // across several blocks
+    for (int i = 0; i < 50; i++) // enough allocations to fill several blocks
         memset(arena_alloc(&arena, 5000), 1, 5000);
     arena_rewind(&arena, mark);
     assert_int_equal(arena.used, used);
     assert_string_equal(kept, "kept");
 #ifndef PETRI_STRESS
-    assert_ptr_equal(arena_alloc(&arena, 100), first); // the same address is allocated again
+    assert_ptr_equal(arena_alloc(&arena, 100), first); // after a rewind, the same address is allocated again
 #else
     (void)first;
 #endif
     arena_rewind(&arena, mark);
-    arena_rewind(&arena, mark); // rewinding twice is the same as once
+    arena_rewind(&arena, mark); // rewinding to the same mark twice is harmless
     assert_string_equal(kept, "kept");
     arena_rewind(&arena, empty);
     assert_int_equal(arena.used, 0);
@@ -68,7 +68,7 @@ static void test_rewind_drops_later_allocations(void **state) {
     arena_free(&arena);
 }
 
-// Rewinds to a nested mark after a block boundary, then to the outer mark.
+// Rewinds to a nested mark in a later block, then to the outer mark.
 static void test_marks_nest(void **state) {
     (void)state;
     Arena arena;
@@ -129,7 +129,7 @@ static void test_grow_keeps_contents(void **state) {
     memcpy(bytes, "1234567", 8);
     char *same = arena_grow(&arena, bytes, 8, 40);
 #ifndef PETRI_STRESS
-    assert_ptr_equal(same, bytes); // the latest allocation is extended in place
+    assert_ptr_equal(same, bytes); // the last allocation can be extended in place
 #endif
     memset(same + 8, 'x', 32);
     char *other = arena_alloc(&arena, 16);
@@ -141,7 +141,7 @@ static void test_grow_keeps_contents(void **state) {
         assert_int_equal(moved[i], 'x');
     assert_int_equal(other[15], 'o');
     size_t size = 80;
-    for (; size < 1 << 20; size *= 2) { // crosses many block boundaries
+    for (; size < 1 << 20; size *= 2) { // grows across many block boundaries
         memset(moved + size / 2, 'y', size / 2);
         moved = arena_grow(&arena, moved, size, size * 2);
     }
@@ -194,11 +194,11 @@ static void test_exceeded_limit_escapes(void **state) {
     assert_true(escapes(&attempt, grow_to_size));
     arena_reset(&attempt.arena);
     attempt.size = 10000;
-    assert_false(escapes(&attempt, alloc_size)); // the limit applies from reset to reset
+    assert_false(escapes(&attempt, alloc_size)); // arena_reset starts counting from zero
     arena_free(&attempt.arena);
 }
 
-// Makes AddressSanitizer return NULL from an impossible malloc instead of ending the program.
+// Makes AddressSanitizer return NULL for an impossibly large malloc instead of aborting the program.
 const char *__asan_default_options(void);
 const char *__asan_default_options(void) {
     return "allocator_may_return_null=1";
@@ -211,9 +211,9 @@ static void test_overflowing_sizes_escape(void **state) {
     assert_true(escapes(&attempt, alloc_array));
     attempt.size = SIZE_MAX / 2;
     assert_true(escapes(&attempt, alloc_size)); // more memory than any machine has
-    attempt.size = SIZE_MAX - 3;                // rounding up to the alignment must not overflow
+    attempt.size = SIZE_MAX - 3;                // rounding the size up to the alignment must not overflow
     assert_true(escapes(&attempt, alloc_size));
-    attempt.size = SIZE_MAX - 40; // adding the block's header must not overflow
+    attempt.size = SIZE_MAX - 40; // adding the size of the block header must not overflow
     assert_true(escapes(&attempt, alloc_size));
     attempt.size = 0;
     attempt.count = SIZE_MAX;

@@ -1,4 +1,5 @@
-// test_base_cpu.c: PETRI_CPU limits the detected level. Also run with PETRI_CPU=scalar and with an unknown word.
+// test_base_cpu.c: PETRI_CPU limits the detected level. meson also runs this test with PETRI_CPU=scalar and with an
+// invalid level.
 #include "base/cpu.h"
 #include "check.h"
 

@@ -41,14 +41,14 @@ static void test_caret_marks_span(void **state) {
         {"let x=1", {4, 5}, "a.fl:1:5: error: bad\n    let x=1\n        ^\n"},
         {"let abc=1", {4, 7}, "a.fl:1:5: error: bad\n    let abc=1\n        ^~~\n"},
         {"x\n  yy\n", {4, 6}, "a.fl:2:3: error: bad\n      yy\n      ^~\n"},
-        {"é😀ab", {6, 8}, "a.fl:1:3: error: bad\n    é😀ab\n      ^~\n"},       // columns count characters
-        {"\t\tab", {2, 4}, "a.fl:1:3: error: bad\n    \t\tab\n    \t\t^~\n"}, // tabs are kept
+        {"é😀ab", {6, 8}, "a.fl:1:3: error: bad\n    é😀ab\n      ^~\n"},       // columns count characters, not bytes
+        {"\t\tab", {2, 4}, "a.fl:1:3: error: bad\n    \t\tab\n    \t\t^~\n"}, // tabs are copied to the caret line
         {"x\ty", {2, 3}, "a.fl:1:3: error: bad\n    x\ty\n     \t^\n"},
-        {"ab\ncd", {1, 5}, "a.fl:1:2: error: bad\n    ab\n     ^\n"}, // the marked text ends at the line end
-        {"ab\n", {2, 3}, "a.fl:1:3: error: bad\n    ab\n      ^\n"},  // the line end
-        {"ab\n", {3, 3}, "a.fl:1:3: error: bad\n    ab\n      ^\n"},  // the end of the file
+        {"ab\ncd", {1, 5}, "a.fl:1:2: error: bad\n    ab\n     ^\n"}, // only the first line is marked
+        {"ab\n", {2, 3}, "a.fl:1:3: error: bad\n    ab\n      ^\n"},  // a range that starts at the line break
+        {"ab\n", {3, 3}, "a.fl:1:3: error: bad\n    ab\n      ^\n"},  // an empty range at the end of the file
         {"", {0, 0}, "a.fl:1:1: error: bad\n    \n    ^\n"},
-        {"a\x1b[31m\x7f\xff", {1, 2}, "a.fl:1:2: error: bad\n    a?[31m??\n     ^\n"}, // no control characters
+        {"a\x1b[31m\x7f\xff", {1, 2}, "a.fl:1:2: error: bad\n    a?[31m??\n     ^\n"}, // control characters
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         Diag diag = {.source = source_of(rows[i].text), .span = rows[i].span, .text = STR("bad")};
@@ -56,7 +56,7 @@ static void test_caret_marks_span(void **state) {
     }
 }
 
-// Messages may contain any string of a script, and names may come from links.
+// A message may contain any string of the script, and a file name may come from a shared link.
 static void test_control_characters_are_replaced(void **state) {
     (void)state;
     const Source *source = source_new(&arena, STR("a\x1b[1m.fl"), STR("a.fl"), str_from("ab"));
@@ -83,7 +83,7 @@ static void test_level_code_and_hint_are_printed(void **state) {
     assert_string_equal(coloured + strlen(coloured) - strlen("    try y\n"), "    try y\n");
 }
 
-// Only the part around the caret is shown of a very long line.
+// A very long line is printed only near the caret.
 static void test_long_lines_are_shortened(void **state) {
     (void)state;
     static const uint32_t places[] = {0, 10, 59, 60, 61, 5000, 999998};
@@ -122,7 +122,7 @@ static void test_duplicates_are_stored_once(void **state) {
         assert_false(report_at(b, 0, "x"));
     assert_int_equal(sink.count, 5);
     assert_int_equal(sink.error_count, 5);
-    assert_true(str_equal(sink.items[2].text, STR("y"))); // in the order of reporting
+    assert_true(str_equal(sink.items[2].text, STR("y"))); // diagnostics are stored in the order of reporting
 }
 
 static void test_texts_are_copied(void **state) {

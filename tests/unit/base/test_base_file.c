@@ -1,4 +1,4 @@
-// test_base_file.c: reading of whole files, versions and paths.
+// test_base_file.c: reading of whole files, file versions and paths.
 #include "base/file.h"
 #include "files.h"
 
@@ -9,7 +9,7 @@ static const char *content(const char *name, size_t limit) {
         assert_non_null(problem);
         return NULL;
     }
-    assert_int_equal(bytes.bytes[bytes.len], 0); // a NUL byte follows
+    assert_int_equal(bytes.bytes[bytes.len], 0); // the content is followed by a NUL byte
     return bytes.bytes;
 }
 
@@ -18,11 +18,11 @@ static void test_read_respects_limit(void **state) {
     folder_write(&folder, "a", "some text\n");
     assert_string_equal(content("a", 1000), "some text\n");
     assert_string_equal(content("a", 10), "some text\n");
-    assert_null(content("a", 9)); // larger than the limit
+    assert_null(content("a", 9)); // the file is larger than the limit
     folder_write(&folder, "empty", "");
     assert_string_equal(content("empty", 1000), "");
     assert_null(content("none", 1000));
-    assert_null(content(".", 1000)); // is a folder
+    assert_null(content(".", 1000)); // a folder cannot be read
 }
 
 static void test_version_changes_with_file(void **state) {

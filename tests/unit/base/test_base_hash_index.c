@@ -6,7 +6,7 @@
 
 enum { KEYS = 3000 };
 
-// Entries are numbers. With `weak` hashes many of them share a sequence of slots.
+// Entries are numbers. With `weak` hashes, many entries share a probe sequence.
 typedef struct Owner {
     HashIndex index;
     uint32_t entries[KEYS];
@@ -65,7 +65,7 @@ static void test_added_keys_are_found(void **state) {
     add_and_find(true, 300);
 }
 
-// Random additions, removals and moves. After each change all keys are at the positions of the model.
+// Random additions, removals and moves. After each change, every key has the same position as in the model.
 static void add_and_remove_keys(bool weak, uint32_t keys, int rounds) {
     const uint32_t nowhere = UINT32_MAX;
     Owner owner = {.weak = weak};
@@ -79,7 +79,8 @@ static void add_and_remove_keys(bool weak, uint32_t keys, int rounds) {
             place[key] = live;
             add_key(&owner, live++, key);
         } else {
-            // Removes an entry and moves the last entry to its position, as an owner with a dense array does.
+            // Removes an entry and moves the last entry to its position, like a caller that stores its entries in a
+            // dense array.
             uint32_t hole = place[key], last = --live, moved = owner.entries[last];
             hash_index_remove(&owner.index, hash_of(&owner, key), hole);
             place[key] = nowhere;
@@ -123,7 +124,7 @@ static void test_hash_has_known_values(void **state) {
     assert_true(hash_bytes(0, "ab", 2) != hash_bytes(1, "ab", 2));
     assert_true(hash_bytes(0, "a\0", 2) != hash_bytes(0, "a", 1));
     assert_true(hash_bytes(0, NULL, 0) == hash_bytes(0, "x", 0));
-    assert_true(hash_mix(1) == UINT64_C(0x5692161d100b05e5)); // the SplitMix64 finaliser
+    assert_true(hash_mix(1) == UINT64_C(0x5692161d100b05e5)); // expected value from the finaliser of SplitMix64
 }
 
 int main(void) {

@@ -47,7 +47,8 @@ static const struct {
     {1e23, "1e+23", "1e+23"},
     {1.2345678901234568e+17, "1.2345678901234568e+17", "1.23456789e+17"},
     {1.5e300, "1.5e+300", "1.5e+300"},
-    {0x1p-44, "5.684341886080802e-14", "5.68434189e-14"}, // the nearest 16 digits do not read back
+    {0x1p-44, "5.684341886080802e-14", "5.68434189e-14"}, // rounding to 16 digits gives a number that does not read
+                                                          // back
     {0x1p-24, "5.960464477539063e-08", "5.96046448e-08"},
     {0x1p60, "1.152921504606847e+18", "1.1529215e+18"},
     {0x1p1023, "8.98846567431158e+307", "8.98846567e+307"},
@@ -81,7 +82,7 @@ static double of_bits(uint64_t bits) {
     return x;
 }
 
-// Compares the FNV-1a hash of all lines with that of an independent implementation (Python's repr without ".0").
+// Compares the FNV-1a hash of all lines with the hash from an independent implementation (Python's repr without ".0").
 static void test_powers_of_two_read_back(void **state) {
     (void)state;
     uint64_t hash = 0xcbf29ce484222325u;
@@ -106,7 +107,7 @@ static void test_random_numbers_read_back(void **state) {
     assert_true(hash == UINT64_C(0x1fb3382a90909f4a));
 }
 
-// Fractions such as coordinates, from 2^-20 to 2^53. Many are short or halfway between two decimals.
+// Fractions such as coordinates, from 2^-20 to 2^53. Many have few digits or are halfway between two decimals.
 static void test_fractions_are_shortest(void **state) {
     (void)state;
     uint64_t seed = 2;
@@ -114,7 +115,8 @@ static void test_fractions_are_shortest(void **state) {
         uint64_t bits = next_bits(&seed);
         double x = ldexp((double)(bits >> (11 + bits % 40)), (int)(bits >> 20 & 63) - 73);
         x = i % 4 ? x : (double)(bits % 20000000) / 10000;
-        // The shortest of 15, 16 and 17 digits of printf that reads back. Powers of two may have a shorter one.
+        // Returns the shortest of printf's results with 15, 16 and 17 digits that reads back exactly. For powers of
+        // two, a shorter string may exist.
         char wanted[NUMBER_TEXT];
         for (int digits = 15; digits <= 17; digits++) {
             snprintf(wanted, sizeof wanted, "%.*g", digits, x);
@@ -148,7 +150,7 @@ static void test_parse_rounds_correctly(void **state) {
     };
     for (size_t i = 0; i < COUNT_OF(cases); i++)
         assert_number(cases[i].text, number_parse(str_from(cases[i].text)), cases[i].x);
-    // The text may continue after the slice, and may be long.
+    // The string may continue after the slice, and may be long.
     assert_number("slice", number_parse((Str){"12345", 2}), 12);
     char digits[501];
     memset(digits, '1', 500);
@@ -156,7 +158,7 @@ static void test_parse_rounds_correctly(void **state) {
     assert_number("500 digits", number_parse((Str){digits, 500}), 1.1111111111111112);
 }
 
-// A locale with a decimal comma, if installed, does not change the results.
+// Results do not depend on the locale. The test uses one with a decimal comma if it is installed.
 static void test_locale_has_no_effect(void **state) {
     static const char *const locales[] = {"de_DE.UTF-8", "de_DE.utf8", "de_DE", "fr_FR.UTF-8", "nl_NL.UTF-8"};
     const char *found = NULL;
@@ -171,7 +173,7 @@ static void test_locale_has_no_effect(void **state) {
     setlocale(LC_NUMERIC, "C");
 }
 
-// Same bits as floor of the C library, including the sign of zero.
+// The result has the same bits as floor of the C library, including the sign of zero.
 static void test_floor_matches_c(void **state) {
     (void)state;
     static const double numbers[] = {0.0,

@@ -29,7 +29,7 @@ static mode_t mode_of(const char *name) {
     return info.st_mode;
 }
 
-// Both ways to create the new file must behave the same.
+// Both ways of creating the new file must behave alike.
 static const unsigned ways[] = {0, REPLACE_NAMED};
 
 static void test_file_is_replaced(void **state) {
@@ -46,7 +46,7 @@ static void test_file_is_replaced(void **state) {
     }
     assert_string_equal(file_replace(folder_file(&folder, "no/folder"), STR("x"), 0), strerror(ENOENT));
     assert_string_equal(file_replace("", STR("x"), 0), strerror(ENOENT));
-    errno = EINVAL; // an unrelated earlier error
+    errno = EINVAL; // errno of an unrelated earlier error
     assert_string_equal(file_replace(folder.path, STR("x"), 0), strerror(EISDIR));
 }
 
@@ -78,7 +78,7 @@ static void test_links_are_kept(void **state) {
     check_content("later", "made");
     assert_int_equal(symlink("round", folder_file(&folder, "round")), 0);
     assert_string_equal(file_replace(folder_file(&folder, "round"), STR("x"), 0), strerror(ELOOP));
-    Replacement replacement; // replace_begin_in does not follow links
+    Replacement replacement; // unlike replace_begin, replace_begin_in does not follow links
     int open_folder = open(folder.path, O_RDONLY | O_DIRECTORY);
     assert_false(replace_begin_in(&replacement, open_folder, "link", 0));
     assert_int_equal(errno, ELOOP);

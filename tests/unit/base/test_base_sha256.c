@@ -1,8 +1,9 @@
-// test_base_sha256.c: SHA-256, compared with examples of the standard and with sha256sum(1) near block boundaries.
+// test_base_sha256.c: SHA-256, compared with the examples of the standard and, near block boundaries, with
+// sha256sum(1).
 #include "base/sha256.h"
 #include "check.h"
 
-// Returns the hash of `count` copies of the text, added in pieces of `piece` bytes.
+// Returns the hash of `count` copies of the string, added in chunks of `piece` bytes.
 static const char *hashed(const char *text, size_t count, size_t piece) {
     static char digits[SHA256_DIGITS + 1];
     static char whole[1000001];

@@ -41,7 +41,7 @@ static void test_line_ends_are_unified(void **state) {
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         const Source *source = source_of(rows[i].text);
-        assert_string_equal(source->text.bytes, rows[i].normal); // a NUL follows the text
+        assert_string_equal(source->text.bytes, rows[i].normal); // the text is NUL-terminated
         assert_int_equal(source->text.len, strlen(rows[i].normal));
         assert_int_equal(source->line_count, rows[i].lines);
     }
@@ -58,7 +58,7 @@ static void test_offsets_are_located(void **state) {
         {8, 1, 8, "let é=1"},       {9, 2, 1, ""},        {10, 3, 1, "\t😀x"},
         {11, 3, 2, "\t😀x"},         {15, 3, 3, "\t😀x"},   {16, 3, 4, "\t😀x"},
         {17, 4, 1, "last"},         {20, 4, 4, "last"},   {21, 4, 5, "last"},
-        {22, 4, 5, "last"}, // after the end: the end of the text
+        {22, 4, 5, "last"}, // an offset after the end is treated as the end
         {4000000000, 4, 5, "last"},
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
@@ -69,7 +69,7 @@ static void test_offsets_are_located(void **state) {
     }
 }
 
-// Compares every offset of a text of many lines with counting.
+// Compares the position of every offset in a text of many lines with the result of counting.
 static void test_positions_match_counting(void **state) {
     (void)state;
     Text text = text_new(&arena);
@@ -93,7 +93,7 @@ static void test_names_are_copied(void **state) {
     (void)state;
     char name[] = "some/dir/a.fl", text[] = "a\n";
     const Source *source = source_new(&arena, str_from(name), str_from(name), str_from(text));
-    memset(name, 'x', sizeof name - 1); // the source has its own copies
+    memset(name, 'x', sizeof name - 1); // the source must have copied its name and text
     memset(text, 'x', sizeof text - 1);
     assert_true(str_equal(source->name, STR("some/dir/a.fl")));
     assert_true(str_equal(source->directory, STR("some/dir/")));

@@ -9,7 +9,7 @@ static int32_t decode(const char *bytes, size_t len, size_t *used) {
     return c;
 }
 
-// Every code point is unchanged after encoding and decoding, and has the right encoded length.
+// Every code point is unchanged after encoding and decoding, and its encoding has the right length.
 static void test_utf8_round_trip(void **state) {
     (void)state;
     for (uint32_t c = 0; c <= 0x10ffff; c += c < 0x3000 ? 1 : 97) {
@@ -23,7 +23,7 @@ static void test_utf8_round_trip(void **state) {
     }
 }
 
-// The first byte of each text is ill-formed: utf8_next returns -1 and skips one byte.
+// The first byte of each string is ill-formed: utf8_next returns -1 and skips one byte.
 static void test_utf8_rejects_ill_formed_bytes(void **state) {
     (void)state;
     static const struct {
@@ -58,7 +58,7 @@ static void test_utf8_rejects_ill_formed_bytes(void **state) {
         assert_claim(rows[i].why, used == 1);
         assert_claim(rows[i].why, utf8_find_error((Str){rows[i].bytes, rows[i].len}) == 0);
     }
-    // Well-formed limits.
+    // First and last well-formed sequences of each length.
     static const char *const good[] = {"\x7f",         "\xc2\x80",         "\xe0\xa0\x80",     "\xed\x9f\xbf",
                                        "\xee\x80\x80", "\xf0\x90\x80\x80", "\xf4\x8f\xbf\xbf", "\xef\xbf\xbf"};
     for (size_t i = 0; i < COUNT_OF(good); i++)
@@ -102,7 +102,7 @@ static void test_prefix_suffix_trim(void **state) {
     assert_false(str_ends_with(STR("eg"), STR("deg")));
     assert_true(str_starts_with(STR("x"), STR("")));
     assert_true(str_ends_with(STR("x"), STR("")));
-    assert_true(str_starts_with((Str){0}, (Str){0})); // NULL bytes must not be read
+    assert_true(str_starts_with((Str){0}, (Str){0})); // an empty slice may have a NULL pointer, which must not be read
     assert_true(str_ends_with((Str){0}, (Str){0}));
     assert_true(str_equal(str_trim(STR(" \t\r\n\v\f x y \n")), STR("x y")));
     assert_int_equal(str_trim(STR(" \t ")).len, 0);
@@ -137,7 +137,7 @@ static void test_edit_distance_counts_edits(void **state) {
     memset(longer, 'x', sizeof longer);
     memset(shorter, 'x', sizeof shorter);
     assert_int_equal(str_edit_distance((Str){longer, 65}, (Str){longer, 65}),
-                     64); // longer than 64 bytes: maximum distance
+                     64); // strings longer than 64 bytes have the maximum distance
     assert_int_equal(str_edit_distance((Str){shorter, 64}, (Str){shorter, 63}), 1);
 }
 

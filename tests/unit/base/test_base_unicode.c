@@ -2,7 +2,7 @@
 #include "base/unicode.h"
 #include "check.h"
 
-// Number and sum of the code points in each class of name_ranges.txt (Unicode 16.0).
+// Number of code points in each class of name_ranges.txt (Unicode 16.0), and their sum.
 static void test_classes_match_name_ranges(void **state) {
     (void)state;
     uint64_t letters = 0, letter_hash = 0, digits = 0, digit_hash = 0;
@@ -41,7 +41,7 @@ static void test_name_characters(void **state) {
 static void test_printable_characters(void **state) {
     (void)state;
     static const uint32_t printable[] = {' ', '~', 0xa1, 0xe9, 0x300, 0xb2, 0xfffd, 0x1f600, 0x4e00};
-    // Cc, Cf, Cs, Co, Cn, Zl, Zp, and Zs other than the space.
+    // The categories Cc, Cf, Cs, Co, Cn, Zl and Zp, and Zs except the space.
     static const uint32_t unprintable[] = {0,      9,      0x1f,   0x7f,   0x80,   0x9f,   0xa0,  0xad,    0x2003,
                                            0x3000, 0x2028, 0x2029, 0xfeff, 0xd800, 0xe000, 0x378, 0x10ffff};
     for (size_t i = 0; i < COUNT_OF(printable); i++)

@@ -92,7 +92,7 @@ static Value read_atom(Reader *r) {
     if (accept_token(r, "!"))
         return value_node(arena, node_new(arena, symbol_intern(&r->world->symbols, read_name(r))));
     if (isdigit((unsigned char)*r->at)) {
-        // Not strtod: a number followed by ".." is the start of a range.
+        // strtod cannot be used: a number followed by ".." is the start of a range.
         const char *start = r->at;
         while (isdigit((unsigned char)*r->at) || (*r->at == '.' && r->at[1] != '.'))
             r->at++;
@@ -203,7 +203,8 @@ static Value evaluate(World *world, const char *text) {
     return v;
 }
 
-// Checks `EXPRESSION => VALUE`, as in the check blocks of the specification, bit for bit, including the sign of zero.
+// Checks `EXPRESSION => VALUE` bit for bit, including the sign of zero. The check blocks of the specification have this
+// format.
 static bool check(World *world, const char *line) {
     Value actual = evaluate(world, line);
     Value expected = evaluate(world, strstr(line, " => ") + 4);

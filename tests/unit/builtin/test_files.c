@@ -31,7 +31,7 @@ static void make_directory(const Place *place, const char *name) {
 
 static int place_setup(void **state) {
     static Place place;
-    // /tmp may be a symbolic link, which glob resolves.
+    // /tmp may be a symbolic link, and glob resolves links.
     strcpy(place.directory, "/tmp/petri-test-XXXXXX");
     assert_non_null(mkdtemp(place.directory));
     char resolved[4096];
@@ -85,7 +85,7 @@ static void test_read_returns_contents(void **state) {
     CHECK_ALL(place->world, lines);
 }
 
-// A failure is reported once, and again only if the file has changed.
+// A failure to read a file is reported once, and again only after the file has changed.
 static void test_failures_are_reported_once(void **state) {
     Place *place = *state;
     World *world = place->world;
@@ -122,7 +122,7 @@ static void test_changed_files_are_read_again(void **state) {
     assert_true(check(world, "read('a.txt') => 'one'"));
     write_file(place, "a.txt", "three");
     assert_true(check(world, "read('a.txt') => 'three'"));
-    // Same size, so that only the time differs.
+    // The new content has the same size, so only the modification time differs.
     char path[200];
     snprintf(path, sizeof path, "%s/a.txt", place->directory);
     write_file(place, "a.txt", "seven");
@@ -133,7 +133,7 @@ static void test_changed_files_are_read_again(void **state) {
     assert_int_equal(faults_of(world, "read('a.txt')"), 1);
     write_file(place, "a.txt", "again");
     assert_true(check(world, "read('a.txt') => 'again'"));
-    // A value from before the change is not affected.
+    // A value that was read before the change stays as it was.
     Value before = evaluate(world, "read('a.txt')");
     write_file(place, "a.txt", "another text");
     evaluate(world, "read('a.txt')");
@@ -171,7 +171,7 @@ static void test_csv_returns_rows(void **state) {
                "1,2\n3\n");
     static const char *const lines[] = {
         "csv('t.csv',0) => 1;2;'three';4.5",
-        "csv('mark.csv',0);csv('mark.csv',1) => 1;2;3", // without the byte order mark
+        "csv('mark.csv',0);csv('mark.csv',1) => 1;2;3", // the byte-order mark is skipped
         "csv('t.csv',1) => null",
         "csv('t.csv',2) => 'a \"q\" b';7;inf;nan;10",
         "csv('t.csv',3) => null",
@@ -225,7 +225,7 @@ static void test_srt_returns_lines(void **state) {
         "srt('empty.srt',1);srt('lone.srt',1);srt('missing.srt',1) => null",
     };
     CHECK_ALL(place->world, lines);
-    assert_int_equal(faults_of(place->world, "srt('lone.srt',1)"), 0); // reported above
+    assert_int_equal(faults_of(place->world, "srt('lone.srt',1)"), 0); // this error was already reported above
     write_file(place, "lone.srt", "1\nx");
     assert_int_equal(faults_of(place->world, "srt('lone.srt',1)"), 1);
     assert_string_equal(place->world->text, "srt: cannot read 'lone.srt': it is not a subtitle file");
@@ -276,7 +276,7 @@ static void test_glob_finds_matches(void **state) {
     check_glob(place, "a.txt", "a.txt");
     check_glob(place, "A.txt", "");
     check_glob(place, ".*", ".dot .h");
-    check_glob(place, "*/a.txt", "d/a.txt d/a.txt"); // also through the link
+    check_glob(place, "*/a.txt", "d/a.txt d/a.txt"); // the second path goes through the link
     check_glob(place, "link/*.txt", "d/a.txt");
     check_glob(place, "d/../a.txt", "a.txt");
     check_glob(place, "./d//e/./c*", "d/e/c.txt");
@@ -317,7 +317,7 @@ static void test_cache_survives_out_of_memory(void **state) {
     assert_true(check(world, "read('a.txt') => 'some text that does not fit'"));
 }
 
-// More files than fit into the cache.
+// Reads more files than the cache can hold.
 static void test_cache_is_limited(void **state) {
     Place *place = *state;
     World *world = place->world;

@@ -145,7 +145,7 @@ static void test_long_arguments_give_valid_results(void **state) {
     }
 }
 
-// Two long arguments: the time must not grow with the product of the lengths.
+// Two long arguments: the time must grow with the sum of their lengths, not with the product.
 static void test_time_is_not_product_of_lengths(void **state) {
     World *world = *state;
     Value x = numbers(&world->session, LONG, 0, 1);

@@ -1,7 +1,7 @@
 // test_registry.c: the table of built-ins and the matching of arguments (spec builtins.md B0).
 #include "world.h"
 
-// The functions of B0.6 and related rules, in the order of the index.
+// The functions of B0.6 and related rules, in the order of that index.
 static const char *const all_names[] = {
     "abs",           "accumulate", "acos",      "angle",     "asin",     "beta",    "bounce",       "ceil",
     "chr",           "clamp",      "colortemp", "concat",    "cos",      "count",   "cross",        "csv",
@@ -36,7 +36,7 @@ static void test_all_functions_exist(void **state) {
     assert_null(builtin_find(STR("zz")));
 }
 
-// The table is sorted, as the look-up needs, and complete.
+// The table is complete, and sorted for binary search.
 static void test_table_is_sorted(void **state) {
     (void)state;
     static const char *const impure[] = {"debug", "sample", "glob", "csv", "read", "read_bytes", "srt", NULL};
@@ -51,7 +51,7 @@ static void test_table_is_sorted(void **state) {
     }
 }
 
-// The parameter texts agree with the counts, and required parameters come first.
+// The parameter lists in the help agree with the argument counts, and required parameters come first.
 static void test_parameter_texts_match_counts(void **state) {
     (void)state;
     for (uint32_t i = 0; i < builtin_table_count; i++) {

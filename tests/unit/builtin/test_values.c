@@ -357,7 +357,7 @@ static void test_node_is_valid_seed(void **state) {
     assert_true(value_stream_item(stream, 0) == 0.8562539106701949);
 }
 
-// Calls that return null silently and bad calls (B0.1, B0.2), with their number of errors.
+// Calls that return null without an error, and invalid calls (B0.1, B0.2), with the number of errors.
 static void test_bad_calls_report_one_error(void **state) {
     World *world = *state;
     static const struct {
@@ -409,7 +409,7 @@ static void test_bad_calls_report_one_error(void **state) {
     }
 }
 
-// Too long results are rejected before any element is read, so these vectors have no elements.
+// Results that would be too long are rejected before any element is read, so these vectors need no elements.
 static void test_too_long_results_are_rejected(void **state) {
     World *world = *state;
     double first[2] = {0, 0};
@@ -445,7 +445,7 @@ static void test_error_messages_show_signature(void **state) {
     assert_string_equal(world->text, "1.5;'a'");
 }
 
-// The cache does not change results, even if many seeds share a slot.
+// The cache of random streams does not change results, even if many seeds share a slot.
 static void test_noise_cache_keeps_results(void **state) {
     World *world = *state;
     NoiseCache *cache = world->context.noise;
@@ -462,7 +462,7 @@ static void test_noise_cache_keeps_results(void **state) {
     }
 }
 
-// Arrays of points give the same bits as single points, at every instruction level.
+// At every instruction level, arrays of points give the same bits as single points.
 static void test_noise_arrays_equal_points(void **state) {
     World *world = *state;
     enum { COUNT = 4003 };
@@ -497,7 +497,7 @@ static void test_noise_arrays_equal_points(void **state) {
     free(x);
 }
 
-// The result for vectors consists of the results for their elements.
+// The result for a vector consists of the results for its elements.
 static void test_functions_apply_to_each_element(void **state) {
     World *world = *state;
     enum { COUNT = 40 };

@@ -24,7 +24,7 @@ typedef struct World {
     BuiltinContext context;
     uint32_t faults;
     uint32_t logs;
-    char text[400]; // the last error or log line
+    char text[400]; // text of the last error or log line
 } World;
 
 static inline void world_note(World *world, Str text) {
@@ -44,7 +44,7 @@ static inline void world_log(void *user_data, Str text) {
 }
 
 static inline World *world_new(void) {
-    static World world; // one per test program
+    static World world; // shared by all tests of the program
     world = (World){0};
     arena_init(&world.session, "session", (size_t)1 << 30);
     arena_init(&world.frame, "frame", (size_t)4 << 30);
@@ -117,7 +117,7 @@ static inline void print_value(Value v) {
 static inline void assert_well_formed(Value v) {
     if (v.kind == VALUE_NUMBERS || v.kind == VALUE_STREAM) {
         assert_true(v.kind == VALUE_NUMBERS || v.len == 0);
-        volatile double sum = 0; // read every element for the sanitizers
+        volatile double sum = 0; // reads every element, so that the sanitizers detect invalid memory
         for (uint32_t i = 0; i < v.len; i++)
             sum = sum + value_numbers(&v)[i];
         return;

@@ -1,5 +1,5 @@
-// test_canvas_read.c: tests translating nodes to a drawing: types, words, reports. tests/pictures checks how nodes
-// look.
+// test_canvas_read.c: tests of the translation from nodes to drawing commands: types, keywords and diagnostics.
+// tests/pictures checks the appearance.
 #include "canvas/read.h"
 #include "nodes.h"
 #include "schema.h"
@@ -109,7 +109,7 @@ static void test_bad_attributes_are_reported(void **state) {
     end(&f);
 }
 
-// The lint reports colours in bytes, up to 255. Colours of bright light are not reported.
+// The lint reports colours that look like bytes (up to 255), but not bright HDR colours.
 static void test_lint_reports_byte_colours(void **state) {
     (void)state;
     Fixture f;
@@ -128,7 +128,7 @@ static void test_lint_reports_byte_colours(void **state) {
     end(&f);
 }
 
-// Nodes that Flitter draws and petri does not are not taken for misspelled nodes of petri.
+// A node that Flitter draws but petri does not is not reported as a misspelled petri node.
 static void test_unsupported_nodes(void **state) {
     (void)state;
     Fixture f;

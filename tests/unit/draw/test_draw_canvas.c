@@ -1,5 +1,5 @@
 // test_draw_canvas.c: compares single pixels of canvases with the formulas of spec canvas.md: composite modes, linear
-// light, gradients, positions of text.
+// light, gradients and text positions.
 #include "petri-draw.h"
 #include "player.h"
 
@@ -7,7 +7,7 @@
 
 enum { SIDE = 8 };
 
-typedef double Colour[4]; // premultiplied
+typedef double Colour[4]; // channels are premultiplied by alpha
 
 // Draws the first frame of a script. Returns false if this build cannot draw.
 static bool draw_script(Player *player, const char *script, uint32_t *pixels, int width, int height) {
@@ -32,7 +32,7 @@ static void assert_near(const char *what, uint32_t pixel, const Colour wanted, i
     }
 }
 
-// Returns B(s, d) of a channel; sa and da are the alphas.
+// Returns the blend function B(s, d) of a channel; sa and da are the alphas.
 static double combine_channel(const char *mode, double s, double sa, double d, double da) {
     double c = sa > 0 ? s / sa : 0, b = da > 0 ? d / da : 0, mixed;
     if (!strcmp(mode, "clear"))
@@ -91,7 +91,7 @@ static void test_blend_modes_match_formulas(void **state) {
         "clear",    "source",  "dest",       "over",      "dest_over",   "in",         "dest_in", "out",
         "dest_out", "atop",    "dest_atop",  "xor",       "add",         "modulate",   "screen",  "multiply",
         "darken",   "lighten", "difference", "exclusion", "color_dodge", "color_burn", "overlay", "hard_light"};
-    static const Colour s = {1, 0.6, 0.2, 0.6}, d = {0.2, 0.4, 0.8, 0.8}; // not premultiplied
+    static const Colour s = {1, 0.6, 0.2, 0.6}, d = {0.2, 0.4, 0.8, 0.8}; // not premultiplied by alpha
     Player *player = *state;
     uint32_t pixels[SIDE * SIDE];
     char script[1000];
@@ -118,7 +118,7 @@ static void test_blend_modes_match_formulas(void **state) {
     }
 }
 
-// Like test_blend_modes_match_formulas for strokes, which are restricted to their shape by other code.
+// Like test_blend_modes_match_formulas, for strokes. Other code restricts these modes to the area of a stroke.
 static void test_stroke_modes(void **state) {
     static const char *const modes[] = {"in", "out", "dest_in", "dest_atop", "modulate"};
     Player *player = *state;
@@ -143,7 +143,7 @@ static double srgb_encode(double c) {
     return c <= 0.0031308 ? 12.92 * c : 1.055 * pow(c, 1 / 2.4) - 0.055;
 }
 
-// Each draw adds whole bytes of linear light: 0.01 adds three, 0.006 adds two (1.4 rounded up).
+// Each draw adds a whole number of byte levels of linear light: 0.01 adds three, and 0.006 adds two (1.5 rounded up).
 static void test_linear_light_adds_whole_bytes(void **state) {
     Player *player = *state;
     uint32_t pixels[SIDE * SIDE];
@@ -206,7 +206,7 @@ static void test_paint_gives_expected_pixel(void **state) {
     }
 }
 
-// Positions of ink (8.1). DejaVu Sans, which the tests need anyway, is measured by its symmetry.
+// Positions of glyphs (8.1). DejaVu Sans, which the tests require, is measured by its symmetry.
 static void test_text_ink_is_at_point(void **state) {
     enum { WIDTH = 1280, HEIGHT = 720 };
     static uint32_t pixels[WIDTH * HEIGHT];

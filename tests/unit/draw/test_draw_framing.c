@@ -1,5 +1,5 @@
-// test_draw_framing.c: tests the view of the automatic picture, which shows all relevant bodies and only grows, and its
-// scale bar.
+// test_draw_framing.c: tests of the automatic picture's view, which shows all relevant bodies and only grows, and of
+// its scale bar.
 #include "check.h"
 #include "draw/automatic.h"
 
@@ -54,7 +54,7 @@ static void test_view_only_grows(void **state) {
     add_body(&scene, 10, 0, 1);
     choose_frame(&scene);
     AutoFrame first = scene.frame;
-    for (int i = 0; i < 50; i++) { // moves to and fro, and shrinks to half
+    for (int i = 0; i < 50; i++) { // the bodies move to and fro, and their extent shrinks to half
         scene.bodies[0].position[0] = -10 + i * 0.1 + sin(i) * 0.3;
         scene.bodies[1].position[1] = cos(i);
         choose_frame(&scene);
@@ -88,7 +88,7 @@ static void test_view_does_not_follow_lone_body(void **state) {
     scene.bodies[0].position[0] = 1200;
     choose_frame(&scene);
     assert_true(shows(&scene, 1200, 60) && shows(&scene, 0, 0));
-    scene_begin(&scene, 2); // at rest, it does not fill the view
+    scene_begin(&scene, 2); // a body at rest does not fill the view
     add_body(&scene, 0, 0, 10);
     choose_frame(&scene);
     assert_true(scene.frame.half >= 80);
@@ -127,7 +127,7 @@ static void test_view_ignores_distant_body(void **state) {
 static void test_view_of_degenerate_systems(void **state) {
     (void)state;
     Scene scene;
-    scene_begin(&scene, 3); // the view is chosen by the first frame with bodies
+    scene_begin(&scene, 3); // the first frame with bodies determines the view
     choose_frame(&scene);
     assert_true(scene.frame.half == 0);
     scene_begin(&scene, 3);

@@ -1,4 +1,4 @@
-// test_draw_pictures.c: tests petri_picture: copies of frames that are drawn later, and the choice of their content.
+// test_draw_pictures.c: tests of petri_picture: which content it chooses, and copies of frames that are rendered later.
 #include "petri-draw.h"
 #include "player.h"
 
@@ -16,7 +16,7 @@ static PetriPicture *make_picture(Player *player, PetriPictureOptions options, P
     return picture;
 }
 
-// Returns the column of the only red pixel in the first row; -2 if this build cannot draw.
+// Returns the column of the only red pixel in the first row, or -2 if this build cannot draw.
 static int red_column(PetriPicture *picture) {
     uint32_t pixels[8 * 4];
     PetriPainter *painter = petri_painter_open();
@@ -34,7 +34,7 @@ static int red_column(PetriPicture *picture) {
     return column;
 }
 
-// Returns the number of threads of this process; 0 where the system does not list them.
+// Returns the number of threads of this process, or 0 if the system does not list them.
 static int thread_count(void) {
     DIR *threads = opendir("/proc/self/task");
     int count = 0;
@@ -45,7 +45,7 @@ static int thread_count(void) {
     return count;
 }
 
-// Pango searches for fonts in a background thread, and a process may exit before it ends.
+// Pango searches for fonts in a background thread. A process may exit before the search has ended.
 static void test_no_fonts_without_text(void **state) {
     Player *player = *state;
     player_run(player, DISC, 1);
@@ -82,7 +82,8 @@ static void test_picture_outlives_session(void **state) {
         assert_true(petri_picture_record(second, painter, 0, &record));
         assert_string_equal(record.file, "a.png");
         assert_false(petri_picture_record(second, painter, 1, &record));
-        assert_false(petri_picture_record(fifth, painter, 0, &record)); // another picture was rendered last
+        assert_false(petri_picture_record(fifth, painter, 0, &record)); // fails because another picture was rendered
+                                                                        // last
     }
     petri_painter_close(&painter);
     petri_picture_size(second, &width, &height);
@@ -123,7 +124,7 @@ static void test_sizes_and_options_are_checked(void **state) {
     check_size(player, options, 5, 3);
     options.height = -1;
     make_picture(player, options, PETRI_INVALID);
-    make_picture(player, (PetriPictureOptions){.scale = 1, .window = -1}, PETRI_INVALID); // not initialised
+    make_picture(player, (PetriPictureOptions){.scale = 1, .window = -1}, PETRI_INVALID); // `size` is not initialised
     PetriPictureOptions coarse = petri_default_picture_options();
     coarse.detail = 0;
     make_picture(player, coarse, PETRI_INVALID);
@@ -219,7 +220,7 @@ static void test_misuse_is_rejected(void **state) {
     petri_painter_close(&painter);
 }
 
-// Frames that cannot show particles yet are frames 0 and 1 of windows whose systems have not simulated before.
+// Frames 0 and 1 of windows whose systems have not been simulated before cannot show particles yet.
 static void test_ready_once_particles_can_be_shown(void **state) {
     Player *player = *state;
     PetriPictureOptions own = petri_default_picture_options(), automatic = own;
@@ -231,8 +232,10 @@ static void test_ready_once_particles_can_be_shown(void **state) {
     } rows[] = {
         {"", {true, true, true}},
         {"!physics state=:a dimensions=1\n    !particle id=1\n", {false, false, true}},
-        {"!physics state=:a dimensions=1 time=0\n    !particle id=1\n", {false, false, true}}, // will never simulate
-        {"!physics dimensions=1\n    !particle id=1\n", {true, true, true}},                   // skipped: none
+        // skipped, so it has no particles
+        {"!physics state=:a dimensions=1 time=0\n    !particle id=1\n", {false, false, true}},
+        // is skipped and has no particles
+        {"!physics dimensions=1\n    !particle id=1\n", {true, true, true}},
         {"!counter state=:a\n", {true, true, true}},
     };
     char script[300];
@@ -249,11 +252,11 @@ static void test_ready_once_particles_can_be_shown(void **state) {
             assert_true(petri_picture_ready(player->session, &automatic));
         }
     }
-    player_run(player, rows[1].system, 1); // no canvas, so the picture is the automatic one
+    player_run(player, rows[1].system, 1); // without a canvas, the automatic picture is chosen
     assert_true(petri_picture_ready(player->session, &own));
     snprintf(script, sizeof script, "%s%s", rows[1].system, window);
     player_run(player, script, 5);
-    player_run(player, script, 1); // reloaded: frame 0, with a state
+    player_run(player, script, 1); // reloaded: frame 0, with the old state
     assert_int_equal(petri_frame(player->session).number, 0);
     assert_true(petri_picture_ready(player->session, &own));
 }
@@ -291,12 +294,12 @@ static void test_label_changes_only_its_panel(void **state) {
             assert_int_equal(pixels[y][x] >> 24, 255);
             letter_pixels += (pixels[y][x] >> 16 & 255) > 192;
         }
-    assert_int_equal(pixels[40][22], 0xff00ff00u); // the stripe
+    assert_int_equal(pixels[40][22], 0xff00ff00u); // a pixel of the green stripe
     assert_int_equal(pixels[24][60], panel);
     assert_true(letter_pixels > 10);
 }
 
-// Images are read by the host's callback, not from the disk.
+// Images are read by the host's callback, not from disk.
 static const char *provide_image(void *host, const char *name, size_t *length) {
     (void)host;
     static const char bytes[] = "not an image";
@@ -327,7 +330,7 @@ static void test_images_come_from_host(void **state) {
     petri_picture_free(&picture);
 }
 
-// Returns the kinds of a picture's commands as letters, without their operands.
+// Returns one letter for each command of a picture's display list, without the operands.
 static const char *kinds_of(PetriPicture *picture) {
     static const int sizes[] = {6, 4, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0};
     static char letters[256];
@@ -365,7 +368,7 @@ static void check_kinds(Player *player, const char *script, const char *wanted) 
     petri_picture_free(&picture);
 }
 
-// Tests display lists for hosts that draw by themselves; they contain all of a canvas, whatever this build can draw.
+// Display lists for hosts with their own renderer contain the whole canvas, whatever this build can draw.
 static void test_display_list_has_whole_canvas(void **state) {
     Player *player = *state;
     const double *n;
@@ -379,7 +382,7 @@ static void test_display_list_has_whole_canvas(void **state) {
         "        !image filename='a.png' size=2\n",
         "jabeicefkjabeilabegmabehk");
     check_kinds(player, "!window size=8;4\n    !bloom radius=2\n        !canvas\n    !canvas3d\n", "nn");
-    // If effects create too many elements, that is reported once, and later lines are drawn without the effect.
+    // If path effects create too many elements, this is reported once, and later paths are drawn without effects.
     check_kinds(player,
                 "!window size=8;4\n    !canvas\n        !group\n            !jitter length=0.00004 deviation=1\n"
                 "            for i in ..25\n                !line points=0;0;4;i stroke=true\n",
@@ -389,9 +392,10 @@ static void test_display_list_has_whole_canvas(void **state) {
     PetriPicture *picture = make_picture(player, petri_default_picture_options(), PETRI_OK);
     assert_int_equal(petri_picture_display_list(picture, &n, &count), PETRI_OK);
     static const double body[] = {1, 3, 4, 0, 2,
-                                  1, 0, 0, 0}; // count, position, radius, shade, anchor; no links, no barriers
+                                  1, 0, 0, 0}; // numbers of items: count, position, radius, shade, anchor; no links, no
+                                               // barriers
     assert_true(n[2] == PETRI_DRAW_PARTICLES && n[3] == 1 && n[4] == 2 && n[5] == 1);
-    assert_true(n[19] > 3); // lines of the scale bar
+    assert_true(n[19] > 3); // number of lines in the scale bar
     assert_int_equal(count, 20 + 4 * (size_t)n[19]);
     assert_memory_equal(n + 10, body, sizeof body);
     assert_int_equal(petri_picture_display_list(picture, NULL, &count), PETRI_INVALID);
@@ -416,8 +420,8 @@ static void test_is_display_list_without_effects(void **state) {
     assert_false(petri_picture_is_display_list(NULL));
 }
 
-// A backend that fills the left half, or all of a picture that is taller than wide, in a green that depends on the
-// number of commands.
+// A backend that fills the left half of a picture, or all of it if it is taller than wide. The green level depends on
+// the number of commands.
 static bool fill_black(void *host, const double *numbers, size_t count, int width, int height, uint32_t *pixels) {
     ++*(int *)host;
     assert_int_equal(numbers[0], width);
@@ -434,7 +438,7 @@ static const uint32_t *provide_pixels(void *host, const char *file, int *width, 
     return strcmp(file, "a.png") == 0 ? pixels : NULL;
 }
 
-// Without Cairo, a host's backend draws canvases, and petri composes them to pictures.
+// Without Cairo, the host's backend draws canvases, and petri composites them.
 static void test_host_backend_draws_canvases(void **state) {
     Player *player = *state;
     PetriPainter *painter = petri_painter_open();

@@ -1,6 +1,7 @@
-// test_gl_light.c: compares pixels of scenes with a model of spec canvas3d.md 5, which is written from the page alone.
+// test_gl_light.c: compares pixels of scenes with an independent model of spec canvas3d.md 5.
 //
-// The surface is a wall at z = 0, or the nearest point of a sphere. Script and model are created from the same record.
+// The surface is a wall at z = 0, or the nearest point of a sphere. The script and the model are created from the same
+// record.
 #include "check.h"
 #include "petri-draw.h"
 #include "petri.h"
@@ -12,8 +13,8 @@ enum { SIZE = 32, TOLERANCE = 2, LIGHTS_MAX = 3 };
 typedef struct Light {
     enum { NONE, AMBIENT, DIRECTIONAL, SPOT, POINT, LINE } kind;
     double color[3];
-    double position[3];  // of a line: its start
-    double direction[3]; // for a line: its end; for a spot: its focus
+    double position[3];  // for a line light: its start
+    double direction[3]; // for a line light: its end; for a spot light: its focus
     double radius;
     double outer;
     double inner;
@@ -163,7 +164,8 @@ static void add_light(Point *at, const Light *light) {
     }
 }
 
-// Adds the light that enters at the wall's back (canvas3d.md 5.6), where the back is uniform. Changes the opacity.
+// Adds the light that enters through the back of the wall (canvas3d.md 5.6), where it is uniform. Also changes the
+// opacity.
 static void come_through(Point *at, const Case *c, double *opacity) {
     const Light *light = &c->lights[0];
     double T = pow(0.5, 1 / c->translucency), towards[3], zero[3] = {0};
@@ -261,7 +263,7 @@ static void write_script(char *out, const Case *c, const char *surface) {
             c->ior, c->ao, c->transparency, c->translucency);
 }
 
-static bool missing; // OpenGL is not available
+static bool missing; // true if OpenGL is not available
 
 static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     (void)host;
@@ -375,7 +377,7 @@ static const Case cases[] = {
      .lights = {{POINT, {3, 3, 3}, .position = {0.5, 0.5, 2}, .falloff = SQUARE}}},
 };
 
-// Walls lit from behind. In an orthographic view each point is equally thick.
+// Walls lit from behind. In an orthographic view, the thickness is the same at each point.
 static const Case through[] = {
     {.name = "translucency",
      .color = {0.9, 0.6, 0.3},
@@ -413,7 +415,6 @@ static int worst_of(const double wanted[3], uint32_t pixel, int worst) {
     return worst;
 }
 
-// Checks each pixel of the wall.
 static void check_wall(const Case *c) {
     static uint32_t pixels[SIZE * SIZE];
     char script[4000];
@@ -432,8 +433,8 @@ static void check_wall(const Case *c) {
         fail_msg("%s: a pixel of the wall is off by %d", c->name, worst);
 }
 
-// Finds where the ray through a pixel meets the sphere of radius 2 around the origin. Returns false near its edge and
-// outside.
+// Finds the point where the ray through a pixel meets the sphere of radius 2 around the origin. Returns false outside
+// the sphere and near its silhouette.
 static bool hit_sphere(bool orthographic, int x, int y, double p[3]) {
     double reach = orthographic ? 2 : 1, X = ((x + 0.5) / SIZE * 2 - 1) * reach, Y = (1 - (y + 0.5) / SIZE * 2) * reach;
     double ray[3] = {orthographic ? 0 : X, orthographic ? 0 : Y, -1},
@@ -445,8 +446,8 @@ static bool hit_sphere(bool orthographic, int x, int y, double p[3]) {
     return true;
 }
 
-// Draws a sphere of many segments. With 516 segments all are used, with 512 as few as look the same. Transparent
-// spheres are drawn as discs.
+// Draws a sphere with many segments. With 516 segments, all are used; with 512, only as many as are needed for the same
+// appearance. Transparent spheres are drawn as discs.
 static void check_sphere(const Case *c, bool orthographic, int segments, int tolerance) {
     static uint32_t pixels[SIZE * SIZE];
     char script[4000];
@@ -493,7 +494,7 @@ static void test_spheres_match_model(void **state) {
         skip();
 }
 
-// Canvas3d.md 10.5: 0.97 of linear light is byte 252.
+// Canvas3d.md 10.5: a linear value of 0.97 is encoded as byte 252.
 static void test_example_of_spec(void **state) {
     (void)state;
     double N[3] = {0, 0, 1}, p[3] = {0}, wanted[3];

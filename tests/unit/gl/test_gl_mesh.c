@@ -1,4 +1,4 @@
-// test_gl_mesh.c: tests the triangles of models (spec canvas3d.md 6 to 8), without OpenGL.
+// test_gl_mesh.c: tests of the triangles of models (spec canvas3d.md 6 to 8), without OpenGL.
 #include "check.h"
 #include "gl/scene_mesh.h"
 
@@ -22,8 +22,8 @@ static const MeshVertex *corner(const Mesh *mesh, uint32_t index) {
     return &mesh->vertices[mesh->indices[index]];
 }
 
-// Returns six times the volume between the origin and a triangle. It is positive if the triangle faces away from the
-// origin.
+// Returns six times the signed volume of the tetrahedron between the origin and a triangle. The volume is positive if
+// the triangle faces away from the origin.
 static double volume(const Mesh *mesh, uint32_t triangle) {
     const float *a = corner(mesh, 3 * triangle)->position, *b = corner(mesh, 3 * triangle + 1)->position,
                 *c = corner(mesh, 3 * triangle + 2)->position;
@@ -31,8 +31,8 @@ static double volume(const Mesh *mesh, uint32_t triangle) {
            a[2] * ((double)b[0] * c[1] - (double)b[1] * c[0]);
 }
 
-// Checks a closed body around the origin: every triangle faces outwards (`sign` 1), and normals have length 1 and point
-// outwards. Returns six times the volume.
+// Checks a closed body around the origin: all triangles face outwards (`sign` 1), and all normals have length 1 and
+// point outwards. Returns six times the volume.
 static double check_body(const Mesh *mesh, double sign) {
     double sum = 0;
     assert_int_equal(mesh->index_count % 3, 0);
@@ -51,7 +51,7 @@ static double check_body(const Mesh *mesh, double sign) {
 // Returns true if the body has a vertex with this position, normal and texture coordinates.
 static bool has_vertex(const Mesh *mesh, const float wanted[8]) {
     for (uint32_t i = 0; i < mesh->vertex_count; i++) {
-        const float *v = mesh->vertices[i].position; // position, normal and uv are contiguous
+        const float *v = mesh->vertices[i].position; // position, normal and uv are contiguous in memory
         bool same = true;
         for (int k = 0; k < 8; k++)
             same &= fabsf(v[k] - wanted[k]) < 1e-6f;
@@ -94,12 +94,12 @@ static void test_sphere(void **state) {
         assert_true(size < 4.18880 && (n < 16 || size > 4.15));
         for (uint32_t k = 0; k < mesh.vertex_count; k++)
             assert_memory_equal(mesh.vertices[k].position, mesh.vertices[k].normal, 12);
-        // The pole of the second side, and the end of the equator in the third one.
+        // The pole of the second side, and a point on the equator at the end of the third side.
         assert_true(has_vertex(&mesh, (const float[]){0, 0, 1, 0, 0, 1, 1.5f / 4, 1}));
         assert_true(has_vertex(&mesh, (const float[]){0, -1, 0, 0, -1, 0, 0.75f, 0.5f}));
     }
     Mesh mesh = mesh_sphere(*state, 8);
-    float h = sqrtf(0.5f); // row 1 of 2, halfway between columns 0 and 1 of side 0
+    float h = sqrtf(0.5f); // coordinate of row 1 of 2, halfway between columns 0 and 1 of side 0
     assert_true(has_vertex(&mesh, (const float[]){h, 0, h, h, 0, h, 0, 0.75f}));
     assert_true(has_vertex(&mesh, (const float[]){0, h, -h, 0, h, -h, 0.25f, 0.25f}));
 }
@@ -129,14 +129,15 @@ static void test_flat_and_invert(void **state) {
     mesh_flat(*state, &mesh);
     assert_int_equal(mesh.vertex_count, mesh.index_count);
     check_body(&mesh, 1);
-    for (uint32_t i = 0; i < mesh.index_count; i += 3) // one normal per triangle
+    for (uint32_t i = 0; i < mesh.index_count; i += 3) // all corners of a triangle have the same normal
         assert_memory_equal(corner(&mesh, i)->normal, corner(&mesh, i + 2)->normal, 12);
     mesh_invert(&mesh);
     check_body(&mesh, -1);
 }
 
 static void test_snap(void **state) {
-    // Edges of right angles are joined above a quarter turn; corner normals then point along the diagonals.
+    // Right-angled edges are smoothed if snap_edges is above a quarter turn; corner normals then point along the
+    // diagonals.
     Mesh mesh = mesh_box(*state, false);
     mesh_snap(*state, &mesh, 0.26);
     float d = 1 / sqrtf(3);
@@ -148,7 +149,7 @@ static void test_snap(void **state) {
     mesh_snap(*state, &mesh, 0.24);
     assert_true(has_vertex(&mesh, (const float[]){.5f, .5f, .5f, 0, 0, 1, 5 / 6.f, 1}));
     check_body(&mesh, 1);
-    // The rim of a cylinder of 64 segments is split from its caps, but its side is not.
+    // With 64 segments, the edge between a cylinder's caps and its side stays sharp, but the side is smooth.
     mesh = mesh_cylinder(*state, 64);
     mesh_snap(*state, &mesh, 0.05);
     assert_true(has_vertex(&mesh, (const float[]){0, 1, .5f, 0, 1, 0, .25f, .75f}));
@@ -180,7 +181,7 @@ static bool from_file(Arena *arena, const char *text, Mesh *mesh) {
     return mesh_from_file(arena, str_copy(arena, str_from(text)), mesh, &fault);
 }
 
-// Checks that a file is rejected with this problem at this line; 0: no line.
+// Checks that a file is rejected with this message at this line; 0: no line.
 static void check_bad(Arena *arena, const char *text, uint32_t line, const char *problem) {
     Mesh mesh;
     MeshError fault = {0};
@@ -199,7 +200,7 @@ static void test_obj(void **state) {
     assert_int_equal(mesh.index_count, 6);
     assert_int_equal(mesh.vertex_count, 4);
     assert_true(has_vertex(&mesh, (const float[]){1, 1, 0, 0, 0, 1, 1, 1}));
-    // Indices from the end, without normals and texture coordinates.
+    // Negative indices count from the end. Normals and texture coordinates may be omitted.
     assert_true(from_file(*state, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n", &mesh));
     assert_true(has_vertex(&mesh, (const float[]){1, 0, 0, 0, 0, 1, 0, 0}));
     assert_true(from_file(*state, "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 1 0 0\nf 1//1 2//1 3//-1", &mesh));
@@ -273,7 +274,7 @@ static void test_lists(void **state) {
     assert_false(mesh_from_lists(*state, vertices, 9, faces, 3, uv, 5, &mesh, &problem));
 }
 
-// Checks that a hull is closed and convex and contains all points, and that its corners are on the outside.
+// Checks that a hull is closed and convex, that it contains all points, and that its corners face outwards.
 static void check_hull(Arena *arena, const char *row, const double *points, uint32_t count, double volume,
                        uint32_t triangles) {
     uint32_t numbers = 0;
@@ -313,7 +314,7 @@ static void test_hull(void **state) {
     }
     check_hull(*state, "a pyramid", pyramid, 7, 1 / 6.0, 4);
     check_hull(*state, "a cube", cube, 27, 8, 0);
-    check_hull(*state, "a ball", ball, MANY, -1, 2 * MANY - 4); // by Euler's formula
+    check_hull(*state, "a ball", ball, MANY, -1, 2 * MANY - 4); // number of triangles from Euler's formula
     uint32_t numbers;
     assert_null(mesh_hull(*state, wall, MANY, &numbers));
     assert_null(mesh_hull(*state, pyramid, 3, &numbers));

@@ -1,6 +1,5 @@
-// test_gl_order.c: tests reading of scenes and draw_order without OpenGL: limits, which spheres are drawn as discs, and
-// the positions of the discs.
-// where those are; without OpenGL.
+// test_gl_order.c: tests, without OpenGL, of reading scenes and of draw_order: limits, which spheres are drawn as
+// discs, and the positions of the discs.
 #include "check.h"
 #include "gl/draw_order.h"
 #include "gl/scene_mesh.h"
@@ -9,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-// Three balls of radius 10 in a row, seen from the side. Cases modify the stage.
+// Three balls of radius 10 in a row, seen from the side. Test cases modify the stage.
 enum { WIDTH = 400, MAX_INSTANCES = 60 };
 typedef struct Stage {
     Arena arena;
@@ -23,7 +22,7 @@ typedef struct Stage {
     SceneTextures textures;
     GraphicsState3D graphics_state;
     Eye eye;
-    bool deep; // discs are compared with depth
+    bool deep; // the depth test is also used for discs
 } Stage;
 
 static void set_stage(Stage *stage) {
@@ -57,7 +56,7 @@ static void set_stage(Stage *stage) {
                            .instance_count = 3};
 }
 
-// Returns how many of the stage's balls are drawn as discs.
+// Returns the number of the stage's balls that are drawn as discs.
 static uint32_t count_discs(Stage *stage) {
     const SceneBox box = {{-1, -1, -1}, {1, 1, 1}, 2048};
     Matrix view = matrix_view(&stage->eye), projection = matrix_projection(&stage->eye);
@@ -80,18 +79,18 @@ static void test_which_spheres_become_discs(void **state) {
     set_stage(&stage);
     assert_int_equal(count_discs(&stage), 3);
     assert_false(stage.deep);
-    set_stage(&stage); // opaque balls write depth
+    set_stage(&stage); // opaque balls must write depth
     stage.instances[1].material = &stage.opaque;
     assert_int_equal(count_discs(&stage), 0);
-    set_stage(&stage); // many discs are compared with depth
+    set_stage(&stage); // many discs need the depth test
     stage.group.instance_count = stage.scene.instance_count = MAX_INSTANCES;
     stage.instances[1].material = &stage.opaque;
     assert_int_equal(count_discs(&stage), MAX_INSTANCES - 1);
     assert_true(stage.deep);
-    set_stage(&stage); // translucent balls write depth, and need their back faces
+    set_stage(&stage); // translucent balls must write depth and need their back faces
     stage.material.surface.translucency = 1;
     assert_int_equal(count_discs(&stage), 0);
-    set_stage(&stage); // without sorting, all balls write depth
+    set_stage(&stage); // without sorting, all balls must write depth
     stage.group.state.depth_sort = false;
     assert_int_equal(count_discs(&stage), 0);
     set_stage(&stage); // back faces are drawn as well
@@ -106,19 +105,19 @@ static void test_which_spheres_become_discs(void **state) {
     set_stage(&stage);
     stage.model.invert = true;
     assert_int_equal(count_discs(&stage), 0);
-    set_stage(&stage); // its corners are visible
+    set_stage(&stage); // the corners of the polygon are visible
     stage.model.segments = 12;
     assert_int_equal(count_discs(&stage), 0);
-    set_stage(&stage); // an ellipsoid
+    set_stage(&stage); // the ball is an ellipsoid
     stage.instances[0].matrix.m[0] = 12;
     assert_int_equal(count_discs(&stage), 2);
-    set_stage(&stage); // mirrored: its inside is visible
+    set_stage(&stage); // the ball is mirrored, so its inside is visible
     stage.instances[0].matrix.m[0] = -10;
     assert_int_equal(count_discs(&stage), 2);
-    set_stage(&stage); // sheared
+    set_stage(&stage); // the ball is sheared
     stage.instances[0].matrix.m[4] = 3;
     assert_int_equal(count_discs(&stage), 2);
-    set_stage(&stage); // clipped by the near plane
+    set_stage(&stage); // the ball is clipped by the near plane
     stage.eye.near = 300;
     assert_true(count_discs(&stage) < 3);
     set_stage(&stage);
@@ -126,8 +125,8 @@ static void test_which_spheres_become_discs(void **state) {
     assert_true(count_discs(&stage) < 3);
 }
 
-// Opaque instances are drawn first, by model and nearest first. Then transparent ones follow, farthest first; at equal
-// depth in the order in which models first appeared.
+// Opaque instances are drawn first, grouped by model, nearest first. Transparent instances follow, farthest first. At
+// equal depth, they are in the order in which their models first appeared.
 static void test_transparent_instances_are_sorted(void **state) {
     (void)state;
     static const struct {
@@ -136,7 +135,7 @@ static void test_transparent_instances_are_sorted(void **state) {
         uint32_t model;
     } rows[] = {{0, false, 0}, {0, false, 1}, {0, false, 0}, {-20, false, 1},
                 {5, true, 1},  {-5, true, 0}, {-9, true, 1}, {-3, true, 0}};
-    static const uint32_t wanted[] = {7, 5, 4, 6, 3, 0, 2, 1}; // given by the specification
+    static const uint32_t wanted[] = {7, 5, 4, 6, 3, 0, 2, 1}; // order required by the specification
     enum { ROWS = sizeof rows / sizeof *rows };
     SceneModel models[2] = {{.kind = KIND_BOX}, {.kind = KIND_CONE}};
     const SceneBox boxes[2] = {{{-1, -1, -1}, {1, 1, 1}, 12}, {{-1, -1, -1}, {1, 1, 1}, 128}};
@@ -151,7 +150,7 @@ static void test_transparent_instances_are_sorted(void **state) {
         stage.instances[i].model = rows[i].model;
         stage.instances[i].material = rows[i].opaque ? &stage.opaque : &stage.material;
     }
-    stage.eye.position[0] = stage.eye.position[1] = 0; // so that depth is along z
+    stage.eye.position[0] = stage.eye.position[1] = 0; // puts the eye on the z axis, so that depth is measured along z
     Matrix view = matrix_view(&stage.eye), projection = matrix_projection(&stage.eye);
     DrawOrder order = draw_order(&stage.scene, &stage.eye, &view, &projection, WIDTH, boxes);
     assert_int_equal(order.count, ROWS);
@@ -181,7 +180,7 @@ static void check_rim(Stage *stage, const Matrix *place) {
         assert_true(fabs(apart(rim, disc.middle) - disc.radius) < 1e-9 * disc.radius);
         assert_true(fabs(vector_dot(outwards, towards)) < 1e-8 * away * disc.radius);
         matrix_direction(&disc.place, (double[3]){0, 0, 1},
-                         normal); // corners are counter-clockwise as seen by the camera
+                         normal); // corners are counter-clockwise as seen from the camera
         turned += vector_dot(normal, towards) > 0;
     }
     assert_int_equal((int)turned, 16);
@@ -202,7 +201,7 @@ static void test_disc_rim_touches_sphere(void **state) {
     arena_free(&stage.arena);
 }
 
-// The corners of the disc form a regular polygon, and all triangles have the same orientation.
+// The corners of the disc form a regular polygon, and all its triangles have the same orientation.
 static void test_disc_mesh_is_regular(void **state) {
     (void)state;
     Arena arena;
@@ -224,7 +223,7 @@ static void test_disc_mesh_is_regular(void **state) {
     arena_free(&arena);
 }
 
-// Reads a scene with `count` references to the same node, and collects the diagnostics.
+// Reads a scene with `count` references to the same node. Collects the diagnostics.
 static Scene *read_many(Arena *arena, DiagSink *faults, NodeKind kind, AttrValue *attr, uint32_t count) {
     DrawNode *node = arena_alloc(arena, sizeof *node), *top = arena_alloc(arena, sizeof *top);
     const DrawNode **children = arena_alloc_array(arena, count, sizeof *children);
@@ -235,7 +234,7 @@ static Scene *read_many(Arena *arena, DiagSink *faults, NodeKind kind, AttrValue
     return scene_read(arena, top, WIDTH, WIDTH, 16, NULL, faults);
 }
 
-// Instances beyond the limits are left out, which is reported once.
+// Instances beyond the limits are omitted, which is reported once.
 static void test_limits_are_reported_once(void **state) {
     (void)state;
     static const struct {
@@ -265,7 +264,7 @@ static void test_limits_are_reported_once(void **state) {
         assert_int_equal(count, rows[i].max);
         assert_int_equal(faults.count, 1);
         assert_string_equal(faults.items[0].code, rows[i].code);
-        if (rows[i].kind == KIND_SPHERE) { // too many triangles if all are near
+        if (rows[i].kind == KIND_SPHERE) { // the limit of triangles would be exceeded if all spheres were near
             const SceneBox box = {{-1, -1, -1}, {1, 1, 1}, 2048};
             Eye eye = scene_eye(scene, &scene->cameras[0]);
             Matrix view = matrix_view(&eye), projection = matrix_projection(&eye);

@@ -1,5 +1,5 @@
 #!/bin/sh
-# check_tables.sh SOURCE_ROOT: checks that maths_tables.h is the output of its generator.
+# check_tables.sh SOURCE_ROOT: checks that maths_tables.h equals the output of its generator.
 set -eu
 folder=$1/lib/maths
 command -v python3 >/dev/null || {

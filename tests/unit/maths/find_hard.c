@@ -1,10 +1,11 @@
-// find_hard.c: search for arguments whose results are nearly halfway between two doubles. hard_cases.h is its output.
+// find_hard.c: searches for arguments whose results are almost midpoints between two doubles. Its output is in
+// hard_cases.h.
 //
 // usage: find_hard NAME SECONDS LOW HIGH [BITS]: x is a random double with an exponent in [LOW, HIGH)
 //
-// Lefèvre's method: among 2 REACH + 1 neighbours of x the function is linear up to 2^-28 of its last place. Euclid's
-// algorithm finds the i for which a + b i is near an integer. Each hit is printed with its distance from the halfway
-// point in bits of the last place.
+// Lefèvre's method: for the 2 REACH + 1 doubles around x, the function is linear to within 2^-28 ulp. Euclid's
+// algorithm finds each i for which a + b i is close to an integer. Each hit is printed with its distance from the
+// midpoint, in bits below the last place.
 #include "model.h"
 
 #include <stdlib.h>
@@ -31,7 +32,7 @@ static int64_t first_in(int64_t a, int64_t m, int64_t l, int64_t r) {
 
 static mpfr_t at[3], line, best;
 
-// Returns f(x) in half units of its last place, modulo 1, as a multiple of 2^-62.
+// Returns f(x) in half ulps, modulo 1, as a multiple of 2^-62.
 static int64_t phase(const Subject *subject, double x, double y, mpfr_t f, mpfr_exp_t unit) {
     model_value(subject, f, x, y);
     if (unit == 0)
@@ -76,12 +77,12 @@ int main(int count, char **words) {
             int64_t p = phase(subject, left, y, at[0], unit);
             phase(subject, right, y, at[2], unit);
             mpfr_sub(line, at[2], at[0], MPFR_RNDN);
-            mpfr_mul_2si(line, line, -(long)unit - 13, MPFR_RNDN); // 2 REACH = 2^13
+            mpfr_mul_2si(line, line, -(long)unit - 13, MPFR_RNDN); // multiplies by 2^-13, because 2 REACH is 2^13
             mpfr_frac(line, line, MPFR_RNDN);
             mpfr_mul_2si(line, line, 62, MPFR_RNDN);
             int64_t slope = (mpfr_get_sj(line, MPFR_RNDN) % MODULUS + MODULUS) % MODULUS;
             searched += 2 * REACH;
-            // p + slope i within the window of 0: slope i in [-p - window, -p + window]
+            // p + slope i is within the window around 0 if slope i is in [-p - window, -p + window]
             for (int64_t i = 0; i <= 2 * REACH;) {
                 Long now = ((Long)p + (Long)slope * i) % MODULUS;
                 int64_t l = (int64_t)((2 * (Long)MODULUS - now - window) % MODULUS), h = (l + 2 * window) % MODULUS;

@@ -1,6 +1,6 @@
-// hard_cases.h: arguments whose results are hard to round. The comments give the distance of the result from the
-// nearest double or midpoint (halfway between two doubles), in half ulps. The first list is from the literature
-// (Lefèvre and Muller's tables of worst cases and later work), the second from find_hard.c.
+// hard_cases.h: arguments whose results are hard to round. The comments give the distance, in half ulps, between the
+// exact result and the nearest double or midpoint (halfway between two doubles). The first list is from the literature:
+// Lefèvre and Muller's tables of worst cases and later work. The second list was found with find_hard.c.
 #ifndef PETRI_TESTS_MATHS_HARD_CASES_H
 #define PETRI_TESTS_MATHS_HARD_CASES_H
 

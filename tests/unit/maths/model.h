@@ -13,7 +13,8 @@ typedef int (*ModelTwo)(mpfr_t, const mpfr_t, const mpfr_t, mpfr_rnd_t);
 typedef double (*One)(double);
 typedef double (*Two)(double, double);
 
-// A function with its variants. Either the first half of the members is set (one parameter) or the second (two).
+// A function with its variants. The first half of the members is set if it has one parameter, the second half if it has
+// two.
 typedef struct Subject {
     const char *name;
     ModelOne model1;
@@ -74,7 +75,7 @@ static inline bool same_number(double a, double b) {
     return (isnan(a) && isnan(b)) || bits_from(a) == bits_from(b);
 }
 
-// Checks all variants and the accurate path for one case. Prints and counts wrong results.
+// Checks all variants and the accurate path for one argument. Prints and counts wrong results.
 static inline int wrong_cases(const Subject *subject, double x, double y, bool exact_too) {
     double wanted = model(subject, x, y), found[3] = {0};
     if (subject->model1) {

@@ -1,7 +1,7 @@
 // speed.c: benchmark of lib/maths in nanoseconds per result, compared with the C library.
 //
-// usage: maths_speed [NAME]. Prints the best of many runs over 1024 arguments. Runs of both libraries alternate, so
-// that a busy machine affects both alike. `plain` is the variant without fused multiply-add, `exact` the accurate path
+// usage: maths_speed [NAME]. Prints the best time of many runs over 1024 arguments. Runs of both libraries alternate,
+// so other load affects both alike. `plain` is the variant without fused multiply-add; `exact` is the accurate path
 // alone.
 #include "check.h"
 #include "maths/arrays.h"

@@ -1,9 +1,10 @@
 // sweep.c: comparison with MPFR for random arguments.
 //
-// usage: sweep COUNT [NAME]: tests COUNT arguments for each function or for one. Half of them are spread evenly over
-// all exponents for which the function is neither constant nor the identity. The others are from ranges where results
-// are dense or error bounds tight. Prints for each function the number of wrong results, how often the accurate path
-// ran, and the largest error of the fast path relative to its bound. Exits with 0 if no result was wrong.
+// usage: sweep COUNT [NAME]: tests COUNT arguments for each function, or for the named function. Half of the arguments
+// are spread evenly over all exponents for which the function is neither constant nor the identity. The other half are
+// from ranges in which results are dense or error bounds are tight. For each function, prints the number of wrong
+// results, how often the accurate path ran, and the largest error of the fast path relative to its bound. Exits with 0
+// if no result was wrong.
 #include "model.h"
 #include "watch.h"
 
@@ -53,7 +54,7 @@ static uint64_t sweep_function(const Subject *subject, const Watched *watched, u
     uint64_t seed = 1, wrong = 0;
     watch_start();
     for (uint64_t i = 0; i < count; i++) {
-        // Half of the arguments are from the first range.
+        // Half of the arguments come from the first range.
         const Range *range = mine[i % 2 ? 0 : i / 2 % kinds];
         double x = random_argument(&seed, range->exponents, range->low, range->high);
         double y = random_argument(&seed, range->exponents, range->y_low, range->y_high);
@@ -69,7 +70,7 @@ static uint64_t sweep_function(const Subject *subject, const Watched *watched, u
         (double)watch_state[0].cases / (double)(watch_state[0].undecided + !watch_state[0].undecided),
         watch_state[0].worst, watch_state[1].worst);
     fflush(stdout);
-    // An error above its bound means that the error analysis is wrong, even if all results are right.
+    // An error above its bound means that the error analysis is wrong, even if all results are correctly rounded.
     return wrong + (watch_state[0].worst > 1) + (watch_state[1].worst > 1);
 }
 

@@ -1,5 +1,5 @@
-// test_maths_arrays.c: array functions with 1, 2, 4 and 8 lanes and streams of normals return the bits of the scalar
-// functions.
+// test_maths_arrays.c: array functions with 1, 2, 4 and 8 lanes, and streams of normal variates, return the same bits
+// as the scalar functions.
 #include "check.h"
 #include "maths/arrays.h"
 #include "maths/arrays_isa.h"
@@ -7,14 +7,14 @@
 #include "maths/random.h"
 
 #define COUNT 4099 // not a multiple of any lane count
-#define EXTRA 8    // numbers after the results that must not be changed
+#define EXTRA 8    // number of elements after the results that must not change
 
 typedef struct Lanes {
     const char *name;
     const ArraysIsa *instance;
 } Lanes;
 
-// The levels that this processor supports.
+// Stores the instruction levels of this processor in `lanes`. Returns their number.
 static size_t find_isas(Lanes *lanes) {
     size_t count = 0;
     lanes[count++] = (Lanes){"1 lane", &maths_arrays_plain};
@@ -30,7 +30,8 @@ static size_t find_isas(Lanes *lanes) {
 
 static double x[COUNT], y[COUNT], out[COUNT + EXTRA], out2[COUNT + EXTRA];
 
-// Fills an array with numbers of all sizes and special values, so that some lanes of a vector are undecided.
+// Fills an array with numbers of all magnitudes and special values, so that some lanes of a vector need the accurate
+// path.
 static void fill_arguments(uint64_t *seed, double low, double high, bool special) {
     static const double odd[] = {0.0, -0.0, INFINITY, -INFINITY, NAN,  0x1p-1074, -0x1p-1030, 0x1.fffffffffffffp+1023,
                                  1.0, -1.0, 2.0,      0.5,       1e10, -1e300,    710,        -745.1};
@@ -86,7 +87,7 @@ static void test_arrays_match_scalars(void **state) {
         }
 }
 
-// The result may overwrite the arguments. Short arrays are not accessed after their end.
+// The results may overwrite the arguments. Memory after the end of a short array is not accessed.
 static void test_result_may_overwrite_arguments(void **state) {
     (void)state;
     for (int level = 0; level <= (int)cpu_detected.level; level++)
@@ -130,7 +131,7 @@ static void test_normals_match_items(void **state) {
             }
 }
 
-// turns_sin of huge arguments, compared with the quadrant of C's remquo.
+// Compares turns_sin of huge arguments with a computation that uses the quotient of C's remquo.
 static void test_sine_of_turns_matches_remquo(void **state) {
     (void)state;
     uint64_t seed = 9;

@@ -83,7 +83,7 @@ static void test_arithmetic_is_within_error(void **state) {
         mpfr_mul_2si(c, a, shift, MPFR_RNDN);
         r = fixed_scale(&x, shift);
         check_near("scale", &r, c, 1);
-        // 1/2 … 2
+        // y runs from 1/2 to 2.
         y = fixed_from_int(1, size);
         x.limb[size] = 0;
         x.limb[size - 1] |= UINT64_C(1) << 63;
@@ -99,7 +99,7 @@ static void test_arithmetic_is_within_error(void **state) {
     }
 }
 
-// Random numbers, ties, subnormal and smaller results, and results that overflow.
+// Random numbers, ties, subnormal results, results below them, and results that overflow.
 static void test_rounding_matches_mpfr(void **state) {
     (void)state;
     uint64_t seed = 2;
@@ -107,7 +107,7 @@ static void test_rounding_matches_mpfr(void **state) {
     mpfr_init2(rounded, 53);
     for (int i = 0; i < 30000; i++) {
         Fixed x = random_fixed(&seed, sizes[i % 3], a);
-        if (i & 4) { // few bits: ties and exact ones
+        if (i & 4) { // few bits, for ties and exact results
             memset(x.limb, 0, sizeof *x.limb * (size_t)x.size);
             x.limb[x.size - 1] = next_bits(&seed) >> (i % 12) << (i % 12 + (i >> 4) % 12);
         }

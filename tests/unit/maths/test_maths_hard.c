@@ -10,7 +10,7 @@ static const Subject *subject_of(const char *name) {
     return NULL;
 }
 
-// These are 2^-30 to 2^-60 of the last place away from a halfway point, so each needs the accurate path.
+// These results are 2^-30 to 2^-60 ulp from a midpoint, so each needs the accurate path.
 static void test_listed_cases_are_rounded_correctly(void **state) {
     (void)state;
     int wrong = 0;
@@ -24,7 +24,7 @@ static void test_listed_cases_are_rounded_correctly(void **state) {
     assert_int_equal(wrong, 0);
 }
 
-// All powers of two and their neighbours.
+// All powers of two and the adjacent doubles.
 static void test_powers_of_two_are_rounded_correctly(void **state) {
     (void)state;
     int wrong = 0;
@@ -34,13 +34,13 @@ static void test_powers_of_two_are_rounded_correctly(void **state) {
                 double x = double_from(bits_from(ldexp(1, e)) + (uint64_t)(int64_t)side);
                 double y = subjects[i].model2 ? ldexp(1 + 0x1p-40 * (e & 63), e % 9) : 0;
                 wrong += wrong_cases(&subjects[i], x, y, e % 8 == 0);
-                if (subjects[i].model2) // pow and atan2 also with exchanged arguments
+                if (subjects[i].model2) // for pow and atan2, also exchange the arguments
                     wrong += wrong_cases(&subjects[i], y, x, e % 8 == 0);
             }
     assert_int_equal(wrong, 0);
 }
 
-// Multiples of pi/2 and the doubles near them. The reduced argument is small, down to 2^-61.
+// Multiples of pi/2 and the doubles near them. The reduced argument is as small as 2^-61.
 static void test_quarter_turns_are_rounded_correctly(void **state) {
     (void)state;
     int wrong = 0;
@@ -57,7 +57,7 @@ static void test_quarter_turns_are_rounded_correctly(void **state) {
     assert_int_equal(wrong, 0);
 }
 
-// Powers that are exactly a double or halfway between two: m^n with up to 64 bits, roots of squares, subnormal results.
+// Powers that are exactly a double or a midpoint: m^n with up to 64 bits, roots of squares, and subnormal results.
 static void test_exact_powers_are_rounded_correctly(void **state) {
     (void)state;
     const Subject *subject = subject_of("pow");
@@ -68,13 +68,13 @@ static void test_exact_powers_are_rounded_correctly(void **state) {
                 wrong += wrong_cases(subject, ldexp((double)m, e), n, true);
     uint64_t seed = 2;
     for (int i = 0; i < 20000; i++) {
-        // a square of up to 54 bits; about half of the squares are halfway between two doubles
+        // a square of up to 54 bits; about half of these squares are midpoints between two doubles
         double root = (double)(next_bits(&seed) >> (37 + i % 8) | 1);
         wrong += wrong_cases(subject, root, 2, true);
         double fourth = (double)(next_bits(&seed) >> (51 + i % 8) | 1);
         wrong += wrong_cases(subject, fourth * fourth * fourth * fourth, 0.75, true);
         wrong += wrong_cases(subject, fourth * fourth * fourth * fourth, 1.25, true);
-        // halfway between two subnormal numbers: an odd number times 2^-1075
+        // midpoint between two subnormal numbers: an odd multiple of 2^-1075
         wrong += wrong_cases(subject, ldexp((double)(next_bits(&seed) >> 58 | 1), -537) * 0.5, 2, true);
         wrong += wrong_cases(subject, ldexp((double)(next_bits(&seed) >> 50 | 1), -540), 2, true);
     }
@@ -85,7 +85,7 @@ static void test_exact_powers_are_rounded_correctly(void **state) {
     assert_int_equal(wrong, 0);
 }
 
-// Results around the smallest normal number and below, around the largest, and around 1.
+// Results near the smallest normal number and below it, near the largest number, and near 1.
 static void test_range_limits_are_rounded_correctly(void **state) {
     (void)state;
     int wrong = 0;
@@ -105,7 +105,7 @@ static void test_range_limits_are_rounded_correctly(void **state) {
         wrong += wrong_cases(subject_of("log"), double_from(next_bits(&seed) >> (12 + i % 50)), 0, exact);
         wrong += wrong_cases(subject_of("log10"), double_from(next_bits(&seed) >> (12 + i % 50)), 0, exact);
     }
-    for (size_t i = 0; i < COUNT_OF(subjects); i++) // random bits
+    for (size_t i = 0; i < COUNT_OF(subjects); i++) // arguments of random bits
         for (int k = 0; k < 5000; k++) {
             double x = double_from(next_bits(&seed)), y = double_from(next_bits(&seed));
             wrong += isnan(x) || isnan(y) ? 0 : wrong_cases(&subjects[i], x, y, true);

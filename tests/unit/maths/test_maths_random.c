@@ -1,4 +1,4 @@
-// test_maths_random.c: the examples of builtins.md B1.2 and B9.
+// test_maths_random.c: tests of random streams and trigonometry in turns, with the examples of builtins.md B9 and B1.2.
 #include "check.h"
 #include "maths/random.h"
 
@@ -57,7 +57,7 @@ static void test_beta_and_normal_items_match_spec(void **state) {
     for (size_t i = 0; i < COUNT_OF(normal); i++)
         assert_number("normal(1)", random_normal(one_key, i), normal[i]);
     assert_number("normal()[0]", random_normal(empty_key, 0), 1.5003277345391304);
-    for (uint64_t i = 0; i < 10000; i++) { // the median of three numbers in any order
+    for (uint64_t i = 0; i < 10000; i++) { // the median does not depend on the order of the three numbers
         double a = random_uniform(one_key, 4 * i), b = random_uniform(one_key, 4 * i + 1),
                c = random_uniform(one_key, 4 * i + 2), m = random_beta(one_key, i);
         assert_true(m == a || m == b || m == c);
@@ -82,7 +82,7 @@ static void test_quarter_turns_are_exact(void **state) {
     assert_number("-inf", turns_cos(-INFINITY), NAN);
 }
 
-// The definition in B1.2, computed with remquo.
+// Computes the definition in B1.2 with remquo.
 static double sine_by_remquo(double t) {
     if (t < 0)
         return -sine_by_remquo(-t);
@@ -98,7 +98,7 @@ static void test_sine_of_turns_matches_remquo(void **state) {
     for (size_t k = 0; k < COUNT_OF(scales); k++)
         for (uint64_t i = 0; i < 2000; i++) {
             double t = (random_uniform(k, i) - 0.5) * scales[k];
-            t = i % 3 ? t : rint(t * 8) / 8; // ties and quarter turns
+            t = i % 3 ? t : rint(t * 8) / 8; // every third argument is a tie or a quarter turn
             double found = turns_sin(t), wanted = sine_by_remquo(t);
             assert_memory_equal(&found, &wanted, sizeof found);
         }

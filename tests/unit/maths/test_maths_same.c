@@ -1,4 +1,4 @@
-// test_maths_same.c: hashes of the bits of many results per function. They must be the same with every compiler,
+// test_maths_same.c: hashes of the bits of many results per function. They must be the same for every compiler,
 // optimisation level and processor, with and without fused multiply-add.
 #include "check.h"
 #include "maths/fast.h"
@@ -19,7 +19,7 @@ typedef struct Row {
 #define TWO_ROW(name, low, high, wanted)                                                                               \
     { #name, {NULL, NULL }, {maths_##name, maths_##name##_plain }, low, high, wanted }
 
-// Recorded on a machine where MPFR agreed with every result (maths_sweep).
+// Recorded on a machine on which every result agreed with MPFR (maths_sweep).
 static const Row rows[] = {
     ONE_ROW(sin, -30, 1024, UINT64_C(0x6075d5a4b4ff1d9b)),     ONE_ROW(cos, -30, 1024, UINT64_C(0xfe856a941cb9a536)),
     ONE_ROW(tan, -30, 1024, UINT64_C(0xe71220ce60cf4fa5)),     ONE_ROW(asin, -30, 0, UINT64_C(0x47bc6410a449ba46)),

@@ -1,4 +1,4 @@
-// test_maths_special.c: special values of C17 Annex F, compared bit by bit without a reference library.
+// test_maths_special.c: special values of C17 Annex F, compared bit for bit without a reference library.
 #include "check.h"
 #include "maths/fast.h"
 #include "maths/maths.h"
@@ -134,7 +134,7 @@ static const RowTwo two_rows[] = {
     TWO_ROW(atan2, NAN, 1.0, NAN),
     TWO_ROW(atan2, 1.0, NAN, NAN),
     TWO_ROW(atan2, NAN, INF, NAN),
-    // tiny ratios: y / x rounded once; halfway cases are rounded down, because the arc tangent is smaller
+    // tiny ratios: y / x is rounded once; ties are rounded down, because the arc tangent is smaller than its argument
     TWO_ROW(atan2, TINY, 1.0, TINY),
     TWO_ROW(atan2, TINY, 2.0, 0.0),
     TWO_ROW(atan2, 3 * TINY, 2.0, TINY),
@@ -179,13 +179,13 @@ static const RowTwo two_rows[] = {
     TWO_ROW(pow, INF, 1.0, INF),
     TWO_ROW(pow, NAN, 1.0, NAN),
     TWO_ROW(pow, 2.0, NAN, NAN),
-    // all doubles from 2^53 are even integers
+    // all doubles of at least 2^53 in magnitude are even integers
     TWO_ROW(pow, -1.0, 0x1p+53, 1.0),
     TWO_ROW(pow, -1.0, 0x1.fffffffffffffp+52, -1.0),
     TWO_ROW(pow, -1.0, HUGE, 1.0),
     TWO_ROW(pow, -2.0, 3.0, -8.0),
     TWO_ROW(pow, -2.0, -2.0, 0.25),
-    // exact results, and halfway cases, which are rounded to even
+    // exact results, and midpoints, which are rounded to even
     TWO_ROW(pow, 9.0, 0.5, 3.0),
     TWO_ROW(pow, 9.0, 1.5, 27.0),
     TWO_ROW(pow, 54.125, 2.0, 2929.515625),
@@ -230,7 +230,7 @@ static void test_binary_special_values(void **state) {
             assert_number(two_rows[i].text, two_rows[i].functions[k](two_rows[i].x, two_rows[i].y), two_rows[i].wanted);
 }
 
-// NaN results from other arguments have no sign, so their bits are the same on every processor.
+// A NaN that results from arguments other than NaN has no sign bit, so its bits are the same on every processor.
 static void test_new_nan_has_no_sign(void **state) {
     (void)state;
     const double made[] = {maths_sin(INF), maths_tan(-INF), maths_asin(2),

@@ -1,11 +1,11 @@
-// watch.h: variants of the scalar functions that record the decisions of their fast paths (watched.c, without and with
-// FMA).
+// watch.h: records the decisions of the scalar functions' fast paths. It uses variants of the functions that are
+// compiled from watched.c, without and with FMA.
 #ifndef PETRI_TESTS_MATHS_WATCH_H
 #define PETRI_TESTS_MATHS_WATCH_H
 
 #include "model.h"
 
-// The last decision of a variant, and statistics of all.
+// The last decision of a variant, and statistics of all its decisions.
 typedef struct Watch {
     double high, low, error;
     bool asked;
@@ -53,8 +53,8 @@ static inline void watch_start(void) {
     watch_hook0 = watch_hook1 = watch_decision;
 }
 
-// Returns the error of the last decision relative to its bound. exp and pow apply their scale 2^k only afterwards, so
-// f(x, y) is scaled first.
+// Returns the error of the last decision relative to its bound. exp and pow multiply by their scale 2^k after the
+// decision, so f(x, y) is divided by it first.
 static inline double watch_error_ratio(const Subject *subject, const Watch *watch, double x, double y) {
     mpfr_t scale, f, sum;
     mpfr_inits2(200, scale, f, sum, (mpfr_ptr)0);
@@ -73,7 +73,7 @@ static inline double watch_error_ratio(const Subject *subject, const Watch *watc
     return share;
 }
 
-// Calls both variants. Measures their error if `measure` is set and the result is a normal number.
+// Calls both variants. If `measure` is set and the result is a normal number, measures their error.
 static inline void watch_next(const Subject *subject, const Watched *watched, double x, double y, bool measure) {
     for (int i = 0; i < 2; i++) {
         Watch *watch = &watch_state[i];

@@ -1,4 +1,5 @@
-// watched.c: a variant of the scalar functions that records its decisions (watch.h). WATCHED is its index.
+// watched.c: a variant of the scalar functions that records its decisions (watch.h). The macro WATCHED is the index of
+// the variant.
 #include "maths/fast.h"
 
 #define JOIN_NAME(name, number) name##number

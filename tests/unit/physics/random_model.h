@@ -10,7 +10,7 @@ typedef struct ModelShape {
     uint32_t hostile; // one in `hostile` numbers is extreme; 0: none
 } ModelShape;
 
-// Returns a number between the bounds or, in hostile models, sometimes an extreme one.
+// Returns a number between the bounds. In hostile models, it is sometimes an extreme number instead.
 static inline double model_number(Dice *dice, const ModelShape *shape, double low, double high) {
     static const double extremes[] = {NAN,    INFINITY, -INFINITY, 1e308, -1e308, 1e200, -1e155, 1e-308,
                                       5e-324, -5e-324,  -0.0,      0,     1e-160, 1e16,  -1};
@@ -24,7 +24,7 @@ static inline void model_vector(Dice *dice, const ModelShape *shape, double *vec
         vector[k] = model_number(dice, shape, -size, size);
 }
 
-// Returns a radius or mass: often 0, never negative or NaN, because lib/scene clamps them.
+// Returns a radius or mass, which is often 0. It is never negative or NaN, because lib/scene clamps these values.
 static inline double model_size(Dice *dice, const ModelShape *shape, double high) {
     if (dice_below(dice, 5) == 0)
         return 0;
@@ -38,7 +38,7 @@ static inline double model_ease(Dice *dice, const ModelShape *shape) {
 
 static inline void model_random_particle(Dice *dice, const ModelShape *shape, Model *model, ModelParticle *p) {
     *p = (ModelParticle){.group = dice_below(dice, shape->groups), .anchor = dice_below(dice, 6) == 0};
-    // Some positions are on a coarse grid, so that some particles coincide and some just touch.
+    // Some positions are on a coarse grid, so some particles coincide and others just touch.
     bool grid = dice_below(dice, 4) == 0;
     model_vector(dice, shape, p->position, 1);
     for (size_t k = 0; grid && k < model->n; k++)
@@ -56,7 +56,8 @@ static inline void model_random_barrier(Dice *dice, const Model *model, ModelFor
     double sum = 0;
     for (size_t k = 0; k < model->n; k++) {
         f->vector[k] *= 0.3;
-        f->vector2[k] = dice_between(dice, -1, 1); // the scene disables a barrier without a normal
+        f->vector2[k] = dice_between(dice, -1, 1); // the normal must not be zero, because lib/scene disables a barrier
+                                                   // without one
         sum += f->vector2[k] * f->vector2[k];
     }
     for (size_t k = 0; k < model->n; k++)
@@ -84,13 +85,13 @@ static inline void model_random_force(Dice *dice, const ModelShape *shape, const
     force->minimum = model_number(dice, shape, -0.2, 1);
     force->maximum = model_number(dice, shape, -0.2, 1.5);
     force->key = dice_next(dice);
-    force->from = dice_below(dice, model->particle_count + 1); // the largest is not a valid handle
+    force->from = dice_below(dice, model->particle_count + 1); // the largest number is not a valid handle
     force->to = dice_below(dice, model->particle_count + 1);
     if (kind == PHYS_BARRIER)
         model_random_barrier(dice, model, f);
 }
 
-// Adds groups in pre-order: the parent of a new one is its predecessor or one that encloses it.
+// Adds groups in pre-order: the parent of each group is its predecessor or an ancestor of the predecessor.
 static inline void model_random_groups(Dice *dice, const ModelShape *shape, Model *model) {
     model->group_count = shape->groups;
     model->parent[0] = 0;

@@ -1,7 +1,7 @@
 // reference.h: a slow, literal implementation of section 4 of the specification.
 //
-// Particles are an array of structs in order of declaration, groups are found by search, and every sum is written as in
-// the text. Tests compare the results of lib/physics with it bit for bit.
+// Particles are an array of structs in order of declaration, groups are found by linear search, and each sum is written
+// as in the specification. Tests compare the results of lib/physics with this code bit for bit.
 #ifndef TESTS_UNIT_PHYSICS_REFERENCE_H
 #define TESTS_UNIT_PHYSICS_REFERENCE_H
 
@@ -21,13 +21,13 @@ typedef struct ModelParticle {
 
 typedef struct ModelForce {
     uint32_t group;
-    PhysForce force; // vectors point to those below
+    PhysForce force; // its vectors point to the arrays below
     double vector[MODEL_DIMENSIONS], vector2[MODEL_DIMENSIONS];
-    double strength; // eased in
+    double strength; // after easing in
     uint64_t item;
 } ModelForce;
 
-// A system for lib/physics and the reference. Everything is in order of declaration.
+// A system for lib/physics and the reference. All arrays are in order of declaration.
 typedef struct Model {
     size_t n;
     uint32_t group_count, particle_count, force_count;
@@ -68,7 +68,7 @@ static inline double to_the_power(double x, double power) {
     return power == 1 ? x : power == 2 ? x * x : maths_pow(x, power);
 }
 
-// 4.1: computes K, and whether `from` receives + u K and `to` the opposite, or vice versa.
+// 4.1: computes K, and whether `from` receives + u K and `to` the opposite, or the other way round.
 static inline bool coefficient(const ModelForce *f, const ModelParticle *from, const ModelParticle *to, double l,
                                double *K, bool *plus) {
     double strength = f->strength, r1 = from->radius, r2 = to->radius;
@@ -127,7 +127,7 @@ static inline void reference_pair(const Model *model, const ModelForce *f, Model
     }
 }
 
-// One pass: i in the particles of G, j > i in T.
+// One pass: particles i of the group G, and j > i of T.
 static inline void reference_pass(Model *model, uint32_t G, uint32_t A) {
     ModelParticle *T[MODEL_MAX];
     uint32_t size = 0, own = 0;
@@ -277,7 +277,8 @@ static inline void reference_bounce(const Model *model, const ModelForce *f, Mod
         memset(p->acceleration, 0, sizeof p->acceleration);
 }
 
-// Applies `what` for the forces of the particle's group, then those of its parent, …
+// Applies the stages of one step to a particle. Each stage processes the forces of its group, then those of the parent,
+// and so on.
 static inline void reference_particle(Model *model, ModelParticle *p, double delta, double speed_of_light) {
     enum { SINGLE, CONSTRAINT, MOTION, BOUNCE, STAGES };
     for (int stage = 0; stage < STAGES; stage++) {

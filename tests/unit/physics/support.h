@@ -39,7 +39,8 @@ static inline PhysResult run_until(PhysSystem *system, double now, double resolu
     return phys_simulate(system, &time);
 }
 
-// Takes one step of length 1 at clock 0. A resting particle of mass 1 then has exactly the force as velocity.
+// Takes one step of length 1 at clock 0. Afterwards, the velocity of a resting particle of mass 1 equals the force on
+// it.
 static inline void one_step(PhysSystem *system) {
     PhysResult result = run_until(system, 1, 1);
     assert_int_equal(result.status, PHYS_OK);

@@ -1,18 +1,18 @@
-// test_backoff.c: decisions to use helper threads on a quiet and on a busy machine, in simulated time.
+// test_backoff.c: tests when helper threads are used, on a quiet and on a busy machine, in simulated time.
 #include "physics/backoff.h"
 #include "support.h"
 
-// A simulated machine. Times of a job alone and with a helper, in nanoseconds.
+// A simulated machine. A job takes ALONE nanoseconds without a helper and HELPED with one.
 enum { ALONE = 20000, HELPED = 12000, SECOND = 1000000000 };
 
 typedef struct Machine {
     PhysBackoff help;
     uint64_t now;
-    uint64_t worked; // time of all jobs if done alone
+    uint64_t worked; // time that all jobs would take without helpers, in nanoseconds
     uint64_t asked;  // number of jobs offered to helpers
 } Machine;
 
-// Returns how long the caller waits for a helper that begins a chunk at `now`; UINT64_MAX: no helper comes.
+// Returns how long the caller waits for a helper that begins a chunk at `now`. UINT64_MAX: no helper comes.
 typedef uint64_t Answer(uint64_t now);
 
 static void play_jobs(Machine *machine, Answer *answer, uint64_t duration) {
@@ -51,7 +51,7 @@ static uint64_t answer_most_of_the_time(uint64_t now) {
     return now % 16000000 < 15000000 ? 0 : 16000000 - now % 16000000;
 }
 
-// The helper always loses its processor as soon as it has begun a chunk.
+// The helper is always preempted as soon as it has begun a chunk.
 static uint64_t answer_always_late(uint64_t now) {
     (void)now;
     return 4000000;
@@ -69,7 +69,7 @@ static void test_quiet(void **state) {
     assert_int_equal(machine.help.pause_length, 0);
 }
 
-// At most one or two per cent slower than alone.
+// The jobs take at most one or two per cent longer than without helpers.
 static void test_busy(void **state) {
     (void)state;
     Answer *answers[] = {answer_half_of_the_time, answer_always_late, answer_never};
@@ -88,7 +88,7 @@ static void test_disturbed(void **state) {
     assert_true(ratio(&machine) < 0.75);
 }
 
-// When the other process has ended, helpers are used again within a second.
+// After the other process has ended, helpers are used again within a second.
 static void test_quiet_again(void **state) {
     (void)state;
     Answer *answers[] = {answer_half_of_the_time, answer_always_late, answer_never};
@@ -113,7 +113,7 @@ static void test_unanswered(void **state) {
     assert_true(phys_backoff_pauses(&help, 201));
 }
 
-// Runs jobs that take `helped` with help and `alone` without. Returns their mean time in the last periods.
+// Runs jobs that take `helped` with a helper and `alone` without. Returns their mean time in the last periods.
 static double play_tuner(PhysTuner *tuner, double alone, double helped) {
     enum { JOBS = 8 * PHYS_TUNER_PERIOD };
     double sum = 0;
@@ -121,13 +121,14 @@ static double play_tuner(PhysTuner *tuner, double alone, double helped) {
         bool asks = phys_tuner_should_help(tuner);
         double took = asks ? helped : alone;
         if (asks || !phys_tuner_skip(tuner))
-            phys_tuner_learn(tuner, asks, i % 50 ? took : took * 100); // sometimes a job is disturbed
+            phys_tuner_learn(tuner, asks, i % 50 ? took : took * 100); // every 50th job is disturbed and takes 100
+                                                                       // times as long
         sum += i < JOBS / 2 ? 0 : took;
     }
     return sum / (JOBS / 2);
 }
 
-// The tuner finds the faster way, also after it has changed.
+// The tuner finds the faster alternative, and finds it again after the other one has become faster.
 static void test_tuner_picks_faster(void **state) {
     (void)state;
     PhysTuner tuner = {0};

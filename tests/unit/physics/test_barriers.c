@@ -34,14 +34,14 @@ static void check_ball(const PhysSystem *system, double x, double y, double vx, 
     assert_same(phys_velocity(system, 0)[1], vy);
 }
 
-// After the contact, the particle moves back for the rest of the step.
+// After the reflection, the particle moves back for the rest of the step.
 static void test_elastic(void **state) {
     (void)state;
     PhysSystem *system = ball_and_floor(VEC(0, 1), VEC(2, -4), 0, 1);
     one_step(system); // contact after a quarter of the step
     check_ball(system, 2, 3, 2, 4);
     phys_free(system);
-    system = ball_and_floor(VEC(0, 1.5), VEC(2, -4), 0.5, 1); // the radius counts
+    system = ball_and_floor(VEC(0, 1.5), VEC(2, -4), 0.5, 1); // the ball touches the floor at its radius
     one_step(system);
     check_ball(system, 2, 3.5, 2, 4);
     phys_free(system);
@@ -50,7 +50,7 @@ static void test_elastic(void **state) {
 static void test_restitution(void **state) {
     (void)state;
     PhysSystem *system = ball_and_floor(VEC(0, 1), VEC(2, -4), 0, 0.5);
-    one_step(system); // the whole velocity is halved at the contact
+    one_step(system); // the contact halves the whole velocity, not only the normal component
     check_ball(system, 0.5 + 0.75 * 1, 0.75 * 2, 1, 2);
     phys_free(system);
     system = ball_and_floor(VEC(0, 1), VEC(2, -4), 0, 0);
@@ -62,12 +62,12 @@ static void test_restitution(void **state) {
 static void test_not_crossed(void **state) {
     (void)state;
     PhysSystem *system = ball_and_floor(VEC(0, 5), VEC(2, -4), 1, 0.5);
-    one_step(system); // just touching
+    one_step(system); // the ball only touches the floor
     check_ball(system, 2, 1, 2, -4);
     phys_free(system);
 }
 
-// A particle behind the barrier that moves out is put on the surface and keeps its velocity.
+// A particle that starts behind the barrier and moves out is placed on the surface. It keeps its velocity.
 static void test_leaving(void **state) {
     (void)state;
     PhysSystem *system = ball_and_floor(VEC(0, -5), VEC(2, 1), 0.5, 0.5);
@@ -80,7 +80,7 @@ static void test_leaving(void **state) {
     phys_free(system);
 }
 
-// For a particle that starts behind the barrier and moves deeper, the step is undone. Then it is put on the surface and
+// If a particle starts behind the barrier and moves deeper, its step is undone. Then it is placed on the surface and
 // reflected.
 static void test_outside(void **state) {
     (void)state;
@@ -106,7 +106,7 @@ static void test_anchor_and_massless(void **state) {
     phys_free(system);
 }
 
-// A corner of two barriers: two reflections in one step.
+// In the corner of two barriers, a particle is reflected twice in one step.
 static void test_corner(void **state) {
     (void)state;
     PhysSystem *system = ball_and_floor(VEC(1, 1), VEC(-4, -2), 0, 1);
@@ -118,7 +118,7 @@ static void test_corner(void **state) {
     phys_free(system);
 }
 
-// A ball that is dropped on a floor with restitution e returns to e² of its height.
+// After a fall from a height h, a ball bounces to e² h if the restitution of the floor is e.
 static double bounce_height(double restitution, double resolution) {
     PhysSystem *system = ball_and_floor(VEC(0, 1.25), NULL, 0.25, restitution);
     PhysForce fall = gravity();
@@ -162,7 +162,8 @@ static void test_ball_comes_to_rest(void **state) {
     phys_free(system);
 }
 
-// Motion after a reflection also obeys the speed of light: 4, with a force of 2, for the remaining half of the step.
+// The speed of light, here 4, also limits the motion after a reflection. A force of 2 acts for the remaining half of
+// the step.
 static void test_speed_of_light(void **state) {
     (void)state;
     PhysSystem *system = ball_and_floor(VEC(0, 1), VEC(0, -4), 0, 1);
@@ -173,8 +174,8 @@ static void test_speed_of_light(void **state) {
     PhysTime time = time_until(1, 1);
     time.speed_of_light = 3;
     phys_simulate(system, &time);
-    // -4 + 2 = -2, so the position is -1 and contact was half a step ago, with velocity -2 - 0.5 · 2 = -3. Then 3 + 0.5
-    // · 2 = 4.
+    // The velocity is -4 + 2 = -2, so the position is -1. The contact was half a step ago, with velocity -2 - 0.5 · 2 =
+    // -3. Its reflection is 3, and 3 + 0.5 · 2 = 4.
     check_ball(system, 0, 1.5, 0, 3);
     phys_free(system);
 }

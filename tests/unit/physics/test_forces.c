@@ -1,11 +1,11 @@
-// test_forces.c: each force compared with the formula of section 4, calculated by hand.
+// test_forces.c: compares each force with the formula of section 4, calculated by hand.
 //
-// After one step of length 1, a resting particle of mass 1 has a velocity equal to the force on it.
+// After one step of length 1, the velocity of a resting particle of mass 1 equals the force on it.
 #include "maths/random.h"
 #include "support.h"
 
-// Returns the force on the first of two particles at 0 and `distance` on the axis. Checks that the second has exactly
-// the opposite.
+// Returns the force on the first of two particles at 0 and `distance` on an axis. Checks that the force on the second
+// is exactly opposite.
 static double pair_force(PhysParticle a, PhysParticle b, double distance, const PhysForce *force) {
     PhysSystem *system = phys_new();
     phys_begin(system, 2);
@@ -50,12 +50,12 @@ static void test_distance(void **state) {
     assert_same(pair_force(ball(0), ball(0), 2, &force), 0);
     assert_same(pair_force(ball(0), ball(0), 3, &force), 0);
     assert_same(pair_force(ball(0), ball(0), 3.25, &force), 0.25 * 5);
-    assert_same(pair_force(ball(0), ball(0), 0, &force), 0); // no direction
-    force = link_of(-1, 0);                                  // max=0: always pulls
+    assert_same(pair_force(ball(0), ball(0), 0, &force), 0); // coincident particles have no direction
+    force = link_of(-1, 0);                                  // with max=0 the link always pulls
     assert_same(pair_force(ball(0), ball(0), 0.5, &force), 0.5);
-    force = link_of(0, -1); // min=0 never acts
+    force = link_of(0, -1); // with min=0 the link never pushes
     assert_same(pair_force(ball(0), ball(0), 0.5, &force), 0);
-    force = link_of(3, 1); // min wins
+    force = link_of(3, 1); // if min > max, min has precedence
     assert_same(pair_force(ball(0), ball(0), 2, &force), -1);
 }
 
@@ -70,7 +70,7 @@ static void test_distance_powers(void **state) {
         assert_same(pair_force(ball(0), ball(0), 2.75, &force), values[i] * 3);
     }
     force = link_of(2, -1);
-    force.power = 2; // also a restoring force for even powers
+    force.power = 2; // even powers also give a restoring force
     assert_same(pair_force(ball(0), ball(0), 1.5, &force), -0.25);
 }
 
@@ -96,7 +96,7 @@ static void test_collision(void **state) {
     assert_same(pair_force(ball(5), ball(0), 1, &force), 0);
     force.power = 2;
     assert_same(pair_force(ball(0.75), ball(0.5), 1, &force), -(0.25 * 0.25 * 7));
-    force.max_distance = 1; // l < max_distance, strictly
+    force.max_distance = 1; // only distances strictly below max_distance count
     assert_same(pair_force(ball(0.75), ball(0.5), 1, &force), 0);
     force.max_distance = 1.125;
     assert_same(pair_force(ball(0.75), ball(0.5), 1, &force), -(0.25 * 0.25 * 7));
@@ -108,7 +108,7 @@ static void test_gravity(void **state) {
     force.strength = 3;
     PhysParticle heavy = {.mass = 5};
     assert_same(pair_force(ball(0), heavy, 2, &force), 3 * (1 * 5.0) / 4);
-    heavy.radius = 3; // within the radii the force is constant
+    heavy.radius = 3; // within the sum of the radii the force is constant
     assert_same(pair_force(ball(1), heavy, 2, &force), 3 * (1 * 5.0) / 16);
     assert_same(pair_force(ball(1), heavy, 1, &force), 3 * (1 * 5.0) / 16);
     heavy.mass = 0;
@@ -141,17 +141,17 @@ static void test_adhesion(void **state) {
     assert_same(pair_force(ball(1), ball(2), 1.5, &force), 4 * 1.5 * -0.5);
     assert_same(pair_force(ball(1), ball(2), 3, &force), 0);
     assert_same(pair_force(ball(1), ball(0), 0.5, &force), 0);
-    force.overlap = 1; // attracts the smaller one until it touches from within
+    force.overlap = 1; // with overlap 1 the smaller disc is attracted until it touches the larger one from within
     assert_same(pair_force(ball(1), ball(2), 1, &force), 0);
     assert_true(pair_force(ball(1), ball(2), 1.5, &force) > 0);
-    force.overlap = 0; // a collision with power 2
+    force.overlap = 0; // equal to a collision with power 2
     PhysForce collision = force_of(PHYS_COLLISION);
     collision.strength = 4;
     collision.power = 2;
     assert_same(pair_force(ball(1), ball(2), 2.25, &force), pair_force(ball(1), ball(2), 2.25, &collision));
 }
 
-// Returns the change of velocity of one particle with one force, in three dimensions and a step of length 1.
+// Returns the change of a particle's velocity due to one force, in three dimensions and a step of length 1.
 static void single_force(PhysParticle particle, const PhysForce *force, double change[3]) {
     PhysSystem *system = phys_new();
     phys_begin(system, 3);
@@ -205,9 +205,9 @@ static void test_drag(void **state) {
     p.velocity = VEC(3, 4, 0);
     double c = 0.01 * 5 * 4; // strength · speed · radius²
     check_single(p, &force, (3 - 3 * c) - 3, (4 - 4 * c) - 4, 0);
-    force.vector = VEC(3, 4, -5); // relative to the flow
+    force.vector = VEC(3, 4, -5); // velocity of the flow
     check_single(p, &force, 0, 0, -5 * c);
-    force.strength = 1000; // at most to the velocity of the flow
+    force.strength = 1000; // drag changes the velocity at most to that of the flow
     check_single(p, &force, 0, 0, -5);
     p.radius = 0;
     check_single(p, &force, 0, 0, 0);
@@ -241,7 +241,7 @@ static void test_soft_barrier(void **state) {
     force.power = 2;
     check_single(particle_at(VEC(9, 9, 5)), &force, 0, 0, -4 * 0.25);
     force.has_minimum = false;
-    force.maximum = 0; // a bound like any other
+    force.maximum = 0; // a maximum of 0 also limits
     check_single(particle_at(VEC(9, 9, 1.5)), &force, 0, 0, -0.25 * 0.25);
 }
 
@@ -250,14 +250,14 @@ static void test_own_force(void **state) {
     PhysForce none = force_of(PHYS_CONSTANT);
     PhysParticle p = {.mass = 2, .force = VEC(1, 2, 4)};
     check_single(p, &none, 0.5, 1, 2);
-    p.ease = 1; // no force at clock 0
+    p.ease = 1; // at clock 0, `ease` makes the force 0
     check_single(p, &none, 0, 0, 0);
     p.ease = 0;
     p.anchor = true;
     check_single(p, &none, 0, 0, 0);
 }
 
-// If a force is eased in over 8, it has 0, 1/8, 2/8, … of its strength in steps that begin at clock 0, 1, 2, …
+// A force that is eased in over 8 has 0, 1/8, 2/8, … of its strength in the steps that begin at clock 0, 1, 2, …
 static void test_ease(void **state) {
     (void)state;
     PhysSystem *system = phys_new();
@@ -279,7 +279,8 @@ static void test_ease(void **state) {
     phys_free(system);
 }
 
-// Items of `!random` are counted in the force's group: components, then particles (except anchors), then steps.
+// Random items are numbered within the group of the `!random` force: by component, then by particle (without anchors),
+// then by step.
 static void test_random(void **state) {
     (void)state;
     PhysSystem *system = phys_new();
@@ -296,7 +297,7 @@ static void test_random(void **state) {
     force.key = 777;
     phys_add_force(system, other, &force);
     run_until(system, 2, 1);
-    // Pre-order: light (0, 1), top (2, 3), inner (4, 5), other (6, 7); the next step continues at 8.
+    // Items in pre-order: light (0, 1), top (2, 3), inner (4, 5), other (6, 7). The next step continues at 8.
     for (uint64_t k = 0; k < 2; k++) {
         assert_same(phys_velocity(system, in_top)[k], random_normal(12345, 2 + k) + random_normal(12345, 10 + k));
         assert_same(phys_velocity(system, in_inner)[k], random_normal(12345, 4 + k) + random_normal(12345, 12 + k));
@@ -307,7 +308,8 @@ static void test_random(void **state) {
     phys_free(system);
 }
 
-// Forces of a particle's group come first, then those of enclosing groups. The speed limit applies after all of them.
+// Forces of a particle's group are applied first, then those of enclosing groups. The speed limit is applied after all
+// of them.
 static void test_speed_of_light(void **state) {
     (void)state;
     PhysSystem *system = phys_new();
@@ -320,7 +322,7 @@ static void test_speed_of_light(void **state) {
     phys_simulate(system, &time);
     assert_same(phys_velocity(system, 0)[0], 3 * (2.0 / 5));
     assert_same(phys_velocity(system, 0)[1], 4 * (2.0 / 5));
-    assert_same(phys_velocity(system, 1)[0], 9); // mass 0: no limit
+    assert_same(phys_velocity(system, 1)[0], 9); // with mass 0 there is no limit
     phys_free(system);
 }
 

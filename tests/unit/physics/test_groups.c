@@ -3,8 +3,8 @@
 
 enum { BODIES = 6 };
 
-// Top (0: one body), A (1: two), A.B (2: one), C (3: two), with handles in a different order. A force between all pairs
-// shows which bodies act on which.
+// Number of particles by group: the top 1 (index 0), A 2, A.B 1, C 2. Their handles are in another order. A force
+// between all pairs shows which bodies act on which.
 static PhysSystem *family(void) {
     static const uint32_t groups[BODIES] = {3, 1, 2, 0, 1, 3};
     PhysSystem *system = phys_new();
@@ -14,14 +14,14 @@ static PhysSystem *family(void) {
     phys_add_group(system, 0);
     for (int i = 0; i < BODIES; i++) {
         double position[BODIES] = {0};
-        position[i] = 1; // each on a separate axis: a force from j on i has a component j
+        position[i] = 1; // each body is on a separate axis, so a force from j on i has a component j
         PhysParticle p = {.position = position, .mass = 1};
         assert_int_equal(phys_add_particle(system, groups[i], &p), i);
     }
     return system;
 }
 
-// Checks which bodies act on body i if `group` declares gravity: the bits of row i.
+// Checks which bodies act on body i if `group` declares gravity. They are the set bits of row i.
 static void check_sight(uint32_t group, const unsigned char wanted[BODIES]) {
     PhysSystem *system = family();
     PhysForce gravity = force_of(PHYS_GRAVITY);
@@ -36,12 +36,12 @@ static void check_sight(uint32_t group, const unsigned char wanted[BODIES]) {
 
 static void test_sight(void **state) {
     (void)state;
-    // top: 3; A: 1, 4; B: 2; C: 0, 5
+    // bodies by group: top 3; A 1, 4; B 2; C 0, 5
     enum { A = 1 << 1 | 1 << 4, B = 1 << 2, C = 1 << 0 | 1 << 5, TOP = 1 << 3 };
     check_sight(0, (unsigned char[]){TOP | (C & ~1), TOP | B | (A & ~2), TOP | A, A | B | C, TOP | B | (A & ~16),
                                      TOP | (C & ~32)});
     check_sight(1, (unsigned char[]){0, B | (A & ~2), A, 0, B | (A & ~16), 0});
-    check_sight(2, (unsigned char[]){0, 0, 0, 0, 0, 0}); // a single body
+    check_sight(2, (unsigned char[]){0, 0, 0, 0, 0, 0}); // the group has a single body
     check_sight(3, (unsigned char[]){C & ~1, 0, 0, 0, 0, C & ~32});
 }
 
@@ -106,7 +106,7 @@ static void test_anchor_above(void **state) {
     phys_free(system);
 }
 
-// Before the first frame, the described values can be read.
+// The described values can be read before the first frame.
 static void test_handles(void **state) {
     (void)state;
     PhysSystem *system = phys_new();
@@ -129,7 +129,7 @@ static void test_handles(void **state) {
     phys_free(system);
 }
 
-// A new description starts from scratch, also with another number of dimensions.
+// A new description starts from scratch, even with another number of dimensions.
 static void test_new_description(void **state) {
     (void)state;
     PhysSystem *system = family();

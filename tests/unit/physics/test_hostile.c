@@ -1,4 +1,4 @@
-// test_hostile.c: hostile input. Nothing may crash, and the specification still holds.
+// test_hostile.c: hostile input must not cause crashes, and results must still match the specification.
 #include "random_model.h"
 
 // NaN, infinite, huge and tiny numbers in every field, compared with the reference.
@@ -37,7 +37,7 @@ static void test_stays_inside(void **state) {
     }
 }
 
-// A force with one component that is not finite does not accelerate at all; the particle keeps moving.
+// A force with one non-finite component does not accelerate the particle at all. The particle keeps moving.
 static void test_infinite_force(void **state) {
     (void)state;
     PhysSystem *system = phys_new();
@@ -69,7 +69,7 @@ static void test_all_at_one_point(void **state) {
     phys_free(system);
 }
 
-// 1e9 dimensions work as long as there are no vectors.
+// A system with 1e9 dimensions works as long as it has no vectors.
 static void test_dimensions(void **state) {
     (void)state;
     PhysSystem *system = phys_new();
@@ -93,7 +93,7 @@ static void test_dimensions(void **state) {
         assert_int_equal(result.steps, 0);
         assert_same(result.clock, 7);
     }
-    phys_begin(system, 2); // the system can be used again
+    phys_begin(system, 2); // after the failure, the system can be used again
     PhysParticle p = particle_at(VEC(1, 1));
     phys_add_particle(system, 0, &p);
     assert_int_equal(run_until(system, 1, 1).status, PHYS_OK);
@@ -122,7 +122,7 @@ static void test_many_dimensions(void **state) {
     free(position);
 }
 
-// Links in both directions between two particles, many times over.
+// Many links in both directions between the same two particles.
 static void test_many_links(void **state) {
     (void)state;
     PhysSystem *system = phys_new();
@@ -145,7 +145,7 @@ static void test_many_links(void **state) {
     phys_free(system);
 }
 
-// 10,000 nested groups; all forces in the top group, particles in the top and the innermost group.
+// 10,000 nested groups. All forces are in the top group, and the particles are in the top and the innermost group.
 static void test_deep_nesting(void **state) {
     (void)state;
     PhysSystem *system = phys_new();

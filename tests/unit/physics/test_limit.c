@@ -1,4 +1,5 @@
-// test_limit.c: the limit kernel of soft discs and spheres gives the bits of lib/physics, also when lists are rebuilt.
+// test_limit.c: the benchmark kernel for soft discs and spheres (tests/bench/limit.h) gives the same bits as
+// lib/physics, also when lists are rebuilt.
 #include "../../bench/limit.h"
 #include "base/cpu.h"
 #include "physics/system.h"
@@ -7,7 +8,7 @@
 #include <stdlib.h>
 
 enum { STEPS = 160 };
-static const double step = 1.0 / 256; // so that times are exact
+static const double step = 1.0 / 256; // a power of two, so that times are exact
 
 static void simulate_particles(uint32_t dimensions, uint32_t n, double *position, double *velocity) {
     PhysSystem *system = phys_new();
@@ -33,7 +34,7 @@ static void simulate_particles(uint32_t dimensions, uint32_t n, double *position
 static void compare_with_limit(uint32_t dimensions, uint32_t side) {
     uint32_t n = dimensions == 2 ? side * side : side * side * side;
     size_t count = (size_t)n * dimensions;
-    double *numbers[4]; // positions and velocities of both
+    double *numbers[4]; // positions and velocities of the kernel and of lib/physics
     for (int k = 0; k < 4; k++)
         numbers[k] = calloc(count, sizeof *numbers[k]);
     uint32_t seed = 1;
@@ -65,7 +66,7 @@ static void test_spheres(void **state) {
 
 int main(void) {
     if (cpu_detected.level < CPU_AVX512)
-        return 77; // the kernel needs AVX-512
+        return 77; // skipped, because the kernel needs AVX-512
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_discs), cmocka_unit_test(test_spheres)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

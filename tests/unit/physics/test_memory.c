@@ -1,20 +1,20 @@
-// test_memory.c: a frame after the first allocates nothing, and a system is usable after a failed allocation.
+// test_memory.c: no frame after the first allocates memory, and a system can be used after a failed allocation.
 //
-// Linked with --wrap=malloc, so that all allocations of arenas go through this file.
+// Linked with --wrap=malloc, so all allocations of arenas call the function below.
 #include "support.h"
 
 void *__real_malloc(size_t size);
 void *__wrap_malloc(size_t size);
 
 static int allocations;
-static int fail_at = -1; // this allocation and all later ones fail; -1: none
+static int fail_at = -1; // number of the first allocation that fails, as do all later ones; -1: none
 
 void *__wrap_malloc(size_t size) {
     int number = allocations++;
     return fail_at >= 0 && number >= fail_at ? NULL : __real_malloc(size);
 }
 
-// A system that uses every buffer and grows all of them.
+// Describes a system that uses every buffer, with sizes proportional to `scale`, and runs it.
 static PhysResult describe_and_run(PhysSystem *system, uint32_t scale) {
     phys_begin(system, 3);
     uint32_t group = 0;
@@ -37,7 +37,7 @@ static void test_warm_frame(void **state) {
     (void)state;
     PhysSystem *system = phys_new();
     describe_and_run(system, 300);
-    describe_and_run(system, 300); // the rows of two descriptions exist side by side
+    describe_and_run(system, 300); // grows the row buffer, which holds two descriptions at once
     int before = allocations;
     for (int frame = 0; frame < 5; frame++)
         assert_int_equal(describe_and_run(system, 300).status, PHYS_OK);
@@ -84,7 +84,8 @@ static void test_failing(void **state) {
     fail_at = -1;
 }
 
-// Attributes that all particles share are stored once until one particle changes. Every particle has the right values.
+// An attribute that is equal for all particles is stored once until one particle changes. Each particle has the right
+// value before and after.
 static void test_records(void **state) {
     enum { COUNT = 1000 };
     (void)state;

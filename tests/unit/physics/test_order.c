@@ -1,5 +1,5 @@
-// test_order.c: the order of summation. Random systems with nested groups and all kinds of forces give the bits of the
-// reference.
+// test_order.c: the order of summation. Random systems with nested groups and all kinds of forces give the same bits as
+// the reference.
 #include "random_model.h"
 
 static void compare_many(size_t dimensions) {
@@ -36,7 +36,7 @@ static void test_five_dimensions(void **state) {
     compare_many(5);
 }
 
-// Many pair forces at every level of a deep tree.
+// Many pair forces at every level of a deep tree of groups.
 static void test_deep_groups(void **state) {
     (void)state;
     for (uint64_t seed = 100; seed < 110; seed++) {
@@ -51,7 +51,7 @@ static void test_large_group(void **state) {
     compare_random(7, &shape, 3);
 }
 
-// With three particles in a row, the bits depend on the order of additions.
+// With three particles in a row, the bits depend on the order of the additions.
 static void test_order_is_visible(void **state) {
     (void)state;
     double forward = (0.1 + 0.2) + 0.3, backward = (0.3 + 0.2) + 0.1;

@@ -1,11 +1,11 @@
-// test_reorder.c: reordered columns (lib/physics/reorder.c) give the same bits as all pairs in the order of the
+// test_reorder.c: reordered columns (lib/physics/reorder.c) give the same bits as a sum over all pairs in the order of
 // description, also when the system changes.
 #include "physics/neighbour_list.h"
 #include "support.h"
 
 enum { SIDE = 24, COUNT = SIDE * SIDE };
 
-// A system with neighbour lists and one without, which undergo the same changes.
+// A system with neighbour lists and a system without. Both undergo the same changes.
 typedef struct Twins {
     PhysSystem *plain, *listed;
     size_t dimensions;
@@ -21,7 +21,7 @@ static Twins twins_of(size_t dimensions, const PhysOptions *options) {
     return twins;
 }
 
-// Describes discs on a grid, in an order in which consecutive handles are far apart.
+// Describes discs on a grid. Discs with consecutive handles are far apart.
 static void describe_system(PhysSystem *system, size_t dimensions, uint32_t count, uint32_t groups, bool pushed) {
     Dice dice = {77};
     phys_begin(system, (uint32_t)dimensions);
@@ -63,7 +63,7 @@ static void begin_forces(Twins *twins) {
     add_forces(twins->listed, 0);
 }
 
-// Replaces the forces by the usual ones and one more.
+// Replaces the forces by the usual ones and an additional one.
 static void add_force(Twins *twins, PhysForceKind kind) {
     PhysForce force = force_of(kind);
     begin_forces(twins);
@@ -83,7 +83,7 @@ static void begin_systems(Twins *twins, uint32_t count, uint32_t groups, bool pu
     add_forces(twins->listed, groups - 1);
 }
 
-// Changes radius and mass and keeps the position.
+// Changes the radius and mass of a particle, and keeps its position.
 static void change_particle(Twins *twins, uint32_t particle, double radius, double mass) {
     PhysParticle p = {.radius = radius, .mass = mass};
     PhysPreserve preserve = {.position = true, .velocity = true};
@@ -130,26 +130,26 @@ static void check_changes(size_t dimensions, const PhysOptions *options) {
     Twins twins = twins_of(dimensions, options);
     begin_systems(&twins, COUNT, 1, false);
     FRAMES(&twins, 6, true);
-    for (int i = 0; i < 4; i++) { // between frames, when the next step is already prepared
+    for (int i = 0; i < 4; i++) { // change particles between frames, when the next step is already prepared
         move_particle(&twins, 17 + 100 * i, 1.3 + 4 * i);
         FRAMES(&twins, 1, true);
     }
     change_particle(&twins, 5, 0.4, 2);
     change_particle(&twins, 300, 0.6, 0);
     FRAMES(&twins, 3, true);
-    add_force(&twins, PHYS_DISTANCE); // a link contains column numbers
+    add_force(&twins, PHYS_DISTANCE); // a link refers to column numbers
     FRAMES(&twins, 2, false);
     begin_forces(&twins);
     FRAMES(&twins, 7, true);
-    add_force(&twins, PHYS_RANDOM); // random numbers depend on the order of particles
+    add_force(&twins, PHYS_RANDOM); // random variates depend on the order of particles
     FRAMES(&twins, 2, false);
     begin_forces(&twins);
     FRAMES(&twins, 7, true);
-    add_force(&twins, PHYS_GRAVITY); // no bounded range
+    add_force(&twins, PHYS_GRAVITY); // gravity has no bounded range
     FRAMES(&twins, 2, false);
     begin_forces(&twins);
     FRAMES(&twins, 7, true);
-    change_particle(&twins, 100, 4, 1); // large particles are summed in column order
+    change_particle(&twins, 100, 4, 1); // forces of large particles are summed in column order
     FRAMES(&twins, 2, false);
     change_particle(&twins, 100, 0.5, 1);
     move_particle(&twins, 17, NAN);
@@ -160,7 +160,8 @@ static void check_changes(size_t dimensions, const PhysOptions *options) {
     phys_set_options(twins.listed, &never);
     FRAMES(&twins, 1, false);
     phys_set_options(twins.listed, options);
-    begin_systems(&twins, COUNT, 1, true); // the same number of particles, with their own forces
+    begin_systems(&twins, COUNT, 1, true); // the new description has the same number of particles, each with its own
+                                           // force
     FRAMES(&twins, 3, true);
     begin_systems(&twins, COUNT, 1, false);
     FRAMES(&twins, 1, true);
@@ -187,7 +188,7 @@ static void test_kept_forces(void **state) {
                .threads = 4, .keep_forces = true, .cpu = cpu_detected.level, .neighbours = PHYS_NEIGHBOURS_ALWAYS});
 }
 
-// Enough particles for several chunks per thread, with separate or shared columns of forces.
+// Enough particles for several chunks per thread, with and without stored forces.
 static void test_chunks(void **state) {
     (void)state;
     enum { MANY = 40000, ROW = 200, STEPS = 4 };

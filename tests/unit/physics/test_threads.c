@@ -1,4 +1,4 @@
-// test_threads.c: the thread pool: each chunk of a job runs once, on any thread.
+// test_threads.c: the thread pool runs each chunk of a job once, on any thread.
 #include "physics/internal.h"
 #include "physics/threads.h"
 #include "support.h"
@@ -39,7 +39,7 @@ static void test_each_chunk_runs_once(void **state) {
         PhysSystem *system = phys_new();
         phys_set_options(system, &(PhysOptions){.threads = threads});
         run_jobs(system, JOBS);
-        nanosleep(&(struct timespec){.tv_nsec = 2000000}, NULL); // long enough to fall asleep
+        nanosleep(&(struct timespec){.tv_nsec = 2000000}, NULL); // long enough for the worker threads to fall asleep
         run_jobs(system, 10);
         phys_free(system);
     }
@@ -61,7 +61,7 @@ static void test_systems_share_threads(void **state) {
     phys_threads_free(pool);
 }
 
-// Simulates threads that lose their processor: a helper sleeps after it has begun a chunk.
+// Simulates preemption of threads: a helper sleeps after it has begun a chunk.
 typedef struct Slow {
     pthread_t caller;
     atomic_int helped;
@@ -79,7 +79,7 @@ static void count_chunk_slowly(void *context, int chunk, int chunks) {
     nanosleep(&(struct timespec){.tv_nsec = 2000000}, NULL);
 }
 
-// After the first such job, no helper is used for a while.
+// After the first such job, helpers are not used for a while.
 static void test_slow_threads(void **state) {
     (void)state;
     enum { MAX_TRIES = 1000000, SLOW_JOBS = 400, MAX_HELPED = 40 };
@@ -98,7 +98,7 @@ static void test_slow_threads(void **state) {
 static void test_chunk_counts(void **state) {
     (void)state;
     PhysSystem *system = phys_new();
-    assert_int_equal(phys_chunk_count(system, 1000000, 10), 1); // one thread
+    assert_int_equal(phys_chunk_count(system, 1000000, 10), 1); // a system with one thread
     phys_set_options(system, &(PhysOptions){.threads = 2});
     assert_int_equal(phys_chunk_count(system, 9, 10), 1);
     assert_int_equal(phys_chunk_count(system, 10, 10), 2 * PHYS_CHUNKS_PER_THREAD);

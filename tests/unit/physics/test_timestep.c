@@ -41,7 +41,7 @@ static void test_crumbs(void **state) {
 static void test_real_time(void **state) {
     (void)state;
     PhysTime time = {.now = 1, .resolution = 0.25, .performance = 1.5};
-    check_steps(time, PHYS_OK, 1, 0.25); // the rest is dropped without a report
+    check_steps(time, PHYS_OK, 1, 0.25); // the rest of the frame is dropped without a report
     time.performance = 1.6;
     check_steps(time, PHYS_OK, 2, 0.5);
     time.performance = NAN;
@@ -63,7 +63,7 @@ static void test_step_limit(void **state) {
     check_steps(time_until(1, 1e-6), PHYS_OK, PHYS_MAX_STEPS, 1);
 }
 
-// No step is taken if it is too small to change the clock.
+// No step is taken if adding it would not change the clock.
 static void test_lost_precision(void **state) {
     (void)state;
     PhysTime time = {.last = 1e17, .now = 1e17 + 64, .resolution = 1, .lockstep = true};
@@ -78,7 +78,7 @@ static void test_lost_precision(void **state) {
     phys_free(system);
 }
 
-// The bits do not depend on how steps are grouped into frames.
+// The bits do not depend on how steps are distributed over frames.
 static void test_grouping_of_steps(void **state) {
     (void)state;
     PhysSystem *whole = falling(), *parts = falling();

@@ -1,11 +1,11 @@
-// test_variants.c: all instruction sets, with and without neighbour lists, on any number of threads, give the same
-// bits. Small random systems are compared with the reference, large ones with scalar code on one thread.
+// test_variants.c: all instruction sets, with and without neighbour lists, give the same bits on any number of threads.
+// Small random systems are compared with the reference, large ones with scalar code on one thread.
 #include "random_model.h"
 
 typedef void Check(const PhysOptions *options, void *context);
 
-// Calls `check` for each instruction set with all values of the other options, but not all combinations. The scalar
-// level is slow and has fewer variants.
+// Calls `check` with each instruction set. All values of the other options occur, but not all combinations. The scalar
+// level is slow, so it has fewer variants.
 static void for_each_variant(Check *check, void *context) {
     static const PhysOptions options[] = {
         {.threads = 1, .neighbours = PHYS_NEIGHBOURS_NEVER},  {.threads = 3, .neighbours = PHYS_NEIGHBOURS_NEVER},
@@ -46,7 +46,7 @@ typedef struct Scene {
     const char *name;
     uint32_t dimensions, count, groups;
     Layout layout;
-    double size;     // of the area
+    double size;     // side of the area
     double extremes; // fraction of particles with extreme values
     int force_count;
     PhysForce forces[FORCES];
@@ -99,10 +99,10 @@ static void describe_scene(const Scene *scene, Bodies *bodies, PhysSystem *syste
         PhysParticle p = bodies->particle[i];
         p.position = bodies->position[i];
         p.velocity = bodies->velocity[i];
-        if (frame >= 4 && i % 50 == 7) // some grow and shrink
+        if (frame >= 4 && i % 50 == 7) // some particles grow and shrink
             p.radius *= frame % 2 ? 1.5 : 0.5;
         uint32_t group = bodies->group[i];
-        if (frame >= 6 && i == 11) // one moves to another group
+        if (frame >= 6 && i == 11) // one particle moves to another group
             group = 0;
         phys_add_particle(system, group, &p);
     }
@@ -114,9 +114,9 @@ static void copy_results(const Scene *scene, Bodies *bodies, const PhysSystem *s
     for (uint32_t i = 0; i < scene->count; i++) {
         memcpy(bodies->position[i], phys_position(system, i), scene->dimensions * sizeof(double));
         memcpy(bodies->velocity[i], phys_velocity(system, i), scene->dimensions * sizeof(double));
-        if (frame == 5 && i % 100 == 3) // anchors and others jump
+        if (frame == 5 && i % 100 == 3) // some anchors and particles jump
             bodies->position[i][0] += 3;
-        if (frame == 7 && !isfinite(bodies->position[i][0])) // particles that are not finite return
+        if (frame == 7 && !isfinite(bodies->position[i][0])) // particles that became non-finite return
             bodies->position[i][0] = 1;
     }
 }
@@ -130,7 +130,7 @@ static void simulate_frame(PhysSystem *system, int frame) {
 
 typedef struct Recording {
     const Scene *scene;
-    Bodies *start, *end; // end: result of the scalar code
+    Bodies *start, *end; // initial bodies, and the result of the scalar code
     Bodies *now;
 } Recording;
 
@@ -181,7 +181,7 @@ static PhysForce pair_force(PhysForceKind kind, double strength, double power, d
     return force;
 }
 
-// With key 0 all random numbers would be the same.
+// Key 0 would make all random numbers equal.
 static PhysForce random_force(void) {
     PhysForce force = force_of(PHYS_RANDOM);
     force.key = UINT64_C(0x9e3779b97f4a7c15);
@@ -230,8 +230,8 @@ static void test_unbounded(void **state) {
         }
 }
 
-// On several threads, some particles are moved while forces on others are still computed. There are enough of them for
-// threads, and not a multiple of the lanes.
+// On several threads, some particles are moved while forces on others are still being computed. There are enough
+// particles for several threads, and their number is not a multiple of the lane count.
 static void test_moved_at_once(void **state) {
     (void)state;
     for (uint32_t n = 1; n <= 3; n++) {
@@ -246,7 +246,7 @@ static void test_moved_at_once(void **state) {
     }
 }
 
-// Nested groups with forces at several levels, so that passes have several ranges.
+// Nested groups with forces at several levels, so each pass has several ranges.
 static void test_nested(void **state) {
     (void)state;
     Scene scene = {.name = "nested", .dimensions = 2, .count = 700, .groups = 5, .size = 29, .frames = 8};
@@ -278,7 +278,7 @@ static void test_strange(void **state) {
         }
 }
 
-// Large enough for every threshold of threads and lists.
+// The system is large enough to exceed every threshold for threads and lists.
 static void test_many(void **state) {
     (void)state;
     Scene scene = {.name = "many", .dimensions = 2, .count = LARGE, .groups = 2, .size = 55, .frames = 8};

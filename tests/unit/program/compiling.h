@@ -12,14 +12,14 @@ typedef struct Desk {
     Arena program;
     Arena scratch;
     CompileOptions options;
-    uint32_t evaluate_calls; // number of expressions to be folded
-    uint32_t include_calls;  // number of files to be included
+    uint32_t evaluate_calls; // number of attempts to fold an expression
+    uint32_t include_calls;  // number of attempts to include a file
     Text reported;           // `line:column text [code]` of each diagnostic, one per line
     const Program *compiled;
 } Desk;
 
-// Evaluates sums, products, compositions, nodes without attributes and children, and functions. Returns false for
-// everything else.
+// Evaluates sums, products, vectors, nodes without attributes and children, and functions. Returns false for all other
+// expressions.
 static inline bool calculate(void *host, const Code *code, Value *value) {
     enum { MAX_REGISTERS = 64 };
     Desk *desk = host;
@@ -77,7 +77,7 @@ static inline const Ast *parse_text(Desk *desk, const char *name, const char *te
     return ast;
 }
 
-// Provides the only file that can be included, which binds `inner` and creates a node.
+// Provides the only file that can be included. It binds `inner` and creates a node.
 static inline const Ast *include_file(void *host, Str path, const Source **source, Str *reason) {
     Desk *desk = host;
     desk->include_calls++;
@@ -132,8 +132,8 @@ static inline const Program *compile(Desk *desk, const char *script) {
     return desk->compiled;
 }
 
-// Returns the instructions of --dump=code without numbers and lines, as `op operands`. Functions follow a line with
-// their name.
+// Returns the output of --dump=code without numbers and lines: one `op operands` per line. The code of a function
+// follows a line with its name.
 static inline const char *code_of(Desk *desk, const char *script) {
     Text dump = text_new(&desk->world.arena), out = text_new(&desk->world.arena);
     program_print(&dump, &desk->world.symbols, compile(desk, script));
@@ -146,7 +146,7 @@ static inline const char *code_of(Desk *desk, const char *script) {
         if (sscanf(at, " %u %u %n", &number, &line, &skip) == 2)
             at += skip;
         bool blank = false;
-        for (; *at; at++) { // columns are padded
+        for (; *at; at++) { // skip the padding between columns
             if (*at != ' ' && blank)
                 text_add_char(&out, ' ');
             blank = *at == ' ';

@@ -1,4 +1,4 @@
-// test_program_fold.c: tests which expressions the simplifier folds, and the resulting code.
+// test_program_fold.c: tests which expressions are folded, and the resulting code.
 #include "compiling.h"
 
 static void test_constants_are_folded(void **state) {
@@ -10,7 +10,7 @@ static void test_constants_are_folded(void **state) {
         // Sums are not re-associated.
         {"frame+1+2\n", "global r2 = frame\nadd r1 = r2 1\nadd r0 = r1 2\nreturn r0\n"},
         {"(y*2 where y=3)\n", "move r1 = 6\nreturn r1\n"},
-        // Expressions that the calculator cannot evaluate are not changed.
+        // Expressions that the test's evaluator cannot evaluate stay unchanged.
         {"1-2\n", "sub r0 = 1 2\nreturn r0\n"},
     };
     check_code(*state, rows, COUNT_OF(rows));
@@ -28,7 +28,7 @@ static void test_constant_branches_are_pruned(void **state) {
     check_code(*state, rows, COUNT_OF(rows));
 }
 
-// Expressions that contain something dynamic, or an expression that could not be folded, are not tried.
+// No attempt is made to fold an expression that contains a dynamic part, or a part that could not be folded.
 static void test_static_evaluation_requests(void **state) {
     static const struct {
         const char *script;
@@ -36,13 +36,13 @@ static void test_static_evaluation_requests(void **state) {
     } rows[] = {
         {"frame+1\n", 0},
         {"1+1\n", 1},
-        {"((((1-1))))*2+3;4\n", 1}, // the difference, which fails
-        {"$:k;$(1;2)\n", 1},        // (1;2)
-        {"csv\n", 0},               // not pure
-        {"realtime\n", 1},          // constant during a run
-        {"!a v=frame\n", 1},        // the bare node
+        {"((((1-1))))*2+3;4\n", 1}, // only the difference is tried, and it fails
+        {"$:k;$(1;2)\n", 1},        // only (1;2) is tried
+        {"csv\n", 0},               // csv is not pure
+        {"realtime\n", 1},          // realtime is constant during a run
+        {"!a v=frame\n", 1},        // only the node without attributes is tried
         {"func f()\n    frame\n", 1},
-        {"for i in frame;1\n    func() 1\n", 1}, // the body, which fails
+        {"for i in frame;1\n    func() 1\n", 1}, // only the loop's body is tried, and it fails
         {"let x=frame\nlet y=x+1\nx;y\n", 0},
     };
     Desk *desk = *state;
@@ -56,7 +56,7 @@ static void test_static_evaluation_requests(void **state) {
     assert_text("without", code_of(desk, "1+2\n"), "add r0 = 1 2\nreturn r0\n");
 }
 
-// Closures are objects: a closure may be folded only if it would be created once.
+// A closure is an object with identity, so it may be folded only if it would be created once.
 static void test_closures_are_folded_once(void **state) {
     static const CodeRow rows[] = {
         {"let f=func(x) x\nf\n", "move r0 = (<anon>)\nmove r1 = (<anon>)\nreturn r1\n"},
@@ -67,7 +67,7 @@ static void test_closures_are_folded_once(void **state) {
     };
     Desk *desk = *state;
     check_code(desk, rows, COUNT_OF(rows));
-    desk->options.module = true; // may be imported several times
+    desk->options.module = true; // a module may be evaluated several times
     assert_non_null(strstr(code_of(desk, rows[0].script), "closure r0 = (null) <anon>"));
 }
 
@@ -79,11 +79,11 @@ static void test_failed_folding_frees_memory(void **state) {
     compile(desk, "!a v=frame+1\n");
     size_t once = desk->program.used - used;
     used = desk->program.used;
-    compile(desk, "!a v=frame+(((((1-1)-1)-1)-1)-1)\n"); // five attempts, and five more instructions
+    compile(desk, "!a v=frame+(((((1-1)-1)-1)-1)-1)\n"); // five folding attempts, and five more instructions
     assert_true(desk->program.used - used < once + 5 * (sizeof(Instr) + sizeof(Origin) + 3 * sizeof(Value)));
 }
 
-// The path of an %include is folded, even if the simplifier is turned off.
+// The path of an %include is folded even if the simplifier is off.
 static void test_include_paths_are_folded(void **state) {
     static const struct {
         const char *script;

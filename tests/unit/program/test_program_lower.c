@@ -1,4 +1,5 @@
-// test_program_lower.c: tests the instructions of expressions, and that code refers to no data of the compiler.
+// test_program_lower.c: tests the instructions that expressions are compiled to, and that code does not refer to the
+// compiler's data.
 #include "compiling.h"
 
 static void test_instructions(void **state) {
@@ -22,7 +23,7 @@ static void test_instructions(void **state) {
     check_code(desk, rows, COUNT_OF(rows));
 }
 
-// A call of a built-in with exactly its number of arguments becomes a BUILTIN instruction.
+// A call of a built-in that passes exactly one argument per parameter becomes a BUILTIN instruction.
 static void test_calls(void **state) {
     static const CodeRow rows[] = {
         {"sin(frame)\n", "global r1 = frame\nbuiltin r0 = (r1) sin\nreturn r0\n"},
@@ -44,7 +45,7 @@ static void test_calls(void **state) {
     assert_ptr_equal(call->names[1], name_of(&desk->world, "c"));
 }
 
-// Nodes are created by one instruction where the result is the same; small parts of a loop's body are yielded one by
+// A node is created by one instruction if the result is the same. In a loop, small parts of the body are yielded one by
 // one.
 static void test_nodes_and_loops(void **state) {
     static const CodeRow rows[] = {
@@ -62,7 +63,7 @@ static void test_nodes_and_loops(void **state) {
     check_code(desk, rows, COUNT_OF(rows));
 }
 
-// Each instruction has a position, even after the syntax tree was freed (compiling.h overwrites it).
+// Each instruction has a source position, even after the syntax tree was freed (compiling.h overwrites it).
 static void test_instruction_positions(void **state) {
     static const struct {
         Opcode op;
@@ -86,7 +87,7 @@ static void test_instruction_positions(void **state) {
     }
 }
 
-// Limits the memory of a statement: two instructions with their positions, a node, its names and constants.
+// Limits the memory of a statement: two instructions with their positions, a node, and its names and constants.
 static void test_memory_per_statement(void **state) {
     enum { STATEMENTS = 1000, MAX_BYTES = 600 };
     Desk *desk = *state;

@@ -31,11 +31,11 @@ static void test_parameters_are_found(void **state) {
         {"let n=n or 2+3*4 -- 0..20|0.5 how many\n", "n=2+3*4:14 0..20|0.5 -- how many"},
         {"let n=n or 's' m=m or (1;2) -- both\n", "n='s':'s', m=(1;2):1;2 -- both"},
         {"let k=4\nlet n=n or k+1\n", "n=k+1:5"},
-        {"let n=n or frame\n", "n=frame"},   // varies from frame to frame
-        {"let n=n or 1-1\n", "n=1-1"},       // cannot be evaluated by this calculator
-        {"let n=n or 1 or 2\n", "n=1 or 2"}, // the tree has no node for the whole default
+        {"let n=n or frame\n", "n=frame"},   // the default varies from frame to frame
+        {"let n=n or 1-1\n", "n=1-1"},       // the test's evaluator cannot evaluate differences
+        {"let n=n or 1 or 2\n", "n=1 or 2"}, // the syntax tree has no node for the whole default
         {"let n=m or 1\nlet sin=sin or 1\nlet n=5\nlet n=n or 1\n", ""},
-        {"if 1\n    let n=n or 1\n", ""}, // only at the top level
+        {"if 1\n    let n=n or 1\n", ""}, // parameters exist only at the top level
     };
     Desk *desk = *state;
     for (int simplify = 1; simplify >= 0; simplify--) {

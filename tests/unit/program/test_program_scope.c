@@ -1,11 +1,11 @@
-// test_program_scope.c: tests name resolution: slots, captures, names of the engine, definitions, built-ins,
-// unbound.
+// test_program_scope.c: tests name resolution: slots, captures, global names of the engine, definitions, built-ins and
+// unbound names.
 #include "compiling.h"
 
 static void test_slots(void **state) {
     static const CodeRow rows[] = {
         {"let x=frame\n!a v=x\n", "global r0 = frame\nnode r1 = (v=r0) none a\nreturn r1\n"},
-        // A binding is visible after its value, and its slot is reused after its scope.
+        // A name is visible after its value has been evaluated. Its slot is reused after its scope ends.
         {"let x=frame\nlet x=x+1\nx\n", "global r0 = frame\nadd r1 = r0 1\nmove r2 = r1\nreturn r2\n"},
         {"(x where x=frame)*(y where y=time)\n",
          "global r0 = frame\nmove r2 = r0\nglobal r0 = time\nmove r3 = r0\nmul r1 = r2 r3\nreturn r1\n"},
@@ -39,7 +39,7 @@ static void test_captures(void **state) {
         assert_true(g->captures[i].kind == wanted[i].kind && g->captures[i].slot == wanted[i].slot);
 }
 
-// Names of the program shadow those of the engine, which shadow definitions, which shadow built-ins (L8.1).
+// A script's own names shadow those of the engine, which shadow definitions, which shadow built-ins (L8.1).
 static void test_order_of_predefined_names(void **state) {
     Desk *desk = *state;
     const Define defines[] = {{.name = name_of(&desk->world, "d"), .value = value_number(1)},
@@ -57,7 +57,7 @@ static void test_order_of_predefined_names(void **state) {
     compile(desk, "d\nlet pi=5\n");
     assert_true(desk->compiled->define_uses[3].read && !desk->compiled->define_uses[0].read);
     assert_true(desk->compiled->define_uses[2].by_let && desk->compiled->define_uses[2].bound.span.start == 6);
-    // A module sees neither, and an unbound name is reported when it is evaluated.
+    // A module sees neither engine names nor definitions. An unbound name is reported when it is evaluated.
     desk->options.module = true;
     assert_text("module", code_of(desk, "frame\n"), "unbound r0 = frame\nreturn r0\n");
     assert_text("module", code_of(desk, "d\n"), "unbound r0 = d\nreturn r0\n");
@@ -87,7 +87,7 @@ static void test_exports(void **state) {
     assert_int_equal(program->param_count, 2);
     assert_int_equal(program->export_count, 4);
     assert_int_equal(program_find_export(program, name_of(&desk->world, "b"))->slot, 3);
-    assert_int_equal(program_find_export(program, name_of(&desk->world, "a"))->slot, 5); // the last one is used
+    assert_int_equal(program_find_export(program, name_of(&desk->world, "a"))->slot, 5); // the last binding is exported
     assert_null(program_find_export(program, name_of(&desk->world, "hidden")));
     assert_null(program_find_export(program, name_of(&desk->world, "p")));
 }

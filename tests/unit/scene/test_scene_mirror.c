@@ -1,6 +1,6 @@
-// test_scene_mirror.c: state and engine are in sync after an update that was aborted at any point.
+// test_scene_mirror.c: state and engine are in sync after an update, even if it was aborted at any point.
 //
-// Trees are built by the test and have program lifetime. An update is aborted where its arena's limit is reached.
+// Trees are built by the test and live as long as the program. An update is aborted when its arena reaches the limit.
 #include "scene/scene.h"
 #include "values.h"
 
@@ -9,7 +9,7 @@ typedef struct Stage {
     Schema schema;
     Scene *scene;
     State *state;
-    Arena arena; // of the frame
+    Arena arena; // temporary data of the frame
     jmp_buf escape;
     double time;
 } Stage;
@@ -32,8 +32,8 @@ static Value append_node(World *world, Value system, const char *kind, const cha
                       node_append(&world->arena, system.as.items->as.node, value_node(&world->arena, node)));
 }
 
-// Returns a system in two dimensions with particles 1 to `count` and three equal forces. Reading a vector of one number
-// allocates from the frame's arena.
+// Returns a system in two dimensions with particles 1 to `count` and three equal forces. Their vectors have one number,
+// so reading them allocates from the frame's arena.
 static Value system_of(World *world, int count, double force) {
     const Node *node = make_node(world, "physics", "state", read_value(world, ":s"));
     node = node_set_attrs(&world->arena, node, &(Attr){name_of(world, "dimensions"), value_number(2)}, 1);
@@ -70,8 +70,8 @@ static bool has_entry(const Stage *stage, const char *key) {
     return get_entry(stage, key).len > 0;
 }
 
-// Runs frames of `first`, `second`, which may be aborted, and `third`. Returns false if it was aborted. Budget 0 skips
-// `second`.
+// Runs frames of `first`, `second` and `third`. `second` has this memory budget and may be aborted; 0 skips it. Returns
+// false if it was aborted.
 static bool run_frames(Stage *stage, World *world, Value first, Value second, Value third, size_t limit) {
     *stage = (Stage){.world = world, .state = state_new(NULL)};
     schema_init(&stage->schema, &world->symbols, (SchemaSink){NULL, ignore_report});
@@ -91,9 +91,14 @@ static void free_stage(Stage *stage) {
     state_free(stage->state);
 }
 
-enum { MAX_BUDGET = 1000, BY = 8, PLACES = 4 }; // budgets in bytes; minimum number of points of abortion
+enum {
+    MAX_BUDGET = 1000,
+    BY = 8,
+    PLACES = 4
+}; // budgets in bytes, their increment, and the minimum number of
+   // different abort points
 
-// Particles of the last complete tree are removed from the state by the next complete one.
+// If a tree is incomplete, particles of the last complete tree are removed from the state by the next complete tree.
 static void test_vanished(void **state) {
     World *world = *state;
     Value two = system_of(world, 2, 1), one = system_of(world, 1, 1), three = system_of(world, 3, 1);
@@ -135,7 +140,7 @@ static size_t arena_bytes(const Arena *arena) {
     return bytes;
 }
 
-// Ids for a host are charged to the budget of the script.
+// Ids that a host requests are charged to the budget of the script.
 static void test_ids_are_charged(void **state) {
     World *world = *state;
     Value two = system_of(world, 2, 1), three = system_of(world, 3, 1);

@@ -10,7 +10,7 @@ typedef struct Given {
     double x;
 } Given;
 
-// Reads a node with these attributes in two dimensions; f->reported gets the messages.
+// Reads a node with these attributes in two dimensions. f->reported receives the messages.
 static void read_node(Fixture *f, NodeKind kind, const Given *given, uint32_t count, void *record) {
     Attr attrs[8];
     for (uint32_t i = 0; i < count; i++)
@@ -25,7 +25,7 @@ static void read_node(Fixture *f, NodeKind kind, const Given *given, uint32_t co
 #define READ(f, kind, record, ...)                                                                                     \
     read_node(f, kind, (const Given[]){__VA_ARGS__}, sizeof((const Given[]){__VA_ARGS__}) / sizeof(Given), record)
 
-// The defaults in the help texts equal those in use.
+// The defaults in the help texts equal the actual defaults.
 static void test_help_shows_defaults(void **state) {
     (void)state;
     for (int i = 0; i < ROW_COUNT; i++) {
@@ -51,7 +51,7 @@ static void test_rows_are_consistent(void **state) {
     (void)state;
     bool window = false;
     for (int kind = 0; kind < KIND_COUNT; kind++) {
-        assert_true(schema_kinds[kind].place >= PLACE_TOP || !window); // the kinds in windows come last
+        assert_true(schema_kinds[kind].place >= PLACE_TOP || !window); // kinds that occur only in windows come last
         window |= schema_kinds[kind].place >= PLACE_TOP;
     }
     for (int i = 0; i < ROW_COUNT; i++) {
@@ -108,7 +108,7 @@ static void test_vectors_match_dimensions(void **state) {
     end(&f);
 }
 
-// An alias only has an effect if the main name is missing, in any order.
+// An alias only has an effect if the main name is missing. The order of attributes does not matter.
 static void test_main_names_override_aliases(void **state) {
     (void)state;
     Fixture f;
@@ -131,7 +131,7 @@ static void test_mistakes_are_reported(void **state) {
     (void)state;
     Fixture f;
     begin(&f);
-    BodyAttrs body = {0}; // an anchor has no row for its velocity
+    BodyAttrs body = {0}; // anchors have no velocity attribute
     CounterAttrs counter;
     READ(&f, KIND_ANCHOR, &body, {"id", 7}, {"velocity", 1}, {"mss", 1});
     assert_string_equal(f.reported, "!anchor id=7 unknown attribute 'mss'; did you mean 'mass'? [unknown-attribute]\n");

@@ -33,7 +33,7 @@ static void test_malformed_attributes_are_reported(void **state) {
         {"!particle id=2 position=null", ""},
         {"!particle id=2 mass=1;2", BAD("!particle id=2", "mass should be one number, not 1;2")},
         {"!particle id=2 mass=0/0", BAD("!particle id=2", "mass should be one number, not nan")},
-        {"!particle id=2 mass=1/0 radius=-3", ""}, // infinities are used; clamping is not reported
+        {"!particle id=2 mass=1/0 radius=-3", ""}, // infinities are valid; clamping is not reported
         {"!particle id=2 radius='big' charge=!a", BAD("!particle id=2", "radius should be one number, not 'big'")
                                                       BAD("!particle id=2", "charge should be one number, not (!a)")},
         {"!particle id=:a;3 mass=..20", BAD("!particle id=:a;3", "mass should be one number, not 20 elements")},
@@ -51,7 +51,7 @@ static void test_malformed_attributes_are_reported(void **state) {
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         const char *reported = reports_of(*state, rows[i].script);
-        // Independent of the order of attributes.
+        // The result does not depend on the order of attributes.
         size_t len = 0;
         for (const char *line = rows[i].wanted; *line; line = strchr(line, '\n') + 1) {
             char part[300];
@@ -73,7 +73,8 @@ static void test_unknown_attributes_are_reported(void **state) {
         {"!drag strenght=3",
          "warning !drag: unknown attribute 'strenght'; did you mean 'strength'? [unknown-attribute]\n"},
         {"!gravity power=2",
-         "warning !gravity: unknown attribute 'power' [unknown-attribute]\n"}, // attribute of another node
+         // `power` is an attribute of another node
+         "warning !gravity: unknown attribute 'power' [unknown-attribute]\n"},
         {"!distance from=1 to=1 max_distance=3",
          "warning !distance: unknown attribute 'max_distance' [unknown-attribute]\n"},
         {"!partikel id=2",
@@ -100,7 +101,7 @@ static void test_ids(void **state) {
          "warning !particle id=1: a particle with this id already exists; ignored [duplicate-id]\n"},
         {"!particle id='1'", ""},
         {"!particle id=1;1", ""},
-        {"!particle id=-0\n    !particle id=0", ""}, // different keys
+        {"!particle id=-0\n    !particle id=0", ""}, // 0 and -0 are different keys
         {"!distance from=1 to=9",
          "warning !distance: to=9: no such particle; the force is ignored [unknown-particle]\n"},
         {"!distance from='q' to=1",
@@ -142,7 +143,7 @@ static void test_skipped_systems(void **state) {
         const char *reported = player_diagnostics(player);
         const char *found = strstr(reported, "[invalid-system]\n");
         assert_claim(script, strstr(reported, wanted) != NULL);
-        assert_claim(script, found && !strstr(found + 1, "[invalid-system]")); // reported once
+        assert_claim(script, found && !strstr(found + 1, "[invalid-system]")); // the error is reported once
     }
 }
 
@@ -162,10 +163,10 @@ static void test_default_values(void **state) {
         const char *lines, *position;
     } rows[] = {
         {"!constant force=1;2", "1;2"},
-        {"!constant force=3", "3;3"},     // one number is repeated
-        {"!constant force=1;2;3", "0;0"}, // malformed: zero
+        {"!constant force=3", "3;3"},     // one number is used for all components
+        {"!constant force=1;2;3", "0;0"}, // wrong length, so the default 0 is used
         {"!constant force=1;2 strength=2", "2;4"},
-        {"!constant force=1;2 strength='x'", "1;2"}, // malformed: 1
+        {"!constant force=1;2 strength='x'", "1;2"}, // not a number, so the default 1 is used
         {"!constant force=1;2 strength=0/0", "1;2"},
         {"!constant acceleration=1;2", "1;2"},
         {"!anchor id=:a position=1;0\n    !distance from=1 to=:a fixed=0", "1;0"},
@@ -174,7 +175,7 @@ static void test_default_values(void **state) {
         {"!anchor id=:a position=1;0\n    !distance from=1 to=:a min=3 minimum=2", "-1;0"},
         {"!anchor id=:a position=1;0\n    !distance from=1 to=:a min=3 minimum='x'", "-2;0"},
         {"!anchor id=:a position=1;0\n    !distance from=1 to=:a min=5 max=6 fixed=3",
-         "-2;0"}, // fixed overrides the others
+         "-2;0"}, // `fixed` has precedence over `min` and `max`
         {"!anchor id=:a position=1;0\n    !distance from=1 to=:a min=0", "0;0"},
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {

@@ -1,7 +1,7 @@
 // test_scene_binding.c: tests that data which systems keep between frames never changes results.
 //
-// Each script runs three times: normally; without the simplifier, so that no node is shared; and saved and restored
-// between frames, so that every frame is read from scratch. The printed states must be equal, frame by frame.
+// Each script runs three times: as usual; without the simplifier, so that no node is constant; and with a save and
+// restore between frames, so that every frame is read from scratch. The printed states must be equal in each frame.
 #include "folder.h"
 #include "player.h"
 
@@ -13,12 +13,12 @@ enum { FRAMES = 9 };
     "    for i in ..5\n        !particle id=i position=i;i*i/4 velocity=normal(:v;i)[..2] radius=0.5\n"
 
 static const char *const worlds[] = {
-    // Constant trees with forces that vary by frame.
+    // Constant trees in which only forces vary by frame.
     TWO "    !collision strength=9\n    !random strength=3\n    !drag strength=0.1\n    !random strength=0.5\n",
     WORLD(1) "    for i in ..4\n        !particle id=i position=i velocity=1-i\n    !random strength=2\n",
     WORLD(3) "    for i in ..6\n        !particle id=i position=i;1;2 mass=1+i\n    !gravity strength=4 ease=0.5\n",
     TWO "    !group\n        !particle id=:in;1 position=2;2\n        !random strength=4\n    !random strength=1\n",
-    // Some or all particles change, or their groups.
+    // Attributes or groups of some or all particles change.
     TWO "    !particle id=9 position=frame;2 radius=frame/10 charge=sin(frame/7)\n    !electrostatic strength=5\n",
     TWO "    !anchor id=9 position=frame;2 radius=frame/10\n    !distance from=9 to=2 max=frame/9\n",
     WORLD(2) "    for i in ..6\n        !particle id=i position=i;frame radius=frame%3 force=frame;i ease=0.4\n"
@@ -29,10 +29,10 @@ static const char *const worlds[] = {
     WORLD(
         2) "    !particle id=1 position=1;frame\n    (!group if frame%2 else !particle id=3)\n        !particle id=2\n"
            "    !group\n        !particle id=4 position=2;frame\n    !collision\n",
-    WORLD(2) "    !group\n        !group\n            !particle id=1 mass=frame\n" // and the nesting of groups
+    WORLD(2) "    !group\n        !group\n            !particle id=1 mass=frame\n" // the nesting of groups also changes
              "    if frame%3\n        !group\n        !particle id=2\n    else\n        !group\n            !group\n"
              "    !random strength=5\n",
-    // Particles appear and vanish, one by one and all at once; their order changes; a particle becomes an anchor.
+    // Particles appear and vanish, one by one or all at once. Their order changes. A particle becomes an anchor.
     WORLD(2) "    for i in ..(3+frame%3)\n        !particle id=i position=i;1 velocity=1;i\n    !random strength=5\n",
     WORLD(2) "    for i in ..(0 if frame%4==2 else 3)\n        !particle id=i position=i;frame velocity=1;i\n",
     WORLD(2) "    for i in (1;2;3 if frame%3 else 2;1;3)\n        !particle id=i position=i;1 velocity=1;i\n    "
@@ -40,7 +40,7 @@ static const char *const worlds[] = {
     WORLD(2) "    for i in ..4\n        (!anchor if (i+frame)%3 else !particle) id=i position=i;frame mass=1+i\n"
              "    !gravity strength=3\n",
     WORLD(2) "    for i in ..3\n        !particle id=i velocity=1;i\n        if frame>3\n            !particle id=i\n",
-    // Positions that are not finite at the start, for some frames, or permanently after some frame.
+    // Positions that are not finite initially, in some frames, or from some frame on.
     WORLD(2) "    !particle id=1 position=1/0;0 velocity=1;1\n    !particle id=2 velocity=1/0;0\n    !drag\n",
     WORLD(2) "    !particle id=1 position=frame;0 velocity=1/(frame>3);1\n    !particle id=2 velocity=0;1/0\n",
     WORLD(2) "    !particle id=1 velocity=1e308;1e308 position=1e308;0\n    !particle id=2 position=3;4\n    "
@@ -49,7 +49,7 @@ static const char *const worlds[] = {
     // Positive and negative zeros.
     WORLD(2) "    !particle id=1 position=-0;0 velocity=0;-0\n    !anchor id=2 position=(-0 if frame%2 else 0);-0\n",
     WORLD(1) "    !particle id=1 position=-0 velocity=0\n    !anchor id=2 position=(-0 if frame%2 else 0)\n",
-    // Other nodes write to the system's keys, or the system to its own attributes.
+    // Other nodes write to the system's keys, or keys of particles equal keys of the system.
     TWO "!counter state=:s;2 initial=7;8 rate=0 reset=frame==4\n",
     TWO "!counter state=:s;2;:velocity initial=7;8 rate=1;2\n",
     TWO "if frame>=3\n    !counter state=:s;2 initial=7 rate=1\n",
@@ -60,7 +60,7 @@ static const char *const worlds[] = {
     TWO TWO "    !random strength=3\n",
     TWO WORLD(2) "    for i in ..5\n        !particle id=i position=3;frame\n    !random strength=3\n",
     TWO "!physics state=:s;2 dimensions=2 time=frame/8\n    !particle id=:velocity position=1;2\n    !random\n",
-    // Runs, absent systems, skipped and paused frames, other dimensions.
+    // Changes of `run`, absent systems, skipped and paused frames, and changes of the dimensions.
     "!physics state=:s dimensions=2 run=frame//3\n    !particle id=1 position=frame;0 velocity=1;1\n    !random\n",
     "!physics state=:s dimensions=2 run=frame//3\n    for i in ..3\n        !particle id=i velocity=1;1\n    !random\n",
     "if frame%4!=2\n    !physics state=:s dimensions=2\n        for i in ..3\n            !particle id=i velocity=1;1\n"

@@ -25,30 +25,30 @@ typedef struct CounterRow {
 static void test_values(void **state) {
     static const CounterRow rows[] = {
         {"", 1, "0"},
-        {"", 3, "0"}, // without a rate it does not change
+        {"", 3, "0"}, // a counter without a rate does not change
         {"rate=1", 1, "0"},
         {"rate=1", 2, "0.1"},
         {"rate=1", 3, "0.2"},
         {"initial=5", 1, "5"},
         {"initial=5 rate=-2", 3, "4.6"},
         {"rate=0", 5, "0"},
-        // Element by element; the shorter vector is repeated.
+        // Vectors are combined element by element. Shorter ones are repeated.
         {"rate=1 initial=1;2;3", 2, "1.1;2.1;3.1"},
         {"rate=1;10", 3, "0.2;2"},
         {"initial=0;1;2;3 rate=1;-1", 2, "0.1;0.9;2.1;2.9"},
-        // The first value is `initial`; only the clamps can make it longer.
+        // The first value is `initial`. Only clamps can give it more elements.
         {"rate=1;2", 1, "0"},
         {"rate=1;2", 2, "0.1;0.2"},
         {"initial=7 time=frame;frame*2", 1, "7"},
         {"initial=7 reset=0;1", 1, "7"},
         {"minimum=1;2", 1, "1;2"},
-        {"rate=1 time=((0;1) if frame==0 else 5)", 2, "5;4"}, // the last time may be longer than the value
-        // Later, `initial` is used only where `reset` is true.
+        {"rate=1 time=((0;1) if frame==0 else 5)", 2, "5;4"}, // the stored time may have more elements than the value
+        // After the first frame, `initial` is used only where `reset` is true.
         {"rate=1 initial=(0 if frame==0 else (1;2))", 2, "0.1"},
         {"rate=1 initial=(0 if frame==0 else (1;2)) reset=0", 2, "0.1"},
         {"rate=1 initial=(0 if frame==0 else (1;2)) reset=frame==1", 2, "1;2"},
         {"rate=1 initial=(0 if frame==0 else (1;2;3)) reset=0;1", 2, "0.1;2;0.1"},
-        // Clamps also apply to the initial value; first from below, then from above.
+        // Clamps also apply to the initial value: first the minimum, then the maximum.
         {"initial=5 maximum=3", 1, "3"},
         {"initial=-5 minimum=-3", 1, "-3"},
         {"minimum=5 maximum=3", 1, "3"},
@@ -58,16 +58,16 @@ static void test_values(void **state) {
         {"rate=-100 min=-4", 3, "-4"},
         {"rate=100 max=4 maximum=5", 3, "5"}, // the long name has precedence
         {"rate=-100 min=-4 minimum=-5", 3, "-5"},
-        {"rate=100 max=4 maximum='x'", 3, "4"}, // malformed: the short name is used
+        {"rate=100 max=4 maximum='x'", 3, "4"}, // the long name's value is invalid, so the short name is used
         {"rate=100;-100 maximum=4 minimum=-4", 3, "4;-4"},
         {"initial=0;0 rate=100 maximum=1;2", 2, "1;2"},
         {"maximum=0 rate=1", 3, "0"},
-        // Attribute `time`.
+        // The attribute `time`.
         {"rate=1 time=frame*5", 3, "10"},
         {"time=frame*5 rate=2", 3, "20"},
         {"rate=1 time=10-frame", 3, "-2"},
         {"rate=1 time=frame;frame*2", 3, "2;4"},
-        // Reset restores `initial` as long as and where it is true.
+        // While and where `reset` is true, the value is `initial`.
         {"rate=1 initial=7 reset=frame==2", 3, "7"},
         {"rate=1 initial=7 reset=frame==2", 4, "7.1"},
         {"rate=1 initial=7 reset=1", 4, "7"},
@@ -75,13 +75,13 @@ static void test_values(void **state) {
         {"rate=1 initial=7;8 reset=0;1", 2, "7.1;8"},
         {"rate=1 initial=7 reset=0;-1;0", 2, "7.1;7;7.1"},
         {"rate=1 initial=frame reset=frame==2", 3, "2"},
-        {"rate=1 initial=frame", 3, "0.2"}, // otherwise only the value of the first frame is used
+        {"rate=1 initial=frame", 3, "0.2"}, // otherwise, only the value of `initial` in the first frame is used
         // Attributes that are not numeric are ignored.
         {"initial='x' rate=!a", 2, "0"},
         {"initial='x' rate=1", 2, "0.1"},
         {"rate=1 time='x'", 2, "0.1"},
         {"rate=1 initial=7 reset='x'", 2, "7.1"},
-        // A frame that is not finite is skipped: the last value and time are kept.
+        // A frame in which the result is not finite is skipped: the last value and time are kept.
         {"rate=inf", 3, "0"},
         {"rate=nan", 3, "0"},
         {"rate=(inf if frame==1 else 1)", 3, "0.1"},
@@ -91,7 +91,7 @@ static void test_values(void **state) {
         {"rate=1 time=(nan if frame==0 else frame)", 2, "0"},
         {"rate=1 time=(nan if frame==0 else frame)", 3, "1"},
         {"rate=1 time=(-1.7e308 if frame==0 else 1.7e308 if frame==1 else 1.6e308)", 3, "-9.999999999999996e+306"},
-        {"rate=1e309 maximum=4", 3, "4"}, // stored values are finite
+        {"rate=1e309 maximum=4", 3, "4"}, // the stored value is finite
         {"initial=1e308 rate=1e308 time=frame*10", 3, "1e+308"},
         {"initial=(inf if frame==0 else 3) rate=1", 3, "3.1"},
     };
@@ -126,7 +126,7 @@ static void test_changed_rate_applies_to_last_frame(void **state) {
     assert_text("rate", counter(*state, "!counter state=:c rate=frame\n", 4), "0.6");
 }
 
-// An absent counter keeps its value; when it returns, the time in between is added.
+// An absent counter keeps its value. When it returns, it also advances by the time of its absence.
 static void test_absent_counter_keeps_value(void **state) {
     static const char script[] = "if frame<2 or frame>3\n    !counter state=:c rate=1\n";
     assert_text("absent", counter(*state, script, 4), "0.1");
@@ -134,7 +134,7 @@ static void test_absent_counter_keeps_value(void **state) {
 }
 
 static void test_two_counters_of_one_key(void **state) {
-    // The second reads the time that the first has written, so no time has passed for it.
+    // The second counter reads the time that the first has written, so no time has passed since then.
     assert_text("two", counter(*state, "!counter state=:c rate=1\n!counter state=:c rate=100\n", 3), "0.2");
 }
 
@@ -157,7 +157,7 @@ static void test_invalid_counters_are_reported(void **state) {
          "warning !counter state=:c: the value is not finite; the counter keeps the previous value [not-finite]\n"},
         {"!counter state=:c time=inf\n",
          "warning !counter state=:c: the time is not finite; the counter keeps the previous time [not-finite]\n"},
-        {"!a\n    !counter state=:c\n", ""}, // only top-level nodes are systems
+        {"!a\n    !counter state=:c\n", ""}, // systems are top-level nodes only
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         PetriOptions options = player_options(player);

@@ -1,5 +1,5 @@
-// test_scene_extremes.c: tests random scripts with extreme numbers: the state contains only finite numbers, and the
-// session continues. The scripts are the same in each run; PETRI_EXTREMES=COUNT,SEED generates others.
+// test_scene_extremes.c: tests random scripts with extreme numbers. The state must contain only finite numbers, and the
+// session must continue. Each run uses the same scripts; PETRI_EXTREMES=COUNT,SEED generates others.
 #include "player.h"
 
 #include <math.h>
@@ -73,7 +73,7 @@ static const char *number(Author *author) {
     return numbers[below(author, COUNT_OF(numbers))];
 }
 
-// Selects half of the attributes of a list, with a space after each. Names in capitals are vectors.
+// Adds about half of the attributes in a list, followed by spaces. Names in capitals are vectors.
 static void add_attributes(Author *author, const char *names, unsigned n) {
     for (const char *at = names; *at;) {
         size_t len = strcspn(at, " ");
@@ -150,7 +150,7 @@ static void write_script(Author *author) {
     }
 }
 
-// Returns true if all values are finite. The keys here are symbols and integers.
+// Returns true if all values are finite. The keys in these tests are symbols and integers.
 static bool is_finite_state(const char *state) {
     for (const char *at = state; (at = strstr(at, " = ")) != NULL;) {
         at += 3;

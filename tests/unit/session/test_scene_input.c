@@ -1,4 +1,4 @@
-// test_scene_input.c: tests `!pointer` and `!key` in a `!window`: input that the host reports, as a script reads it.
+// test_scene_input.c: tests `!pointer` and `!key` in a `!window`, which show a script the input that the host reports.
 #include "player.h"
 
 static const char *const POINTER = "!window size=100;100\n    !pointer state=:m\n!see at=$:m left=$(:m;:left) "
@@ -30,7 +30,7 @@ static void open_slow(Player *player) {
     player_reopen(player, &options);
 }
 
-// If the host never reports input, the nodes are accepted and write nothing.
+// If the host never reports input, the nodes are valid and write nothing.
 static void test_without_reports_nothing_is_written(void **state) {
     Player *player = *state;
     player_run(player, "!window\n    !pointer state=:m\n    !key name=:a state=:k\n", 5);
@@ -74,7 +74,7 @@ static void test_positions_that_are_not_finite_are_rejected(void **state) {
         assert_int_equal(petri_report_pointer(player->session, &pointer), PETRI_INVALID);
         assert_text("unchanged", next_tree_line(player), "!see at=0.5;0.5 left=0 right=0\n");
     }
-    const PetriPointer outside = {.inside = false, .x = NAN, .y = NAN}; // x and y are ignored
+    const PetriPointer outside = {.inside = false, .x = NAN, .y = NAN}; // outside the window, x and y are ignored
     assert_int_equal(petri_report_pointer(player->session, &outside), PETRI_OK);
     assert_text("outside", next_tree_line(player), "!see left=0 right=0\n");
 }
@@ -84,11 +84,11 @@ static void test_key(void **state) {
     open_slow(player);
     player_run(player, KEY, 1);
     assert_text("no input", next_tree_line(player), "!see\n");
-    press_key(player, "a", true); // not bound
+    press_key(player, "a", true); // no `!key` node uses this key
     assert_text("up", next_tree_line(player), "!see down=0 pushed=0 released=1 toggled=0\n");
     press_key(player, "space", true);
     assert_text("down", next_tree_line(player), "!see down=1 pushed=1 at=3 released=0 toggled=1\n");
-    press_key(player, "space", true); // repeated by the keyboard
+    press_key(player, "space", true); // an auto-repeat of the keyboard
     assert_text("held", next_tree_line(player), "!see down=1 pushed=1 at=3 released=0 toggled=1\n");
     press_key(player, "space", false);
     assert_text("released", next_tree_line(player), "!see down=0 pushed=0 at=3 released=1 until=5 toggled=1\n");
@@ -121,7 +121,7 @@ static void test_names_of_keys(void **state) {
     assert_non_null(strstr(player_state(player), "$:zed = 1\n"));
 }
 
-// The last long name and the first short one.
+// Uses the last key with a long name and the first key with a name of one character.
 static void test_keys_are_distinct(void **state) {
     Player *player = *state;
     player_run(player, "!window\n    !key name=:menu state=:m\n    !key name=:a state=:a\n!see m=$:m a=$:a\n", 1);
@@ -156,7 +156,7 @@ static void test_invalid_nodes_are_reported(void **state) {
     }
 }
 
-// Nodes outside windows get no input. State keys of several elements and several nodes for one key are allowed.
+// Nodes outside windows get no input. State keys may have several elements, and several nodes may use the same key.
 static void test_nodes_work_only_in_windows(void **state) {
     Player *player = *state;
     player_run(player,
@@ -172,7 +172,7 @@ static void test_nodes_work_only_in_windows(void **state) {
                 "$'c' = 1;0\n$('c';:left) = 0\n$('c';:middle) = 0\n$('c';:right) = 0\n");
 }
 
-// A removed node leaves its values in the state, and continues when it returns. A reload keeps pressed keys.
+// The values of a removed node stay in the state, and the node continues when it returns. A reload keeps pressed keys.
 static void test_input_nodes_can_disappear(void **state) {
     Player *player = *state;
     player_run(player, "!window\n    if frame%2==0\n        !key name=:a state=:k\n", 1);

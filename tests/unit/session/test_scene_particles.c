@@ -1,5 +1,5 @@
-// test_scene_particles.c: tests systems over several frames: runs, particles that appear and vanish, several systems
-// (physics.md sections 2 and 3). At 8 fps, so that all sums are exact.
+// test_scene_particles.c: tests systems over several frames: runs, particles that appear and vanish, and several
+// systems (physics.md sections 2 and 3). The rate is 8 fps, so that all sums are exact.
 #include "player.h"
 
 // Returns the state after `frames` frames, without the clock keys of systems.
@@ -42,7 +42,7 @@ static void check_states(Player *player, const StateRow *rows, size_t count) {
 static void test_first_frames(void **state) {
     static const StateRow rows[] = {
         {SYSTEM, 1, "$:s = 0\n"},
-        {SYSTEM "    !particle id=1 position=5 velocity=8\n", 1, "$:s = 0\n"}, // frame 0 stores no particles
+        {SYSTEM "    !particle id=1 position=5 velocity=8\n", 1, "$:s = 0\n"}, // no particles are stored in frame 0
         {SYSTEM "    !particle id=1 position=5 velocity=8\n", 2, "$:s = 0\n$(:s;1) = 6\n$(:s;1;:velocity) = 8\n"},
         {SYSTEM "    !particle id=1 position=5 velocity=8\n", 4, "$:s = 0\n$(:s;1) = 8\n$(:s;1;:velocity) = 8\n"},
         {SYSTEM "    !particle id=1 position=frame velocity=0\n", 3, "$:s = 0\n$(:s;1) = 1\n$(:s;1;:velocity) = 0\n"},
@@ -60,8 +60,8 @@ static void test_anchors(void **state) {
          "$:s = 0\n$(:s;1) = 5\n$(:s;1;:velocity) = 0\n"},
         {SYSTEM "    !anchor id=1 position=frame velocity=9\n    !particle id=2\n", 3,
          "$:s = 0\n$(:s;1) = 2\n$(:s;1;:velocity) = 0\n$(:s;2) = 0\n$(:s;2;:velocity) = 0\n"},
-        // A system that contains only anchors stores them when it simulates. This follows the recorded language cases
-        // (state-lookup-anchor-position and others); spec physics.md 2.6 does not have this exception.
+        // A system that contains only anchors stores them when it is simulated, as the recorded language cases expect
+        // (state-lookup-anchor-position and others). Spec physics.md 2.6 does not mention this exception.
         {SYSTEM "    !anchor id=1 position=5\n", 1, "$:s = 0\n"},
         {SYSTEM "    !anchor id=1 position=5\n", 2, "$:s = 0\n$(:s;1) = 5\n$(:s;1;:velocity) = 0\n"},
         {SYSTEM "    !anchor id=1 position=5\n    !constant force=3\n", 3,
@@ -72,29 +72,29 @@ static void test_anchors(void **state) {
 
 static void test_particles_appear_and_vanish(void **state) {
     static const StateRow rows[] = {
-        // 2 appears in frame 2 and starts from its attributes.
+        // Particle 2 appears in frame 2 with the values of its attributes.
         {SYSTEM "    !particle id=1 velocity=8\n    if frame>=2\n        !particle id=2 position=5 velocity=8\n", 4,
          "$:s = 0\n$(:s;1) = 3\n$(:s;1;:velocity) = 8\n$(:s;2) = 7\n$(:s;2;:velocity) = 8\n"},
-        // 1 vanishes in frame 2 together with its keys.
+        // Particle 1 and its keys vanish in frame 2.
         {SYSTEM "    if frame<2\n        !particle id=1 velocity=8\n    !particle id=2\n", 3,
          "$:s = 0\n$(:s;2) = 0\n$(:s;2;:velocity) = 0\n"},
-        // A particle that returns is new.
+        // A particle that returns starts from its attributes.
         {SYSTEM "    if frame!=2\n        !particle id=1 position=frame velocity=8\n    !particle id=2\n", 4,
          "$:s = 0\n$(:s;1) = 4\n$(:s;1;:velocity) = 8\n$(:s;2) = 0\n$(:s;2;:velocity) = 0\n"},
-        // Particles keep their identity in another order.
+        // Particles keep their identity if their order changes.
         {SYSTEM "    (!particle id=i velocity=i*8) for i in (1;2;3 if frame%2 else 3;1;2)\n", 4,
          "$:s = 0\n$(:s;1) = 3\n$(:s;1;:velocity) = 8\n$(:s;2) = 6\n$(:s;2;:velocity) = 16\n$(:s;3) = 9\n"
          "$(:s;3;:velocity) = 24\n"},
-        // A particle that becomes an anchor keeps its key.
+        // A particle that becomes an anchor keeps its state key.
         {SYSTEM "    if frame<2\n        !particle id=1 velocity=8\n    else\n        !anchor id=1 position=-1\n", 3,
          "$:s = 0\n$(:s;1) = -1\n$(:s;1;:velocity) = 0\n"},
     };
     check_states(*state, rows, COUNT_OF(rows));
 }
 
-#define PAUSED "!physics state=:s dimensions=1 time=(0;1;1;2)[frame]/8\n" // in frame 2
+#define PAUSED "!physics state=:s dimensions=1 time=(0;1;1;2)[frame]/8\n" // paused in frame 2
 
-// Keys that a vanished particle shares with others are kept, also in a frame without simulation.
+// If a vanished particle shares keys with other particles, these keys are kept, even in a frame without simulation.
 static void test_vanished_particle_leaves_shared_keys(void **state) {
     static const char velocity_vanishes[] = PAUSED "    !particle id=0 position=5 velocity=8\n"
                                                    "    if frame<2\n"
@@ -113,7 +113,8 @@ static void test_vanished_particle_leaves_shared_keys(void **state) {
 
 static void test_changed_run_restarts_system(void **state) {
     static const StateRow rows[] = {
-        // The frame in which run changes starts from the attributes and simulates its own delta.
+        // In the frame in which `run` changes, particles start from their attributes and are simulated for that frame's
+        // delta.
         {"!physics state=:s dimensions=1 run=frame>=3\n    !particle id=1 velocity=8\n", 3,
          "$:s = 0\n$(:s;1) = 2\n$(:s;1;:velocity) = 8\n"},
         {"!physics state=:s dimensions=1 run=frame>=3\n    !particle id=1 velocity=8\n", 4,
@@ -121,7 +122,7 @@ static void test_changed_run_restarts_system(void **state) {
         {"!physics state=:s dimensions=1 run=frame>=3\n    !particle id=1 velocity=8\n", 5,
          "$:s = 0.375\n$(:s;1) = 2\n$(:s;1;:velocity) = 8\n"},
         {"!physics state=:s dimensions=1 run=1/0\n    !particle id=1 velocity=8\n", 2,
-         "$:s = 0\n$(:s;1) = 1\n$(:s;1;:velocity) = 8\n"}, // not finite: 0
+         "$:s = 0\n$(:s;1) = 1\n$(:s;1;:velocity) = 8\n"}, // a time that is not finite counts as 0
     };
     check_states(*state, rows, COUNT_OF(rows));
     Player *player = *state;
@@ -138,8 +139,10 @@ static void test_time_attribute(void **state) {
     static const StateRow rows[] = {
         {"!physics state=:s dimensions=1 time=5+frame*2 resolution=1\n    !particle id=1 velocity=1\n", 3,
          "$:s = 5\n$(:s;1) = 4\n$(:s;1;:velocity) = 1\n"},
-        {"!physics state=:s dimensions=1 time=5\n    !particle id=1 velocity=1\n", 3, "$:s = 5\n"},       // paused
-        {"!physics state=:s dimensions=1 time=5-frame\n    !particle id=1 velocity=1\n", 3, "$:s = 5\n"}, // backwards
+        // the time stands still
+        {"!physics state=:s dimensions=1 time=5\n    !particle id=1 velocity=1\n", 3, "$:s = 5\n"},
+        // the time goes backwards
+        {"!physics state=:s dimensions=1 time=5-frame\n    !particle id=1 velocity=1\n", 3, "$:s = 5\n"},
     };
     check_states(*state, rows, COUNT_OF(rows));
     Player *player = *state;
@@ -152,20 +155,20 @@ static void test_time_attribute(void **state) {
 
 static void test_absent_system_keeps_state(void **state) {
     static const StateRow rows[] = {
-        // A system that returns continues from its state, and simulates the time in between.
+        // A system that returns continues from its state and simulates the time of its absence.
         {"if frame!=2\n    !physics state=:s dimensions=1\n        !particle id=1 velocity=8\n", 3,
          "$:s = 0\n$(:s;1) = 1\n$(:s;1;:velocity) = 8\n"},
         {"if frame!=2\n    !physics state=:s dimensions=1\n        !particle id=1 velocity=8\n", 4,
          "$:s = 0\n$(:s;1) = 3\n$(:s;1;:velocity) = 8\n"},
-        // Particle 2 was not in the tree of the frame before, so its keys are kept.
+        // Particle 2 was not in the previous frame's tree, so its keys are kept.
         {"if frame!=2\n    !physics state=:s dimensions=1\n        !particle id=1 velocity=8\n"
          "        if frame<2\n            !particle id=2 velocity=8\n",
          4, "$:s = 0\n$(:s;1) = 3\n$(:s;1;:velocity) = 8\n$(:s;2) = 1\n$(:s;2;:velocity) = 8\n"},
-        // A change of run after an absence also keeps keys; particles in the tree start from their attributes.
+        // A change of `run` after an absence also keeps keys. Particles in the tree start from their attributes.
         {"if frame!=2\n    !physics state=:s dimensions=1 run=frame>2\n        !particle id=1 velocity=8\n"
          "        if frame<2\n            !particle id=2 velocity=8\n",
          4, "$:s = 0.375\n$(:s;1) = 2\n$(:s;1;:velocity) = 8\n$(:s;2) = 1\n$(:s;2;:velocity) = 8\n"},
-        // In a skipped frame the system is not absent: it keeps its list of particles.
+        // A skipped frame is not an absence: the system keeps its list of particles.
         {"!physics state=:s dimensions=frame!=2\n    !particle id=1 velocity=8\n    if frame<2\n        !particle "
          "id=2\n",
          4, "$:s = 0\n$(:s;1) = 3\n$(:s;1;:velocity) = 8\n"},
@@ -182,7 +185,7 @@ static void test_several_systems(void **state) {
         {"!physics state=:a;1 dimensions=1\n    !particle id=1 velocity=8\n"
          "!physics state=:a dimensions=1\n    !particle id=2 velocity=16\n",
          2, "$:a = 0\n$(:a;1) = 0\n$(:a;1;1) = 1\n$(:a;1;1;:velocity) = 8\n$(:a;2) = 2\n$(:a;2;:velocity) = 16\n"},
-        {"!a\n    !physics state=:s dimensions=1\n        !particle id=1\n", 3, ""}, // only top-level nodes
+        {"!a\n    !physics state=:s dimensions=1\n        !particle id=1\n", 3, ""}, // systems are top-level nodes only
     };
     check_states(player, rows, COUNT_OF(rows));
     player_run(
@@ -190,10 +193,10 @@ static void test_several_systems(void **state) {
         "!physics state=:z dimensions=1\n    !particle id=1\n!physics state=:z dimensions=1\n    !particle id=2\n", 3);
     assert_text("diagnostics", player_diagnostics(player),
                 "warning !physics state=:z: another system has the same state prefix [duplicate-prefix]\n");
-    assert_non_null(strstr(player_state(player), "$(:z;:iteration) = 5\n")); // updated twice per frame
+    assert_non_null(strstr(player_state(player), "$(:z;:iteration) = 5\n")); // both systems count in each frame
 }
 
-// Systems keep their own state in any order, even two with the same prefix.
+// Each system keeps its internal data if the order changes, even if two have the same prefix.
 static void test_systems_keep_state_in_any_order(void **state) {
     Player *player = *state;
     static const char systems[] = "let a=((!physics state=:a dimensions=1) << (!particle id=1 velocity=8))\n"
@@ -211,16 +214,17 @@ static void test_systems_keep_state_in_any_order(void **state) {
     assert_text("another order", player_state(player), wanted);
 }
 
-// Systems and counters are updated in document order (spec counters.md): later ones read values of earlier ones.
+// Systems and counters are updated in document order (spec counters.md), so later ones read the new values of earlier
+// ones.
 static void test_update_order(void **state) {
     Player *player = *state;
-    // The counter of :s writes the key of the system's clock: if `$:s` is not a single number, it becomes t.
+    // The counter of :s writes the key of the system's clock. If `$:s` is not a single number, the clock becomes t.
     static const StateRow rows[] = {
         {"!counter state=:s initial=42 rate=0\n!physics state=:s dimensions=1\n", 1, "$:s = 42\n$(:s;:time) = 0\n"},
         {"!physics state=:s dimensions=1\n!counter state=:s initial=42 rate=0\n", 1, "$:s = 0\n$(:s;:time) = 0\n"},
         {"!counter state=:c initial=1\n!physics state=:s dimensions=1\n!counter state=:c initial=2 reset=1\n", 1,
          "$:c = 2\n$(:c;:time) = 0\n$:s = 0\n"},
-        // Two counters of one key, with a system between them that writes it.
+        // Two counters with the same key, and between them a system that writes the key.
         {"!counter state=:s initial=1;1\n!physics state=:s dimensions=1\n!counter state=:s initial=2;2 reset=1\n", 1,
          "$:s = 2;2\n$(:s;:time) = 0\n"},
         {"!physics state=:s dimensions=1\n!counter state=:s rate=1;1\n", 1, "$:s = 0;0\n$(:s;:time) = 0\n"},
@@ -228,7 +232,7 @@ static void test_update_order(void **state) {
     check_states(player, rows, COUNT_OF(rows));
 }
 
-// Storing an equal value keeps the stored one: 0 is not replaced by -0.
+// If the new value equals the stored one, the stored one is kept: 0 is not replaced by -0.
 static void test_equal_value_is_not_replaced(void **state) {
     static const StateRow rows[] = {
         {SYSTEM "    !anchor id=1 position=(0 if frame==0 else -0)\n    !particle id=2\n", 3,

@@ -1,4 +1,4 @@
-// test_scene_warm.c: tests that a frame similar to the previous ones allocates nothing from the heap.
+// test_scene_warm.c: tests that a frame allocates nothing from the heap if it is similar to the previous frames.
 #include "player.h"
 
 static int allocations;
@@ -30,7 +30,7 @@ void *__wrap_realloc(void *bytes, size_t size) {
 
 static void test_similar_frames_allocate_nothing(void **state) {
     static const char *const worlds[] = {
-        // a constant tree, one with changing numbers, one with changing order of particles
+        // constant trees, trees with changing numbers, and trees with particles in changing order
         SYSTEM "    !anchor id=:a\n    for i in ..300\n        !particle id=i position=i;i%7 radius=0.5\n"
                "        !distance from=i to=:a max=9\n" FORCES,
         SYSTEM "    !anchor id=:a position=frame;0\n    for i in ..300\n        !particle id=i position=i;i%7 "

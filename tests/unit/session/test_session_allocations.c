@@ -1,5 +1,5 @@
-// test_session_allocations.c: tests that a frame similar to the previous ones allocates nothing, because all memory is
-// reused. The allocator of glibc is wrapped to count calls; other C libraries and sanitizers skip this test.
+// test_session_allocations.c: tests that a frame allocates nothing if it is similar to the previous frames, because all
+// memory is reused. Wraps glibc's allocator to count calls. Skipped with other C libraries and with sanitizers.
 #include "player.h"
 #include "session/session.h"
 
@@ -57,12 +57,12 @@ static const Row rows[] = {
      "        !inner x=$(:nothing;i) y=split('1,2,3', ',') z=(sort(names))\n!counter state=:c rate=2\n"},
 };
 
-// Reads all data of the systems, as a host might do.
+// Reads all data of the systems, as a host might.
 static void look_up_everything(PetriSession *session) {
     PetriSystem system;
     PetriValue key, value = {0};
     for (uint32_t at = 0; petri_state_next(session, &at, &key, &value);) {
-        assert_ptr_equal(petri_state_get(session, key).numbers, value.numbers); // not a copy
+        assert_ptr_equal(petri_state_get(session, key).numbers, value.numbers); // the numbers are not copied
         assert_int_equal(petri_state_set(session, key, value), PETRI_OK);
     }
     assert_int_equal(petri_set_global(session, "given", value), PETRI_OK);
@@ -76,7 +76,7 @@ static void look_up_everything(PetriSession *session) {
     }
 }
 
-// The systems do not change, so all buffers reach their size in the first frames.
+// In these scripts the systems do not change, so all buffers reach their final size in the first frames.
 static void test_similar_frames_allocate_nothing(void **state) {
     Player *player = *state;
     PetriOptions options = player_options(player);
@@ -87,9 +87,9 @@ static void test_similar_frames_allocate_nothing(void **state) {
             player_reopen(player, &options);
             player_run(player, rows[i].script, 5);
             look_up_everything(player->session);
-            look_up_everything(player->session); // two buffers of a global name are used in turn
+            look_up_everything(player->session); // twice, because a global name alternates between two buffers
             size_t before = allocations;
-            assert_true(before > 0); // counting works
+            assert_true(before > 0); // otherwise, calls are not counted
             for (int frame = 0; frame < 20; frame++) {
                 petri_step(player->session);
                 look_up_everything(player->session);

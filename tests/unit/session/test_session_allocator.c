@@ -1,5 +1,5 @@
-// test_session_allocator.c: tests petri_set_allocator: libpetri and libpetri-draw allocate all memory from the host's
-// functions and release all of it, whichever allocation fails.
+// test_session_allocator.c: tests petri_set_allocator. libpetri and libpetri-draw must allocate all memory with the
+// host's functions and release all of it, whichever allocation fails.
 #include "folder.h"
 #include "petri-draw.h"
 #include "player.h"
@@ -8,7 +8,7 @@
 #include <stdatomic.h>
 #include <stdint.h>
 
-// Header of each block. A released block without it was never allocated, or was released twice.
+// Header of each block. If a released block has no valid header, it was never allocated or was released twice.
 typedef struct Head {
     size_t bytes;
     uint64_t mark;
@@ -21,8 +21,8 @@ typedef struct Host {
     atomic_long blocks; // number of allocated blocks
     atomic_long bytes;
     atomic_bool strayed; // an unknown block was released, or a size of 0 was requested
-    long fail_at;        // the number of the call that fails; 0: none
-    bool all;            // all later calls fail as well
+    long fail_at;        // number of the call that fails; 0: none
+    bool all;            // true if all later calls fail as well
 } Host;
 
 static bool should_fail(Host *host, size_t bytes) {
@@ -53,7 +53,7 @@ static void *host_allocate(void *context, size_t bytes) {
     if (!head)
         return NULL;
     host->blocks++;
-    memset(head + 1, JUNK, bytes); // blocks must not be assumed to be zeroed
+    memset(head + 1, JUNK, bytes); // callers must not assume zeroed blocks
     return record_allocation(host, head, bytes);
 }
 
@@ -94,7 +94,7 @@ static void use_host(void) {
     assert_int_equal(petri_set_allocator(&allocator), PETRI_OK);
 }
 
-// Checks that all blocks were released, each once.
+// Checks that each block was released exactly once.
 static void check_all_released(const char *when) {
     assert_number(when, (double)host.blocks, 0);
     assert_number(when, (double)host.bytes, 0);
@@ -118,7 +118,7 @@ static const char *const SCRIPT =
     "        !shadow radius=2\n            !text text='text' point=20;30\n"
     "            !image filename='missing.jpg' point=0;0\n";
 
-// Uses all parts of the interface. Returns true if no allocation failed.
+// Calls functions of all parts of the interface. Returns true if no allocation failed.
 typedef struct Life {
     Folder *folder;
     bool simplify;
@@ -167,7 +167,7 @@ static void use_session(Life *life, PetriSession *session) {
     petri_snapshot_free(snapshot);
 }
 
-// Pictures and painters may live longer than the session.
+// Pictures and painters may outlive the session.
 static void use_picture(Life *life, PetriSession **session) {
     static uint32_t pixels[40 * 40];
     PetriPictureOptions options = petri_default_picture_options();
@@ -217,7 +217,7 @@ static void test_everything_is_released(void **state) {
     free(theirs.written.text);
 }
 
-// Tries a sample of allocations in each way; all with TRIES=1000000.
+// Lets a sample of the allocations fail in each way. TRIES=1000000 tries all of them.
 static void test_failing_allocation_leaks_nothing(void **state) {
     const char *tries = getenv("TRIES");
     Life life = {.folder = *state, .simplify = true};
@@ -239,7 +239,7 @@ static void test_failing_allocation_leaks_nothing(void **state) {
     free(life.written.text);
 }
 
-// The allocator cannot be changed while a block is allocated.
+// The allocator cannot be changed while any block is allocated.
 static void test_allocator_in_use_is_not_replaced(void **state) {
     (void)state;
     Host other;
@@ -275,7 +275,7 @@ static void test_allocator_in_use_is_not_replaced(void **state) {
     assert_int_equal(other.asked, asked);
 }
 
-// Sessions of several threads share the heap.
+// Runs a session in a thread. All threads share the heap.
 static void *run_in_thread(void *context) {
     Player player;
     player_open(&player);

@@ -1,4 +1,5 @@
-// test_session_constant_nodes.c: tests that only constant nodes keep their address between frames and are marked.
+// test_session_constant_nodes.c: tests that constant nodes, and no others, are marked and keep their address between
+// frames.
 #include "player.h"
 #include "session/session.h"
 
@@ -50,7 +51,7 @@ static void test_changing_children_are_not_marked(void **state) {
     assert_number("changed", top_node(player)->children[1]->attrs[0].value.as.number, 1);
 }
 
-// Another program may be allocated at the same address.
+// Data of another program may be allocated at the same address.
 static void test_new_program_changes_generation(void **state) {
     Player *player = *state;
     uint64_t generation = player->session->loader.generation;

@@ -6,7 +6,8 @@ typedef struct Check {
     const char *value;
 } Check;
 
-// Names known only at run time, and a state that holds :k → 5, (:a;1) → 1;2, "str" → 7 and 3 → 9 from frame 1 on.
+// Names whose values are unknown until run time. From frame 1 on, the state holds :k → 5, (:a;1) → 1;2, "str" → 7 and 3
+// → 9.
 static const char prelude[] = "let dz=frame*0 d1=1+dz d2=2+dz d3=3+dz\n"
                               "!counter state=:k initial=5 rate=0\n"
                               "!counter state=:a;1 initial=1;2 rate=0\n"
@@ -26,7 +27,7 @@ static void check_all(Player *player, bool simplify, const Check *checks, size_t
         free(script.text);
         const char *found = strstr(player_tree(player), "!v");
         char wanted[1000];
-        bool null = strcmp(checks[i].value, "null") == 0; // the attribute is omitted
+        bool null = strcmp(checks[i].value, "null") == 0; // an attribute with the value null is omitted
         snprintf(wanted, sizeof wanted, null ? "!v\n" : "!v v=%s\n", checks[i].value);
         assert_text(checks[i].expression, found, wanted);
     }
@@ -141,21 +142,21 @@ static void test_examples_of_specification(void **state) {
     check_all(*state, false, checks, COUNT_OF(checks));
 }
 
-// Statements of language.md without examples.
+// Rules of language.md that have no examples there.
 static void test_expression_edge_cases(void **state) {
     static const Check checks[] = {
-        {"x<=x where x=(0/0;1)", "1"}, // the same object (L5.5 rule 1)
+        {"x<=x where x=(0/0;1)", "1"}, // both operands are the same object (L5.5 rule 1)
         {"uniform(:a)", "null"},
         {"1 if uniform(:a)", "1"},
-        {"(uniform(:a);null)[0]", "null"},              // composed with something else: dropped
-        {"(uniform(:a) if 1)[0]==uniform(:a)[0]", "1"}, // survives if, and, or
+        {"(uniform(:a);null)[0]", "null"},              // a stream that is composed with another value is dropped
+        {"(uniform(:a) if 1)[0]==uniform(:a)[0]", "1"}, // streams are preserved by if, and, or
         {"(0 or uniform(:a))[0]==uniform(:a)[0]", "1"},
         {"(1 and uniform(:a))[0]==uniform(:a)[0]", "1"},
         {"null==uniform(:a)", "0"},
         {"null!=uniform(:a)", "0"},
         {"uniform(:a)<1", "1"},
         {"-uniform(:a)", "null"},
-        {"(null)(1);3(1);uniform(:a)(1)", "null"}, // without a diagnostic
+        {"(null)(1);3(1);uniform(:a)(1)", "null"}, // null, without a diagnostic
         {"$(:a;1;2);$:nothing;$(!a);$sin", "null"},
         {"$(0-0)", "null"},
         {"(!a x=1 y=2)==(!a y=2 x=1);(!a x=1 x=null)==!a;!a==(!a #t)", "1;1;0"},
@@ -169,7 +170,7 @@ static void test_expression_edge_cases(void **state) {
         {"(x;y) where x;y=uniform(1)", "0.3236437711805903;0.5057062674373606"},
         {"len(..3 for i in ..2)", "6"},
         {"(a;b;c) for a;b;c in ..4", "0;1;2;3"},
-        {"x where x;x=(1;2)", "2"}, // repeated name: the last one
+        {"x where x;x=(1;2)", "2"}, // the last binding of a repeated name is used
     };
     check_all(*state, true, checks, COUNT_OF(checks));
     check_all(*state, false, checks, COUNT_OF(checks));

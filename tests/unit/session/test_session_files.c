@@ -50,8 +50,9 @@ static void test_import(void **state) {
     Desk *desk = *state;
     folder_write(&desk->folder, "m.fl", "%pragma fps 3\nlet a=1 b=2\nfunc twice(x)\n    x*k\nlet k=2 a=10\n!ignored\n");
     check_run(desk, "import a;b from 'm.fl'\n!x v=a;b f=fps\n",
-              "!x v=10;2 f=60\n"); // the last binding is used, and pragmas of modules are ignored
-    check_run(desk, "let k=5\nimport twice from 'm.fl'\n!x v=twice(2)\n", "!x\n"); // k is bound later in the module
+              "!x v=10;2 f=60\n"); // the last binding is exported, and pragmas of modules are ignored
+    // the module binds k only after it has defined twice
+    check_run(desk, "let k=5\nimport twice from 'm.fl'\n!x v=twice(2)\n", "!x\n");
     check_run(desk, "for n in 'm';'none'\n    import a from n;'.fl'\n    !x v=a\n", "!x v=10\n!x\n");
     check_reported(desk, "cannot import");
     check_run(desk, "import a;c from 'm.fl'\n!x v=a;c\n", "!x v=10\n");
@@ -60,8 +61,8 @@ static void test_import(void **state) {
     check_run(desk, "import a;z from 'n.fl'\n!x v=a;z\n", "!x v=10;11\n");
 }
 
-// A script may read in its folder, the current directory and the allowed folders. Files that a previous script has
-// read are not accessible.
+// A script may read files in its folder, the current directory and the allowed folders. Files that were read by a
+// previous script are not accessible.
 static void test_only_allowed_folders_are_read(void **state) {
     Desk *desk = *state;
     char script[900];
@@ -93,7 +94,7 @@ static void test_only_allowed_folders_are_read(void **state) {
     check_reported(desk, "file access is disabled (--no-files)");
 }
 
-// A module sees only built-ins; its functions see the caller's state.
+// A module sees only built-ins. Its functions see the caller's state.
 static void test_module_sees_only_builtins(void **state) {
     Desk *desk = *state;
     folder_write(&desk->folder, "m.fl", "let v=frame;d;$:c w=sin(0.25)\nfunc look(k)\n    $k\n");
@@ -157,7 +158,8 @@ static void test_include(void **state) {
               "!a\n    !i k=2\n    !i k=5\n    !b k=2\n!f v=60\n");
     check_run(desk, "for k in ..2\n    %include 'i.fl'\n", "!i k=0\n!i k=5\n!i k=1\n!i k=5\n");
     check_run(desk, "func f(k)\n    %include 'i.fl'\nf(1)\nf(2)\n", "!i k=1\n!i k=5\n!i k=2\n!i k=5\n");
-    check_run(desk, "let k=1 n='i'\n%include n;'.fl'\n", "!i k=1\n!i k=5\n"); // static names and operators
+    // the path may contain static names and operators
+    check_run(desk, "let k=1 n='i'\n%include n;'.fl'\n", "!i k=1\n!i k=5\n");
     check_run(desk, "%include null\n!a\n", "!a\n");
     assert_string_equal(player_diagnostics(&desk->player), "");
     check_run(desk, "let k=1\n%include 'i.fl'\n%include 'i.fl'\n", "!i k=1\n!i k=5\n");
@@ -216,7 +218,7 @@ static void test_check(void **state) {
     player_forget(&desk->player);
     assert_int_equal(petri_check(session, folder_file(&desk->folder, "frame.fl")), PETRI_OK);
     check_reported(desk, "unknown attribute 'mas'");
-    player_step(&desk->player, 1); // the loaded script continues
+    player_step(&desk->player, 1); // the script that was loaded before continues
     assert_text("state of the other session is not used", player_state(&desk->player), "");
     assert_text("still", player_tree(&desk->player), "!a\n");
     assert_int_equal(petri_frame(session).number, 1);
@@ -265,7 +267,8 @@ static void test_host_provides_files(void **state) {
     assert_string_equal(petri_source_file(player->session, 0), "dish/main.fl");
     assert_string_equal(petri_source_file(player->session, 1), "dish/part.fl");
     assert_string_equal(petri_source_file(player->session, 2), "dish/m.fl");
-    // Another text of the same length is another file. Unchanged files are not read or compiled again.
+    // If the text has changed, the file is read again, even if the length is the same. Unchanged files are not read or
+    // compiled again.
     shelf.files[1].text = "func f(x)\n    x*11\n";
     shelf.files[3].text = "zwei W..";
     player_step(player, 1);
@@ -297,7 +300,7 @@ static void test_host_provides_folders(void **state) {
     assert_string_equal(player_diagnostics(player), "");
 }
 
-// Files that the host does not provide do not exist, even if they are on disk.
+// Files that the host does not provide do not exist for the script, even if they are on disk.
 static void test_only_host_files_exist(void **state) {
     Desk *desk = *state;
     Player *player = &desk->player;
@@ -327,7 +330,7 @@ static const char *read_unsaved(void *host, const char *name, size_t *length) {
     return read_shelf_file(shelf, slash + 1, length);
 }
 
-// An editor's unsaved texts replace files that scripts import or include, but only files that exist and may be read.
+// Unsaved texts of an editor replace files that scripts import or include, but only if the files exist and may be read.
 static void test_unsaved_text_replaces_file(void **state) {
     Desk *desk = *state;
     Player *player = &desk->player;

@@ -4,11 +4,10 @@
 typedef struct Calls {
     int count;
     uint32_t last_count;
-    PetriSession *session; // for calls that must be rejected
+    PetriSession *session; // session on which the function makes calls that must be rejected
     PetriStatus stepped;
 } Calls;
 
-// Returns the sum of all numbers.
 static PetriValue sum(PetriCall *call, void *host, const PetriValue *arguments, uint32_t count) {
     Calls *calls = host;
     double *result = petri_call_alloc_numbers(call, 1);
@@ -29,14 +28,14 @@ static PetriValue sum(PetriCall *call, void *host, const PetriValue *arguments, 
     return (PetriValue){.length = 1, .numbers = result};
 }
 
-// Returns the text of its first argument twice, from memory of the host.
+// Returns the string of its first argument twice, stored in memory of the host.
 static PetriValue twice(PetriCall *call, void *host, const PetriValue *arguments, uint32_t count) {
     static PetriItem items[2];
     (void)call;
     (void)host;
     assert_int_equal(count, 1);
     if (!arguments[0].items)
-        return (PetriValue){.length = 3}; // not a valid value
+        return (PetriValue){.length = 3}; // this value is invalid
     items[0] = items[1] = arguments[0].items[0];
     return (PetriValue){.length = 2, .items = items};
 }
@@ -56,7 +55,7 @@ static void test_calls(void **state) {
                "let f=total\n!a x=total(1;2, 3) y=f(4) z=total(y=1, x=2) w=total(1, 2, 3, 4;5)\n!b t=twice('é') n=f",
                2);
     assert_text("results", player_tree(player), "!a x=6 y=4 z=3 w=15\n!b t='é';'é' n=(total)\n");
-    assert_int_equal(calls.count, 8); // in each frame
+    assert_int_equal(calls.count, 8); // the function is called in each frame
     assert_string_equal(player_diagnostics(player), "");
 }
 
@@ -90,7 +89,7 @@ static void test_pure_calls_are_folded(void **state) {
     assert_int_equal(calls.last_count, 2);
 }
 
-// petri_check also calls host functions, in a separate session. A function cannot step a session that is in use.
+// petri_check also calls host functions, but in a separate session. A function must not step the session that calls it.
 static void test_step_within_call_fails(void **state) {
     Player *player = *state;
     Calls calls = {.session = player->session};

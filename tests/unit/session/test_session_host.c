@@ -1,19 +1,19 @@
-// test_session_host.c: tests guarantees of petri.h.
+// test_session_host.c: tests guarantees that petri.h gives to hosts.
 #include "player.h"
 
 static void test_options(void **state) {
     (void)state;
     PetriOptions options;
     memset(&options, 0, sizeof options);
-    assert_null(petri_open(&options)); // not from petri_default_options
+    assert_null(petri_open(&options)); // the struct is not from petri_default_options
     memset(&options, 0xff, sizeof options);
     assert_null(petri_open(&options));
     assert_null(petri_open(NULL));
     options = petri_default_options();
     options.size++;
-    assert_null(petri_open(&options)); // those of a newer petri.h
+    assert_null(petri_open(&options)); // the struct is from a newer petri.h
     options.size = offsetof(PetriOptions, cpu);
-    options.cpu = (const char *)1; // must not be read: the struct of an older petri.h ends before it
+    options.cpu = (const char *)1; // with the smaller size of an older petri.h, this member must not be read
     PetriSession *earlier = petri_open(&options);
     assert_non_null(earlier);
     petri_close(&earlier);
@@ -23,7 +23,7 @@ static void test_options(void **state) {
     assert_true(isnan(options.run_time));
     assert_int_equal(options.stack_limit, 4 << 20);
     assert_int_equal(options.memory_limit, (size_t)2 << 30);
-    PetriSession *session = petri_open(&options); // without a callback
+    PetriSession *session = petri_open(&options); // no diagnostic callback is set
     assert_non_null(session);
     assert_int_equal(petri_load_text(session, "t.fl", "!a )", PETRI_NUL_TERMINATED), PETRI_INVALID);
     assert_int_equal(petri_diagnostic_count(session, PETRI_ERROR), 1);
@@ -49,13 +49,13 @@ static void test_text_lengths(void **state) {
     assert_int_equal(petri_load_text(player->session, "t.fl", "", 0), PETRI_OK);
     char text[] = "!a x='s'";
     assert_int_equal(petri_load_text(player->session, "t.fl", text, PETRI_NUL_TERMINATED), PETRI_OK);
-    memset(text, '!', sizeof text - 1); // the text need only live until the call returns
+    memset(text, '!', sizeof text - 1); // the text may be overwritten after the call
     player_step(player, 2);
     assert_text("copied", player_tree(player), "!a x='s'\n");
 }
 
 #define STATE "$(:c;'k') = 1.25;2.25\n$(:c;'k';:time) = 0.25\n$\"it's\" = :a\n$(\"it's\";:time) = 0.25\n"
-// Result of printf STATE | sha256sum.
+// Expected hash, from printf STATE | sha256sum.
 #define STATE_HASH "= 1d40801a6533593b67849dffa0352f51200276585fe3c23a3c9adf4ccb34336d\n"
 
 static void test_print(void **state) {
@@ -103,7 +103,7 @@ static void test_writer_can_stop(void **state) {
     int calls = 0;
     assert_int_equal(petri_print(player->session, PETRI_PRINT_TREE, stop_writing, &calls), PETRI_INVALID);
     assert_int_equal(calls, 1);
-    assert_true(strlen(player_tree(player)) > 200000); // complete output if the writer does not stop
+    assert_true(strlen(player_tree(player)) > 200000); // if the callback never stops, the output is complete
 }
 
 static void test_dumps(void **state) {
@@ -123,7 +123,8 @@ static void note_token(void *host, const PetriToken *token) {
     note(host, line, (size_t)len);
 }
 
-// Each token is written as a letter for its kind and its range. Words are keywords only where the grammar has one.
+// Each token is written as a letter for its kind, followed by its range. Words are keywords only where the grammar
+// expects one.
 static void test_tokens(void **state) {
     static const struct {
         const char *text;
@@ -160,8 +161,8 @@ static void note_name(void *host, const PetriBinding *name) {
     note(host, line, (size_t)len);
 }
 
-// Each name is written with its binding, or with its scope (language.md L8.2). After a syntax error, only the names of
-// that statement are missing.
+// Each name is written with its binding or its scope (language.md L8.2). After a syntax error, only the names of the
+// erroneous statement are missing.
 static void test_bindings(void **state) {
     static const struct {
         const char *text;
@@ -190,7 +191,7 @@ static void test_bindings(void **state) {
 
 static const char profiled_script[] = "let a=frame\n\n!b x=a\n!counter state=:c rate=1\n";
 
-// There is a row for each line that was evaluated in a frame; folded lines have none.
+// The profile has one row for each line that was evaluated in a frame. Folded lines have none.
 static void test_profile_has_row_per_line(void **state) {
     Player *player = *state;
     player_run(player, profiled_script, 3);
@@ -198,7 +199,7 @@ static void test_profile_has_row_per_line(void **state) {
     PetriOptions options = player_options(player);
     options.profile = true;
     player_reopen(player, &options);
-    for (int load = 0; load < 2; load++) { // a load clears the measurements
+    for (int load = 0; load < 2; load++) { // loading clears the measurements
         player_run(player, profiled_script, 3);
         player->printed.len = 0;
         assert_int_equal(petri_profile(player->session, 0.5, note, &player->printed), PETRI_OK);
@@ -231,7 +232,7 @@ static void test_failed_load_keeps_the_script(void **state) {
     assert_text("continues", player_tree(player), "!a v=7\n!counter state=:c rate=1\n");
 }
 
-// Each diagnostic is reported once per position and load.
+// Each diagnostic is reported once per position, until the next load.
 static void test_diagnostics_are_reported_once_per_load(void **state) {
     Player *player = *state;
     static const char script[] = "!a v='s'(1);nothing\n!physics state=:s dimensions=1 colour=1\n";
@@ -253,7 +254,7 @@ static void test_diagnostics_are_reported_once_per_load(void **state) {
     }
 }
 
-// Two texts at one position are two diagnostics (language.md L15.1).
+// Two messages at one position are two diagnostics (language.md L15.1).
 static void test_texts_at_one_position_are_distinct(void **state) {
     Player *player = *state;
     player_run(player, "!a v=(read(f) for f in ('missing1';'missing2'))\n", 1);
@@ -262,7 +263,7 @@ static void test_texts_at_one_position_are_distinct(void **state) {
                 "? read: cannot read 'missing2': no such file (t.fl:1)\n");
 }
 
-// After a load, nothing of the old script is printed or read.
+// After loading another script, no output or data of the old script remains.
 static void test_load_clears_output(void **state) {
     Player *player = *state;
     player_run(player, "!a v='s'(1)\ndebug('old')\n", 1);
@@ -310,7 +311,7 @@ static void test_sessions_are_independent(void **state) {
     assert_text("second", player_tree(&second), "!b v=3;60\n");
     assert_text("diagnostics", player_diagnostics(first), "");
     assert_non_null(strstr(player_diagnostics(&second), "unbound name 'd'"));
-    // A symbol that is known only to one session is a number in the other.
+    // A symbol that is registered in only one session is a number in the other.
     player_run(first, "!a v=:spring\n", 1);
     player_run(&second, "!a v=:sprung+0\n", 1);
     assert_text("symbol", player_tree(first), "!a v=:spring\n");
@@ -334,7 +335,7 @@ static void store_position(void *host, const PetriDiagnostic *diagnostic) {
     snprintf(host, 100, "%s:%u:%u", diagnostic->file ? diagnostic->file : "", diagnostic->line, diagnostic->column);
 }
 
-// Diagnostics of a node have its position, whether it was folded, or created in a loop or by a function.
+// The diagnostics of a node have its position, even if it was folded, or created in a loop or by a function.
 static void test_diagnostics_have_node_positions(void **state) {
     (void)state;
     static const struct {
@@ -345,7 +346,7 @@ static void test_diagnostics_have_node_positions(void **state) {
         {"func cell(r)\n    !particle id=1 radious=r\n!physics state=:s dimensions=1\n    cell(frame)\n", "t.fl:2:20"},
         {"!physics dimensions=1\n    !particle id=1\n", "t.fl:1:1"},
         {"!physics state=:s dimensions=1\n    !particle id=1\n    !distance from=1 to=2\n", "t.fl:3:22"},
-        // An attribute that was added elsewhere has the position of the node.
+        // An attribute that was added elsewhere has the position where it was added.
         {"let cell=!particle id=1\n!physics state=:s dimensions=1\n    cell radious=2\n", "t.fl:1:10"},
         {"!physics state=:s dimensions=1\n    !partikel id=1\n", "t.fl:2:5"},
         {"!a\n!pysics\n", "t.fl:2:1"},
@@ -365,7 +366,7 @@ static void test_diagnostics_have_node_positions(void **state) {
         }
 }
 
-// An error in many nodes of one loop is reported once; the same error on two lines is reported twice.
+// An error in many nodes of one loop is reported once. The same error on two lines is reported twice.
 static void test_loop_error_is_reported_once(void **state) {
     (void)state;
     Player player;
@@ -411,7 +412,7 @@ static void test_node_kinds_and_attributes(void **state) {
             rects += strcmp(kind.name, "rect") == 0 && strcmp(attribute.name, "radius") == 0;
         }
     }
-    assert_int_equal(groups, 3); // for physics, canvas and canvas3d
+    assert_int_equal(groups, 3); // the groups physics, canvas and canvas3d
     assert_int_equal(rects, 1);
     assert_false(petri_node_kind(kinds + 1000, &kind));
     assert_false(petri_node_attribute(kinds, 0, &attribute));
@@ -492,7 +493,7 @@ int main(void) {
         cmocka_unit_test(test_diagnostics_have_node_positions),
         cmocka_unit_test(test_loop_error_is_reported_once),
         cmocka_unit_test(test_builtins_and_numbers),
-        PLAYER_TEST(test_load_clears_output), // last, because it used to read freed memory
+        PLAYER_TEST(test_load_clears_output), // runs last, because the tested bug was a read of freed memory
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
-// test_session_limits.c: tests that a frame which exceeds a limit of work or memory is aborted without effect.
+// test_session_limits.c: tests that a frame that exceeds a limit of work or memory is aborted without effect.
 #include "player.h"
 
-// Loops that would practically never end exceed the work limit.
+// Loops that would run practically forever exceed the work limit.
 static void test_work_limit_aborts_frame(void **state) {
     Player *player = *state;
     PetriOptions options = player_options(player);
@@ -40,13 +40,13 @@ static void test_memory_limit_aborts_frame(void **state) {
     assert_text("after", player_state(player), "$:c = 0.03333333333333333\n$(:c;:time) = 0.03333333333333333\n");
 }
 
-// Nothing changes wherever in a frame the memory limit is exceeded, because systems do not use the script's budget.
+// Wherever in a frame the memory limit is exceeded, nothing changes, because systems do not use the script's budget.
 static void test_abort_leaves_state_unchanged(void **state) {
     Player *player = *state;
     static const char script[] = "!counter state=:c rate=1\n"
                                  "!physics state=:p dimensions=2\n"
                                  "    !random strength=5\n"
-                                 "    for i in ..400+0*frame\n" // not constant: created again in each frame
+                                 "    for i in ..400+0*frame\n" // not constant, so it is created again in each frame
                                  "        !particle id=i position=i;1 velocity=1;2\n"
                                  "!physics state=:q dimensions=20\n"
                                  "    for i in ..40\n"

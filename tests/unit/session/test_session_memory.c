@@ -1,5 +1,5 @@
-// test_session_memory.c: lets each allocation of each public function fail in turn. Nothing crashes or leaks (checked
-// by sanitizers), a failed call changes nothing, and repeating it gives the normal result.
+// test_session_memory.c: lets each allocation of each public function fail in turn. Nothing may crash or leak, which
+// sanitizers check. A failed call changes nothing, and repeating it gives the usual result.
 #include "folder.h"
 #include "heap.h"
 #include "petri-draw.h"
@@ -28,12 +28,12 @@ typedef struct Stage {
     Player player;
     PetriSnapshot *early;
     PetriConfig *config;
-    Notebook written; // output of the act
+    Notebook written; // output of the act (a call of a public function)
 } Stage;
 
 typedef PetriStatus Act(Stage *stage);
 
-// The next frames are also compared, to see whether the session continues in the same way.
+// The next frames are also compared, to check that the session continues as usual.
 static void write_frame(Stage *stage, Notebook *book) {
     char line[100];
     PetriFrame frame = petri_frame(stage->player.session);
@@ -97,7 +97,7 @@ static void clear_written(Stage *stage) {
 
 static bool write_text(void *host, const char *text, size_t len) {
     bool counts = heap.counts;
-    heap.counts = false; // allocations of the notebook are not counted
+    heap.counts = false; // allocations of the notebook must not be counted
     note(host, text, len);
     heap.counts = counts;
     return true;
@@ -278,7 +278,7 @@ static PetriStatus act_prompt_check(Stage *stage) {
     uint64_t errors = petri_diagnostic_count(stage->player.session, PETRI_ERROR);
     if (petri_prompt_check(stage->player.session, "area(1;", PETRI_NUL_TERMINATED) == PETRI_INCOMPLETE)
         return PETRI_OK;
-    assert_true(petri_diagnostic_count(stage->player.session, PETRI_ERROR) > errors); // reported
+    assert_true(petri_diagnostic_count(stage->player.session, PETRI_ERROR) > errors); // the failure is reported
     return PETRI_OUT_OF_MEMORY;
 }
 
@@ -361,7 +361,7 @@ static PetriStatus act_records(Stage *stage) {
         assert_true(ready && !records);
         PetriPainter *painter = petri_painter_open();
         PetriRecord record;
-        assert_false(painter && petri_picture_record(picture, painter, 0, &record)); // not rendered
+        assert_false(painter && petri_picture_record(picture, painter, 0, &record)); // the picture was not rendered
         petri_painter_close(&painter);
         petri_picture_report(stage->player.session, picture);
     }
@@ -369,7 +369,7 @@ static PetriStatus act_records(Stage *stage) {
     return status;
 }
 
-// Only allocations of petri fail, not those inside Cairo and its libraries.
+// Only allocations by petri fail, not those inside Cairo and its dependencies.
 static PetriStatus act_paint(Stage *stage) {
     static uint32_t pixels[100 * 100];
     PetriPicture *picture;
@@ -439,7 +439,7 @@ static const Row rows[] = {
     {"paint", act_paint, false},
 };
 
-// Records the output of the act, the session after it, and the next two frames.
+// Records the output of the act, the session's state after it, and the next two frames.
 static char *outcome(Stage *stage) {
     Notebook book = stage->written;
     write_frame(stage, &book);
@@ -452,7 +452,7 @@ static char *outcome(Stage *stage) {
     return book.text;
 }
 
-// Lets one allocation fail, or also all later ones.
+// Lets one allocation fail, and optionally all later ones.
 static void check_failure(Stage *stage, const Row *row, long number, bool all, const char *wanted) {
     char name[100];
     Notebook before = {0}, after = {0};
@@ -477,7 +477,7 @@ static void check_failure(Stage *stage, const Row *row, long number, bool all, c
     close_stage(stage);
 }
 
-// Tries a sample of the allocations of an act; all with TRIES=1000000.
+// Lets a sample of an act's allocations fail. TRIES=1000000 tries all of them.
 static long max_tries(void) {
     const char *tries = getenv("TRIES");
     return tries ? strtol(tries, NULL, 10) : 50;
@@ -500,8 +500,8 @@ static void test_failed_allocations_change_nothing(void **state) {
     }
 }
 
-// Without rollback_frames, systems that were updated before memory ran out keep their new state, and the frame counts.
-// The session continues.
+// Without rollback_frames, systems that were updated before the allocation failed keep their new state, and the frame
+// is counted. The session continues.
 static void test_step_without_rollback_continues(void **state) {
     Stage *stage = *state;
     for (long number = 0, total = 1; number < total; number++) {

@@ -1,11 +1,11 @@
 // test_session_node_batch.c: tests that nodes which loops create as batches (lib/value/node_batch.h) behave like single
-// nodes, and use less memory.
+// nodes and use less memory.
 #include "player.h"
 #include "session/session.h"
 
 enum { VARIANTS = 4, LOOPS = 7 };
 
-// Nodes that each iteration creates.
+// Nodes that are created in each iteration.
 static const char *const nodes[] = {
     "!particle id=i position=i;2*i mass=3",
     "!particle #one #two id=i position=(i;1) radius=i*2 mass=1/(i-7)",
@@ -23,10 +23,11 @@ static const char *const nodes[] = {
 static const char *const loops[LOOPS] = {"..40", "(5;..40)",  "..20|0.5",    "(x/3 for x in ..100)",
                                          "..3",  "(..40)*-1", "(-0;(1..40))"};
 
-// Writes a script with loops below nodes, or with vectors of the loops' nodes, which are not batched.
+// Writes a script in which loops create nodes in place (`in_place`, batched), or bind a vector of nodes first (not
+// batched).
 static const char *make_script(char *text, size_t size, bool in_place, bool dynamic, const char *node,
                                const char *loop) {
-    const char *factor = dynamic ? "*(1+0*frame)" : ""; // keeps the sign of zero
+    const char *factor = dynamic ? "*(1+0*frame)" : ""; // this factor keeps the sign of zero
     char made[1000] = "many", line[1000] = "many";
     if (in_place) {
         snprintf(made, sizeof made, "((%s) for i in %s%s)", node, loop, factor);
@@ -52,7 +53,7 @@ static const char *run_variant(Player *player, bool in_place, bool dynamic, int 
     return player_print(player, PETRI_PRINT_TREE | PETRI_PRINT_LOG);
 }
 
-// Trees with batched and with single nodes are equal.
+// Batched and single nodes give equal trees.
 static void test_batched_nodes_match_single_nodes(void **state) {
     Player *player = *state;
     for (int node = 0; node < (int)COUNT_OF(nodes); node++)
@@ -65,7 +66,7 @@ static void test_batched_nodes_match_single_nodes(void **state) {
         }
 }
 
-// Adds up the numbers of a node, read with petri_tree_*.
+// Returns the sum of a node's numbers, read with petri_tree_*.
 static void count_nodes(const PetriNode *node, int *kinds, double *sum) {
     PetriValue v = petri_tree_get(node, "id");
     *kinds += strcmp(petri_tree_kind(node), "particle") == 0;
@@ -75,7 +76,7 @@ static void count_nodes(const PetriNode *node, int *kinds, double *sum) {
         count_nodes(child, kinds, sum);
 }
 
-// A host sees single nodes with their own numbers. Systems continue normally whether the host reads the tree or not.
+// A host sees single nodes with separate numbers. Whether or not the host reads the tree, systems continue as usual.
 static void test_host_sees_single_nodes(void **state) {
     Player *player = *state;
     player_run(player,
@@ -95,7 +96,7 @@ static void test_host_sees_single_nodes(void **state) {
     assert_true(strstr(player_state(player), "$(:p;999) = 999.05\n") != NULL);
 }
 
-// Limits the memory of a session per particle: script, state and engine.
+// Limits the memory per particle: script, state and engine together.
 static void test_memory_per_particle(void **state) {
     enum { COUNT = 100000, EACH = 380 };
     Player *player = *state;

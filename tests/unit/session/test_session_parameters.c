@@ -43,7 +43,7 @@ static void test_parameters_are_recognised(void **state) {
         {"let N=N or (1;\n  2)\n", "N 1;2 ((1; 2)) nan/nan -inf..inf|0 '' 1:5\n", true},
         {"let N=N or beat -- a\033[31m\tb\302\233c\n", "N beat (beat) nan/nan -inf..inf|0 'a [31m b c' 1:5\n", true},
         {"let N=N or false -- 0..1\n", "N 0 (false) 0/0 0..1|0 '' 1:5\n", true},
-        // The second name is already bound.
+        // The second `let` is not a parameter, because the name is already bound.
         {"let N=N or 1\nlet N=N or 2\n", "N 1 (1) 1/1 -inf..inf|0 '' 1:5\n", true},
         // None of these are parameters.
         {"let k=3\nlet k=k or 2\n", "", true},
@@ -73,7 +73,7 @@ static void test_comments(void **state) {
         {"-- 1..500 how many cells", "1..500|0 'how many cells'"},
         {"--1..500", "1..500|0 ''"},
         {"--- 1..500: cells ", "1..500|0 'cells'"},
-        {"-- -1..1,charge", "-inf..inf|0 '-1..1,charge'"}, // not a range without a space after it
+        {"-- -1..1,charge", "-inf..inf|0 '-1..1,charge'"}, // a range must be followed by a space
         {"-- -1..1, charge", "-1..1|0 'charge'"},
         {"-- 0.5..2.5|0.25 speed", "0.5..2.5|0.25 'speed'"},
         {"-- 0.. not negative", "0..inf|0 'not negative'"},
@@ -125,7 +125,7 @@ static void test_values(void **state) {
         }
 }
 
-// An unused definition is reported, with the position of the reason.
+// An unused definition is reported. The diagnostic's position shows the cause.
 static void test_unused_definitions_are_reported(void **state) {
     static const struct {
         const char *definition, *script, *reported;
@@ -140,7 +140,7 @@ static void test_unused_definitions_are_reported(void **state) {
          "warning t.fl:1:5 unused definition 'CELL': t.fl does not read it [unknown-parameter]\n"},
         {"fps=5", "!a v=fps\n", "warning unused definition 'fps': petri sets this name itself [unused-definition]\n"},
         {"FOO=5", "!a\n", "warning unused definition 'FOO': t.fl does not read it [unread-definition]\n"},
-        // Used, even if only before the script binds the name itself.
+        // The definition is used, even if only before the script binds the name.
         {"CELLS=5", "!a v=CELLS\nlet CELLS=200\n!a v=CELLS\n", ""},
         {"CELLS=5", "let CELLS=CELLS*2\n!a v=CELLS\n", ""},
         {"CELLS=5", "func f()\n    CELLS\n!a v=f()\n", ""},
@@ -154,14 +154,14 @@ static void test_unused_definitions_are_reported(void **state) {
         player_run(player, rows[i].script, 1);
         assert_text(rows[i].script, player_diagnostics(player), rows[i].reported);
     }
-    Player *player = *state; // of repeated definitions, only the last is used and reported
+    Player *player = *state; // if a definition is repeated, only the last one is used and reported
     assert_int_equal(petri_define(player->session, "N=77"), PETRI_OK);
     assert_int_equal(petri_define(player->session, "N=3"), PETRI_OK);
     player_run(player, "let N=N or 2 -- 1..9\n!a v=N;sin\n", 1);
     assert_text("last", player_diagnostics(player), "");
 }
 
-// Hints are lines of the rendered text.
+// Hints are separate lines of the rendered text.
 static void store_rendered(void *host, const PetriDiagnostic *diagnostic) {
     Player *player = host;
     note(&player->diagnostics, diagnostic->rendered, strlen(diagnostic->rendered));
@@ -188,7 +188,7 @@ static void test_hints_are_rendered(void **state) {
                 "    write `let DISH=DISH or …` to use the definition\n");
 }
 
-// If the default consists of numbers, the definition must as well.
+// If the default consists of numbers, the definition must consist of numbers as well.
 static void test_invalid_definitions_are_rejected(void **state) {
     Player *player = *state;
     static const struct {
@@ -311,8 +311,8 @@ static void test_modules_do_not_see_definitions(void **state) {
     folder_close(&folder);
 }
 
-// Changed definitions recompile a script without parsing it or unchanged included files again, also after
-// petri_config_apply, as petri sweep does before each run.
+// After a change of definitions, the script is recompiled, but neither it nor unchanged included files are parsed
+// again. This also holds after petri_config_apply, which petri sweep calls before each run.
 static void test_recompiling_does_not_parse(void **state) {
     Player *player = *state;
     PetriSession *session = player->session;

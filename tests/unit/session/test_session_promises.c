@@ -1,4 +1,4 @@
-// test_session_promises.c: tests lifetimes, snapshots and NULL arguments as petri.h documents them.
+// test_session_promises.c: tests that lifetimes, snapshots and NULL arguments are as documented in petri.h.
 #include "folder.h"
 #include "player.h"
 
@@ -22,7 +22,7 @@ static void ignore_token(void *host, const PetriToken *token) {
     (void)token;
 }
 
-// Texts live as long as petri.h documents, whatever functions are called meanwhile.
+// Strings stay valid as long as petri.h documents, whatever functions are called in the meantime.
 static void test_texts_stay_valid(void **state) {
     Player *player = *state;
     PetriSession *session = player->session;
@@ -98,7 +98,7 @@ static void test_performance_rewinds(void **state) {
                      PETRI_OK);
     struct timespec pause = {.tv_nsec = 20000000};
     nanosleep(&pause, NULL);
-    player_step(player, 1); // late: performance falls
+    player_step(player, 1); // the frame is late, so performance falls
     assert_int_equal(petri_rewind(player->session, snapshot), PETRI_OK);
     assert_int_equal(petri_evaluate(player->session, "performance", PETRI_NUL_TERMINATED, &after, NULL, NULL),
                      PETRI_OK);
@@ -106,7 +106,6 @@ static void test_performance_rewinds(void **state) {
     petri_snapshot_free(snapshot);
 }
 
-// All functions accept NULL.
 static void test_null_arguments_are_accepted(void **state) {
     Player *player = *state;
     PetriSession *none = NULL, *session = player->session;
@@ -120,7 +119,7 @@ static void test_null_arguments_are_accepted(void **state) {
     double x;
     player_run(player, KEYS, 2);
     const PetriStatus statuses[] = {
-        petri_set_allocator(NULL), // a session is open
+        petri_set_allocator(NULL), // invalid while a session is open
         petri_define(none, "A=1"),
         petri_define(session, NULL),
         petri_load(none, "s.fl"),
@@ -233,7 +232,6 @@ static void test_null_arguments_are_accepted(void **state) {
     petri_snapshot_free(snapshot);
 }
 
-// Invalid levels have no diagnostics.
 static void test_invalid_levels_have_no_diagnostics(void **state) {
     Player *player = *state;
     assert_int_equal(player_load(player, "!a x=(\n"), PETRI_INVALID);
@@ -243,7 +241,7 @@ static void test_invalid_levels_have_no_diagnostics(void **state) {
     assert_int_equal(petri_diagnostic_count(player->session, (PetriLevel)1000000), 0);
 }
 
-// After fork, the child has no worker threads, and petri_close must not wait for them.
+// After fork, the child process has no worker threads, so petri_close must not wait for them.
 static void test_close_after_fork(void **state) {
     Player *player = *state;
     PetriOptions options = player_options(player);
@@ -262,7 +260,7 @@ static void test_close_after_fork(void **state) {
     int status = -1;
     assert_int_equal(waitpid(child, &status, 0), child);
     assert_int_equal(status, 0);
-    player_step(player, 1); // the parent continues
+    player_step(player, 1); // the parent process continues
 }
 
 // A reload rejects a pipe, which could block.

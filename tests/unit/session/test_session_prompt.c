@@ -9,7 +9,7 @@ static const char *const SCRIPT = "%pragma tempo 120\n"
                                   "!counter state=:c rate=1\n"
                                   "!shape n=COUNT\n";
 
-// Returns the output of the prompt for a text.
+// Returns the prompt's output for an input.
 static const char *typed(Player *player, const char *text, PetriStatus wanted) {
     PetriPromptResult done;
     player->printed.len = 0;
@@ -77,8 +77,8 @@ static void test_statements_persist(void **state) {
     assert_non_null(strstr(player_diagnostics(player), "unbound name 'k'"));
 }
 
-// Names of the prompt are evaluated in the state after the frame, names and nodes of the script in the state before it,
-// whatever caused the evaluation of the frame.
+// Names that were bound at the prompt are evaluated in the state after the frame. Names and nodes of the script are
+// evaluated in the state before it, whatever causes the evaluation.
 static void test_frame_values(void **state) {
     static const char *const values = "x;y;$(:b;0);seen;n;tempo";
     Player *player = *state;
@@ -113,7 +113,7 @@ static void test_frame_values(void **state) {
     free(tree);
 }
 
-// A system typed at the prompt simulates like one of the script.
+// A system typed at the prompt is simulated like a system of the script.
 static void test_typed_system_simulates(void **state) {
     static const char *const system = "!physics state=:p dimensions=1 time=time\n"
                                       "    !particle id=0 position=1 velocity=COUNT\n"
@@ -136,7 +136,7 @@ static void test_errors_are_reported(void **state) {
     assert_int_equal(player_load(player, SCRIPT), PETRI_OK);
     static const char *const wrong[] = {"1+", "let x", "%pragma tempo 3\n", "!a x=", "'"};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
-        for (int twice = 0; twice < 2; twice++) { // repeated input repeats diagnostics
+        for (int twice = 0; twice < 2; twice++) { // if an input is repeated, its diagnostics are reported again
             typed(player, wrong[i], PETRI_INVALID);
             assert_non_null(strstr(player_diagnostics(player), "error prompt:1:"));
             player_forget(player);
@@ -172,7 +172,7 @@ static void test_completeness(void **state) {
         {"'''abc\ndef'''\n", PETRI_COMPLETE},
         {"1 + \\\n", PETRI_INCOMPLETE},
         {"1 + \\\n2\n", PETRI_COMPLETE},
-        {"1+\n", PETRI_COMPLETE},   // invalid, whatever follows
+        {"1+\n", PETRI_COMPLETE},   // invalid, whatever may follow
         {")(\n", PETRI_COMPLETE},   //
         {"'abc\n", PETRI_COMPLETE}, //
         {"\xff\n", PETRI_COMPLETE}, //
@@ -204,7 +204,7 @@ static void test_evaluate(void **state) {
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
         assert_int_equal(petri_evaluate(player->session, wrong[i], PETRI_NUL_TERMINATED, &result, NULL, NULL),
                          PETRI_INVALID);
-    // Evaluations retain no memory.
+    // Evaluation must not leak memory.
     for (int i = 0; i < 3000; i++)
         assert_int_equal(petri_evaluate(player->session, "COUNT;..1000", PETRI_NUL_TERMINATED, &result, NULL, NULL),
                          PETRI_OK);

@@ -1,5 +1,5 @@
-// test_session_ranks.c: tests that several ranks give the same results as one process, bit for bit. The ranks are
-// threads here and communicate through queues. argv[1..]: folders of scripts.
+// test_session_ranks.c: tests that several ranks give the same results as one process, bit for bit. In these tests, the
+// ranks are threads that communicate through queues. argv[1..]: folders of scripts.
 #include "player.h"
 #include "scripts.h"
 
@@ -24,11 +24,11 @@ typedef struct World {
     pthread_cond_t arrived;
     Queue queues[MAX_RANKS][MAX_RANKS]; // by sender and receiver
     int count;
-    const char *file; // NULL: use the following text
+    const char *file; // NULL: the script is `text`
     const char *text;
     int frames;
     bool silent;    // do not hash the states, because hashes of large systems are slow
-    double *common; // shared memory
+    double *common; // memory shared by the ranks
 } World;
 
 typedef struct Rank {
@@ -67,7 +67,7 @@ static void receive(void *host, int from, double *numbers, size_t runs, size_t l
         queue->end = &queue->first;
     pthread_mutex_unlock(&rank->world->mutex);
     if (parcel->count != runs * length)
-        abort(); // the ranks execute different operations
+        abort(); // the ranks' sequences of operations differ
     for (size_t k = 0; k < runs; k++)
         memcpy(numbers + k * stride, parcel->numbers + k * length, length * sizeof *numbers);
     free(parcel);
@@ -104,11 +104,11 @@ static void allreduce_max(void *host, double *numbers, size_t count) {
     free(others);
 }
 
-// Allocates new memory each time, without data of the frame before.
+// Allocates new memory in each call, without the data of the previous frame.
 static double *alloc_shared(void *host, size_t count) {
     const Rank *rank = host;
     double all = 0, address = 0;
-    allreduce_max(host, &all, 1); // no rank may read the memory before
+    allreduce_max(host, &all, 1); // wait until no rank reads the old memory any more
     if (rank->number == 0) {
         free(rank->world->common);
         rank->world->common = malloc(count * sizeof *rank->world->common);
@@ -117,9 +117,9 @@ static double *alloc_shared(void *host, size_t count) {
     return rank->world->common;
 }
 
-static bool in_common; // ranks share memory
+static bool in_common; // true if the ranks share memory
 
-// Returns a checksum of the forces in the last step.
+// Writes a checksum of the forces in the last step to the notebook.
 static void note_forces(PetriSession *session, Notebook *book) {
     PetriSystem system;
     uint64_t sum = 0;
@@ -242,7 +242,7 @@ static void test_scripts_match_single_process(void **state) {
     assert_true(message_count > 1000);
 }
 
-// Many blocks, a last block that is not full, one or several forces, particles without a source; triangles of pairs,
+// Many blocks, of which the last is not full; one or several forces; particles without a source; triangles of pairs,
 // and rectangles with either side longer.
 static void test_ranks_match_single_rank(void **state) {
     (void)state;
@@ -318,7 +318,7 @@ static const char *const reaching[] = {
     "        if frame > 1\n"
     "            !gravity strength=5 max_distance=1\n"
     "    !constant acceleration=0;0;-9\n",
-    // one dimension; some positions are not finite, some particles appear, speeds are limited
+    // one dimension; some positions are not finite, some particles appear, the speed is limited
     "!physics state=:a dimensions=1 resolution=1/500 speed_of_light=300\n"
     "    for i in ..800\n"
     "        !particle id=i position=3*normal(:p)[i]*(i%100+1) velocity=(1/0 if i%90==7 else 50*normal(:v)[i]) "
@@ -327,7 +327,8 @@ static const char *const reaching[] = {
     "        !particle id=1000+i position=0/0 radius=i\n"
     "    !collision strength=100 power=1.5\n"
     "    !buoyancy density=0.3\n",
-    // more groups than neighbour lists; groups without a list are fast; a frame without a range
+    // more groups than neighbour lists; particles in groups without a list move fast; one frame without a maximum
+    // distance
     "!physics state=:a dimensions=2 resolution=1/240\n"
     "    for g in ..10\n"
     "        !group\n"
@@ -392,10 +393,10 @@ static void test_domains_match_single_process(void **state) {
     }
 }
 
-// The bytes sent per step grow with the surface of the regions, not with the number of particles.
+// The number of bytes sent per step grows with the surface of the regions, not with the number of particles.
 static void test_traffic_grows_with_surface(void **state) {
     (void)state;
-    static const int usual[] = {100, 200, 300}, all[] = {100, 316, 1000}; // discs along an edge
+    static const int usual[] = {100, 200, 300}, all[] = {100, 316, 1000}; // number of discs along an edge
     const int *sides = getenv("SIZES") ? all : usual;
     for (int i = 0; i < 3; i++) {
         enum { RANKS = 4, POSITION = 2 * sizeof(double) };
@@ -412,7 +413,7 @@ static void test_traffic_grows_with_surface(void **state) {
         free(came.text);
         double steps = (double)regions.steps, halo = (double)regions.halo / steps;
         double bytes = (double)regions.step_bytes / steps, messages = (double)regions.step_messages / steps;
-        // Each rank owns a quarter and shares two edges. Its halo has the width of a diameter and a skin.
+        // Each rank owns a quarter of the square and shares two edges. Its halo is as wide as a diameter plus the skin.
         double surface = RANKS * sides[i] * 1.3 / 0.97;
         print_message("%7d discs on %d ranks: %.0f in halos, %.0f bytes and %.1f messages a step\n",
                       sides[i] * sides[i], RANKS, halo, bytes, messages);

@@ -1,5 +1,6 @@
-// test_session_reuse.c: tests that a reused session, as in petri sweep, gives the same tree, state and log of each
-// frame as a new one. (A missing file is reported only when it is first read.) argv[1..]: folders of scripts.
+// test_session_reuse.c: tests that a reused session, as in petri sweep, gives the same tree, state and log in each
+// frame as a new session. The log of a missing file is an exception: it is reported only at the first read. argv[1..]:
+// folders of scripts.
 #include "player.h"
 #include "scripts.h"
 
@@ -16,7 +17,8 @@ static Notebook record(PetriSession *session) {
     return all;
 }
 
-// The previous run has other definitions and more frames.
+// Loads a script and runs it with another definition for more frames. Then resets the session and records the results
+// of a second run. Returns false if loading fails.
 static bool run_again(Player *player, const char *file, Notebook *all) {
     PetriSession *session = player->session;
     if (petri_load(session, file) != PETRI_OK)

@@ -5,7 +5,7 @@
 #include <pthread.h>
 #include <time.h>
 
-// All data that systems keep: random forces, systems and particles that appear and vanish, text in keys.
+// All kinds of data that systems keep: random forces, systems and particles that appear and vanish, strings in keys.
 static const char *const SCRIPT = "%pragma tempo 60\n"
                                   "let N=12 if frame%7 < 3 else 9\n"
                                   "!physics state=:cells dimensions=2 time=beat resolution=0.01 run=frame//20\n"
@@ -119,7 +119,7 @@ static bool stop_after_polls(void *host) {
     return polls_left > 0 && --polls_left == 0;
 }
 
-// should_interrupt is polled during a frame; an interrupted frame has no effect.
+// should_interrupt is polled during a frame. An interrupted frame has no effect.
 static void test_should_interrupt(void **state) {
     Player *player = *state;
     PetriOptions options = player_options(player);
@@ -142,7 +142,7 @@ static void test_should_interrupt(void **state) {
     free(before);
 
     static const char loop[] = "!a x=sum(i*j for i in ..1000 for j in ..1000)";
-    asked_host = NULL; // a check polls with the host's pointer as well
+    asked_host = NULL; // during petri_check_text, should_interrupt also gets the host's user_data
     assert_int_equal(petri_check_text(player->session, "loop.fl", loop, PETRI_NUL_TERMINATED), PETRI_OK);
     assert_ptr_equal(asked_host, options.user_data);
 }
@@ -157,7 +157,7 @@ static void test_interrupt_rolls_back(void **state) {
                "!counter state=:c rate=1\n!a x=(f(26) if frame==3 else 0)",
                3);
     check_interrupted(player);
-    // The second system is interrupted after the first was updated.
+    // The interrupt occurs in the second system, after the first was updated.
     player_run(player,
                "!physics state=:a dimensions=1 time=time\n    !particle id=0 velocity=1\n"
                "!physics state=:b dimensions=2 time=time resolution=(1e-7 if frame==3 else 0.01)\n"
@@ -167,7 +167,7 @@ static void test_interrupt_rolls_back(void **state) {
     assert_int_equal(petri_set_resolution(player->session, 0.01), PETRI_OK);
     player_step(player, 2);
     assert_int_equal(petri_frame(player->session).number, 4);
-    petri_interrupt(player->session); // before the step
+    petri_interrupt(player->session); // the interrupt comes before the step
     assert_int_equal(petri_step(player->session), PETRI_INTERRUPTED);
     assert_int_equal(petri_frame(player->session).number, 4);
     player_step(player, 1);
@@ -197,7 +197,7 @@ static void test_reload_keeps_clock(void **state) {
     double beat = petri_frame(player->session).beat;
     folder_write(&folder, "s.fl", "!v x=\n");
     assert_int_equal(petri_reload(player->session, file), PETRI_INVALID);
-    player_step(player, 1); // the old script continues
+    player_step(player, 1); // the previously loaded script continues
     assert_string_equal(player_tree(player), "!counter state=:c rate=1\n!v x=1\n");
     folder_write(&folder, "s.fl", "%pragma tempo 180\n!counter state=:c rate=1\n!v x=2\n");
     assert_int_equal(petri_reload(player->session, file), PETRI_OK);

@@ -1,4 +1,4 @@
-// test_session_settings.c: tests pragmas, definitions (-D) and names of the engine (language.md L12, L16).
+// test_session_settings.c: tests pragmas, definitions (-D) and global names of the engine (language.md L12, L16).
 #include "player.h"
 
 #include <math.h>
@@ -20,7 +20,7 @@ static void test_pragmas(void **state) {
         {"%pragma tempo !a\n!a v=tempo\n", "!a v=120\n"},
         {"%pragma tempo 'nan'\n!a v=tempo\n", "!a v=120\n"},
         {"%pragma other 3\n!a v=fps\n", "!a v=60\n"},
-        {"%pragma quantum 0\n!a v=quantum\n", "!a v=0\n"}, // only tempo and fps must be above 0
+        {"%pragma quantum 0\n!a v=quantum\n", "!a v=0\n"}, // `quantum` may be 0; only tempo and fps must be positive
         {"%pragma quantum '-3'\n!a v=quantum\n", "!a v=-3\n"},
     };
     check_trees(*state, rows, COUNT_OF(rows), 1);
@@ -35,7 +35,7 @@ static void test_pragma_warnings(void **state) {
                 "warning t.fl:3:1 this pragma's value must be a number; ignored [bad-pragma]\n");
 }
 
-// Definitions as in L16.3.
+// Definitions as specified in L16.3.
 static void test_definitions(void **state) {
     Player *player = *state;
     static const struct {
@@ -56,7 +56,7 @@ static void test_definitions(void **state) {
         {"d=it's", "!a d=\"it's\"\n"},
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
-        assert_int_equal(petri_define(player->session, rows[i].definition), PETRI_OK); // the last one is used
+        assert_int_equal(petri_define(player->session, rows[i].definition), PETRI_OK); // the last definition is used
         player_run(player, "!a d=d\n", 1);
         assert_text(rows[i].definition, player_tree(player), rows[i].wanted);
     }
@@ -67,7 +67,7 @@ static void test_definitions(void **state) {
     assert_text("as it was", player_tree(player), "!a d=\"it's\"\n");
 }
 
-// Names of the engine have precedence over definitions, and these over built-ins; `let` shadows all.
+// Names of the engine have precedence over definitions, and definitions over built-ins. `let` shadows all of them.
 static void test_precedence_of_names(void **state) {
     Player *player = *state;
     assert_int_equal(petri_define(player->session, "fps=1"), PETRI_OK);
@@ -130,7 +130,7 @@ static void test_load_restarts_clock(void **state) {
     assert_text("pragmas are the script's own, the state stays", player_tree(player), "!a v=0;60;0;0.4\n");
 }
 
-// A host that pauses can exclude the pause from the script's time.
+// A host that pauses can exclude the pause from script time.
 static void test_resync_drops_elapsed_time(void **state) {
     Player *player = *state;
     player_run(player, "!a\n", 3);
@@ -156,7 +156,7 @@ static void sleep_seconds(double seconds) {
     nanosleep(&(struct timespec){.tv_sec = (time_t)seconds, .tv_nsec = (long)(fmod(seconds, 1) * 1e9)}, NULL);
 }
 
-// In real time, frame 0 also has time 0, whatever time passed before.
+// In real time, frame 0 also has time 0, however much time has passed before.
 static void assert_starts(Player *player, const char *what) {
     player_step(player, 1);
     PetriFrame frame = petri_frame(player->session);
@@ -187,7 +187,7 @@ static void test_wall_clock_starts_at_0(void **state) {
     assert_claim("reloaded", petri_frame(player->session).time > before);
 }
 
-// Rewinding also restores the time, from which the clock then continues.
+// Rewinding also restores the clock, which then continues from the restored time.
 static void test_wall_clock_is_rewound(void **state) {
     Player *player = *state;
     player_realtime(player, 20);
@@ -209,14 +209,14 @@ static void test_wall_clock_is_rewound(void **state) {
     petri_snapshot_free(second);
 }
 
-// A time set by the host with petri_step_at, from which petri_step continues.
+// petri_step_at sets the time, from which petri_step then continues.
 static void test_step_at_sets_clock(void **state) {
     Player *player = *state;
     for (int realtime = 0; realtime < 2; realtime++) {
         PetriOptions options = player_options(player);
         options.realtime = realtime;
         player_reopen(player, &options);
-        assert_int_equal(petri_step_at(player->session, 0, 0), PETRI_INVALID); // no script
+        assert_int_equal(petri_step_at(player->session, 0, 0), PETRI_INVALID); // no script is loaded
         assert_int_equal(player_load(player, "%pragma fps 4\n%pragma tempo 60\n!a x=frame;time;beat;delta\n"
                                              "!physics state=:p dimensions=1 time=time resolution=10\n"
                                              "    !particle id=1 velocity=1\n"),
@@ -233,7 +233,8 @@ static void test_step_at_sets_clock(void **state) {
         PetriSystem system;
         assert_true(petri_system(player->session, 0, &system));
         assert_number("x", system.position.data[0], 2.5);
-        assert_int_equal(petri_step_at(player->session, 90, 3), PETRI_OK); // earlier time: systems are not advanced
+        // the time is earlier, so systems are not advanced
+        assert_int_equal(petri_step_at(player->session, 90, 3), PETRI_OK);
         assert_true(petri_system(player->session, 0, &system));
         assert_number("x", system.position.data[0], 2.5);
         assert_int_equal(petri_step_at(player->session, NAN, 3), PETRI_INVALID);

@@ -1,11 +1,11 @@
-// test_session_simplifier.c: tests that every script of the tests and samples gives the same tree, state, log, errors
-// and diagnostics with and without the simplifier, frame by frame. argv[1..]: folders of scripts.
+// test_session_simplifier.c: tests that each script of the tests and samples gives the same results with and without
+// the simplifier: tree, state, log, errors and diagnostics of each frame. argv[1..]: folders of scripts.
 #include "player.h"
 #include "scripts.h"
 
 enum { FRAMES = 3, ALL_SECTIONS = 15 };
 
-// Returns the results of a script as text.
+// Returns the results of a script as a string.
 static Notebook record(const char *file, bool simplify) {
     Player player = {0};
     PetriOptions options = player_options(&player);

@@ -1,4 +1,4 @@
-// test_session_state.c: tests petri_restore with invalid state files. Each has a valid hash, so that its contents are
+// test_session_state.c: tests petri_restore with invalid state files. Their hashes are valid, so their contents are
 // read.
 #include "base/hash_index.h"
 #include "folder.h"
@@ -10,9 +10,9 @@ static const char SCRIPT[] =
     "!physics state=:s dimensions=1\n    !particle id=1 velocity=1\n!counter state=:n rate=60\n";
 
 typedef struct StateRow {
-    const char *body; // after the first line
+    const char *body; // content of the state file after the first line
     PetriStatus status;
-    const char *state; // state after the next frame
+    const char *state; // printed state after the next frame
     const char *reported;
 } StateRow;
 
@@ -28,7 +28,7 @@ static PetriStatus restore_text(Player *player, Folder *folder, const char *body
     return petri_restore(player->session, folder_file(folder, "s.state"));
 }
 
-// Returns the diagnostics without the folder, which differs in each run.
+// Returns the diagnostics without the name of the folder, which differs in each run.
 static const char *report_text(Player *player) {
     static char text[400];
     const char *quote = strchr(player->diagnostics.text, '\''), *slash = quote ? strrchr(quote, '/') : NULL;
@@ -46,16 +46,16 @@ static void test_invalid_state_files_are_rejected(void **state) {
     static const StateRow rows[] = {
         {"frame 9\n$(:n) = 7\n$(:n;:time) = 0\n", PETRI_OK, "$:n = 17\n", ""},
         {"frame 9\n$(:t) = 'caf\xc3\xa9'\n", PETRI_OK, "$:t = 'caf\xc3\xa9'\n", ""},
-        // Text that is not valid UTF-8: in a value, in a key, as a symbol.
+        // Strings that are not valid UTF-8: in a value, in a key, as a symbol.
         {"frame 9\n$(:t) = 'caf\xe9'\n", PETRI_INVALID, "", damaged},
         {"frame 9\n$('\xf0\x28\x8c\x28') = 1\n", PETRI_INVALID, "", damaged},
         {"frame 9\n$(:\xa0\xa0) = 1\n", PETRI_INVALID, "", damaged},
-        // Values that are not finite are ignored; their particles start from their attributes.
+        // Values that are not finite are ignored, and their particles start from their attributes.
         {"frame 9\n$(:n) = inf\n$(:n;:time) = 0\n", PETRI_OK, "$:n = 0\n",
          "warning values in 's.state' are not finite: 1 ignored [state-file]\n"},
         {"frame 9\n$(:n) = 1\n$(:n;:time) = nan\n$(:s;:clock) = -inf\n$(:x) = 1;nan\n", PETRI_OK, "$:n = 1\n",
          "warning values in 's.state' are not finite: 3 ignored [state-file]\n"},
-        // Frame numbers that exceed int and double.
+        // Frame numbers beyond the range of int, and beyond 2^53.
         {"frame 2147483647\n", PETRI_OK, "$(:n;:time) = 35791394.13333333\n", ""},
         {"frame 4503599627370496\n", PETRI_OK, "$(:n;:time) = 75059993789508.28\n", ""},
         {"frame 9007199254740993\n", PETRI_OK, "$(:n;:time) = 150119987579016.56\n", ""},
@@ -82,7 +82,7 @@ static void test_invalid_state_files_are_rejected(void **state) {
     folder_close(&folder);
 }
 
-// Frame numbers that a double cannot represent are counted and saved correctly.
+// Frame numbers that double cannot represent are counted and saved correctly.
 static void test_large_frame_numbers(void **state) {
     Player *player = *state;
     Folder folder;

@@ -76,7 +76,7 @@ static void test_particles(void **state) {
             assert_number("on a particle outside the group", particle_numbers(a.force, 0)[0], 0);
             assert_number("on an anchor", particle_numbers(a.force, 1)[1], 0);
         }
-        assert_null(system_of(player, 1).force.data); // no simulation step
+        assert_null(system_of(player, 1).force.data); // no step has been simulated
         assert_int_equal(petri_particle_id(player->session, 0, 3).length, 0);
         assert_int_equal(petri_particle_id(player->session, 2, 0).length, 0);
     }
@@ -109,7 +109,7 @@ static void test_forces_only_after_a_step(void **state) {
     }
 }
 
-// The columns are the engine's arrays, whose addresses do not change while the particles stay the same.
+// The columns point into the engine's arrays. Their addresses do not change while the set of particles stays the same.
 static void test_columns_are_not_copied(void **state) {
     Player *player = *state;
     player_run(player,
@@ -184,7 +184,8 @@ static void test_particle_ids(void **state) {
     assert_null(petri_particle_ids(player->session, 0).data);
     for (uint32_t i = 0; i < 3; i++)
         assert_int_equal(find_particle(player, petri_particle_id(player->session, 0, i)), i);
-    // Other ids, in another order, and with a prefix that contains text, so that the key is not numeric.
+    // The ids are replaced by others in another order, with a prefix that contains a string, so that the key is not
+    // numeric.
     player_run(player, "!physics state='s';1 dimensions=2 time=time\n    for i in 4;3;5\n        !particle id=i\n", 1);
     for (int frame = 0; frame < 3; frame++, player_step(player, 1)) {
         PetriColumn ids = petri_particle_ids(player->session, 0);

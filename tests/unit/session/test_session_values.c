@@ -76,7 +76,7 @@ static void test_iteration(void **state) {
     assert_string_equal(all, ":p=0 :p;:run=0 :p;:iteration=1 :p;:clock=1 :p;:last=1 :p;1=3;4 :p;1;:velocity=0;0 ");
 }
 
-// A particle continues from the position that the host sets.
+// A particle continues from a position that the host has set.
 static void test_moved_particle(void **state) {
     Player *player = *state;
     PetriSession *session = player->session;
@@ -105,11 +105,11 @@ static void test_globals(void **state) {
     uint64_t number = petri_config_revision(session);
     assert_int_equal(petri_set_global(session, "warmth", numbers(many, 3)), PETRI_OK);
     assert_int_equal(petri_set_global(session, "other", items(mixed, 2)), PETRI_OK);
-    many[0] = 1000;                         // a copy is used
-    assert_string_equal(heat(player), "2"); // while the frame is the same
+    many[0] = 1000;                         // the session has its own copy
+    assert_string_equal(heat(player), "2"); // the value does not change within a frame
     player_step(player, 1);
     assert_string_equal(heat(player), "8;10;12;'käse';2.5");
-    assert_int_equal(petri_config_revision(session), number); // not recompiled
+    assert_int_equal(petri_config_revision(session), number); // the script is not recompiled
     PetriEvaluation result;
     assert_int_equal(petri_evaluate(session, "warmth[0]+twice[0]", PETRI_NUL_TERMINATED, &result, NULL, NULL),
                      PETRI_OK);
@@ -131,7 +131,7 @@ static void test_globals(void **state) {
     assert_string_equal(player_diagnostics(player), "");
 }
 
-// petri_check knows the global names, and does not report unused ones.
+// petri_check accepts global names, and does not report those that are unused.
 static void test_check_knows_globals(void **state) {
     Player *player = *state;
     double one = 1;

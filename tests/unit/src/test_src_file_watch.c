@@ -1,4 +1,4 @@
-// test_src_file_watch.c: tests that complete changes on disk are reported once, however an editor makes them.
+// test_src_file_watch.c: tests that each complete change on disk is reported once, however an editor saves the file.
 #include "cli/file_watch.h"
 #include "folder.h"
 
@@ -35,7 +35,7 @@ static long milliseconds(void) {
     return time.tv_sec * 1000 + time.tv_nsec / 1000000;
 }
 
-// Waits like a host, with poll if possible, until a change is reported. Returns false after `limit` milliseconds.
+// Waits for a report like a host, with poll if possible. Returns false if there is none within `limit` milliseconds.
 static bool wait_changed(FileWatch *watch, long limit) {
     long end = milliseconds() + limit;
     for (long left = limit; left > 0; left = end - milliseconds()) {
@@ -72,7 +72,7 @@ static void test_write_in_place_is_reported_once(void **state) {
     for (int i = 0; i < 3; i++) {
         folder_write(&site->folder, "a.fl", "2");
         assert_true(wait_changed(site->watch, PATIENCE_MS));
-        assert_false(wait_changed(site->watch, QUIET_MS)); // once
+        assert_false(wait_changed(site->watch, QUIET_MS)); // the change is reported only once
     }
 }
 
@@ -100,7 +100,7 @@ static void test_recreated_file_is_reported(void **state) {
     assert_true(wait_changed(site->watch, PATIENCE_MS));
 }
 
-// A pipe in the file's place must not be reported, because opening it would wait for a writer.
+// If a pipe replaces the file, it must not be reported, because opening it would block until a writer appears.
 static void test_pipe_is_not_reported(void **state) {
     Site *site = *state;
     folder_write(&site->folder, "a.fl", "1");
@@ -167,7 +167,7 @@ static void test_several_changes_are_reported(void **state) {
     for (int i = 0; i < 3; i++) {
         folder_write(&site->folder, names[i], "1");
         file_watch_add(site->watch, folder_file(&site->folder, names[i]));
-        file_watch_add(site->watch, folder_file(&site->folder, names[i])); // a second call is ignored
+        file_watch_add(site->watch, folder_file(&site->folder, names[i])); // adding a file again has no effect
     }
     for (int i = 0; i < 3; i++)
         folder_write(&site->folder, names[i], "2");

@@ -1,11 +1,11 @@
-// test_src_history.c: tests that going back and forth in a session gives the same bits in bounded memory.
+// test_src_history.c: tests that going back and forth in a session gives the same bits, and that memory is bounded.
 #include "cli/cli.h"
 #include "cli/history.h"
 #include "player.h"
 
 #include <stdarg.h>
 
-// Messages of the command are ignored.
+// Stub: messages of the command are ignored.
 void message(const char *format, ...) {
     (void)format;
 }
@@ -73,7 +73,7 @@ static void test_goto_any_frame_gives_same_bits(void **state) {
     go_to(player, -1);
     go_to(player, 0);
     go_to(player, FRAMES - 1);
-    // Keyframes are dense for recent frames, and gaps are limited relative to their age.
+    // Recent frames have dense keyframes. The gap between keyframes is limited relative to their age.
     for (size_t i = 1; i < history.keyframe_count; i++) {
         int64_t gap = history.keyframes[i].frame - history.keyframes[i - 1].frame;
         int64_t age = history.last - history.keyframes[i - 1].frame;
@@ -82,7 +82,7 @@ static void test_goto_any_frame_gives_same_bits(void **state) {
     history_free(&history);
 }
 
-// A change applies only to later frames; earlier frames are recomputed without it.
+// A change applies only to later frames. Earlier frames are recomputed without it.
 static void test_change_applies_to_later_frames(void **state) {
     Player *player = *state;
     PetriPromptResult done;
@@ -97,7 +97,7 @@ static void test_change_applies_to_later_frames(void **state) {
     static const int64_t way[] = {20, 149, 49, 50, 99, 100, 3, 120, 60, 149};
     for (size_t i = 0; i < sizeof way / sizeof way[0]; i++)
         go_to(player, way[i]);
-    // Stepping under other settings replaces the later frames.
+    // A step with other settings replaces the later frames.
     go_to(player, 30);
     assert_float_equal(petri_frame(player->session).tempo, 90, 0);
     step(player, 40);
@@ -106,7 +106,7 @@ static void test_change_applies_to_later_frames(void **state) {
     static const int64_t again[] = {29, 30, 31, 70, 10, 45, 70};
     for (size_t i = 0; i < sizeof again / sizeof again[0]; i++)
         go_to(player, again[i]);
-    // Stepping under the same settings keeps the later frames.
+    // A step with the same settings keeps the later frames.
     go_to(player, 50);
     step(player, 5);
     assert_int_equal(history.last, 70);
@@ -131,7 +131,7 @@ static void test_goto_before_start_is_rejected(void **state) {
     history_free(&history);
 }
 
-// Drops everything but the state of the current frame, as after an interrupted step.
+// Drops all data except the state of the current frame, as after an interrupted step.
 static void lose_systems(Player *player) {
     PetriSystem system;
     PetriSnapshot *snapshot = petri_snapshot(player->session);
@@ -140,7 +140,7 @@ static void lose_systems(Player *player) {
     assert_false(petri_system(player->session, 0, &system));
 }
 
-// A frame with only its state is recomputed completely, with the settings of its epoch.
+// If only a frame's state exists, the rest of the frame is recomputed with the settings of its epoch.
 static void test_recompute_restores_whole_frame(void **state) {
     Player *player = *state;
     PetriSystem system;
@@ -165,7 +165,7 @@ static void test_recompute_restores_whole_frame(void **state) {
     assert_int_equal(petri_frame(player->session).number, frame);
     assert_true(state_hash(player) == hashes[frame]);
     go_to(player, -1);
-    assert_int_equal(history_recompute(&history, player->session), PETRI_OK); // nothing to recompute
+    assert_int_equal(history_recompute(&history, player->session), PETRI_OK); // there is nothing to recompute
     assert_int_equal(petri_frame(player->session).number, -1);
     history_free(&history);
 }

@@ -1,4 +1,4 @@
-// test_src_overlay_text.c: tests that overlay texts are plain, valid UTF-8 and fit the picture.
+// test_src_overlay_text.c: tests that overlay texts are plain, valid UTF-8 and fit into the picture.
 #include "check.h"
 #include "view/overlay_text.h"
 
@@ -40,7 +40,7 @@ static void test_set_truncates_between_characters(void **state) {
     (void)state;
     assert_true(overlay_set(text, sizeof text, "0123456789"));
     assert_string_equal(text, "0123456");
-    assert_true(overlay_set(text, sizeof text, "01234\xE2\x80\xA6 more")); // does not split a character
+    assert_true(overlay_set(text, sizeof text, "01234\xE2\x80\xA6 more")); // the text is not cut within a character
     assert_string_equal(text, "01234");
 }
 

@@ -48,7 +48,7 @@ static void test_step_gives_expected_value(void **state) {
     }
 }
 
-// A step up and a step down restore the value, at every point of the range.
+// A step up followed by a step down restores the value, at every point of the range.
 static void test_step_down_undoes_step_up(void **state) {
     (void)state;
     PetriParameter row = parameter(0.1, 0.7, 0.1, 3, 0.1);

@@ -76,7 +76,7 @@ static void test_unknown_sequence_is_ignored(void **state) {
     }
 }
 
-// An escape is the Escape key if no bytes follow it for a while.
+// An escape byte is the Escape key if no further bytes arrive for a while.
 static void test_lone_escape_is_a_key(void **state) {
     TerminalInput input = {0};
     (void)state;
@@ -111,21 +111,21 @@ static void check_pointer(TerminalInput *input, const char *text, double x, doub
 static void test_mouse_sequences_give_pointer(void **state) {
     TerminalInput input = {0};
     (void)state;
-    check_pointer(&input, "\033[<35;1;1M", 0.5, 0.5, 0); // moved
+    check_pointer(&input, "\033[<35;1;1M", 0.5, 0.5, 0); // pointer motion without a button
     check_pointer(&input, "\033[<0;80;24M", 79.5, 23.5, PETRI_BUTTON_LEFT);
-    check_pointer(&input, "\033[<32;10;4M", 9.5, 3.5, PETRI_BUTTON_LEFT); // dragged
+    check_pointer(&input, "\033[<32;10;4M", 9.5, 3.5, PETRI_BUTTON_LEFT); // pointer motion with a button
     check_pointer(&input, "\033[<2;10;4M", 9.5, 3.5, PETRI_BUTTON_LEFT | PETRI_BUTTON_RIGHT);
     check_pointer(&input, "\033[<0;10;4m", 9.5, 3.5, PETRI_BUTTON_RIGHT);
-    check_pointer(&input, "\033[<18;10;4m", 9.5, 3.5, 0); // with Control
+    check_pointer(&input, "\033[<18;10;4m", 9.5, 3.5, 0); // button release with Control
     send_text(&input, "\033[<64;10;4M\033[<0;0;0M\033[<M\033[<99999999999999999999;1;1M");
-    assert_int_equal(terminal_input_next(&input).kind, EVENT_NONE); // the wheel, and invalid sequences
+    assert_int_equal(terminal_input_next(&input).kind, EVENT_NONE); // the wheel and invalid sequences are ignored
     send_text(&input, "\033[<1;2;3M\033[O");
     assert_int_equal(terminal_input_next(&input).buttons, PETRI_BUTTON_MIDDLE);
     assert_int_equal(terminal_input_next(&input).kind, EVENT_FOCUS_LOST);
     check_pointer(&input, "\033[<35;2;3M", 1.5, 2.5, 0);
 }
 
-// A sequence without an end does not exceed the buffer, and keys after it are decoded.
+// A sequence without a final byte does not overflow the buffer, and later keys are decoded.
 static void test_endless_sequence_is_bounded(void **state) {
     char text[200];
     TerminalInput input = {0};

@@ -1,4 +1,4 @@
-// test_src_terminal_picture.c: tests of pictures as text, in the format that the environment selects.
+// test_src_terminal_picture.c: tests that pictures are written to terminals in the format that the environment selects.
 #include "check.h"
 #include "view/terminal_picture.h"
 
@@ -41,7 +41,7 @@ static void test_fit_keeps_aspect_ratio(void **state) {
     terminal_picture_free(renderer);
 }
 
-// Returns the text of a picture whose left half is white and whose right half is black.
+// Returns the output for a picture whose left half is white and whose right half is black.
 static char *draw_halves(TerminalPicture *renderer, const TerminalCells *cells) {
     uint32_t *pixels = calloc((size_t)cells->width * (size_t)cells->height, sizeof *pixels);
     assert_non_null(pixels);
@@ -69,7 +69,7 @@ static void test_cells_are_coloured_lines(void **state) {
     TerminalCells cells = terminal_picture_fit(renderer, 20, 5, 320, 160);
     char *text = draw_halves(renderer, &cells);
     assert_int_equal(count(text, '\n'), cells.rows - 1);
-    assert_non_null(strstr(text, "\033[")); // coloured
+    assert_non_null(strstr(text, "\033[")); // the output is coloured
     free(text);
     terminal_picture_free(renderer);
 }
@@ -103,7 +103,7 @@ static void test_graphics_protocol_by_terminal(void **state) {
     assert_non_null(strstr(text, "\033P"));
     free(text);
     terminal_picture_free(renderer);
-    renderer = new_picture_for("xterm-kitty", "C.UTF-8", false); // NO_COLOR
+    renderer = new_picture_for("xterm-kitty", "C.UTF-8", false); // colours are off, as with NO_COLOR
     assert_false(terminal_picture_is_graphics(renderer));
     terminal_picture_free(renderer);
     renderer = new_picture_for("screen-256color", "C.UTF-8", true);

@@ -1,4 +1,4 @@
-// test_state_compact.c: removal of the slots of removed keys.
+// test_state_compact.c: removal of slots whose keys were removed.
 #include "state/state.h"
 
 #include <setjmp.h>
@@ -24,7 +24,7 @@ static double second_of(const State *state, double key) {
     return v.len == 2 ? v.as.numbers[1] : -1;
 }
 
-// Removes every third key. One of the freed slots is still in use.
+// Removes every third key. One of the removed slots is still referenced.
 static void test_compact_keeps_used_slots_in_order(void **unused) {
     (void)unused;
     State *state = filled();
@@ -44,7 +44,7 @@ static void test_compact_keeps_used_slots_in_order(void **unused) {
     assert_int_equal(state_find(state, value_number(31)), moved[other]);
     for (int i = 0; i < COUNT; i++)
         assert_true(second_of(state, i) == (i % 3 ? i + 0.5 : -1));
-    // The order is unchanged, and new keys come last.
+    // The order does not change, and new keys come last.
     assert_true(state_set(state, value_number(-1), value_number(7)));
     uint32_t cursor = 0;
     double last = 0;

@@ -102,7 +102,7 @@ static void test_invalid_keys_are_ignored(void **state) {
     for (size_t i = 0; i < COUNT_OF(keys); i++) {
         Value key = read_value(fixture->world, keys[i]);
         assert_claim(keys[i], !state_key_valid(key));
-        assert_claim(keys[i], state_set(fixture->state, key, value_number(1))); // ignored
+        assert_claim(keys[i], state_set(fixture->state, key, value_number(1))); // the call is ignored
         assert_claim(keys[i], state_slot(fixture->state, key) == STATE_NO_SLOT);
         assert_claim(keys[i], state_find(fixture->state, key) == STATE_NO_SLOT);
         assert_text(keys[i], get_text(fixture, keys[i]), "null");
@@ -113,7 +113,7 @@ static void test_invalid_keys_are_ignored(void **state) {
     assert_true(state_key_valid(VALUE_NULL));
 }
 
-// Writing a value equal to the stored one does not change the stored one.
+// If a new value equals the stored one, the stored one is kept.
 static void test_equal_values_are_not_replaced(void **state) {
     Fixture *fixture = *state;
     static const struct {
@@ -143,14 +143,14 @@ static void test_equal_values_are_not_replaced(void **state) {
     }
 }
 
-// Numbers are overwritten in place if their count does not change.
+// Numbers are overwritten in place if the count stays the same.
 static void test_numbers_are_overwritten_in_place(void **state) {
     Fixture *fixture = *state;
     StateSlot slot = state_slot(fixture->state, read_value(fixture->world, ":p"));
     double numbers[] = {1, 2, 3};
     assert_true(state_slot_set(fixture->state, slot, value_numbers_view(numbers, 3)));
     const double *place = state_slot_get(fixture->state, slot).as.numbers;
-    assert_ptr_not_equal(place, numbers); // a copy
+    assert_ptr_not_equal(place, numbers); // the numbers were copied
     for (int i = 0; i < 10; i++) {
         numbers[1] = i;
         assert_true(state_slot_set(fixture->state, slot, value_numbers_view(numbers, 3)));
@@ -171,7 +171,7 @@ static void test_slots_stay_valid(void **state) {
         if (i % 2)
             assert_true(state_slot_set(fixture->state, slots[i], value_number(i)));
     }
-    for (int i = 0; i < COUNT; i++) { // still found after growth
+    for (int i = 0; i < COUNT; i++) { // all keys are found after the table has grown
         double key[] = {symbol_of(fixture->world, "cells"), i};
         Value k = value_numbers_view(key, 2);
         assert_int_equal(state_slot(fixture->state, k), slots[i]);
@@ -224,7 +224,7 @@ static void test_state_matches_model(void **state) {
     uint64_t seed = 3;
     for (int round = 0; round < 20000; round++) {
         uint32_t k = (uint32_t)(next_bits(&seed) % KEYS);
-        double x = (double)(next_bits(&seed) % 4); // 0 removes
+        double x = (double)(next_bits(&seed) % 4); // 0: remove the key
         count += (x != 0) - (model[k] != 0);
         model[k] = x;
         assert_true(state_set(fixture->state, value_number(k), x != 0 ? value_number(x) : VALUE_NULL));

@@ -1,4 +1,4 @@
-// test_state_key_range.c: key ranges behave exactly like separate entries, except that they use less memory.
+// test_state_key_range.c: key ranges behave exactly like separate entries but use less memory.
 #include "base/budget.h"
 #include "state/state.h"
 
@@ -31,7 +31,7 @@ static void add_pairs(State *state, int first, int count) {
         assert_int_not_equal(state_slot(state, key_of(first + i / 2, i % 2, buffer)), STATE_NO_SLOT);
 }
 
-// A range needs no memory, whatever its length, until a key is requested or a separate entry is written.
+// A range of any length needs no memory until a key pointer is requested or a separate entry is written.
 static void test_range_needs_no_memory(void **unused) {
     enum { MANY = 100000 };
     (void)unused;
@@ -49,7 +49,7 @@ static void test_range_needs_no_memory(void **unused) {
         assert_true(key.len == 2 + seen % 2 && key.as.numbers[1] == seen / 2);
     assert_int_equal(seen, 2 * MANY);
     assert_true(budget.memory < MANY);
-    // Without memory for the entries nothing changes.
+    // If there is no memory for separate entries, nothing changes.
     budget.memory_limit = budget.memory + MANY;
     assert_false(state_slot_set(state, 7, value_number(1)));
     assert_true(state_clear_exhausted(state));
@@ -65,7 +65,7 @@ static void test_range_needs_no_memory(void **unused) {
     free(rows);
 }
 
-// A key belongs to a range only if all its bits match.
+// A key is in a range only if its bits match exactly.
 static void test_range_keys_match_exactly(void **unused) {
     (void)unused;
     State *state = state_new(NULL);
@@ -79,7 +79,7 @@ static void test_range_keys_match_exactly(void **unused) {
     assert_int_equal(state_slot(state, key_of(-0.0, false, buffer)), SLOTS);
     assert_int_equal(state_slot(state, value_number(PREFIX)), SLOTS + 1);
     assert_int_equal(state_slot(state, key_of(PAIRS, false, buffer)),
-                     SLOTS + 2); // after other keys it no longer belongs to the range
+                     SLOTS + 2); // because other keys were added after the range, this key does not extend the range
     assert_int_equal(slot_of(state, 0, false), 0);
     assert_int_equal(slot_of(state, PAIRS, false), SLOTS + 2);
     assert_true(state_slot_last_number(state, 5, 2) != state_slot_last_number(state, 5, 2));
@@ -95,7 +95,7 @@ static void test_range_may_start_at_negative_zero(void **unused) {
     (void)unused;
     State *state = state_new(NULL);
     double buffer[STATE_KEY_BUFFER];
-    for (int i = 0; i < FIRST; i++) // a range can start only after other entries
+    for (int i = 0; i < FIRST; i++) // add other entries before the range
         assert_int_equal(state_slot(state, value_number(i)), i);
     for (int i = 0; i < SLOTS; i++)
         assert_int_equal(state_slot(state, key_of(i < 2 ? -0.0 : i / 2, i % 2, buffer)), FIRST + i);
@@ -109,7 +109,7 @@ static void test_range_may_start_at_negative_zero(void **unused) {
     state_free(state);
 }
 
-// The expected contents of the dictionary.
+// Expected contents of the dictionary.
 typedef struct Model {
     State *state;
     StateOwner owner;
@@ -148,7 +148,7 @@ static void reference_numbers(Model *model, uint32_t from, uint32_t to) {
         model->has[i] = true;
         state_slot_reference(model->state, model->slots[i], model->owner, rows + (size_t)NUMBERS * i, NUMBERS);
     }
-    // The previous array becomes invalid, as at the end of a frame. Slots that still reference it are detached.
+    // The previous array becomes invalid, as at the end of a frame. Slots that still point to it are detached.
     for (uint32_t i = 0; i < SLOTS; i++)
         if (i < from || i >= to)
             assert_true(state_slot_detach(model->state, model->slots[i], model->owner));
@@ -178,7 +178,7 @@ static void set_value(Model *model, uint32_t i, bool value) {
     model->has[i] = value;
 }
 
-// After random operations a range has the same keys and values as separate entries.
+// After random operations, a range has the same keys and values as separate entries.
 static void test_range_matches_entries(void **unused) {
     (void)unused;
     srand(1);

@@ -1,4 +1,4 @@
-// test_state_views.c: entries that reference the numbers of an owner (state.h).
+// test_state_views.c: entries whose values point to an owner's numbers (state.h).
 #include "state/state.h"
 
 #include <setjmp.h>
@@ -41,7 +41,7 @@ static void test_reference_shows_owners_numbers(void **unused) {
     state_slot_reference(f.state, f.slot, f.owner, elsewhere, 2);
     assert_true(second(&f) == 9);
     assert_true(state_slot_references(f.state, f.slot, f.owner));
-    assert_false(state_clear_modified(f.state, f.owner)); // its own reference does not count
+    assert_false(state_clear_modified(f.state, f.owner)); // a reference that the owner sets is not a modification
     state_free(f.state);
 }
 
@@ -54,7 +54,7 @@ static void test_detach_copies_numbers(void **unused) {
     f.numbers[1] = 3;
     assert_true(second(&f) == 2);
     assert_false(state_clear_modified(f.state, f.owner));
-    assert_true(state_slot_detach(f.state, f.slot, f.owner)); // already detached
+    assert_true(state_slot_detach(f.state, f.slot, f.owner)); // returns true if the slot is already detached
     state_free(f.state);
 }
 
@@ -82,9 +82,9 @@ static void test_other_writes_mark_owner_modified(void **unused) {
         else if (way == 4)
             wanted = 2;
         assert_true(second(&f) == wanted);
-        assert_true(f.numbers[0] == 1 && f.numbers[1] == 2); // the owner's numbers are never written
+        assert_true(f.numbers[0] == 1 && f.numbers[1] == 2); // the owner's numbers are never overwritten
         assert_int_equal(state_clear_modified(f.state, f.owner), way < 4);
-        assert_false(state_clear_modified(f.state, f.owner)); // reported once
+        assert_false(state_clear_modified(f.state, f.owner)); // a modification is reported once
         assert_int_equal(state_count(f.state), way != 2);
         state_free(f.state);
     }

@@ -1,4 +1,4 @@
-// parsing.h: helpers that parse a text and return its syntax tree or errors as text.
+// parsing.h: helpers that parse a script and return its syntax tree or errors as a string.
 #ifndef PETRI_TESTS_PARSING_H
 #define PETRI_TESTS_PARSING_H
 
@@ -7,7 +7,7 @@
 
 typedef struct Parsed {
     const Source *source;
-    const Ast *ast; // NULL: rejected
+    const Ast *ast; // NULL: the script was rejected
     DiagSink diags;
 } Parsed;
 
@@ -22,7 +22,7 @@ static inline Parsed parse_str(World *world, Str text) {
 static inline bool accepts_str(World *world, Str text) {
     Parsed parsed = parse_str(world, text);
     bool accepted = parsed.ast != NULL;
-    assert_true(accepted == (parsed.diags.error_count == 0)); // a rejected program has an error
+    assert_true(accepted == (parsed.diags.error_count == 0)); // exactly the rejected programs have errors
     diag_sink_free(&parsed.diags);
     return accepted;
 }
@@ -31,7 +31,7 @@ static inline bool accepts(World *world, const char *text) {
     return accepts_str(world, str_from(text));
 }
 
-// Appends a tree on one line as `(kind name child child)`. Literals appear as printed, missing children as `_`.
+// Appends a tree on one line as `(kind name child child)`. Literals are written as printed; missing children are `_`.
 static inline void add_shape(World *world, Text *out, const Ast *ast) {
     if (!ast) {
         text_add_c(out, "_");

@@ -1,4 +1,5 @@
-// test_syntax_content_sniff.c: a file that is not a script gives a single error; a script keeps all its errors.
+// test_syntax_content_sniff.c: a file that is not a script gives a single error. A script with errors gives all of
+// them.
 #include "parsing.h"
 
 // Returns the messages for a file of this name, one per line.

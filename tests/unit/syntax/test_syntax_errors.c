@@ -77,7 +77,8 @@ static void test_common_mistakes_have_hints(void **state) {
         {"!a\n\ufeff"
          "!b",
          "2:1: a byte-order mark (U+FEFF) is allowed only at the start of a file"},
-        {"\ufeff!a )", "1:4: unexpected ')', expected end of line or '<<'"}, // at the start it is ignored
+        // a byte-order mark at the start is ignored
+        {"\ufeff!a )", "1:4: unexpected ')', expected end of line or '<<'"},
         {"!a\n\t!b\n    !c\n", "3:5: this line's indentation matches none of the lines above | do not mix tabs "
                                "and spaces: a tab counts as eight spaces"},
         {"if x\n    !a (\nelse\n    !b )\n!c",
@@ -87,7 +88,7 @@ static void test_common_mistakes_have_hints(void **state) {
     check_complaints(*state, rows, COUNT_OF(rows));
 }
 
-// Each mistake is reported once, without follow-up errors.
+// Each mistake gives one error, without follow-up errors.
 static void test_each_mistake_is_reported_once(void **state) {
     static const char *const rows[][2] = {
         {"v[\n1]", "1:3: unexpected end of line, expected an expression\n"
@@ -113,7 +114,7 @@ static void test_each_mistake_is_reported_once(void **state) {
     check_complaints(*state, rows, COUNT_OF(rows));
 }
 
-// Ill-formed UTF-8 gives a single error, whatever else is in the file.
+// Ill-formed UTF-8 gives a single error, whatever other errors the file has.
 static void test_invalid_utf8_gives_one_error(void **state) {
     World *world = *state;
     static const struct {
@@ -132,7 +133,7 @@ static void test_invalid_utf8_gives_one_error(void **state) {
 // Two symbols with the same number are a load error (language.md L4.3).
 static void test_symbol_collision_is_an_error(void **state) {
     World *world = *state;
-    // Sets the number of a to that of :b, because the probability of a real collision is 2^-52.
+    // Sets the number of a to the number of :b, because a real collision has a probability of 2^-52.
     Symbol *a = (Symbol *)(uintptr_t)symbol_intern(&world->symbols, STR("a"));
     a->number = symbol_number(STR("b"));
     assert_text("collision", complaints(world, STR("!x y=:a\n!x y=:b\n")),
@@ -140,7 +141,7 @@ static void test_symbol_collision_is_an_error(void **state) {
     assert_text("names are not symbols", complaints(world, STR("!b b=b #b\n")), "");
 }
 
-// At most 50 errors are stored, and a file full of mistakes is parsed to its end.
+// At most 50 errors are stored. A file full of mistakes is still parsed to its end.
 static void test_number_of_errors_is_limited(void **state) {
     World *world = *state;
     Text text = text_new(&world->arena);
@@ -171,7 +172,7 @@ static void test_mutated_programs_never_crash(void **state) {
             size_t at = next_bits(&seed) % (sizeof program - 1), from = next_bits(&seed) % (sizeof program - 1);
             text[at] = next_bits(&seed) % 3 ? program[from] : (char)(next_bits(&seed) % 127 + 1);
         }
-        // Each mutation has its own symbol table, because symbols must not outlive the mark.
+        // Each mutation uses a new symbol table, because symbols must not outlive the arena mark.
         SymbolTable symbols = symbol_table_new(&world->arena);
         DiagSink diags = diag_sink_new(&world->arena, 50);
         const Source *source = source_new(&world->arena, STR("t"), STR("t"), (Str){text, sizeof program - 1});

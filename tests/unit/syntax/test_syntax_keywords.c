@@ -1,7 +1,8 @@
 // test_syntax_keywords.c: no word is reserved; tests the keyword table in language.md L2.12.
 //
-// A row contains a program with a placeholder `~` and the words that are keywords there. Each of the fifteen words is
-// inserted. It is a name there if the syntax tree is the same as with an ordinary name.
+// A row contains a program with a placeholder `~`, and the words that are keywords in this position. The test replaces
+// the placeholder by each of the fifteen words. A word is a name if the syntax tree is the same as with an ordinary
+// name.
 #include "parsing.h"
 
 static const char *const words[] = {"let",  "stable", "func",  "import", "from", "for", "in", "if",
@@ -72,7 +73,7 @@ static void test_keywords_at_statement_start(void **state) {
         {"if x\n    y\n~\n", K2},
         {"if x\n    y\nelif z\n    w\n~\n", K2},
         {"!a\n    if x\n        y\n    ~\n", K2},
-        {"if x\n    !a\n        y\n~\n", K2}, // the last DEDENT ends the body of the if
+        {"if x\n    !a\n        y\n~\n", K2}, // the final DEDENT ends the body of the if
         {"!a << ~\n", K3},
         {"!a <<\n~\n", K3},
         {"!a << !b << ~\n", K3},
@@ -144,7 +145,7 @@ static void test_keywords_after_operands(void **state) {
 static void test_keywords_as_names(void **state) {
     static const Point points[] = {
         {"let ~=1\n", K9},
-        {"let stable ~=1\n", NONE}, // K10, as the rows below
+        {"let stable ~=1\n", NONE}, // this row and those below: K10
         {"let stable x=1\n    ~=2\n", NONE},
         {"let x=1\n    ~=2\n", NONE},
         {"let a;~=1\n", NONE},
@@ -162,12 +163,12 @@ static void test_keywords_as_names(void **state) {
         {"func f(a, ~)\n    b\n", NONE},
         {"func f(a, ~=1)\n    b\n", NONE},
         {"let g=func(~) x\n", NONE},
-        {"@f ~=1\n", K7}, // also an operand
+        {"@f ~=1\n", K7}, // `@f` is an operand, so K7 applies
     };
     check_points(*state, points, COUNT_OF(points));
 }
 
-// K11: where only `in` or `from` can follow, it needs no word boundary after it.
+// K11: where only `in` or `from` can follow, the keyword needs no word boundary after it.
 static void test_in_and_from_need_no_boundary(void **state) {
     World *world = *state;
     for (size_t i = 0; i < COUNT_OF(words); i++) {

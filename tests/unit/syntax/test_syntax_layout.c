@@ -13,23 +13,23 @@ static void test_indentation_makes_blocks(void **state) {
         {"   \t  \n\t\n", ""},
         {"!a\n!b", TWO},
         {"!a\r\n!b\r", TWO},
-        // A tab always counts as eight, without tab stops.
+        // A tab counts as eight columns wherever it is; there are no tab stops.
         {"!a\n\t!b\n", SUITE_B},
         {"!a\n \t!b\n         !b\n", "(append (node a) (suite (node b) (node b)))"},
         {"!a\n  \t!b\n          !b\n", "(append (node a) (suite (node b) (node b)))"},
         {"!a\n\t  !b\n  \t!b\n", "(append (node a) (suite (node b) (node b)))"},
         {"!a\n !b\n\t!c\n", "(append (node a) (suite (append (node b) (suite (node c)))))"},
-        // The indentation of blank lines and comments is ignored.
+        // Blank lines and comments may have any indentation.
         {"!a\n\n      \n-- c\n        -- d\n    !b\n", SUITE_B},
         {"!a\n    !b\n-- c\n    !c\n", "(append (node a) (suite (node b) (node c)))"},
         {"!a -- c\n!b -- d", TWO},
         {"!a\n    !b\n        !c\n!d\n", "(append (node a) (suite (append (node b) (suite (node c))))) (node d)"},
-        // A line whose indentation matches no line above.
+        // The indentation of a line must match that of an enclosing line.
         {"!a\n    !b\n  !c\n", "rejected"},
         {"!a\n\t!b\n    !c\n", "rejected"},
         {"3\n    !b\n", "(append 3 (suite (node b)))"},
         {"let x=1\n!a\n    !b\n  !c\n", "rejected"},
-        // The first line may be indented freely, unless a blank or comment line precedes it.
+        // The first line may be indented by any amount, unless a blank or comment line precedes it.
         {"   !a\n!b\n", TWO},
         {"\n   !a\n", "rejected"},
         {"-- c\n !a\n", "rejected"},
@@ -50,13 +50,13 @@ static void test_indentation_makes_blocks(void **state) {
         {"5--3\n", "5"},
         {"5- -3\n", "(- 5 (neg 3))"},
         {"'--'\n", "'--'"},
-        // A hashbang is recognised only at the start.
+        // A hashbang is recognised only at the start of the script.
         {"#!/usr/bin/env petri\n!a\n", "(node a)"},
         {"  #! x\n    !a\n!b\n", TWO},
         {"#!only", ""},
         {"!a\n#!b\n", "rejected"},
         {"-- c\n#!b\n", "rejected"},
-        // Form feeds and no-break spaces do not count as white space.
+        // Form feeds and no-break spaces are not white space.
         {"!a\f\n", "rejected"},
         {"!a\u00a0x=1\n", "rejected"},
         // Statements across lines.
@@ -77,13 +77,13 @@ static void test_indentation_makes_blocks(void **state) {
         assert_text(rows[i][0], shape(world, rows[i][0]), rows[i][1]);
 }
 
-// A NUL byte is an invalid token and never makes the scanner read after the end of the text.
+// A NUL byte is an invalid token. The scanner never reads beyond the end of the text.
 static void test_nul_bytes_are_rejected(void **state) {
     World *world = *state;
     static const Str rejected[] = {{"\0", 1}, {"!a\0\n", 4}, {"#!\0\n!a\n", 7}, {"#!a\0", 4}, {"!a -- \0\n\0", 9}};
     assert_false(accepts_str(world, rejected[0]));
     assert_false(accepts_str(world, rejected[1]));
-    assert_true(accepts_str(world, rejected[2])); // the rest of a hashbang line is ignored
+    assert_true(accepts_str(world, rejected[2])); // valid, because the rest of a hashbang line is ignored
     assert_true(accepts_str(world, rejected[3]));
     assert_false(accepts_str(world, rejected[4]));
     assert_true(accepts_str(world, STR("-- \0 comment\n!a\n")));
@@ -129,15 +129,15 @@ static void test_deep_indentation_is_rejected(void **state) {
     Text text = text_new(&world->arena);
     indented(&text, 999);
     const char *found = complaints(world, text_str(&text));
-    // 1000 levels of nested suites make a tree of height 2000.
+    // 1000 nested suites give a tree of height 2000.
     assert_text("999", found, "");
     indented(&text, 5000);
     found = complaints(world, text_str(&text));
-    assert_null(strchr(found, '\n')); // one error
+    assert_null(strchr(found, '\n')); // only one error is reported
     assert_non_null(strstr(found, "the limit is"));
 }
 
-// Other nesting is limited by the height of the tree. It gives an error, never a crash.
+// Other nesting is limited by the height of the tree. Exceeding the limit gives an error, never a crash.
 static void test_high_trees_are_rejected(void **state) {
     World *world = *state;
     static const char *const rows[][2] = {{"- ", ""},  {"not ", ""},     {"$", ""},
@@ -153,7 +153,7 @@ static void test_high_trees_are_rejected(void **state) {
         assert_claim(rows[i][0], strstr(found, "nested too deeply: the limit is 2000 levels") != NULL);
         assert_claim(rows[i][0], strchr(found, '\n') == NULL);
     }
-    // A long vector makes a low tree; a long sum makes a high one.
+    // A long vector gives a low tree; a long sum gives a high one.
     text.len = 0;
     for (int i = 0; i < 50000; i++)
         text_add_c(&text, "1;");
@@ -169,7 +169,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         WORLD_TEST(test_indentation_makes_blocks),     WORLD_TEST(test_deep_parentheses_are_rejected),
         WORLD_TEST(test_deep_indentation_is_rejected), WORLD_TEST(test_high_trees_are_rejected),
-        WORLD_TEST(test_nul_bytes_are_rejected), // last: it used to read out of bounds
+        WORLD_TEST(test_nul_bytes_are_rejected), // runs last, because the tested bug was a read out of bounds
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

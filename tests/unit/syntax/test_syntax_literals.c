@@ -2,7 +2,7 @@
 #include "ast/literal.h"
 #include "parsing.h"
 
-// Each row contains a statement and its tree. A literal appears as its printed value.
+// Each row contains a statement and its tree. Literals are written as printed.
 static void check_shapes(World *world, const char *const (*rows)[2], size_t count) {
     for (size_t i = 0; i < count; i++)
         assert_text(rows[i][0], shape(world, rows[i][0]), rows[i][1]);
@@ -42,7 +42,7 @@ static void test_number_tokens(void **state) {
         {"1e_5", "rejected"},
         {"0x10", "rejected"},
         {"!a x=1e5m y=2", "(decorate (node a) (attr x 100) (attr y 2))"},
-        {"1ex=2", "(decorate 1 (attr ex 2))"}, // without digits the e is not part of the number
+        {"1ex=2", "(decorate 1 (attr ex 2))"}, // an `e` without digits after it is not part of the number
         {"9007199254740993", "9007199254740992"},
         {"5 m=1", "(decorate 5 (attr m 1))"},
         {"!a x=1km=2", "(decorate (node a) (attr x 1000) (attr m 2))"},
@@ -94,7 +94,7 @@ static void test_string_tokens(void **state) {
         {"'''abc", "rejected"},
         {"'''abc''", "rejected"},
         {"\"a\nb\"", "rejected"},
-        {"'a\\\nb'", "rejected"}, // a string cannot contain a backslash at the end of a line
+        {"'a\\\nb'", "rejected"}, // in a string, a backslash does not join lines
         {"'''a\\\nb'''", "rejected"},
         {"'a' 'b'", "rejected"},
         {"'a\"b'", "'a\"b'"},
@@ -132,7 +132,7 @@ static void test_name_tokens(void **state) {
     check_shapes(*state, rows, COUNT_OF(rows));
 }
 
-// L16.3: texts that -D, pragmas and the command line accept as numbers.
+// L16.3: strings that -D, pragmas and the command line accept as numbers.
 static void test_texts_parsed_as_numbers(void **state) {
     (void)state;
     static const struct {

@@ -1,4 +1,4 @@
-// test_syntax_tree.c: precedence, structure and locations of the syntax tree (language.md L3).
+// test_syntax_tree.c: precedence, structure and source spans of the syntax tree (language.md L3).
 #include "parsing.h"
 
 static void test_precedence_shapes_tree(void **state) {
@@ -87,7 +87,7 @@ static const Ast *find_kind(const Ast *ast, AstKind kind) {
     return found;
 }
 
-// The source text of each node.
+// Checks the source text of nodes.
 static void test_nodes_span_their_text(void **state) {
     World *world = *state;
     static const struct {
@@ -121,7 +121,7 @@ static void test_nodes_span_their_text(void **state) {
     }
 }
 
-// Every node's span includes its children, and the children of operators are in order.
+// The span of each node includes its children, and the children of operators are in source order.
 static void check_nesting(const Ast *ast) {
     assert_true(ast->span.start <= ast->span.end);
     for (uint32_t i = 0; i < ast->count; i++)

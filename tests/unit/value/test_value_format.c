@@ -30,7 +30,7 @@ static void test_values_are_printed(void **state) {
     assert_text("function", show(world, value_function(&world->arena, &anonymous)), "(<anon>)");
 }
 
-// A number that equals a symbol's value is printed as the symbol only if the symbol is registered.
+// A number equal to a symbol's value is printed as the symbol only if the symbol is registered.
 static void test_registered_symbols_are_printed(void **state) {
     World *world = *state;
     Value v = value_number(symbol_number(STR("later")));
@@ -80,7 +80,7 @@ static void test_debug_text(void **state) {
         {"0.3333333333333333;:a;'hi';1e20", "0.333333333;:a;'hi';1e+20"},
         {"-0;1", "0;1"}, // in a numeric vector -0 is printed as 0
         {"-0", "0"},
-        {"-0;'a'", "-0;'a'"}, // in a mixed vector it is not
+        {"-0;'a'", "-0;'a'"}, // in a mixed vector, -0 is printed as -0
         {"1234567890", "1.23456789e+09"},
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++)
@@ -92,7 +92,7 @@ static void test_debug_text(void **state) {
                 "  !b #b #z n=1e+22;0.1)");
 }
 
-// L18.4: symbols by name, then numbers, then strings. A prefix sorts first.
+// L18.4: symbols by name, then numbers, then strings. A prefix comes before longer keys.
 static void test_keys_are_ordered(void **state) {
     World *world = *state;
     static const char *const ascending[] = {

@@ -13,7 +13,6 @@ static const Node *new_node(World *world, const char *kind) {
     return node_new(&world->arena, name_of(world, kind));
 }
 
-// Sets several attributes in one call.
 static const Node *with_attrs(World *world, const Node *node, const char *names, const char *const *values) {
     Attr attrs[8];
     uint32_t count = 0;
@@ -66,7 +65,7 @@ static void test_append_adds_nodes_only(void **state) {
     Arena *arena = &world->arena;
     const Node *a = node_append(arena, new_node(world, "a"), read_value(world, "!b;1;'x';!c"));
     assert_text("nodes only", tree(world, a), "!a\n    !b\n    !c\n");
-    const Node *more = node_append(arena, a, value_node(arena, a)); // appends the unchanged node to itself
+    const Node *more = node_append(arena, a, value_node(arena, a)); // appends the original node to the changed one
     assert_text("appended after the others", tree(world, more), "!a\n    !b\n    !c\n    !a\n        !b\n        !c\n");
     assert_int_equal(more->height, 3);
     assert_text("the operand is unchanged", tree(world, a), "!a\n    !b\n    !c\n");
@@ -109,10 +108,11 @@ static void test_equality_is_structural(void **state) {
         assert_claim(rows[i].what, node_equal(NULL, rows[i].b, rows[i].a) == rows[i].wanted);
     }
     const Node *nan = with_attr(world, a, "x", "nan");
-    assert_false(node_equal(NULL, nan, nan)); // elements are compared, not addresses
+    assert_false(node_equal(NULL, nan, nan)); // NaN differs from itself, because elements are compared, not node
+                                              // addresses
 }
 
-// Chains of the maximum height can be processed. Higher ones are rejected.
+// Chains of the maximum height can be processed; higher ones are rejected.
 static void test_higher_trees_are_rejected(void **state) {
     World *world = *state;
     Arena *arena = &world->arena;
@@ -137,7 +137,7 @@ static void test_higher_trees_are_rejected(void **state) {
     assert_int_equal(both.as.items[0].as.node->child_count, 0);
 }
 
-// Nodes in attributes count for the height, because == and the seed hash also recurse into them.
+// Nodes in attributes count towards the height, because == and the seed hash also recurse into them.
 static void test_attributes_count_as_height(void **state) {
     World *world = *state;
     Arena *arena = &world->arena;
@@ -177,7 +177,7 @@ static void test_vector_operations_change_nodes_only(void **state) {
     assert_int_equal(value_add_tag(arena, value_stream(STREAM_BETA, 1), name_of(world, "t")).kind, VALUE_STREAM);
 }
 
-// Nodes that live as long as the program keep their address and are marked, so that systems need not read them again.
+// Nodes that live as long as the program are marked and keep their address, so systems need not read them again.
 static void test_program_lifetime_is_marked(void **state) {
     World *world = *state;
     Arena *arena = &world->arena;
@@ -202,7 +202,7 @@ static void test_program_lifetime_is_marked(void **state) {
     assert_true(changed->program_lifetime_children);
     assert_false(node_add_tag(arena, b, name_of(world, "t"))->program_lifetime);
     assert_false(node_copy(arena, first)->program_lifetime_children);
-    // Marking includes attributes and children.
+    // The attributes and children of a marked node are also marked.
     Value outer = value_node(arena, node_set_attrs(arena, more, &(Attr){name_of(world, "x"), attr}, 1));
     value_mark_program_lifetime(outer);
     assert_true(outer.as.items[0].as.node->program_lifetime);

@@ -38,7 +38,7 @@ static void test_arithmetic_by_element(void **state) {
     }
 }
 
-// x ** 2 is x * x if the right operand is the single number 2, else pow (D2).
+// x ** 2 is x * x if the right operand is the single number 2; otherwise, it is pow(x, 2) (D2).
 static void test_square_is_multiplication(void **state) {
     World *world = *state;
     uint64_t seed = 7;
@@ -115,7 +115,7 @@ static void test_range_elements(void **state) {
         {"null", "1e-300", "null", "0"},
         {"-2", "2", "null", "-2;-1;0;1"},
         {"0", "3", "inf", "null"},
-        {"uniform:1", "2", "null", "0;1"}, // a stream has no elements
+        {"uniform:1", "2", "null", "0;1"}, // a stream counts as a vector without elements
         {"-0", "1", "null", "0"},          // -0 + 1*0
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {

@@ -16,8 +16,8 @@ static void test_composition_concatenates_parts(void **state) {
         {{"1;2", "'a'", "3"}, "1;2;'a';3", VALUE_MIXED},
         {{"'a'", "1;2"}, "'a';1;2", VALUE_MIXED},
         {{"!a", "!b", ":x"}, "(!a);(!b);:x", VALUE_MIXED},
-        {{"uniform:5"}, "null", VALUE_STREAM},          // the only part is kept
-        {{"null", "uniform:5"}, "null", VALUE_NUMBERS}, // null counts as a part
+        {{"uniform:5"}, "null", VALUE_STREAM},          // a stream is kept if it is the only part
+        {{"null", "uniform:5"}, "null", VALUE_NUMBERS}, // null also counts as a part
         {{"uniform:5", "null"}, "null", VALUE_NUMBERS},
         {{"uniform:5", "1"}, "1", VALUE_NUMBERS},
         {{"1", "uniform:5"}, "1", VALUE_NUMBERS},
@@ -34,7 +34,7 @@ static void test_composition_concatenates_parts(void **state) {
     }
 }
 
-// Numbers followed by a string: the builder changes to a mixed vector at any length.
+// Numbers followed by a string: at any length, the builder changes to a mixed vector.
 static void test_builder_turns_mixed(void **state) {
     World *world = *state;
     for (uint32_t before = 0; before < 40; before++) {
@@ -60,7 +60,7 @@ static void test_builder_reports_overflow(void **state) {
     Vector vector = vector_new(&world->arena);
     vector_add(&vector, value_numbers_view(few, 3));
     vector_add(&vector,
-               (Value){.len = VALUE_MAX_LEN - 2, .as.numbers = few}); // one too many; the elements are not read
+               (Value){.len = VALUE_MAX_LEN - 2, .as.numbers = few}); // one element too many; the elements are not read
     assert_true(vector.overflow);
     vector_add_number(&vector, 4);
     assert_true(vector.overflow);
@@ -118,7 +118,7 @@ static void test_equality_of_vectors(void **state) {
         assert_claim(rows[i].a, value_equal(NULL, a, b) == rows[i].wanted);
         assert_claim(rows[i].a, value_equal(NULL, b, a) == rows[i].wanted);
     }
-    // Closures are equal if identical, built-in functions if they have the same table row.
+    // Closures are equal if they are the same object. Built-in functions are equal if they have the same table row.
     static const int sine_row = 0, cosine_row = 0;
     static const Function f = {.name = {"f", 1}}, g = {.name = {"f", 1}}, sin1 = {.builtin = &sine_row},
                           sin2 = {.builtin = &sine_row}, cos1 = {.builtin = &cosine_row};
@@ -172,7 +172,7 @@ static void test_order_of_vectors(void **state) {
         assert_claim(rows[i].a, order == rows[i].wanted);
     }
     Value nans = read_value(world, "nan;nan");
-    assert_int_equal(value_compare(NULL, nans, nans), SAME_ORDER); // identical vectors (L5.5 rule 1)
+    assert_int_equal(value_compare(NULL, nans, nans), SAME_ORDER); // the operands are the same vector (L5.5 rule 1)
     assert_int_equal(value_compare(NULL, nans, read_value(world, "nan;nan")), GREATER);
 }
 
@@ -203,14 +203,14 @@ static void test_index_wraps(void **state) {
         {"1;2;3", "0;'a'", "null"},  {"null", "0", "null"},        {"'a';1;2", "1;2", "1;2"},
         {"5", "0;1;2;3", "5;5;5;5"}, {"'abc'", "0", "'abc'"},      {"'a';1", "0;0", "'a';'a'"},
         {"1;2;3", "1e18", "2"},      {"1;2;3", "-1e18", "3"},      {"1;2;3", "uniform:1", "null"},
-        {"1;2;3", "nan", "2"},       {"1;2;3", "inf;-inf", "2;2"}, // treated as -2147483648 (D8)
+        {"1;2;3", "nan", "2"},       {"1;2;3", "inf;-inf", "2;2"}, // nan and infinities are treated as -2147483648 (D8)
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         Value found = value_index(&world->arena, read_value(world, rows[i].v), read_value(world, rows[i].index));
         assert_text(rows[i].index, show(world, found), rows[i].wanted);
     }
     Value numbers = value_index(&world->arena, read_value(world, "'a';1;2"), read_value(world, "1;2"));
-    assert_int_equal(numbers.kind, VALUE_NUMBERS); // the selected elements are all numbers
+    assert_int_equal(numbers.kind, VALUE_NUMBERS); // all selected elements are numbers, so the result is numeric
 }
 
 static void test_element_and_slice(void **state) {
@@ -230,7 +230,7 @@ static void test_element_and_slice(void **state) {
     assert_int_equal(value_wrap_index(4294967296.0 * 4294967296.0, 7), 2); // 2^64 mod 7
 }
 
-// A copy does not point into the old arena.
+// The copy must not point into the old arena.
 static void test_copy_is_deep(void **state) {
     World *world = *state;
     Arena other;

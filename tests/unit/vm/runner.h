@@ -1,4 +1,4 @@
-// runner.h: parses, compiles and evaluates scripts with a VM, without a session.
+// runner.h: parses, compiles and evaluates scripts with a VM but without a session.
 #ifndef PETRI_TESTS_RUNNER_H
 #define PETRI_TESTS_RUNNER_H
 
@@ -145,14 +145,14 @@ static inline bool runner_load(Runner *runner, const char *script) {
     return runner->compiled != NULL;
 }
 
-// Loads a script without syntax errors and evaluates frames.
+// Loads a script, which must have no syntax errors, and evaluates frames.
 static inline void runner_run(Runner *runner, const char *script, int frames) {
     assert_claim(script, runner_load(runner, script));
     for (int i = 0; i < frames; i++)
         runner_frame(runner, i);
 }
 
-// Returns the nodes of the last frame as text.
+// Returns the nodes of the last frame as a string.
 static inline const char *runner_tree(Runner *runner) {
     Text text = text_new(&runner->world.arena);
     for (uint32_t i = 0; runner->result.kind == VALUE_MIXED && i < runner->result.len; i++)
@@ -166,7 +166,7 @@ typedef struct ScriptRow {
     const char *wanted;
 } ScriptRow;
 
-// Checks the tree of the last of `frames` frames of each script, with and without the simplifier.
+// Runs each script for `frames` frames, with and without the simplifier, and checks the tree of the last frame.
 static inline void check_trees(Runner *runner, const ScriptRow *rows, size_t count, int frames) {
     for (int simplify = 1; simplify >= 0; simplify--) {
         runner->simplify = simplify;

@@ -1,14 +1,14 @@
-// test_vm_batch.c: tests that batched loops give the same results as iteration-by-iteration execution.
+// test_vm_batch.c: tests that loops give the same results in batches as iteration by iteration.
 #include "runner.h"
 
 enum { ITERATIONS = 150 };
 
-// 150 iterations: as one loop, or as loops of 5 iterations, which are too short for batches.
+// 150 iterations, written as one loop and as loops of 5 iterations, which are too short for batches.
 static const char many_form[] = "%sfunc all()\n    for i in ..150\n        %s\n!all v=all()\n    all()\n";
 static const char few_form[] = "%sfunc all()\n    for k in ..30\n        for i in k*5..k*5+5\n            %s\n"
                                "!all v=all()\n    all()\n";
 
-// The body of a loop, and whether it must be executed iteration by iteration.
+// The body of a loop, and whether it has to be executed iteration by iteration.
 typedef struct Body {
     const char *text;
     bool one_by_one;
@@ -97,7 +97,7 @@ static void test_batches_match_single_iterations(void **state) {
     }
 }
 
-// Consecutive items of a stream equal the same items read one by one, also at the highest position.
+// Consecutive items of a stream equal items that are read one by one, even at the highest index.
 static void test_stream_items_match(void **state) {
     Runner *runner = *state;
     runner->simplify = false;
@@ -109,7 +109,7 @@ static void test_stream_items_match(void **state) {
     assert_int_equal(runner->vm.batched_iterations, 0);
 }
 
-// Errors are reported in the order of iteration-by-iteration execution.
+// Errors are reported in the same order as in iteration-by-iteration execution.
 static void test_errors_keep_their_order(void **state) {
     Runner *runner = *state;
     runner_run(runner,
@@ -128,7 +128,7 @@ static void test_errors_keep_their_order(void **state) {
     assert_true(runner->vm.batched_iterations > 0 && runner->vm.batched_iterations < 450);
 }
 
-// A batch is charged about the same work as iteration-by-iteration execution.
+// A batch is charged about as much work as iteration-by-iteration execution.
 static void test_work_matches(void **state) {
     Runner *runner = *state;
     Budget budget = {.memory_limit = SIZE_MAX};

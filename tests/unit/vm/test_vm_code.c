@@ -1,5 +1,5 @@
-// test_vm_code.c: tests instructions that optimisations could break: reused registers, loops and nodes that are built
-// differently from their source, cached lookups. `z` is a zero that varies by frame, so that nothing is folded.
+// test_vm_code.c: tests code that optimisations could break: reused registers, loops and nodes whose instructions
+// differ from the source, and cached lookups. `z` is a zero that is computed in each frame, so that nothing is folded.
 #include "runner.h"
 
 #define Z "let z=frame*0\n"
@@ -41,7 +41,7 @@ static void test_loops(void **state) {
         {Z "for i in ..3+z\n    if i==1\n        !a v=i\n        !b\n    elif i==2\n        !c v=i\n    let q=i\n",
          "!a v=1\n!b\n!c v=2\n"},
         {Z "!a v=((i;'n';!b) for i in ..2+z)\n", "!a v=0;'n';(!b);1;'n';(!b)\n"},
-        // A stream is kept only if it is the only part, including nulls (L4.7).
+        // A stream is kept only if it is the only part of a vector. Nulls also count as parts (L4.7).
         {Z "!a v=(uniform(:a+z) for i in ..1+z)[0]==uniform(:a)[0]\n", "!a v=1\n"},
         {Z "!a v=(uniform(:a+z) for i in ..2+z)[0]\n", "!a\n"},
         {Z "!a v=((uniform(:a+z) if i==0) for i in ..2+z)[0]\n", "!a\n"},
@@ -82,7 +82,7 @@ static void test_elements(void **state) {
         {Z "let v='a';'b';'c';z\n!a v=v[1..3];v[3];v[..2];v[3..5]\n", "!a v='b';'c';0;'a';'b';0;'a'\n"},
         {Z "!a v=(uniform(:a+z)[1..3]==(uniform(:a)[1];uniform(:a)[2]));null[1..3];4\n", "!a v=1;4\n"},
         {Z "let v=(1;2)+z n=v[nan];v[inf] m=v[z/0]\n!a v=n;m\n", "!a v=1;1;1\n"},
-        // An object is ordered relative to itself; other equal numbers are compared one by one (L5.5).
+        // In comparisons, an object equals itself; other equal numbers are compared one by one (L5.5).
         {Z "let x=nan+z y=(nan;1)+z w=y[0..2] u=y[0..2]\n!a v=(x<x);(x<=x);(x>x);(x>=x);(x==x);(x!=x)\n"
            "!b v=(x<1);(x>1);(1>x);(1<=x)\n!c v=(y<=y);(w<=u);(w>u)\n",
          "!a v=0;1;0;1;0;1\n!b v=0;1;1;0\n!c v=1;0;1\n"},
@@ -94,7 +94,7 @@ static void test_elements(void **state) {
     check_trees(*state, rows, COUNT_OF(rows), 3);
 }
 
-// The n-th execution of a lookup tries the slot that it found in the frame before.
+// The n-th execution of a lookup in a frame first tries the slot that it found in the previous frame.
 static void test_lookups(void **state) {
     static const ScriptRow rows[] = {
         {"!a v=($(:k;(i+frame)%3) for i in ..3) w=$(:k;frame-1);$(frame+1);$:k;$'s';$('s';frame);$(nan+frame)\n"

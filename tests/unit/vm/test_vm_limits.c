@@ -1,4 +1,4 @@
-// test_vm_limits.c: tests that exceeding a limit results in a diagnostic and null.
+// test_vm_limits.c: tests that exceeding a limit gives a diagnostic and null.
 #include "runner.h"
 
 #include <sys/resource.h>
@@ -16,15 +16,15 @@ static void test_closure_depth(void **state) {
     check_tree_and_reports(runner, "func f(n)\n    1+f(n-1) if n>0 else 0\n!a v=f(500)\n", "!a\n",
                            "2:7 recursion too deep in 'f': limit of 500 calls of one function reached "
                            "[recursion-depth]\n");
-    // The limit is unchanged afterwards.
+    // After a call that failed, the limit is still the same.
     runner_run(runner, "func f(n)\n    1+f(n-1) if n>0 else 0\nlet x=f(600)\n!a v=f(499)\n", 2);
     assert_text("again", runner_tree(runner), "!a v=499\n");
 }
 
-// New closures are different objects, so only the total depth of calls limits them.
+// Each closure is a new object, so only the total depth limits these calls.
 static void test_call_depth(void **state) {
     Runner *runner = *state;
-    // The stack is large enough for 8192 calls, even with the larger frames of a sanitizer.
+    // A stack that is large enough for 8192 calls, even with the larger stack frames of sanitizers.
     struct rlimit stack;
     assert_int_equal(getrlimit(RLIMIT_STACK, &stack), 0);
     stack.rlim_cur = (rlim_t)120 << 20;
@@ -32,7 +32,7 @@ static void test_call_depth(void **state) {
         skip();
     runner->vm.stack_bytes = (size_t)100 << 20;
     runner->simplify = false;
-    // Each level calls a new closure, with nothing else on the stack.
+    // Each level calls a new closure and needs little else on the stack.
     static const char deep[] = "let level=func(k, level) (func() 1+level(k-1, level)() if k>0 else 0)\n"
                                "!a v=level(%d, level)()\n";
     char text[200];
@@ -44,7 +44,7 @@ static void test_call_depth(void **state) {
     assert_non_null(strstr(text_c(&runner->reported), "limit of 8192 nested calls reached [recursion-depth]"));
 }
 
-// A small stack limits the depth earlier, with the same kind of diagnostic.
+// With a small stack, the depth limit is lower. The kind of diagnostic is the same.
 static void test_stack_limit(void **state) {
     Runner *runner = *state;
     runner->vm.stack_bytes = (size_t)256 << 10;
@@ -57,7 +57,7 @@ static void test_stack_limit(void **state) {
     assert_text("continues", runner_tree(runner), "!a v=1\n");
 }
 
-// Deep trees are traversed by ==, seeds and printing. None of these may overflow the stack.
+// ==, seeds and printing traverse deep trees without overflowing the stack.
 static void test_deep_nodes(void **state) {
     Runner *runner = *state;
     static const char make[] = "func wrap(v, n)\n    wrap((!a << v), n-1) if n>0 else v\n"
@@ -85,7 +85,7 @@ static void make_frame(void *runner) {
     runner_frame(runner, 0);
 }
 
-// Returns how a frame of a script ends with a limit of work.
+// Evaluates a frame with a work limit. Returns how the frame ends.
 static ArenaOutcome run_with_budget(Runner *runner, const char *script, uint64_t work, atomic_bool *interrupt) {
     Budget budget = {.memory_limit = SIZE_MAX};
     Arena *frame = &runner->frame;
@@ -99,7 +99,7 @@ static ArenaOutcome run_with_budget(Runner *runner, const char *script, uint64_t
     return end;
 }
 
-// Evaluation that exceeds the work limit is aborted, and the position is known.
+// Evaluation that exceeds the work limit is aborted, and the current position is available.
 static void test_work_limit_aborts(void **state) {
     Runner *runner = *state;
     static const char rounds[] = "let n=frame\n!a v=len(i for i in ..900+n)\n";
@@ -112,7 +112,7 @@ static void test_work_limit_aborts(void **state) {
 
 static const char shared[] = "func f(n, v)\n    f(n-1, (!n << (v;v))) if n>0 else v\n";
 
-// All expensive operations are charged: a small part of their work is not enough.
+// All expensive operations are charged: a budget of a small part of their work is exceeded.
 static void test_expensive_operations_are_charged(void **state) {
     Runner *runner = *state;
     static const char *const rows[] = {
@@ -129,7 +129,7 @@ static void test_expensive_operations_are_charged(void **state) {
     }
 }
 
-// A tree that represents 2^60 nodes with 61 shared ones.
+// A tree that represents 2^60 nodes, although it has only 61 distinct ones.
 static void test_shared_nodes(void **state) {
     Runner *runner = *state;
     Arena *arena = &runner->world.arena;
@@ -142,7 +142,6 @@ static void test_shared_nodes(void **state) {
     assert_int_equal(run_with_budget(runner, script.bytes, 1 << 16, NULL), ARENA_WORK_LIMIT);
 }
 
-// The host can interrupt a frame.
 static void test_interrupt_aborts_frame(void **state) {
     Runner *runner = *state;
     atomic_bool interrupt = true;
@@ -152,7 +151,7 @@ static void test_interrupt_aborts_frame(void **state) {
     assert_int_equal(run_with_budget(runner, rounds, 1 << 20, &interrupt), ARENA_OK);
 }
 
-// Expressions that exceed a limit are not folded, and nothing is reported at load time.
+// Expressions that exceed a limit are not folded. At load time, nothing is reported.
 static void test_static_evaluation_reports_limit(void **state) {
     Runner *runner = *state;
     check_tree_and_reports(runner, "func f(n)\n    1+f(n-1) if n>0 else 0\n!a v=f(600)\n", "!a\n", NULL);
@@ -169,8 +168,8 @@ int main(void) {
         RUNNER_TEST(test_static_evaluation_reports_limit),
         RUNNER_TEST(test_expensive_operations_are_charged),
         RUNNER_TEST(test_shared_nodes),
-        RUNNER_TEST(test_deep_nodes), // used to overflow the stack
-        RUNNER_TEST(test_call_depth), // enlarges the stack, so it comes last
+        RUNNER_TEST(test_deep_nodes), // a regression test for a stack overflow
+        RUNNER_TEST(test_call_depth), // enlarges the stack, so it runs last
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,7 +7,7 @@ static void test_scopes(void **state) {
         {"let x=1\nlet x=x+1\n!a x=x\n", "!a x=2\n"},
         {"let a=1 b=a+1\n    c=b+1\n!x v=a;b;c\n", "!x v=1;2;3\n"},
         {"let x=5\nif 1\n    let x=6\n!a x=x\n", "!a x=5\n"},
-        {"for x in 1;2\n    let y=x\n!a x=x y=y\n", "!a\n"}, // loop names and bindings are local
+        {"for x in 1;2\n    let y=x\n!a x=x y=y\n", "!a\n"}, // loop names and bindings in the body are local
         {"let x=9\n!a v=(x where x=x+1 x=x*2) w=x\n", "!a v=20 w=9\n"},
         {"let x=1;2;3 a;b;c;d=x\n!r a=a d=d\n", "!r a=1 d=1\n"},
         {"let u;v=uniform(:q)\n!r s=u==uniform(:q)[0];v==uniform(:q)[1]\n", "!r s=1;1\n"},
@@ -15,7 +15,7 @@ static void test_scopes(void **state) {
         {"let a;a=1;2\n!r a=a\n", "!r a=2\n"},
         {"let q=\n    1\n    2 if 0\n    3\n!q q=q\n", "!q q=1;3\n"},
         {"let stable e;f=4;5\n!e e=e f=f\n", "!e e=4 f=5\n"},
-        {"let sin=3\n!a v=sin\n", "!a v=3\n"}, // built-ins and engine names may be rebound
+        {"let sin=3\n!a v=sin\n", "!a v=3\n"}, // scripts may rebind built-ins and engine names
         {"let frame=7\n!a v=frame\n", "!a v=7\n"},
         {"let pi=4 true=0\n!a v=pi;true\n", "!a v=4;0\n"},
         {"!a v=inf;true;false;pi;tau;π;𝜏\n",
@@ -28,13 +28,14 @@ static void test_functions(void **state) {
     static const ScriptRow rows[] = {
         // Values are captured when the definition is evaluated.
         {"let k=3\nfunc g(v)\n    k*v\nlet k=7\n!g v=g(5;6)\n", "!g v=15;18\n"},
-        {"let f=(func(x) x+k) k=1\n!g v=f(1)\n", "!g\n"}, // k is not bound yet
+        {"let f=(func(x) x+k) k=1\n!g v=f(1)\n", "!g\n"}, // k is not bound yet when f is defined
         {"let fs=(func() i) for i in ..3\n!f v=fs()\n", "!f v=0;1;2\n"},
         {"func f(a, b=5, c)\n    !f a=a b=b c=c\nf(1)\nf(1, c=3, c=4, q=9)\nf(null, b=2)\nf(1, 2, 3, 4, a=7)\n",
          "!f a=1 b=5\n!f a=1 b=5 c=4\n!f b=2\n!f a=1 b=2 c=3\n"},
-        {"let d=1\nfunc f(a, b=d+1)\n    a+b\nlet d=100\n!f v=f(1)\n", "!f v=3\n"}, // defaults at the definition
-        {"func f(a, b=a)\n    b\n!f v=f(1)\n", "!f\n"},                             // defaults do not see parameters
-        {"func f(f)\n    f\n!f v=f(3)\n", "!f v=3\n"}, // a parameter shadows the function's name
+        // defaults are evaluated at the definition
+        {"let d=1\nfunc f(a, b=d+1)\n    a+b\nlet d=100\n!f v=f(1)\n", "!f v=3\n"},
+        {"func f(a, b=a)\n    b\n!f v=f(1)\n", "!f\n"}, // a default does not see parameters
+        {"func f(f)\n    f\n!f v=f(3)\n", "!f v=3\n"},  // a parameter may shadow the function's name
         {"func f(a, a)\n    a\n!f v=f(1, 2)\n", "!f v=2\n"},
         {"func f(n)\n    n*f(n-1) if n>1 else 1\n!f v=f(10)\n", "!f v=3628800\n"},
         {"let f=func(x) func(y) x-y\n!f v=f(3)(4)\n", "!f v=-1\n"},
@@ -90,7 +91,7 @@ static void test_nodes(void **state) {
     check_trees(*state, rows, COUNT_OF(rows), 1);
 }
 
-// Only taken branches are evaluated, once and in order, as the output of debug() shows.
+// Only branches that are taken are evaluated, once and in order, as the output of debug() shows.
 static void test_order_of_evaluation(void **state) {
     Runner *runner = *state;
     static const ScriptRow rows[] = {
@@ -108,7 +109,7 @@ static void test_order_of_evaluation(void **state) {
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         runner_run(runner, rows[i].script, 1);
         const char *found = text_c(&runner->log);
-        // In a call of an unbound name the arguments need not be evaluated (L8.1).
+        // If the called name is unbound, the arguments need not be evaluated (L8.1).
         if (i + 1 == COUNT_OF(rows) && strcmp(found, "> 1\n> 2\n") == 0)
             continue;
         assert_text(rows[i].script, found, rows[i].wanted);

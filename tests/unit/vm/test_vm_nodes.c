@@ -1,4 +1,4 @@
-// test_vm_nodes.c: tests creation of nodes: their positions, and which parts frames share.
+// test_vm_nodes.c: tests the creation of nodes: their positions, and which parts of the tree are shared between frames.
 #include "runner.h"
 
 static const Node *top_node(const Runner *runner, uint32_t i) {
@@ -15,7 +15,7 @@ static const char *place(Runner *runner, const Node *node, const char *attr) {
     return str_format(&runner->world.arena, "%u:%u", at.line, at.column).bytes;
 }
 
-// Positions remain available after the syntax tree was freed (runner.h overwrites it).
+// Positions remain available after the syntax tree has been freed (runner.h overwrites it).
 static void test_positions_of_nodes(void **state) {
     Runner *runner = *state;
     for (int simplify = 1; simplify >= 0; simplify--) {
@@ -47,7 +47,7 @@ static void test_constant_children_are_shared(void **state) {
     assert_false(top_node(runner, 0)->program_lifetime_children);
 }
 
-// Nodes created by one instruction equal those created step by step.
+// Nodes that one instruction creates equal those that are created step by step.
 static void test_node_construction(void **state) {
     static const ScriptRow rows[] = {
         {"let z=frame*0\n!a #t x=1+z y='s' z=z\n", "!a #t x=1 y='s' z=0\n"},
