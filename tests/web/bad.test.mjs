@@ -31,7 +31,8 @@ test(LINKS, options, () => opened('', {
             assert.equal(await text(page), SQUARE);
             assert.ok(await page.evaluate(() => document.getElementById('message').classList.contains('error')));
         }
-        for (const [hash, size, message] of [[bad[0][0], '64;32', /copied completely/], [link, '32;32', /Frame 3: the state differs from the link/]]) {
+        const cases = [[bad[0][0], '64;32', /copied completely/], [link, '32;32', /Frame 3: the state differs from the link/]];
+        for (const [hash, size, message] of cases) {
             await page.goto('about:blank');
             await page.goto(world.server.url + hash);
             await page.waitForFunction(() => document.body.dataset.ready);

@@ -124,7 +124,8 @@ test('an interrupt does not affect the next call', () => {
         + "        !particle id=(:q;i) position=i;0 charge='word'\n!window\n    !canvas\n        !rect size=9;9\n";
     session.load(script).step().step();
     const whole = { state: session.state, parameters: session.parameters, systems: session.systems.length, table: session.table().text,
-        picture: session.displayList().numbers, help: session.help(), tokens: session.tokens(script), evaluated: session.evaluate('sum(..99)'),
+        picture: session.displayList().numbers, help: session.help(), tokens: session.tokens(script),
+        evaluated: session.evaluate('sum(..99)'),
         told: session.diagnose(`${script}!x a=`).length, hash: session.hash(), symbol: session.symbolName(session.symbol('q')),
         drawable: true };
     const acts = { state: () => session.state, parameters: () => session.parameters, systems: () => session.systems.length,

@@ -199,6 +199,7 @@ test('paints of text and lines can have another transform', options, () =>
 test('HDR values above 1 are not supported, which is reported', options, async () => {
     const script = join(pictures, 'canvas_wide.fl');
     const files = { 'images/small.png': readFileSync(join(pictures, 'images/small.png')).toString('base64') };
-    const { unsupported } = await page.evaluate(given => window.draw(...given), [readFileSync(script, 'utf8'), 2, files, render(script, 2)]);
+    const given = [readFileSync(script, 'utf8'), 2, files, render(script, 2)];
+    const { unsupported } = await page.evaluate(given => window.draw(...given), given);
     assert.deepEqual(unsupported, ['HDR canvas (colorbits)']);
 });

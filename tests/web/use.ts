@@ -1,6 +1,8 @@
 // use.ts: a TypeScript program that uses the package; types.test.mjs checks its types and runs it.
 import { loadEngine, PetriError, STATUS } from 'petri';
-import type { Column, Diagnostic, Engine, Frame, Help, Options, Parameter, Picture, RenderedImage, Snapshot, Status, System, Token } from 'petri';
+import type {
+    Column, Diagnostic, Engine, Frame, Help, Options, Parameter, Picture, RenderedImage, Snapshot, Status, System, Token,
+} from 'petri';
 import { pictureSize } from 'petri/drawing';
 
 const told: Diagnostic[] = [];
