@@ -1,7 +1,7 @@
 // cases.h: tables of small scripts with expected results that were calculated by hand.
 //
-// At one frame per second, the first step is taken in frame 1 and has length 1. A resting particle of mass 1 then has a
-// velocity equal to the force on it. The numbers are chosen so that nothing is rounded.
+// At one frame per second, the first step is taken in frame 1 and has length 1. Afterwards, the velocity of a resting
+// particle of mass 1 equals the force on it. The numbers are chosen so that no rounding occurs.
 #ifndef PETRI_TESTS_PHYSICS_CASES_H
 #define PETRI_TESTS_PHYSICS_CASES_H
 
@@ -9,10 +9,11 @@
 
 typedef struct Case {
     const char *title;
-    const char *script; // run at one frame per second
+    const char *script; // runs at one frame per second
     int frame;
-    // Expected state in that frame: NAME=NUMBERS is the position of the particle `:NAME` of the system `:s`, NAME'=…
-    // its velocity. :NAME=… is another key of the system, and $=… the key of the prefix itself. =none: no such key.
+    // Expected state in that frame, as entries NAME=NUMBERS. NAME is the position of the particle `:NAME` of the system
+    // `:s`, NAME' its velocity, :NAME another key of the system, and $ the key of the prefix itself. `none` as value:
+    // the key does not exist.
     const char *wanted;
     const char *reported; // codes of all diagnostics up to that frame; NULL: none
 } Case;

@@ -1,8 +1,8 @@
-// test_determinism.c: hashes of whole states, which must be the same for every build.
+// test_determinism.c: hashes of complete states, which must be the same for every build.
 //
-// A hash is the FNV-1a of the text that `petri run --print state` prints for the last frame, so one bit of one
-// coordinate changes it. The constants are the same for gcc and clang, -O0 and -O3, any C library and any number of
-// threads. If a change of the specification changes them, run the program: it prints the new ones.
+// A hash is the FNV-1a of the text that `petri run --print state` prints for the last frame, so it depends on every bit
+// of every coordinate. The constants are the same for gcc and clang, -O0 and -O3, any C library and any number of
+// threads. If a change of the specification changes them, run the program; it prints the new values.
 #include "world.h"
 
 static uint64_t hash_of(const char *text) {
@@ -26,7 +26,7 @@ static const char dish[] = "let CELLS=40 RADIUS=500 BEATS=10\n"
                            " !drag strength=1e-3\n"
                            " !random strength=200\n";
 
-// Nested groups with all kinds of forces and powers.
+// Nested groups with all kinds of forces and various powers.
 static const char groups[] =
     "!physics state=:all dimensions=2 resolution=1/120 speed_of_light=40 run=3\n"
     " !constant acceleration=0;-1 force=0.1;0 ease=0.2\n"
@@ -127,11 +127,12 @@ static const struct {
     {"crowd", crowd, 12, UINT64_C(0x386fbe18f17bc205)},
 };
 
-// Ways of computing the scenes; the hash must not depend on them.
+// Configurations in which the scenes are computed; the hash must not depend on them.
 static const struct {
     const char *name;
     int threads;
-    const char *cpu; // NULL: the best; a level that this processor lacks is replaced by the best one below it
+    const char *cpu; // NULL: the best level; a level that this processor lacks is replaced by the best available one
+                     // below it
     PetriNeighbours neighbours;
 } ways[] = {
     {"1 thread", 1, NULL, PETRI_NEIGHBOURS_AUTO},
@@ -151,7 +152,7 @@ static const struct {
     {"AVX2, neighbour lists always", 1, "avx2", PETRI_NEIGHBOURS_ALWAYS},
 };
 
-// Returns the hash of the state after some frames, computed in one of the ways.
+// Returns the hash of the state after some frames in one of the configurations.
 static uint64_t run_script(const char *script, int frames, size_t way) {
     World world;
     PetriOptions options = petri_default_options();
@@ -192,8 +193,8 @@ static void test_ways(void **state) {
                 fail_msg("%s: not the same with %s", scenes[i].name, ways[k].name);
 }
 
-// Particles that a grid cannot sort: one larger than the world, all at one point, extremely far apart, half of them not
-// finite, large ones among small ones. (With 10^6 particles: CONTRIBUTING.md, bad input.)
+// Particles that a grid cannot sort: one larger than the whole system, all at one point, extremely far apart, half of
+// them not finite, large ones among small ones. (For 10^6 particles, see CONTRIBUTING.md, bad input.)
 static void test_bad_input(void **state) {
     (void)state;
     static const char *const places[] = {
@@ -209,7 +210,7 @@ static void test_bad_input(void **state) {
         char *script = text_of("!physics state=:s dimensions=2\n for i in ..2000\n  !particle id=i"
                                " velocity=normal(:v;i)[..2] %s\n !collision strength=100\n",
                                places[i]);
-        uint64_t hash = run_script(script, 5, 5); // plain C
+        uint64_t hash = run_script(script, 5, 5); // scalar code
         for (size_t k = 0; k < COUNT_OF(ways); k++)
             if (ways[k].neighbours != PETRI_NEIGHBOURS_AUTO || k < 3)
                 if (run_script(script, 5, k) != hash)
@@ -218,7 +219,7 @@ static void test_bad_input(void **state) {
     }
 }
 
-// Two sessions that run alternately do not affect each other. Neither does printing in between.
+// Two sessions that run alternately do not affect each other. Printing between the frames does not affect them either.
 static void test_sessions_side_by_side(void **state) {
     (void)state;
     World worlds[COUNT_OF(scenes)];
@@ -237,7 +238,7 @@ static void test_sessions_side_by_side(void **state) {
     }
 }
 
-// The hash is sensitive: the last digit of one number of a scene changes it.
+// The hash is sensitive: a change of one number in its last digit changes the hash.
 static void test_sensitive(void **state) {
     (void)state;
     World world;

@@ -1,13 +1,15 @@
 // test_seed_attributes.c: every attribute of every node inside `!physics`: default, one number for a vector, wrong
-// shapes, nan, null and ease. Runs a scene with the attribute in different forms and compares the states.
+// shapes, nan, null and ease. Runs a scene with different values of the attribute and compares the states.
 #include "world.h"
 
-// Bodies for which every attribute matters: they overlap, move, and are charged. The node under test comes after them.
+// Bodies for which every attribute matters, because they overlap, move, and are charged. The node under test is added
+// after them.
 static const char bodies[] = " !particle id=:a position=0;0 velocity=1;2 radius=1 mass=2 charge=3\n"
                              " !particle id=:b position=1;0.5 velocity=-1;0.5 radius=0.75 charge=-2\n"
                              " !anchor id=:c position=0.5;1 radius=0.5 mass=3 charge=1\n";
 
-// Returns the state after frame 4 of the scene with a node in it, and checks the diagnostics. The caller frees it.
+// Returns the state after frame 4 of the scene with the node under test, and checks the diagnostics. The caller frees
+// it.
 static char *state_with(const char *node, const char *attribute, const char *codes) {
     World world;
     char *script = text_of(P2 "%s %s %s\n", bodies, node, attribute);
@@ -31,8 +33,8 @@ static char *state_with(const char *node, const char *attribute, const char *cod
     return text;
 }
 
-// Checks that `attribute` with `value` results in the same state as with `other` (or not, if `same` is false). Empty:
-// no attribute.
+// Checks that the state with `attribute`=`value` equals the state with `attribute`=`other` (or differs from it, if
+// `same` is false). An empty value means that the attribute is omitted.
 static void compare_states(const char *node, const char *attribute, const char *value, const char *other, bool same,
                            const char *codes) {
     char *first = text_of("%s%s%s", *value ? attribute : "", *value ? "=" : "", value);
@@ -52,8 +54,8 @@ static void compare_states(const char *node, const char *attribute, const char *
 typedef struct Row {
     const char *node;
     const char *attribute;
-    const char *fallback; // "": no attribute
-    const char *other;    // value that changes the result
+    const char *fallback; // "": the attribute is omitted
+    const char *other;    // a value that gives a different state
 } Row;
 
 static const Row floats[] = {
@@ -101,7 +103,7 @@ static const Row floats[] = {
     {"!barrier position=-3;0 normal=1;1", "max", "", "0.5"},
 };
 
-// Particles and anchors, with forces that use all attributes.
+// Particles and anchors, and forces that use all attributes of particles.
 static const Row body_floats[] = {
     {"!particle id=:p position=1;1 radius=1 charge=1 force=5;5", "mass", "1", "3"},
     {"!particle id=:p position=1;1 force=5;5", "radius", "0", "1"},
@@ -112,7 +114,7 @@ static const Row body_floats[] = {
     {"!anchor id=:p position=1;1 radius=1", "charge", "0", "-1"},
 };
 
-// Forms that are invalid for an attribute of one number, and forms that count as missing.
+// Invalid values of an attribute that must be one number, and values that count as missing.
 static void check_float(const Row *row) {
     static const char *const wrong[] = {"1;2", "\"3\"", ":x;1", "!node", "nan", "uniform(:x)[..3]"};
     if (*row->fallback)
@@ -133,7 +135,7 @@ static void test_floats(void **state) {
 static void test_body_floats(void **state) {
     (void)state;
     for (size_t i = 0; i < COUNT_OF(body_floats); i++) {
-        // The forces come first, so that the node under test is still the last of the script.
+        // The forces come first, so the node under test is still the last one in the script.
         Row row = body_floats[i];
         char *node = text_of("!collision\n !gravity\n !electrostatic\n !drag\n !constant force=1;1\n %s", row.node);
         char *found[4];
@@ -166,7 +168,7 @@ static void test_body_floats(void **state) {
     }
 }
 
-// Vectors: the default, one number for both components, and a value of two numbers.
+// Vector attributes: the default, one number for both components, and two numbers.
 static const Row vectors[] = {
     {"!constant acceleration=1;0", "force", "0", "2;-1"},
     {"!constant force=1;0", "acceleration", "0", "2;-1"},
@@ -194,8 +196,9 @@ static void test_vectors(void **state) {
     }
 }
 
-// If a force is eased in over 4, it has 0, 1/4, 2/4, 3/4 and then all of its strength in the steps that begin at clock
-// 0, 1, 2, 3, 4, 5. The particles are new in each frame, so their velocity is the result of one step.
+// A force that is eased in over 4 has 0, 1/4, 2/4 and 3/4 of its strength in the steps that begin at clock 0, 1, 2 and
+// 3, and its full strength after that. The particles are new in each frame, so their velocity is the result of one
+// step.
 static void test_ease_is_linear(void **state) {
     (void)state;
     static const char *const nodes[] = {

@@ -1,7 +1,8 @@
 // test_seed_barriers.c: reflections and soft boundaries in scripts, with results calculated by hand.
 #include "cases.h"
 
-// A bead at 2 with velocity -4: after one step it is at -2, half a step after the contact.
+// A bead at 2 with velocity -4. After one step without a barrier, its position would be -2; the contact is in the
+// middle of the step.
 #define BEAD(attributes, barrier) P1 " !particle id=:a position=2 velocity=-4 " attributes "\n !barrier " barrier "\n"
 
 static void test_bounce(void **state) {
@@ -85,15 +86,16 @@ static void test_soft(void **state) {
     CHECK_CASES(cases);
 }
 
-// The velocity w' is that at the contact, without the acceleration after it (section 4.4).
+// The reflected velocity w' is computed from the velocity at the contact, without the acceleration after the contact
+// (section 4.4).
 static void test_bounce_under_force(void **state) {
     (void)state;
     static const Case cases[] = {
-        // v = -2 - 2 = -4, p = 2 - 4 = -2, half a step too far. At the contact v = -4 + 1 = -3, reflected 3, then half
-        // a step of the same force: 3 - 1 = 2.
+        // v = -2 - 2 = -4, p = 2 - 4 = -2: the contact was half a step earlier. The velocity at the contact is v = -4 +
+        // 1 = -3, reflected 3. Half a step of the same force then gives 3 - 1 = 2.
         {"elastic", P1 " !particle id=:a position=2 velocity=-2\n !constant force=-2\n !barrier normal=1\n", 1,
          "a'=2 a=1", 0},
-        // With restitution 1/2: reflected 1.5, then 1.5 - 1 = 0.5, p = 0.25.
+        // With restitution 1/2, the reflected velocity is 1.5. Then 1.5 - 1 = 0.5 and p = 0.25.
         {"half",
          P1 " !particle id=:a position=2 velocity=-2\n !constant force=-2\n !barrier normal=1 restitution=0.5\n", 1,
          "a'=0.5 a=0.25", 0},
@@ -117,7 +119,7 @@ static void test_normals(void **state) {
     EXPECT(&world, ":s;:a", -2, 0);
     assert_int_equal(world_count_reported(&world, "bad-attribute"), 1);
     world_close(&world);
-    // One number is used for all components: a diagonal wall.
+    // A single number is used for all components, which gives a diagonal wall.
     world_open(&world, 1, P2 " !particle id=:a position=2;0 velocity=-4;0\n !barrier normal=1\n");
     world_to(&world, 1);
     EXPECT_NEAR(&world, ":s;:a", 1e-14, 0, 2);

@@ -78,7 +78,7 @@ static void test_anchors(void **state) {
     CHECK_CASES(cases);
 }
 
-// The initial position may change until the first step, which a paused clock delays.
+// The initial position may change until the first step. A paused clock delays that step.
 static void test_first_step(void **state) {
     (void)state;
     static const Case cases[] = {
@@ -96,7 +96,7 @@ static void test_first_step(void **state) {
     CHECK_CASES(cases);
 }
 
-// Ids of all kinds, and the state keys of their particles.
+// Ids of all kinds, and the state keys of the particles with these ids.
 static void test_ids(void **state) {
     (void)state;
     World world;

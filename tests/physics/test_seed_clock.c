@@ -25,7 +25,7 @@ static void test_keys(void **state) {
 static void test_resolution(void **state) {
     (void)state;
     static const Case cases[] = {
-        // p = v0 t + 2 d² m (m + 1) / 2 after m steps of d: one step of 1, then 2 of 1/2, 4 of 1/4.
+        // p = v0 t + 2 d² m (m + 1) / 2 after m steps of length d: one step of 1, two of 1/2, or four of 1/4.
         {"1", SYSTEM("resolution=1"), 1, "a'=3 a=3 :clock=1", 0},
         {"1/2: as many steps as needed", SYSTEM("resolution=0.5"), 1, "a'=3 a=2.5 :clock=1", 0},
         {"1/4", SYSTEM("resolution=0.25"), 1, "a'=3 a=2.25 :clock=1", 0},
@@ -36,7 +36,7 @@ static void test_resolution(void **state) {
     CHECK_CASES(cases);
 }
 
-// The seed's example: resolution 1/60 at 30 frames per second makes two steps per frame.
+// The seed's example: with a resolution of 1/60 at 30 frames per second, each frame takes two steps.
 static void test_two_steps(void **state) {
     (void)state;
     for (int k = 1; k <= 6; k++) {
@@ -57,8 +57,8 @@ static void test_two_steps(void **state) {
     world_close(&world);
 }
 
-// In real time, a frame takes one step of `resolution` (a second one only after hundreds of good frames). The clock
-// falls behind, and the particles follow the clock.
+// In real time, a frame takes one step of `resolution`, or two after hundreds of fast frames. The simulation clock
+// falls behind, and the particles follow that clock.
 static void test_real_time(void **state) {
     (void)state;
     World world;
@@ -106,7 +106,7 @@ static void test_run(void **state) {
         {"floored", SYSTEM("run=-2.5"), 2, ":run=-3 :clock=2", 0},
         {"0 by default", SYSTEM(""), 2, ":run=0", 0},
         {"the same floor: the same run", SYSTEM("run=3+0.1*frame"), 4, ":run=3 :clock=4 :iteration=4", 0},
-        // The frame in which `run` changes makes a step that starts from the attributes.
+        // In the frame in which `run` changes, the step starts from the attributes.
         {"starts again", SYSTEM("run=(frame >= 3)"), 3, "$=3 :run=1 :clock=1 :iteration=0 :last=3 a'=3 a=3", 0},
         {"continues after the restart", SYSTEM("run=(frame >= 3)"), 5,
          "$=3 :run=1 :clock=3 :iteration=2 :last=5 a'=7 a=15", 0},

@@ -5,8 +5,8 @@ enum { CELLS = 60 };
 
 #define RADIUS 300.0
 
-// Returns the example script, whose forces are optional. Sizes and charges are also stored as anchors of a second
-// system, so that the test can read them.
+// Returns the example script. Its forces are optional. Radii and charges are also stored as anchor positions of a
+// second system, so that the test can read them.
 static char *dish(const char *pragma, const char *electrostatic, const char *collision, const char *random,
                   const char *drag) {
     return text_of("%slet CELLS=60 RADIUS=300\n"
@@ -60,7 +60,7 @@ static double fastest(const Cells *cells) {
     return max;
 }
 
-// Computes the sum of all overlaps, and the sum of the charge products of touching cells.
+// Computes the sum of all overlaps, and the sum of charge products over touching pairs of cells.
 static void contacts(const Cells *cells, double *overlap, double *products) {
     *overlap = *products = 0;
     for (int i = 0; i < CELLS; i++)
@@ -83,7 +83,7 @@ static void run_dish(const char *electrostatic, const char *collision, const cha
     free(script);
 }
 
-// No cell leaves the dish by more than the elastic links allow.
+// Cells leave the dish at most by as much as the elastic links allow.
 static void test_constrained(void **state) {
     (void)state;
     World world;
@@ -100,7 +100,7 @@ static void test_constrained(void **state) {
     free(script);
 }
 
-// Cells clump, and most touching pairs have opposite charges.
+// Cells form clumps, and most touching pairs have opposite charges.
 static void test_clumps(void **state) {
     (void)state;
     Cells before, after, without;
@@ -125,10 +125,10 @@ static void test_no_overlap(void **state) {
     contacts(&with, &overlap[0], &products[0]);
     contacts(&without, &overlap[1], &products[1]);
     assert_true(overlap[0] < overlap[1] / 4);
-    assert_true(overlap[0] / CELLS < 1); // on average; radii are 10 to 20
+    assert_true(overlap[0] / CELLS < 1); // average overlap; the radii are 10 to 20
 }
 
-// All cells come to rest without the random force, but not with it.
+// Without the random force, all cells come to rest. With the random force, they keep moving.
 static void test_equilibrium(void **state) {
     (void)state;
     Cells still, moved;
@@ -158,12 +158,13 @@ static void test_eased_in(void **state) {
     assert_true(max[0] < max[1] / 2);
 }
 
-// The clock is the beat: twice the tempo gives twice the speed. The resolution matches, so a frame is one step.
+// The clock counts beats: at twice the tempo, everything moves twice as fast. The resolution is one frame, so each
+// frame takes one step.
 static void test_tempo(void **state) {
     (void)state;
     static const struct {
         const char *pragma;
-        double beats; // in 30 frames of 1/60 s
+        double beats; // number of beats in 30 frames
         double fps;
     } rows[] = {{"", 1, 60},
                 {"%pragma tempo 240\n", 2, 60},
@@ -175,7 +176,7 @@ static void test_tempo(void **state) {
         world_open(&world, rows[i].fps, script);
         for (int frame = 1; frame <= 30; frame++) {
             world_to(&world, frame);
-            assert_int_equal(petri_frame(world.session).physics_steps, 2); // one step of each system
+            assert_int_equal(petri_frame(world.session).physics_steps, 2); // one step for each of the two systems
         }
         EXPECT_NEAR(&world, ":s;:clock", 1e-12, rows[i].beats);
         world_close(&world);

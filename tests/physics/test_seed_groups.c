@@ -43,8 +43,8 @@ static void test_reach(void **state) {
     CHECK_CASES(cases);
 }
 
-// A tree of groups with one particle each at a power of two. Gravity of strength 1 between masses 1 depends on the
-// distance, so the force on a particle shows which partners it has.
+// A tree of groups with one particle each, three of them at powers of two. Gravity of strength 1 between masses 1
+// depends only on the distance, so the force on a particle shows which partners it has.
 //
 //   top a=0 | A: b=16 | A.B: c=64 | C: d=256
 static const double places[] = {0, 16, 64, 256};
@@ -78,16 +78,17 @@ static void test_sight(void **state) {
 #define TREE(top, a, b, c)                                                                                             \
     P1 " !particle id=:a position=0\n" top " !group\n  !particle id=:b position=16\n" a                                \
        "  !group\n   !particle id=:c position=64\n" b " !group\n  !particle id=:d position=256\n" c
-    // At the top: all interact with their ancestors and descendants; d and the two of A are in sibling groups.
+    // In the top group, all particles interact with their ancestors and descendants. C is a sibling of A, so d does not
+    // interact with the two particles of A.
     check_sight(TREE(" !gravity\n", "", "", ""), (const unsigned[]){B | C | D, A | C, A | B, A});
-    // In A: pairs of A and its sub-groups, without the top's particle.
+    // In A, pairs of A and its subgroups interact, without the particle of the top group.
     check_sight(TREE("", "  !gravity\n", "", ""), (const unsigned[]){0, C, B, 0});
-    // In A.B and in C: there are no partners.
+    // In A.B and in C, there are no partners.
     check_sight(TREE("", "", "   !gravity\n", ""), (const unsigned[]){0, 0, 0, 0});
     check_sight(TREE("", "", "", "  !gravity\n"), (const unsigned[]){0, 0, 0, 0});
 }
 
-// Pair forces do not act between sibling groups, but do act between a group and its parent's particles.
+// Pair forces do not act between sibling groups. They do act between a group and the particles of its parent.
 static void test_siblings(void **state) {
     (void)state;
     static const char *const forces[] = {"!collision", "!gravity", "!electrostatic", "!adhesion overlap=1"};
@@ -108,7 +109,8 @@ static void test_siblings(void **state) {
     }
 }
 
-// Ids are unique over all groups: the first one in document order counts. Each kind of node is reported once.
+// Ids are unique across all groups: the first node with an id in document order is used. Each kind of node is reported
+// once.
 static void test_ids_across_groups(void **state) {
     (void)state;
     static const Case cases[] = {

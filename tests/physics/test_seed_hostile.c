@@ -1,7 +1,8 @@
-// test_seed_hostile.c: hostile input: bounded time, errors reported once, and only finite numbers in the state.
+// test_seed_hostile.c: hostile input must be processed in bounded time and report each error once. The state contains
+// only finite numbers.
 #include "cases.h"
 
-// Runs a script for some frames. Checks that none fails, that all stored numbers are finite, and that at most
+// Runs a script for some frames. Checks that no frame fails, that all stored numbers are finite, and that at most
 // `max_reported` diagnostics are reported.
 static void check_survives(const char *script, int64_t frame, int max_reported) {
     World world;
@@ -64,7 +65,7 @@ static void test_odd_numbers(void **state) {
         for (size_t i = 0; i < COUNT_OF(attributes); i++) {
             char *script = text_of("!physics state=:s dimensions=2 %s=%s\n !particle id=:a velocity=1 force=1\n",
                                    attributes[i], odd_numbers[k]);
-            // NaN as dimensions is reported twice: as a bad attribute and as an invalid system.
+            // NaN for dimensions is reported twice: as a bad attribute and as an invalid system.
             check_survives(script, 4, 2);
             free(script);
         }
@@ -89,7 +90,7 @@ static void test_dimensions(void **state) {
         {"inf", "!physics state=:s dimensions=inf\n !particle id=:a\n", 2, "$=none", "invalid-system"},
     };
     CHECK_CASES(cases);
-    // An empty system needs no vectors of 1e9 numbers: it may run or be skipped, with at most one message.
+    // An empty system with 1e9 dimensions stores no vectors. It may run or be skipped, with at most one message.
     check_survives("!physics state=:s dimensions=1e9\n", 2, 1);
     // A thousand dimensions work.
     World world;
@@ -106,7 +107,7 @@ static void test_dimensions(void **state) {
     world_close(&world);
 }
 
-// With an extremely small resolution, a frame ends after a million steps, which is reported once.
+// With an extremely small resolution, a frame ends after a million steps. This is reported once.
 static void test_endless_steps(void **state) {
     (void)state;
     World world;
@@ -120,7 +121,7 @@ static void test_endless_steps(void **state) {
     }
     EXPECT_REPORTED(&world, "step-limit");
     world_close(&world);
-    // If steps are too small to change the time, none is made.
+    // A step that is too small to change the clock is not taken.
     world_open(&world, 1,
                "!physics state=:s dimensions=1 time=5+time resolution=5e-324\n !particle id=:a velocity=1\n");
     world_to(&world, 4);
@@ -131,7 +132,7 @@ static void test_endless_steps(void **state) {
     world_close(&world);
 }
 
-// Clocks stay finite: a step after which one would be infinite is not made.
+// Clocks stay finite: a step that would make a clock infinite is not taken.
 static void test_clock_overflow(void **state) {
     (void)state;
     World world;
@@ -146,7 +147,8 @@ static void test_clock_overflow(void **state) {
     world_close(&world);
 }
 
-// If time jumps, the allowed number of steps is made and the rest skipped. The next frame is normal.
+// If the time jumps, the maximum number of steps is taken and the rest of the time is skipped. The next frame is
+// normal.
 static void test_jumps(void **state) {
     (void)state;
     World world;
@@ -171,12 +173,12 @@ static void test_jumps(void **state) {
     CHECK_CASES(cases);
 }
 
-// 1e5 forces of a kind on the same two particles add up.
+// The forces of 1e5 nodes of one kind on the same two particles add up.
 static void test_many_forces(void **state) {
     (void)state;
     static const struct {
         const char *node;
-        double force; // of one of them, on `:a`
+        double force; // force of a single node on `:a`
     } rows[] = {
         {"!distance from=:a to=:b max=3", 1},
         {"!distance from=:b to=:a fixed=5", -1},
@@ -198,7 +200,7 @@ static void test_many_forces(void **state) {
         world_to(&world, 1);
         double force = rows[i].force;
         if (strstr(rows[i].node, "gravity") || strstr(rows[i].node, "electro"))
-            force = copysign(1 / (4.5 * 4.5), force); // the radii overlap
+            force = copysign(1 / (4.5 * 4.5), force); // the radii overlap, so the force is constant
         EXPECT_NEAR(&world, ":s;:a;:velocity", 1e-6 * fabs(force * 1e5), force * 1e5);
         EXPECT_REPORTED(&world, "");
         world_close(&world);
@@ -223,7 +225,7 @@ static void test_cycles(void **state) {
     CHECK_CASES(cases);
 }
 
-// Coincident particles have no direction and so no force between them. They still act on others.
+// Coincident particles have no direction, so no force acts between them. They still act on other particles.
 static void test_same_place(void **state) {
     (void)state;
     for (int n = 1; n <= 5; n += 2) {
@@ -261,7 +263,7 @@ static void test_same_place(void **state) {
         5, 0);
 }
 
-// Returns a script with nested groups. Forces at the top act on a particle in the innermost group.
+// Returns a script with nested groups. Forces of the top group act on a particle in the innermost group.
 static char *nested(int wraps, int rounds) {
     size_t size = 4096 + (size_t)rounds * 32;
     char *lets = malloc(size);
@@ -280,7 +282,7 @@ static char *nested(int wraps, int rounds) {
 
 static void test_deep_groups(void **state) {
     (void)state;
-    char *script = nested(400, 25); // 1e4
+    char *script = nested(400, 25); // a depth of 1e4
     World world;
     world_open(&world, 1, script);
     world_to(&world, 1);
@@ -289,7 +291,8 @@ static void test_deep_groups(void **state) {
     EXPECT_REPORTED(&world, "");
     world_close(&world);
     free(script);
-    // A depth of 1e6 exceeds the limit for trees: it is rejected with one message, and the rest of the script works.
+    // A depth of 1e6 exceeds the height limit of trees. The tree is rejected with one message, and the rest of the
+    // script works.
     script = nested(400, 2500);
     world_open(&world, 1, script);
     world_to(&world, 1);
@@ -309,7 +312,7 @@ static void test_many_groups(void **state) {
     world_close(&world);
 }
 
-// Keys of a million elements.
+// State keys with a million elements.
 static void test_long_keys(void **state) {
     (void)state;
     static const char *const scripts[] = {
@@ -321,7 +324,7 @@ static void test_long_keys(void **state) {
         World world;
         world_open(&world, 1, scripts[i]);
         world_to(&world, 1);
-        // In the first script the two are pushed apart.
+        // In the first script, the two particles are pushed apart.
         if (i > 0)
             EXPECT(&world, ":s;:a", 1);
         assert_true(world.reported_count <= 1);

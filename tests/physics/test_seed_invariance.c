@@ -1,4 +1,4 @@
-// test_seed_invariance.c: invariance of results: frame rate, translation, permutation of axes, embedding in more
+// test_seed_invariance.c: results do not depend on the frame rate, translation, permutation of axes, or additional
 // dimensions.
 #include "world.h"
 
@@ -7,7 +7,7 @@ static const char forces[] = " !collision strength=40\n !gravity strength=0.5\n 
                              " !adhesion strength=3\n !distance from=0 to=1 fixed=1.5 strength=10\n"
                              " !distance from=2 to=3 max=0.5 power=1.5 strength=4\n";
 
-// Reads the numbers of all keys of eight particles into one array, and returns how many.
+// Reads the numbers of all keys of eight particles into one array. Returns their count.
 static int read_all(World *world, double *numbers) {
     int count = 0;
     for (int i = 0; i < 8; i++) {
@@ -22,8 +22,8 @@ static int read_all(World *world, double *numbers) {
     return count;
 }
 
-// 60, 30, 20, 10 and 5 frames per second with resolution 1/60 make the same steps, except for the last bits of their
-// lengths.
+// At 60, 30, 20, 10 and 5 frames per second with resolution 1/60, the same steps are taken, except for the last bits of
+// their lengths.
 static void test_frame_rates(void **state) {
     (void)state;
     static const int dimensions[] = {1, 2, 3, 5};
@@ -52,7 +52,7 @@ static void test_frame_rates(void **state) {
     }
 }
 
-// If steps are powers of two and frames are multiples of them, nothing is rounded and the bits are the same.
+// If step lengths are powers of two and frames are multiples of them, no rounding occurs and the bits are the same.
 static void test_exact_frame_rates(void **state) {
     (void)state;
     char *script = text_of("!physics state=:s dimensions=2 resolution=1/64\n"
@@ -73,7 +73,7 @@ static void test_exact_frame_rates(void **state) {
     free(script);
 }
 
-// Returns a scene in which every position is transformed by `place` and every direction by `turn`.
+// Returns a scene in which `place` transforms every position and `turn` every direction.
 static char *scene(int n, const char *place, const char *turn) {
     return text_of("func turn(v)\n %s\nfunc place(v)\n %s\n"
                    "!physics state=:s dimensions=%d resolution=1/120\n"
@@ -91,7 +91,8 @@ static char *scene(int n, const char *place, const char *turn) {
                    turn, place, n, n, n, n, n, forces, n, n, n, n, n, n, n, n);
 }
 
-// Compares two scenes of n dimensions: component k of the second is component axis[k] of the first, positions shifted.
+// Compares two scenes of n dimensions. Component k in the second scene is component axis[k] in the first, with
+// positions shifted.
 static void compare_states(int n, const char *place, const char *turn, const int *axis, const double *shift) {
     char *scripts[2] = {scene(n, "v", "v"), scene(n, place, turn)};
     double numbers[2][80];
@@ -127,8 +128,8 @@ static void test_permuted(void **state) {
     compare_states(5, "v[4;2;0;1;3]", "v[4;2;0;1;3]", (const int[]){4, 2, 0, 1, 3}, none);
 }
 
-// A scene with additional components that are all zero moves as without them. (Except drag and buoyancy, whose formulas
-// depend on the number of dimensions.)
+// Additional components that are all zero do not change the motion. Drag and buoyancy are excluded, because their
+// formulas depend on the number of dimensions.
 static void test_embedded(void **state) {
     (void)state;
     double numbers[2][80];

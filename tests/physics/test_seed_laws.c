@@ -1,9 +1,9 @@
-// test_seed_laws.c: physical laws in scripts, in several dimensions where possible.
+// test_seed_laws.c: physical laws in scripts, in different numbers of dimensions where possible.
 #include "world.h"
 
 #define TAU 6.283185307179586
 
-// Reads position and velocity of a particle `:s;ID`.
+// Reads the position and velocity of the particle `:s;ID`.
 static int read_body(World *world, const char *id, double *position, double *velocity) {
     char key[64];
     snprintf(key, sizeof key, ":s;%s", id);
@@ -20,7 +20,7 @@ static double square(int n, const double *v) {
     return sum;
 }
 
-// Momentum of twelve particles of masses 1 + i/4 under each force between pairs.
+// Each force between pairs conserves the momentum of twelve particles of masses 1 + i/4.
 static void check_momentum(int n, const char *force) {
     enum { COUNT = 12 };
     char *script = text_of("!physics state=:s dimensions=%d\n"
@@ -71,7 +71,8 @@ static void test_momentum(void **state) {
             check_momentum(dimensions[k], forces[i]);
 }
 
-// A mass on a spring: period tau sqrt(m / strength), here 1.2 seconds; at rest length after a quarter.
+// A mass on a spring oscillates with the period tau sqrt(m / strength), here 1.2 seconds. After a quarter period, the
+// spring has its rest length.
 static void test_spring_period(void **state) {
     (void)state;
     static const char *const ends[][2] = {{"1", "1.25"}, {"2", "0;1.25"}, {"3", "1.25;0;0"}, {"5", "0;0;0;0;1.25"}};
@@ -93,7 +94,7 @@ static void test_spring_period(void **state) {
     }
 }
 
-// The velocity is updated first: after m steps of d, any mass has fallen g d² m (m + 1) / 2.
+// The velocity is updated before the position: after m steps of length d, any mass has fallen g d² m (m + 1) / 2.
 static void test_free_fall(void **state) {
     (void)state;
     World world;
@@ -105,11 +106,11 @@ static void test_free_fall(void **state) {
     EXPECT_NEAR(&world, ":s;:a", 1e-10, 7, 100 - fallen);
     EXPECT_NEAR(&world, ":s;:b", 1e-10, 7, 100 - fallen);
     EXPECT_NEAR(&world, ":s;:a;:velocity", 1e-11, 2, -19.62);
-    NEAR(fallen, 9.81 * 2, 0.2); // g t² / 2, except for the step size
+    NEAR(fallen, 9.81 * 2, 0.2); // g t² / 2, up to an error of the order of the step length
     world_close(&world);
 }
 
-// Drag equals weight at S v² r^(n-1) = m g, which is reached from higher and from lower speeds.
+// Drag equals weight at S v² r^(n-1) = m g. This speed is reached from higher and from lower speeds.
 static void test_terminal_velocity(void **state) {
     (void)state;
     for (int n = 1; n <= 5; n++) {
@@ -131,8 +132,8 @@ static void test_terminal_velocity(void **state) {
     }
 }
 
-// Kepler's laws: period tau sqrt(r³ / GM), constant energy and angular momentum; a circle and an ellipse, in two and
-// three dimensions.
+// Kepler's laws: the period is tau sqrt(r³ / GM), and energy and angular momentum are constant. Tests a circle and an
+// ellipse, in two and three dimensions.
 static void test_orbit(void **state) {
     (void)state;
     static const char *const cases[][3] = {
@@ -153,11 +154,11 @@ static void test_orbit(void **state) {
             product = 0;
             for (int k = 0; k < n; k++)
                 product += p[k] * v[k];
-            // Twice the area swept per unit of time, which this scheme conserves up to rounding.
+            // Twice the area swept per unit of time, which the integrator conserves up to rounding.
             NEAR(sqrt(radius * radius * square(n, v) - product * product), i == 2 ? 1.2 : 1, 1e-10);
             if (i != 2) {
                 NEAR(radius, 1, 2e-3);
-                NEAR(v[i == 0 || i == 1 ? 1 : 0], 1, 2e-3); // back at the start
+                NEAR(v[i == 0 || i == 1 ? 1 : 0], 1, 2e-3); // after one period, the velocity is the initial one
             }
         }
         world_close(&world);
@@ -165,7 +166,7 @@ static void test_orbit(void **state) {
     }
 }
 
-// Two stars around their common centre of mass: period tau sqrt(d³ / G(m1 + m2)).
+// Two stars orbit their common centre of mass with the period tau sqrt(d³ / G(m1 + m2)).
 static void test_two_stars(void **state) {
     (void)state;
     World world;
@@ -181,7 +182,8 @@ static void test_two_stars(void **state) {
     world_close(&world);
 }
 
-// A ball that is dropped from h on a floor of restitution e returns to e² h, as its flight after the bounce shows.
+// If a ball falls from a height h on a floor with restitution e, it rises to e² h. The duration of its flight shows
+// that height.
 static void test_bounce_height(void **state) {
     (void)state;
     static const double restitutions[] = {1, 0.9, 0.7, 0.5, 0.25};
@@ -194,7 +196,7 @@ static void test_bounce_height(void **state) {
             World world;
             double top = 0, p[WORLD_MAX_NUMBERS], v[WORLD_MAX_NUMBERS];
             world_open(&world, 400, script);
-            // It falls 4 in sqrt(0.8) s, and then rises for e times that time.
+            // The ball falls by 4 in sqrt(0.8) s, and then rises for e times that duration.
             for (int frame = 360; frame < 360 + 400; frame += 2) {
                 world_to(&world, frame);
                 read_body(&world, ":a", p, v);
@@ -207,7 +209,7 @@ static void test_bounce_height(void **state) {
     }
 }
 
-// In a fluid whose density decreases with height, a bubble comes to rest where m = density r^n.
+// In a fluid whose density decreases with height, a bubble comes to rest at the height at which m = density r^n.
 static void test_buoyant_equilibrium(void **state) {
     (void)state;
     World world;
@@ -233,7 +235,7 @@ static void test_buoyant_equilibrium(void **state) {
     }
 }
 
-// In a field the acceleration is q / m times the field.
+// In a field, the acceleration is q / m times the field strength.
 static void test_field(void **state) {
     (void)state;
     World world;
@@ -249,7 +251,8 @@ static void test_field(void **state) {
     world_close(&world);
 }
 
-// Drag of any strength never reverses a particle's velocity relative to the medium. The particle comes to rest in it.
+// Drag of any strength never reverses a particle's velocity relative to the medium. At most, the particle comes to rest
+// relative to it.
 static void test_drag_never_reverses(void **state) {
     (void)state;
     static const char *const strengths[] = {"1e-3", "0.1", "1", "100", "1e9", "1e300", "inf"};
@@ -264,7 +267,7 @@ static void test_drag_never_reverses(void **state) {
             double p[WORLD_MAX_NUMBERS], v[WORLD_MAX_NUMBERS];
             world_to(&world, frame);
             read_body(&world, ":a", p, v);
-            // v - flow stays parallel to (6; -2; -4) and decreases.
+            // v - flow stays parallel to (6; -2; -4) and gets shorter.
             double along = (v[0] - 1) / 6;
             assert_true(along >= -1e-15 && along <= last);
             NEAR(v[1] + 1, -2 * along, 1e-14);
@@ -278,7 +281,7 @@ static void test_drag_never_reverses(void **state) {
     }
 }
 
-// A constant force that is eased in over E gives the velocity t² / 2E, then t − E / 2.
+// A constant force of 1 that is eased in over E gives the velocity t² / 2E during that time, and t − E / 2 afterwards.
 static void test_ease(void **state) {
     (void)state;
     World world;
@@ -314,7 +317,8 @@ static void test_collision(void **state) {
         }
         EXPECT_NEAR(&world, ":s;:a;:velocity", 1e-3, -0.5);
         EXPECT_NEAR(&world, ":s;:b;:velocity", 1e-3, 1);
-        // At the largest overlap the spring stores the relative energy: s x² / 2 = (m/2) v² / 2.
+        // At the largest overlap x, the spring stores the kinetic energy of the relative motion: s x² / 2 = (m/2) v² /
+        // 2.
         NEAR(1 - nearest[i], 1.5 / sqrt(2.0 * strengths[i]), 1e-2);
         world_close(&world);
         free(script);
@@ -322,7 +326,7 @@ static void test_collision(void **state) {
     assert_true(nearest[0] < nearest[1] && nearest[1] < nearest[2]);
 }
 
-// A stiff spring diverges with one step per frame, and oscillates with a sufficiently small resolution.
+// A stiff spring diverges with one step per frame. With a sufficiently small resolution, it oscillates.
 static void test_resolution_tames(void **state) {
     (void)state;
     for (int fine = 0; fine < 2; fine++) {
@@ -342,7 +346,7 @@ static void test_resolution_tames(void **state) {
     }
 }
 
-// Gravity within the radii is constant, so two bodies that pass through each other stay slow, unlike points.
+// Gravity is constant within the radii. Two bodies that pass through each other therefore stay slow, unlike points.
 static void test_radii_tame_gravity(void **state) {
     (void)state;
     double max[2] = {0, 0};
@@ -359,13 +363,13 @@ static void test_radii_tame_gravity(void **state) {
         world_close(&world);
         free(script);
     }
-    // From distance 2 to 1/2 the potential energy falls by 3/2. Closer, the force is 4, so it falls by another 2. Each
-    // of the two bodies has v²/2, so v² is at most 3.5.
+    // From distance 2 to 1/2, the potential energy falls by 3/2. At smaller distances, the force is 4, so the energy
+    // falls by another 2. Each of the two bodies has v²/2, so v² is at most 3.5.
     NEAR(max[0], sqrt(3.5), 0.05);
     assert_true(max[1] > 3 * max[0]);
 }
 
-// Without drag the energy of bouncing is conserved; drag removes it.
+// Without drag, the energy of a bouncing ball is conserved; drag reduces it.
 static void test_drag_takes_energy(void **state) {
     (void)state;
     double energy[2] = {0, 0};

@@ -185,7 +185,7 @@ static void test_distance(void **state) {
     CHECK_CASES(cases);
 }
 
-// The force of a pair that is not on an axis acts along the line between the two.
+// The force between two particles that are not on a common axis acts along the line between them.
 static void test_direction(void **state) {
     (void)state;
     static const char *const forces[] = {"!distance from=:a to=:b max=4", "!gravity strength=25",

@@ -4,7 +4,7 @@
 typedef struct Report {
     const char *script;
     const char *code;
-    const char *parts[4]; // texts that the message must contain
+    const char *parts[4]; // strings that the message must contain
 } Report;
 
 static void check_report(const Report *row) {
@@ -77,7 +77,7 @@ static void test_names(void **state) {
         {P1 " !physics state=:t dimensions=1\n", "unknown-node", {"!physics"}},
     };
     check_reports(rows, COUNT_OF(rows));
-    // A name that resembles no known one is reported without a suggestion.
+    // An unknown name that resembles no existing one is reported without a suggestion.
     World world;
     world_open(&world, 1, P1 " !particle id=:a zzzzzzzz=1\n !qqqqqqqqqqqq\n");
     world_to(&world, 2);
@@ -117,7 +117,7 @@ static void test_ids(void **state) {
     world_close(&world);
 }
 
-// Ids that equal keys of the system are reported, but their particles are simulated.
+// Particles whose ids collide with keys of the system are reported but simulated.
 static void test_reserved_ids(void **state) {
     (void)state;
     static const char *const names[] = {":last", ":clock", ":run", ":iteration"};
@@ -129,7 +129,8 @@ static void test_reserved_ids(void **state) {
                                    kind, names[i]);
             const Report row = {script, "reserved-id", {kind, names[i]}};
             check_report(&row);
-            // Two dimensions, because in one the system's own number would be read as the position.
+            // Two dimensions, because with one dimension the system's number under that key would be read as the
+            // position.
             World world;
             char key[64];
             world_open(&world, 1, script);
@@ -141,7 +142,7 @@ static void test_reserved_ids(void **state) {
             free(script);
         }
     }
-    // Longer ids that only begin or end with such a name, and other names, are valid.
+    // Ids that only begin or end with such a name, and all other names, are valid.
     World world;
     world_open(&world, 1,
                P1 " !particle id=:last;1\n !particle id=1;:clock\n !particle id=:time\n !anchor id=\"run\"\n");
@@ -184,7 +185,7 @@ static void test_systems(void **state) {
     }
 }
 
-// A system with invalid dimensions is skipped. The attribute may also be reported.
+// A system with invalid dimensions is skipped. The attribute itself may also be reported.
 static void test_malformed_dimensions(void **state) {
     (void)state;
     static const char *const forms[] = {"\"2\"", "1;2", "nan", "!node", ":two;1"};
@@ -213,7 +214,6 @@ static void test_barriers(void **state) {
     check_reports(rows, COUNT_OF(rows));
 }
 
-// A valid script reports nothing.
 static void test_silence(void **state) {
     (void)state;
     World world;

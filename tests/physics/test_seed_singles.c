@@ -100,8 +100,8 @@ static void test_buoyancy(void **state) {
     CHECK_CASES(cases);
 }
 
-// The forces of `!random` equal normal(prefix;run;iteration), which the script can also evaluate: the anchors are at
-// the expected velocities.
+// The forces of `!random` equal normal(prefix;run;iteration). The script evaluates this stream as well, and anchors
+// have the expected velocities.
 static void test_random(void **state) {
     (void)state;
     World world;
@@ -132,7 +132,8 @@ static void test_random(void **state) {
     world_close(&world);
 }
 
-// A second `!random` has a different seed. That of a group counts the ones before the group in the enclosing groups.
+// A second `!random` has a different seed. If a group contains a `!random`, those in enclosing groups that precede the
+// group are counted as well.
 static void test_random_seeds(void **state) {
     (void)state;
     World world;
@@ -159,7 +160,7 @@ static void test_random_seeds(void **state) {
     world_close(&world);
 }
 
-// Each step of a frame has its own variates: items continue after those of the previous step.
+// Each step of a frame uses different variates: items continue after those of the previous step.
 static void test_random_steps(void **state) {
     (void)state;
     World world;
@@ -188,7 +189,7 @@ static void test_random_is_normal(void **state) {
     for (int i = 0; i < COUNT; i++) {
         char key[64];
         double v[WORLD_MAX_NUMBERS];
-        // The lines are in order, so they are not searched for each of 8000 keys.
+        // The lines are in order, so the test need not search for each of 8000 keys.
         static const char *at;
         at = i ? at : world_state(&world);
         snprintf(key, sizeof key, "\n$(:s;%d;:velocity) = ", i);
@@ -200,7 +201,7 @@ static void test_random_is_normal(void **state) {
         for (int power = 1; power <= 4; power++)
             sums[power] += pow(v[0], power) + pow(v[1], power);
     }
-    NEAR(sums[0] / COUNT, 0, 0.1); // components are independent
+    NEAR(sums[0] / COUNT, 0, 0.1); // the components are independent
     NEAR(sums[1] / (2 * COUNT), 0, 0.05);
     NEAR(sums[2] / (2 * COUNT), 1, 0.06);
     NEAR(sums[3] / (2 * COUNT), 0, 0.2);

@@ -1,5 +1,5 @@
-// test_seed_state.c: several systems and counters, particles and systems that appear and disappear, feedback from the
-// state, results that are not finite.
+// test_seed_state.c: several systems and counters; particles and systems that appear and disappear; feedback from the
+// state; results that are not finite.
 #include "cases.h"
 
 static void test_several_systems(void **state) {
@@ -22,7 +22,7 @@ static void test_several_systems(void **state) {
     world_close(&world);
 }
 
-// All keys begin with the prefix.
+// All keys of a system begin with its prefix.
 static void test_all_keys(void **state) {
     (void)state;
     World world;
@@ -39,7 +39,8 @@ static void test_all_keys(void **state) {
     world_close(&world);
 }
 
-// Two systems with the same prefix use the same keys in turn. This is reported once, and each makes an iteration.
+// Two systems with the same prefix use the same keys in turn. This is reported once. Each of them advances the
+// iteration count.
 static void test_shared_prefix(void **state) {
     (void)state;
     World world;
@@ -54,7 +55,7 @@ static void test_shared_prefix(void **state) {
     world_close(&world);
 }
 
-// Counters with different rates, one of which is the time of a system. The script reads values of the frame before.
+// Counters with different rates. One of them is the time of a system. The script reads values of the previous frame.
 static void test_counters(void **state) {
     (void)state;
     World world;
@@ -72,7 +73,7 @@ static void test_counters(void **state) {
         EXPECT(&world, ":turn", 2.0 * frame);
         EXPECT(&world, ":slow;1", 10 + 0.5 * frame);
         EXPECT(&world, ":low", frame < 2 ? -frame : -2);
-        if (frame == 0) // new, so its value is `initial`, one number
+        if (frame == 0) // the counter is new, so its value is `initial`
             EXPECT(&world, ":pair", 0);
         else
             EXPECT(&world, ":pair", frame, -2.0 * frame);
@@ -85,7 +86,7 @@ static void test_counters(void **state) {
     world_close(&world);
 }
 
-// A spring force that the script computes from the position in the state. With unit steps it has a period of 6.
+// The script computes a spring force from the position in the state. With steps of length 1, the period is 6.
 static void test_feedback(void **state) {
     (void)state;
     static const double positions[] = {0, -8, -8, 0, 8, 8};
@@ -98,7 +99,7 @@ static void test_feedback(void **state) {
     world_close(&world);
 }
 
-// A script reads the clock of the frame before. An anchor of one system follows a particle of another.
+// A script reads the clock of the previous frame. An anchor of one system follows a particle of another.
 static void test_feedback_between_systems(void **state) {
     (void)state;
     World world;
@@ -167,7 +168,7 @@ static void test_not_finite(void **state) {
         {"an overflow in the run", P1 " !particle id=:a velocity=1e308\n", 3, "a=1e308 a'=1e308", 0},
     };
     CHECK_CASES(cases);
-    // Others move the same with and without a particle that is not finite.
+    // The other particles move the same way with and without a particle that is not finite.
     World with, without;
 #define REST                                                                                                           \
     " !particle id=:b position=1 radius=9 charge=1\n !particle id=:c position=3 radius=0.5 mass=4\n"                   \
@@ -182,7 +183,7 @@ static void test_not_finite(void **state) {
     world_close(&without);
 }
 
-// A script that is loaded again starts at frame 0 with the old state, so time goes back.
+// A script that is loaded again starts at frame 0 with the old state, so the time goes back.
 static void test_reload(void **state) {
     (void)state;
     World world;

@@ -1,4 +1,4 @@
-// world.h: helpers that run a script from a string and read its printed state. The tests use only petri.h.
+// world.h: helpers that run a script from a string and read its printed state, with petri.h only.
 #ifndef PETRI_TESTS_PHYSICS_WORLD_H
 #define PETRI_TESTS_PHYSICS_WORLD_H
 
@@ -37,7 +37,7 @@ typedef struct World {
     char *text; // printed state; NULL: not printed since the last step
     size_t len;
     Reported reported[WORLD_MAX_REPORTED];
-    int reported_count; // includes diagnostics beyond WORLD_MAX_REPORTED
+    int reported_count; // including diagnostics that exceed WORLD_MAX_REPORTED
 } World;
 
 static inline void world_on_diagnostic(void *user_data, const PetriDiagnostic *diagnostic) {
@@ -51,7 +51,7 @@ static inline void world_on_diagnostic(void *user_data, const PetriDiagnostic *d
     world->reported_count++;
 }
 
-// Opens a session with `options` and loads a script. The world must not be moved in memory.
+// Opens a session with `options` and loads a script. The struct must not be moved or copied afterwards.
 static inline void world_open_with(World *world, PetriOptions options, const char *script) {
     *world = (World){0};
     options.on_diagnostic = world_on_diagnostic;
@@ -76,7 +76,7 @@ static inline void world_close(World *world) {
     world->text = NULL;
 }
 
-// Returns a formatted text. The caller frees it.
+// Returns a formatted string. The caller frees it.
 __attribute__((format(printf, 1, 2))) static inline char *text_of(const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
@@ -90,7 +90,7 @@ __attribute__((format(printf, 1, 2))) static inline char *text_of(const char *fo
     return text;
 }
 
-// Steps until the last frame has this number.
+// Steps until the frame number equals `frame`.
 static inline void world_to(World *world, int64_t frame) {
     while (petri_frame(world->session).number < frame)
         assert_int_equal(petri_step(world->session), PETRI_OK);
@@ -135,7 +135,7 @@ static inline const char *world_find(World *world, const char *key) {
     return NULL;
 }
 
-// Reads the numbers of a text such as "1;-2.5" and returns how many.
+// Reads the numbers in a string such as "1;-2.5". Returns their count.
 static inline int read_numbers(const char *text, double *numbers, const char **end) {
     int count = 0;
     char *next = (char *)text;
@@ -151,7 +151,7 @@ static inline int read_numbers(const char *text, double *numbers, const char **e
     return count;
 }
 
-// Reads the numbers of a key. Returns how many, or -1 if there is no such key.
+// Reads the numbers of a key. Returns their count, or -1 if the key does not exist.
 static inline int world_numbers(World *world, const char *key, double *numbers) {
     const char *value = world_find(world, key);
     return value ? read_numbers(value, numbers, NULL) : -1;
@@ -203,13 +203,12 @@ static inline void check_numbers(World *world, const char *key, double tolerance
     (int)(sizeof((double[]){__VA_ARGS__}) / sizeof(double)), (double[]) {                                              \
         __VA_ARGS__                                                                                                    \
     }
-// Checks that `key` holds these numbers to the last bit (zeros of either sign are equal), or within a tolerance.
+// Checks that `key` has these numbers, either exactly (zeros of either sign are equal) or within a tolerance.
 #define EXPECT(world, key, ...) check_numbers(world, key, 0, NUMBERS(__VA_ARGS__), __FILE__, __LINE__)
 #define EXPECT_NEAR(world, key, tolerance, ...)                                                                        \
     check_numbers(world, key, tolerance, NUMBERS(__VA_ARGS__), __FILE__, __LINE__)
 #define EXPECT_ABSENT(world, key) assert_null(world_find(world, key))
 
-// Checks one number against another.
 static inline void check_near(double found, double wanted, double tolerance, const char *file, int line) {
     if (found == wanted || fabs(found - wanted) <= tolerance)
         return;

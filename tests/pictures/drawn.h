@@ -1,4 +1,4 @@
-// drawn.h: draws scripts given as text, frame after frame with one painter, and collects their diagnostics.
+// drawn.h: draws scripts from strings, frame by frame with one painter, and collects their diagnostics.
 #ifndef PETRI_TESTS_DRAWN_H
 #define PETRI_TESTS_DRAWN_H
 
@@ -14,7 +14,7 @@ typedef struct Drawn {
     PetriPainter *painter;
     int width;
     int height;
-    uint32_t *pixels;    // of the last frame: rows from the top
+    uint32_t *pixels;    // last frame, rows from the top
     char reported[TOLD]; // diagnostics, one per line: LINE [CODE] TEXT
     unsigned column;     // column of the last diagnostic
 } Drawn;
@@ -71,7 +71,7 @@ static inline int drawn_byte(const Drawn *drawn, int x, int y, int channel) {
     return drawn->pixels[y * drawn->width + x] >> (channel == 3 ? 24 : 16 - 8 * channel) & 255;
 }
 
-// Returns true if shaders can run on this machine; otherwise prints why not.
+// Returns true if shaders can be used on this machine. Otherwise, prints the reason.
 static inline bool drawn_can_run(void) {
     Drawn drawn;
     drawn_open(&drawn, "!window size=2;2\n    !vignette\n        !canvas\n", 1);

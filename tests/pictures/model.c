@@ -1,4 +1,4 @@
-// model.c: reading of attributes, sampling, compositing, and noise; see model.h.
+// model.c: reading of attributes, sampling, compositing and noise (see model.h).
 #include "model.h"
 
 #include <math.h>
@@ -132,7 +132,7 @@ void model_target(Pic *pic, int w, int h) {
     memset(pic->at, 0, sizeof pic->at);
 }
 
-// Noise (7.9). Its hash uses floats, so their rounding matters.
+// Noise (7.9). The hash is computed with floats, so their rounding matters.
 static float perm(float t) {
     t -= 289 * floorf(t / 289);
     return t * (34 * t + 133);
@@ -192,7 +192,7 @@ static double noise(float h, const double p[3], bool plane) {
     return lattice(h, q) + lattice(h, moved);
 }
 
-// builtins.md B9.2, of no element or of one number.
+// Returns the seed hash (builtins.md B9.2) of an empty vector or of one number.
 static float seed_of(const char *attrs) {
     uint64_t h = UINT64_C(0xe220a8397b1dcdaf), bits;
     if (model_has(attrs, "seed")) {

@@ -1,4 +1,4 @@
-// model_effects.c: the effects of pictures.md 6 and 7, except noise; see model.h.
+// model_effects.c: the effects of pictures.md 6 and 7 except noise (see model.h).
 #include "model.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@ typedef struct Pass {
     const Work *work;
     const char *attrs;
     Edges edges;
-    const Pic *t;    // merged input
+    const Pic *t;    // combined inputs
     const Pic *last; // result of the previous pass
     int w;
     int h;
@@ -57,7 +57,7 @@ static Px plain_pass(const Pass *pass, double u, double v) {
     return scaled(merge_pass(pass, u, v), alpha(pass));
 }
 
-// 6.1: blurs the input or the last pass.
+// 6.1: blurs the input or the result of the previous pass.
 static Px blurred(const Pass *pass, const Pic *from, int r, double sigma, int axis, double u, double v) {
     Px sum = {{0}};
     double total = 0;
@@ -186,7 +186,7 @@ static Px blur_across(const Pass *pass, double u, double v) {
     return scaled(gauss(pass, pass->last, 1, 0, 1, u, v), alpha(pass));
 }
 
-// The reduced passes of 7.3 to 7.5.
+// Passes of 7.3 to 7.5 at reduced resolution.
 static Px reduced_along(const Pass *pass, double u, double v) {
     return gauss(pass, pass->last, 0, strcmp(pass->work->kind, "chromakey") == 0 ? 10 : 0, down(pass), u, v);
 }
@@ -256,7 +256,7 @@ static Px feedback_pass(const Pass *pass, double u, double v) {
     return scaled(m, alpha(pass));
 }
 
-// 7.7: M = A1 A2 …; its inverse is applied, which undoes the first attribute first.
+// 7.7: M = A1 A2 … The inverse of M is applied to coordinates, so the first attribute is undone first.
 static Px transform_pass(const Pass *pass, double u, double v) {
     double p[3] = {(u - 0.5) * pass->w, (v - 0.5) * pass->h, 1};
     for (const char *at = pass->attrs; *at; at += strcspn(at, " "), at += strspn(at, " ")) {
@@ -381,7 +381,7 @@ static const struct {
     const char *kind;
     bool clamped;
     bool merges;
-    bool reduced; // of all passes but the last
+    bool reduced; // true if all passes except the last use a reduced size
     Program *passes[4];
 } effects[] = {
     {"window", false, false, false, {plain_pass}},

@@ -1,12 +1,12 @@
-// test_canvas.c: compares canvases with the formulas of the specification (canvas.md 4 to 7), pixel by pixel, in
-// doubles.
+// test_canvas.c: compares each pixel of canvases with the formulas of the specification (canvas.md 4 to 7), computed
+// with doubles.
 #include "drawn.h"
 #include "model.h"
 #include "turbulence.h"
 
 #include <math.h>
 
-// Draws a canvas of 60 x 60. `inside` is its content: lines that are indented by eight spaces.
+// Draws a canvas of 60 x 60. `inside` is its content, in lines that are indented by eight spaces.
 static void draw_script(Drawn *drawn, const char *canvas, const char *inside) {
     char script[8000];
     snprintf(script, sizeof script, "!window size=60;60\n    !canvas %s\n%s", canvas, inside);
@@ -22,11 +22,11 @@ static void check_pixel(const Drawn *drawn, int x, int y, const double c[3], con
     }
 }
 
-// Section 4: the blend modes, of colours that are not premultiplied. From W3C's Compositing and Blending 1.
+// Section 4: the blend modes of W3C's Compositing and Blending 1. Colours are not premultiplied.
 typedef struct Blending {
     const char *word;
-    double (*of)(double s, double d); // B(Cb, Cs); NULL: use the factors
-    double fs[3];                     // factor of s: a + b·dₐ; `fd` is the factor of d: a + b·sₐ
+    double (*of)(double s, double d); // blend function B(Cb, Cs); NULL: the mode is given by the factors
+    double fs[3];                     // factor of s is a + b·dₐ; `fd`: factor of d is a + b·sₐ
     double fd[3];
 } Blending;
 
@@ -76,7 +76,7 @@ static const Blending blendings[] = {
     {"soft_light", soft, {0}, {0}},    {"difference", difference, {0}, {0}}, {"exclusion", exclusion, {0}, {0}},
 };
 
-// Blends colours with alpha, the last of the four numbers. The result is premultiplied.
+// Blends colours with alpha (the last of the four numbers). The result is premultiplied.
 static void blend(const Blending *how, const double s[4], const double d[4], double out[4]) {
     for (int k = 0; k < 4; k++) {
         double cs = k < 3 ? s[k] * s[3] : s[3], cd = k < 3 ? d[k] * d[3] : d[3];
@@ -90,7 +90,7 @@ static void blend(const Blending *how, const double s[4], const double d[4], dou
 
 static const double above[4] = {0.9, 0.35, 0.2, 0.7}, below[4] = {0.3, 0.6, 0.95, 0.8};
 
-// Tests modes on canvases of bytes and of floats, with covered and half covered pixels, and as filters.
+// Tests modes on 8-bit and floating-point canvases, with fully and half covered pixels, and as filters.
 static void test_blend_modes_match_model(void **state) {
     (void)state;
     static const char *const canvases[] = {"", "linear=true", "linear=true colorbits=32", "linear=true colorbits=16"};
@@ -110,7 +110,7 @@ static void test_blend_modes_match_model(void **state) {
             whole[k] = out[k];
             half[k] = cover * out[k] + (1 - cover) * below[k] * below[3];
             if (*canvas) {
-                // In linear light, a byte step is larger when encoded.
+                // In linear light, one byte level of dark colours is a larger step after encoding.
                 whole[k] = model_enc(out[k]);
                 half[k] = model_enc(half[k]);
             }
@@ -129,7 +129,7 @@ static void test_blend_modes_match_model(void **state) {
     }
 }
 
-// Section 6: `blend` as a filter; the first input is d, the second s.
+// Section 6: `blend` as a filter. The first input is the destination d, the second the source s.
 static void test_filter_blend(void **state) {
     (void)state;
     for (size_t i = 0; i < COUNT_OF(blendings); i++) {
@@ -148,7 +148,7 @@ static void test_filter_blend(void **state) {
         check_pixel(&drawn, 20, 20, out, how->word);
         drawn_close(&drawn);
     }
-    // These four modes mix channels; Cairo's results on a canvas of bytes are accepted.
+    // These four modes mix channels. On 8-bit canvases, Cairo's results are accepted.
     static const char *const whole[] = {"hue", "saturation", "color", "luminosity"};
     for (size_t i = 0; i < 2 * COUNT_OF(whole); i++) {
         const char *word = whole[i / 2], *s = i % 2 ? "1;0.9;0.1" : "0.1;0.35;0.9";
@@ -199,7 +199,7 @@ static void test_color_matrix(void **state) {
     static const struct {
         const char *attrs;
         double m[4][5];
-        double bcs[3]; // brightness, contrast, saturation; used if the matrix is 0
+        double bcs[3]; // brightness, contrast, saturation; used if the matrix is all 0
     } cases[] = {
         {"matrix=0;1;0;0;0;0;0;1;0;0.1;1;0;0;0;0;0;0;0.5;0.5;0",
          {{0, 1, 0, 0, 0}, {0, 0, 1, 0, 0.1}, {1, 0, 0, 0, 0}, {0, 0, 0.5, 0.5, 0}},
@@ -228,7 +228,7 @@ static void test_color_matrix(void **state) {
             out[row] = 0;
             for (int k = 0; k < 5; k++)
                 out[row] += cases[i].m[row][k] * one[k];
-            if (bcs[1] > 0) // the other notation
+            if (bcs[1] > 0) // the case gives brightness, contrast and saturation
                 out[row] =
                     row == 3 ? one[3]
                              : bcs[1] * (bcs[2] * one[row] + (1 - bcs[2]) * model_lum(one)) + bcs[0] + (1 - bcs[1]) / 2;
@@ -241,7 +241,7 @@ static void test_color_matrix(void **state) {
     }
 }
 
-// A blurred bar from 20 to 40 is the difference of two error functions, for small and large radii.
+// The blurred image of a bar from 20 to 40 is the difference of two error functions, for small and large radii.
 static void test_blur(void **state) {
     (void)state;
     static const double sigmas[] = {0.5, 1, 3, 7.9, 8.1, 12, 20, 40};
@@ -257,7 +257,8 @@ static void test_blur(void **state) {
             for (int x = 0; x < 60; x++) {
                 double at = x + 0.5, part = sigmas[i] * sqrt(2);
                 double light = (erf((at - 20) / part) - erf((at - 40) / part)) / 2;
-                // A pixel covers an area, and so does a small blur. So sums over pixels are compared.
+                // Pixels are averages over an area, which matters for a small blur. The test therefore compares sums
+                // over pixels.
                 if (sigmas[i] < 2) {
                     double sum = 0, all = 0;
                     for (int k = -10; k <= 10; k++) {
@@ -273,7 +274,7 @@ static void test_blur(void **state) {
         }
 }
 
-// Shadows are blurred, moved and drawn below; boxes grow and shrink.
+// Shadows are blurred, offset, and drawn below the shape. Boxes grow and shrink.
 static void test_shadow_offset_dilate_erode(void **state) {
     (void)state;
     Drawn drawn;
@@ -308,7 +309,7 @@ static void test_shadow_offset_dilate_erode(void **state) {
         }
 }
 
-// Section 1.5: added light is not clamped to 1. A layer halves it, and an image of the canvas keeps it.
+// Section 1.5: sums of light are not clamped to 1. A layer halves them, and an image of the canvas preserves them.
 static void test_hdr_light_is_not_clamped(void **state) {
     (void)state;
     static const char script[] = "!window size=60;60 alpha=0.125\n"
@@ -327,7 +328,7 @@ static void test_hdr_light_is_not_clamped(void **state) {
         drawn_open(&drawn, text, 1);
         assert_string_equal(drawn.reported, "");
         check_pixel(&drawn, 20, 20, (double[]){model_enc(0.5), model_enc(0.0625), model_enc(0.25)}, "added");
-        // An edge that covers half a pixel adds 128/255 each time.
+        // Each draw of a half-covered edge adds 128/255.
         double k = 128.0 / 255;
         check_pixel(&drawn, 30, 20, (double[]){model_enc(0.5 * k), model_enc(0.0625 * k), model_enc(0.25 * k)}, "half");
         double alpha = floor(255 * 0.5) / 255 * 0.125;
@@ -338,7 +339,7 @@ static void test_hdr_light_is_not_clamped(void **state) {
     }
 }
 
-// Checks for a grey of this amount of light.
+// Checks that a pixel is a grey of this linear value.
 static void check_light(const Drawn *drawn, int x, int y, double light, const char *what) {
     double grey = model_enc(light);
     check_pixel(drawn, x, y, (double[]){grey, grey, grey}, what);
@@ -394,7 +395,8 @@ static void test_noise(void **state) {
         {"frequency=0.1", {0.1, 0.1}, 8, 0, {0, 0}, false},
         {"frequency=0.05;0.2 octaves=3 seed=7", {0.05, 0.2}, 3, 7, {0, 0}, false},
         {"frequency=0.07 octaves=4 seed=-3 type=:turbulence", {0.07, 0.07}, 4, -3, {0, 0}, true},
-        // 20 units have 2.6 waves, and 3 is the nearest number by ratio; 30 units have 3.9, so 4.
+        // In 20 units there are 2.6 waves, and the nearest integer by ratio is 3. In 30 units there are 3.9, which
+        // gives 4.
         {"frequency=0.13 octaves=2 seed=2 size=20;30", {3 / 20.0, 4 / 30.0}, 2, 2, {3, 4}, false},
     };
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
@@ -432,7 +434,8 @@ static bool is_on(const Drawn *drawn, int x, int y) {
     return drawn_byte(drawn, x, y, 0) > 127;
 }
 
-// Section 3.3: arcs of the two circles of radius 20 through 20;30 and 40;30: left or right, above or below.
+// Section 3.3: arcs of the two circles of radius 20 through 20;30 and 40;30, with the centre left or right, above or
+// below.
 static void test_arc_to(void **state) {
     (void)state;
     for (int which = 0; which < 4; which++) {
@@ -444,7 +447,7 @@ static void test_arc_to(void **state) {
                  "            !arc_to point=40;30 radius=15;30 large=%s ccw=%s\n            !fill color=1\n",
                  large ? "true" : "false", ccw ? "true" : "false");
         draw_script(&drawn, "", inside);
-        // Clockwise from left to right, an arc runs over the top. If it is the smaller one, its centre is below.
+        // Clockwise from left to right, an arc passes over the top. The centre of the smaller arc is below it.
         double half = sqrt(1 - 100.0 / 225) * 30, middle = 30 + (large == ccw ? half : -half) * 1;
         for (int p = 0; p < 3600; p++) {
             double x = p % 60 + 0.5, y = p / 60 + 0.5;
@@ -457,7 +460,7 @@ static void test_arc_to(void **state) {
     }
 }
 
-// Section 7: the curve of a corner, points transformed by a matrix, dashes below other effects.
+// Section 7: the curve of a rounded corner, points transformed by a matrix, and dashes after other effects.
 static void test_path_effects(void **state) {
     (void)state;
     Drawn drawn;
@@ -470,7 +473,7 @@ static void test_path_effects(void **state) {
             assert_false(is_on(&drawn, p % 60, p / 60));
             continue;
         }
-        // The quadratic curve from (0, 1) by (0, 0) to (1, 0) is √x + √y = 1.
+        // The quadratic curve from (0, 1) to (1, 0) with the control point (0, 0) is √x + √y = 1.
         double along = sqrt(x) + sqrt(y);
         if (fabs(along - 1) > 0.08)
             assert_int_equal(is_on(&drawn, p % 60, p / 60), along > 1);
@@ -495,7 +498,8 @@ static void test_path_effects(void **state) {
     drawn_close(&drawn);
 }
 
-// Jitter stays within its deviation, leaves the line, and is equal in each frame, but differs with another seed.
+// Jitter stays within its deviation, changes the line, and is the same in each frame. Another seed gives another
+// result.
 static void test_jitter(void **state) {
     (void)state;
     uint32_t *seen[2];
@@ -526,14 +530,14 @@ static void test_jitter(void **state) {
     free(seen[1]);
 }
 
-// Parts that exceed the memory limit are left out or drawn plainly and reported once. The rest is drawn in each frame,
-// and all memory is released.
+// Parts that exceed the memory limit are omitted or drawn without effects, and reported once. The rest is drawn in each
+// frame, and all memory is released.
 static void test_memory_limit_omits_only_expensive_parts(void **state) {
     (void)state;
     static const struct {
-        const char *script; // placed after a green square at the left and before a blue one at the right
+        const char *script; // inserted after a green square at the left and before a blue one at the right
         const char *reported;
-        int red; // expected red in the middle
+        int red; // expected red channel in the middle
     } cases[] = {
         {"        !group\n            !blur radius=9\n            !rect point=1000;0 size=1000;3000 fill=true "
          "color=1;0;0\n",
@@ -562,7 +566,8 @@ static void test_memory_limit_omits_only_expensive_parts(void **state) {
                  "        !rect size=1000;3000 fill=true color=0;1;0\n%s"
                  "        !rect point=2000;0 size=1000;3000 fill=true color=0;0;1\n",
                  cases[i].script);
-        drawn_open_with(&drawn, script, i == 0 ? 3 : 1, 100 << 20); // the previous frame is kept as well
+        // more memory, because the previous frame is kept as well
+        drawn_open_with(&drawn, script, i == 0 ? 3 : 1, 100 << 20);
         assert_string_equal(drawn.reported, cases[i].reported);
         check_pixel(&drawn, 10, 30, (double[]){0, 1, 0}, "before");
         check_pixel(&drawn, 50, 30, (double[]){0, 0, 1}, "after");
@@ -571,7 +576,7 @@ static void test_memory_limit_omits_only_expensive_parts(void **state) {
     }
 }
 
-// Section 8.2: the picture of any node as an image and as a pattern: plain nodes, effects, nodes without inputs.
+// Section 8.2: the picture of any node can be used as an image or pattern: plain nodes, effects, nodes without inputs.
 static void test_pictures_of_nodes(void **state) {
     (void)state;
     static const struct {
@@ -580,9 +585,9 @@ static void test_pictures_of_nodes(void **state) {
         double light;
     } cases[] = {{"shader alpha=0.5", false, 0.5},
                  {"record", false, 1},
-                 {"adjust exposure=-1", true, 0.735357}, // enc(1/2)
+                 {"adjust exposure=-1", true, 0.735357}, // encoded value of 1/2
                  {"blur", true, 1},
-                 {"noise components=4 multiplier=0 offset=0.25", true, 0.25}}; // alpha as well
+                 {"noise components=4 multiplier=0 offset=0.25", true, 0.25}}; // with components=4, alpha is also 0.25
     bool can = drawn_can_run();
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
         char script[1000];
@@ -604,13 +609,13 @@ static void test_pictures_of_nodes(void **state) {
     }
 }
 
-// Bad input is reported once for each position, in however many frames, and the rest is drawn.
+// Bad input is reported once per position, in however many frames it occurs, and the rest is drawn.
 static void test_bad_input_is_reported_once(void **state) {
     (void)state;
     static const struct {
-        const char *inside; // content of the canvas between a green square at the left and a blue one at the right
+        const char *inside; // content between a green square at the left and a blue one at the right
         const char *reported;
-        bool red; // expected in the middle
+        bool red; // true if the middle is expected to be red
     } cases[] = {
         {"        !group translate=nan;0\n            !rect size=60 fill=true color=1;0;0\n",
          "4 [bad-attribute] !group: translate should be x;y, not nan;0\n", false},
@@ -618,7 +623,7 @@ static void test_bad_input_is_reported_once(void **state) {
          "4 [bad-attribute] !group: rotate should be number, not inf\n", false},
         {"        !ellipse point=nan radius=9 fill=true color=1;0;0\n",
          "4 [bad-attribute] !ellipse: point should be x;y, not nan\n", false},
-        // An attribute of the wrong form counts as missing.
+        // An attribute with an invalid value counts as missing.
         {"        !transform translate=1;2;3\n            !rect point=25;0 size=10;60 fill=true color=1;0;0\n",
          "4 [bad-attribute] !transform: translate should be x;y, not 1;2;3\n", true},
         {"        !group scale=1e200\n            !group scale=1e200\n                !rect size=60 fill=true\n"
@@ -652,7 +657,7 @@ static void test_bad_input_is_reported_once(void **state) {
          "4 [cannot-read] !image: cannot read 'none.png': No such file or directory\n"
          "6 [cannot-read] !pattern: cannot read 'gone.png': No such file or directory\n",
          false},
-        // Pictures that refer to each other and to themselves.
+        // Pictures that refer to each other or to themselves.
         {"        !image image_id=:b\n    !canvas id=:b size=60\n        !image image_id=:a\n        !image "
          "image_id=:b\n"
          "    !reference id=:c\n    !offscreen id=:c\n        !reference id=:c\n        !reference id=:a\n"
@@ -672,7 +677,7 @@ static void test_bad_input_is_reported_once(void **state) {
         if (strcmp(drawn.reported, cases[i].reported) != 0)
             fail_msg("%s\nreports:\n%s", script, drawn.reported);
         check_pixel(&drawn, 50, 30, (double[]){0, 0, 1}, "after");
-        if (i + 1 < COUNT_OF(cases)) // the last one is shown through others
+        if (i + 1 < COUNT_OF(cases)) // the last case also draws over this pixel
             check_pixel(&drawn, 15, 30, (double[]){0, 1, 0}, "before");
         assert_true((drawn_byte(&drawn, 30, 30, 0) == 255) == cases[i].red);
         drawn_close(&drawn);

@@ -1,5 +1,5 @@
-// test_canvas_memory.c: lets each allocation of a drawing fail in turn, also while it draws to an offscreen surface,
-// and checks that all Cairo objects are freed.
+// test_canvas_memory.c: lets each allocation during drawing fail in turn, also on an offscreen surface. Checks that all
+// Cairo objects are freed.
 #include "drawn.h"
 #include "heap.h"
 
@@ -44,7 +44,7 @@ static const char script[] = "!window size=40;40\n"
                              "            !blur radius=1\n"
                              "            !rect size=20;20 fill=true color=3\n";
 
-// Draws once with a new painter. Returns true if that succeeded.
+// Draws once with a new painter. Returns true on success.
 static PetriStatus draw_failing(PetriPicture *picture, uint32_t *pixels, long fail_at, bool all) {
     heap_fail(fail_at, all);
     PetriPainter *painter = petri_painter_open();

@@ -1,10 +1,10 @@
-// test_effects.c: compares the pictures of effects with the model (model.h), each pixel within 2 of 255.
+// test_effects.c: compares the results of effects with the model (model.h). Each channel may differ by 2 of 255.
 #include "drawn.h"
 #include "model.h"
 
 enum { WIDTH = 30, HEIGHT = 20 };
 
-// The inputs are shaders; C and GLSL use the same formulas. The third input has another size.
+// The inputs are shaders. The C and GLSL code uses the same formulas. The third input has a different size.
 static const int sizes[MAX_INPUTS][2] = {{WIDTH, HEIGHT}, {WIDTH, HEIGHT}, {11, 7}};
 static const char *const formulas[MAX_INPUTS] = {
     ("    float a = p.x < 0.5 ? 1.0 : 1.0 - 0.6 * p.y;\n"
@@ -42,8 +42,8 @@ static void make_input(int input, double beat, Pic *pic) {
 typedef struct Case {
     const char *kind;
     const char *attrs;
-    int inputs; // number of inputs
-    int frames; // 0: one
+    int inputs;
+    int frames; // number of frames; 0: one
 } Case;
 
 static void write_script(const Case *of, char *out, size_t size) {
@@ -78,7 +78,7 @@ static bool check_case(const Case *of) {
     static Pic wanted;
     Drawn drawn;
     int worst = 0, x = 0, y = 0;
-    const double beats = 1.0 / 30; // tempo 120 at 60 frames in a second
+    const double beats = 1.0 / 30; // one frame at tempo 120 and 60 frames per second
     write_script(of, script, sizeof script);
     drawn_open(&drawn, script, 0);
     work = (Work){.kind = of->kind, .attrs = of->attrs, .n = of->inputs, .w = WIDTH, .h = HEIGHT, .beats = beats};
@@ -241,7 +241,7 @@ static void test_flare(void **state) {
     check_cases(cases, COUNT_OF(cases));
 }
 
-// pictures.md 4.4: exact values.
+// pictures.md 4.4 gives exact values.
 static void test_exact_numbers_of_spec(void **state) {
     (void)state;
     Drawn drawn;

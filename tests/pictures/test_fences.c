@@ -1,8 +1,8 @@
 // test_fence_is_not_freed_while_signalled.c: checks that Mesa's llvmpipe does not free a fence while one of its threads
-// signals it (lib/gl/context.c explains the problem). To provoke that, its threads are slowed down while they signal,
-// and the drawing thread a little as well. Mesa's library calls the functions defined here instead of those of the C
-// library.
-#define _GNU_SOURCE // dlvsym, gettid
+// signals it (lib/gl/context.c explains the problem). To provoke the problem, the test slows Mesa's threads down while
+// they signal, and slightly slows down the drawing thread. Mesa calls the functions that are defined here instead of
+// those of the C library.
+#define _GNU_SOURCE // for dlvsym and gettid
 #include "drawn.h"
 
 #include <dlfcn.h>
@@ -13,11 +13,11 @@
 #include <sys/types.h>
 #include <unistd.h>
 
-#define SEEN __attribute__((visibility("default"))) // visible to libraries
+#define SEEN __attribute__((visibility("default"))) // exported, so that libraries call it
 
 enum { THREADS = 64, ONE_IN = 3, SLOW_US = 3000, DRAWING_US = 1500 };
 
-static _Atomic(uintptr_t) signalled[THREADS]; // conditions that are being signalled; 0: none
+static _Atomic(uintptr_t) signalled[THREADS]; // condition variables that are being signalled, by thread; 0: none
 static atomic_int slowed;
 
 extern void __libc_free(void *memory);
@@ -33,12 +33,12 @@ SEEN void free(void *memory) {
     for (int i = 0; at && i < THREADS; i++) {
         uintptr_t condition = atomic_load(&signalled[i]);
         if (at <= condition && condition < at + malloc_usable_size(memory))
-            stop(); // before the thread hangs
+            stop(); // stops before the thread would hang
     }
     __libc_free(memory);
 }
 
-// The C library also has an older version for old programs, so the newest one is looked up.
+// The C library also has an older version for old programs, so this code looks up the newest one.
 static int real(const char *name, pthread_cond_t *condition) {
     void *found = dlvsym(RTLD_NEXT, name, "GLIBC_2.3.2");
     int (*function)(pthread_cond_t *) = NULL;
@@ -90,7 +90,7 @@ static void test_fence_is_not_freed_while_signalled(void **state) {
         drawn_close(&drawn);
     }
     if (atomic_load(&slowed) == 0)
-        skip(); // another driver
+        skip(); // skipped with another driver
 }
 
 int main(void) {

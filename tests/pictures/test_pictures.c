@@ -1,4 +1,4 @@
-// test_pictures.c: draws each script of tests/pictures and compares it with the stored picture beside it.
+// test_pictures.c: draws each script of tests/pictures and compares it with the PNG file of the same name.
 // usage: test_pictures FOLDER [--update | --write FOLDER]
 //
 // Scripts may have these comments at their top. `-- tolerance N` allows each channel of each pixel to differ by N of
@@ -18,7 +18,7 @@
 
 enum { MAX_SCRIPTS = 200, MAX_SEEN = 4000, AUTO_SIZE = 160, USUAL_TOLERANCE = 2 };
 
-// The nodes and attributes that occur: lines `kind attribute`.
+// Nodes and attributes that occur in the scripts, as lines `kind attribute`.
 static char *seen[MAX_SEEN];
 static size_t seen_count;
 
@@ -55,7 +55,7 @@ static bool collect_bytes(void *host, const char *text, size_t length) {
     return true;
 }
 
-// Reads `!kind … name=value …` lines of a printed tree. Values that look like an attribute are harmless here.
+// Reads the `!kind … name=value …` lines of a printed tree. Values that look like an attribute do no harm here.
 static void note_tree(PetriSession *session) {
     Notes notes = {0};
     petri_print(session, PETRI_PRINT_TREE, collect_bytes, &notes);
@@ -75,7 +75,7 @@ static void note_tree(PetriSession *session) {
     free(notes.text);
 }
 
-static bool without_gpu; // the script needs OpenGL, which is not available
+static bool without_gpu; // true if the script needs OpenGL, which is not available
 static size_t skipped;
 
 static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
@@ -144,7 +144,7 @@ static long compare_surfaces(cairo_surface_t *stored, cairo_surface_t *drawn, in
     return count;
 }
 
-// Checks that drawn pixels equal those of the file. Transparent pixels lose some precision in files.
+// Checks that drawn pixels equal those of the file. Transparent pixels lose some precision when they are stored.
 static bool same_as_drawn(PetriPicture *picture, PetriPainter *painter, cairo_surface_t *saved) {
     int width, height;
     petri_picture_size(picture, &width, &height);
@@ -223,7 +223,7 @@ static bool check_script(const char *folder, const char *name, const char *write
     return good || without_gpu;
 }
 
-// Attributes of all effect nodes are read by the same code, so one node is enough.
+// All effect nodes read their attributes with the same code, so one node is enough.
 static bool in_common(const char *attribute) {
     static const char *const names[] = {
         "size",    "id",     "hidden",     "composite",         "blend",  "alpha",   "colorbits", "border", "repeat",
@@ -236,9 +236,9 @@ static bool in_common(const char *attribute) {
     return false;
 }
 
-// Checks that each node and attribute that affects drawing occurs in some script.
+// Checks that each node and attribute that affects drawing occurs in at least one script.
 static int check_complete(void) {
-    // Nodes that do not draw are tested elsewhere: tests/cli (record), tests of the window (pointer, key).
+    // Nodes that draw nothing are tested elsewhere: record in tests/cli, pointer and key in tests of the window.
     static const char *const others[] = {"record", "pointer", "key"};
     int missing = 0;
     PetriNodeKind kind;
@@ -260,7 +260,7 @@ static int check_complete(void) {
     return missing;
 }
 
-// Attributes of all nodes of scenes are read by the same code, so one node is enough.
+// All nodes of scenes read their attributes with the same code, so one node is enough.
 static int check_scenes(void) {
     int missing = 0;
     PetriNodeKind kind, other;
@@ -269,7 +269,7 @@ static int check_scenes(void) {
         if (strcmp(kind.area, "canvas3d") != 0)
             continue;
         for (size_t k = 0; petri_node_attribute(i, k, &attribute); k++) {
-            bool found = strcmp(attribute.name, "hidden") == 0; // common to all pictures
+            bool found = strcmp(attribute.name, "hidden") == 0; // every node has this attribute
             for (size_t o = 0; !found && petri_node_kind(o, &other); o++)
                 found = strcmp(other.area, "canvas3d") == 0 && was_seen(other.name, attribute.name);
             if (!found)

@@ -3,7 +3,7 @@
 
 #include <unistd.h>
 
-// A red ball in the centre of the picture, which must be visible in all cases.
+// A red ball in the centre of the picture. It must be visible in all cases.
 #define BALL                                                                                                           \
     "!window size=64;64\n"                                                                                             \
     "    !canvas3d id=:me viewpoint=0;0;4 near=0.1 far=9\n"                                                            \
@@ -19,8 +19,8 @@ static const char *const files[][2] = {
 
 typedef struct Row {
     const char *name;
-    const char *script;   // appended to BALL
-    const char *reported; // NULL: any report that a file cannot be read
+    const char *script;   // lines that are appended to BALL
+    const char *reported; // expected diagnostics; NULL: any diagnostic about an unreadable file
 } Row;
 
 static const Row rows[] = {
@@ -95,7 +95,8 @@ static void test_each_problem_is_reported_once(void **state) {
             snprintf(drawn.reported, sizeof drawn.reported, "%s",
                      strstr(drawn.reported, "[cannot-read]") ? "" : "nothing");
         size_t length = rows[i].reported ? strlen(rows[i].reported) : 0;
-        if (length > 0 && rows[i].reported[length - 1] != '\n') // compare only the start
+        // without a newline at the end, only the start is compared
+        if (length > 0 && rows[i].reported[length - 1] != '\n')
             drawn.reported[length] = 0;
         assert_text(rows[i].name, drawn.reported, rows[i].reported ? rows[i].reported : "");
         assert_claim(rows[i].name, drawn_byte(&drawn, 32, 32, 0) > 200);

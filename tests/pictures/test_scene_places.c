@@ -1,9 +1,11 @@
-// test_scene_places.c: checks positions in a picture that Flitter made: the six spheres of spec canvas3d.md 10.5.
+// test_scene_places.c: checks positions in an image that was rendered by Flitter: the six spheres of spec canvas3d.md
+// 10.5.
 //
-// The page gives their centres and colours, but not the script. The spheres are evenly spaced on a level circle,
-// ordered by hue. So four parameters of the camera are unknown: its distance and height in radii of the circle, its
-// angle from the first sphere, and its field of view. Least squares give 3.0854, 0.5623, 10 degrees and a sixth of a
-// turn, with the focus in the circle's centre. All twelve numbers of the page must follow from these.
+// The page gives the centres and colours of the spheres, but not the script. The spheres are evenly spaced on a
+// horizontal circle, ordered by hue. Four parameters of the camera are unknown: its distance and height in units of the
+// circle's radius, its angle from the first sphere, and its field of view. A least-squares fit gives 3.0854, 0.5623, 10
+// degrees and a sixth of a turn, with the focus at the circle's centre. With these parameters, all twelve numbers of
+// the page must result.
 #include "drawn.h"
 
 #include <math.h>
@@ -17,7 +19,7 @@ static const char script[] =
 typedef struct Place {
     const char *name;
     int x, y;
-    int bright[3]; // expected bright channels
+    int bright[3]; // channels that are expected to be bright
 } Place;
 
 static const Place places[] = {{"red", 1093, 675, {1, 0, 0}},   {"yellow", 1518, 576, {1, 1, 0}},

@@ -1,9 +1,9 @@
-// test_tree.c: tests the tree of pictures: references between nodes, uniforms of shaders, and errors (spec pictures.md
-// 2, 3, 8).
+// test_tree.c: tests the render graph: references between nodes, uniforms of shaders, and errors (spec pictures.md 2,
+// 3, 8).
 #include "drawn.h"
 
 #define SIZE "!window size=4;4\n"
-// An effect node without inputs whose `main` has this body.
+// An effect node without inputs whose shader function `main` has this body.
 #define PROGRAM(attrs, more, main)                                                                                     \
     "!shader " attrs " fragment=\"\"\"${HEADER}\nin vec2 coord;\nout vec4 color;\n" more "void main() { " main         \
     " }\n\"\"\"\n"
@@ -14,7 +14,7 @@ static int at(const Drawn *drawn, int channel) {
     return drawn_byte(drawn, 1, 1, channel);
 }
 
-// Draws `frames` frames, and checks that the colour matches and nothing is reported.
+// Draws `frames` frames. Checks the colour and that nothing is reported.
 static void check_color(const char *row, const char *script, int frames, int red, int green, int blue) {
     Drawn drawn;
     drawn_open(&drawn, script, frames);
@@ -27,7 +27,7 @@ static void check_color(const char *row, const char *script, int frames, int red
     drawn_close(&drawn);
 }
 
-// Draws two frames, and checks that each problem is reported once and that the colour matches.
+// Draws two frames. Checks the colour and that each problem is reported once.
 static void check_reported(const char *row, const char *script, const char *reported, int red, int green, int blue) {
     Drawn drawn;
     drawn_open(&drawn, script, 2);
@@ -62,12 +62,12 @@ static void test_ids_refer_to_pictures(void **state) {
     check_color("refers to itself: grows in each frame",
                 SIZE "    !shader composite=:add id=:self\n        !reference id=:self\n        " PROGRAM(
                     "", "", "color = vec4(0.2, 0.0, 0.0, 0.2);"),
-                3, 203, 0, 0); // enc(0.6)
+                3, 203, 0, 0); // encoded value of 0.6
     check_color("refers to an unknown id", SIZE "    !reference id=:missing\n    !vignette inset=0\n        " RED, 2,
                 255, 0, 0);
 }
 
-// Adds its colour in each frame.
+// A shader that adds its colour in each frame.
 #define ADDING(attrs, color)                                                                                           \
     PROGRAM(attrs, "uniform sampler2D last;\n", "color = texture(last, coord) + vec4(" color ", 0.1);")
 
@@ -77,23 +77,23 @@ static void test_ids_refer_to_pictures(void **state) {
 static void test_nodes_continue_between_frames(void **state) {
     (void)state;
     check_color("continues", SIZE "    " ADDING("", "0.2, 0.0, 0.0"), 3, 203, 0, 0);
-    // Two nodes of the same kind alternate in order, but ids or tags identify them. The larger of both sums shows
-    // whether each node continued.
+    // Two nodes of the same kind change places in each frame. Ids or tags identify them. The brighter of their sums
+    // shows whether each node kept its previous result.
     check_color("continues by its id",
                 SIZE "    !shader composite=:lighten\n"
                      "        for i in ((0;1) if frame % 2 else (1;0))\n"
                      "            " PROGRAM("id=i tint=i", "uniform sampler2D last;\nuniform float tint;\n",
                                             "color = texture(last, coord) + 0.1 * vec4(1.0 - tint, 2.0 * tint, 0.0, "
                                             "1.0);"),
-                3, 149, 203, 0); // enc(0.3), enc(0.6)
+                3, 149, 203, 0); // encoded values of 0.3 and 0.6
     check_color("continues by its tag",
                 SIZE "    !shader composite=:lighten\n        if frame % 2\n            " FIRST "            " SECOND
                      "        else\n            " SECOND "            " FIRST,
                 3, 149, 203, 0);
-    // A node that was missing in a frame starts from scratch.
+    // A node that was absent in a frame starts from scratch.
     check_color("restarts after a missing frame",
                 SIZE "    if frame != 2\n        " ADDING("", "0.2, 0.0, 0.0") "    !canvas\n", 4, 124, 0, 0);
-    // A node of another kind before it does not matter.
+    // A node of another kind before this node has no effect.
     check_color("continues after a node of another kind",
                 SIZE "    if frame % 2\n        !vignette\n            !canvas\n    " ADDING("", "0.2, 0.0, 0.0"), 3,
                 203, 0, 0);
@@ -106,7 +106,7 @@ static void test_passes_see_first_and_last(void **state) {
                                     "color = pass == 0 ? vec4(0.2, 0.0, passes, 1.0) : texture(last, coord) + "
                                     "texture(first, coord);\n"
                                     "if (pass == 2) color.b = color.b == 9.0 ? 1.0 : 0.0;"),
-                1, 203, 0, 255); // enc(0.6), 3 passes of 3
+                1, 203, 0, 255); // encoded value of 0.6, pass 3 of 3
     check_color("in pass 0, first is empty and last is the previous frame",
                 SIZE "    " PROGRAM("", "uniform sampler2D last, first;\n",
                                     "color = vec4(texture(first, coord).a, texture(last, coord).g + 0.2, 0.0, 1.0);"),
@@ -162,11 +162,11 @@ static void test_shader_errors_are_at_their_lines(void **state) {
                 1, 124, 0, 0);
     check_reported("templates", SIZE "    !shader fragment=\"${HEADER} ${more}\"\n    !vignette inset=0\n        " RED,
                    "2 [bad-shader] !shader: only the template ${HEADER} is supported\n", 255, 0, 0);
-    // The message comes from the driver. The line is that of the script if the text is written there.
+    // The message comes from the driver. If the shader is written in the script, the line is a line of the script.
     static const struct {
         const char *row;
         const char *script;
-        const char *reported; // start of the report
+        const char *reported; // start of the diagnostics
     } bad[] = {
         {"shader is a literal",
          "    !shader alpha=1 fragment=\"\"\"${HEADER}\nout vec4 color;\n\nvoid main() { wrong = 1.0; }\n\"\"\"\n",
@@ -200,7 +200,7 @@ static void test_shader_errors_are_at_their_lines(void **state) {
         start[strlen(bad[i].reported)] = 0;
         assert_text(bad[i].row, start, bad[i].reported);
         assert_claim(bad[i].row,
-                     strchr(drawn.reported, '\n') == drawn.reported + strlen(drawn.reported) - 1); // one line
+                     strchr(drawn.reported, '\n') == drawn.reported + strlen(drawn.reported) - 1); // exactly one line
         drawn_close(&drawn);
     }
     remove("bad.glsl");
@@ -246,8 +246,8 @@ static void test_bad_input_is_reported_once(void **state) {
                    "0 [too-deep] pictures are nested more than 100 deep; the innermost are left out\n", 0, 255, 0);
 }
 
-// Without OpenGL, the children of effects are drawn without the effect. This must be the last test, because OpenGL
-// cannot be opened after it.
+// Without OpenGL, the children of effects are drawn without the effect. This test must be the last one, because OpenGL
+// cannot be used after it.
 static void test_without_gpu_children_are_drawn(void **state) {
     (void)state;
     setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/dev/null", 1);
@@ -261,7 +261,8 @@ static void test_without_gpu_children_are_drawn(void **state) {
     drawn_close(&drawn);
 }
 
-// GPU memory of nodes counts for --memory. Pictures that exceed it are left out, and the rest is drawn in each frame.
+// GPU memory of nodes counts towards --memory. Pictures that exceed the limit are omitted, and the rest is drawn in
+// each frame.
 static void test_memory_limit_is_reported_once(void **state) {
     (void)state;
     static const char *const nodes[] = {

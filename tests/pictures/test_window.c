@@ -1,5 +1,5 @@
-// test_window.c: checks that pictures on a window of OpenGL ES equal those in files, without downloads from the GPU.
-// The window is an offscreen surface.
+// test_window.c: checks that pictures in an OpenGL ES window equal those in files, without readback from the GPU. The
+// window is an offscreen surface.
 #include "drawn.h"
 
 #include <epoxy/egl.h>
@@ -45,7 +45,7 @@ static void use_window(bool on) {
     assert_true(eglMakeCurrent(egl.display, surface, surface, on ? egl.context : EGL_NO_CONTEXT));
 }
 
-// Reads the window's rows from the top, as files have them.
+// Reads the rows of the window from the top, which is the order in files.
 static void read_window(uint32_t *pixels) {
     unsigned char row[WIDTH * 4];
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -58,7 +58,7 @@ static void read_window(uint32_t *pixels) {
     assert_int_equal(glGetError(), GL_NO_ERROR);
 }
 
-// Returns the largest difference of two pictures in any channel.
+// Returns the largest difference between two pictures in any channel.
 static int distance(const uint32_t *one, const uint32_t *other) {
     int most = 0;
     for (int i = 0; i < WIDTH * HEIGHT; i++)
@@ -81,7 +81,7 @@ static const PetriLabel label = {.text = "on top",
                                  .foreground = {1, 1, 1, 1},
                                  .accent = {1, 0, 0, 1}};
 
-// Presents frames with one painter, draws their pixels and labels with another one, and returns the largest difference.
+// Presents frames with one painter and draws their pixels and labels with another one. Returns the largest difference.
 static int present_script(const char *script, int frames, size_t labels) {
     uint32_t seen[WIDTH * HEIGHT], wanted[WIDTH * HEIGHT];
     Drawn drawn;
@@ -136,7 +136,7 @@ static void test_window_equals_file(void **state) {
                      0);
 }
 
-// Canvases are drawn by Cairo at the window's size.
+// Cairo draws canvases at the window's resolution.
 static void test_canvas_is_drawn_at_window_size(void **state) {
     (void)state;
     assert_int_equal(
@@ -151,7 +151,7 @@ static void test_canvas_is_drawn_at_window_size(void **state) {
         0);
 }
 
-// Cairo interpolates between pixels in steps of 1/128.
+// Cairo interpolates positions between pixels in steps of 1/128.
 static void test_picture_is_scaled_to_window(void **state) {
     (void)state;
     assert_in_range(present_script("!window size=300;100\n" LIGHTS, 1, 0), 0, 2);
@@ -181,7 +181,7 @@ static void test_without_picture(void **state) {
         assert_int_equal(seen[i], 0xff000000u);
     use_window(false);
     assert_int_equal(petri_painter_present(painter, NULL, NULL, 0, 1, WIDTH, HEIGHT),
-                     PETRI_INVALID); // no context is current
+                     PETRI_INVALID); // fails, because no context is current
     petri_painter_close(&painter);
 }
 
@@ -195,7 +195,7 @@ static void test_gl_must_be_adopted_first(void **state) {
     use_window(false);
     drawn_close(&drawn);
     PetriPainter *painter = petri_painter_open();
-    assert_int_equal(petri_painter_use_gl(painter), PETRI_UNSUPPORTED); // no context
+    assert_int_equal(petri_painter_use_gl(painter), PETRI_UNSUPPORTED); // fails, because there is no context
     petri_painter_close(&painter);
 }
 

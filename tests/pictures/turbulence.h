@@ -42,7 +42,7 @@ static inline void turbulence_init(Turbulence *t, long seed) {
     }
 }
 
-// `wrap`: cells of a tile in this octave; 0: does not repeat.
+// `wrap`: number of noise cells per tile in this octave; 0: the noise does not repeat.
 static inline double turbulence_noise(const Turbulence *t, int channel, double x, double y, const int wrap[2]) {
     double at[2] = {x + 4096, y + 4096}, r0[2], r1[2];
     int b0[2], b1[2];

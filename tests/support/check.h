@@ -1,4 +1,4 @@
-// check.h: cmocka with the headers it needs, and assertions that name the failed row of a table.
+// check.h: cmocka and the headers it needs, and assertions that name the failed row of a table.
 #ifndef PETRI_TESTS_CHECK_H
 #define PETRI_TESTS_CHECK_H
 
@@ -37,7 +37,7 @@ static inline void check_claim(const char *row, bool holds, const char *claim, c
     _fail(file, line);
 }
 
-// `row`: text that identifies the row of the table.
+// `row`: string that identifies the row of the table.
 #define assert_text(row, found, wanted) check_text(row, found, wanted, __FILE__, __LINE__)
 #define assert_number(row, found, wanted) check_number(row, found, wanted, __FILE__, __LINE__)
 #define assert_claim(row, claim) check_claim(row, claim, #claim, __FILE__, __LINE__)

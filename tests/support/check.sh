@@ -3,7 +3,7 @@
 unset CDPATH
 here=$(cd "$(dirname "$0")" && pwd)
 root=${here%/tests/*}
-# A test started by hand restarts itself in the environment that meson provides.
+# A test that was started by hand restarts itself in the environment that meson provides.
 [ "${PETRI_TESTS:-}" = clean ] || exec "$root/.ci/clean-env" "$here/$(basename "$0")" "$@"
 passed=0
 failed=0
@@ -27,14 +27,15 @@ check() {
     fi
 }
 
-# print_details: prints the start of the files out and err after a failure. Tests may replace it.
+# print_details: prints the beginning of the files out and err after a failure. Tests may redefine it.
 print_details() {
     for output_file in out err; do
         [ ! -s "$output_file" ] || head -c 600 "$output_file" | sed "s/^/  $output_file: /"
     done
 }
 
-# finish: prints the failures again, since only the end of a long log is shown, and the summary. Returns the status.
+# finish: repeats the failures, because often only the end of a long log is shown, and prints the summary. Returns the
+# status.
 finish() {
     printf '%s' "$failures"
     echo "$passed passed, $failed failed"
@@ -49,7 +50,7 @@ scratch() {
     cd "$work" || exit 1
 }
 
-# program PATH: prints the absolute path of a program. Exits with 2 if it does not exist.
+# program PATH: prints the absolute path of a program. Exits with 2 if the file does not exist.
 program() {
     if [ ! -x "$1" ]; then
         echo "usage: $0 PATH-OF-PETRI ..." >&2
@@ -58,7 +59,8 @@ program() {
     echo "$(cd "$(dirname "$1")" && pwd)/$(basename "$1")"
 }
 
-# quoted TEXT: prints it quoted for a shell; the path of the checkout may contain blanks and apostrophes.
+# quoted TEXT: prints the string quoted for a shell, because the path of the checkout may contain blanks and
+# apostrophes.
 quoted() { printf "'%s'\n" "$(printf '%s\n' "$1" | sed "s/'/'\\\\''/g")"; }
 
 status_is() { [ "$status" -eq "$1" ]; }
@@ -68,5 +70,5 @@ empty() { [ ! -s "$1" ]; }
 exists() { [ -e "$1" ]; }
 count_is() { [ "$(grep -Fc -e "$2" "$1")" -eq "$3" ]; }
 lines_are() { [ "$(wc -l <"$1")" -eq "$2" ]; }
-# repeat COUNT TEXT: prints the text COUNT times.
+# repeat COUNT TEXT: prints the string COUNT times.
 repeat() { awk -v n="$1" -v s="$2" 'BEGIN { for (i = 0; i < n; i++) printf "%s", s }'; }

@@ -1,4 +1,4 @@
-// folder.h: a temporary folder of files for one test.
+// folder.h: a temporary folder with files for one test.
 #ifndef PETRI_TESTS_FOLDER_H
 #define PETRI_TESTS_FOLDER_H
 
@@ -12,7 +12,7 @@
 
 typedef struct Folder {
     char path[200];
-    char file[600]; // last path returned
+    char file[600]; // the path that folder_file returned last
     int version;
 } Folder;
 
@@ -29,7 +29,7 @@ static inline const char *folder_file(Folder *folder, const char *name) {
     return folder->file;
 }
 
-// Writes a file. Every write has a different modification time.
+// Writes a file. The modification time differs for each write.
 static inline void folder_write(Folder *folder, const char *name, const char *text) {
     FILE *file = fopen(folder_file(folder, name), "wb");
     assert_non_null(file);
@@ -40,7 +40,7 @@ static inline void folder_write(Folder *folder, const char *name, const char *te
     assert_int_equal(utimensat(AT_FDCWD, folder->file, times, 0), 0);
 }
 
-// Removes the folder with its files and empty folders.
+// Removes the folder with its files and its empty subfolders.
 static inline void folder_close(Folder *folder) {
     DIR *entries = opendir(folder->path);
     for (struct dirent *entry; entries && (entry = readdir(entries));)

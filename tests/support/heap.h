@@ -1,5 +1,5 @@
-// heap.h: simulated allocation failures. The test is linked with --wrap for malloc, calloc, realloc, aligned_alloc and
-// arena_alloc_slow, which nearly all arena allocations use in sanitizer and stress builds.
+// heap.h: simulated allocation failures. The test must be linked with --wrap for malloc, calloc, realloc, aligned_alloc
+// and arena_alloc_slow. In sanitizer and stress builds, nearly all arena allocations use arena_alloc_slow.
 #ifndef PETRI_TESTS_HEAP_H
 #define PETRI_TESTS_HEAP_H
 
@@ -20,15 +20,15 @@ void *__real_arena_alloc_slow(Arena *arena, size_t size);
 void *__wrap_arena_alloc_slow(Arena *arena, size_t size);
 
 typedef struct Heap {
-    bool counts;  // true while allocations are counted; false for allocations of the test
-    bool all;     // true if all allocations from fail_at on fail; false if only that one fails
-    long fail_at; // number of the allocation that fails, from 0
+    bool counts;  // true while allocations are counted; false for the test's own allocations
+    bool all;     // true: all allocations from number fail_at fail; false: only that one fails
+    long fail_at; // number of the allocation that fails, counted from 0
     long count;   // number of allocations so far
 } Heap;
 
 static Heap heap;
 
-// Starts counting allocations from 0. Allocation `number` fails, and with `all` every later one.
+// Starts to count allocations from 0. Allocation `number` fails. If `all` is true, all later ones also fail.
 static inline void heap_fail(long number, bool all) {
     heap = (Heap){.counts = true, .all = all, .fail_at = number};
 }

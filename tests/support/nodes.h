@@ -1,4 +1,4 @@
-// nodes.h: functions that make single nodes and values of nodes. The library makes them in lists (vm/construct.c).
+// nodes.h: functions that create single nodes and values of nodes. The library creates them in lists (vm/construct.c).
 #ifndef PETRI_TESTS_NODES_H
 #define PETRI_TESTS_NODES_H
 

@@ -1,4 +1,4 @@
-// player.h: a session for tests, which loads scripts, makes frames and records diagnostics and printed text.
+// player.h: a session for tests, which loads scripts, steps frames, and records diagnostics and printed text.
 #ifndef PETRI_TESTS_PLAYER_H
 #define PETRI_TESTS_PLAYER_H
 
@@ -24,10 +24,10 @@ static inline bool note(void *user_data, const char *text, size_t len) {
 
 typedef struct Player {
     PetriSession *session;
-    // Lines `level file:line:column text [code]`. The position is omitted if there is none or if the text begins with a
-    // node's name; test_session_host checks those positions.
+    // Diagnostics as lines `level file:line:column text [code]`. The position is omitted if there is none, or if the
+    // text begins with a node's name; test_session_host tests the positions of nodes.
     Notebook diagnostics;
-    Notebook printed; // last printed text
+    Notebook printed; // output of the last print function
 } Player;
 
 static inline void player_report(void *user_data, const PetriDiagnostic *diagnostic) {
@@ -118,7 +118,7 @@ static inline void player_step(Player *player, int frames) {
         assert_int_equal(petri_step(player->session), PETRI_OK);
 }
 
-// Loads a script, which must succeed, and makes frames.
+// Loads a script, which must succeed, and steps some frames.
 static inline void player_run(Player *player, const char *script, int frames) {
     if (player_load(player, script) != PETRI_OK) {
         print_error("%s\n%s", script, player_diagnostics(player));

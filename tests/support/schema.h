@@ -1,4 +1,4 @@
-// schema.h: symbols and a schema for tests of node readers; records their reports.
+// schema.h: symbols and a schema for tests of node readers. Records the diagnostics of the readers.
 #ifndef PETRI_TESTS_SCHEMA_H
 #define PETRI_TESTS_SCHEMA_H
 
@@ -9,7 +9,7 @@ typedef struct Fixture {
     Arena arena;
     SymbolTable symbols;
     Schema schema;
-    char reported[2000]; // lines `!node text [code]`
+    char reported[2000]; // diagnostics as lines `!node text [code]`
 } Fixture;
 
 static inline void fixture_report(void *user_data, DiagLevel level, const char *code, const Origin *origin, Str node,

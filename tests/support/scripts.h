@@ -1,4 +1,4 @@
-// scripts.h: tests of every script in the folders named on the command line.
+// scripts.h: calls a function for each script in the folders named on the command line.
 #ifndef PETRI_TESTS_SCRIPTS_H
 #define PETRI_TESTS_SCRIPTS_H
 
@@ -14,7 +14,7 @@ static char **script_folders;
 static int script_folder_count;
 static VisitScript *visit_script;
 
-// Does not use nftw, which the memory sanitizer does not support.
+// Does not use nftw, because the memory sanitizer does not support it.
 static inline void scripts_walk(const char *folder) {
     DIR *entries = opendir(folder);
     assert_non_null(entries);

@@ -1,4 +1,4 @@
-// values.h: conversion of values from and to text, for the tests of lib/value and lib/state.
+// values.h: conversion of values to and from strings, for the tests of lib/value and lib/state.
 #ifndef PETRI_TESTS_VALUES_H
 #define PETRI_TESTS_VALUES_H
 
@@ -9,7 +9,7 @@
 
 #include <stdlib.h>
 
-// An arena and a symbol table; one per test.
+// An arena and a symbol table. Each test has its own.
 typedef struct World {
     Arena arena;
     SymbolTable symbols;
