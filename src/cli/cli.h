@@ -89,7 +89,7 @@ int command_run(const Command *command, const CommandContext *context, int argc,
 
 // These print help to standard output and return the exit status.
 int help_for(const Command *command);
-int help_overview(const Command *const *commands); // `commands`: in the order of the list, then NULL
+int help_overview(const Command *const *commands); // `commands`: ends with NULL; printed in this order
 int help_version(void);
 
 // Installs a signal handler. A SIGHUP that is ignored, as under nohup, stays ignored.

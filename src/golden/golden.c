@@ -63,7 +63,7 @@ static bool read_remark(Golden *golden, const char *line, size_t length, ByteBuf
             sscanf(copy, "# horizon %" SCNd64 " strict %" SCNd64 " %c", &golden->horizon, &golden->strict, &rest);
         if (count == 1) {
             golden->strict = golden->horizon;
-            // The number may be followed by other text than `strict`.
+            // sscanf also returns 1 if text other than `strict N` follows the number, which is an error.
             if (sscanf(copy, "# horizon %*d %c", &rest) != 1)
                 return true;
         } else if (count == 2) {

@@ -74,7 +74,7 @@ good_state() { tail -n 1 "$1" | grep -q '^end [0-9a-f]*$'; }
 good_csv() { [ "$(wc -l <"$1")" -eq 61 ]; }
 good_golden() { grep -qx '!n a=1' "$1"; }
 good_png() { tail -c 8 "$1" | grep -q IEND; }
-# If the process of a sweep's run fails, its row has an error.
+# If the injected failure ends the process that executes a run, the row of that run has an error, which is correct.
 good_table() { [ "$(sed 's/,0,,\(the process\|crashed\).*/,1,2,/; s/^1,1,1,2,/1,1,1,1,/' "$1")" = "run,A,frame,x,error
 1,1,1,1,
 2,2,1,2," ]; }
