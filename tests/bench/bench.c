@@ -1,5 +1,5 @@
-// bench.c: the benchmark of petri. Runs scripts through petri.h and compares with limit kernels, LAMMPS and another
-// build. README.md explains what is measured; `bench --help` lists the options.
+// bench.c: the benchmark of petri. Runs scripts through petri.h and compares the results with limit kernels, LAMMPS and
+// another build. README.md explains what is measured; `bench --help` lists the options.
 #include "base/cpu.h"
 #include "machine.h"
 #include "measure.h"
@@ -115,7 +115,7 @@ static void fill_plan(Bench *bench) {
     plan->max_particles = bench->quick ? 20000 : UINT32_MAX;
 }
 
-// Finds the path of this executable, which is also the worker's.
+// Finds the path of this executable, which workers also run.
 static bool find_self(Bench *bench) {
     ssize_t length = readlink("/proc/self/exe", bench->self, sizeof bench->self - 1);
     if (length < 0)
@@ -197,7 +197,7 @@ static void write_markdown(const Bench *bench, const NamedTable *tables, size_t 
     close_file(file, bench->markdown);
 }
 
-// Warns if figures are too high because the machine was busy.
+// Warns that figures may be too high if the machine was busy.
 static void warn_if_busy(const Results *results) {
     int rows = 0, disturbed = 0;
     for (size_t i = 0; i < case_count; i++)
@@ -241,7 +241,7 @@ static void run_bench(const Bench *bench) {
     free(results.figures);
 }
 
-// Starts processes that compute until this one ends.
+// Starts processes that keep processors busy until this process ends.
 static void start_busy(int count) {
     for (pid_t parent = getpid(); count > 0; count--)
         if (fork() == 0) {

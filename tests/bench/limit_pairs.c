@@ -1,4 +1,4 @@
-// limit_pairs.c: the limit kernel for all-pairs forces; see limit.h.
+// limit_pairs.c: the limit kernel for forces between all pairs (see limit.h).
 #include "limit.h"
 
 #if defined(__x86_64__)

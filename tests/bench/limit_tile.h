@@ -1,7 +1,8 @@
-// limit_tile.h: forces of all pairs, each computed once, in tiles of WIDTH x WIDTH. Included once per WIDTH.
+// limit_tile.h: forces between all pairs, each computed once, in tiles of WIDTH x WIDTH. Included once for each WIDTH.
 //
-// The terms of a tile are added to the row's particles in ascending order of partners, then transposed and added to the
-// column's particles, also in ascending order. Without checks and with one force only, it does less work than petri.
+// The terms of a tile are added to the particles of its rows in ascending order of partners. Then they are transposed
+// and added to the particles of its columns, also in ascending order. The code has no checks and only one force, so it
+// does less work than petri.
 #if WIDTH == 8
 #define TARGET __attribute__((target("avx512f,avx512dq,avx512vl,avx512bw,avx2")))
 #define V __m512d
@@ -42,7 +43,7 @@ INLINE void NAME(transpose)(V *r) {
 #endif
 }
 
-// Computes the terms f[] of WIDTH pairs. d[]: difference of positions, R: sum of radii, c: strength times charges.
+// Computes the terms f[] of WIDTH pairs. d[]: difference of positions; R: sum of radii; c: strength times both charges.
 INLINE void NAME(terms)(V *d, V R, V c, int dim, V *f) {
     V square = F(mul)(d[0], d[0]);
     for (int m = 1; m < dim; m++)
@@ -75,7 +76,7 @@ INLINE void NAME(tile)(const Cloud *c, int dim, int t, int s, const V *here, V *
     }
 }
 
-// Omits the tiles on the diagonal, a fraction WIDTH / n of all.
+// Omits the tiles on the diagonal, which are a fraction WIDTH / n of all tiles.
 INLINE void NAME(all)(const Cloud *c, int dim) {
     for (int t = 0; t < c->n; t += WIDTH) {
         V here[3], sum[3];

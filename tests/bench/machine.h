@@ -1,4 +1,4 @@
-// machine.h: a description of the machine and the build, for reports.
+// machine.h: a description of the machine and the build for reports.
 #ifndef TESTS_BENCH_MACHINE_H
 #define TESTS_BENCH_MACHINE_H
 

@@ -43,7 +43,8 @@ bool measure_clean(const Sample *round) {
     return round->cpu_share >= 0.97;
 }
 
-// Returns the median over rounds of the member at this offset. Disturbed rounds count only if all are disturbed.
+// Returns the median over rounds of the member at this offset. Disturbed rounds are included only if all rounds are
+// disturbed.
 static double median_of(const Sample *rounds, int count, size_t member) {
     double values[ROUNDS_MAX];
     int clean = 0, kept = 0;
@@ -66,7 +67,7 @@ Worker measure_warm_worker(const Plan *plan, const Case *c, const char *executab
     char path[4096];
     snprintf(path, sizeof path, "%s/%s", plan->scripts, c->script);
     Worker worker = worker_start(executable, path, threads, c->fps);
-    // The first frame makes no step. Stops the warm-up after 15 s.
+    // The first frame takes no step. Stops the warm-up after 15 s.
     double start = clock_now();
     worker_run(&worker, 2, false);
     for (int steps = c->steps; steps < plan->warm_steps && clock_now() - start < 15; steps += 5 * c->steps)
@@ -123,12 +124,12 @@ static double limit_once(const Case *c) {
 
 typedef struct Rounds {
     Worker workers[VARIANTS];
-    bool present[VARIANTS]; // one thread, plan->threads, the other build
+    bool present[VARIANTS]; // variants: one thread, plan->threads, the other build
     Sample samples[VARIANTS][ROUNDS_MAX];
     double starts[ROUNDS_MAX * STARTS_MAX];
     int start_count;
     double limit;
-    int done, clean; // number of rounds, and of those that are clean for all variants
+    int done, clean; // number of rounds, and of rounds in which no variant was disturbed
 } Rounds;
 
 static void run_round(const Plan *plan, const Case *c, Rounds *r, int frames) {
@@ -170,7 +171,7 @@ static Figures figures_of(const Case *c, Rounds *r) {
     f.steps = median_of(one, rounds, offsetof(Sample, steps));
     f.fastest = fastest_frame(one, rounds);
     f.load = one[0].load;
-    // From the first round only, because writing text increases the peak of later ones.
+    // measured in the first round only, because writing text increases the peak memory of later rounds
     f.peak = one[0].peak;
     f.per_particle = (one[0].peak - one[0].base) / c->n;
     if (r->present[1]) {
@@ -198,7 +199,7 @@ Figures measure_case(const Plan *plan, const Case *c) {
         if (r.present[k])
             r.workers[k] = measure_warm_worker(plan, c, executables[k], k == 0 ? 1 : plan->threads);
     int frames = measure_round_frames(&r.workers[0], c, plan->budget);
-    // Runs more rounds if some were disturbed.
+    // Allows more rounds if some were disturbed.
     int max = 3 * rounds < ROUNDS_MAX ? 3 * rounds : ROUNDS_MAX;
     do
         run_round(plan, c, &r, frames);
@@ -209,7 +210,7 @@ Figures measure_case(const Plan *plan, const Case *c) {
     return figures_of(c, &r);
 }
 
-// Both kernels run on this thread only, so its processor time is the least disturbed measure.
+// Both kernels run on this thread only, so its processor time is the measure that is least affected by other load.
 KernelFigures measure_kernel(const Plan *plan, int dimensions) {
     enum { N = 4000, STEPS = 5 };
     PhysOptions options = {.threads = 1};

@@ -21,17 +21,18 @@ static const struct {
     {"soft3d", 22, {18.5, 13.4}},  {"soft3d", 46, {15.6, 8.65}},  {"soft3d", 100, {13.8, 7.66}},
 };
 
-// A run of LAMMPS, or a round of petri.
+// One run of LAMMPS, or one round of petri.
 typedef struct PeerRun {
-    char style[16];   // force style that was used; empty for petri
+    char style[16];   // force style that LAMMPS used; empty for petri
     double rate;      // particle-steps per second
-    double cpu_share; // percent of a processor that each rank or the script's thread used
+    double cpu_share; // processor time as a percentage of run time, of each rank or of petri's script thread
 } PeerRun;
 
 static FILE *open_command(const char *folder, const char *arguments) {
     char command[256];
     snprintf(command, sizeof command, "\"$PETRI_PEERS/lammps.sh\" %s", arguments);
-    // The shell does not parse the value of a variable, so the folder may contain quotes.
+    // The folder is passed in a variable, because the shell does not parse a variable's value. So the path may contain
+    // quotes.
     FILE *pipe = setenv("PETRI_PEERS", folder, 1) == 0 ? popen(command, "r") : NULL;
     if (!pipe) {
         fputs("bench: cannot run lammps.sh\n", stderr);
@@ -62,7 +63,7 @@ static PeerRun run_peer(const char *folder, const Case *c, const char *style, co
     return run;
 }
 
-// Returns the median rate. Runs that shared their processors count only if there are no clean ones.
+// Returns the median rate. Runs that shared their processors are included only if all of them did.
 static double clean_median(const PeerRun *runs, int count, int *clean) {
     double values[ROUNDS_MAX];
     *clean = 0;

@@ -3,8 +3,8 @@
 //   bench_physics [--csv] [--quick] [--cpu=scalar|avx2|avx512] [--neighbours=auto|never|always] [--threads=N]
 //                 [--only=NAME]
 //
-// Both sides of a ratio are measured in the same run. The hash at the end of a row covers the bits of all positions and
-// must depend on the workload only.
+// Both sides of a ratio are measured in the same run. The hash at the end of a row covers the bits of all positions. It
+// must depend only on the workload.
 #include "base/cpu.h"
 #include "limit.h"
 #include "workloads.h"
@@ -17,7 +17,7 @@
 typedef struct Case {
     WorkloadKind kind;
     uint32_t n;
-    int side; // particles along an edge for limit_soft; 0: limit_pair or no limit is used
+    int side; // particles along an edge for limit_soft; 0: compare with limit_pairs or nothing
 } Case;
 
 static const Case cases[] = {
@@ -28,7 +28,7 @@ static const Case cases[] = {
 
 typedef struct Settings {
     bool csv, quick;
-    int threads; // 0: measures with 1 and with 2
+    int threads; // 0: measures with 1 and with 2 threads
     const char *only;
     PhysOptions options;
 } Settings;
@@ -80,7 +80,7 @@ static void run_case(const Case *c, const Settings *settings, int threads, doubl
     options.threads = threads;
     Workload w = workload_open(c->kind, c->n, &options);
     double budget = settings->quick ? 0.1 : 0.5;
-    // The hash is taken after a fixed number of steps. These frames also warm up caches and neighbour lists.
+    // The hash is computed after a fixed number of steps. These steps also warm up the caches and neighbour lists.
     int warm = c->n > 100000 ? 3 : 20;
     for (int i = 0; i < warm; i++)
         workload_frame(&w, 1);

@@ -35,7 +35,8 @@ static double unit_seconds(const Case *c, const Figures *f) {
     return f->physics / f->steps / (c->unit == PER_PAIR ? pairs : c->n);
 }
 
-// Returns the time whose growth is reported: the frame if most of the work is in the script, else the physics.
+// Returns the time for which growth is reported: the frame's if most of the work is in the script, else that of the
+// physics.
 static double growing(const Case *c, const Figures *f) {
     return c->unit == PER_PARTICLE ? f->frame : f->physics;
 }
@@ -107,7 +108,7 @@ Table report_builds(const Results *results) {
         const Figures *f = &results->figures[i];
         if (!f->done)
             continue;
-        // With plan->threads == 1 there is no separate variant.
+        // With plan->threads == 1, there is no separate variant with several threads.
         double physics = isnan(f->physics_threads) ? f->physics : f->physics_threads;
         double frame = isnan(f->frame_threads) ? f->frame : f->frame_threads;
         double evaluation = isnan(f->evaluation_threads) ? f->evaluation : f->evaluation_threads;
@@ -128,7 +129,7 @@ Table report_builds(const Results *results) {
 
 // ---- targets
 
-// The quantity of a target.
+// What a target measures.
 typedef enum Measure {
     FRAME_MS,
     PHYSICS_MS,
@@ -149,10 +150,10 @@ typedef enum Measure {
 typedef struct Target {
     const char *what;
     const char *unit;
-    const char *workload; // NULL: none of cases.c
+    const char *workload; // name in cases.c; NULL: the target has no row there
     Measure measure;
-    double reference; // of the reference implementation; 0: none
-    double must, aim; // required value; desired value, 0: none
+    double reference; // figure of the reference implementation; 0: none
+    double must, aim; // required value, and desired value (0: none)
 } Target;
 
 // The reference implementation's figures were published with the workloads (tests/bench/PEERS.md, section 1).
@@ -181,8 +182,8 @@ static double on_threads(double threads, double one) {
     return isnan(threads) ? one : threads;
 }
 
-// Returns the least-squares slope of log time over log n for this row and the smaller ones of its family. Returns NaN
-// if one of them was not measured.
+// Returns the least-squares slope of log time over log n for this row and the smaller rows of its family. Returns NaN
+// if a row was not measured.
 static double growth_of(const Results *results, size_t last) {
     double count = 0, x = 0, y = 0, xx = 0, xy = 0;
     for (size_t i = last; i != case_count; i = case_before(i)) {
@@ -194,7 +195,7 @@ static double growth_of(const Results *results, size_t last) {
     return (count * xy - x * y) / (count * xx - x * x);
 }
 
-// A frame of one step takes B + S seconds, one of ten steps B + 10 S. Returns B.
+// A frame of one step takes B + S seconds, and a frame of ten steps takes B + 10 S seconds. Returns B.
 static double beyond_step(const Results *results, size_t index) {
     const Figures *one = &results->figures[index], *ten = one + 1;
     if (!ten->done)
@@ -259,7 +260,7 @@ Table report_targets(const Results *results, bool all) {
         double ours = ours_of(results, t);
         if (isnan(ours) && !all)
             continue;
-        // Rates must be high, all other quantities low.
+        // For rates, higher values are better; for all other quantities, lower values.
         bool high = t->measure >= KERNEL_2D;
         bool must = high ? ours >= t->must : ours <= t->must, aim = high ? ours >= t->aim : ours <= t->aim;
         char wanted[TABLE_TEXT];

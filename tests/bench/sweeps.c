@@ -1,4 +1,4 @@
-// sweeps.c: see sweeps.h. The fastest round is reported, because disturbances only make rounds slower, most of all when
+// sweeps.c: see sweeps.h. The fastest round is reported, because disturbances only make rounds slower, especially when
 // all processors are in use.
 #include "sweeps.h"
 

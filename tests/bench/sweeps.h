@@ -5,7 +5,7 @@
 #include "measure.h"
 #include "table.h"
 
-// Measures 1000 runs of 100 frames of a dish of 50 cells. Returns a table with a row for each number of processes.
+// Measures 1000 runs of 100 frames of a dish with 50 cells. Returns a table with one row per number of processes.
 Table sweeps_measure(const Plan *plan);
 
 #endif

@@ -100,7 +100,7 @@ void table_write_markdown(const Table *table, FILE *file) {
     }
 }
 
-// Does not quote, because texts contain no commas and no quotes.
+// Nothing is quoted, because texts contain no commas and no quotes.
 void table_write_csv(const Table *table, FILE *file) {
     for (size_t k = 0; k < table->column_count; k++)
         fprintf(file, "%s%s", k ? "," : "", table->columns[k].name);

@@ -8,12 +8,12 @@
 typedef struct Column {
     const char *name;   // heading in CSV
     const char *top;    // first line of the heading in text
-    const char *bottom; // second line
+    const char *bottom; // second line of the heading in text
 } Column;
 
 enum { TABLE_CELLS = 24, TABLE_TEXT = 64 };
 
-// A cell contains a text, or a number if the text is empty. NaN: no figure.
+// A cell contains a text, or a number if the text is empty. NaN: not measured.
 typedef struct Cell {
     char text[TABLE_TEXT]; // without commas and quotes
     double number;
@@ -29,7 +29,7 @@ typedef struct Table {
 
 Table table_new(const char *title, const Column *columns, size_t column_count);
 void table_free(Table *table);
-// Adds a row of empty cells. Valid until the next table_row.
+// Adds a row of empty cells. The result is valid until the next table_row.
 Cell *table_row(Table *table);
 Cell cell_number(double x);
 Cell cell_text(const char *text);

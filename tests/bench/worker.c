@@ -45,8 +45,8 @@ static bool count_bytes(void *host, const char *text, size_t length) {
     return true;
 }
 
-// Returns a memory figure of this process, such as VmHWM, in bytes. Unlike the one of getrusage, it does not include
-// the parent's memory.
+// Returns a memory figure of this process, such as VmHWM, in bytes. Unlike getrusage's maximum, it does not include the
+// memory of the parent process.
 static double memory_figure(const char *name) {
     FILE *file = fopen("/proc/self/status", "r");
     char line[256];
@@ -85,7 +85,7 @@ static bool run_frames(PetriSession *session, int frames, Sample *sum) {
     return true;
 }
 
-// Returns the seconds for writing the state once, averaged over 5 ms.
+// Returns the seconds for writing the state once, as the mean over 5 ms.
 static double time_output(PetriSession *session) {
     double begin = clock_now(), spent;
     int times = 0;
@@ -132,7 +132,7 @@ int worker_main(int argc, char **argv) {
 
 // ---- in the bench
 
-// Opens a pipe that later workers do not inherit, so that each worker sees the end of its input.
+// Opens a pipe that later workers do not inherit. Otherwise, a worker would not see the end of its input.
 static void open_pipe(int ends[2]) {
     if (pipe(ends) || fcntl(ends[0], F_SETFD, FD_CLOEXEC) < 0 || fcntl(ends[1], F_SETFD, FD_CLOEXEC) < 0)
         exit_with_error("cannot communicate with a worker");

@@ -1,8 +1,8 @@
-// worker.h: worker processes, which run one script through petri.h and measure it on request.
+// worker.h: worker processes. Each runs one script through petri.h and measures it on request.
 //
-// Each variant of a workload (threads, build) has its own worker, so that variants can take turns and the peak memory
-// is that of one script. A worker is the bench executable started with the command `worker`. Bench and worker
-// communicate by lines of text.
+// Each variant of a workload (threads, build) has a separate worker, so variants can take turns and peak memory is that
+// of one script. A worker is the bench executable with the argument `worker`. It communicates with the parent by lines
+// of text.
 #ifndef TESTS_BENCH_WORKER_H
 #define TESTS_BENCH_WORKER_H
 
@@ -10,18 +10,18 @@
 #include <stdio.h>
 #include <sys/types.h>
 
-// Measurements of one frame, averaged over the frames of a round. Times are in seconds.
+// Measurements of one frame, as means over the frames of a round. Times are in seconds.
 typedef struct Sample {
-    double frame; // all of petri_step
+    double frame; // time of the whole petri_step call
     double evaluation;
     double physics;
-    double output;    // writing the last frame's state as text; 0: not requested
-    double steps;     // simulation steps
-    double cpu_share; // fraction of a processor that the script's thread used
+    double output;    // time to write the last frame's state as text; 0: not requested
+    double steps;     // number of simulation steps
+    double cpu_share; // fraction of the time in which the script's thread had a processor
     double allocations;
-    double load; // petri_load, once per worker
+    double load; // time of petri_load, measured once per worker
     double base; // bytes of memory in use before the session was opened
-    double peak; // peak bytes of memory in use up to the last frame, before text was written
+    double peak; // peak bytes of memory in use until the last frame, before text is written
 } Sample;
 
 typedef struct Worker {
@@ -30,7 +30,7 @@ typedef struct Worker {
     FILE *from;
 } Worker;
 
-// Starts a worker. This and the next functions end the program with a message if the worker fails.
+// Starts a worker. This function and the following ones exit the program with a message if the worker fails.
 Worker worker_start(const char *executable, const char *script, int threads, double fps);
 // Runs frames and returns their measurements.
 Sample worker_run(Worker *worker, int frames, bool with_output);
@@ -39,7 +39,7 @@ void worker_stop(Worker *worker);
 // Main function of a worker: `bench worker SCRIPT THREADS FPS`. Returns the exit status.
 int worker_main(int argc, char **argv);
 
-// Returns seconds since a fixed time.
+// Returns the monotonic time in seconds.
 double clock_now(void);
 // Returns the processor time of this thread in seconds.
 double clock_thread(void);

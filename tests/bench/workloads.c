@@ -9,7 +9,7 @@
 
 #define CELL 12.0
 #define DISC 10.0
-#define PITCH 0.966953 // discs of diameter 1 at area fraction 0.84
+#define PITCH 0.966953 // distance of neighbouring grid points; discs of diameter 1 then have an area fraction of 0.84
 
 static const char *const names[WORKLOAD_KINDS] = {"dish",       "packed box",   "gravity",
                                                   "soft discs", "soft spheres", "charges"};
@@ -60,10 +60,10 @@ static void start_gravity(Workload *w) {
     }
 }
 
-// Thermal soft discs or spheres of diameter 1 on a grid: the workloads that are compared with LAMMPS.
+// Thermal soft discs or spheres of diameter 1 on a grid: the workloads of the comparison with LAMMPS.
 static void start_soft(Workload *w) {
     uint32_t side = (uint32_t)lround(w->dimensions == 2 ? sqrt(w->n) : cbrt(w->n));
-    double pitch = w->dimensions == 2 ? PITCH : 0.95551; // volume fraction 0.60
+    double pitch = w->dimensions == 2 ? PITCH : 0.95551; // gives spheres a volume fraction of 0.60
     w->width = side * pitch;
     w->delta = 0.005;
     for (uint32_t i = 0; i < w->n; i++) {
@@ -123,7 +123,7 @@ static void add_dish(const Workload *w) {
         phys_add_force(w->system, 0, &forces[i]);
 }
 
-// Walls at `low` and `high` in every dimension.
+// Walls at coordinates `low` and `high` in each dimension.
 static void add_walls(const Workload *w, double low, double high, double restitution) {
     for (uint32_t k = 0; k < w->dimensions; k++)
         for (int end = 0; end < 2; end++) {

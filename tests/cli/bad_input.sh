@@ -1,4 +1,4 @@
-# bad_input.sh: tests of invalid input, which must give one clear message and never a crash. Part of run.sh.
+# bad_input.sh: tests that invalid input gives one clear message and never a crash. Part of run.sh.
 
 petri run missing.fl
 check "a missing file is one error" one_error

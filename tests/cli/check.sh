@@ -52,7 +52,7 @@ END
 petri check --werror library.fl
 check "a file that only binds names is a module, whose names count as used" status_is 0
 
-# Nodes: check evaluates the first frame without printing or storing anything.
+# Nodes: `petri check` evaluates the first frame, but prints and stores nothing.
 cat >nodes.fl <<'END'
 !window size=200;200
     !canvas
@@ -106,13 +106,13 @@ check "check gives no other diagnostics" last_line_is err "petri: 1 file checked
 petri run --frames 2 nodes.fl
 check "a run also reports a misspelled node at the top" count_is err "did you mean '!physics'?" 1
 
-# Other nodes at the top are allowed, and so are nodes that only Flitter draws.
+# Other top-level nodes are valid, and so are nodes that only Flitter draws.
 printf '!outer\n!windows3d\n!key\n!rect\n!window\n    !bloom\n        !canvas3d\n' >others.fl
 petri check --werror others.fl
 check "nodes without effect are not an error" status_is 0
 check "nodes without effect give only the summary" lines_are err 1
 
-# Systems are read but not simulated: ten million steps would take minutes.
+# Systems are read but not simulated. Ten million steps would take minutes.
 cat >slow.fl <<'END'
 !physics state=:s dimensions=2 resolution=1n time=time+10
     for i in ..1000
@@ -145,7 +145,7 @@ petri check order.fl
 check "diagnostics come in the order of the text" [ "$(grep -o '^order.fl:[0-9]*' err | tr '\n' ' ')" = \
     "order.fl:3 order.fl:4 order.fl:6 " ]
 
-# Formats for programs.
+# Output formats for other programs.
 printf 'let \303\251=coz(1)\n!n a=\303\251 b="\\q"+1\n!pysics\nlet u=2\n' >codes.fl
 petri check --format gcc codes.fl
 check "--format gcc prints one line per diagnostic on standard output" lines_are out 4

@@ -27,7 +27,7 @@ check "help run lists its options" has out "--frames N"
 cp out run_help
 petri run --help
 check "run --help is the same as help run" cmp -s out run_help
-# fits COLUMNS: no line of the output is longer.
+# fits COLUMNS: succeeds if no line of the output is longer.
 fits() { ! grep -Eq ".{$(($1 + 1))}" out; }
 for topic in '' view sweep particle builtins --frames; do
     petri help $topic
@@ -43,7 +43,7 @@ check "help builtins lists functions" grep -q '^sin(' out
 petri help nonsense
 check "help on an unknown topic is a wrong command line" status_is 2
 
-# wrong command lines
+# invalid command lines
 petri
 check "no arguments are a wrong command line" status_is 2
 check "no arguments give a message" has err "petri: "
@@ -192,7 +192,7 @@ rm out # output of the previous command
 "$petri" run --frames 1000000000 --print tree --every 100 --verbose plain.fl >out 2>err &
 job=$!
 tries=0
-until [ -s out ] || [ $tries -ge 600 ]; do # waits for its first output
+until [ -s out ] || [ $tries -ge 600 ]; do # waits until the previous command has printed something
     sleep 0.1
     tries=$((tries + 1))
 done
@@ -201,7 +201,7 @@ wait "$job"
 status=$?
 check "Ctrl-C exits with 130" status_is 130
 check "Ctrl-C prints the summary" has err " frames in "
-# A minimal container has no pseudo-terminals.
+# Minimal containers have no pseudo-terminals.
 if script -qec true /dev/null >/dev/null 2>&1 </dev/null; then
     script -qec "$(quoted "$petri") run --frames 30 --realtime plain.fl" /dev/null >out 2>&1 </dev/null
     check "there is a progress line on a terminal" has out "/30 frames, "

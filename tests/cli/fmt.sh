@@ -69,7 +69,8 @@ tr '\n' '\0' <listed | xargs -0 "$petri" fmt --check 2>&1 >/dev/null |
     sed -n 's/^petri: \(.*\) is not formatted$/\1/p; s/^\(.*\.fl\):[0-9:]* error: .*/\1/p' >unformatted
 check "exactly the scripts in tests/layouts.txt are unformatted (./dev format checks all others)" cmp -s listed unformatted
 
-# Every seventh script of the corpora (FMT_STEP=1: all), with two spaces per level and more spaces between tokens.
+# Every seventh script of the corpora (FMT_STEP=1: every script), reformatted with two spaces per level and more spaces
+# between tokens.
 mkdir corpus
 find "$root/tests/golden" "$root/tests/conformance" -name '*.fl' | sort | awk -v step="${FMT_STEP:-7}" 'NR % step == 0' |
     while read -r script; do

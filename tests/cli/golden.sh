@@ -1,7 +1,7 @@
 # golden.sh: tests of `petri test`. Part of run.sh.
 
 mkdir -p g/below
-# case_is NAME < golden: creates a script that prints two frames, with this golden.
+# case_is NAME <GOLDEN: creates a script that prints two frames, and its golden from standard input.
 case_is() {
     printf '!n a=frame/3 b=1;2;3 c="it" d=:sym\ndebug(1)\ndebug(2)\n' >"g/$1.fl"
     cat >"g/$1.golden"
@@ -104,7 +104,7 @@ printf '# run --frames 2 --print hash\n' >g/hash.golden
 petri test --update g/hash.fl
 verdict hash
 check "--update records hashes" passes
-# The second hash is 869da8..., which starts like a number.
+# The second hash begins like a number: 869da8...
 sed -i 's/^= 869da8/= 869.0da8/' g/hash.golden
 check "the golden contains a changed hash" has g/hash.golden 869.0
 verdict hash

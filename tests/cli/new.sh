@@ -30,7 +30,7 @@ check "the parameters of the new script can be set" lacks out '$(:drops;3)'
 petri render newdish.fl -o newdish.png --frames 1
 if [ "$status" -eq 0 ]; then
     check "the picture of the new script has the window's size" [ "$(od -An -tu1 -j18 -N6 newdish.png | tr -s ' ')" = " 2 208 0 0 2 208" ]
-    # A picture of one colour would have less than a tenth of this size.
+    # An image of a single colour would be smaller than a tenth of this size.
     check "the picture of the new script is not of one colour" [ "$(wc -c <newdish.png)" -gt 50000 ]
 fi
 

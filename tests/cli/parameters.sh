@@ -47,7 +47,7 @@ petri run --parameters plain.fl
 check "--parameters prints nothing for a script without parameters" empty out
 check "--parameters explains how to add a parameter" has err "plain.fl has no parameters"
 petri help run
-tr '\n' ' ' <out >joined # the help is wrapped
+tr '\n' ' ' <out >joined # the help text is wrapped
 check "help explains parameters" has joined "let CELLS=CELLS or 200 -- 1..500"
 check "help lists --parameters" has out "--parameters"
 
@@ -68,7 +68,7 @@ check "-D of 0 is reported to mean the default" has err "0 is false, so \`or\` u
 petri run --frames 1 --quiet -D CELLS=501 -D FIXED=8 -D CELS=8 cells.fl
 check "--quiet suppresses warnings about definitions" empty err
 
-# A malformed definition is a usage error.
+# An invalid definition is a usage error.
 for wrong in 5 =5 CELLS 5=5 'a b=5' CELLS=12x CELLS= CELLS=many; do
     petri run --frames 1 --print tree cells.fl -D "$wrong"
     check "-D '$wrong' is a wrong command line" status_is 2

@@ -1,4 +1,4 @@
-# render.sh: tests of `petri render`: pictures, series, films and errors. Part of run.sh.
+# render.sh: tests of `petri render`: images, image sequences, videos and errors. Part of run.sh.
 
 cat >disc.fl <<'END'
 !window size=40;30 title="disc"
@@ -29,7 +29,7 @@ done
 petri render disc.fl -o disc.png --scale 0
 check "--scale 0 is a usage error" status_is 2
 petri render disc.fl -o disc.mp4 --frame 3
-check "a film of a single frame is a usage error" status_is 2
+check "a video of a single frame is a usage error" status_is 2
 petri render disc.fl -o absent/disc.png
 check "a missing folder for a picture is an error" status_is 1
 check "a missing folder is reported before the script runs" has err "cannot write 'absent/disc.png'"
@@ -40,7 +40,7 @@ if [ "$status" -ne 0 ]; then
     check "a build without Cairo names the missing library" has err "libcairo2-dev"
     check "a build without Cairo writes no picture" [ ! -e disc.png ]
 else
-    # width FILE, height FILE: from the head of a PNG file.
+    # width FILE, height FILE: read from the header of a PNG file.
     width() { od -An -j16 -N4 -tu1 "$1" | awk '{ print $1 * 16777216 + $2 * 65536 + $3 * 256 + $4 }'; }
     height() { od -An -j20 -N4 -tu1 "$1" | awk '{ print $1 * 16777216 + $2 * 65536 + $3 * 256 + $4 }'; }
     sized() { [ "$(width "$1")x$(height "$1")" = "$2" ]; }
@@ -56,7 +56,7 @@ else
     petri render disc.fl -o scaled.png --frames 9 --scale 2
     check "--scale multiplies the size" cmp -s disc.png scaled.png
 
-    # Loaded libraries: OpenGL only for effects and 3-D, and no drawing libraries for run.
+    # Loaded libraries: OpenGL only for effects and 3-D; no drawing libraries for `petri run`.
     cat >glowing.fl <<'END'
 !window size=8;8
     !bloom radius=2
@@ -133,7 +133,7 @@ END
     petri render record.fl -o last.png --frames 4
     check "!record to an unknown kind of file is an error" one_error
 
-    # frames before the systems have stored positions: red if there are none
+    # frames before the systems have stored positions: red if the state has none
     cat >early.fl <<'END'
 !physics state=:w dimensions=2
     !particle id=1 position=20;20 velocity=1;0
@@ -262,45 +262,46 @@ END
     check "the innermost of 10,000 nested layers are drawn without layers" count_is err "too many or too large layers" 1
     check "10,000 nested layers do not change the picture" cmp -s layers.png blue.png
 
-    # films
+    # videos
     if command -v ffmpeg >/dev/null; then
         for suffix in mp4 webm gif; do
             petri render disc.fl -o film.$suffix --frames 10
-            check "render writes a film: $suffix" [ -s film.$suffix ]
+            check "render writes a video: $suffix" [ -s film.$suffix ]
             frames=$(ffprobe -v error -count_frames -show_entries stream=nb_read_frames -of csv=p=0 film.$suffix)
-            check "a film has all frames: $suffix" [ "${frames%%,*}" = 10 ]
+            check "a video has all frames: $suffix" [ "${frames%%,*}" = 10 ]
         done
-        check "films leave no temporary files" nothing_beside
+        check "videos leave no temporary files" nothing_beside
         petri render early.fl -o early.mp4 --frames 10
         frames=$(ffprobe -v error -count_frames -show_entries stream=nb_read_frames -of csv=p=0 early.mp4)
-        check "a film has the requested number of frames" [ "${frames%%,*}" = 10 ]
+        check "a video has the requested number of frames" [ "${frames%%,*}" = 10 ]
         ffmpeg -v error -i early.mp4 -frames:v 1 -pix_fmt rgb24 -f rawvideo - </dev/null | od -An -N3 -tu1 >colour
-        check "a film starts with the first frame that shows its particles" awk '{ exit !($1 < 50 && $2 > 200) }' colour
+        check "a video starts with the first frame that shows its particles" awk '{ exit !($1 < 50 && $2 > 200) }' colour
         petri render disc.fl -o odd.mp4 --frames 2 --size 41x31
-        check "a film can have an odd size" status_is 0
+        check "a video can have an odd size" status_is 0
         for name in file:film.mp4 at:12.gif; do
             petri render disc.fl -o "$name" --frames 2
-            check "a colon is part of a film's name: $name" [ -s "$name" ]
+            check "a colon is part of a video's name: $name" [ -s "$name" ]
         done
-        check "a colon in a film's name creates no other file" nothing_beside
+        check "a colon in a video's name creates no other file" nothing_beside
         mkdir films
         : >films/last.mp4
         ln -s films/last.mp4 link.mp4
         petri render disc.fl -o link.mp4 --frames 2
-        check "a film's name can be a symbolic link, which is kept" [ -L link.mp4 ]
-        check "a film is written through a symbolic link" [ -s films/last.mp4 ]
+        check "a video's name can be a symbolic link, which is kept" [ -L link.mp4 ]
+        check "a video is written through a symbolic link" [ -s films/last.mp4 ]
 
-        # render_small ARGUMENT...: renders with less memory than a frame of 16000x16000 needs. The unit is kilobytes.
+        # render_small ARGUMENT...: renders with less memory than a frame of 16000x16000 needs. ulimit counts in
+        # kilobytes.
         render_small() (
             ulimit -v 900000
             exec timeout 100 "$petri" render disc.fl "$@" >out 2>err </dev/null
         )
-        if render_small -o small.mp4 --frames 2; then # not with a sanitizer
+        if render_small -o small.mp4 --frames 2; then # fails with sanitizers, which reserve much memory
             render_small -o large.mp4 --frames 2 --size 16000x16000
             status=$?
             check "a frame that exceeds memory is an error" status_is 1
             check "a frame that exceeds memory is reported" has err "out of memory"
-            check "a frame that exceeds memory leaves no film" [ "$(echo large.mp4*)" = "large.mp4*" ]
+            check "a frame that exceeds memory leaves no video" [ "$(echo large.mp4*)" = "large.mp4*" ]
         fi
 
         mkdir tools
@@ -316,8 +317,8 @@ END
         PATH=$PWD/tools:$PATH petri render disc.fl -o film.mp4 --frames 50
         check "a killed ffmpeg is an error" status_is 1
         check "a killed ffmpeg is reported once" count_is err "ffmpeg was killed by signal 9" 1
-        check "a killed ffmpeg does not change the old film" cmp -s film.mp4 before.mp4
-        check "a killed ffmpeg leaves no partial film" nothing_beside
+        check "a killed ffmpeg does not change the old video" cmp -s film.mp4 before.mp4
+        check "a killed ffmpeg leaves no partial video" nothing_beside
         printf '#!/bin/sh\nhead -c 9000 >/dev/null\nexit 0\n' >tools/ffmpeg
         PATH=$PWD/tools:$PATH petri render disc.fl -o film.mp4 --frames 50
         check "an ffmpeg that ends early is an error" status_is 1
@@ -327,14 +328,14 @@ END
         check "the last message of ffmpeg is shown" has err "ffmpeg failed with status 3: two"
         rm -r tools
         (
-            ulimit -f 16 # blocks of 512 bytes; a larger file fails as on a full disk
+            ulimit -f 16 # in blocks of 512 bytes; writing a larger file fails as on a full disk
             exec timeout 100 "$petri" render disc.fl -o film.mp4 --frames 600 --size 600x600 >out 2>err </dev/null
         )
         status=$?
-        check "a full disk makes a film fail" status_is 1
-        check "a full disk is reported once for a film" count_is err "cannot write 'film.mp4'" 1
-        check "a full disk does not change the old film" cmp -s film.mp4 before.mp4
-        check "a full disk leaves no partial film" nothing_beside
+        check "a full disk makes a video fail" status_is 1
+        check "a full disk is reported once for a video" count_is err "cannot write 'film.mp4'" 1
+        check "a full disk does not change the old video" cmp -s film.mp4 before.mp4
+        check "a full disk leaves no partial video" nothing_beside
         printf '!window size=200;200\n    !canvas\n        !ellipse point=frame%%200 radius=9 fill=true\n' >long.fl
         # start_long ARGUMENT...: starts rendering many frames and waits until some exist.
         # stop_long: waits until the process ends.
@@ -351,14 +352,15 @@ END
             wait "$job"
             status=$?
         }
-        # Prints the process id of our ffmpeg. Others may be running on this machine; ours runs in this folder.
+        # Prints the process id of ffmpeg in this folder, because others may be running on this machine.
         encoder() {
             for id in $(pgrep -x ffmpeg); do
                 [ "$(readlink "/proc/$id/cwd")" != "$work" ] || echo "$id"
             done
         }
         no_ffmpeg() { [ -z "$(encoder)" ]; }
-        # An unfinished film has no name, so progress is measured by what ffmpeg has read: 160 kB per frame.
+        # A video has no name before it is complete, so progress is measured by the bytes that ffmpeg has read: 160 kB
+        # per frame.
         frames_there() {
             [ -z "$(find . -name 'long*.png' -size +0c)" ] || return 0
             awk '$1 == "rchar:" { read = $2 } END { exit read < 3e6 }' "/proc/$(encoder)/io" 2>/dev/null
@@ -367,21 +369,21 @@ END
             start_long -o long.$suffix
             kill -INT "$job"
             stop_long
-            check "Ctrl-C during a film exits with the signal's status: $suffix" status_is 130
+            check "Ctrl-C during a video exits with the signal's status: $suffix" status_is 130
             kept=$(sed -n "s/.*stopped; 'long.$suffix' is complete, with the \([0-9]*\) frames* drawn so far.*/\1/p" err)
             frames=$(ffprobe -v error -count_frames -show_entries stream=nb_read_frames -of csv=p=0 long.$suffix 2>&1)
-            check "Ctrl-C during a film reports the number of kept frames" [ "${kept:-0}" -gt 0 ]
-            check "an interrupted film can be played: ${frames%%,*}" [ "${frames%%,*}" = "$kept" ]
-            check "an interrupted film leaves no temporary files" nothing_beside
+            check "Ctrl-C during a video reports the number of kept frames" [ "${kept:-0}" -gt 0 ]
+            check "an interrupted video can be played: ${frames%%,*}" [ "${frames%%,*}" = "$kept" ]
+            check "an interrupted video leaves no temporary files" nothing_beside
             rm -f long.$suffix
         done
-        # Building the display list takes longer than drawing, so the signal arrives during the former.
+        # Building the display list takes longer than drawing, so the signal arrives while the list is being built.
         cp long.fl even.fl
         printf '        for i in ..200000\n            !transform scale=1+i\n' >>long.fl
         start_long -o long.mp4
         kill -INT "$job"
         stop_long
-        check "Ctrl-C while a display list is built keeps the film: $(cat err)" ffprobe -v error long.mp4
+        check "Ctrl-C while a display list is built keeps the video: $(cat err)" ffprobe -v error long.mp4
         mv even.fl long.fl
         rm -f long.mp4
         start_long -o long%06d.png
@@ -393,7 +395,7 @@ END
         check "an interrupted series has consecutive pictures" [ -e "$(printf long%06d.png $((${kept:-0} - 1)))" ]
         check "an interrupted series has no partial pictures" nothing_beside
         rm -f long0*.png
-        # The first picture takes long; the others are drawn in the meantime.
+        # The first image takes long; the others are rendered in the meantime.
         cp long.fl even.fl
         printf '!window size=200;200\n    !canvas\n        for i in ..(30000 if frame==0 else 1)\n            !ellipse point=200*uniform(:p;i)[..2] radius=20 stroke=true\n' >long.fl
         start_long -o long%06d.png
@@ -419,10 +421,10 @@ END
             check "a second Ctrl-C leaves no partial files: $output" nothing_beside
             check "a second Ctrl-C ends ffmpeg" no_ffmpeg
         done
-        check "a second Ctrl-C does not change the old film" cmp -s long.mp4 film.mp4
+        check "a second Ctrl-C does not change the old video" cmp -s long.mp4 film.mp4
         rm -f long.mp4
         timeout 1 "$petri" render long.fl --frames 1000000 -o long.mp4 >out 2>err </dev/null
-        check "a signal from timeout that arrives twice keeps the film" ffprobe -v error long.mp4
+        check "a signal from timeout that arrives twice keeps the video" ffprobe -v error long.mp4
     fi
     # The cost of drawing is charged in advance for all kinds of elements.
     for many in '!ellipse point=50 radius=50 fill=true' '!ellipse point=50 radius=50 stroke=true stroke_width=50' \
@@ -439,7 +441,7 @@ END
     check "drawing is charged as work: particles" has err "drawing exceeded the work limit (--work)"
     PATH='' "$petri" render disc.fl -o none.mp4 --frames 5 >out 2>err </dev/null
     status=$?
-    check "a film without ffmpeg is an error" status_is 1
+    check "a video without ffmpeg is an error" status_is 1
     check "the message says how to install ffmpeg" has err "apt install ffmpeg"
     (
         ulimit -f 1

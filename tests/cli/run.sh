@@ -10,7 +10,7 @@ scratch
 unset NO_COLOR
 TMPDIR=$work
 TERM=xterm
-SHELL=/bin/sh # shell of `script`; others warn about locales that are not installed
+SHELL=/bin/sh # the shell that `script` starts; others warn about locales that are not installed
 export TMPDIR TERM SHELL
 
 # petri ARGUMENTS...: runs petri; sets $status and writes its output to the files out and err.
@@ -20,7 +20,7 @@ petri() {
 }
 
 out_is() { [ "$(cat out)" = "$1" ]; }
-# one_error: petri exited with 1 and printed exactly one error and no output.
+# one_error: succeeds if petri exited with 1 and printed exactly one error and no output.
 one_error() { status_is 1 && count_is err "error: " 1 && empty out; }
 one_message() { status_is 1 && lines_are err 1 && has err "$1" && empty out; }
 last_line_is() { [ "$(tail -n 1 "$1")" = "$2" ]; }

@@ -80,7 +80,7 @@ check "the state contains no removed particles" lacks out '(:s;298'
 check "the state contains particles that exist in every frame" has out '$(:s;:stays) = '
 check "the state contains each system's iteration" has out '$(:t;:iteration) = 299'
 
-# many particles: a state with a list of particles that grows while it is loaded
+# a state with many particles, whose list of particles grows while it is loaded
 cat >many.fl <<'END'
 !physics state=:s dimensions=1
     for i in ..20000

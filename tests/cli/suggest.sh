@@ -5,7 +5,8 @@ mkdir -p shelf
 cp dish.fl shelf/book.fl
 cp dish.fl shelf/lamp.fl
 
-# suggests WORD ARGUMENTS...: the command line is invalid (or the file missing) and the message suggests WORD.
+# suggests WORD ARGUMENTS...: checks that the command line is invalid (or the file missing) and that the message
+# suggests WORD.
 suggests() {
     word=$1
     shift
@@ -78,7 +79,7 @@ petri help random
 check "help shows a name that is only a node" has out "!random (physics)"
 petri help no-such-thing
 check "help on an unknown topic is a usage error" status_is 2
-# shellcheck disable=SC2013 # names have no blanks
+# names contain no blanks
 for name in $(sed -n 's/^ENGINE_NAME([A-Z_]*, *"\([a-z_]*\)".*/\1/p' "$here/../../lib/program/engine_names.h"); do
     petri help "$name"
     check "help $name explains the value" status_is 0
@@ -104,7 +105,7 @@ check "test without goldens points to its help" has err "see 'petri help test'"
 petri
 check "petri without arguments suggests new" has err "try 'petri new NAME'"
 
-# help fits a narrow screen and has examples
+# help fits narrow terminals and has examples
 for command in run view render repl test check new help; do
     petri help "$command"
     check "help $command fits 112 columns" [ "$(awk 'length > 112' out | wc -l)" -eq 0 ]

@@ -1,6 +1,6 @@
 #!/bin/sh
-# formulas.sh PETRI ROOT: compares the formulas of ROOT/lib/physics/README.md with the engine. Also checks the facts of
-# facts.fl: each node `!fact name=… holds=1` is one that holds.
+# formulas.sh PETRI ROOT: compares the formulas in ROOT/lib/physics/README.md with the engine. Also checks that each
+# node `!fact` of facts.fl has holds=1.
 #
 # ```formula NAME ARGUMENTS    belongs to ROOT/tests/docs/figures/NAME.fl, which measures a force and compares it with
 #                              its `func formula(ARGUMENTS)`, in a node `!compared values=N difference=FRACTION`
@@ -51,7 +51,7 @@ sed -e '/^```formula/,/^```$/{
 
 passed=0
 failed=0
-# judge NAME WHICH: runs a script and checks the differences that it reports.
+# judge NAME WHICH: runs a script and checks the differences that its nodes contain.
 judge() {
     got=$("$petri" run --frames 3 --every 2 --print tree "$work/$1.fl" 2>&1 | grep -E '^!compared|warning:|error:' | tail -n 1)
     if echo "$got" | awk '{ sub(/.*values=/, ""); split($0, part, " difference=")

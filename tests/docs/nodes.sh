@@ -1,5 +1,5 @@
 #!/bin/sh
-# nodes.sh PETRI ROOT: checks that the references have exactly the nodes, attributes and defaults of `petri help nodes`.
+# nodes.sh PETRI ROOT: checks that the references list exactly the nodes, attributes and defaults of `petri help nodes`.
 #
 # A node has a heading "## `!kind`" of any level, which two nodes may share. Below it are
 #   | `attribute` | default | …     a row for each attribute, or for several with the same default; "–" means no default
@@ -25,7 +25,7 @@ trap 'exit 1' INT TERM HUP
         name = $1
         line = $0
         sub(/^ +[^ ]+ +/, "", line)
-        # The type contains no parenthesis. The default, in parentheses, precedes the explanation.
+        # The type contains no parentheses. The default is in parentheses and precedes the explanation.
         fallback = "–"
         if (match(line, /^[^(:]*(:[a-z]+[^(:]*)*\(/)) {
             rest = substr(line, RLENGTH + 1)
@@ -46,8 +46,8 @@ slug='
         return text
     }'
 
-# Prints the same lines from a document.
-read_document() { # FILE..., which are treated as one document
+# Prints lines of the same form from a document.
+read_document() { # FILE...: treated as one document
     awk "$slug"'
         /^```/ { code = !code }
         code { next }

@@ -15,8 +15,8 @@
 #   [text](PATH#HEADING)        the file and the heading must exist
 # A failure is a line with the position in the page. Too few examples are also a failure.
 #
-# Videos would take nine tenths of the time, so they have only 13 frames, and only their size is compared. PAGES=whole
-# makes complete videos, as in CI.
+# Complete videos would take nine tenths of the test's time. Therefore they have only 13 frames, and only their image
+# size is compared. PAGES=whole makes complete videos, as in CI.
 set -u
 LC_ALL=C.UTF-8
 export LC_ALL
@@ -48,7 +48,7 @@ petri render "$work/empty.fl" --frames 1 -o "$work/empty.png" >"$work/out" 2>&1 
 can_film=yes
 command -v ffmpeg >/dev/null || can_film=
 
-# Linking a library with sanitizers would need options that the pages do not show.
+# With sanitizers, linking a library needs options that the pages do not show.
 build=$(dirname "$(dirname "$(readlink -f "$petri")")")
 can_link=
 if ! nm "$build/lib/session/libpetri.a" 2>/dev/null | grep -q -e __asan -e __ubsan; then
@@ -63,7 +63,8 @@ bad() { # POSITION TEXT
     echo "$1: $2"
 }
 
-# Splits a page into steps, lines `LINE KIND N WORDS…` in order. N.text has a script, N.command and N.want a command.
+# Splits a page into steps, written in order as lines `LINE KIND N WORDS…`. N.text contains a script; N.command and
+# N.want contain a command and its expected output.
 split() { # PAGE FOLDER
     awk -v folder="$2" '
         function step(kind, words) { print NR, kind, ++count, words > (folder "/steps") }
@@ -116,7 +117,7 @@ split() { # PAGE FOLDER
         END { if (fence != "") step("fault", "the block of line " opened " is not closed") }' "$1"
 }
 
-# Prints the first difference between the output of a command and the page; nothing if they agree.
+# Prints the first difference between the output of a command and the page, or nothing if they agree.
 difference() { # WANT GOT
     awk 'FILENAME == ARGV[1] { want[++wants] = $0; next }
          { sub(/[ \t]+$/, ""); got[++gots] = $0 }
@@ -171,7 +172,7 @@ run_command() { # POSITION COMMAND WANT
     if [ -n "$fault" ]; then bad "$1" "$fault"; else good; fi
 }
 
-# Prints the bytes of width and height of a PNG or GIF file.
+# Prints the bytes of a PNG or GIF file that contain its width and height.
 size_of() {
     case $1 in
     *.gif) od -An -tu1 -j6 -N4 "$1" ;;
@@ -205,7 +206,7 @@ compare_picture() { # POSITION LINK FOLDER-OF-PAGE
     fi
 }
 
-# Prints the headings of a page in the form of links.
+# Prints the anchors of a page's headings.
 headings() { # PAGE
     sed -n '/^```/,/^```/d; s/^##* //p' "$1" | tr '[:upper:] ' '[:lower:]-' | tr -d '!-,./:-@[-^`{-~'
 }

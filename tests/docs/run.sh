@@ -32,8 +32,8 @@ work=$(mktemp -d "${TMPDIR:-/tmp}/petri-docs.XXXXXX") || exit 1
 trap 'rm -rf "$work"' EXIT
 trap 'exit 1' INT TERM HUP
 
-# Splits a document. Each example becomes $work/N.fl, $work/N.want and a line `N POSITION FRAME KIND` in $work/cases. Errors
-# in the document become lines of $work/faults.
+# Splits a document. Each example becomes $work/N.fl, $work/N.want and a line `N POSITION FRAME KIND` in $work/cases.
+# Each error in the document becomes a line in $work/faults.
 extract() { # FILE NAME FIRST
     awk -v name="$2" -v work="$work" -v count="$3" '
         function fault(line, text) { print name ":" line ": " text >> (work "/faults") }
@@ -128,7 +128,7 @@ run_tree() { # N FRAME
     fi
 }
 
-# Prints the first difference between two texts.
+# Prints the first difference between two files.
 explain() { # WANT GOT
     awk 'FILENAME == ARGV[1] { want[FNR] = $0; wants = FNR; next }
          { got[FNR] = $0; gots = FNR }

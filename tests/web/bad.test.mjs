@@ -1,4 +1,4 @@
-// bad.test.mjs: errors in the page: invalid links, scripts that exceed limits, browsers without required features.
+// bad.test.mjs: errors in the page: invalid links, scripts that exceed limits, and browsers that lack required features.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { packLink } from '../../src/web/page/link.mjs';
@@ -79,7 +79,7 @@ test('running out of memory is reported and keeps the text', options, () => open
     },
 }));
 
-// A server without the headers that allow shared memory.
+// A server without the headers for cross-origin isolation.
 const unshared = page => page.route('**/*', async route => {
     const answer = await route.fetch(), headers = answer.headers();
     delete headers['cross-origin-opener-policy'];
@@ -99,7 +99,7 @@ test('without shared memory, stop ends the engine, and another one starts', opti
         assert.match(await text(page), /fib/);
         await page.evaluate(() => delete document.body.dataset.checked);
         await typed(page, SQUARE);
-        await page.waitForFunction(() => document.body.dataset.checked === '0'); // by the new engine, which has reported nothing yet
+        await page.waitForFunction(() => document.body.dataset.checked === '0'); // of the new engine, which has reported nothing yet
         await said(page, /^Stopped/);
         await page.click('#run');
         await page.waitForFunction(() => document.getElementById('picture').width === 64);

@@ -1,4 +1,4 @@
-// browser.mjs: headless Chromium and a server for the tests of the page. Skips them without npm's modules or the browser.
+// browser.mjs: headless Chromium and a server for the tests of the page. Skips the tests if the npm modules or the browser are missing.
 import assert from 'node:assert/strict';
 import { existsSync } from 'node:fs';
 import { dirname, join } from 'node:path';
@@ -31,11 +31,11 @@ after(async () => {
     world.server?.close();
 });
 
-// Opens a separate page, which must not write to the console.
+// Opens a separate page, which must not log messages to the console.
 export async function visited(url, { settings = {}, prepare, ready, use, expected = /willReadFrequently/ }) {
     const context = await world.browser.newContext({ viewport: { width: 1200, height: 800 }, ...settings });
     const page = await context.newPage(), said = [];
-    // Ignore the browser's advice about reading pixels often.
+    // Ignores the browser's advice about frequent pixel readback.
     page.on('console', message => expected.test(message.text()) || said.push(message.text()));
     page.on('pageerror', error => said.push(error.message));
     await prepare?.(page, context);
@@ -61,10 +61,10 @@ export async function seek(page, frame) {
     await atFrame(page, frame);
 }
 
-// A script with a function that takes seconds but no memory, which would be limited sooner.
+// A script with a function that takes seconds but no memory. Otherwise, the memory limit would be reached first.
 export const SLOW = 'func fib(n)\n    n if n<2 else fib(n-1)+fib(n-2)\n';
 
-// Returns the sum of a canvas's bytes.
+// Returns the sum of all bytes of a canvas.
 export const pixels = (page, selector = '#picture') => page.locator(selector).first().evaluate(canvas => {
     const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
     let sum = 0;

@@ -1,11 +1,11 @@
-// dish.test.mjs: speed and position of a dish, with a simulated clock and engine, so that no time is measured.
+// dish.test.mjs: speed and position of a dish, with a simulated clock and engine, so that the test does not depend on real time.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { Dish } from '../../src/web/page/dish.mjs';
 
-const TICK = 15.625; // ms: 64 per second; all sums are exact
+const TICK = 15.625; // 1/64 s in ms, so that all sums are exact
 
-// A dish with a display that ticks, and an engine that answers, when the test says so.
+// A dish whose display ticks and whose engine answers when the test requests it.
 function made() {
     const world = { now: 0, waiting: [], asked: [], held: [], holds: false, frame: -1 };
     const globals = { requestAnimationFrame: callback => world.waiting.push(callback), performance: { now: () => world.now } };
@@ -29,7 +29,7 @@ function made() {
     return world;
 }
 
-// Waits until all promises that depend on nothing else are settled.
+// Waits until all promises that depend on no pending request are settled.
 const settled = () => new Promise(resolve => setImmediate(resolve));
 
 async function tick(world, ms = TICK) {
@@ -70,7 +70,7 @@ test('a slow script falls behind and does not catch up', async t => {
 
 test('pausing and resuming while a frame is computed does not run twice', async t => {
     const world = await running(t), { dish } = world;
-    const heldTicks = async () => { // the requests of two ticks; the first is not answered before the second
+    const heldTicks = async () => { // requests of two ticks; the second comes before the first is answered
         world.holds = true;
         world.asked.length = 0;
         await tick(world, 4 * TICK);

@@ -1,4 +1,4 @@
-// embed.test.mjs: <petri-dish> in pages of other servers.
+// embed.test.mjs: <petri-dish> in pages on other servers.
 import assert from 'node:assert/strict';
 import { createServer } from 'node:http';
 import { readFileSync } from 'node:fs';
@@ -10,7 +10,7 @@ const DISH = readFileSync(join(root, 'samples/dish.fl'), 'utf8');
 const SQUARE = '!window size=64;32\n    !canvas\n        !rect point=0;0 size=64;32 color=1;(frame/100);0 fill=true\n';
 let other, html = '';
 
-// An ordinary server, without petri's headers.
+// An ordinary server, which does not send petri's headers.
 before(() => new Promise(resolve => {
     other = createServer((request, response) => {
         const served = { '/folder/dish.fl': ['text/plain', DISH], '/m.fl': ['text/plain', 'let N=7\n'], '/': ['text/html', html] };

@@ -1,4 +1,4 @@
-// engine.test.mjs: the npm package: the example of its README, and error cases. PETRI_WEB is build/web.
+// engine.test.mjs: tests the npm package: the example of its README, and error cases. PETRI_WEB is build/web.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
@@ -26,7 +26,7 @@ test('the package has the version of the project and is small', () => {
     assert.ok(gzipSync(readFileSync(join(folder, 'engine.wasm')), { level: 9 }).length <= 500e3);
 });
 
-// The linker accepts missing functions (src/web/meson.build); they return -52, which may be taken for an address.
+// The linker permits missing functions (src/web/meson.build). They return -52, which callers may take for an address.
 test('every OpenGL function that the engine calls is implemented', async () => {
     const { Screen } = await import(pathToFileURL(join(folder, 'webgl.mjs')));
     const { functions } = new Screen({});

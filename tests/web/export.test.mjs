@@ -1,4 +1,4 @@
-// export.test.mjs: files saved by the page: text, pictures, videos, tables.
+// export.test.mjs: files that the page saves: text, images, videos, tables.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
@@ -9,7 +9,7 @@ import { atFrame, opened, options, root, typed } from './browser.mjs';
 
 const petri = join(root, 'build/src/petri');
 
-// Exports with the dialog; returns the name and the path of the file.
+// Exports through the dialog. Returns the name and the path of the file.
 async function exported(page, kind, to) {
     await page.click('#save-as');
     await page.check(`#saving input[value=${kind}]`);
@@ -59,7 +59,7 @@ test('a video has one frame per frame of the script, with the right colours', op
         assert.equal(name, 'dish.webm');
         const film = readFileSync(path), blocks = film.toString('latin1').match(/\xa3\x01\0{5}[^]{2}\x81/g).length;
         assert.equal(blocks, 91);
-        // Played by the browser: the middle of frame 49 at 25 frames per second shows 50 columns.
+        // The browser plays the video. In the middle of frame 49, at 25 frames per second, it shows 50 columns.
         const cinema = await context.newPage();
         const seen = await cinema.evaluate(async text => {
             const video = document.createElement('video');

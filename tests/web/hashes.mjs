@@ -1,5 +1,5 @@
-// hashes.mjs ENGINE CORPORA EXPECTED: compares the results of the conformance scripts in WebAssembly with those of all other builds.
-// tests/hashes/hashes.sh describes the lines.
+// hashes.mjs ENGINE CORPORA EXPECTED: compares the results of the conformance scripts in WebAssembly with the stored results of all other
+// builds. tests/hashes/hashes.sh describes the format.
 import { createHash } from 'node:crypto';
 import { readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';

@@ -1,5 +1,5 @@
-// manual.test.mjs: the manual as a site: examples give the same results in WebAssembly, links and pictures exist, the search works, pages
-// run their examples. Skipped without the site or the browser.
+// manual.test.mjs: tests the manual's site: examples give the same results in WebAssembly, links and images exist, the search works, and
+// pages run their examples. Skipped without the site or the browser.
 import assert from 'node:assert/strict';
 import { existsSync, readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
@@ -14,7 +14,7 @@ const pages = built.skip ? [] : readdirSync(site).filter(name => name.endsWith('
 const read = name => readFileSync(join(site, name), 'utf8');
 const AXE = join(root, 'src/web/page/node_modules/axe-core/axe.min.js');
 
-// Compares lines KEY = VALUE in any order, among others; null: the key must not exist.
+// Checks that the expected lines KEY = VALUE occur, in any order and among others. null: the key must not exist.
 function hasState(printed, wanted) {
     const lines = printed.split('\n');
     return wanted.trimEnd().split('\n').every(line => line.endsWith(' = null')

@@ -1,4 +1,4 @@
-// page.test.mjs: the page in headless Chromium, operated like a user.
+// page.test.mjs: tests the page in headless Chromium by user input.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
@@ -16,7 +16,7 @@ test('the page is small', options, () => {
     assert.ok(size <= 1.5e6, `${size} bytes`);
 });
 
-// Takes the best of a few, because the machine may be busy.
+// Takes the best of a few attempts, because the machine may be busy.
 test('a linked dish is visible within 1.5 seconds, with nothing cached', options, async () => {
     const { packLink } = await import('../../src/web/page/link.mjs');
     const link = await packLink({ text: DISH, name: 'dish.fl', frame: 3 });
@@ -93,7 +93,7 @@ test('the speed menu sets the number of frames per second', options, () => opene
             let now = 1000;
             performance.now = () => now;
             globalThis.requestAnimationFrame = callback => waiting.push(callback);
-            // 64 ticks are exactly one second; a tick comes after the frames of the previous one.
+            // 64 ticks are exactly one second. Each tick comes after the frames of the previous one.
             const tick = async () => {
                 while (waiting.length === 0)
                     await new Promise(resolve => setTimeout(resolve));
@@ -228,7 +228,7 @@ test('an invalid link is reported and changes nothing', options, async () => {
     });
 });
 
-// Returns how many pixels differ from a PNG by more than 5 % of a colour.
+// Returns the number of pixels that differ from a PNG by more than 5 % in a channel.
 const differing = (page, png) => page.evaluate(async url => {
     const image = new Image();
     image.src = url;
@@ -245,7 +245,7 @@ const differing = (page, png) => page.evaluate(async url => {
     return count / (width * height);
 }, `data:image/png;base64,${png.toString('base64')}`);
 
-// The frame of `petri render --frames 1`: the first in which particles are at their positions.
+// The frame that `petri render --frames 1` saves: the first in which particles are at their positions.
 const PICTURES = { aquarium: 2, barriers: 0, beads: 2, clockwork: 0, dish: 2, hello: 2, springs: 2, terrain: 0, trails: 2 };
 const petri = join(root, 'build/src/petri-pictures');
 const drawn = { ...options, skip: options.skip || (existsSync(petri) ? false : `missing: ${petri}`) };

@@ -95,7 +95,7 @@ test('completion and help use petri\'s tables', options, () => opened('', {
         await page.waitForSelector('.cm-tooltip-autocomplete');
         const first = page.locator('.cm-tooltip-autocomplete li').first();
         assert.match(await first.textContent(), /^radius/);
-        await page.waitForTimeout(100); // the list ignores keys at first
+        await page.waitForTimeout(100); // initially, the list ignores keys
         await page.keyboard.press('Enter');
         assert.match(await page.textContent('.cm-content'), /!particle radius=$/);
         await page.keyboard.insertText('SPE');
@@ -143,7 +143,7 @@ test('everything can be done with the keyboard', options, () => opened('', {
         await tabTo('theme');
         await page.keyboard.press('Tab');
         assert.match(await focused(), /cm-content/);
-        await page.keyboard.press('Escape'); // so that Tab leaves the text
+        await page.keyboard.press('Escape'); // so that Tab moves the focus out of the text
         await tabTo('picture');
         await tabTo('step');
         await page.keyboard.press('Enter');
@@ -183,7 +183,7 @@ test('pointer and keys are passed to the script while the picture has the focus'
         }
         await page.keyboard.down('a');
         await shows('$(:a)', '1');
-        await page.focus('#line'); // the key is released while the picture lacks the focus
+        await page.focus('#line'); // the key is released while the picture does not have the focus
         await page.keyboard.up('a');
         await shows('$(:a)', '0');
         const { x, y, width, height } = await page.locator('#picture').boundingBox();

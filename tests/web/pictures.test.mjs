@@ -18,7 +18,7 @@ const scratch = mkdtempSync(join(tmpdir(), 'petri-pictures-'));
 let browser, server, page;
 
 const FRAME = 12;
-// The fraction of pixels that may differ; in terrain, most are seams between shapes.
+// The fraction of pixels that may differ. In terrain, most of them are seams between shapes.
 const SHARE = 1e-3, SHARES = { terrain: 1e-2, garden: 2e-3, font_on: 6e-3 };
 
 before(async () => {
@@ -44,12 +44,12 @@ after(async () => {
     rmSync(scratch, { recursive: true });
 });
 
-// The code in the page: draws scripts with the npm package and compares the pictures.
+// The code that runs in the page: draws scripts with the npm package and compares the images.
 async function install() {
     const { loadEngine } = await import('/petri/petri.mjs'), { drawPicture, pictureSize } = await import('/petri/drawing.mjs');
     const engine = await loadEngine('/petri/engine.wasm');
     const bytesOf = text => Uint8Array.from(atob(text), c => c.charCodeAt(0));
-    // Returns how many pixels have no match around them in the other picture.
+    // Returns the number of pixels that match no neighbouring pixel of the other image.
     const outside = (a, b, width, height) => {
         let count = 0;
         for (let y = 0; y < height; y++)
@@ -152,15 +152,14 @@ for (const name of readdirSync(samples).filter(file => file.endsWith('.fl')))
     test(`the sample ${name} equals that of petri render`, options, () => check(join(samples, name), FRAME, SHARES[name.slice(0, -3)],
         readdirSync(join(samples, 'lib')).map(file => `lib/${file}`).filter(file => file.endsWith('.fl'))));
 
-// All effects, scenes with pictures of other nodes, and trails, if they are visible in frame 2.
+// All effects, scenes with pictures of other nodes, and trails, as far as they are visible in frame 2.
 for (const name of ['adjust', 'bloom', 'blur', 'chromakey', 'edges', 'feedback', 'flare', 'kaleid', 'noise', 'passes', 'shader', 'tonemap',
     'transform', 'vignette'])
     test(`the effect ${name} equals the picture of petri render`, options, () => check(join(pictures, `effect_${name}.fl`), 2, 5e-3));
 for (const name of ['dots', 'lights', 'metal', 'translucency'])
     test(`the scene ${name} equals the picture of petri render`, options, () =>
         check(join(pictures, `scenes/${name}.fl`), 2, 2e-3, name === 'metal' ? ['models/pyramid.obj'] : []));
-// All pictures of canvases, except those with separate tests, empty ones, and those whose pixels are enlarged or covered by hundreds of
-// lines.
+// All canvas pictures, except those with separate tests, empty ones, and those with enlarged pixels or hundreds of lines on one spot.
 const OTHERS = new Set(['canvas_wide', 'path_effects', 'gallery', 'window_default', 'window_size', 'canvas_size', 'image_id', 'long_path']);
 for (const name of readdirSync(pictures).filter(file => /^(?!effect_).*\.fl$/.test(file)).map(file => file.slice(0, -3))
     .filter(file => !OTHERS.has(file)))
@@ -169,7 +168,7 @@ for (const name of readdirSync(pictures).filter(file => /^(?!effect_).*\.fl$/.te
 test('path effects equal those of petri render, except on text', options, () => check(written('path_effects.fl',
     readFileSync(join(pictures, 'path_effects.fl'), 'utf8').replace(/^.*!text.*\n/m, '')), 2, 5e-3));
 
-// Repeated images, also of other nodes, with the alpha of a paint.
+// Repeated images, including images of other nodes, with a paint's alpha.
 const FADED = `!window size=64;48
     !canvas
         !rect size=64;48 fill=true color=0;0.6;0.2

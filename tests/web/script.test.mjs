@@ -1,4 +1,4 @@
-// script.test.mjs: the page and the text of a script: colours, parameters, the automatic picture, copied links, saved scripts.
+// script.test.mjs: tests the script editor of the page: colours, parameters, the automatic picture, copied links, saved scripts.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { readLink } from '../../src/web/page/link.mjs';
@@ -54,7 +54,7 @@ test('a parameter has the range of its comment, and a change affects only later 
         assert.equal(await page.inputValue('#parameter-A'), '25');
         await page.fill('#parameter-C', "'blue'");
         await page.press('#parameter-C', 'Enter');
-        await page.waitForFunction(() => document.getElementById('time').max === '3'); // later frames were dropped
+        await page.waitForFunction(() => document.getElementById('time').max === '3'); // later frames were discarded
         await page.click('#step');
         await atFrame(page, 4);
         assert.deepEqual([await at(23), await at(27)], [[0, 0, 255, 255], [0, 0, 0, 255]]);
@@ -114,7 +114,7 @@ test('with little storage, a script replaces older ones', options, () => opened(
                 try {
                     localStorage.setItem(`rest${size}`, 'x'.repeat(size - 16));
                 } catch {
-                    // not enough storage left
+                    // the browser's storage is full
                 }
         });
         const text = `-- mine${'.'.repeat(3000)}\n!a\n`;

@@ -1,5 +1,4 @@
-// site.test.mjs: the pages of the manual one by one: their content, and that their dishes run. manual.test.mjs tests what is common to all
-// pages.
+// site.test.mjs: tests each page of the manual: its content, and that its dishes run. manual.test.mjs tests what all pages have in common.
 import assert from 'node:assert/strict';
 import { existsSync, readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
@@ -15,7 +14,8 @@ const visit = (name, use) => visited(`${world.server.url}manual/${name}`, { read
 const plain = html => html.replaceAll(/<[^>]*>/g, '').replaceAll('&lt;', '<').replaceAll('&gt;', '>').replaceAll('&quot;', '"')
     .replaceAll('&amp;', '&');
 
-// Visits each element of the page, with its message and its picture's bytes; one with several colours has more than two different values.
+// Visits each dish of the page. Collects its message and the number of different bytes in its picture, which is above two if it has several
+// colours.
 async function eachDish(page, look, frames = 4) {
     const count = await page.locator('petri-dish').count();
     for (let i = 0; i < count; i++) {
@@ -86,7 +86,7 @@ test('the differences from Flitter are documented, and the example runs', ways, 
 
 test('each physics node has its attributes with units, and a dish that runs', ways, () => visit('physics.html', async page => {
     const { nodes } = JSON.parse(readFileSync(join(folder, '../web-tables.json'), 'utf8')), all = read('nodes.html');
-    // Symbols of the formulas, and units.
+    // Symbols in formulas, and units.
     assert.match(all, /in your units of mass·length\/time²/);
     const units = plain(read('physics.html').split('<h2 id="units-and-axes">')[1].split('<h2 ')[0]);
     for (const quantity of ['time', 'length', 'mass', 'charge', 'velocity', 'force'])
@@ -140,7 +140,7 @@ test('each page is linked from the first page and from all others', built, () =>
 
 const INDEX = `${pathToFileURL(join(site, 'index.html'))}`;
 
-// Opened from a file, without a server.
+// The page is opened from a file, without a server.
 test('each page is found by its title, and each section is in the index', ways, () => visited(INDEX, {
     expected: /CORS|Failed to load/, ready: () => document.readyState === 'complete', use: async page => {
         const titles = [...read('index.html').split('class="cards"').slice(1).join('').matchAll(/<a href="([^"]*)">([^<]*)<\/a>/g)];

@@ -1,5 +1,5 @@
-// types.test.mjs: petri.d.ts is correct: a TypeScript program (use.ts) compiles and runs, and all values have the declared types, property
-// by property. PETRI_WEB is build/web.
+// types.test.mjs: tests petri.d.ts: a TypeScript program (use.ts) compiles and runs, and each property of each value has its declared type.
+// PETRI_WEB is build/web.
 import assert from 'node:assert/strict';
 import { existsSync, readFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
@@ -30,7 +30,7 @@ function compiled(path) {
     return { program, wrong, code };
 }
 
-// Returns the values that differ from their type, as texts that begin with their path.
+// Returns the values that differ from their type, as strings that begin with the path of the value.
 function misfits(checker, type, value, place) {
     const is = flag => (type.flags & flag) !== 0;
     const kind = value === null ? 'null' : typeof value;

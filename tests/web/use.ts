@@ -1,4 +1,4 @@
-// use.ts: a TypeScript program that uses the package; types.test.mjs checks its types and runs it.
+// use.ts: a TypeScript program that uses the package. types.test.mjs checks its types and runs it.
 import { loadEngine, PetriError, STATUS } from 'petri';
 import type {
     Column, Diagnostic, Engine, Frame, Help, Options, Parameter, Picture, RenderedImage, Snapshot, Status, System, Token,
