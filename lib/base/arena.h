@@ -1,10 +1,10 @@
 // arena.h: a bump allocator, whose allocations all have the same lifetime.
 //
 // Each frame, program and session has an arena, and everything allocated from it is freed together. Single values are
-// never freed. An allocation never returns NULL. If the budget or the machine's memory is exhausted, the function
-// escapes: it jumps (longjmp) to the enclosing arena_protect, which returns the reason. Public functions, such as those
-// that load a script or compute a frame, convert the reason to a status. If no arena_protect encloses the call, which
-// is a bug in petri, the process is aborted.
+// never freed. arena_alloc never returns NULL. If the arena's limit, the budget or the machine's memory is exhausted,
+// it escapes: it jumps (longjmp) to the enclosing arena_protect, which returns the reason. Public functions, such as
+// those that load a script or compute a frame, convert the reason to a status. If no arena_protect encloses the call,
+// which is a bug in petri, the process is aborted.
 #ifndef PETRI_BASE_ARENA_H
 #define PETRI_BASE_ARENA_H
 
@@ -68,9 +68,9 @@ typedef enum ArenaOutcome {
 } ArenaOutcome;
 
 enum { ARENA_MAX_PROTECTED = 8 };
-// Calls `call`. If an allocation or charge of one of the arenas fails, the call is aborted and the reason is returned.
-// NULL arenas are ignored. Calls may be nested; the innermost one catches the failure. Heap blocks that the call
-// allocates must be reachable from `context`, so that the caller can free them.
+// Calls `call`. If an allocation or charge of one of the arenas fails, `call` is aborted and the reason is returned.
+// NULL arenas are ignored. If calls of arena_protect are nested, a failure ends the innermost one that lists the arena.
+// Heap blocks that `call` allocates must be reachable from `context`, so that the caller can free them.
 ArenaOutcome arena_protect(Arena *const arenas[], size_t count, void (*call)(void *context), void *context);
 // Like arena_alloc, but returns NULL on failure.
 void *arena_try_alloc(Arena *arena, size_t size);
@@ -119,8 +119,8 @@ static inline void arena_charge(Arena *arena, uint64_t units) {
         arena_check(arena, outcome);
 }
 
-// For loops over many elements, called for each index i from 0. Charges BUDGET_CHUNK elements when a chunk is complete,
-// and nothing for an incomplete last chunk.
+// Charges the work of a long loop in chunks. The loop calls it for each index i, starting at 0. Each time BUDGET_CHUNK
+// elements are complete, they are charged. An incomplete last chunk is not charged.
 static inline void arena_charge_chunk(Arena *arena, size_t i, unsigned units_each) {
     if (i % BUDGET_CHUNK == BUDGET_CHUNK - 1)
         arena_charge(arena, (uint64_t)BUDGET_CHUNK * units_each);
@@ -133,11 +133,12 @@ void *arena_alloc_array(Arena *arena, size_t count, size_t size);
 // Returns a copy of `size` bytes.
 void *arena_copy(Arena *arena, const void *bytes, size_t size);
 
-// Extends `bytes` in place if it is the most recent allocation and the block has space. Else returns a larger copy.
+// Enlarges the allocation `bytes`: in place if it is the most recent one and its block has space. Otherwise returns a
+// larger copy.
 void *arena_grow(Arena *arena, void *bytes, size_t old_size, size_t new_size);
 
-// Ensures that an array of `count` elements of `size` bytes has capacity for one more. Returns `items`, or a copy of
-// twice the capacity that replaces it.
+// Ensures that an array of `count` elements of `size` bytes has capacity for one more. If necessary, doubles the
+// capacity. Returns `items` or its larger copy.
 void *arena_grow_array(Arena *arena, void *items, uint32_t count, uint32_t *capacity, size_t size);
 
 // Escapes with ARENA_OUT_OF_MEMORY. Called if a heap allocation fails while the arena is in use.

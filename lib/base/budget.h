@@ -20,7 +20,7 @@ typedef struct Budget {
     size_t memory_limit;                       // bytes
     bool memory_refused;                       // true if budget_reserve has failed since budget_begin
     atomic_bool *interrupt;                    // set by the host to interrupt; NULL: cannot be interrupted
-    bool (*should_interrupt)(void *user_data); // polled by the charging thread to set `interrupt`; NULL: not polled
+    bool (*should_interrupt)(void *user_data); // polled by the charging thread; true: interrupt; NULL: not polled
     void *user_data;                           // passed to should_interrupt
     bool retains;   // true: arena_retire keeps blocks in `retained`, because the host may still read them
     void *retained; // linked list of ArenaBlock
@@ -35,10 +35,11 @@ typedef enum BudgetOutcome { BUDGET_OK, BUDGET_EXCEEDED, BUDGET_INTERRUPTED } Bu
 
 // Resets the charged work and memory_refused at the start of a call. Memory stays charged. `interrupt` may be NULL.
 void budget_begin(Budget *budget, uint64_t work_limit, atomic_bool *interrupt);
-// Returns whether work may continue, and sets next_check. Called if `work` exceeds next_check.
+// Returns BUDGET_OK if work may continue, else the reason to stop. Sets next_check. Called if `work` exceeds
+// next_check.
 BudgetOutcome budget_check(Budget *budget);
 
-// Charges `units` and returns whether work may continue. With a NULL budget nothing is charged.
+// Charges `units`. Returns BUDGET_OK if work may continue. If the budget is NULL, nothing is charged.
 static inline BudgetOutcome budget_charge(Budget *budget, uint64_t units) {
     if (!budget)
         return BUDGET_OK;

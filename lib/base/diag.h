@@ -27,7 +27,7 @@ typedef struct DiagSink {
     uint32_t capacity;
     uint32_t error_count;
     HashIndex index;  // finds duplicates
-    uint32_t limit;   // maximum of `count`; further diagnostics are only counted
+    uint32_t limit;   // maximum of `count`; further diagnostics only increment `dropped`
     uint32_t dropped; // number of diagnostics beyond `limit`
 } DiagSink;
 

@@ -125,7 +125,7 @@ bool file_read(Arena *arena, const FileAccess *file_access, const char *path, bo
         outcome = arena_protect(&arena, 1, read_all, &reading);
     close(file);
     if (outcome != ARENA_OK)
-        arena_escape(arena, outcome); // only after the file is closed
+        arena_escape(arena, outcome); // does not return, so the file is closed first
     if (version && !reading.problem)
         *version = version_of(arena, &info);
     *bytes = reading.bytes;
@@ -187,7 +187,7 @@ bool file_resolve(const char *path, char resolved[PATH_MAX]) {
     for (int i = 0; i < MAX_LINKS; i++) {
         if (realpath(at, resolved))
             return true;
-        // The last component may not exist, or may be a link to a file that does not exist.
+        // The last component is allowed to be missing, or to be a link to a missing file.
         char *slash = strrchr(at, '/'), *name = slash ? slash + 1 : at;
         if (errno != ENOENT || name[0] == '\0' || strcmp(name, ".") == 0 || strcmp(name, "..") == 0)
             return false;

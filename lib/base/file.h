@@ -7,9 +7,9 @@
 #include <sys/types.h>
 
 // Reads a file of at most `limit` bytes into the arena, followed by a NUL byte. If `regular` is true, only regular
-// files are accepted; otherwise also pipes and devices. On failure returns false and sets *problem to the reason, a
-// constant string or one in the arena. If `version` is not NULL, sets *version to a string that changes when the file
-// changes. file_access restricts which files can be read; NULL: no restriction.
+// files are accepted. If it is false, pipes and devices are accepted too. On failure returns false and sets *problem to
+// the reason, a constant string or one in the arena. If `version` is not NULL, sets *version to a string that changes
+// when the file changes. file_access restricts which files can be read; NULL: no restriction.
 bool file_read(Arena *arena, const FileAccess *file_access, const char *path, bool regular, size_t limit, Str *bytes,
                Str *version, const char **problem);
 bool file_exists(const char *path);

@@ -133,7 +133,8 @@ bool file_access_resolve(const FileAccess *file_access, FileAccessKind kind, con
     return file_access_allows(file_access, kind, resolved);
 }
 
-// Opens the path `rest` one component at a time, for systems without openat2. Modifies `rest` and closes `folder`.
+// Opens the path `rest` below `folder` one component at a time, without following links. Used on systems without
+// openat2. Modifies `rest` and closes `folder`.
 static int open_by_components(int folder, char *rest, int flags) {
     for (char *slash; (slash = strchr(rest, '/')); rest = slash + 1) {
         *slash = '\0';

@@ -15,13 +15,13 @@ typedef struct FileAccess {
     const Str *folders[FILE_ACCESS_KIND_COUNT]; // by kind: canonical paths, NUL-terminated
     uint32_t counts[FILE_ACCESS_KIND_COUNT];
     Str script_folder; // canonical folder of the script, readable and writable; empty: none
-    Str directory;     // folder that relative names in scripts refer to, as the user gave it
+    Str directory;     // folder in which relative names in scripts are resolved, as the user gave it
     bool no_files;     // true: all files on disk are denied
     // If not NULL, the host provides all files for reading, and the folders do not restrict reading. Returns the bytes
     // of a file, or NULL if it does not exist. Bytes must not change as long as the same pointer is returned.
     const char *(*read_file)(void *user_data, const char *name, size_t *length);
     void *read_user_data; // passed to read_file and read_unsaved
-    // If not NULL, returns the unsaved text of an existing file, by its canonical path, or NULL if it has none.
+    // If not NULL, returns the unsaved text of an existing file, or NULL if it has none. `name` is its canonical path.
     const char *(*read_unsaved)(void *user_data, const char *name, size_t *length);
 } FileAccess;
 
@@ -31,7 +31,7 @@ void file_access_add(Arena *arena, FileAccess *file_access, FileAccessKind kind,
 // Returns the canonical path of a directory; an empty name means the working directory. Returns an empty string if the
 // directory does not exist.
 Str file_access_folder(Arena *arena, Str directory);
-// Returns a copy with all strings in the arena.
+// Returns a copy whose strings are also copied to the arena.
 FileAccess file_access_copy(Arena *arena, const FileAccess *file_access);
 
 // Returns true if access to a canonical path is allowed. If file_access is NULL, all paths are allowed.
@@ -41,17 +41,18 @@ bool file_access_allows(const FileAccess *file_access, FileAccessKind kind, cons
 bool file_access_resolve(const FileAccess *file_access, FileAccessKind kind, const char *path, char resolved[PATH_MAX]);
 // Sets *bytes to the result of the read_file callback for the normalised path. On failure returns false with errno set.
 bool file_access_read(const FileAccess *file_access, const char *path, Str *bytes);
-// Sets *bytes to the unsaved text of a file. Returns false if there is none or the file may not be read.
+// Sets *bytes to the unsaved text of a file. Returns false if there is none or if reading the file is not allowed.
 bool file_access_read_unsaved(const FileAccess *file_access, const char *path, Str *bytes);
 // Removes ".", ".." and double slashes from a path without accessing the disk. Returns false with errno set if the path
 // is too long.
 bool file_access_normalise(const char *path, char normal[PATH_MAX]);
-// Opens a file that may be read; `flags` as for open. Returns -1 with errno set on failure (EXDEV: not allowed).
+// Opens a file if reading it is allowed. `flags` are those of open. On failure returns -1 with errno set (EXDEV: not
+// allowed).
 int file_access_open(const FileAccess *file_access, const char *path, int flags);
-// Like replace_begin, but only for regular or new files that may be written. On failure returns false with errno set
-// (EXDEV: not allowed).
+// Like replace_begin, but only for a regular or new file, and only if writing it is allowed. On failure returns false
+// with errno set (EXDEV: not allowed).
 bool file_access_replace(const FileAccess *file_access, const char *path, Replacement *replacement);
-// Creates the missing folders of a file's path. Returns false if the file may not be written.
+// Creates the missing folders of a file's path. Returns false if writing the file is not allowed.
 bool file_access_make_folders(const FileAccess *file_access, const char *path);
 // Returns why access to a path is denied and which option would allow it, as a constant string or one in the arena.
 const char *file_access_reason(Arena *arena, const FileAccess *file_access, FileAccessKind kind, const char *path);

@@ -15,7 +15,7 @@ typedef struct HashIndexSlot {
 } HashIndexSlot;
 
 typedef struct HashIndex {
-    HashIndexSlot *slots; // heap; NULL while empty
+    HashIndexSlot *slots; // on the heap; NULL: not allocated yet
     uint32_t mask;        // number of slots - 1
     uint32_t used;        // number of slots in use, including removed entries
     uint32_t live;        // number of entries
@@ -23,7 +23,7 @@ typedef struct HashIndex {
 
 #define HASH_INDEX_NONE UINT32_C(0xfffffff0) // not found; no entry has this position
 
-// Returns true if the entry at a position has this key.
+// Returns true if the owner's entry at position `entry` has this key.
 typedef bool HashIndexMatch(const void *owner, uint32_t entry, const void *key);
 
 void hash_index_free(HashIndex *index);

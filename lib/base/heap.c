@@ -31,7 +31,7 @@ void *heap_alloc(size_t size) {
 
 void *heap_calloc(size_t count, size_t size) {
     if (!current_allocator.allocate)
-        return count_block(calloc(count ? count : 1, size ? size : 1)); // calloc does not clear fresh pages again
+        return count_block(calloc(count ? count : 1, size ? size : 1)); // calloc need not clear fresh pages
     if (size && count > SIZE_MAX / size)
         return NULL;
     void *block = heap_alloc(count * size);

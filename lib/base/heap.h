@@ -18,13 +18,14 @@ typedef struct HeapAllocator {
 } HeapAllocator;
 
 // Sets the functions for all later allocations; the struct is copied. NULL selects the C library. Returns false, with
-// nothing changed, while any block is allocated. No other thread may call a function of this file at the same time.
+// nothing changed, if any block is still allocated. No other thread may call a function of this file at the same time.
 bool heap_set_allocator(const HeapAllocator *allocator);
 
 void *heap_alloc(size_t size);
 // Allocates a zeroed array.
 void *heap_calloc(size_t count, size_t size);
-// Resizes a block, which may move. `size` must not be 0. On failure the block is unchanged. NULL allocates a new block.
+// Resizes a block, which may move. `size` must not be 0. On failure returns NULL, and the block is unchanged. If
+// `block` is NULL, allocates a new block.
 void *heap_resize(void *block, size_t size);
 // Frees a block. NULL is ignored.
 void heap_free(void *block);

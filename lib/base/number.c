@@ -66,7 +66,7 @@ enum { MAX_DIGITS = 17 };
 // to 2^53 the product is below 2^53 * 5^21 < 2^102.
 typedef struct Scaled {
     Product product;
-    Product power; // 5^scale: distance of x to the next double, in units of 2^-shift
+    Product power; // 5^scale; in the unit of `product`, the distance of x to the next double
     int shift;
 } Scaled;
 
@@ -79,7 +79,8 @@ static bool scale_by(Scaled *scaled, uint64_t significand, int exponent, int sca
     return scale > 0 && scaled->shift > 0;
 }
 
-// Returns true if `whole` units parse as x: their distance to x is less than half the distance to the next double.
+// Returns true if the decimal whole * 10^-scale parses as x: its distance to x is less than half the distance to the
+// next double.
 static bool reads_back(const Scaled *scaled, uint64_t whole) {
     Product there = (Product)whole << scaled->shift;
     Product distance = there > scaled->product ? there - scaled->product : scaled->product - there;

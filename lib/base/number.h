@@ -18,7 +18,8 @@ size_t number_format_short(double x, char text[NUMBER_TEXT]);
 // correctly rounded; NaN if out of memory.
 double number_parse(Str digits);
 
-// Returns floor(x), which preserves -0. Faster than the C library's floor, which is a function call without SSE4.1.
+// Returns floor(x); for -0, it is -0. Faster than the C library's floor, which is a function call if the compiler
+// cannot use SSE4.1.
 static inline double number_floor(double x) {
     if (!(x > -4503599627370496.0 && x < 4503599627370496.0))
         return floor(x);
@@ -26,7 +27,7 @@ static inline double number_floor(double x) {
     return whole == x ? x : whole - (whole > x);
 }
 
-// Returns first + n, or `first` itself if n is 0: -0 + 0 would be 0.
+// Returns first + n. If n is 0, returns `first` itself, because -0 + 0 would be 0.
 static inline double number_counted(double first, uint32_t n) {
     return n ? first + n : first;
 }

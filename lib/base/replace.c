@@ -61,13 +61,13 @@ static void remove_stale_files(int folder) {
         close(again);
 }
 
-// Locks a temporary file, so that other processes do not remove it. Returns true if the file system has no locks,
-// because remove_stale_files then removes nothing.
+// Locks a temporary file, so that other processes do not remove it. Also returns true if the file system has no locks,
+// because remove_stale_files removes nothing there.
 static bool lock_file(int file) {
     return flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
 }
 
-// Gives the unnamed file a name in its folder. If the name is NULL, only checks that this is possible.
+// Gives the unnamed file a name in its folder. If the name is NULL, only returns whether this is possible.
 static bool link_file(const Replacement *r, const char *name) {
     char path[64] = "/proc/self/fd/", digits[16];
     char *end = path + strlen(path);
@@ -141,7 +141,7 @@ bool replace_begin_in(Replacement *r, int folder, const char *name, unsigned fla
     return !named || open_named(r) || abort_with_error(r, errno);
 }
 
-// Returns the descriptor of stdout or stderr if it is the file `info`, else -1.
+// If stdout or stderr is the file that `info` describes, returns its descriptor, else -1.
 static int find_stream(const struct stat *info) {
     struct stat stream;
     for (int fd = STDOUT_FILENO; fd <= STDERR_FILENO; fd++)
@@ -180,7 +180,7 @@ bool replace_begin(Replacement *r, const char *path, unsigned flags) {
     return replace_begin_in(r, folder, name, flags);
 }
 
-// EINVAL and EBADF mean that the file system does not support fsync.
+// EINVAL and EBADF mean that the file system or the descriptor (O_PATH) does not support fsync.
 bool replace_sync(int file) {
     int result;
     do
@@ -189,8 +189,8 @@ bool replace_sync(int file) {
     return result == 0 || errno == EINVAL || errno == EBADF;
 }
 
-// Gives the new file the target's name: with linkat if the target does not exist, else with renameat from a temporary
-// name.
+// Gives the new file the target's name. If the file is unnamed and the target does not exist, linkat does this.
+// Otherwise the file is first given a temporary name, unless it has one. Then it is renamed or, with only_new, linked.
 static bool link_or_rename(Replacement *r, bool exists) {
     bool named = r->temporary_name[0] != '\0';
     if (!named && (r->only_new || !exists)) {
@@ -208,7 +208,7 @@ static bool link_or_rename(Replacement *r, bool exists) {
         r->temporary_name[0] = '\0';
         return false;
     }
-    if (r->only_new) // replace_abort removes the temporary name
+    if (r->only_new) // unlike renameat, linkat fails if the target exists
         return linkat(r->folder, r->temporary_name, r->folder, r->name, 0) == 0;
     int result;
     do

@@ -3,8 +3,8 @@
 // The bytes are written to an unnamed file in the target's folder (O_TMPFILE). If the system does not support that, the
 // file has a random temporary name. Once the bytes are on disk, the new file is renamed to the target. Readers see
 // either the complete old file or the complete new one, even after a crash or kill -9. Owner and permissions are kept.
-// A symbolic link is kept and its target is replaced. A target that is not a regular file (a device, a pipe,
-// /dev/stdout) is written to directly.
+// A symbolic link is kept and its target is replaced. A target is written to directly if it is not a regular file (a
+// device, a pipe) or if it is the file to which stdout or stderr is connected.
 #ifndef PETRI_BASE_REPLACE_H
 #define PETRI_BASE_REPLACE_H
 
@@ -19,14 +19,14 @@ typedef enum ReplaceFlags {
 typedef struct Replacement {
     int file;                          // descriptor to write to; -1: not begun
     int folder;                        // descriptor of the target's folder
-    bool direct;                       // `file` is the target itself, which is not a regular file
+    bool direct;                       // `file` is the target itself, written to directly
     bool only_new;                     // REPLACE_CREATE_ONLY
     char name[NAME_MAX + 1];           // name of the target in its folder
-    char temporary_name[NAME_MAX + 1]; // name of the new file before it is renamed; "": none
+    char temporary_name[NAME_MAX + 1]; // name of the new file until it is renamed; "": unnamed
 } Replacement;
 
-// Unless stated otherwise, the functions return false with errno set on failure. The functions that end
-// a replacement, and replace_sync, may be called from a signal handler.
+// Unless stated otherwise, the functions return false with errno set on failure. All functions except replace_begin and
+// replace_begin_in are safe in a signal handler.
 
 // Begins a replacement. The caller ends it with replace_commit, replace_end or replace_abort.
 bool replace_begin(Replacement *replacement, const char *path, unsigned flags);
@@ -42,7 +42,7 @@ bool replace_rename(Replacement *replacement);
 bool replace_end(Replacement *replacement);
 // Removes the new file and closes the descriptors.
 void replace_abort(Replacement *replacement);
-// Flushes a file or folder to disk. Returns true if the file system does not support it.
+// Flushes a file or folder to disk. Also returns true if the file system does not support this.
 bool replace_sync(int file);
 
 #endif

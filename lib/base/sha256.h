@@ -15,7 +15,7 @@ typedef struct Sha256 {
 
 Sha256 sha256_new(void);
 void sha256_add(Sha256 *hash, const char *text, size_t length);
-// Writes the hash as hexadecimal digits without a NUL byte. The hash must not be used afterwards.
+// Writes the hash as hexadecimal digits without a NUL byte. `hash` must not be used after this call.
 void sha256_end(Sha256 *hash, char digits[SHA256_DIGITS]);
 
 #endif

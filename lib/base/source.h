@@ -9,7 +9,7 @@
 typedef struct Source {
     Str name;                    // name in messages: the path as the user gave it
     Str path;                    // unique path: absolute, or the name of a source that is not a file
-    Str directory;               // folder that relative file names refer to; "": the working directory
+    Str directory;               // folder in which relative file names are resolved; "": the working directory
     Str text;                    // each line ends with LF; a NUL byte follows the text
     const uint32_t *line_starts; // byte offset of each line
     uint32_t line_count;

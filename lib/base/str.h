@@ -22,7 +22,7 @@ Str str_from(const char *text);
 bool str_equal(Str a, Str b);
 // Returns -1, 0 or 1. Compares bytes, which for UTF-8 is the order of code points. A prefix sorts first.
 int str_compare(Str a, Str b);
-// Both functions return a copy that is followed by a NUL byte.
+// str_copy and str_to_c return a copy that is followed by a NUL byte.
 Str str_copy(Arena *arena, Str text);
 char *str_to_c(Arena *arena, Str text);
 bool str_starts_with(Str text, Str prefix);
@@ -78,8 +78,8 @@ enum { UTF8_MAX = 4 };
 // Decodes the code point at *at and advances *at. For ill-formed UTF-8, including surrogates and overlong forms,
 // returns -1 and advances by one byte.
 int32_t utf8_next(Str text, size_t *at);
-// Returns true for control characters and for -1, the result of utf8_next for ill-formed bytes. They must not reach a
-// terminal.
+// Returns true for control characters and for -1, the result of utf8_next for ill-formed bytes. None of these must
+// reach a terminal.
 bool utf8_is_control(int32_t code_point);
 // Writes 1 to 4 bytes and returns how many. The code point must be at most 0x10FFFF.
 size_t utf8_encode(uint32_t code_point, char bytes[UTF8_MAX]);

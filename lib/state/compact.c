@@ -28,7 +28,7 @@ bool state_copy_key(Arena *keys, Value *copy, Value key) {
 typedef struct Compaction {
     HashIndex index;
     Arena keys;
-    Value *copies;                       // by entry: copy of its key
+    Value *copies;                       // by new entry number: copy of its key
     Value heads[MAX_KEY_RANGES];         // by range: copy of its head
     bool range_retained[MAX_KEY_RANGES]; // by range: true if the range is kept with all its slots
     uint32_t count;                      // number of slots

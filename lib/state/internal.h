@@ -8,7 +8,7 @@
 
 typedef struct StateEntry {
     Value key;   // data in the arena `keys`, or inline
-    Value value; // in a heap block, or inline; the owner's numbers if there is an owner; null: the slot is empty
+    Value value; // in a heap block, or inline; with an owner, the owner's numbers; null: empty slot
     uint32_t hash;
     StateOwner owner;
 } StateEntry;
@@ -18,7 +18,7 @@ typedef struct StateEntry {
 
 enum {
     MAX_KEY_RANGES = 8,      // every look-up checks all ranges
-    MAX_SEPARATE_PAIRS = 64, // slot pairs stored as entries before they become a range
+    MAX_SEPARATE_PAIRS = 64, // consecutive slot pairs (key_range.h) stored as entries before they become a range
 };
 
 struct State {
@@ -32,7 +32,7 @@ struct State {
     uint32_t candidate_pairs; // slot pairs at the end of `entries` that could form a range
     HashIndex index;          // slots that have entries
     Arena keys;               // data of the keys
-    bool *modified;           // by owner: see state_clear_modified
+    bool *modified;           // by owner - 1: see state_clear_modified
     uint32_t owner_count;
     bool exhausted; // see state_clear_exhausted
     Budget *budget; // charged for memory; NULL: none

@@ -1,9 +1,9 @@
 // key_range.h: compact storage for the state keys of consecutive particle ids.
 //
-// A particle has two slots, prefix;id and prefix;id;symbol. For consecutive ids, the keys can be computed from the
-// first key. The values are found from the address of the first value in the owner's array (state.h). A range of any
-// length therefore uses constant memory. Other keys are stored as separate entries (state.c). A write that does not fit
-// this pattern converts the range to entries.
+// A particle has a pair of slots, with the keys prefix;id and prefix;id;symbol. For consecutive ids, all keys can be
+// computed from the first one. The addresses of the values are computed from that of the first value in the owner's
+// array (state.h). A range of any length therefore uses constant memory. Other keys are stored as separate entries
+// (state.c). A write that does not fit this pattern converts the range to entries.
 #ifndef PETRI_STATE_KEY_RANGE_H
 #define PETRI_STATE_KEY_RANGE_H
 
@@ -16,11 +16,11 @@ typedef struct KeyRange {
     const double *head;  // key of the first particle's second slot: prefix;id;symbol
     const double *keys;  // keys of all particles' second slots; NULL until one is requested
     uint32_t keys_count; // number of pairs in `keys`
-    // Values are either referenced from the owner or null.
+    // Each value is either a reference to numbers of the owner or null.
     StateOwner owner;
     uint32_t len;           // numbers per value
-    uint32_t stored;        // number of slots whose values start at `numbers`
-    uint32_t referenced;    // number of slots with values; slots from index `stored` still point into `previous`
+    uint32_t stored;        // number of slots, from the first, whose values are in `numbers`
+    uint32_t referenced;    // number of slots, from the first, with values; those from `stored` on are in `previous`
     const double *numbers;  // current array of the owner
     const double *previous; // array that the owner used before
 } KeyRange;
@@ -33,16 +33,17 @@ static inline bool key_range_has_slot(const KeyRange *range, StateSlot slot) {
 StateSlot key_range_find(const KeyRange *range, Value key);
 // Returns true if `key` is the key that would extend the range by one slot.
 bool key_range_is_next(const KeyRange *range, Value key);
-// Returns true if the keys of two particles are consecutive in a range.
+// Returns true if the four keys of two particles can be consecutive keys of a range.
 bool key_range_follows(Value position, Value velocity, Value next_position, Value next_velocity);
 // Returns the particle id of a pair.
 double key_range_id(const KeyRange *range, uint32_t pair);
-// Writes the key of the second slot of a pair.
+// Writes the key of a pair's second slot to `to`.
 void key_range_write_key(const KeyRange *range, uint32_t pair, double *to);
 
 // Returns the value of a slot, or null.
 Value key_range_value(const KeyRange *range, StateSlot slot);
-// Makes a slot reference the owner's numbers. Returns false if they are not directly after those of the previous slot.
+// Makes a slot reference the owner's numbers. Returns false if they do not directly follow the numbers of the previous
+// slot.
 bool key_range_reference(KeyRange *range, StateSlot slot, StateOwner owner, const double *numbers, uint32_t len);
 // Returns true if a slot references numbers of the owner.
 static inline bool key_range_references(const KeyRange *range, StateSlot slot, StateOwner owner) {

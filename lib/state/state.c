@@ -173,7 +173,7 @@ static StateSlot find_in_key_ranges(const State *state, Value key) {
     return found;
 }
 
-// Converts the last entries to a range if they have no values.
+// Converts the last SLOTS entries to a range, unless one has a value or the keys are too long.
 static void begin_key_range(State *state) {
     enum { SLOTS = 2 * MAX_SEPARATE_PAIRS };
     const StateEntry *entries = state->entries + state->entry_count - SLOTS;

@@ -38,15 +38,15 @@ Value state_slot_get(const State *state, StateSlot slot);
 // Returns the key of a slot. Valid until state_clear or state_compact. The keys of a range (key_range.h) are all
 // created when the first is requested; returns null if that runs out of memory.
 Value state_slot_key(const State *state, StateSlot slot);
-// Like state_slot_key, but allocates nothing: the key may be stored in `buffer`.
+// Like state_slot_key, but allocates nothing: the result can point into `buffer`.
 enum { STATE_KEY_BUFFER = 16 };
 Value state_slot_key_in(const State *state, StateSlot slot, double buffer[STATE_KEY_BUFFER]);
 bool state_slot_has_key(const State *state, StateSlot slot, Value key);
 // Returns the last number of a key with `len` elements. If the key has another length or ends with a string, returns
 // NaN, which no key contains.
 double state_slot_last_number(const State *state, StateSlot slot, uint32_t len);
-// Return the address of the key or the value of an existing slot, which may be `buffer`. Valid until a slot is created,
-// state_clear or state_compact. A value is also valid only until it is written.
+// Return the address of the key or the value of an existing slot. For a slot of a range, this is the address of
+// `buffer`. Valid until a slot is created, state_clear or state_compact. The value is also invalid once it is written.
 const Value *state_slot_key_at(const State *state, StateSlot slot, Value *buffer);
 const Value *state_slot_at(const State *state, StateSlot slot, Value *buffer);
 // Like state_set. Numbers are overwritten in place if their count does not change.
@@ -69,9 +69,9 @@ bool state_slot_detach(State *state, StateSlot slot, StateOwner owner);
 
 // Returns the number of slots, with or without a value. Slots of removed keys exist until state_compact.
 uint32_t state_slot_count(const State *state);
-// Removes the slots that have no value and whose byte in `used` is 0, and renumbers the others in order. moved[slot]
-// gets the new number of each slot, or STATE_NO_SLOT if it is removed. Returns false, with nothing changed, if out of
-// memory.
+// Removes the slots that have no value and whose byte in `used` is 0. A range is removed only if this applies to all
+// its slots. Renumbers the remaining slots in order. moved[slot] gets the new number of each slot, or STATE_NO_SLOT if
+// it is removed. Returns false, with nothing changed, if out of memory.
 bool state_compact(State *state, const uint8_t *used, StateSlot *moved);
 
 // Iterates over the entries with a value in slot order. *cursor starts at 0. Returns false at the end. The key is valid

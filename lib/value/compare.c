@@ -1,7 +1,7 @@
 // compare.c: equality and order of vectors and nodes (spec language.md L5.4 to L5.6, L7.5).
 //
-// Nodes are shared, so 60 nodes in memory can form a tree of 2^60 nodes. Comparisons therefore cache pairs that are
-// equal (tree_memo.h), and charge each visited pair.
+// Nodes are shared, so 60 nodes in memory can form a tree of 2^60 nodes. Comparisons therefore remember pairs of nodes
+// that were found equal (tree_memo.h), and charge each visited pair.
 #include "value/node_batch.h"
 #include "value/tree_memo.h"
 

@@ -12,11 +12,11 @@ void format_value(Text *out, const SymbolTable *symbols, Value v);
 Str format_text(Arena *arena, const SymbolTable *symbols, Value v);
 // Appends the text that debug() prints (L18.3).
 void format_debug(Text *out, const SymbolTable *symbols, Value v);
-// Called after each line of a tree. May output and clear the text. Returns false to stop printing.
+// Called after each line of a tree. It can output the text and then clear it. Returns false to stop printing.
 typedef bool FormatLine(void *user_data, Text *out);
 // Appends one line per node (L18.2), indented by `depth` levels of four spaces. A shared node is printed each time it
-// occurs, so the text may not fit into memory. `line`, if not NULL, can output and clear the text after each line.
-// Returns false if `line` stopped the printing.
+// occurs, so the text can be too large for memory. `line`, if not NULL, is called after each line. Returns false if
+// `line` stopped the printing.
 bool format_tree(Text *out, const SymbolTable *symbols, const Node *node, int depth, FormatLine *line, void *user_data);
 // Compares state keys in canonical order (L18.4). Element by element, symbols sort before numbers and numbers before
 // strings. A prefix sorts first.

@@ -128,7 +128,7 @@ Node *node_append_list(Arena *arena, const Node *node, const NodeList *list) {
     return copy;
 }
 
-// The recursion depth is limited by NODE_MAX_HEIGHT. Marked nodes have been visited.
+// The recursion depth is limited by NODE_MAX_HEIGHT. A marked node is skipped, because its descendants are marked too.
 static void node_mark_program_lifetime(Node *node) {
     if (node->program_lifetime)
         return;
@@ -192,7 +192,7 @@ Value value_add_tag(Arena *arena, Value v, const Symbol *tag) {
     return (Value){.len = v.len, .kind = VALUE_MIXED, .as.items = items};
 }
 
-// Replaces an item by the extended node. If it is NULL, keeps the item and sets *too_high.
+// Replaces the node of an item by `extended`. If `extended` is NULL, keeps the item and sets *too_high.
 static void replace_node(Item *item, const Node *extended, bool *too_high) {
     if (extended)
         item->as.node = extended;

@@ -21,13 +21,13 @@ typedef struct NodeOrigin {
     const struct AttrOrigin {
         const Symbol *name;
         Span span;
-    } * attrs; // attributes written in the same source
+    } * attrs; // locations of the attributes that are written in the same source
     uint32_t attr_count;
 } NodeOrigin;
 
 struct Node {
     const Symbol *kind;
-    const Symbol *const *tags; // ascending by bytes
+    const Symbol *const *tags; // sorted by the bytes of their names
     const Attr *attrs;         // in the order in which they were first set
     const Node *const *children;
     const NodeOrigin *origin; // valid as long as the program that created the node; NULL: unknown
@@ -35,9 +35,9 @@ struct Node {
     uint32_t attr_count;
     uint32_t child_count;
     uint16_t height; // 1 + maximum height of the children and of nodes in attributes
-    // True if the node lives as long as the program that created it, not only for a frame. Until a program is freed,
-    // the same address then means the same node with the same contents. program_lifetime_children guarantees this for
-    // the children only: the same `children` and `child_count` then mean the same children.
+    // program_lifetime: the node lives as long as the program that created it, not only for a frame. Until that program
+    // is freed, the node's address identifies its contents. program_lifetime_children: at least the children live that
+    // long, so `children` and `child_count` identify the list of children.
     bool program_lifetime : 1;
     bool program_lifetime_children : 1;
     bool is_batch : 1;    // represents several children of its parent (value/node_batch.h)
@@ -58,10 +58,11 @@ struct Function {
 Node *node_new(Arena *arena, const Symbol *kind);
 // Returns a copy of a node with an additional tag.
 Node *node_add_tag(Arena *arena, const Node *node, const Symbol *tag);
-// Sets attributes in order. A null or stream value removes the attribute (L7.2). Returns NULL if the tree would exceed
-// NODE_MAX_HEIGHT.
+// Returns a copy of a node with attributes set, in the order of the array. A null or stream value removes the attribute
+// (L7.2). Returns NULL if the tree would exceed NODE_MAX_HEIGHT.
 Node *node_set_attrs(Arena *arena, const Node *node, const Attr *attrs, uint32_t count);
-// Nodes that will be appended to another node. If that node has no children, it shares the array.
+// Nodes that will be appended to another node as children. If that node has no children yet, its copy shares the array
+// `nodes`.
 typedef struct NodeList {
     const Node *const *nodes;
     uint32_t count;
@@ -71,13 +72,14 @@ typedef struct NodeList {
 } NodeList;
 // Returns the nodes of a vector. Other elements are ignored.
 NodeList node_list(Arena *arena, Value children);
-// Like node_list, but stores the nodes in an array of the caller, at least as long as the vector.
+// Like node_list, but stores the nodes in `nodes`, an array of the caller that is at least as long as the vector.
 NodeList node_list_in(const Node **nodes, Value children);
 // Returns the maximum height of the nodes in a vector, or 0 if it has none.
 uint32_t value_height(Value v);
 // Returns true if a node in a vector contains batches.
 bool value_has_batches(Value v);
-// Appends children. Returns NULL if the tree would exceed NODE_MAX_HEIGHT.
+// Returns a copy of a node with the nodes of a list appended as children. Returns NULL if the tree would exceed
+// NODE_MAX_HEIGHT.
 Node *node_append_list(Arena *arena, const Node *node, const NodeList *list);
 // Sets program_lifetime for all nodes of a value and their descendants.
 void value_mark_program_lifetime(Value v);
@@ -85,12 +87,12 @@ void value_mark_program_lifetime(Value v);
 Value node_get(const Node *node, const Symbol *name);
 // Returns the location of an attribute. If that is unknown, returns the location of the node; its source may be NULL.
 Origin node_origin(const Node *node, const Symbol *attr);
-// Returns true if the nodes are structurally equal (L7.5). The arena is used as by value_equal.
+// Returns true if the nodes are structurally equal (L7.5). The arena has the same purpose as in value_equal.
 bool node_equal(Arena *arena, const Node *a, const Node *b);
 // Returns a deep copy.
 const Node *node_copy(Arena *arena, const Node *node);
 
-// These functions extend every node of a vector like the node_ functions above. Other elements are kept.
+// Each of these functions applies the similar node_ function above to every node of a vector. Other elements are kept.
 Value value_add_tag(Arena *arena, Value v, const Symbol *tag);
 // If a node would exceed NODE_MAX_HEIGHT, the next two functions keep it unchanged and set *too_high.
 Value value_set_attrs(Arena *arena, Value v, const Attr *attrs, uint32_t count, bool *too_high);

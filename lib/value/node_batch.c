@@ -111,7 +111,8 @@ uint64_t node_child_count(const Node *node) {
     return count;
 }
 
-// Creates the nodes of a batch and stores their addresses from `to`. Returns the position after the last address.
+// Creates the nodes of a batch and stores their addresses in an array, starting at `to`. Returns the position after the
+// last address.
 static const Node **make_row_nodes(Arena *arena, const NodeBatch *batch, const Node **to) {
     uint32_t attr_count = batch->node.attr_count;
     NodeRow row;

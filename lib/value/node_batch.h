@@ -1,10 +1,11 @@
 // node_batch.h: compact storage of similar nodes that a loop creates.
 //
 // If a loop creates one child of a node per iteration, all of the same kind and with the same number of values in each
-// attribute, the nodes form a batch. Common values are stored once; the numbers that differ form a row per node. In
-// `children` a batch is a single node, marked with `is_batch`, that has the attributes of the first node. Batches occur
-// only in `children`, never in a vector visible to scripts. They have no children themselves. node_children converts
-// rows to nodes; for large batches, node_batch_row reads one row at a time.
+// attribute, the nodes form a batch. Attribute values that are equal in all nodes are stored once. The other values are
+// numeric, and each node has a row of these numbers. In `children` a batch is a single node, marked with `is_batch`,
+// that has the attributes of the first node. Batches occur only in `children`, never in a vector visible to scripts.
+// They have no children themselves. node_children converts rows to nodes; for large batches, node_batch_row reads one
+// row at a time.
 #ifndef PETRI_VALUE_NODE_BATCH_H
 #define PETRI_VALUE_NODE_BATCH_H
 
@@ -14,7 +15,7 @@ enum {
     NODE_BATCH_MAX_ATTRS = 12,         // attributes of a node
     NODE_BATCH_MAX_ROWS = 1 << 16,     // nodes in a batch
     NODE_BATCH_MAX_BYTES = 1000 << 10, // bytes of the rows; an arena block is slightly larger than four times this
-    NODE_BATCH_MAX_NUMBERS = 16,       // numbers of an attribute in a row
+    NODE_BATCH_MAX_NUMBERS = 16,       // numbers that one attribute has in a row
     NODE_BATCH_UNIFORM = 0,            // value of `numbers`: the attribute is the same in all nodes
     NODE_BATCH_COUNTING = NODE_BATCH_MAX_ROWS, // value of `numbers`: the attribute increases by 1 per node
 };
@@ -26,7 +27,7 @@ typedef struct NodeBatch {
     uint32_t stride;   // doubles per row; at least 1, so that each row has a distinct address
     double *rows;
     uint32_t numbers[NODE_BATCH_MAX_ATTRS]; // by attribute: numbers in a row, NODE_BATCH_UNIFORM or NODE_BATCH_COUNTING
-    int32_t from[NODE_BATCH_MAX_ATTRS];     // by attribute: index of its value in the argument of node_batch_add
+    int32_t from[NODE_BATCH_MAX_ATTRS];     // by attribute: index of its value in `values` of node_batch_add
 } NodeBatch;
 
 static inline const NodeBatch *node_batch(const Node *node) {

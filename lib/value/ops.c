@@ -58,7 +58,7 @@ static bool simple_arith(ArithOp op, const double *restrict x, uint32_t x_len, c
     }
 }
 
-// Computes x^y for a vector x and a number or vector y. Returns false if x is a number.
+// Computes x^y for a vector x and a number or vector y. Returns false if x is a number and y a vector.
 static bool array_powers(const double *x, uint32_t x_len, const double *y, uint32_t y_len, double *result,
                          uint32_t len) {
     if (x_len != len)
@@ -89,7 +89,7 @@ Value op_arith(Arena *arena, ArithOp op, Value a, Value b) {
     if (!value_is_numeric(a) || !value_is_numeric(b))
         return VALUE_NULL;
     const double *x = value_numbers(&a), *y = value_numbers(&b);
-    // Squares are computed as x * x (D2), which equals maths_pow but is much faster.
+    // Squares are computed as x * x (D2), which gives the same result as maths_pow but is much faster.
     bool square = op == ARITH_POW && b.len == 1 && y[0] == 2;
     if (a.len == 1 && b.len == 1)
         return value_number(square ? x[0] * x[0] : op_number(op, x[0], y[0]));

@@ -13,7 +13,7 @@
 typedef struct Symbol {
     Str name;
     double number;   // the value of `:name`
-    bool registered; // the name occurred as a symbol, not only as a name
+    bool registered; // the name occurred as a symbol (`:name`), not only without the colon
     bool batched;    // loops store nodes of this kind as batches (value/node_batch.h)
 } Symbol;
 

@@ -14,7 +14,7 @@ typedef struct TreeMemoEntry {
 } TreeMemoEntry;
 
 typedef struct TreeMemo {
-    TreeMemoEntry *entries; // by hash; a new entry replaces an old one; NULL: few visits so far
+    TreeMemoEntry *entries; // by hash; a new entry replaces the old one in its place; NULL: few visits so far
     uint32_t visits;        // counted until `entries` is allocated
 } TreeMemo;
 

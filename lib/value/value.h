@@ -86,7 +86,7 @@ static inline Value value_stream(StreamKind kind, uint64_t key) {
     return (Value){.kind = VALUE_STREAM, .stream = (uint8_t)kind, .as.key = key};
 }
 
-// Return vectors of one element. The bytes of a string are copied.
+// These functions return a vector of one element. The bytes of a string are copied.
 Value value_string(Arena *arena, Str text);
 Value value_function(Arena *arena, const Function *function);
 Value value_item(Arena *arena, Item item);
@@ -100,8 +100,8 @@ static inline Item value_at(const Value *v, uint32_t i) {
 
 // Returns true if v is true as a condition (L4.6).
 bool value_true(Value v);
-// Comparisons (compare.c) charge their work to the arena and leave no allocations in it. The arena may be NULL for
-// values without nodes whose work is already charged.
+// Comparisons (compare.c) charge their work to the arena and leave no allocations in it. It may be NULL only if the
+// values contain no nodes and the caller has charged the work.
 //
 // Returns true if the vectors are equal (L5.4, operator ==).
 bool value_equal(Arena *arena, Value a, Value b);
@@ -114,8 +114,8 @@ bool value_contains(Arena *arena, Value x, Value y);
 
 // Returns v[index] (L5.7). v must not be a stream.
 Value value_index(Arena *arena, Value v, Value index);
-// Returns the element at index k modulo the length as a vector, or null if v is null. Used for unpacking. v must not be
-// a stream.
+// Returns element k modulo the length of v, as a vector of one element. Returns null if v is null. Used for unpacking.
+// v must not be a stream.
 Value value_element(Arena *arena, Value v, uint32_t k);
 // Returns elements start to start + count - 1, which must exist.
 Value value_slice(Arena *arena, Value v, uint32_t start, uint32_t count);
@@ -129,8 +129,8 @@ enum { VALUE_TEXT_WORK = 16 }; // work units per element converted to text
 // Returns the elements converted to text and concatenated (L6).
 Str value_text(Arena *arena, const SymbolTable *symbols, Value v);
 
-// A builder that concatenates values, its parts, into a vector (L4.7). A stream is kept only if it is the only part,
-// counting nulls.
+// A builder that concatenates values, its parts, into a vector (L4.7). A stream is kept only if nothing else is added,
+// not even null.
 typedef struct Vector {
     Arena *arena;
     union {

@@ -124,7 +124,8 @@ void value_stream_items(Value stream, const double *at, uint32_t count, double *
 
 uint64_t value_stream_position(double x) {
     double whole = number_floor(x);
-    // Outside the range of 64 bits the result is the smallest integer on every machine, as with x86 conversions.
+    // Outside the range of signed 64-bit integers, the result is the smallest of them on every machine, as with x86
+    // conversions.
     if (!(whole >= -9223372036854775808.0 && whole < 9223372036854775808.0))
         return UINT64_C(1) << 63;
     return (uint64_t)(int64_t)whole;
