@@ -29,7 +29,7 @@ typedef enum PetriAutomatic {
 // Options of a picture. Start with petri_default_picture_options.
 typedef struct PetriPictureOptions {
     size_t size; // sizeof(PetriPictureOptions) of the header that the host was compiled with
-    int width;   // in pixels; the drawing is scaled to fit and centred. Both 0 (the default): the script's size
+    int width;   // in pixels; the drawing is scaled to fit and centred. Width and height 0 (default): the script's size
     int height;
     double scale; // pixels per unit of the script's size, if width and height are 0. Default 1
     int window;   // number of the window or `!offscreen`; -1 (the default): the first with something to draw
@@ -72,7 +72,7 @@ PETRI_API void petri_picture_follow(PetriSession *session, const PetriPictureOpt
 
 // Creates a picture of the last frame. The caller frees it with petri_picture_free. On failure *picture is NULL.
 // Returns PETRI_INVALID, with a diagnostic, if there is nothing to draw or the size is not valid. Returns PETRI_INVALID
-// without one if the options were not initialised.
+// without a diagnostic if the options were not initialised.
 PETRI_API PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *options, PetriPicture **picture);
 
 // Frees a picture and sets the handle to NULL. NULL handles are ignored.
@@ -96,9 +96,10 @@ PETRI_API PetriPainter *petri_painter_open(void);
 // Frees a painter and sets the handle to NULL. NULL handles are ignored.
 PETRI_API void petri_painter_close(PetriPainter **painter);
 
-// Renders all canvases and effects of a picture's frame, unless the painter rendered this picture last. Drawing and
-// saving render automatically. Call this function only for frames that are needed as history. Returns PETRI_UNSUPPORTED
-// without Cairo, and PETRI_INVALID, with a diagnostic, if the picture cannot be rendered.
+// Renders all canvases and effects of a picture's frame. Does nothing if this is the picture that the painter rendered
+// last. Functions that draw or save a picture also render it. Call this function only for frames that are not drawn or
+// saved, but are needed as history. Returns PETRI_UNSUPPORTED without Cairo, and PETRI_INVALID, with a diagnostic, if
+// the picture cannot be rendered.
 PETRI_API PetriStatus petri_picture_render(PetriPicture *picture, PetriPainter *painter);
 
 // A picture that a `!record` node saves.
@@ -114,13 +115,13 @@ typedef struct PetriRecord {
     double max_seconds;     // maximum duration of a video; NaN: none
 } PetriRecord;
 
-// Gets a record of the picture that the painter rendered last (petri_picture_render), by number. Creates missing
-// folders of its file. Returns false past the last. Valid until the painter renders another picture or the picture is
-// freed.
+// Gets a record by number. `picture` must be the picture that the painter rendered last (petri_picture_render). Creates
+// missing folders of the record's file. Returns false past the last record. The record is valid until the painter
+// renders another picture or the picture is freed.
 PETRI_API bool petri_picture_record(PetriPicture *picture, PetriPainter *painter, size_t index, PetriRecord *record);
 
 // Writes the file of a record that is an image: .png, .jpg, .svg or .pdf. Returns the same statuses as
-// petri_picture_save, and PETRI_INVALID past the last record and for a denied record.
+// petri_picture_save. Also returns PETRI_INVALID if there is no such record, or if the record is denied.
 PETRI_API PetriStatus petri_record_save(PetriPicture *picture, PetriPainter *painter, size_t index);
 
 // Draws a picture to memory, scaled to fit into width x height pixels, and centred. Each pixel has 32 bits: alpha in
@@ -130,8 +131,8 @@ PETRI_API PetriStatus petri_record_save(PetriPicture *picture, PetriPainter *pai
 PETRI_API PetriStatus petri_picture_draw(PetriPicture *picture, PetriPainter *painter, uint32_t *pixels, int width,
                                          int height, size_t stride);
 
-// A panel of text that a host draws over a picture. Lengths and positions are multiplied by `scale` of the drawing
-// function. Colours are red, green, blue and alpha from 0 to 1.
+// A panel of text that a host draws over a picture. Lengths and positions are multiplied by the `scale` that is
+// passed to the drawing function. Colours are red, green, blue and alpha from 0 to 1.
 typedef struct PetriLabel {
     const char *text; // UTF-8; newlines separate lines
     double x;         // left edge of the panel
@@ -154,8 +155,8 @@ PETRI_API PetriStatus petri_painter_draw_labels(PetriPainter *painter, const Pet
 // Lets a painter draw with the host's OpenGL ES 3 context, so that petri_painter_present can show pictures without
 // reading them back from the GPU. Uses the EGL context that is current in the calling thread. It must be current
 // whenever the painter is used, and must not be used for anything else. Returns PETRI_UNSUPPORTED if there is no such
-// context or no OpenGL in this build, and PETRI_INVALID if the painter has already rendered a picture. The painter is
-// then unchanged.
+// context or no OpenGL in this build, and PETRI_INVALID if the painter has already rendered a picture. On
+// failure the painter is unchanged.
 PETRI_API PetriStatus petri_painter_use_gl(PetriPainter *painter);
 
 // Draws a picture (NULL: black) and labels to the window of the painter's context, which has width x height pixels. The
@@ -169,7 +170,7 @@ PETRI_API uint64_t petri_painter_readback_count(const PetriPainter *painter);
 
 // A display list (petri_picture_display_list) describes a picture as an array of numbers, for hosts that draw it
 // themselves. It starts with the width and height of the picture, which also define its units. Commands follow. Each
-// command is a kind from the list below, then its operands in the given order.
+// command is a kind from the list below, then its operands. In the list, the operands follow the colon, in order.
 //
 // A colour is red, green, blue and alpha from 0 to 1, not premultiplied. Angles are in turns. A string is its length,
 // then that many code points. A path is its length, then that many numbers: path elements (`PETRI_PATH_*`) with their
@@ -187,19 +188,22 @@ enum {
     PETRI_DRAW_COLOR,  // paint: colour
     PETRI_DRAW_LINEAR, // paint, a linear gradient: start x, y, end x, y, alpha, stops
     PETRI_DRAW_RADIAL, // paint, a radial gradient: matrix that maps the unit circle to its edge, alpha, stops
-    // Width (0: one pixel), join (0: miter, 1: round, 2: bevel), cap (0: butt, 1: round, 2: square), composite mode,
-    // antialiasing (0 or 1), number of dashes, dash offset, dashes. Ends the current filter.
+    // Sets the stroke style and ends the current filter: width (0: one pixel), join (0: miter, 1: round, 2: bevel), cap
+    // (0: butt, 1: round, 2: square), composite mode, antialiasing (0 or 1), number of dashes, dash offset, dashes.
     PETRI_DRAW_STROKE_STYLE,
-    // Fill (0 or 1), stroke (0 or 1), fill rule (0: nonzero, 1: even-odd, 2 and 3: inverse of 0 and 1), path.
+    // Draws a path: fill (0 or 1), stroke (0 or 1), fill rule (0: nonzero, 1: even-odd, 2 and 3: inverse of 0 and 1),
+    // path.
     PETRI_DRAW_PATH,
-    // Fill (0 or 1), stroke (0 or 1), x, y, size, weight (1 to 1000), width (0: ultra-condensed to 8: ultra-expanded),
-    // slant (0: upright, 1: oblique, 2: italic), centred (0 or 1), string with the font family, string to draw.
+    // Draws a string: fill (0 or 1), stroke (0 or 1), x, y, size, weight (1 to 1000), width (0: ultra-condensed to 8:
+    // ultra-expanded), slant (0: upright, 1: oblique, 2: italic), centred (0 or 1), string with the font family, string
+    // to draw.
     PETRI_DRAW_TEXT,
-    // x, y, width, height, fit (0: original size, 1: stretched, 2: inside, 3: filling), string with the file name.
+    // Draws an image: x, y, width, height, fit (0: original size, 1: stretched, 2: inside, 3: filling), string with the
+    // file name.
     PETRI_DRAW_IMAGE,
-    PETRI_DRAW_CLIP,        // keep the outside (0 or 1), even-odd rule (0 or 1), path
+    PETRI_DRAW_CLIP,        // clips to a path: to its outside (0 or 1), even-odd rule (0 or 1), path
     PETRI_DRAW_SAVE,        // saves the clip
-    PETRI_DRAW_RESTORE,     // restores the clip; later commands set matrix and paint again
+    PETRI_DRAW_RESTORE,     // restores the clip; the list sets matrix and paint again before it uses them
     PETRI_DRAW_LAYER,       // redirects drawing to a transparent layer, until PETRI_DRAW_LAYER_END
     PETRI_DRAW_LAYER_END,   // composites the layer: alpha
     PETRI_DRAW_UNSUPPORTED, // replaces an element that a display list cannot describe: string with its name
@@ -207,12 +211,13 @@ enum {
     // width of the visible box. Number of particles; for each x, y, z, radius, shade (charge from -1 to 1, or speed
     // from 0 to 1), anchor (0 or 1). Number of links; for each the indices of two particles. Number of barriers; for
     // each a point x, y, z and the normal x, y, z. Number of lines of the scale bar; for each the end points x, y, x,
-    // y. They are measured right and up from the lower left corner of the system's panel, whose shorter side is 540.
+    // y. The points are measured right and up from the lower left corner of the system's panel, whose shorter side is
+    // 540.
     PETRI_DRAW_PARTICLES,
     // The image of another node, only for a PetriCanvasBackend: x, y, width, height, fit (as PETRI_DRAW_IMAGE), pixels.
     PETRI_DRAW_PIXELS,
-    // Paint, a repeated image: matrix from its pixels to current coordinates, alpha, then either pixels or 0, 0 and a
-    // string with a file name.
+    // Paint, a repeated image: matrix from its pixels to current coordinates, alpha, pixels. For an image file, the
+    // pixels are replaced by 0, 0 and a string with the file name.
     PETRI_DRAW_PATTERN,
     // Sets the filter for the drawings up to the next PETRI_DRAW_STROKE_STYLE: filter (`PETRI_FILTER_*`).
     PETRI_DRAW_FILTER,
@@ -245,9 +250,9 @@ enum {
     PETRI_FILTER_DILATE,        // radius x, y, filter
     PETRI_FILTER_ERODE,         // radius x, y, filter
     PETRI_FILTER_COLOUR_MATRIX, // four rows of five numbers, filter
-    PETRI_FILTER_PAINT,         // fills the whole area: the commands of a paint; the last is PETRI_DRAW_STROKE_STYLE
-    // Combines two filters: a composite mode, or -1 and four coefficients (of the product, the second filter, the first
-    // filter, and a constant); then the two filters.
+    PETRI_FILTER_PAINT,         // fills the whole area: commands that set a paint, then PETRI_DRAW_STROKE_STYLE
+    // Combines two filters: either a composite mode, or -1 and four coefficients. The two filters follow. The
+    // coefficients are those of the product, the second filter, the first filter, and a constant.
     PETRI_FILTER_BLEND,
     PETRI_FILTER_SOURCE, // the unfiltered drawing
 };
@@ -266,7 +271,7 @@ typedef struct PetriCanvasBackend {
     // petri_picture_draw. Returns false on failure.
     bool (*draw)(void *user_data, const double *numbers, size_t count, int width, int height, uint32_t *pixels);
     // Returns the pixels of an image file in the same format, valid until the next call, or NULL if there is no such
-    // image. NULL: no images.
+    // image. If `image` itself is NULL, there are no images.
     const uint32_t *(*image)(void *user_data, const char *file, int *width, int *height);
     void *user_data; // passed to the functions
 } PetriCanvasBackend;

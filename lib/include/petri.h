@@ -50,7 +50,7 @@ typedef struct PetriSession PetriSession;
 
 typedef enum PetriStatus {
     PETRI_OK,
-    PETRI_INVALID,        // invalid argument, script or file; diagnostics give the reason
+    PETRI_INVALID,        // invalid argument, script or file; for scripts and files, diagnostics give the reason
     PETRI_LIMIT_EXCEEDED, // the work or memory limit of the script was exceeded; the call was aborted
     PETRI_OUT_OF_MEMORY,
     PETRI_UNSUPPORTED, // this build lacks a required library; a diagnostic names it
@@ -176,7 +176,7 @@ typedef struct PetriOptions {
     void *user_data; // passed to on_diagnostic and should_interrupt
     // The most advanced vector instructions that physics may use: "scalar", "avx2" or "avx512". NULL (the default) or
     // any other string: the best available. The environment variable PETRI_CPU, read when the library is loaded, limits
-    // the whole process. Does not affect results.
+    // all sessions in the same way. Does not affect results.
     const char *cpu;
     // Other processes that run the script together with this one; NULL (the default): none. petri_open copies the
     // struct. All ranks need the same options, including `cpu`. If one rank is interrupted, all ranks must be
@@ -189,19 +189,19 @@ typedef struct PetriOptions {
     //
     // `name` is the name passed to petri_load. For a file named by a script, it is the script's folder followed by that
     // name, with `.` and `..` resolved. A name that ends in a slash requests a folder (`./`: the current directory):
-    // return the names of its files, one per line, or NULL. With NULL, `glob` finds nothing.
+    // return the names of its files, one per line. If you return NULL, `glob` finds nothing.
     //
     // The bytes must not change until the session is closed, because the same address and length are assumed to mean
     // the same contents. The function may be called in any frame, and by threads that draw pictures. It must not call
     // the session.
     const char *(*read_file)(void *read_user_data, const char *name, size_t *length);
     void *read_user_data; // passed to read_file and read_unsaved
-    // Provides the contents of a file that replace those on disk when a script imports or includes it, such as the
-    // unsaved text of an editor. `name` is the canonical path. Returns NULL to use the file on disk. Otherwise like
-    // read_file. NULL (the default): none.
+    // Called when a script imports or includes a file that is on disk. Returns contents to use instead, such as the
+    // unsaved text of an editor, or NULL to use the file on disk. `name` is the canonical path of the file. The other
+    // rules are those of read_file. NULL (the default): always use the file on disk.
     const char *(*read_unsaved)(void *read_user_data, const char *name, size_t *length);
-    // Polled about every 10 µs by the calling thread; return true to interrupt the call. For hosts whose other threads
-    // cannot call petri_interrupt. Must not call the session. NULL (the default): never polled.
+    // Polled about every 10 µs during a call, by the same thread; return true to interrupt the call. For hosts whose
+    // other threads cannot call petri_interrupt. Must not call the session. NULL (the default): never polled.
     bool (*should_interrupt)(void *user_data);
 } PetriOptions;
 
@@ -222,10 +222,10 @@ PETRI_API PetriSession *petri_open(const PetriOptions *options);
 // Frees a session and sets the handle to NULL. NULL handles are ignored. Free its configurations and snapshots first.
 PETRI_API void petri_close(PetriSession **session);
 
-// Defines a name for the scripts that are loaded from now on, like the option `-D`. `definition` is "name=value", where
-// the value is one or more elements separated by `;`: numbers, time codes, `:symbols` or strings. Returns PETRI_INVALID
-// without an equals sign, or if the name is not valid. Loading a script warns about definitions that the script does
-// not use.
+// Defines a name for the scripts that are loaded from now on, like the option `-D` of the command. `definition` is
+// "name=value", where the value is one or more elements separated by `;`: numbers, time codes, `:symbols` or strings.
+// Returns PETRI_INVALID without an equals sign, or if the name is not valid. Loading a script warns about definitions
+// that the script does not use.
 PETRI_API PetriStatus petri_define(PetriSession *session, const char *definition);
 
 // Loads a script from a file. The next frame is frame 0. The state dictionary is kept; petri_reset clears it. `file`
@@ -276,8 +276,8 @@ PETRI_API PetriStatus petri_step_at(PetriSession *session, double time, double b
 // petri_step. Returns 0 if the frame is already due, before the first frame, and in lockstep.
 PETRI_API double petri_seconds_until_due(const PetriSession *session);
 
-// Discards the delay of a late frame, so that it follows the last frame as if no time had passed in between. Call it in
-// real time after a pause or a slow operation of the host. It has no effect in lockstep.
+// If the next frame is already late, discards the delay. That frame then follows the last one as if it were on time.
+// Call this function in real time after a pause or a slow operation of the host. It has no effect in lockstep.
 PETRI_API void petri_resync_clock(PetriSession *session);
 
 // A parameter of the loaded script, declared at its top level by `let NAME=NAME or DEFAULT -- RANGE DESCRIPTION`. Its
@@ -315,7 +315,7 @@ PETRI_API PetriStatus petri_set_parameter(PetriSession *session, const char *nam
 // The frame that was computed last.
 typedef struct PetriFrame {
     int64_t number; // -1: no frame yet
-    double time;    // seconds; 0 in frame 0; frame number / fps after petri_restore, even in real time
+    double time;    // seconds; 0 in frame 0 of petri_step; after petri_restore, frame number / fps, even in real time
     double beat;
     double fps;
     double tempo;              // beats per minute
@@ -328,8 +328,8 @@ typedef struct PetriFrame {
 PETRI_API PetriFrame petri_frame(const PetriSession *session);
 
 // User input, for scripts with `!pointer` and `!key` nodes in a `!window`. Report input when it happens. The next frame
-// finds the input in the state dictionary, but not before the second frame that contains the node. A key or button that
-// is pressed and released between two frames counts as pressed for one frame. If the host never reports input, the
+// finds the input in the state dictionary. A node takes effect in the second frame that contains it. A key or button
+// that is pressed and released between two frames counts as pressed for one frame. If the host never reports input, the
 // dictionary contains none.
 enum {
     PETRI_BUTTON_LEFT = 1,
@@ -356,7 +356,7 @@ PETRI_API bool petri_key_is_bound(PetriSession *session, const char *name);
 
 // Interrupts the session's current call, or its next call if none is in progress. A step, load, picture, print or
 // evaluation then returns PETRI_INTERRUPTED within a few milliseconds. May be called by any thread and by signal
-// handlers, unlike all other functions.
+// handlers, unlike all other functions of a session.
 PETRI_API void petri_interrupt(PetriSession *session);
 
 // Returns true if an interrupt is pending, and clears it.
@@ -478,10 +478,10 @@ PETRI_API PetriStatus petri_state_set(PetriSession *session, PetriValue key, Pet
 // Returns false after the last entry. Keys and values are valid as long as the results of petri_state_get.
 PETRI_API bool petri_state_next(PetriSession *session, uint32_t *cursor, PetriValue *key, PetriValue *value);
 
-// Sets a global name that scripts read like any other name. Only scripts that are loaded after the first call for a
-// name see it; later calls need no reload and may change the value in each frame, even to null. It is not visible in
-// modules. It cannot be removed. Returns PETRI_INVALID if the name is not valid or belongs to the engine (such as
-// `time`), if the value contains nodes or functions, or if called within a callback.
+// Sets the value of a global name, which scripts read like any other name. The first call with a name adds the name for
+// scripts that are loaded afterwards. Later calls change its value for the next frame without a reload, even to null.
+// The name is not visible in modules and cannot be removed. Returns PETRI_INVALID if the name is not valid or belongs
+// to the engine (such as `time`), if the value contains nodes or functions, or if called within a callback.
 PETRI_API PetriStatus petri_set_global(PetriSession *session, const char *name, PetriValue value);
 
 // Returns the tree of the last frame: its top-level nodes, and possibly other elements. Returns null if there is no
@@ -509,10 +509,10 @@ PETRI_API PetriValue petri_tree_get(const PetriNode *node, const char *name);
 typedef struct PetriCall PetriCall;
 
 // A function of the host that scripts call like a built-in function. `arguments` holds one value per parameter, null if
-// the call omits the argument. With `...`, further values may follow. The arguments are valid during the call. The
-// result is copied, unless its numbers come from petri_call_alloc_numbers; an invalid result becomes null. The function
-// may only call petri_symbol_name and the functions that take a PetriCall. It must return normally: no longjmp, no
-// exception.
+// the call omits the argument. If the parameters end with `...`, further values may follow. The arguments are valid
+// during the call. The result is copied, unless its numbers come from petri_call_alloc_numbers; an invalid result
+// becomes null. The function may only call petri_symbol_name and the functions that take a PetriCall. It must return
+// normally: no longjmp, no exception.
 typedef PetriValue PetriFunctionCall(PetriCall *call, void *user_data, const PetriValue *arguments, uint32_t count);
 
 // Description of a host function.
@@ -569,13 +569,13 @@ typedef struct PetriSystem {
 // Gets a particle system by number, in the order of the script. Returns false past the last, or if out of memory.
 PETRI_API bool petri_system(PetriSession *session, size_t number, PetriSystem *system);
 
-// Sets whether the memory of columns stays readable, with unspecified contents, after they become invalid. Use it in
-// hosts that cannot control when columns are last read, such as garbage-collected languages. The memory counts towards
-// the memory limit. It is freed by a call with `keep` false, or by petri_close.
+// Sets whether the memory of columns stays readable, with unspecified contents, after the columns become invalid. Use
+// it in hosts that cannot control when columns are last read, such as garbage-collected languages. The memory counts
+// towards the memory limit. It is freed by a call with `keep` false, or by petri_close.
 PETRI_API void petri_keep_columns(PetriSession *session, bool keep);
 
 // Returns the id of a particle by its number in the system, or null if there is no such particle. Valid until the next
-// petri_particle_id or petri_system_force, at most as long as the columns.
+// call that gets data about a system, such as petri_system, and at most as long as the columns.
 PETRI_API PetriValue petri_particle_id(PetriSession *session, size_t system, uint32_t particle);
 
 // Returns the ids of all particles, if each id is a single number or symbol. Otherwise, or if out of memory, `data` is
@@ -590,7 +590,7 @@ typedef enum PetriDecomposition {
     PETRI_DOMAIN_DECOMPOSED, // each rank owns the particles of a region
 } PetriDecomposition;
 
-// Communication of a rank for a system so far. A message to all ranks counts once.
+// What this rank has communicated for one system so far. A message to all ranks counts once.
 typedef struct PetriRankStats {
     PetriDecomposition decomposition; // in the last frame
     uint64_t frames;                  // frames with simulation steps
@@ -599,8 +599,8 @@ typedef struct PetriRankStats {
     uint64_t step_messages;
     uint64_t reductions;  // allreduce operations, each of about 2 log2(rank_count) messages
     uint64_t frame_bytes; // sent at the end of frames, when all ranks receive all particles
-    uint64_t own;         // owned particles, summed over the steps
-    uint64_t halo;        // particles received from other regions, summed over the steps
+    uint64_t own;         // sum over all steps of the number of particles that the rank owns
+    uint64_t halo;        // sum over all steps of the number of particles received from other regions
 } PetriRankStats;
 
 // Gets the communication statistics of a system. Returns false if there is no such system.
@@ -620,8 +620,8 @@ typedef struct PetriForce {
 } PetriForce;
 
 // Gets a force applier or barrier by number, in the order of the script. Returns false past the last, or if out of
-// memory. The vectors are valid until the next petri_system_force or petri_particle_id, at most as long as the columns
-// of the system.
+// memory. The vectors are valid until the next call that gets data about a system, such as petri_system, and at most as
+// long as the columns.
 PETRI_API bool petri_system_force(PetriSession *session, size_t system, uint32_t number, PetriForce *force);
 
 // Returns true if the last frame has something to draw: a window with a canvas, or a particle system. Use petri-draw.h
@@ -633,11 +633,11 @@ typedef struct PetriNodeKind {
     const char *name; // without the `!`
     const char *area; // "physics", "canvas" or "canvas3d"; `group` exists in all three
     const char *help;
-    // Formula of a force, else "". It has one or more lines `F = …`. If lines have an `if`, the first line whose
-    // condition holds applies. Lines before them define names. A positive F pushes the particles of a pair apart. The
-    // unit of F is mass·length/time², in the units of the script. n: number of dimensions; δ: time step; l: distance
-    // between the particles of a pair; s: distance from the barrier. r, m, q, v: radius, mass, charge and velocity of
-    // the particle; with index 1 or 2, of that particle of the pair.
+    // Formula of a force, else "". It has one or more lines `F = …`, which may end with `if` and a condition. The
+    // first of them whose condition holds, or that has none, applies. Lines before them define names. A positive F
+    // pushes the particles of a pair apart. The unit of F is mass·length/time², in the units of the script. n: number
+    // of dimensions; δ: time step; l: distance between the particles of a pair; s: distance from the barrier. r, m, q,
+    // v: radius, mass, charge and velocity of the particle; with index 1 or 2, of that particle of the pair.
     const char *formula;
 } PetriNodeKind;
 
@@ -662,7 +662,7 @@ enum {
     PETRI_PRINT_STATE = 2,
     PETRI_PRINT_LOG = 4,   // output of debug()
     PETRI_PRINT_ERROR = 8, // run-time errors
-    PETRI_PRINT_HASH = 16, // SHA-256 of the text of PETRI_PRINT_STATE, which need not be printed
+    PETRI_PRINT_HASH = 16, // SHA-256 of the text of PETRI_PRINT_STATE, which need not be selected
 };
 
 // Receives a chunk of the output, which need not end at a line break. Returns false to stop.
@@ -676,9 +676,9 @@ PETRI_API PetriStatus petri_print(PetriSession *session, unsigned sections, Petr
 // false.
 PETRI_API PetriStatus petri_print_log(PetriSession *session, PetriWriteCallback *write, void *user_data);
 
-// Writes how much time each part took since the script was loaded, longest first. There is a line for each source line
-// that was evaluated, one for the particle systems, and one for `output_seconds`, the time that the host spent on
-// output. Returns PETRI_INVALID without PetriOptions.profile, or if `write` returned false.
+// Writes a table of the time spent since the script was loaded, longest first. There is a row for each source line that
+// was evaluated, one for the particle systems, and one for `output_seconds`, the time that the host spent on output.
+// Returns PETRI_INVALID without PetriOptions.profile, or if `write` returned false.
 PETRI_API PetriStatus petri_profile(PetriSession *session, double output_seconds, PetriWriteCallback *write,
                                     void *user_data);
 
@@ -706,8 +706,8 @@ typedef struct PetriPromptResult {
     uint32_t bindings; // `let`, `func` and `import`: retained and evaluated in each frame, after the script
     // Nodes, also in `if` or `for`: written, retained, evaluated in each frame and added to the nodes of the script.
     uint32_t nodes;
-    // One of the bound names that the script also binds at its top level; NULL: none. The script keeps using its own
-    // binding. Valid as long as the session.
+    // A name that these statements bind, although the script also binds it at its top level; NULL: none. The script
+    // keeps using its own binding. Valid as long as the session.
     const char *shadowed;
 } PetriPromptResult;
 
@@ -736,12 +736,13 @@ typedef struct PetriEvaluation {
 PETRI_API PetriStatus petri_evaluate(PetriSession *session, const char *text, size_t length, PetriEvaluation *result,
                                      PetriWriteCallback *write, void *user_data);
 
-// Evaluates the script for the last frame, or for frame 0 before the first, if that has not been done with the current
-// configuration. petri_tree and petri_print then show the result. Returns PETRI_INVALID if no script is loaded.
+// Evaluates the script again for the last frame, or for frame 0 if there is no frame yet. Does nothing if that frame
+// was already evaluated with the current configuration. petri_tree and petri_print then show the result. Returns
+// PETRI_INVALID if no script is loaded.
 PETRI_API PetriStatus petri_preview(PetriSession *session);
 
-// Returns a name that the prompt can use by number, or NULL past the last. Built-in functions are not included. A name
-// may occur twice. Valid as long as the session.
+// Returns, by number, a name that statements of the prompt can use, or NULL past the last. Built-in functions are not
+// included. The same name can occur twice. Valid as long as the session.
 PETRI_API const char *petri_visible_name(const PetriSession *session, size_t number);
 
 // Kinds of tokens that petri_tokenise finds.
@@ -791,19 +792,19 @@ typedef struct PetriBinding {
     PetriNameKind kind;
     size_t start; // of the name
     size_t end;
-    size_t binding_start; // uses: start of the name in its binding; SIZE_MAX: not bound in this text
-    size_t scope_start;   // bindings: where the name is visible
+    size_t binding_start; // for a use: start of the name in its binding; SIZE_MAX: not bound in this text
+    size_t scope_start;   // for a binding: where the name is visible
     size_t scope_end;
-    size_t value_start; // bindings: the value, function or file name that is bound
+    size_t value_start; // for a binding: the value, function or file name that is bound
     size_t value_end;
-    bool is_sole;   // bindings: the value is bound to this name only
-    uint32_t depth; // bindings: number of enclosing blocks and functions
+    bool is_sole;   // for a binding: the value is bound to this name only
+    uint32_t depth; // for a binding: number of enclosing blocks and functions
 } PetriBinding;
 
 // Receives a use or binding. Must not call the session.
 typedef void PetriBindingCallback(void *user_data, const PetriBinding *name);
 
-// Calls a callback for each use and each binding of a name in a script, for editors, with the same rules as
+// Calls a callback for each use and each binding of a name in a script, for editors. The text must follow the rules of
 // petri_tokenise. Built-in functions, names of the engine and attributes are not included. Returns PETRI_OK even if the
 // text has syntax errors.
 PETRI_API PetriStatus petri_bindings(PetriSession *session, const char *text, size_t length,
@@ -823,7 +824,7 @@ PETRI_API uint64_t petri_diagnostic_count(const PetriSession *session, PetriLeve
 // last. The strings are valid until the next diagnostic, petri_clear_diagnostics or petri_close.
 PETRI_API bool petri_diagnostic(const PetriSession *session, size_t number, PetriDiagnostic *diagnostic);
 
-// Removes the diagnostics so far, so that petri_diagnostic returns only those of the following calls.
+// Removes the stored diagnostics, so that petri_diagnostic returns only diagnostics of later calls.
 PETRI_API void petri_clear_diagnostics(PetriSession *session);
 
 // A built-in function or host function, for help. The strings of a built-in function are static. Those of a host
@@ -837,7 +838,7 @@ typedef struct PetriBuiltin {
 // Gets a built-in function by number. Returns false past the last.
 PETRI_API bool petri_builtin(size_t index, PetriBuiltin *builtin);
 
-// Gets a function that the host added (petri_add_function) by number. Returns false past the last.
+// Gets, by number, a function that the host added with petri_add_function. Returns false past the last.
 PETRI_API bool petri_host_function(const PetriSession *session, size_t number, PetriBuiltin *function);
 
 // Parses a number with an optional suffix, as in scripts and options, or a time code, which is converted to seconds.
