@@ -6,7 +6,7 @@ set -u
 # shellcheck source=tests/support/check.sh
 . "$(dirname "$0")/../support/check.sh"
 scratch
-project="$work/Anna's Übung x" # a checkout may have such a path
+project="$work/Anna's Übung x" # the path of a checkout may look like this
 print_details() {
     for file in out err calls; do
         sed "s/^/  $file: /" $file | tail -n 15
@@ -14,14 +14,14 @@ print_details() {
 }
 lines_at_most() { [ "$(wc -l <"$1")" -le "$2" ]; }
 
-# fake_tool NAME: makes a program in $work from the shell script on standard input. It records its calls.
+# fake_tool NAME: creates a program in $work from the shell script on standard input. The program records its calls.
 fake_tool() {
-    rm -f "$work/$1" # it may be a link to the real one
+    rm -f "$work/$1" # the file may be a link to the real tool
     { echo '#!/bin/sh' && echo "echo \"${1##*/} \$*\" >>'$work/calls'" && cat; } >"$work/$1"
     chmod +x "$work/$1"
 }
 
-# machine: makes a new machine with the project and basic tools; the user is root and there is a network.
+# machine: creates a new machine with the project and basic tools. The user is root, and there is a network.
 machine() {
     rm -rf "$work/bin" "$work/later" "$project" "$work/fonts" "$work/lists" "$work/mesa"
     mkdir -p "$work/bin" "$work/later" "$project/.ci" "$work/fonts/truetype/dejavu" "$work/mesa/dri"
@@ -169,7 +169,7 @@ esac
 END
 }
 
-# with_sudo all|nothing: makes a fake sudo that allows everything or nothing.
+# with_sudo all|nothing: creates a fake sudo that allows everything or nothing.
 with_sudo() {
     fake_tool bin/sudo <<END
 [ $1 = all ] || { echo 'somebody is not in the sudoers file.' >&2; exit 1; }
@@ -202,7 +202,7 @@ typed() {
     status=$?
 }
 
-# odd COMMAND...: runs a command with .ci/clean-env in an environment that would affect tests.
+# odd COMMAND...: runs a command through .ci/clean-env, in an environment that would affect tests.
 odd() {
     (umask 077 && COLORTERM=truecolor LANG=de_DE.UTF-8 CDPATH=. POSIXLY_CORRECT=1 TMPDIR="/no such" TZ=Asia/Tokyo HOME=/proc PETRI_TESTS='' \
         TRIES="a 'b'" PETRI_CPU=scalar "$root/.ci/clean-env" "$@") >out 2>err
@@ -357,7 +357,7 @@ uid=1000
 dev install
 check "install by a user uses ~/.local" has calls "-Dprefix=$work/.local"
 check "install prints no MANPATH if none is set" lacks err MANPATH
-# installed SHELL PROFILE: checks that the printed lines work in this shell and, through PROFILE, in new ones.
+# installed SHELL PROFILE: checks that the printed lines work in this shell and, through PROFILE, in new shells.
 installed() {
     rm -f "$work/$2"
     on_machine SHELL="/bin/$1" MANPATH=/man sh "$project/dev" install >out 2>err </dev/null
@@ -395,7 +395,7 @@ check "clean-install without namespaces exits with 77" status_is 77
 check "clean-install without namespaces gives the reason" has err "not possible here: no namespaces"
 check "clean-install leaves no files behind" [ -z "$(find /var/tmp -maxdepth 1 -name 'petri-clean-run-*' -newer "$work/bin/unshare")" ]
 
-# A minimal container has no pseudo-terminals.
+# Minimal containers have no pseudo-terminals.
 if [ -n "$script" ] && "$script" -qec true /dev/null >/dev/null 2>&1 </dev/null; then
     machine
     typed y run dish.fl

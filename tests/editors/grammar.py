@@ -48,7 +48,7 @@ def class_of(scope):
     return next((name for prefix, name in CLASSES if scope.startswith(prefix)), None)
 
 
-# Files that do not parse are not scripts.
+# Files that cannot be parsed are not scripts.
 rejected = {path.with_suffix(".fl") for path in (root / "tests").rglob("*.err")} | {
     root / line.split()[0] for line in (root / "tests/layouts.txt").read_text().splitlines() if "cannot be read" in line}
 scripts = sorted(path for folder in ("samples", "tests") for path in (root / folder).rglob("*.fl") if path not in rejected)
@@ -56,7 +56,7 @@ step = int(os.environ.get("GRAMMAR_STEP", 1))
 scripts = [path for i, path in enumerate(scripts) if i % step == 0]
 output = subprocess.run([node, str(root / "tests/editors/tokenise.js"), grammar, *map(str, scripts)], env=environment,
                         capture_output=True, text=True, check=True).stdout.splitlines()
-client = Client(petri, options=("--work", "10k"))  # tokens need no frame
+client = Client(petri, options=("--work", "10k"))  # tokens are checked without running frames
 tokens, differ, classes = 0, 0, set()
 for path, line in zip(scripts, output, strict=True):
     found = {}  # class by line and character

@@ -24,7 +24,7 @@ check "the extension is packed" exists petri.vsix
 extension/package.py "$grammar" again.vsix
 check "packing again gives the same bytes" cmp -s petri.vsix again.vsix
 python3 -m zipfile -e petri.vsix unpacked
-mkdir -p node_modules/vscode # a stub; VS Code provides the module
+mkdir -p node_modules/vscode # a stub, because VS Code provides the module
 echo 'module.exports = new Proxy(function () {}, { get: (_, name) => (name === "prototype" ? {} : module.exports), construct: () => ({}) });' \
     >node_modules/vscode/index.js
 node -e '

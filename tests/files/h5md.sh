@@ -53,7 +53,7 @@ if [ -x "$(dirname "$petri")/petri-hdf5" ] && $python -I -c 'import h5py' 2>err;
     petri run pair.fl --frames 5 --every 2 --trajectory run.csv
     check "a .h5md file contains every K-th frame" eval 'read_h5md run.h5md run.csv || { cat err; false; }'
 
-    # The complete frames must be in the file, whatever ends the run.
+    # However the run ends, the complete frames must be in the file.
     printf '!physics state=:c dimensions=2\n    for i in ..300\n        !particle id=i velocity=1;i\n' >w.fl
     # start_run FRAMES [OPTION...]: starts a run and waits until it has computed FRAMES frames.
     start_run() {
@@ -76,7 +76,7 @@ if [ -x "$(dirname "$petri")/petri-hdf5" ] && $python -I -c 'import h5py' 2>err;
         number=$((number == 129 ? 130 : 143))
     done
     mkfifo unread
-    # start_blocked_run: starts a run and waits until it blocks because nothing reads its output.
+    # start_blocked_run: starts a run, and waits until it blocks because nothing reads its output.
     start_blocked_run() {
         exec 7<>unread
         start_run 3 --print state >unread

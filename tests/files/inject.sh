@@ -1,7 +1,7 @@
 # inject.sh: tests in which each file system call fails in turn. Part of ../cli/run.sh.
 #
-# strace makes the N-th call fail, for every N. The file must then be the old or the new one, the run must report the
-# error, and the next run must succeed. EINTR must have no effect.
+# For every N, strace makes the N-th call fail. Afterwards, the file must be the old or the new one, the run must report
+# the error, and the next run must succeed. EINTR must have no effect.
 
 cat >w.fl <<'END'
 !physics state=:c dimensions=2
@@ -11,9 +11,9 @@ END
 printf '!n a=1\n' >g.fl
 printf '# run --frames 1 --print tree\nold\n' >old.golden
 
-# The values of N. Fewer are used for files that are written by the same code, unless PETRI_INJECT=all.
+# The values of N. Unless PETRI_INJECT=all, fewer are used for files that are written by the same code.
 tried='1 2 3 4 5 6 7 8 9 10'
-# prepare: creates the files that exist before a run: the old file and, if needed, a script or state beside it.
+# prepare: creates the files that exist before a run: the old file and, if needed, a script or a state.
 prepare() {
     mkdir -p target
     rm -f target/* target/.petri*
@@ -23,12 +23,13 @@ prepare() {
     resumed*) cp old.state target/s ;;
     esac
 }
-# sweep NAME FILE OLD GOOD COMMAND...: runs COMMAND with each failure. GOOD is a command that succeeds for the new file.
+# sweep NAME FILE OLD GOOD COMMAND...: runs COMMAND with each failure. GOOD is a command that succeeds if the file is
+# the new one.
 sweep() {
     what=$1 file=$2 old=$3 good=$4
     shift 4
     for call in openat openat2 newfstatat close read write fsync flock linkat renameat fchmod ftruncate; do
-        # Calls that every program makes many times fail only for files in the folder.
+        # Calls that every program makes many times fail only for files in the test's folder.
         case $call in
         openat | newfstatat | close) paths="-P $work/target -P $work/target/$file" ;;
         *) paths= ;;
@@ -56,7 +57,8 @@ sweep() {
     status=$?
     check "$what: the run after the failures succeeds" eval 'status_is 0 && $good "target/$file"'
 }
-# judge NAME: checks the file after a failed call: it has the old contents and the error was reported, or the new ones.
+# judge NAME: checks the file after a failed call. It must have the old contents and the error must be reported, or it
+# must have the new contents.
 judge() {
     now=damaged
     ! $good "target/$file" || now=new
@@ -64,7 +66,7 @@ judge() {
     reported=yes
     ! empty err || ! empty out || grep -q 'write(2,.*INJECTED' trace || reported=no
     check "$1: the file is the old or the new one (now: $now)" eval '[ $now = new ] || { [ $now = old ] && [ "$status" -ne 0 ] && [ $reported = yes ]; }'
-    # The dynamic loader does not retry after EINTR. close and newfstatat need not retry either.
+    # The dynamic loader does not retry after EINTR. For close and newfstatat, no retry is needed.
     if [ $error = EINTR ] && [ $call != close ] && [ $call != newfstatat ] && lacks err "shared libraries"; then
         check "$1: EINTR does not affect the run" eval '[ $now = new ] && status_is 0'
     fi
@@ -74,7 +76,7 @@ good_state() { tail -n 1 "$1" | grep -q '^end [0-9a-f]*$'; }
 good_csv() { [ "$(wc -l <"$1")" -eq 61 ]; }
 good_golden() { grep -qx '!n a=1' "$1"; }
 good_png() { tail -c 8 "$1" | grep -q IEND; }
-# If the injected failure ends the process that executes a run, the row of that run has an error, which is correct.
+# If the process of a sweep's run fails, the row of that run contains an error.
 good_table() { [ "$(sed 's/,0,,\(the process\|crashed\).*/,1,2,/; s/^1,1,1,2,/1,1,1,1,/' "$1")" = "run,A,frame,x,error
 1,1,1,1,
 2,2,1,2," ]; }

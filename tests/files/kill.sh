@@ -1,6 +1,6 @@
-# kill.sh: tests that kill -9 at any moment leaves the old or the new file. Part of ../cli/run.sh.
+# kill.sh: tests that kill -9 at any moment leaves either the old or the new file. Part of ../cli/run.sh.
 #
-# PETRI_KILLS processes are killed (default: 20); `./dev crash-test` kills 500.
+# The number of killed processes is PETRI_KILLS (default: 20); `./dev crash-test` kills 500.
 
 kills=${PETRI_KILLS:-20}
 cat >w.fl <<'END'
@@ -23,7 +23,7 @@ good_golden() { head -n 1 "$1" | grep -q '^# run' && [ "$(grep -c '^@' "$1")" -e
 good_png() { tail -c 8 "$1" | grep -q IEND; }
 good_film() { grep -q moov "$1"; }
 
-# kill_often NAME FILE OLD GOOD COMMAND...: kills COMMAND at times spread over its duration (a fifth of PETRI_KILLS).
+# kill_often NAME FILE OLD GOOD COMMAND...: kills COMMAND at moments spread over its duration (PETRI_KILLS / 5 times).
 kill_often() {
     what=$1 file=$2 old=$3 good=$4
     shift 4
@@ -55,7 +55,7 @@ petri run w.fl --frames 3 --state old.state
 kill_often state a.state old.state good_state run w.fl --frames 5 --state a.state
 kill_often trajectory a.csv old good_csv run w.fl --frames 10 --trajectory a.csv
 if [ -x "$(dirname "$petri")/petri-hdf5" ] && /usr/bin/python3 -I -c 'import h5py' 2>/dev/null; then
-    # petri-hdf5 continues and keeps the complete frames.
+    # petri-hdf5 keeps running and stores the complete frames.
     good_h5md() { /usr/bin/python3 -I "$here/../files/h5md.py" --frames "$1" >/dev/null; }
     kill_often h5md a.h5 old good_h5md run w.fl --frames 10 --trajectory a.h5
 fi

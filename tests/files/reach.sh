@@ -1,4 +1,4 @@
-# reach.sh: tests of the limits on files that scripts and goldens can use. Part of ../cli/run.sh.
+# reach.sh: tests of the restrictions on files that scripts and goldens can access. Part of ../cli/run.sh.
 
 mkdir -p home/sub away elsewhere
 work=$(pwd -P)
@@ -11,7 +11,7 @@ ln -s ../away home/folder
 ln -s sub/below.txt home/inside.txt
 ln -s "$work" away/back
 
-# reads EXPRESSION WANTED [OPTION...]: succeeds if EXPRESSION in a script in home evaluates to WANTED.
+# reads EXPRESSION WANTED [OPTION...]: succeeds if EXPRESSION evaluates to WANTED in a script in the folder `home`.
 reads() {
     printf '!n a=%s\n' "$1" >home/read.fl
     wanted=$2
@@ -63,7 +63,7 @@ check "--allow-read rejects a missing folder" status_is 2
 petri check ../home/glob.fl
 check "check reports denied reads" [ "$(grep -c 'scripts may not read there' err)" -eq 3 ]
 if command -v strace >/dev/null && strace -qq -o trace true 2>/dev/null; then
-    # file_without_openat2 FILE: reads FILE on a system without openat2.
+    # file_without_openat2 FILE: reads FILE as on a system without openat2.
     file_without_openat2() {
         printf '!n a=read("%s")\n' "$1" >../home/old.fl
         strace -f -qq -o trace -e trace=openat2 -e inject=openat2:error=ENOSYS "$petri" run ../home/old.fl --frames 1 \
@@ -79,7 +79,7 @@ cd "$work" || exit 1
 printf '!window size=40\n    !canvas\n        !rect size=10 fill=true color=1\n' >disc.fl
 petri render disc.fl --frames 1 -o disc.png
 if [ "$status" -eq 0 ]; then # this build has Cairo
-    # record NAME [OPTION...]: runs a script in home that records to NAME.
+    # record NAME [OPTION...]: runs a script in the folder `home` that records to NAME.
     record() {
         printf '!window size=40\n    !record filename="%s"\n    !canvas\n        !rect size=10\n' "$1" >home/record.fl
         shift
@@ -128,7 +128,7 @@ if [ "$status" -eq 0 ]; then # this build has Cairo
     cd "$work" || exit 1
 fi
 
-# The options in a golden can be from another author, like the script.
+# The options in a golden may come from another author, like the script.
 mkdir -p golden
 echo '!n' >golden/t.fl
 echo keep >elsewhere/victim.csv

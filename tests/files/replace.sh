@@ -1,4 +1,5 @@
-# replace.sh: tests that regular files are replaced as a whole and others are written to. Part of ../cli/run.sh.
+# replace.sh: tests that regular files are replaced atomically, and that other files are written to directly. Part of
+# ../cli/run.sh.
 
 nothing_beside() { [ -z "$(find . -name '*.tmp')" ]; }
 mode_of() { ls -ld "$1" | cut -c1-10; }
@@ -73,7 +74,7 @@ check "a trajectory can be written to a pipe" eval 'status_is 0 && [ -p run.csv 
 petri new g/t
 check "petri new does not overwrite a file" eval 'status_is 1 && has g/t.fl "!n a=2"'
 check "replaced files leave no temporary files" nothing_beside
-# The next file written removes temporary files of a killed run, but no other files.
+# When the next file is written, temporary files of a killed run are removed, but no other files.
 mkdir left
 : >left/.petri-0123456789abcdef.tmp
 : >left/.petri-mine.tmp

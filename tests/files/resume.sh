@@ -1,10 +1,10 @@
 # resume.sh: tests of repeated runs of `petri run --state FILE --trajectory FILE`. Part of ../cli/run.sh.
 #
-# After any end of a run, the same command resumes it, and the trajectory equals that of an uninterrupted run. A fifth
-# of PETRI_KILLS (default: 20) runs are killed for each format.
+# However a run ends, the same command resumes it, and the resulting trajectory equals that of an uninterrupted run. For
+# each format, PETRI_KILLS / 5 runs are killed (PETRI_KILLS: default 20).
 
 kills=$(((${PETRI_KILLS:-20} + 4) / 5))
-# Writing states to disk takes long and is not tested here, so the files are in shared memory.
+# The files are in shared memory. Writing states to disk takes long, and is not tested here.
 if shared=$(mktemp -d /dev/shm/petri.XXXXXX 2>/dev/null); then
     trap 'rm -rf "$work" "$shared"' EXIT
     cd "$shared" || exit 1
@@ -14,7 +14,7 @@ h5md=$(dirname "$petri")/petri-hdf5
 if [ -x "$h5md" ] && /usr/bin/python3 -I -c 'import h5py' 2>err; then
     formats="$formats h5"
 fi
-# The numbers of systems, particles and text ids change over time.
+# The numbers of systems, particles and ids with strings change over time.
 cat >w.fl <<'END2'
 !physics state=:c dimensions=2
     for i in ..(20 if frame < 30 else 300 if frame < 70 else 5)
@@ -50,7 +50,7 @@ for format in $formats; do
     check "$format: a run of 0 frames changes nothing" eval 'status_is 0 && equals_whole $way'
     cp $way longer.$format
 
-    # The state is older than the trajectory: later frames are computed again.
+    # The state is older than the end of the trajectory, so later frames are computed again.
     rm -f s
     petri run w.fl --frames 33 --state s --trajectory short.$format
     run_rest longer.$format
@@ -59,7 +59,7 @@ for format in $formats; do
     run_rest short.$format
     check "$format: a run without a state starts a new trajectory" eval 'status_is 0 && equals_whole short.$format'
 
-    # The trajectory ends before the state: the missing frames are reported.
+    # The trajectory ends before the state, so the missing frames are reported.
     rm -f s
     petri run w.fl --frames 3 --state s --trajectory $way
     petri run w.fl --frames 4 --state s
@@ -79,7 +79,7 @@ for format in $formats; do
     petri run w.fl --frames 2 --state bad.state --trajectory $way
     check "$format: an unreadable state leaves the trajectory unchanged" eval 'status_is 1 && cmp before $way'
 
-    # petri is killed at any moment, alone or with petri-hdf5.
+    # petri is killed at any moment, with or without petri-hdf5.
     rm -f s $way
     i=0
     while [ $i -lt $kills ]; do

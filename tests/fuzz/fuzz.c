@@ -15,7 +15,7 @@
 
 static PetriSession *volatile watched;
 static volatile sig_atomic_t alarms;
-static volatile size_t seen; // keeps the compiler from removing reads
+static volatile size_t seen; // written only so that the compiler cannot remove reads
 
 void fuzz_fail(const char *format, ...) {
     va_list list;
@@ -147,7 +147,7 @@ static bool is_finite(const char *element, size_t length) {
     return true;
 }
 
-// Checks the numbers in a line of the printed state. Accepts lines with texts unchecked.
+// Checks the numbers in a line of the printed state. Lines with strings are not checked.
 static bool is_good_line(const char *line, size_t length) {
     const char *end = line + length, *value = line;
     if (line[0] != '$' || memchr(line, '\'', length) || memchr(line, '"', length))

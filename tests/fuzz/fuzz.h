@@ -14,17 +14,17 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 // Prints a message and aborts.
 __attribute__((format(printf, 1, 2), noreturn)) void fuzz_fail(const char *format, ...);
 
-// Time in which an interrupt must take effect, in units of 50 ms of processor time.
+// Time within which an interrupt must take effect, in units of 50 ms of processor time.
 extern int fuzz_interrupt_limit;
 
-// Returns options with little memory and stack, whose callback checks diagnostics.
+// Returns options with low limits of memory and stack. Their callback checks diagnostics.
 PetriOptions fuzz_options(void);
-// Opens a session with these options (NULL: fuzz_options) and watches it. fuzz_close ends the watch.
+// Opens a session with these options (NULL: fuzz_options) and starts a watch on it. fuzz_close ends the watch.
 PetriSession *fuzz_open(const PetriOptions *options);
-// Starts a watch. After two seconds of processor time, the session is interrupted repeatedly; without a session (NULL),
-// SIGINT is raised instead. If that has no effect within fuzz_interrupt_limit, it is a finding.
+// Starts a watch. After two seconds of processor time, the session is interrupted repeatedly. If `session` is NULL,
+// SIGINT is raised instead. No effect within fuzz_interrupt_limit is a finding.
 void fuzz_watch(PetriSession *session);
-// Ends the watch. Returns true if it had to interrupt.
+// Ends the watch. Returns true if the watch has interrupted the session.
 bool fuzz_end_watch(void);
 void fuzz_close(PetriSession **session);
 
@@ -32,10 +32,10 @@ void fuzz_close(PetriSession **session);
 void fuzz_load(PetriSession *session, const char *script);
 // Reads particles, forces and parameters of the last frame.
 void fuzz_check_frame(PetriSession *session);
-// Checks that the state contains only finite numbers, symbols and texts.
+// Checks that the state contains only finite numbers, symbols and strings.
 void fuzz_check_state(PetriSession *session);
 
-// PetriWriteCallbacks: fuzz_sink reads the text, fuzz_append appends it to a FuzzText.
+// Callbacks for printing: fuzz_sink reads the text, and fuzz_append appends it to a FuzzText.
 bool fuzz_sink(void *host, const char *text, size_t length);
 typedef struct FuzzText {
     char *bytes;
@@ -45,7 +45,7 @@ typedef struct FuzzText {
 bool fuzz_append(void *text, const char *bytes, size_t length);
 bool fuzz_texts_equal(const FuzzText *a, const FuzzText *b);
 
-// Returns the path of a file in this process's temporary folder. Valid for the next three calls.
+// Returns the path of a file in this process's temporary folder. The string stays valid for the next three calls.
 const char *fuzz_file(const char *name);
 // Writes a file in that folder.
 void fuzz_put(const char *name, const void *bytes, size_t length);

@@ -1,11 +1,12 @@
-// fuzz_arguments.c: fuzzes command lines. The input is a list of words, separated by NUL, that opens a session.
+// fuzz_arguments.c: fuzzes command lines. The input is a list of words, separated by NUL. The command only opens a
+// session.
 #include "cli/options.h"
 #include "fuzz.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-static Command commands[4]; // copies of the real ones that only open a session and make a frame
+static Command commands[4]; // copies of the real commands that only open a session and step one frame
 const Command *const COMMANDS[] = {&commands[0], &commands[1], &commands[2], &commands[3], NULL};
 
 const Command *command_find(const char *name) {

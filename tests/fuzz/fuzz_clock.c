@@ -1,5 +1,5 @@
-// fuzz_clock.c: fuzzes the clock: rates from 1e-300 to 1e300, frame numbers above 2^53, pauses of years. The input is a
-// sequence of actions: a byte that selects the action, and a double.
+// fuzz_clock.c: fuzzes the clock with rates from 1e-300 to 1e300, frame numbers above 2^53, and pauses of years. The
+// input is a sequence of actions. Each consists of a byte that selects the action, and a double.
 #include "fuzz.h"
 
 #include <math.h>
@@ -7,7 +7,8 @@
 #include <string.h>
 #include <time.h>
 
-// Time in seconds of the simulated clock. The linker uses these functions instead of the C library's (meson.build).
+// Time of the simulated clock in seconds. The linker uses the functions below instead of those of the C library
+// (meson.build).
 static double now;
 int __wrap_clock_gettime(clockid_t clock, struct timespec *time);
 int __wrap_nanosleep(const struct timespec *pause, struct timespec *left);

@@ -1,4 +1,5 @@
-// fuzz_draw.c: fuzzes drawing. The input is a script, whose frames are drawn with its nodes and automatically.
+// fuzz_draw.c: fuzzes drawing. The input is a script. Each frame is drawn as its nodes specify, and as an automatic
+// picture.
 #include "fuzz.h"
 #include "petri-draw.h"
 
@@ -20,9 +21,9 @@ static void draw_picture(PetriSession *session, PetriPainter *painter, PetriAuto
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    static PetriPainter *painter; // kept, because finding fonts takes long
+    static PetriPainter *painter; // reused for all inputs, because finding fonts takes long
     painter = painter ? painter : petri_painter_open();
-    // A path is drawn in one call of Cairo, which cannot be interrupted. It takes up to a few seconds (MAX_WORK in
+    // A path is drawn in one call of Cairo, which cannot be interrupted. A call takes up to a few seconds (MAX_WORK in
     // lib/draw/cairo_paint.c), and longer with sanitizers.
     fuzz_interrupt_limit = 600;
     PetriSession *session = fuzz_open(NULL);

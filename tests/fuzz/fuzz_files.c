@@ -1,4 +1,5 @@
-// fuzz_files.c: fuzzes reading files. The input is a file that a script reads; its first byte selects the script.
+// fuzz_files.c: fuzzes reading of files. The input is a file that a script reads. The first byte of the input selects
+// the script.
 #include "fuzz.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {

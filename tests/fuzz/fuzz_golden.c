@@ -1,11 +1,12 @@
-// fuzz_golden.c: fuzzes goldens. The input is a golden and, after a byte 30, the output to compare it with.
+// fuzz_golden.c: fuzzes goldens. The input is a golden, then a byte 30, then the output that is compared with the
+// golden.
 #include "cli/cli.h"
 #include "fuzz.h"
 #include "golden/golden.h"
 
 #include <string.h>
 
-// The list of commands, which the library needs for help.
+// The list of commands, which help needs.
 const Command *const COMMANDS[] = {&RUN_COMMAND, NULL};
 
 const Command *command_find(const char *name) {

@@ -1,6 +1,6 @@
 // fuzz_prompt.c: fuzzes the functions that a host calls. The input is a sequence of actions, separated by a byte 30.
-// The first byte selects the action, the rest is its text. If it is not a control character, all is typed at the
-// prompt.
+// The first byte of an action selects its kind, and the rest is its text. If the first byte is not a control character,
+// the whole action is typed at the prompt.
 #include "fuzz.h"
 
 #include <string.h>

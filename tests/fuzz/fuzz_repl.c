@@ -23,7 +23,7 @@ static const char SCRIPT[] = "let SIZE=SIZE or 2 -- 1..9 how many\n"
                              "!counter state=:n rate=60\n"
                              "!shape size=SIZE at=$:n\n";
 
-// Returns true if a command, a line that begins with a dot, may name another folder.
+// Returns true if a line is a command (it begins with a dot) that may name another folder.
 static bool leaves_folder(const uint8_t *data, size_t size) {
     bool command = false, start = true;
     for (size_t i = 0; i < size; i++) {

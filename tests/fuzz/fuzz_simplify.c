@@ -1,5 +1,5 @@
-// fuzz_simplify.c: fuzzes the simplifier. The frames of the input, a script, must be the same with and without it.
-// The run without it also has profiling, which executes loop iterations one by one instead of in batches.
+// fuzz_simplify.c: fuzzes the simplifier. The input is a script, whose frames must be the same with and without the
+// simplifier. The run without it also has profiling, which executes loop iterations one by one instead of in batches.
 #include "fuzz.h"
 
 #include <stdlib.h>
@@ -7,7 +7,7 @@
 typedef struct Run {
     FuzzText frames;
     PetriStatus loaded;
-    bool aborted; // true if a limit was exceeded, which the simplifier may avoid
+    bool aborted; // true if a limit was exceeded; with the simplifier, the limit may not be reached
 } Run;
 
 static Run run_script(const uint8_t *data, size_t size, bool simplify) {

@@ -1,5 +1,5 @@
-// fuzz_state.c: fuzzes state files. A line with the checksum is added unless the input begins with '#'. An accepted
-// state must be the same after saving and restoring it, and the next frames must agree.
+// fuzz_state.c: fuzzes state files. A line with the checksum is added to the input unless it begins with '#'. If a
+// state is accepted, saving and restoring it must not change it, and the next frames must be the same.
 #include "fuzz.h"
 
 #include <stdlib.h>

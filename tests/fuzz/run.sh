@@ -10,7 +10,8 @@ work=$build/fuzz
 seed() {
     "$build/tests/fuzz/fuzz_seeds" "$work"
     find "$source/tests/golden" "$source/tests/conformance" "$source/tests/pictures" "$source/samples" \
-        -name '*.fl' -size -4k -exec cp {} "$work/script" \; # one at a time, because file names occur twice
+        # one at a time, because different folders contain equal file names
+        -name '*.fl' -size -4k -exec cp {} "$work/script" \;
     cp "$work"/script/*.fl "$work/simplify/"
     cp "$source"/tests/pictures/*.fl "$work/draw/"
     cp "$source"/tests/pictures/images/small.jpg "$work/image/"

@@ -107,7 +107,7 @@ static void write_builtins(void) {
              builtin.name, builtin.name, builtin.name, builtin.name);
 }
 
-// Writes a script for each kind of node, with each attribute, at a position where such nodes are allowed.
+// Writes a script for each kind of node with each attribute, at a place in the tree where such a node is valid.
 static void write_nodes(void) {
     static const char *const values[] = {"1;2", ":a", "frame/3", "'x'", "0.5", "1e308;0", "0"};
     PetriNodeKind kind;
@@ -176,7 +176,7 @@ static void write_others(void) {
          "\x1e@0 time=0 beat=0\n$:a = 1;2.0000001\n");
 }
 
-// Draws a PNG file, because the input is an encoded image.
+// Draws a PNG file, because the harness's input is an encoded image.
 static void write_image(void) {
     PetriOptions options = petri_default_options();
     PetriPictureOptions how = petri_default_picture_options();

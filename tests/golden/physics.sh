@@ -2,7 +2,7 @@
 # physics.sh PETRI FOLDER OPTION...: runs `petri test` with the options on the scripts with physics in a folder. The
 # options do not affect other scripts.
 set -eu
-min_scripts=60 # detects a broken search, which would find none
+min_scripts=60 # fails if no scripts are found, because then the search is broken
 petri=$1
 folder=$2
 shift 2

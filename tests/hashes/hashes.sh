@@ -15,20 +15,20 @@ fi
     echo "usage: $0 [--check] COMMAND..." >&2
     exit 2
 }
-# Paths in COMMAND become absolute, because it is run in another folder.
+# Paths in COMMAND are made absolute, because it is run in another folder.
 command=()
 for word; do
     [ "${word#/}" != "$word" ] || [ ! -f "$word" ] || word=$PWD/$word
     command+=("$word")
 done
 cd "$here/../conformance"
-"${command[@]}" --version >/dev/null # fails once instead of for each script
+"${command[@]}" --version >/dev/null # reports a broken COMMAND once instead of once per script
 
-# hash_of FOLDER/NAME: prints the line of a script.
+# hash_of FOLDER/NAME: prints the result line of a script.
 hash_of() {
     local first hash
     read -r first <"$1.golden"
-    eval "set -- $1 ${first#\# run}" # options in a golden are quoted for a shell
+    eval "set -- $1 ${first#\# run}" # the options in a golden are quoted for a shell
     if hash=$(cd "${1%/*}" && "${command[@]}" run --threads 1 "${@:2}" --print tree,log,hash "${1##*/}.fl" 2>/dev/null |
         sha256sum); then
         echo "$1.fl ${hash:0:16}"

@@ -24,7 +24,7 @@ for petri; do
         [ "$number" -eq 1 ] || check "$petri draws the same bytes at $cpu" cmp 1.png "$number.png"
     done
 done
-# Reports if nodes that need OpenGL were omitted, and checks that the picture is not empty.
+# Reports nodes that were omitted because they need OpenGL, and checks that the picture is not empty.
 lacks err needs-gpu || echo "without OpenGL"
 check "the picture is not empty" eval '[ "$(wc -c <1.png)" -gt 8000 ]'
 finish

@@ -4,11 +4,11 @@ printf '#include <petri.h>\n#include <stdio.h>\nint main(void) {\n    return put
 ln -s "$prefix" moved
 PKG_CONFIG_PATH=$(dirname "$(find moved/ -name petri.pc)")
 export PKG_CONFIG_PATH
-sed -i "s|^prefix=.*|prefix=$work/moved|" "$PKG_CONFIG_PATH"/petri*.pc # the installation was moved
+sed -i "s|^prefix=.*|prefix=$work/moved|" "$PKG_CONFIG_PATH"/petri*.pc # adapts the prefix to the moved installation
 # shellcheck disable=SC2046 # options are words
 cc app.c -o app $(pkg-config --cflags --libs petri) >out 2>&1
 check "a program with libpetri links" [ $? -eq 0 ]
-LD_LIBRARY_PATH=$(dirname "$PKG_CONFIG_PATH") # a real installation does not need this
+LD_LIBRARY_PATH=$(dirname "$PKG_CONFIG_PATH") # because the library is not in a standard folder
 export LD_LIBRARY_PATH
 version=$("$prefix/bin/petri" --version | sed 's/petri //')
 check "a program with libpetri runs" [ "$(./app)" = "$version" ]

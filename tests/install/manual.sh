@@ -81,7 +81,7 @@ else
     without "its completion" fish
 fi
 if command -v zsh >/dev/null; then
-    # Presses Tab in a pseudo-terminal of zsh and prints the resulting lines.
+    # Presses Tab in zsh on a pseudo-terminal, and prints the resulting lines.
     zsh -f "$here/complete.zsh" "$share/zsh/site-functions" >out 2>&1
     check "zsh completes" [ "$(xargs <out)" = \
         "petri render petri run --trajectory= petri run --neighbours=never petri one.fl --trajectory= petri help electrostatic" ]

@@ -34,13 +34,14 @@ check "the message names the folder of the copy" has out "$work/lone/"
 check "the message names the libexec folder" has out "$work/libexec"
 check "the message is one line" [ "$(wc -l <out)" -eq 1 ]
 
-# hint PATH [NAME=VALUE]: prints the command in the hint to save a picture, if petri is started as PATH in a terminal.
+# hint PATH [NAME=VALUE]: prints the command that the hint proposes for saving a picture, if petri is started as PATH in
+# a terminal.
 hint() {
     env ${2:+"$2"} TERM=dumb script -qec "'$1' run --frames 2 dish.fl" /dev/null 2>/dev/null </dev/null |
         tr -d '\r' | tee out | sed -n 's/.*to save a picture of it: \(.*\) (or OUT.mp4)/\1/p'
 }
 sh_works() { rm -f OUT.png && sh -c "$1" >out 2>&1 && [ -s OUT.png ]; }
-# A minimal container has no pseudo-terminals.
+# Minimal containers have no pseudo-terminals.
 if [ "$2" = draws ] && script -qec true /dev/null >/dev/null 2>&1 </dev/null; then
     cp "$prefix/share/petri/samples/petri.fl" dish.fl
     mkdir -p build/src
@@ -64,7 +65,7 @@ else
     echo "skipped: the hints: petri does not draw or there are no pseudo-terminals"
 fi
 
-# Embedding is not tested with sanitizers, because programs would need their libraries.
+# Embedding is not tested with sanitizers, because the programs would need the sanitizers' libraries.
 if [ "$3" = none ] && command -v cc >/dev/null; then
     # shellcheck source=tests/install/embed.sh
     . "$here/embed.sh"

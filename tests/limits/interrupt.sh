@@ -1,24 +1,24 @@
 #!/bin/sh
-# interrupt.sh PETRI: checks that Ctrl-C soon ends long operations. Prints wall times, and limits processor times, which do
-# not depend on how busy the machine is.
+# interrupt.sh PETRI: checks that Ctrl-C ends long operations quickly. Prints wall times. Checks processor times,
+# because they do not depend on other load.
 set -u
 # shellcheck source=tests/support/check.sh
 . "$(dirname "$0")/../support/check.sh"
 petri=$(program "$1") || exit 2
 scratch
 
-# children_ms TIMES: prints the processor time of ended children in milliseconds, from the output of `times`, which must
-# run in the shell that has the children.
+# children_ms TIMES: prints the processor time of terminated children in milliseconds. TIMES is the output of `times`,
+# which must run in the shell that started the children.
 children_ms() { awk -F '[ms ]+' 'NR == 2 { print int(60000 * ($1 + $3) + 1000 * ($2 + $4)) }' "$1"; }
 
-# interrupted NAME SCRIPT [ARGUMENTS...]: runs a script without limits (default: `run --frames 3`) and interrupts it.
-# With SCRIPT '', uses the previous script.
+# interrupted NAME SCRIPT [ARGUMENTS...]: runs a script without limits (default: `run --frames 3`) and interrupts it. If
+# SCRIPT is '', uses the previous script.
 interrupted() {
     name=$1
     [ -z "$2" ] || printf '%b\n' "$2" >long.fl
     shift 2
     [ $# -gt 0 ] || set -- run --frames 3
-    # Background processes of a script ignore SIGINT by default.
+    # By default, background processes of a script ignore SIGINT.
     env --default-signal=INT "$petri" "$@" --work 1000T --memory 3G --threads "$threads" --quiet long.fl >out 2>err </dev/null &
     job=$!
     sleep 0.4

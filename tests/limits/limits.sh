@@ -12,7 +12,8 @@ cp "$here"/*.fl .
 limit=3145728
 (ulimit -v $limit && "$petri" --version) >/dev/null 2>&1 || limit=unlimited
 
-# runs KIBIBYTES ARGUMENTS...: runs petri and sets `status`; the output is in out and err. The timeout is for a busy machine.
+# runs KIBIBYTES ARGUMENTS...: runs petri and sets `status`. The output is in the files out and err. The timeout allows
+# for a busy machine.
 runs() {
     max=$1
     shift

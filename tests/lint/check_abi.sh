@@ -1,6 +1,6 @@
 #!/bin/sh
-# check_abi.sh SOURCE_ROOT BUILD_ROOT: the libraries export exactly the functions of abi.txt. A removed function breaks
-# compiled programs, and a new one must be kept in later versions.
+# check_abi.sh SOURCE_ROOT BUILD_ROOT: checks that the libraries export exactly the functions of abi.txt. Removing a
+# function breaks compiled programs, and an added function must be kept in later versions.
 set -eu
 listed=$1/tests/lint/abi.txt
 headers=$1/lib/include

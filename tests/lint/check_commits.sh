@@ -1,6 +1,6 @@
 #!/bin/sh
-# check_commits.sh SOURCE_ROOT: commit subjects have the form "area: verb ...", in the imperative, and at most 72
-# characters. Checks the commits after `first`, except merges. Skipped if the history does not contain `first`.
+# check_commits.sh SOURCE_ROOT: checks that commit subjects have the form "area: verb ...", in the imperative, and at
+# most 72 characters. Checks the commits after `first`, except merges. Skipped if the history does not contain `first`.
 set -eu
 cd "$1"
 first=8441aeef8bb59b615e4b640e179c9642774eb1eb
@@ -8,7 +8,8 @@ git rev-parse --is-inside-work-tree >/dev/null 2>&1 && git cat-file -e "$first" 
     echo "skipped: no git history"
     exit 77
 }
-# The verb is the word after the areas. A word that ends with -ed, -ing or -s is not an imperative, with exceptions.
+# The verb is the first word after the areas. With exceptions, a word that ends with -ed, -ing or -s is not an
+# imperative.
 git log --no-merges --format='%h %s' "$first..HEAD" | LC_ALL=C.UTF-8 awk '
     {
         hash = $1

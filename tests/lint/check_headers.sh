@@ -24,7 +24,7 @@ for header in lib/*/*.h src/*/*.h tests/support/*.h; do
         ;;
     lib/gl/internal.h) pkg-config --exists epoxy 2>/dev/null || continue ;;
     esac
-    # Includes the header in a file, because compilers report unused definitions in a main file.
+    # The header is included in another file, because compilers report unused definitions in the main file.
     printf '#include "%s"\n' "$PWD/$header" >"$scratch/alone.c"
     # shellcheck disable=SC2086 # $isa may be empty
     if ! ${CC:-cc} $isa -std=c17 -D_XOPEN_SOURCE=700 -D_DEFAULT_SOURCE -fsyntax-only -Wall -Wextra -Wno-unused-variable \

@@ -24,7 +24,8 @@ grep -n '^[ 	]*#[ 	]*include[ 	]*"' lib/*/*.[ch] grammar/*.re grammar/*.y src/*/
         print part[count - 1], target, place[1] ":" place[2], "includes \"" header "\""
     }' >"$scratch/lines"
 
-# The component of an object file is its folder. In src/, meson prefixes the name of the object file with the folder.
+# The component of an object file follows from its folder. In src/, meson prefixes the name of the object file with the
+# folder.
 component_of='
     function component_of(object, part, name) {
         split(object, part, "/")
@@ -55,7 +56,7 @@ xargs nm -gA <"$scratch/objects" | awk "$component_of"'
     $(NF - 1) == "U" { used[++count] = object " " name; next }
     !(name in owner) {
         owner[name] = component_of(object)
-        # Public functions belong to petri or petri-draw.
+        # Public functions belong to the components petri and petri-draw.
         if (name ~ /^petri_/ && owner[name] ~ /^(session|draw)$/)
             owner[name] = owner[name] == "draw" ? "petri-draw" : "petri"
     }
@@ -82,7 +83,7 @@ for found in lines headers symbols; do
             is_component[component] = may[component, component] = 1
             for (i = 2; i <= NF; i++) {
                 may[component, $i] = 1
-                # An included header may include the components that its component may use.
+                # An included header may include whatever its component may include.
                 if (found == "headers")
                     for (low in is_component)
                         if (($i, low) in may)

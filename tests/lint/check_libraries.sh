@@ -27,7 +27,7 @@ check() {
 }
 
 check petri src/petri
-# Links the whole library, not only the parts that the command uses.
+# Links the whole library, not only the parts that the command needs.
 echo 'int main(void) { return 0; }' >"$scratch/main.c"
 options=
 [ "$sanitizers" = none ] || options=-fsanitize=$sanitizers
@@ -51,14 +51,14 @@ done
     echo "libpetri.so exports too few functions"
     faults=1
 }
-# Checks that petri-pictures needs Cairo: otherwise the checks above would prove nothing.
+# Checks that petri-pictures needs Cairo. Otherwise, the checks above would prove nothing.
 if nm lib/draw/libpetri-draw.a 2>/dev/null | grep -q ' U cairo_create$'; then
     if ! needed src/petri-pictures | grep -q '^libcairo\.'; then
         echo "petri-pictures does not need Cairo"
         faults=1
     fi
 fi
-# Checks for the same reason that petri-lsp needs the JSON library.
+# Checks that petri-lsp needs the JSON library, for the same reason.
 if [ -e src/petri-lsp ] && ! needed src/petri-lsp | grep -q '^libjson-c\.'; then
     echo "petri-lsp does not need json-c"
     faults=1

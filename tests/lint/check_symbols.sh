@@ -1,5 +1,6 @@
 #!/bin/sh
-# check_symbols.sh SOURCE_ROOT BUILD_ROOT: every global name of a library starts with one of its prefixes in symbols.txt.
+# check_symbols.sh SOURCE_ROOT BUILD_ROOT: checks that every global name of a library starts with one of its prefixes in
+# symbols.txt.
 set -eu
 table=$1/tests/lint/symbols.txt
 cd "$2"
@@ -28,7 +29,7 @@ done <"$table"
 # Every library must be in the table.
 for folder in "$1"/lib/*/; do
     library=$(basename "$folder")
-    [ "$library" != include ] && [ "$library" != spec ] || continue # no code
+    [ "$library" != include ] && [ "$library" != spec ] || continue # the library has no code
     if ! grep -q "^$library " "$table"; then
         echo "symbols.txt has no library $library"
         faults=1

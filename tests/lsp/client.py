@@ -8,7 +8,7 @@ class Client:
     def __init__(self, petri, utf8=False, options=(), root=None):
         self.process = subprocess.Popen([petri, "lsp", *options], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
         self.number = 0
-        self.published = {}  # by URI: the last publishDiagnostics
+        self.published = {}  # last publishDiagnostics message by URI
         self.versions = {}
         encodings = ["utf-8", "utf-16"] if utf8 else ["utf-16"]
         self.server = self.ask("initialize", {"processId": None, "rootUri": root, "capabilities": {

@@ -14,7 +14,7 @@ from pathlib import Path
 from client import Client
 
 EDITS = int(os.environ.get("LSP_EDITS", 120))
-COMPARED = 12  # every 12th text is compared with petri check
+COMPARED = 12  # every 12th text is also checked with petri check
 POSITIONED = ["completion", "hover", "signatureHelp", "definition", "documentHighlight", "references", "prepareRename",
               "rename"]
 WHOLE = ["documentSymbol", "foldingRange", "semanticTokens/full", "inlayHint", "documentColor", "codeAction",

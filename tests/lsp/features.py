@@ -149,7 +149,7 @@ check("signature help shows the parameters of a function", help["signatures"][0]
 check("signature help marks the current parameter", help["activeParameter"], 1)
 check("signature help shows a built-in", answer_at("let x=map(0.5, (1;§2), 3)\n", "signatureHelp")["signatures"][0]["label"][:4], "map(")
 
-# Names.
+# Definition, references and rename.
 names = "let a=1\nfunc f(a, b)\n    a + b\n!n x=a y=f(a, b=3) z=a\n"
 check("the definition of an argument is found", answer_at(names.replace("    a + b", "    §a + b"), "definition")["range"]["start"],
       {"line": 1, "character": 7})
@@ -191,7 +191,7 @@ check("signature help shows the parameters of an imported function",
 check("the definition of a file name is the file", answer_at("import twice from 'l§ib.fl'\n", "definition")["uri"],
       Path("lib.fl").absolute().as_uri())
 
-# Names in several files, one of which is open and not saved.
+# Names that occur in several files. One of the files is open and has unsaved changes.
 Path("project").mkdir()
 os.chdir("project")
 files = {
@@ -277,7 +277,7 @@ check("closing a file discards its unsaved changes", several.published[of["main.
 several.end()
 os.chdir("..")
 
-# Memory of names that were typed is freed. Not checked with AddressSanitizer, which does not return memory.
+# Memory for typed names is freed. Not checked with AddressSanitizer, which does not return memory to the system.
 def memory():
     return next(int(line.split()[1]) for line in open(f"/proc/{several.process.pid}/status") if line.startswith("VmRSS"))
 
@@ -294,7 +294,7 @@ check("memory for names is bounded",
       "ASAN_OPTIONS" in os.environ or any(b < 0.7 * a for a, b in zip(sizes, sizes[1:])))
 several.end()
 
-# Symbols, folding, semantic tokens.
+# Symbols, folding ranges, semantic tokens.
 text = "-- one\n-- two\nlet a=1\nfunc f(x)\n    x\n!window size=1;2\n    !canvas\n        !rect\n"
 client.change(uri, {"text": text})
 check("top-level names and nodes are symbols", [(s["name"], s["kind"]) for s in client.of("documentSymbol", uri)],
@@ -316,7 +316,7 @@ check("tokens have semantic types", classes, [
     (1, 12, 1, "operator"), (1, 13, 5, "string"), (2, 0, 4, "string"), (2, 5, 1, "property"), (2, 6, 1, "operator"),
     (2, 7, 1, "variable")])
 
-# Inlay hints, colours, corrections, formatting.
+# Inlay hints, colours, quick fixes, formatting.
 whole = {"start": {"line": 0, "character": 0}, "end": {"line": 99, "character": 0}}
 client.change(uri, {"text": "let a=2*3 b=a;1 c=frame+1 d=5 e=$:x\nlet N=N or 2*a\n"})
 check("inlay hints show values of constants", [(h["label"], h["position"]["character"]) for h in client.of("inlayHint", uri, range=whole)],

@@ -2,8 +2,8 @@
 // N-th on (FAIL_FROM=N). Their number is written to the file COUNT_FILE at exit. With FAIL_TELL, the return address of
 // each failed allocation is printed to stderr, for addr2line.
 //
-// Allocations of other libraries never fail, because some libraries (GLib below Pango) then end the process. Calls of
-// the program are recognised by their return address.
+// Allocations by other libraries never fail, because some libraries (such as GLib, which Pango uses) then abort the
+// process. Calls from the program are recognised by their return addresses.
 #define _GNU_SOURCE
 #include <dirent.h>
 #include <dlfcn.h>
@@ -15,13 +15,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The allocator of the C library, under the names that remain when the usual ones are replaced.
+// The C library's allocator, under the names that are available when the usual ones are replaced.
 void *__libc_malloc(size_t size);
 void *__libc_calloc(size_t count, size_t size);
 void *__libc_realloc(void *bytes, size_t size);
 void *__libc_memalign(size_t alignment, size_t size);
 
-static uintptr_t base, first, last; // base address and code range of the program; 0 until known
+static uintptr_t base, first, last; // base address and code range of the program; 0 until found
 static long fail_at, fail_from;
 static atomic_long count;
 
@@ -34,7 +34,7 @@ static int find_program(struct dl_phdr_info *program, size_t size, void *context
             first = base + program->dlpi_phdr[i].p_vaddr;
             last = first + program->dlpi_phdr[i].p_memsz;
         }
-    return 1; // the program is the first entry
+    return 1; // the first entry is the program
 }
 
 static long number_of(const char *name) {
@@ -45,7 +45,7 @@ static long number_of(const char *name) {
 __attribute__((constructor)) static void begin(void) {
     fail_at = number_of("FAIL_AT");
     fail_from = number_of("FAIL_FROM");
-    unsetenv("LD_PRELOAD"); // not for programs that this one starts
+    unsetenv("LD_PRELOAD"); // programs that this program starts are not affected
     dl_iterate_phdr(find_program, NULL);
 }
 
@@ -93,7 +93,7 @@ void *aligned_alloc(size_t alignment, size_t size) {
     return FAILS ? NULL : __libc_memalign(alignment, size);
 }
 
-// Functions that allocate inside the C library.
+// Functions of the C library that allocate internally.
 
 char *strdup(const char *text) {
     size_t size = strlen(text) + 1;

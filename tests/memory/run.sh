@@ -80,7 +80,7 @@ cp "$root/tests/pictures/images/small.jpg" i.jpg
 mkdir g
 cp s.fl module.fl table.csv g
 
-# run N WAY PROGRAM...: runs the command with the N-th allocation failing; WAY is FAIL_AT or FAIL_FROM.
+# run N WAY PROGRAM...: runs the command with the N-th allocation failing. WAY is FAIL_AT or FAIL_FROM.
 run() {
     n=$1 way=$2
     shift 2
@@ -92,13 +92,13 @@ run() {
     status=$?
 }
 
-# Succeeds if the failure was reported: with status 1, or as the row of a failed run in the table of a sweep.
+# Succeeds if the failure was reported, either by status 1 or by the row of a failed run in a sweep's table.
 is_reported() {
     { status_is 1 || grep -qs -e 'out of memory' -e 'the process ended' new/t.table; } && grep -qi 'memory' out err
 }
-# Succeeds if status, output and files are those of a run without failures.
+# Succeeds if status, output and files are the same as in a run without failures.
 same() { [ "$status" -eq "$good" ] && same_output && same_files; }
-# The output in a terminal contains times, so only the picture is checked.
+# The output in a terminal contains times, so only the picture in it is compared.
 same_output() {
     if [ "$terminal" ]; then
         grep -q '48;5;29m' out
@@ -111,7 +111,7 @@ same_files() {
         [ ! -e "$file" ] || cmp -s "$file" "new/$(basename "$file")" || return 1
     done
 }
-# Succeeds if each file is the old one or complete, possibly with fewer frames, and there are no other files.
+# Succeeds if each file is either the old one or complete (possibly with fewer frames), and there are no other files.
 whole() {
     for file in new/* new/.[!.]*; do
         [ -e "$file" ] || continue
@@ -120,7 +120,7 @@ whole() {
             case $base in
             *.state) head -n 1 "$file" | grep -qx 'petri-state 1' && tail -n 1 "$file" | grep -q '^end [0-9a-f]*$' ;;
             *.table) awk -F, 'NR == 1 { n = NF } NF != n { bad = 1 } END { exit bad || NR > 4 }' "$file" ;;
-            *.table.runs | *.table.part) ;; # the same command resumes from these
+            *.table.runs | *.table.part) ;; # the same command resumes from these files
             *.csv) awk -F, 'NR == 1 { n = NF } NF != n { bad = 1 } END { exit bad || NR % 7 != 1 }' "$file" ;;
             *) false ;;
             esac || return 1
@@ -130,14 +130,14 @@ is_acceptable() { same || { is_reported && whole; }; }
 
 print_details() { tail -n 3 out err | sed 's/^/  /'; }
 
-# fail NAME COMMAND...: tests the command with failing allocations; `input` is its standard input.
+# fail NAME COMMAND...: tests the command with failing allocations. The file `input` is its standard input.
 fail() {
     act=$1
     shift
     [ -z "$wanted" ] || case " $wanted " in *" $act "*) ;; *) return ;; esac
     run 0 FAIL_AT "$@"
     total=$(cat count)
-    # With fewer allocations, the counting does not work.
+    # Fewer allocations would mean that they are not counted.
     cp out good.out
     check "$act: $total allocations" eval 'same_output && status_is "$good" && [ "$total" -ge 20 ]'
     rm -rf good.new
@@ -173,7 +173,7 @@ let A=A or 1
     !particle id=1 position=A velocity=A
 DONE
 fail sweep "$plain" sweep runs.fl -D 'A=1;2;3' --frames 2 --metric 'x=$(:cells;1)' --jobs 1 -o new/t.table --summary new/u.table
-# Only if requested by name, because starting OpenGL is slow.
+# Only if requested by name, because initialising OpenGL is slow.
 if [ "$wanted" = scene ]; then
     printf 'v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n' >m.obj
     cat >scene.fl <<'END'
@@ -281,7 +281,7 @@ if command -v script >/dev/null; then
     printf '#!/bin/sh\nexec script -qec "$*" /dev/null\n' >in_terminal
     chmod +x in_terminal
     ln -s "$pictures" petri-pictures # in_terminal does not quote its arguments
-    # Frame 0 is not shown, and at most 30 others per second.
+    # Frame 0 is not shown. At most 30 other frames are shown per second.
     fail view "$work/petri-pictures" view --terminal --frames 6 s.fl
 fi
 finish

@@ -372,7 +372,7 @@ class Threads(unittest.TestCase):
                 ended.append(error)
 
         thread = threading.Thread(target=run)
-        thread.start()  # the GIL must be free, or the next line would never run
+        thread.start()  # the GIL must be released, or the next line would never run
         while session._lock.acquire(blocking=False):
             session._lock.release()
         session.interrupt()

@@ -7,7 +7,7 @@ set -u
 petri=$(program "$1") || exit 2
 command -v mpirun >/dev/null || exit 77
 scratch
-# Allows Open MPI to run in a container: as root, with more ranks than processors, on this machine only.
+# Allows Open MPI to run in a container: as root, with more ranks than processors, and on this machine only.
 OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_plm=isolated
 OMPI_MCA_btl_vader_single_copy_mechanism=none OMPI_MCA_mpi_yield_when_idle=1 TMPDIR=/tmp
 ASAN_OPTIONS=${ASAN_OPTIONS:-}:detect_leaks=0 # MPI leaks memory
@@ -15,7 +15,7 @@ export ASAN_OPTIONS OMPI_ALLOW_RUN_AS_ROOT OMPI_ALLOW_RUN_AS_ROOT_CONFIRM OMPI_M
     OMPI_MCA_btl_vader_single_copy_mechanism OMPI_MCA_mpi_yield_when_idle TMPDIR
 mpirun -n 1 true 2>err || { echo "mpirun does not start a process here: $(head -n 3 err)" && exit 77; }
 same() { cmp "$1" "$2"; }
-# ranks COUNT ARGS...: runs petri with COUNT ranks; sets out, err and $status.
+# ranks COUNT ARGS...: runs petri with COUNT ranks. Sets $status; the output is in the files out and err.
 ranks() {
     count=$1
     shift
@@ -44,7 +44,7 @@ debug('frame';frame)
     !barrier position=0;0 normal=0;1
 END
 "$petri" run stars.fl --frames 5 --print hash,log --every 4 --trajectory one.csv --stats >one 2>stats
-# The positions of discs are collected through shared memory, or else by messages.
+# The positions of discs are collected through shared memory or, if that is unavailable, by messages.
 for count in 2 3 4 7; do
     no_shared_memory=$((count % 2))
     [ -w /dev/shm ] || no_shared_memory=1
@@ -73,7 +73,7 @@ ranks 2 run stars.fl --frames 5 --work 20K
 check "a work limit ends all ranks" status_is 1
 check "a work limit is reported once" count_is err 'stopped in frame' 1
 if command -v pgrep >/dev/null; then
-    # end SIGNAL WHICH: starts three ranks and signals one of them, the first (`head`) or the last (`tail`).
+    # end SIGNAL WHICH: starts three ranks and sends the signal to the first (`head`) or the last (`tail`).
     end() {
         rm -f dead.state
         mpirun -n 3 "$petri" run stars.fl --frames 100000 --trace --state dead.state --save-every 2 >out 2>err </dev/null &

@@ -1,5 +1,6 @@
 #!/bin/sh
-# input.sh PETRI: very long, invalid, binary and interrupted input at the prompt is answered and never crashes petri.
+# input.sh PETRI: checks that very long, invalid, binary and interrupted input at the prompt is answered and never
+# crashes petri.
 set -u
 # shellcheck source=tests/support/check.sh
 . "$(dirname "$0")/../support/check.sh"

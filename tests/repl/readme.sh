@@ -8,7 +8,7 @@ work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 trap 'exit 130' INT TERM
 
-# Each block becomes N.options, N.want and N.in.
+# Each session block becomes the files N.options, N.want and N.in.
 awk -v work="$work" '
     /^```/ && !inside && $1 == "```session" {
         inside = 1

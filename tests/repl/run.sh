@@ -22,7 +22,7 @@ unset NO_COLOR
 passed=0
 failed=0
 
-# typed SESSION: prints the input, the text after the prompts.
+# typed SESSION: prints the input, which is the text after the prompts.
 typed() {
     awk '
         match($0, /^(petri|@[0-9]+)> /) || match($0, /^\.\.\. /) { line[++count] = substr($0, RLENGTH + 1) }

@@ -20,16 +20,16 @@ cd "$work" || exit 1
 XDG_STATE_HOME=$work/state
 export XDG_STATE_HOME
 unset NO_COLOR TMUX
-patience=600 # tenths of a second; long, because the machine may be busy
+patience=600 # in tenths of a second; long, because the machine may be busy
 
 t() { tmux -L "$server" -f /dev/null "$@" 2>/dev/null; }
 screen() { t capture-pane -p; }
 
-# start OPTIONS...: opens a new terminal that runs petri and then prints its exit status. Ctrl-C also reaches the shell,
-# and would end dash, so the shell ignores it.
+# start OPTIONS...: opens a new terminal that runs petri and then prints its exit status. Ctrl-C also reaches the shell
+# and would terminate dash, so the shell ignores it.
 start() {
     t kill-server
-    servers=$((servers + 1)) # a new name: the old server may still be ending
+    servers=$((servers + 1)) # a new name, because the old server may still be exiting
     server=petri-repl-$$-$servers
     t new-session -d -x 120 -y 50 "trap : INT; LC_ALL=${locale:-C.UTF-8} $(quoted "$petri") repl $* 2>&1; echo left with \$?; exec sleep 1000"
     expect "the prompt appears (repl $*)" '> *$'
@@ -55,7 +55,7 @@ expect() {
     echo "ok $1"
 }
 
-# refuse NAME PATTERN: no line on the screen may match.
+# refuse NAME PATTERN: checks that no line on the screen matches.
 refuse() {
     if screen | grep -q -e "$2"; then
         failed=$((failed + 1))
@@ -66,7 +66,7 @@ refuse() {
     fi
 }
 
-# leave NAME: types Ctrl-D once there is an empty prompt, since it would be lost before.
+# leave NAME: types Ctrl-D after waiting for an empty prompt, because it would be lost before.
 leave() {
     expect "$1: the prompt appears" '^[^ ]*> *$'
     type_keys C-d
@@ -136,7 +136,7 @@ if [ $edits = yes ] && ! grep -q '^unusual$' "$XDG_STATE_HOME/petri/history"; th
 fi
 leave "Ctrl-D quits"
 
-# A script whose frames take long in physics, the longer the finer the steps.
+# A script whose frames need much time for physics. The time grows with the number of steps.
 printf '!physics state=:many dimensions=2 time=time\n    for i in ..400\n        !particle id=i position=i;0\n    !gravity\n' \
     >heavy.fl
 start --color never heavy.fl

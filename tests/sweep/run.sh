@@ -154,8 +154,8 @@ check "a line of FILE.runs repeats the run: $value" [ "$again" = "$(printf '%.9g
 
 # runs_of FILE: prints the number of results in a journal.
 runs_of() { cat "$1" 2>/dev/null | grep -c '^run '; }
-# kill_at COUNT [SIGNAL]: kills the sweep as soon as it has done COUNT runs. Tries again if it has finished before, as it
-# may on a busy machine.
+# kill_at COUNT [SIGNAL]: kills the sweep after it has completed COUNT runs. If it has already finished, as may happen
+# on a busy machine, tries again.
 kill_at() {
     for try in 1 2 3 4 5 6 7 8 9; do
         (before=exec && cells --jobs 2 -o killed.csv 2>err) &
@@ -193,14 +193,14 @@ END
 "$petri" sweep slow.fl -D N='1;1;1;1;1;1' --frames 600 --metric x=BIG --jobs 1 -o slow.csv 2>err &
 child=$!
 while kill -0 $child && [ ! -s slow.csv.part ]; do :; done
-kill -STOP $child # it still holds the lock
+kill -STOP $child # the old process still holds the lock
 sweep slow.fl -D N='1;1;1;1;1;1' --frames 600 --metric x=BIG --jobs 1 -o slow.csv
 check "two processes cannot use one journal" status_is 1
 check "a journal in use is reported" has err 'slow.csv.part is in use by another petri process'
 kill -9 $child
 wait $child 2>/dev/null
 
-# A worker is killed from outside, as the system does if memory is short: its run is executed again.
+# A worker is killed from outside, as the system does when memory is short. Its run is executed again.
 worker() { pgrep -P "$1" | head -n 1; }
 kill_one() {
     for try in 1 2 3 4 5 6 7 8 9; do

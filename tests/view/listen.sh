@@ -54,7 +54,7 @@ send 'twice(5)'
 check ".drop removes what was sent" lacks out '"10"'
 send .reset
 check ".reset reports that it is done" done_is true
-# While the view is paused, each text computes one frame, except .back.
+# While the view is paused, each text that is sent computes one frame, except .back.
 number() { grep -o "\"$1\": *[\"0-9;.e-]*" out | tail -n 1 | sed 's/.*: *"*//; s/"$//'; }
 type_keys Space
 send 'frame;$:turns'

@@ -14,7 +14,7 @@ cat >dish.fl <<'END'
     !drag strength=0.01
 END
 printf 'debug("only text")\n' >text.fl
-# typed COMMAND: runs it on an empty screen, which shows `status N` afterwards.
+# typed COMMAND: runs the command on an empty screen. Afterwards, the screen shows `status N`.
 typed() {
     wipe
     type_keys "clear; $*; echo status \$?" Enter

@@ -14,7 +14,7 @@ needs() {
     command -v "$1" >/dev/null 2>&1 || skip "no $1; './dev setup all' installs it (Debian: $2)"
 }
 
-# soon COMMAND...: waits until the command is true; false after `patience` seconds. After a failure, later waits are
+# soon COMMAND...: waits until the command succeeds. Fails after `patience` seconds. After a failure, later waits are
 # shorter, because they are likely to fail as well.
 patience=60 # seconds
 soon() {

@@ -7,19 +7,19 @@
 # shellcheck source=tests/view/tmux.sh
 . "$(dirname "$0")/tmux.sh"
 
-# start [options] SCRIPT: opens a view in the terminal; the screen shows `status N` when it has ended.
+# start [options] SCRIPT: opens a view in the terminal. After the view has ended, the screen shows `status N`.
 start() {
     wipe
     view="$(quoted "$petri") view $* 2>err; code=\$?"
     type_keys "clear; echo before; stty -a >stty.before; $view; stty -a >stty.after; echo status \$code" Enter
 }
-# ended STATUS: the view has ended with this status, and the screen and the terminal are restored.
+# ended STATUS: succeeds if the view has ended with this status and has restored the screen and the terminal.
 ended() {
     soon shows "status $1" && shows before && cmp -s stty.before stty.after &&
         [ "$(mux display-message -p -t view '#{alternate_on} #{cursor_flag} #{mouse_any_flag}')" = '0 1 0' ]
 }
 
-# Circles in the left half. A picture of 640 by 384 fills 80 by 24 cells of 8 by 16 pixels.
+# Circles in the left half of the picture. A picture of 640 by 384 fills 80 by 24 cells of 8 by 16 pixels.
 cat >left.fl <<'END'
 !window size=640;384 title='left'
     !canvas
@@ -59,7 +59,7 @@ started
 type_keys Escape
 check "Escape quits" ended 0
 
-# Effects are computed in the resolution of the cells.
+# Effects are computed at the resolution of the cells.
 cat >blurred.fl <<'END'
 !window size=640;384
     !blur radius=8
@@ -116,7 +116,7 @@ check "a key reaches the script" soon filled 21 24 72 80
 type_keys q
 check "q quits" ended 0
 
-# Parameters are selected and changed while the script runs; the state of the key x is kept.
+# Parameters are selected and changed while the script runs. The value of the key x in the state is kept.
 cat >dots.fl <<'END'
 let DOTS=DOTS or 2 -- 1..9 dots in a row
     HIGH=HIGH or 0.5 -- 0.1..1|0.1 height
@@ -191,7 +191,7 @@ check "a script without parameters reports it" soon shows 'the script has no par
 type_keys q
 check "q quits" ended 0
 
-# Errors are shown over the picture, and the last good version keeps running.
+# Errors are shown over the picture. The last version without errors keeps running.
 start left.fl
 started
 cp left.fl good.fl
@@ -208,7 +208,7 @@ check "q quits" ended 0
 check "the error is printed on standard error at the end" has err 'error:'
 mv good.fl left.fl
 
-# Warnings of the running version: a corner shows their number, and w lists them.
+# Warnings of the running version: a corner of the picture shows their number, and the key w lists them.
 sed 's/stroke_width=3/stroke_with=3/' left.fl >warn.fl
 start warn.fl
 check "a corner shows the number of warnings" soon shows '1 warning: w'
@@ -238,7 +238,7 @@ type_keys q
 check "q quits" ended 0
 check "standard error has all warnings" has err "'stroke_with'"
 
-# The view ends by itself, by a signal or by a crash; the terminal is restored in all cases.
+# The view ends normally, by a signal or by a crash. In all cases, the terminal is restored.
 start left.fl --frames 10
 check "--frames ends it" ended 0
 start left.fl --runtime 1 --lockstep
@@ -266,7 +266,7 @@ if [ "${3:-sdl}" = none ]; then
     type_keys "clear; DISPLAY=:77 $(quoted "$petri") view left.fl --frames 3; echo status \$?" Enter
     check "a message explains how to get windows" soon shows "'./dev build' adds windows"
 fi
-# Other views may be running on this machine; ours is the one in this folder.
+# Other views may be running on this machine. The view of this test is the one in this folder.
 viewer() {
     for id in $(pgrep -f "^$petri view left.fl"); do
         [ "$(readlink "/proc/$id/cwd")" != "$work" ] || echo "$id"
@@ -293,7 +293,7 @@ check "fg shows the picture again" soon filled 1 24 1 38
 type_keys q
 soon shows 'left.fl'
 
-# If the environment names a display that does not exist, as old ssh sessions do, the terminal is used, without delay.
+# If the environment names a display that does not exist, as in old ssh sessions, the terminal is used without delay.
 for place in DISPLAY=:9999 DISPLAY=localhost:99.0 WAYLAND_DISPLAY=wayland-none; do
     type_keys "clear; env XDG_RUNTIME_DIR=. $place $(quoted "$petri") view left.fl 2>err; echo status \$?" Enter
     check "with $place the terminal is used" started
@@ -302,7 +302,7 @@ for place in DISPLAY=:9999 DISPLAY=localhost:99.0 WAYLAND_DISPLAY=wayland-none; 
     check "q quits" soon shows 'status 0'
 done
 
-# Without a display and a terminal, the view fails.
+# Without a display and a terminal, the view exits with an error.
 "$petri" view --terminal left.fl >out 2>err </dev/null
 check "no terminal fails" [ $? -eq 1 ]
 check "the message names the terminal" has err "terminal"

@@ -19,7 +19,8 @@ print_details() { screen | sed 's/^/  | /'; }
 type_keys() { mux send-keys -t view "$@"; }
 shows() { screen | grep -Fq -e "$1"; }
 hides() { ! shows "$1"; }
-# Counts cells in rows FROM to TO and columns FROM to TO (from 1) that are not blank; `filled` or `clear`.
+# part TOP BOTTOM LEFT RIGHT: prints the characters in these rows and columns (counted from 1) that are not blank.
+# `filled` succeeds if there are any, `clear_of` if there are none.
 part() { screen | sed -n "$1,$2p" | sed "s/^.\{0,$(($3 - 1))\}//" | cut_columns $(($4 - $3 + 1)) | tr -d ' \n'; }
 cut_columns() { sed "s/^\(.\{0,$1\}\).*/\1/"; }
 filled() { [ -n "$(part "$@")" ]; }
@@ -28,8 +29,8 @@ clear_of() { [ -z "$(part "$@")" ]; }
 mux new-session -d -s view -x 80 -y 24 "PS1='ready: ' sh" || skip "tmux does not start"
 soon shows 'ready:' || skip "no shell under tmux"
 
-# Clears the screen, so that old output is not mistaken for that of the next command.
+# Clears the screen, so that old output is not taken for that of the next command.
 wipe() { mux send-keys -R -t view; }
-# True if a picture is on the alternate screen; the normal screen may still show the command line.
+# Succeeds if a picture is on the alternate screen. The normal screen may still show the command line.
 started() { soon seen && soon filled 1 24 1 80; }
 seen() { mux display-message -p -t view '#{alternate_on}#{cursor_flag}' | grep -q 10; }

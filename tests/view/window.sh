@@ -31,7 +31,7 @@ trap clean_up EXIT
 trap 'exit 130' INT TERM
 cd "$work" || exit 1
 unset WAYLAND_DISPLAY
-# SDL loads libraries with leaks and unloads them, so a list of exceptions could not name them.
+# SDL loads libraries that leak memory and then unloads them, so a suppression list could not name them.
 ASAN_OPTIONS=${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0
 export ASAN_OPTIONS
 SDL_VIDEODRIVER=x11
@@ -50,7 +50,7 @@ print_details() {
     [ -z "${KEEP:-}" ] || cp -r "$work" "$KEEP"
 }
 
-# view NAME [options] SCRIPT: starts a view and waits for its window, called NAME: $window.
+# view NAME [options] SCRIPT: starts a view and waits for its window, which is called NAME. Sets $window.
 none_is_left() { ! find_window; }
 find_window() {
     window=$(xdotool search --onlyvisible --name "^$title\$" 2>/dev/null | tail -n 1)
@@ -68,10 +68,10 @@ view() {
         exit 1
     fi
     xdotool windowfocus "$window" 2>/dev/null
-    # Move the pointer off the picture, so that tests do not depend on its position.
+    # Moves the pointer off the picture, so that tests do not depend on its position.
     xdotool mousemove 999 699
 }
-# ended STATUS: the view ends by itself with this status.
+# ended STATUS: succeeds if the view ends without being killed, with this status.
 gone() { ! kill -0 "$viewer" 2>/dev/null; }
 ended() {
     soon gone || return 1
@@ -80,22 +80,22 @@ ended() {
     viewer=
     [ "$status" -eq "$1" ] || { echo "  status $status" && false; }
 }
-# Keys typed before the window has the focus would be lost.
+# Keys that are typed before the window has the focus would be lost.
 focused() { [ "$(xdotool getwindowfocus 2>/dev/null)" = "$window" ] || { xdotool windowfocus "$window" 2>/dev/null && false; }; }
 press() {
     soon focused
     xdotool key "$@"
 }
 
-# import may hang if a window changes meanwhile.
+# import may hang if a window changes in the meantime.
 look() { timeout 10 import -silent -window "$window" seen.png 2>/dev/null; }
-# shows FILE: the window shows this picture exactly.
+# shows FILE: succeeds if the window shows exactly this image.
 same_pixels() { look && [ "$(compare -metric AE seen.png "$1" null: 2>&1)" = 0 ]; }
 shows() { soon same_pixels "$1"; }
-# point X Y COLOUR: a pixel of the window has this colour, as RRGGBB.
+# point X Y COLOUR: succeeds if the pixel of the window has this colour, given as RRGGBB.
 colour_is() { look && [ "$(convert seen.png -alpha off -depth 8 -crop "1x1+$1+$2" rgb:- | od -An -tx1 | tr -d ' \n')" = "$3" ]; }
 point() { soon colour_is "$@"; }
-# dark X Y: the pixel belongs to a text panel, not to the picture or a letter.
+# dark X Y: succeeds if the pixel belongs to the background of a text panel.
 is_dark() {
     look && set -- $(convert seen.png -alpha off -depth 8 -crop "1x1+$1+$2" rgb:- | od -An -tu1) &&
         [ "$1" -gt 0 ] && [ "$1" -lt 90 ] && [ "$2" -lt 90 ] && [ "$3" -lt 90 ]
@@ -103,9 +103,9 @@ is_dark() {
 dark() { soon is_dark "$@"; }
 size_is() { xdotool getwindowgeometry --shell "$window" | grep -Eq "^WIDTH=$1\$" && xdotool getwindowgeometry --shell "$window" | grep -Eq "^HEIGHT=$2\$"; }
 render() { "$petri" render "$@" >/dev/null 2>&1; }
-# pictures COUNT: there are COUNT screenshots.
+# pictures COUNT: succeeds if there are COUNT screenshots.
 count_is() { [ "$(find . -maxdepth 1 -name "$1" | wc -l)" -eq "$2" ]; }
-# shot: presses s and waits for the screenshot: $shot.
+# shot: presses s and waits for the screenshot. Sets $shot.
 shot() {
     before=$(find . -maxdepth 1 -name '*-[0-9]*.png' | wc -l)
     press s
@@ -127,7 +127,7 @@ END
 render still.fl --frames 1 -o still.png
 render still.fl --frames 1 --scale 2 -o large.png
 
-# The picture, size and title of the script.
+# The picture, its size and the title of the window.
 view still still.fl
 check "the window has the script's size" size_is 320 240
 check "the window shows the picture of petri render" soon shows still.png
@@ -136,7 +136,7 @@ check "q closes it" ended 0
 check "nothing is written to standard error" [ ! -s err ]
 check "nothing is printed" [ ! -s out ]
 
-# OpenGL pictures, while SDL has its own OpenGL context in the same thread.
+# Pictures that need OpenGL, while SDL has another OpenGL context in the same thread.
 cat >ball.fl <<'END'
 !window size=200;200 title='ball'
     !bloom radius=4
@@ -152,7 +152,7 @@ if lacks err needs-gpu; then
     press q
     check "q closes it" ended 0
     check "nothing is written to standard error" [ ! -s err ]
-    # With OpenGL ES, pictures stay on the graphics card.
+    # With OpenGL ES, pictures stay in GPU memory.
     unset SDL_RENDER_DRIVER
     view ball ball.fl --debug
     check "the window shows the picture of petri render" soon shows ball.png
@@ -181,7 +181,7 @@ if lacks err needs-gpu; then
     export SDL_RENDER_DRIVER
 fi
 
-# Views that end by themselves.
+# Views that end without being closed.
 short() { timeout 60 "$petri" view "$@" >out 2>err </dev/null; }
 check "--frames ends it" short still.fl --frames 20
 check "--runtime ends it" short still.fl --runtime 1
@@ -197,7 +197,7 @@ view still still.fl
 kill -TERM "$viewer"
 check "SIGTERM ends it" ended 143
 
-# In a window of another size, the picture is drawn as large as possible and centred.
+# In a window of any size, the picture is scaled to the largest possible size and centred.
 view still still.fl
 xdotool windowsize "$window" 640 480
 check "the picture is drawn in the window's size" soon shows large.png
@@ -207,7 +207,7 @@ check "the picture is centred" point 5 70 336699
 press q
 ended 0
 
-# Keys; the pictures encode the frame number.
+# Keys. The pictures encode the frame number.
 cat >count.fl <<'END'
 let n=frame+1
 !window size=256;64 title='count'
@@ -252,7 +252,7 @@ check "no errors are printed" lacks err error
 press q
 check "q quits" ended 0
 
-# Warnings: their number in a corner, and a list on request.
+# Warnings: a corner shows their number, and a key lists them.
 sed 's/radius=60/radus=60 radius=60/' still.fl >warn.fl
 view still warn.fl
 check "the corner shows the number of warnings" dark 300 16
@@ -293,14 +293,14 @@ if command -v openbox >/dev/null 2>&1; then
     check "f restores the size with a window manager" soon size_is 320 240
     press q
     ended 0
-    kill -KILL "$manager"  # it sometimes ignores SIGTERM
+    kill -KILL "$manager"  # the window manager sometimes ignores SIGTERM
     wait "$manager" 2>/dev/null
     manager=
 else
     echo "skipped: full screen, for there is no openbox"
 fi
 
-# The pointer and keys are passed to the script; keys that it binds have no other function.
+# The pointer and keys are passed to the script. Keys that the script uses have no other function.
 cat >hands.fl <<'END'
 !window size=300;200 title='hands'
     !pointer state=:mouse
@@ -335,7 +335,7 @@ check "Control and q quit" ended 0
 "$petri" run hands.fl --state hands.state --frames 1 --print state >out 2>err
 check "the state has the pointer's position" has out '$:mouse = 0.75'
 
-# Parameters: a change has the effect of -D, but the script keeps running.
+# Parameters: a change has the same effect as -D, but the script keeps running.
 cat >steps.fl <<'END'
 let PARTS=PARTS or 2 -- 1..7 parts
     SHADE=SHADE or 0.5 -- 0.1..1|0.1
@@ -368,7 +368,8 @@ press q
 check "q quits" ended 0
 check "nothing is written to standard error" [ ! -s err ]
 
-# Saving the script reloads it with its state and clock. Errors are shown, and the last good version keeps running.
+# When the script is saved, it is reloaded and keeps its state and clock. Errors are shown, and the last version without
+# errors keeps running.
 cat >work.fl <<'END'
 !counter state=:c rate=0 initial=7
 !window size=500;300 title='work'
@@ -395,7 +396,7 @@ check "a deleted script keeps running" point 60 250 ffffff
 press q
 check "q quits" ended 0
 
-# A frame that fails is reported; the view waits for a change.
+# A frame that fails is reported, and the view waits until the script changes.
 cat >loop.fl <<'END'
 %pragma fps 30
 func f(n)
@@ -410,7 +411,7 @@ check "infinite recursion does not crash the view" point 390 190 008000
 press q
 check "q quits after a failed frame" ended 0
 
-# Recording: closing the window must leave only complete files.
+# Recording: after the window is closed, only complete files must remain.
 cat >film.fl <<'END'
 !window size=400;400 title='film'
     !record filename='film/'; frame; '.png'
@@ -429,7 +430,8 @@ check "there are no other files" sh -c 'test "$(find film -type f ! -name "*.png
 render film.fl --frame 2 -o wanted.png
 check "the pictures equal those of petri render" cmp -s film/2.png wanted.png
 
-# Frames before particles are at their positions are neither shown nor recorded, also after a reset and while paused.
+# Frames in which particles are not at their positions yet are neither shown nor recorded, even after a reset and while
+# paused.
 cat >early.fl <<'END'
 %pragma fps 1
 !physics state=:w dimensions=2
@@ -472,7 +474,7 @@ check "the message names the display" has err "no display"
 DISPLAY=:9999 "$petri" view still.fl >out 2>err </dev/null
 check "a display that does not answer fails" [ $? -eq 1 ]
 check "the message names the display that does not answer" has err "cannot open a window: nothing answers at DISPLAY=:9999"
-# Without a chosen driver, SDL would open an invisible window.
+# If no driver is selected, SDL opens an invisible window.
 unset SDL_VIDEODRIVER
 for place in DISPLAY=:9999 DISPLAY=localhost:99.0 DISPLAY=nonsense WAYLAND_DISPLAY=wayland-none; do
     env -u DISPLAY XDG_RUNTIME_DIR=. "$place" timeout 60 "$petri" view still.fl >out 2>err </dev/null
@@ -488,7 +490,7 @@ check "a display that accepts connections but never answers fails" [ $? -eq 1 ]
 kill -CONT "$server"
 check "the message names the silent display" has err "nothing answers at DISPLAY="
 
-# The screen is lost: a run with a purpose continues, here with a higher frame rate.
+# If the display is lost, a view that records continues, in this test at a higher frame rate.
 cat >slow.fl <<'END'
 %pragma fps 0.01
 !counter state=:c rate=0 initial=7
