@@ -16,27 +16,28 @@ typedef struct Checkpoint {
     size_t capacity;
 } Checkpoint;
 
-// Data that will replace that of the session. Its systems are restored into the scene, whose current systems are
-// detached meanwhile.
+// New data that will replace the session's data. While it is filled in, the current systems are detached from the
+// scene, and the new systems are restored into the scene.
 typedef struct Incoming {
-    Arena arena; // temporary data
+    Arena arena; // temporary data used to fill in the rest
     State *state;
     Clock clock;
     InputState input_state;
     InputBindings bindings;
-    bool has_input; // false: the session keeps its input
-    bool valid;     // false: the source is invalid
+    bool has_input; // false: the new data contains no input, so the session keeps its own
+    bool valid;     // false: the file or checkpoint that is read is invalid
 } Incoming;
-// Fills in `incoming`. Clears incoming->valid if the source of the data is invalid.
+// Fills in `incoming`. Sets incoming->valid to false if the file or checkpoint that is read is invalid.
 typedef void FillIncoming(PetriSession *session, Incoming *incoming, void *context);
 
 // Calls `fill` within a protected call and then replaces the session's data. On failure nothing changes. Returns
-// PETRI_INVALID if `fill` cleared incoming->valid.
+// PETRI_INVALID if `fill` set incoming->valid to false.
 PetriStatus checkpoint_replace(PetriSession *session, FillIncoming *fill, void *context);
-// Restores a system into the scene. Called by `fill`.
+// Restores a system into the scene. To be called by `fill`.
 void checkpoint_restore_system(PetriSession *session, Incoming *incoming, const SceneSystem *system);
 
-// Copies the session's data into a checkpoint, whose memory is reused. Returns false if out of memory.
+// Copies the session's data into a checkpoint, replacing its contents but reusing its memory. Returns false if out of
+// memory.
 bool checkpoint_save(Checkpoint *checkpoint, PetriSession *session);
 // Adds the state entries of a checkpoint to an empty state. Temporary data is allocated in the arena.
 void checkpoint_read_state(const Checkpoint *checkpoint, Arena *arena, State *state);

@@ -11,7 +11,8 @@ typedef struct ClockRates {
     double quantum; // the script's `quantum`
 } ClockRates;
 
-// The frame at which the current rates were set. Initially all 0.
+// The frame from which time and beat are counted: the last one at which the rates changed or the host gave a time.
+// Initially all 0.
 typedef struct ClockBase {
     int64_t number;
     double time;
@@ -21,7 +22,7 @@ typedef struct ClockBase {
 // State of the clock in real time. It measures the script's `time`, which is 0 in frame 0 and excludes time that the
 // host discarded with petri_resync_clock. Units are seconds.
 typedef struct WallClock {
-    bool running;       // false: the next frame is the first, or the first after a restore
+    bool running;       // false: the next frame starts the wall clock, as the first frame or after a restore
     double origin;      // value of the monotonic clock at time 0
     double due;         // time at which the next frame is due
     double performance; // the script's `performance`, also used in lockstep
@@ -46,15 +47,15 @@ double clock_of_day(void);
 
 // Rewinds to before frame 0.
 void clock_rewind(Clock *clock);
-// Changes the rates at the current frame, without a jump in time or beat.
+// Changes the rates from the current frame on, without a jump in time or beat.
 void clock_set_rates(Clock *clock, const ClockRates *rates);
 // Advances to the next frame. In real time, waits until it is due.
 void clock_advance(Clock *clock);
 // Advances to the next frame at the given time and beat, from which the clock then continues.
 void clock_advance_to(Clock *clock, double time, double beat);
-// Sets the clock to a frame that was restored, with time and beat at the current rates.
+// Sets the clock to a frame that was restored. Computes time and beat from its number and the current rates.
 void clock_resume(Clock *clock, int64_t number);
-// Makes real time continue from the time of the current frame. Call it after the clock was replaced.
+// Makes real time continue from the time of the current frame. Must be called after a clock was replaced by a copy.
 void clock_follow_frame(Clock *clock);
 // Returns the seconds until the next frame is due in real time, else 0.
 double clock_seconds_until_due(const Clock *clock);

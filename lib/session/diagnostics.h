@@ -17,18 +17,18 @@ typedef struct Diagnostics {
     uint32_t reported_capacity;
     HashIndex reported_index;
     bool repeat;        // report diagnostics even if they were reported before
-    uint64_t counts[3]; // number reported since the session was opened, by level
+    uint64_t counts[3]; // number of diagnostics of each level, reported since the session was opened
 } Diagnostics;
 
 void diagnostics_free(Diagnostics *diagnostics);
 // Starts a load: forgets which diagnostics were reported before.
 void diagnostics_begin_load(Diagnostics *diagnostics);
-// Sets whether diagnostics are reported again. Returns the previous setting.
+// Sets whether diagnostics are reported even if they were reported before. Returns the previous setting.
 bool diagnostics_repeat(Diagnostics *diagnostics, bool repeat);
-// Reports a diagnostic of another session to the host of this one.
+// Passes a diagnostic to the session's host without checking for repetition, for example one of another session.
 void diagnostics_forward(PetriSession *session, const PetriDiagnostic *diagnostic);
 
-// Reports a diagnostic to the host, unless it was reported since the last load.
+// Reports a diagnostic to the host, unless it was already reported since the last load.
 void session_report(PetriSession *session, const Diag *diag);
 // Like session_report, but uses `key` instead of the rendered text to recognise a repeated diagnostic. If `key` is
 // empty, uses the rendered text.

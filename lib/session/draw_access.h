@@ -16,16 +16,16 @@ typedef struct DrawAccess {
     const State *state;
     Str directory;           // folder that relative file names start from
     const FileAccess *reach; // file access of the script
-    size_t memory_limit;     // maximum bytes of a copy
-    Budget *budget;          // charged for copying
+    size_t memory_limit;     // maximum bytes of a picture, which is a copy of the frame
+    Budget *budget;          // to be charged for the copy
 } DrawAccess;
 
 // Returns access to the last frame.
 DrawAccess session_draw_access(PetriSession *session);
 
-// Gets the names with numeric values, for shaders: names of the engine such as `beat`, then definitions, the newest of
-// each name first. Stores at most `capacity` names and numbers, and returns their count. Names are allocated in the
-// arena.
+// Gets names with numeric values, for shaders: first the names of the engine, such as `beat`, then the definitions. If
+// a name is defined more than once, its newest definition comes first. Stores at most `capacity` names and numbers, and
+// returns how many it stored. Names of definitions are allocated in the arena.
 uint32_t session_frame_numbers(PetriSession *session, Arena *arena, const char *names[], double numbers[],
                                uint32_t capacity);
 
@@ -36,14 +36,15 @@ bool session_has_source(const PetriSession *session, const Diag *fault);
 // same size. Called within a protected call.
 void *session_draw_memory(PetriSession *session, size_t size);
 
-// Runs `call` as a protected call. If an arena of the session or `extra` (may be NULL) cannot allocate, exceeds a limit
-// or is interrupted, `call` is aborted. Returns PETRI_OK, or the reason for the abort: PETRI_OUT_OF_MEMORY,
-// PETRI_LIMIT_EXCEEDED or PETRI_INTERRUPTED. Resources that the call acquired must be reachable from `context`, so that
-// the caller can free them.
+// Runs `call` as a protected call: it is aborted if memory runs out, a limit is exceeded or the session is interrupted.
+// This applies to allocations in the arenas of the session and in `extra`, which may be NULL. Returns PETRI_OK, or the
+// reason for the abort: PETRI_OUT_OF_MEMORY, PETRI_LIMIT_EXCEEDED or PETRI_INTERRUPTED. Resources that `call` acquires
+// must be reachable from `context`, so that the caller can free them after an abort.
 typedef void SessionCall(PetriSession *session, void *context);
 PetriStatus session_protect(PetriSession *session, Arena *extra, SessionCall *call, void *context);
-// If a protected call ran out of memory or exceeded a limit, reports that `what` (such as "the frame") was aborted,
-// with the position. If the call was interrupted, clears the interrupt. Returns `status`.
+// Handles the status of a protected call. If the call ran out of memory or exceeded a limit, reports that `what` (such
+// as "the frame") was aborted. For a limit, the report gives the position in the script, if known. If the call was
+// interrupted, clears the interrupt. Returns `status`.
 PetriStatus session_report_abort(PetriSession *session, PetriStatus status, const char *what);
 
 #endif

@@ -8,22 +8,22 @@
 #include "value/value.h"
 
 typedef struct SessionFrame {
-    Arena arena;         // values, until the next step; limited by PetriOptions.memory_limit
+    Arena arena;         // values of the frame, kept until the next step; limited by PetriOptions.memory_limit
     Arena systems_arena; // data of the systems; not limited, so that no system stops in the middle of an update
     Value tree;
     DiagSink log;    // output of debug(), each message once
     DiagSink errors; // run-time errors, each message once
-    // Values of the names in the prompt's list; fewer if the frame was not evaluated completely.
+    // Values of the names in PromptList.names, in the same order. Fewer if the frame was not evaluated completely.
     Value *values;
     uint32_t value_count;
     bool evaluated;     // `tree` and `values` belong to the current frame and configuration
-    bool names_current; // names bound at the prompt have been evaluated in the state after the frame
+    bool names_current; // names bound at the prompt already have their values in the state after the frame
     bool evaluating;    // evaluation is in progress
     bool no_frame_yet;  // no frame of the loaded script has been computed
     uint64_t physics_steps;
     double evaluation_seconds;
     double physics_seconds;
-    double profiled_physics; // seconds, since the script was loaded
+    double profiled_physics; // seconds spent on the systems since the script was loaded or reset
     uint64_t profiled_frames;
     const char **system_names; // names of systems in printed form, by number; NULL until needed
     size_t system_name_count;
@@ -31,10 +31,11 @@ typedef struct SessionFrame {
 
 // Frees the results of the last frame: tree, log, values of names.
 void session_clear_frame(PetriSession *session);
-// Evaluates the script and the prompt's statements in a state. Called within a protected call.
+// Evaluates the script and then the prompt's statements, with `state` as the state dictionary. Called within a
+// protected call.
 void session_evaluate(PetriSession *session, const State *state);
-// Evaluates the names bound at the prompt in the state after the frame, unless names_current is set. Names of the
-// script keep their values.
+// Evaluates the prompt's bindings again, with the state after the frame. Does nothing if names_current is set. Names
+// that the script binds keep their values.
 PetriStatus session_update_names(PetriSession *session);
 
 #endif

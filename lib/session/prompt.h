@@ -22,19 +22,20 @@ typedef struct PromptList {
 } PromptList;
 
 typedef struct Prompt {
-    Arena arena; // data of one expression
+    Arena arena; // temporary data of the current input, such as an expression
 } Prompt;
 
-// Returns a list without statements for a script, which may be NULL. `host_names` starts with the script's parameters.
-// Returns NULL if out of memory.
+// Returns a list without statements. Its names are the parameters and exports of the script, which may be NULL. The
+// parameters are the first of the `host_names`, because names that the host set after the load follow. Returns NULL if
+// out of memory.
 PromptList *prompt_list_new(Names host_names, const Program *script);
 // Returns a copy of a list with one more statement, or NULL if out of memory.
 PromptList *prompt_list_add(const PromptList *list, const PromptStatement *statement);
 // Releases a reference. Frees the list when no reference is left. NULL is ignored.
 void prompt_list_free(PromptList *list);
-// Recompiles the statements of a list for another script and stores them as a list in *result. `choice` selects all
-// statements, only bindings, or none. Called within a protected call. If the call is aborted, the caller frees the
-// partial list in *result.
+// Recompiles statements of a list for another script and stores them as a new list in *result. `choice` says which
+// statements the new list keeps: all, only bindings, or none. Called within a protected call. If that is aborted, the
+// caller frees the incomplete list in *result.
 typedef enum PromptChoice { PROMPT_ALL, PROMPT_BINDINGS, PROMPT_NONE } PromptChoice;
 void prompt_list_compile(PetriSession *session, const PromptList *list, const Program *script, PromptChoice choice,
                          PromptList **result);

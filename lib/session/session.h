@@ -26,27 +26,29 @@ typedef struct Config {
     const Define *defines; // immutable, because configurations share it
     uint32_t define_count;
     ClockRates pragma_rates;
-    double resolution; // seconds; 0: each system's own
+    double resolution; // maximum time step (petri_set_resolution); 0: each system uses its own
 } Config;
 
-// A name that the host sets (petri_set_global). If a new value cannot be copied, the old value is kept.
+// A name that the host sets (petri_set_global). A new value is copied to the arena that does not hold the current
+// value. If it cannot be copied, the current value is kept.
 typedef struct HostGlobal {
     const Symbol *name;
     Value value;
-    Value next;      // new value while it is copied
+    Value next;      // the new value, while it is being copied
     Arena arenas[2]; // `value` is in arenas[turn]
     bool turn;
 } HostGlobal;
 
-// Names that the host sets, in the order in which they were first set. A script loaded since then receives their values
-// as parameters in this order.
+// Names that the host sets, in the order in which they were first set. The parameters of a script are the names that
+// existed when it was compiled, in this order.
 typedef struct HostGlobals {
     const Symbol *const *names;
     HostGlobal *const *items;
     uint32_t count;
 } HostGlobals;
 
-// Functions of the host (petri_add_function), which live as long as the session. The array is replaced, never modified.
+// Functions of the host (petri_add_function), which live as long as the session. Adding a function replaces the array;
+// an existing array is never modified.
 typedef struct HostFunctions {
     const Builtin *const *rows;
     uint32_t count;
@@ -68,8 +70,8 @@ struct PetriSession {
     PetriOptions options;
     Arena arena;      // session lifetime: symbols, definitions
     Arena text_arena; // strings returned to the host; reset by most functions that return a string
-    Arena view_arena; // data about systems, until the next petri_particle_id or petri_system_force
-    Arena key_arena;  // values received from the host, during the call
+    Arena view_arena; // results of queries about systems; reset by the next query (run_request in systems.c)
+    Arena key_arena;  // values received from the host, kept only during a call
     SymbolTable symbols;
     State *state;
     Scene *scene;
@@ -82,7 +84,7 @@ struct PetriSession {
     Vm vm;
     Vm static_vm; // folds constant expressions at load time
     atomic_bool interrupt;
-    uint64_t spent;            // work units already charged to the next protected call
+    uint64_t spent;            // work units that count as already used when the next protected call begins
     Budget budget;             // work and memory of the script
     uint32_t call_depth;       // nesting depth of protected calls
     bool uninterruptible;      // the current operation must not be interrupted
@@ -91,17 +93,17 @@ struct PetriSession {
     HostGlobals host_globals;
     HostFunctions functions;
     Config config;
-    PetriConfig *shared_config; // `config` for petri_config_get, or NULL until it is called
+    PetriConfig *shared_config; // a copy of `config` for petri_config_get; NULL until that is called
     uint64_t config_revision;   // revision of `config`
     uint64_t last_revision;     // highest revision used so far
-    uint32_t reported_defines;  // number of definitions that were checked and reported for the loaded script
-    bool recompiling;           // the loaded text is being compiled again for changed definitions
+    uint32_t reported_defines;  // number of definitions already checked for the loaded script
+    bool recompiling;           // the loaded text is being compiled again because definitions changed
     Loader loader;
     Clock clock;
     SessionFrame frame;
     Prompt prompt;
     Diagnostics diagnostics;
-    Checkpoint undo;       // state before the frame that is being computed, or was computed last
+    Checkpoint undo;       // taken before the current frame was computed; used with PetriOptions.rollback_frames
     bool undo_of_frame;    // `undo` is the state from which the current frame was computed
     bool rollback_pending; // an aborted frame could not be rolled back yet, for lack of memory
 };
@@ -127,8 +129,8 @@ void session_free_host_globals(PetriSession *session);
 
 // Defines a name; `value` is text as in petri_define. Called within a protected call.
 PetriStatus session_define(PetriSession *session, Str name, Str value);
-// Checks the definitions for a script and reports problems, such as unused definitions. Returns false if there is an
-// error. The script must then not run.
+// Checks whether the definitions fit a script and reports problems, such as unused definitions. Returns false if there
+// is an error that must prevent the script from running.
 bool session_check_definitions(PetriSession *session, Unit *unit);
 
 // Records that the configuration has changed. `frame_valid`: the results of the last frame are still valid.
@@ -138,15 +140,16 @@ void session_set_prompts(PetriSession *session, PromptList *list);
 
 // Sets the rates of a new script and rewinds to before frame 0.
 void session_start(PetriSession *session, const ClockRates *rates);
-// Sets the rates whose pragmas differ from those of the previous script.
+// Sets those rates whose values in `rates` (from the pragmas) differ from the pragmas of the previous script.
 void session_apply_rates(PetriSession *session, const ClockRates *rates);
-// Returns the rates of a program's pragmas, or the defaults. Called within a protected call.
+// Returns the rates that a program's pragmas set; rates without a valid pragma have their defaults. Called within a
+// protected call.
 ClockRates session_pragma_rates(PetriSession *session, const Program *program);
 // Sets the names of the engine, such as `time` and `beat`, for the current frame. Before the first frame, only constant
 // names have valid values.
 void session_set_globals(const PetriSession *session, Vm *vm);
-// Warns about top-level nodes of the frame that have no effect, but whose kind is spelled similarly to a kind that has
-// one. Called within a protected call.
+// Warns about top-level nodes that have no effect and are probably misspelled: their kind resembles a kind with an
+// effect. Called within a protected call.
 void session_lint_top_nodes(PetriSession *session);
 
 #endif

@@ -13,18 +13,18 @@ typedef struct TextSink {
     bool stopped;             // the host stopped the output, or it was truncated
     const Node *truncated_at; // the tree that was truncated, or NULL
     size_t written;           // bytes flushed so far
-    Sha256 *hash;             // also receives the text; NULL: none
-    bool muted;               // the host does not receive the text
+    Sha256 *hash;             // hash that receives the same text; NULL: none
+    bool muted;               // true: only the hash receives the text, not the host
 } TextSink;
 
-// Passes the accumulated text to the host and the hash.
+// Passes the accumulated text to the host (unless muted or stopped) and to the hash.
 void text_sink_flush(TextSink *out);
 // Ends a line; flushes if enough text has accumulated.
 void text_sink_end_line(TextSink *out);
 // Adds a tree as text. Shared nodes are written each time they occur, so even a small tree may result in a huge output.
 // The output is truncated at 512 MiB.
 void text_sink_add_tree(TextSink *out, const SymbolTable *symbols, const Node *node);
-// Returns the status of the output after the last flush. Reports an error if a tree was truncated.
+// Returns the status of the whole output, and reports an error if a tree was truncated. Called after the last flush.
 PetriStatus text_sink_finish(PetriSession *session, const TextSink *out);
 
 #endif

@@ -6,7 +6,9 @@
 #include "petri.h"
 #include "program/program.h"
 
-// A source file with its compiled program, in one arena. Modules are cached by path until their file changes.
+// A source file with its compiled program, in one arena. Modules are cached by path until their file changes. A script
+// that is recompiled for changed definitions has a parse cache: another unit, which holds only the syntax trees of the
+// script and its included files.
 typedef struct Unit Unit;
 typedef struct Parsed Parsed;
 struct Unit {
@@ -15,13 +17,13 @@ struct Unit {
     Arena arena;     // use it through unit_arena
     Arena scratch;   // temporary data of the compiler: syntax tree, expressions
     Str path;        // canonical; NUL-terminated
-    Str folder;      // of a script: its canonical folder, which it may read and write
+    Str folder;      // of a script: its canonical folder, in which it has permission to read and write
     Str version;     // identifies the contents: modification time, size, inode; empty: not from a file
     const Source *source;
-    const Ast *ast;         // syntax tree, if it is compiled repeatedly (prompt statements, parse caches); else NULL
-    uint64_t work;          // work units of parsing
-    Parsed *parsed;         // of a parse cache: list of its included files
-    Unit *parse_cache;      // counted reference to the syntax trees of this source and its includes, or NULL
+    const Ast *ast;         // syntax tree of prompt input or a parse cache, kept to be compiled again; else NULL
+    uint64_t work;          // in a parse cache: work units that parsing the script took
+    Parsed *parsed;         // in a parse cache: list of the included files
+    Unit *parse_cache;      // counted reference to the script's parse cache, or NULL
     bool empty;             // contains no statements
     const Program *program; // NULL: could not be loaded
     Str error;              // why the unit could not be loaded
@@ -45,7 +47,7 @@ struct Parsed {
 enum { MODULE_CHAINS = 1024 };
 typedef struct Loader {
     Unit *modules;                // list of imported modules
-    Unit *by_path[MODULE_CHAINS]; // hash table of modules by path
+    Unit *by_path[MODULE_CHAINS]; // hash table that maps paths to modules
     uint64_t generation;          // number of units that frames have used so far (session_use_unit)
     Unit *pending;                // unit being loaded, which is freed if the load is aborted
     Unit *compiling;              // unit that is being compiled; NULL: none
@@ -59,15 +61,15 @@ typedef struct Names {
     uint32_t count;
 } Names;
 
-// Returns the unit's arena, after setting its escape to that of the current protected call.
+// Returns the unit's arena, ready for use in the current protected call: a failed allocation aborts that call.
 Arena *unit_arena(const PetriSession *session, Unit *unit);
 // Reads, parses and compiles a file. Returns a unit even on failure, with a NULL program. `regular` rejects pipes,
 // which could block. Called within a protected call.
 Unit *unit_load_file(PetriSession *session, const char *file, bool module, bool regular);
 // Like unit_load_file, for a script in memory.
 Unit *unit_load_text(PetriSession *session, Str name, Str text);
-// Compiles the text of a unit again with the current definitions. Returns the new unit. Only the first call parses the
-// text.
+// Compiles the text of a unit again with the current definitions. Returns the new unit. Only the first reload of a text
+// parses it; later reloads use the parse cache.
 Unit *unit_reload(PetriSession *session, Unit *unit);
 // Returns a unit with parsed but uncompiled text. Its `ast` is NULL if the text has syntax errors.
 Unit *unit_parse(PetriSession *session, Str name, Str text);
@@ -75,8 +77,8 @@ Unit *unit_parse(PetriSession *session, Str name, Str text);
 const Program *unit_compile(PetriSession *session, Unit *unit, const Ast *ast, bool module, Names params);
 // Releases a reference. Frees the unit when no reference is left. NULL is ignored.
 void unit_free(Unit *unit);
-// Must be called for each unit that frames begin to use. Changes the generation, because data of the unit may have the
-// same addresses as data of a freed unit. Returns the unit.
+// Must be called for each unit that frames begin to use. Changes the generation: data of the unit may have the same
+// addresses as data of a freed unit, and caches that compare addresses must notice this. Returns the unit.
 Unit *session_use_unit(PetriSession *session, Unit *unit);
 // Returns the module at a path for the virtual machine. On failure, sets *reason and returns NULL. Called within a
 // protected call.
