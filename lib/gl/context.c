@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The contexts of a process are not independent: with Mesa 22.3, a thread that draws also reads the scenes of other
+// The contexts of a process are not independent: with Mesa 22.3, a thread that draws also reads internal data of other
 // contexts, and crashes if another thread is drawing in them. Therefore only one thread at a time may use OpenGL.
 static pthread_mutex_t one_thread = PTHREAD_MUTEX_INITIALIZER;
 
@@ -89,11 +89,12 @@ bool gl_context_is(const Gl *gl, const char *renderer) {
 }
 
 // Works around a use-after-free in Mesa's llvmpipe (Mesa 22.3: lp_fence_signalled and lp_fence_signal in lp_fence.c).
-// It checks without a lock whether its threads have signalled a fence, and frees the fence when the next one is
-// created. The last thread may still be using the freed fence; it then waits forever or corrupts memory. A fence is not
-// freed while a GLsync refers to it. Threads signal fences in order, so after waiting for the newest fence, all older
-// ones can be deleted. The newest fence is deleted with its context. (A draw of more than 36 MB of triangles is split.
-// No GLsync refers to its internal fences, but they are not freed soon either.)
+// llvmpipe checks without a lock whether its threads have signalled a fence, and frees the fence when the next one is
+// created. If the last thread is still using the freed fence, it waits forever or corrupts memory. As a workaround,
+// each fence is given a GLsync, because llvmpipe frees no fence to which a GLsync refers. Threads signal fences in
+// order, so after waiting for the newest fence, all older ones can be deleted. The newest fence is deleted with its
+// context. llvmpipe splits a draw of more than 36 MB of triangles. No GLsync refers to the fences between its parts,
+// but they are not freed soon either.
 static void delete_fences(Gl *gl) {
     for (int i = 0; i + 1 < gl->fence_count; i++)
         glDeleteSync(gl->fences[i]);

@@ -11,13 +11,13 @@ typedef struct Sorted {
     double depth;
     uint32_t segments;
     uint32_t instance;
-    uint32_t rank; // rank of its model and textures
-    bool last;     // transparent, in a group with depth_sort; drawn last
+    uint32_t rank; // rank of its model and textures (Ranks)
+    bool last;     // transparent, in a group with depth_sort and depth_test: drawn last
     bool disc;     // can be drawn as a disc
 } Sorted;
 
-// Orders opaque instances by model and from near to far, then transparent instances from far to near and, at equal
-// depth, by model.
+// Orders opaque instances by rank, then from near to far. Transparent instances follow: from far to near and, at equal
+// depth, by rank.
 static int compare_sorted(const void *a, const void *b) {
     const Sorted *one = a, *two = b;
     if (one->last != two->last)
@@ -31,7 +31,7 @@ static int compare_sorted(const void *a, const void *b) {
     return one->instance < two->instance ? -1 : one->instance > two->instance;
 }
 
-// Computes the minimum and maximum of a·x + b·y + c·z + d within a box.
+// Computes the minimum and maximum of f[0]·x + f[1]·y + f[2]·z + f[3] within a box.
 static void range_of(const double f[4], const SceneBox *box, double *min, double *max) {
     double middle = f[3], extent = 0;
     for (int k = 0; k < 3; k++) {
@@ -62,9 +62,11 @@ static bool is_seen(const Matrix *clip, const SceneBox *box) {
     return true;
 }
 
+// Ranks number the pairs of model and textures in a group, in the order of their first use. The upper half of an entry
+// of `ranks` is the index + 1 of the group in which its lower half, the rank, is valid.
 typedef struct Ranks {
-    uint64_t *ranks; // by model and textures: rank in the lower half, index of the group + 1 in the upper half
-    uint32_t count;  // number of ranks in this group
+    uint64_t *ranks; // by pair
+    uint32_t count;  // number of ranks in the current group
 } Ranks;
 
 static uint32_t rank_of(Ranks *ranks, size_t pair, uint32_t group) {
@@ -91,7 +93,7 @@ static bool can_extend(const SceneDraw *draw, const SceneDraw *wanted, bool spli
 
 static void add_draws(const Scene *scene, DrawOrder *order, uint32_t number, const Sorted *sorted, uint32_t count,
                       bool deep) {
-    enum { MAX_SPLIT = 2000 }; // from this number of draws, segments no longer separate draws
+    enum { MAX_SPLIT = 2000 }; // with this many draws or more, one draw combines different `segments`
     const SceneGroup *group = scene->groups[number];
     for (uint32_t i = 0; i < count; i++) {
         const SceneInstance *instance = &group->instances[sorted[i].instance];
@@ -117,8 +119,8 @@ static void add_draws(const Scene *scene, DrawOrder *order, uint32_t number, con
     }
 }
 
-// Returns the length in pixels of an edge of length 1 at the nearest point of a model. `scale` is this length at a
-// distance of 1.
+// Returns the length in pixels of an edge of length 1 in model coordinates, at the nearest point of the model. `scale`
+// is Sight.scale.
 static double pixels_of(const Matrix *placed, double depth, bool perspective, double scale) {
     double max = 0;
     for (int column = 0; column < 3; column++)
@@ -133,8 +135,8 @@ static bool is_ball(const Scene *scene, const SceneInstance *instance) {
     return model->kind == KIND_SPHERE && !model->flat && model->snap == 0.5 && instance->material->textures == 0;
 }
 
-// Returns the smallest number of segments that keeps every point of a sphere of this size within a twentieth of a
-// pixel. Shiny surfaces need more.
+// Returns the number of segments to draw. For a sphere, halves the model's number as long as no point moves by more
+// than a twentieth of a pixel, or less on shiny surfaces.
 static uint32_t segments_of(const Scene *scene, const SceneInstance *instance, double pixels) {
     double roughness = instance->material->surface.roughness, max = 0.05 * roughness * roughness;
     bool ball = is_ball(scene, instance);
@@ -157,10 +159,10 @@ typedef struct Sight {
     const Matrix *view;
     const Matrix *projection;
     Matrix both;
-    double scale; // length in pixels of an edge of length 1 at a distance of 1
+    double scale; // length in pixels of an edge of length 1 in the scene, at a distance of 1
 } Sight;
 
-// Fills all fields but `rank` and `last`. Returns false if the instance is not visible.
+// Fills `depth`, `segments` and `disc`. Returns false if the instance is not visible.
 static bool measure_instance(const Scene *scene, const SceneGroup *group, const Sight *sight, const SceneBox *box,
                              Sorted *sorted) {
     const SceneInstance *instance = &group->instances[sorted->instance];
@@ -180,9 +182,9 @@ static bool measure_instance(const Scene *scene, const SceneGroup *group, const 
     return true;
 }
 
-// Decides which spheres are drawn as discs. If draws so far write depth, fewer than MANY spheres are drawn as
-// triangles, because triangles are depth-tested for each sample of a pixel. Returns true if any draw so far writes
-// depth.
+// Decides which spheres of a group are drawn as discs. If this or an earlier group writes depth, only MANY or more
+// spheres become discs. Fewer remain triangles, which, unlike discs, are depth-tested for each sample of a pixel.
+// Returns true if this or an earlier group writes depth (`deep`: an earlier group does).
 static bool choose_discs(const Scene *scene, const SceneGroup *group, Sorted *sorted, uint32_t count, bool deep) {
     enum { MANY = 50 };
     uint32_t discs = 0;

@@ -18,13 +18,13 @@ typedef struct SceneDraw {
     uint32_t group;
     uint32_t model;
     uint32_t textures;
-    bool transparent; // drawn last, from back to front
-    bool translucent; // drawn last, from back to front, and writes depth
+    bool transparent; // drawn after opaque instances, from back to front
+    bool translucent; // implies `transparent`, but writes depth
     bool disc;        // spheres drawn as discs (sphere_impostor.h)
     bool deep;        // for discs: earlier draws have written depth
     uint32_t first;   // index in the `instances` of the order
     uint32_t count;
-    uint32_t segments; // number of segments to draw; fewer than the model has if that looks the same
+    uint32_t segments; // number of segments to draw; fewer than the model's if that looks the same
 } SceneDraw;
 
 typedef struct DrawOrder {

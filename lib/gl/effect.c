@@ -1,5 +1,6 @@
-// effect.c: runs effects; see effect.h. The source of an effect is a file in shaders/. The file contains the
-// declarations that all passes share. Then each pass has a line with its size, and a function `main`.
+// effect.c: runs effects; see effect.h. The source of an effect is a file in shaders/. The file begins with the
+// declarations that all passes share. The passes follow. Each is a line with its size (split_passes) and a function
+// `main`.
 #include "gl/effect.h"
 
 #include "gl/input_composite.h"
@@ -13,7 +14,7 @@ enum { MAX_PASSES = 8 };
 typedef struct Effect {
     const char *text;
     GlEdge edge;
-    bool merges; // several inputs are composited before the first pass
+    bool merges; // several inputs are composited in an additional first pass
 } Effect;
 
 static Effect find_effect(NodeKind kind) {
@@ -51,7 +52,7 @@ typedef struct Pass {
     bool reduced;
 } Pass;
 
-// Splits a file at the lines "//: full" and "//: reduced". *common is the text before the first one.
+// Splits a file at the lines "//: full" and "//: reduced". *common is the text before the first such line.
 static uint32_t split_passes(const char *text, Str *common, Pass passes[MAX_PASSES]) {
     static const char mark[] = "//: ";
     uint32_t count = 0;
@@ -110,7 +111,7 @@ bool gl_run_passes(Gl *gl, const GlEffect *effect, const GlPass *passes, uint32_
     return good;
 }
 
-// Adds functions that read the picture to process: the composited inputs if `merged`, else the only input.
+// Adds the functions `source` and `source_at`. They read the composited inputs if `merged`, else the first input.
 static void add_source(Text *text, const GlEffect *effect, bool merged, bool reduced) {
     const char *name = merged ? "first" : "texture0";
     bool same = merged || (effect->count > 0 && gl_fits(effect, effect->inputs[0])), near = same && !reduced;
@@ -125,7 +126,7 @@ static void add_source(Text *text, const GlEffect *effect, bool merged, bool red
         text_add_c(text, "vec4 source_at(ivec2 d) { return source(coord + vec2(d) / size); }\n");
 }
 
-// Returns the program of a pass; 0, after a report, if it does not compile.
+// Returns the program of a pass. Returns 0 if it does not compile, after a report, or if the composite mode is unknown.
 static unsigned build_pass(Gl *gl, Arena *arena, const GlEffect *effect, const Effect *kind, Str common, Pass pass,
                            DiagSink *faults) {
     Text text = text_new(arena);

@@ -2,7 +2,7 @@
 #include "base/heap.h"
 #include "gl/internal.h"
 
-// The default precision of samplers is low; they would return 16-bit floats.
+// By default, samplers have low precision and can return 16-bit floats, so the header ends with a precision for them.
 const char gl_header[] = "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n";
 
 static void read_limits(Gl *gl) {

@@ -1,8 +1,9 @@
 // gl.h: OpenGL ES 3 in a separate context or in a window's context: pictures on the GPU, and shader programs.
 //
-// A Gl belongs to one painter. Between gl_enter and gl_leave its context is current in the calling thread and the other
-// functions may be called. Other threads wait in gl_enter meanwhile. Files that need other functions include
-// <epoxy/gl.h> and call OpenGL directly. Machines without a GPU use Mesa's llvmpipe. Shaders are also valid in WebGL 2.
+// A Gl belongs to one painter. Between gl_enter and gl_leave, its context is current in the calling thread, which may
+// call the other functions. Until gl_leave, gl_enter blocks in every other thread, even for another Gl. Files that need
+// more of OpenGL include <epoxy/gl.h> and call it directly. Machines without a GPU use Mesa's llvmpipe. Shaders are
+// also valid in WebGL 2.
 #ifndef PETRI_GL_GL_H
 #define PETRI_GL_GL_H
 
@@ -13,7 +14,7 @@
 
 typedef struct Gl Gl;
 
-// Returns NULL if OpenGL ES 3 is not available, with the reason in *problem. If out of memory, *problem is NULL.
+// Returns NULL if OpenGL ES 3 is not available (*problem is the reason) or if out of memory (*problem is NULL).
 Gl *gl_open(const char **problem);
 // Like gl_open, but adopts the context that is current in this thread. The host owns the context, and must make it
 // current whenever the Gl is used.
@@ -37,17 +38,18 @@ typedef struct GlImage {
     GlFormat format;
 } GlImage;
 
-// Returns the format for this number of bits per channel, or an 8-bit format if the GPU cannot render to more bits.
+// Returns the format for this number of bits per channel: 8, 16 or 32. If the GPU does not support it, returns a format
+// with fewer bits.
 GlFormat gl_format(const Gl *gl, int bits);
 int gl_max_size(const Gl *gl); // maximum width and height of a picture
 // Returns an image with undefined content. Freed images are reused for images of the same size and format. The texture
 // is 0 if the GPU is out of memory.
 GlImage gl_image_new(Gl *gl, int width, int height, GlFormat format);
 void gl_image_free(Gl *gl, GlImage image);
-// Upload rows from the top: ARGB32 of an sRGB picture, or r, g, b, a in linear light.
+// Upload pixels, top row first. gl_upload_bytes takes ARGB32 in sRGB, gl_upload_linear r, g, b, a in linear light.
 void gl_upload_bytes(Gl *gl, GlImage image, const uint32_t *pixels);
 void gl_upload_linear(Gl *gl, GlImage image, const float *pixels);
-// Download rows from the top: ARGB32 of an sRGB picture, or r, g, b, a in linear light.
+// Download pixels in the same two forms. Return false on an OpenGL error.
 bool gl_read_bytes(Gl *gl, GlImage image, uint32_t *pixels);
 bool gl_read_linear(Gl *gl, GlImage image, float *pixels);
 uint64_t gl_readback_count(const Gl *gl); // number of downloads so far
@@ -65,8 +67,10 @@ typedef struct GlShaderError {
 // compile. Returns 0, with the error in the arena, if the program does not compile. Shader sources must begin with the
 // version line.
 unsigned gl_program(Gl *gl, Arena *arena, Str vertex, Str fragment, GlShaderError *fault);
-extern const char gl_header[]; // version and precision lines, which replace ${HEADER}
-extern const char gl_quad[]; // vertex shader for a triangle strip that covers the target: out vec2 coord, 0 to 1, v up
+extern const char gl_header[]; // version and precision lines; scripts write ${HEADER} for them
+// Vertex shader for a triangle strip that covers the target. Its output `vec2 coord` is 0;0 at the bottom left and 1;1
+// at the top right.
+extern const char gl_quad[];
 // Draws over the whole target with a program whose vertex shader is gl_quad or has the same inputs.
 void gl_draw_quad(Gl *gl, unsigned program);
 
@@ -75,13 +79,14 @@ void gl_draw_quad(Gl *gl, unsigned program);
 typedef struct GlBox {
     double x, y, width, height;
 } GlBox;
-// Draws a picture into a box of the window, whose size is width x height, with black around it. Colours are encoded
-// with a table: thresholds[b] is the smallest linear value that is encoded as a byte larger than b. If `opaque`, the
-// picture is composited over black. Otherwise colours are unpremultiplied, encoded and premultiplied again.
+// Draws a picture into a box of a window of width x height pixels. The window around the box becomes black. Colours are
+// encoded with a table: thresholds[b] is the smallest linear value that is encoded as a byte larger than b. If
+// `opaque`, the picture is composited over black. Otherwise colours are unpremultiplied, encoded and premultiplied
+// again.
 bool gl_present_image(Gl *gl, Arena *arena, GlImage image, const GlBox *box, int width, int height,
                       const float thresholds[256], bool opaque);
-// Draws premultiplied ARGB32 pixels, rows from the top. If `over`, composites them over the window; otherwise replaces
-// it.
+// Draws premultiplied ARGB32 pixels, top row first; x, y is the bottom left corner. If `over`, composites them over the
+// window's content; otherwise replaces it.
 bool gl_present_pixels(Gl *gl, Arena *arena, const uint32_t *pixels, int x, int y, int width, int height, bool over);
 
 #endif

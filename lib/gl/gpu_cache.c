@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-enum { MAX_IDLE_SCENES = 30 }; // models are freed after this number of scenes without them
+enum { MAX_IDLE_SCENES = 30 }; // models are freed after this number of scenes that do not use them
 
 struct CachedModel {
     CachedModel *next;
@@ -185,7 +185,7 @@ static bool make_target(SceneTarget *target) {
     return glGetError() == GL_NO_ERROR;
 }
 
-// Charges a target. If necessary, frees all other targets for it.
+// Charges a target to the budget. If the budget refuses, frees all other targets and tries again.
 static bool charge_target(Gl *gl, SceneTarget *target) {
     size_t pixel = 4 + (target->samples > 0 ? gl_pixel_size(target->format) : 0); // depth, and colour if multisampled
     size_t bytes =

@@ -44,7 +44,7 @@ struct GpuCache {
 GpuCache *gpu_cache(Gl *gl);
 // Returns the triangles of a model. They are created when first needed, and kept as long as scenes use them.
 const SceneShape *gpu_cache_shape(GpuCache *store, const Scene *scene, const SceneModel *model);
-// Returns NULL if the GPU cannot create the target.
+// Returns a target with these properties, from the cache or new. Returns NULL if out of memory.
 SceneTarget *gpu_cache_target(Gl *gl, int width, int height, int samples, GlFormat format, bool extra);
 // Binds the shape, with instance attributes that start at record `first` of the instance buffer.
 void gpu_cache_bind_instances(const GpuCache *store, const SceneShape *shape, uint32_t first);

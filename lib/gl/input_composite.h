@@ -18,7 +18,7 @@ GlEdge gl_edge(const DrawNode *node, GlEdge default_edge);
 //   edge mode
 // - ivec2 here(), the position of this pixel
 // - vec4 merged(vec2 uv), the composite of all inputs
-// - vec4 merged_here(), which is merged(coord) in a full-size pass, but reads inputs of the node's size without
+// - vec4 merged_here(), only for full-size passes: like merged(coord), but reads inputs of the node's size without
 //   interpolation
 bool gl_add_input_composite(Text *out, const GlEffect *effect, GlEdge edge);
 // Returns true if the picture has the size of the node.

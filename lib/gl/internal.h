@@ -25,7 +25,7 @@ struct Gl {
     bool halves;       // can render to 16-bit floats
     bool float_filter; // 32-bit floats can be sampled with linear filtering
     GLuint framebuffer;
-    GLuint strip; // vertex array of four corners: attribute 0
+    GLuint strip; // vertex array: attribute 0 is the four corners of gl_quad
     GLuint corners;
     GLuint nothing; // texture of one transparent pixel
     GLuint curve;   // texture of the table that encodes colours for windows; 0: not created yet

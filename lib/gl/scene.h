@@ -32,7 +32,7 @@ typedef struct SceneLight {
 
 // The properties that determine the triangles of a model.
 typedef struct SceneModel {
-    uint64_t source; // hash of the file's name and version, or of the vectors; 0: none
+    uint64_t source; // of a `!model`: hash of the file's name and version, or of its vectors; else 0
     double snap;
     uint32_t segments;
     uint8_t kind; // NodeKind
@@ -41,7 +41,7 @@ typedef struct SceneModel {
     bool flat;
     bool invert;
     bool disc;            // for a sphere: drawn as a disc that faces the camera (sphere_impostor.h)
-    const DrawNode *node; // a node with this model
+    const DrawNode *node; // one of the nodes with this model
 } SceneModel;
 
 // Texture maps of a surface, and how they are sampled.
@@ -135,7 +135,7 @@ bool scene_mesh(const Scene *scene, const SceneModel *model, Arena *arena, struc
 // Returns a hash of the data that the triangles of a `!model` are created from; never 0.
 uint64_t scene_model_hash(const Scene *scene, const DrawNode *node);
 bool scene_same_model(const SceneModel *a, const SceneModel *b);
-// Copies the lights that shine in a group, at most `max`, and returns their number.
+// Copies the lights of a group and its parents, at most `max`, and returns their number.
 uint32_t scene_lights(const SceneGroup *group, SceneLight *lights, uint32_t max);
 
 // Reports a problem of a node.

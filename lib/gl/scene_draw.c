@@ -20,16 +20,17 @@ typedef struct Drawing {
     Matrix projection;
     DrawOrder order;
     SceneTarget *target;         // buffers of the picture
-    GlImage backs;               // light that enters through back faces of translucent bodies of the current group
+    GlImage backs;               // result of draw_backs for the current group; texture 0: none
     bool many;                   // true if the group's lights are in a texture, false if in a uniform block
     double ambient[3];           // sum of the group's ambient lights
-    GLint ends[LIGHT_KINDS - 1]; // by non-ambient kind: index after its last light
+    GLint ends[LIGHT_KINDS - 1]; // for each kind but ambient: index after its last light in sort_lights
 } Drawing;
 
 static void make_record(const SceneInstance *instance, SceneRecord *record) {
     double cofactors[9];
     matrix_cofactors(&instance->matrix, cofactors);
-    // The length of a normal does not matter, but it must not overflow as a float.
+    // Scales the cofactors so that they do not overflow as floats. The shader normalises the normals that they
+    // transform.
     double max = 1e-300;
     for (int k = 0; k < 9; k++)
         max = fmax(max, fabs(cofactors[k]));
@@ -39,7 +40,7 @@ static void make_record(const SceneInstance *instance, SceneRecord *record) {
         record->matrix[k] = (float)instance->matrix.m[k];
 }
 
-// A disc stores the parameters of its sphere instead of cofactors.
+// The record of a disc holds parameters of the sphere instead of cofactors.
 static void make_disc_record(const Drawing *drawing, const SceneInstance *instance, SceneRecord *record) {
     SphereImpostor disc;
     sphere_impostor(&drawing->eye, &drawing->view, &instance->matrix, &disc);
@@ -153,7 +154,7 @@ static void send_lights(Drawing *drawing, const SceneGroup *group) {
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, drawing->store->light_block);
 }
 
-// Features of a shader variant.
+// Features of a shader variant. DEEP: discs write depth. BACK: renders `backs`.
 enum { TEXTURED = 1, DISC = 2, DEEP = 4, BACK = 8, TRANSLUCENT = 16 };
 
 static void add_variant(Text *text, unsigned variant) {
@@ -237,7 +238,7 @@ static void set_blending(const GraphicsState3D *state, bool transparent, bool tr
         [MIX3D_DARKEN] = {GL_MIN, GL_ONE, GL_ONE},
     };
     bool sorts = state->depth_sort && state->depth_test;
-    // Opaque surfaces replace the colours below them, so they need no blending.
+    // Opaque surfaces replace the colours behind them, so they need no blending.
     (sorts && !transparent && state->composite == MIX3D_OVER ? glDisable : glEnable)(GL_BLEND);
     glBlendEquation(modes[state->composite].equation);
     glBlendFunc(modes[state->composite].source, modes[state->composite].target);
@@ -276,8 +277,9 @@ static void draw_shape(const Drawing *drawing, const SceneDraw *draw, GLuint pro
     glDrawElementsInstanced(GL_TRIANGLES, shape->index_count, GL_UNSIGNED_INT, NULL, (GLsizei)draw->count);
 }
 
-// Renders the back faces of translucent bodies in the group that starts with this draw (spec 5.6): the light that
-// enters through them, and their distance. Returns false on failure.
+// Renders the back faces of translucent bodies to `backs` (spec 5.6): the light that enters through a face, and the
+// face's distance. Processes the draws from `first`, the first translucent one, to the end of the group. Returns false
+// on failure.
 static bool draw_backs(Drawing *drawing, uint32_t first) {
     const DrawOrder *order = &drawing->order;
     GlFormat format = drawing->gl->floats ? GL_FORMAT_RGBA32F : GL_FORMAT_RGBA16F;

@@ -32,7 +32,7 @@ bool mesh_from_lists(Arena *arena, const double *vertices, uint32_t vertex_numbe
         const double *a = vertices + 3 * (size_t)mesh->indices[i], *b = vertices + 3 * (size_t)mesh->indices[i + 1],
                      *c = vertices + 3 * (size_t)mesh->indices[i + 2];
         double one[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, two[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-        vector_cross(one, two, one); // its length is twice the area
+        vector_cross(one, two, one); // its length is twice the area, so large triangles weigh more
         for (uint32_t k = 0; k < 9; k++)
             normals[mesh->indices[i + k / 3]][k % 3] += one[k % 3];
     }
@@ -54,7 +54,7 @@ static bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\r';
 }
 
-// Returns the next word of a line; empty at its end.
+// Removes the next word from a line and returns it. Returns an empty string at the end of the line.
 static Str next_word(Str *line) {
     while (line->len > 0 && is_blank(*line->bytes))
         *line = (Str){line->bytes + 1, line->len - 1};

@@ -1,5 +1,5 @@
-// scene_hull.c: the convex hull of points (spec canvas3d.md 8.2). Points are added one by one; the faces that are
-// visible from the new point are replaced by faces between the point and their outline.
+// scene_hull.c: the convex hull of points (spec canvas3d.md 8.2). Points are added one by one. The faces that are
+// visible from the new point are removed. New faces connect the edges of this hole to the point.
 #include "gl/scene_matrix.h"
 #include "gl/scene_mesh.h"
 
@@ -52,7 +52,7 @@ static double distance_from(const Hull *hull, const uint32_t *first, int count, 
     return fabs(plane_distance(&hull->faces[0], p));
 }
 
-// Starts with four points that are as far apart as possible. Returns false if all points lie in a plane.
+// Creates the faces of a tetrahedron of four points that are far apart. Returns false if all points lie in a plane.
 static bool begin_hull(Hull *hull, uint32_t count) {
     uint32_t first[4] = {0};
     for (int found = 1; found < 4; found++) {

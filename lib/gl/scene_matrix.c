@@ -37,7 +37,7 @@ void matrix_point(const Matrix *a, const double p[3], double out[3]) {
 }
 
 void matrix_cofactors(const Matrix *a, double out[9]) {
-    for (int column = 0; column < 3; column++) // each column is the cross product of the two others
+    for (int column = 0; column < 3; column++) // each column is the cross product of the two other columns of a
         vector_cross(a->m + 4 * ((column + 1) % 3), a->m + 4 * ((column + 2) % 3), out + 3 * column);
 }
 
@@ -166,7 +166,7 @@ static bool place_along(Matrix *a, const DrawNode *node, const double end[3]) {
     double length = sqrt(vector_dot(axis, axis));
     if (!(radius > 0) || !vector_normalise(axis))
         return false;
-    // The shortest rotation from z to the axis, computed from the half-way quaternion.
+    // The shortest rotation from z to the axis: a half turn if they are opposite, else computed as a quaternion.
     Matrix turn = axis[2] < -0.9999999999 ? rotation_about(1, 0.5) : matrix_identity;
     if (axis[2] >= -0.9999999999) {
         double q[4] = {1 + axis[2], -axis[1], axis[0], 0}, size = sqrt(2 * q[0]);

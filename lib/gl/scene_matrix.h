@@ -11,7 +11,7 @@ typedef struct Matrix {
 
 extern const Matrix matrix_identity;
 
-Matrix matrix_product(const Matrix *a, const Matrix *b); // applies b first
+Matrix matrix_product(const Matrix *a, const Matrix *b); // a · b, which applies b first
 bool matrix_is_finite(const Matrix *a);
 void matrix_point(const Matrix *a, const double p[3], double out[3]);
 // Computes the cofactors of the upper 3 x 3, column-major. They transform normals and directions.

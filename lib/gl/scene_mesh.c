@@ -67,7 +67,8 @@ static void add_octant(Mesh *mesh, uint32_t n, uint32_t side, int half) {
                                i ? maths_sin(TURN * latitude) : half};
             add_vertex(mesh, place, place, longitude, 2 * latitude + 0.5);
         }
-    // Row i starts after 1 + 2 + … + i vertices. Columns are in counter-clockwise order when seen from the north pole.
+    // Row i, counted from the pole, starts after 1 + 2 + … + i vertices. Columns are in counter-clockwise order when
+    // seen from the north pole.
     for (uint32_t i = 1; i <= n; i++)
         for (uint32_t j = 1; j <= i; j++) {
             uint32_t a = start + i * (i + 1) / 2 + j, b = start + (i - 1) * i / 2 + j - 1;
@@ -88,7 +89,7 @@ Mesh mesh_sphere(Arena *arena, uint32_t segments) {
 }
 
 // Fills the area between an arc of corners and its chord with triangles. The triangles are as large as possible,
-// because pixels in several triangles are shaded more than once.
+// because a pixel on an edge is shaded once for each adjacent triangle.
 static void add_arc(Mesh *mesh, uint32_t from, uint32_t to, uint32_t n) {
     uint32_t middle = (from + to) / 2;
     if (to - from < 2)

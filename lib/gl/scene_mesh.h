@@ -31,7 +31,8 @@ Mesh mesh_cylinder(Arena *arena, uint32_t segments); // `segments` is at least 2
 Mesh mesh_cone(Arena *arena, uint32_t segments);     // `segments` is at least 2
 void mesh_bounds(const Mesh *mesh, float low[3], float high[3]); // the mesh must not be empty
 
-// Modify the surface of a mesh.
+// Modify the surface of a mesh. mesh_flat gives each corner the normal of its triangle. mesh_invert turns the surface
+// inside out.
 void mesh_flat(Arena *arena, Mesh *mesh);
 // Splits the mesh at edges where the normals of triangles differ by more than `turns`, and recomputes the normals.
 void mesh_snap(Arena *arena, Mesh *mesh, double turns);
@@ -44,13 +45,14 @@ typedef struct MeshError {
     uint32_t line; // line of the file; 0: unknown
 } MeshError;
 
-// Reads an OBJ file, or a text or binary STL file. Returns false with a reason.
+// Reads an OBJ file, or a text or binary STL file. On failure, sets *fault and returns false.
 bool mesh_from_file(Arena *arena, Str bytes, Mesh *mesh, MeshError *fault);
-// Returns the faces of the convex hull of points, which are three numbers each. A face is three indices of points.
-// Returns NULL if all points lie in a plane.
+// Returns the faces of the convex hull of `count` points, which are three numbers each in `vertices`. A face is three
+// indices of points. *numbers is the total number of these indices. Returns NULL if all points lie in a plane.
 enum { MESH_MAX_HULL = 2000 }; // maximum number of points
 const double *mesh_hull(Arena *arena, const double *vertices, uint32_t count, uint32_t *numbers);
-// Creates a mesh from lists: vertices and faces of three numbers each, and texture coordinates of two each or none.
+// Creates a mesh from lists: vertices and faces of three numbers each, and optional texture coordinates of two numbers
+// each.
 bool mesh_from_lists(Arena *arena, const double *vertices, uint32_t vertex_numbers, const double *faces,
                      uint32_t face_numbers, const double *uv, uint32_t uv_numbers, Mesh *mesh, const char **problem);
 

@@ -79,7 +79,8 @@ static uint32_t *join_positions(Arena *arena, const Mesh *mesh) {
     return joined;
 }
 
-// An edge of a triangle, from its corner `corner` to the next one. `low` and `high` are its end points.
+// An edge of a triangle, from the corner with the index `corner` to the triangle's next corner. `low` and `high` are
+// the joined positions of its ends, the lower number first.
 typedef struct Edge {
     uint32_t low;
     uint32_t high;
@@ -111,7 +112,8 @@ static void unite_corners(uint32_t *parents, uint32_t a, uint32_t b) {
     parents[a > b ? a : b] = a > b ? b : a;
 }
 
-// Unites the corners at both ends of an edge that two triangles share.
+// Unites corners of two triangles at both ends of their common edge. It starts at corner a of one and corner b of the
+// other.
 static void unite_across(uint32_t *parents, const uint32_t *points, uint32_t a, uint32_t b) {
     uint32_t a_end = next_corner(a), b_end = next_corner(b);
     bool same = points[a] == points[b]; // both triangles have the edge in the same direction
@@ -119,7 +121,7 @@ static void unite_across(uint32_t *parents, const uint32_t *points, uint32_t a, 
     unite_corners(parents, a_end, same ? b_end : b);
 }
 
-// Unites corners that share a normal, so that they have a common root.
+// Unites corners that will share a normal. Returns the parents of all corners; united corners have the same root.
 static uint32_t *find_roots(Arena *arena, const Mesh *mesh, const uint32_t *points, const double (*normals)[3],
                             double turns) {
     uint32_t count = mesh->index_count;
@@ -172,7 +174,7 @@ void mesh_snap(Arena *arena, Mesh *mesh, double turns) {
         for (int k = 0; k < 3; k++)
             sums[root][k] += angle * normals[i / 3][k];
     }
-    // Creates one vertex per root and texture coordinates.
+    // Creates one vertex per corner, with the normal of the corner's root.
     MeshVertex *vertices = arena_alloc_array(arena, count, sizeof *vertices);
     for (uint32_t i = 0; i < count; i++) {
         uint32_t root = turns < 0.5 ? root_of(roots, i) : roots[i];
@@ -205,7 +207,8 @@ static void remap_sphere(MeshVertex *vertex) {
     vertex->uv[1] = (float)(maths_atan2(z, sqrt(x * x + y * y)) / (TURN / 2) + 0.5);
 }
 
-// Duplicates the corners of triangles across the seam, with texture coordinates beyond 1.
+// Mends the seam where u wraps from 1 to 0. If a triangle crosses it, its corners with a small u are replaced by copies
+// with u + 1.
 static void mend_seam(Arena *arena, Mesh *mesh) {
     MeshVertex *vertices = arena_alloc_array(arena, (size_t)mesh->vertex_count + mesh->index_count, sizeof *vertices);
     memcpy(vertices, mesh->vertices, mesh->vertex_count * sizeof *vertices);

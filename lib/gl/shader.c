@@ -7,13 +7,13 @@
 
 enum { MAX_PASSES = 64 };
 
-// Expands ${HEADER} to gl_header. #line directives keep the line numbers of compiler messages right. Returns false if
-// the text contains other templates.
+// Replaces ${HEADER} or a line `#version 330` by gl_header. #line directives keep the line numbers of compiler messages
+// right. Returns false if the text contains other templates.
 static bool expand_template(Text *out, Str text) {
     static const Str header = {"${HEADER}", 9}, version = {"#version 330", 12};
     size_t line_number = 1, i = 0;
     for (; i < text.len && strchr(" \t\n\r", text.bytes[i]); i++)
-        line_number += text.bytes[i] == '\n'; // the version must be the first line
+        line_number += text.bytes[i] == '\n'; // white space is dropped, because the version must be the first line
     const size_t start = i;
     for (; i < text.len; i++) {
         Str rest = {text.bytes + i, text.len - i};

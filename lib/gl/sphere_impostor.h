@@ -1,9 +1,10 @@
 // sphere_impostor.h: spheres drawn as discs.
 //
-// Seen from a camera, a sphere is the disc within its outline. The fragment shader intersects the ray through each
-// point of the disc with the sphere to compute position and normal. A disc of 64 corners has 62 triangles. A sphere of
-// 64 segments has 2048, and most of them are smaller than the blocks of pixels that GPUs shade. If earlier draws have
-// written depth, the shader also writes the sphere's depth, once for all samples of a pixel.
+// The outline of a sphere, as seen from the camera, is a circle. The sphere is drawn as a disc that fills this circle.
+// For each point of the disc, the fragment shader intersects the camera's ray with the sphere. This gives the position
+// and normal. A disc of 64 corners has 62 triangles. A sphere of 64 segments has 2048, and most of them are smaller
+// than the blocks of pixels that GPUs shade. If earlier draws have written depth, the shader also writes the sphere's
+// depth, once for all samples of a pixel.
 #ifndef PETRI_GL_SPHERE_IMPOSTOR_H
 #define PETRI_GL_SPHERE_IMPOSTOR_H
 
@@ -16,8 +17,8 @@ typedef struct SphereImpostor {
     double near;   // radius / distance from the camera; 0 without perspective
 } SphereImpostor;
 
-// Computes the disc of a unit sphere with this transform. Returns false if the result is not a sphere, is clipped by
-// the near or far plane, or almost touches the camera.
+// Computes the disc of a unit sphere with this transform. Returns false if the transformed sphere is an ellipsoid or
+// mirrored, is clipped by the near or far plane, or almost touches the camera.
 bool sphere_impostor(const Eye *eye, const Matrix *view, const Matrix *place, SphereImpostor *disc);
 
 #endif

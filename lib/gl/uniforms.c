@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The value of a uniform.
+// The value of a uniform. `list` can point to `own`.
 typedef struct Numbers {
     const double *list;
     uint32_t count;
@@ -77,7 +77,7 @@ static void find_matrix(const GlEffect *effect, double m[9]) {
         memset(m, 0, 9 * sizeof *m);
 }
 
-// Finds an attribute of the node, or its default.
+// Sets *out to an attribute of the node or its default. Returns false if the node has no such attribute.
 static bool find_attribute(const DrawNode *node, const char *name, Numbers *out) {
     if (strcmp(name, "other") == 0)
         name = "default"; // `default` is a keyword of GLSL

@@ -53,7 +53,7 @@ bool gl_present_pixels(Gl *gl, Arena *arena, const uint32_t *pixels, int x, int 
     Budget *budget = gl->budget;
     gl->budget = NULL; // the window's pixels are not charged to the script
     GlImage image = gl_image_new(gl, width, height, GL_FORMAT_RGBA8);
-    gl_image_free(gl, image); // the image can be reused after this function returns
+    gl_image_free(gl, image); // nothing reuses the image before this function returns
     gl->budget = budget;
     if (!image.texture)
         return false;

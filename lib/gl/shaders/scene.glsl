@@ -1,8 +1,8 @@
 // scene.glsl: the colour of a point of a surface as the camera sees it (spec canvas3d.md 5.3, 5.5).
 void main() {
 #ifdef DISC
-    // The point where the ray through this point of the disc meets the sphere. The radius of the disc is sqrt(1 -
-    // near²) times that of the sphere.
+    // Computes where the ray through this point of the disc meets the sphere. The radius of the disc is sqrt(1 - near²)
+    // times that of the sphere.
     float near = towards.w, depth = sqrt(max(1.0 - dot(across, across) / (1.0 - near * near), 0.0));
     N = (across + towards.xyz * (depth + near)) / (1.0 + near * depth);
     world = ball.xyz + ball.w * N;

@@ -1,7 +1,7 @@
 // scene_light.glsl: lighting of a surface point (spec canvas3d.md 5.3, 5.4).
 #ifdef DISC
 in vec3 across;                // from the centre of the disc, in radii of the sphere
-flat in vec4 ball, towards;    // centre and radius; direction to the camera, radius / distance
+flat in vec4 ball, towards;    // ball: centre, radius; towards: direction to the camera, radius / distance
 vec3 world;
 #ifdef DEEP
 uniform mat4 view, projection;
@@ -13,12 +13,12 @@ in vec2 coord;
 flat in vec4 albedo_transparency, emissive_translucency, surface;
 out vec4 color;
 
-uniform vec3 eye, ahead; // position of the camera; direction from the focus to the camera
+uniform vec3 eye, ahead; // eye: position of the camera; ahead: direction from the focus to the camera
 uniform bool orthographic, monochrome;
 uniform float fog_min, fog_max, fog_curve;
 uniform vec3 fog_color, tint;
 uniform vec3 ambient;
-uniform int ends[5]; // index after the lights of each kind: directional, spots, points, balls, lines
+uniform int ends[5]; // index after the last directional light, spot, point, ball and line
 
 #ifdef MANY_LIGHTS
 uniform highp sampler2D lights;
