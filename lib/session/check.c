@@ -3,8 +3,8 @@
 
 #include <string.h>
 
-// Returns the kind of top-level node whose name is most similar, or an empty string if none is similar. Other top-level
-// nodes are allowed, but have no effect.
+// Returns the known kind of top-level node that is spelled most similarly. Returns an empty string if `kind` is itself
+// known, or if no kind is similar. Top-level nodes of unknown kinds are allowed, but have no effect.
 static Str nearest_top_kind(Str kind) {
     StrNearest nearest = {.wanted = kind, .limit = (int)kind.len < 6 ? (int)kind.len / 3 + 1 : 3};
     for (int i = 0; i < KIND_COUNT && nearest.limit > 0; i++)
@@ -14,7 +14,7 @@ static Str nearest_top_kind(Str kind) {
 }
 
 void session_lint_top_nodes(PetriSession *session) {
-    const Symbol *last = NULL; // kind of the previous node, to report a repeated kind once
+    const Symbol *last = NULL; // kind of the previous node; successive nodes of one kind are reported once
     for (uint32_t i = 0; session->frame.tree.kind == VALUE_MIXED && i < session->frame.tree.len; i++) {
         const Item *item = &session->frame.tree.as.items[i];
         if (item->type != ITEM_NODE || item->as.node->kind == last)
@@ -35,7 +35,7 @@ void session_lint_top_nodes(PetriSession *session) {
     }
 }
 
-// Reads all windows as drawing does, to report errors in their nodes.
+// Reads all windows in the same way as for drawing, to report errors in their nodes.
 static void lint_windows(PetriSession *session, void *context) {
     const Node *window;
     (void)context;
@@ -43,8 +43,8 @@ static void lint_windows(PetriSession *session, void *context) {
         canvas_read(&session->schema, &session->frame.systems_arena, window);
 }
 
-// Diagnostics of the scratch session. They are collected to be sorted by position, because each stage of the check
-// processes the whole script.
+// Diagnostics of the scratch session, a temporary session that runs the checks. They are collected and then sorted by
+// position, because each stage of the check goes through the whole script.
 typedef struct CheckLog {
     PetriSession *scratch;
     Arena arena;
@@ -113,7 +113,7 @@ static void open_scratch(PetriSession *session, CheckLog *log) {
     log->scratch = petri_open(&options);
     if (log->scratch) {
         log->scratch->budget.user_data = session->options.user_data; // for the host's should_interrupt
-        log->scratch->reach = session->reach;                        // shares lists that outlive the scratch session
+        log->scratch->reach = session->reach;                        // its lists outlive the scratch session
         session_copy_host_globals(session, log->scratch);
         log->scratch->functions = session->functions;
     }
@@ -125,7 +125,7 @@ static void open_scratch(PetriSession *session, CheckLog *log) {
 static PetriStatus run_checks(PetriSession *scratch, const char *file, const char *text, size_t length) {
     scratch->loader.lint = scratch->schema.lint = true;
     PetriStatus status = text ? petri_load_text(scratch, file, text, length) : petri_load(scratch, file);
-    scratch->loader.lint = false; // the frame loads modules, which are checked separately
+    scratch->loader.lint = false; // not for modules that the frame loads: each is checked separately
     if (status == PETRI_OK)
         status = petri_step(scratch);
     if (status == PETRI_OK)
@@ -133,7 +133,7 @@ static PetriStatus run_checks(PetriSession *scratch, const char *file, const cha
     return status;
 }
 
-// Checks a file or, if `text` is not NULL, a script in memory with this name.
+// Checks the script in a file. If `text` is not NULL, checks that text instead, and `file` is its name in messages.
 static PetriStatus check_script(PetriSession *session, const char *file, const char *text, size_t length) {
     CheckLog log = {0};
     PetriStatus status = PETRI_OUT_OF_MEMORY;

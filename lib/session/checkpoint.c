@@ -6,8 +6,8 @@
 // - the input bindings, then the input state if any input was reported
 //
 // A value starts with a word for its length and kind. In a numeric value, the numbers follow. In a mixed value, each
-// element starts with a word for its type and length, and strings are padded to whole words. Slots keep their numbers,
-// so that a restored session behaves identically.
+// element starts with a word for its type and length, and strings are padded to whole words. All slots are stored in
+// order, so that each has the same number after a restore and the session behaves identically.
 #include "base/heap.h"
 #include "session/session.h"
 
@@ -138,7 +138,7 @@ static Item read_item(CheckpointReader *reader) {
     return item;
 }
 
-// Returns a value that refers to the checkpoint's memory if possible.
+// Returns a value. Its strings, and the numbers of a numeric value, still refer to the checkpoint's memory.
 static Value read_value(CheckpointReader *reader) {
     uint64_t word = read_word(reader);
     uint32_t len = (uint32_t)(word >> 2);

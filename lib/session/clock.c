@@ -42,7 +42,7 @@ static double wall_time(const Clock *clock) {
     return clock_monotonic() - clock->wall.origin;
 }
 
-// Maximum lag in seconds. A session that is further behind continues from the current time instead of catching up.
+// Maximum lag in seconds. A session that is further behind skips the time beyond it instead of catching up.
 static const double MAX_LAG = 0.1;
 // Maximum argument of nanosleep in seconds, about three years.
 static const double MAX_PAUSE = 1e8;
@@ -51,7 +51,8 @@ static double lockstep_time(const Clock *clock) {
     return clock->base.time + (double)(clock->number - clock->base.number) / clock->rates.fps;
 }
 
-// Starts the wall clock. Returns the time of the first frame: as in lockstep, 0 or the time of a restored state.
+// Starts the wall clock at the time that the current frame has in lockstep: 0 in frame 0, more after a restore. Returns
+// this time.
 static double start_wall_clock(Clock *clock) {
     double time = lockstep_time(clock);
     clock->wall.running = true;
@@ -100,7 +101,7 @@ double clock_seconds_until_due(const Clock *clock) {
     return clock->wall.running ? fmax(0, clock->wall.due - wall_time(clock)) : 0;
 }
 
-// Adjusts the wall clock so that the next frame is due now.
+// Changes the origin of the wall clock so that the next frame is due now.
 static void set_to_due(Clock *clock) {
     clock->wall.due = clock->time + 1 / clock->rates.fps;
     clock->wall.origin = clock_monotonic() - clock->wall.due;

@@ -15,7 +15,7 @@ static void clear_retained(Diagnostics *diagnostics) {
     diagnostics->retained_first = diagnostics->retained_count = 0;
 }
 
-// Copies a string to *end and advances it. Returns the copy, or NULL for NULL.
+// Copies a string to *end and advances *end past the copy. Returns the copy. If `text` is NULL, returns NULL.
 static const char *add_text(char **end, const char *text) {
     size_t size = text ? strlen(text) + 1 : 0;
     const char *copy = text ? memcpy(*end, text, size) : NULL;
@@ -83,7 +83,7 @@ static bool has_hash(const void *owner, uint32_t entry, const void *key) {
     return ((const Diagnostics *)owner)->reported[entry] == *(const uint64_t *)key;
 }
 
-// Returns true if a diagnostic was reported before, or the maximum number has been reached.
+// Returns true if a diagnostic must be suppressed: it was reported before, or MAX_REPORTED diagnostics were reported.
 static bool is_reported(const Diagnostics *diagnostics, uint64_t hash) {
     return diagnostics->reported_count >= MAX_REPORTED ||
            hash_index_find(&diagnostics->reported_index, hash, has_hash, diagnostics, &hash) != HASH_INDEX_NONE;
@@ -137,7 +137,7 @@ static void report_diagnostic(PetriSession *session, void *context) {
     Str key = pending->key;
     uint64_t hash = hash_bytes(0, key.bytes, key.len);
     if (key.len && is_reported(diagnostics, hash))
-        return; // checked before rendering, because the diagnostic may occur in every frame
+        return; // before rendering, because a diagnostic that recurs in every frame must cost little
     ArenaMark mark = arena_mark(&session->text_arena);
     Text rendered = text_new(&session->text_arena);
     diag_format(&rendered, pending->diag, session->options.colour);
@@ -158,7 +158,7 @@ static void report_diagnostic(PetriSession *session, void *context) {
     arena_rewind(&session->text_arena, mark);
 }
 
-// Reports a diagnostic without allocating, so that an out-of-memory error can be reported.
+// Reports a diagnostic without allocating from arenas, so that an out-of-memory error can be reported.
 static void report_without_memory(PetriSession *session, const Diag *diag) {
     static const char *const levels[] = {"error", "warning", "note"};
     char text[200], rendered[240];
@@ -169,7 +169,7 @@ static void report_without_memory(PetriSession *session, const Diag *diag) {
     diagnostics_forward(session, &plain);
 }
 
-// Within a protected call, running out of memory here aborts that call.
+// If called within a protected call, that call is aborted when memory runs out here.
 void session_report_keyed(PetriSession *session, const Diag *diag, Str key) {
     PendingReport pending = {diag, key};
     if (session->text_arena.escape)

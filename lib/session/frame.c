@@ -1,4 +1,4 @@
-// frame.c: computation of one frame: evaluation, then the systems (spec language.md L16).
+// frame.c: computation of one frame: evaluates the script, then advances the systems (spec language.md L16).
 #include "session/session.h"
 
 #include <math.h>
@@ -7,9 +7,8 @@
 
 enum { TEMPO = 120, QUANTUM = 4 }; // defaults without pragmas
 
-// Returns the value of a pragma, a number or a string that contains a number (L12). Otherwise warns and returns the
-// default. `positive` rejects numbers that are not above 0. If a pragma is repeated, the last one is used, even if it
-// is invalid.
+// Returns the number that a pragma gives, either directly or in a string (L12). If its value is not valid, warns and
+// returns the default. With `positive`, only finite numbers above 0 are valid.
 static double pragma_number(PetriSession *session, const Pragma *pragma, bool positive, double default_value) {
     Value v = pragma->value;
     double number = NAN;
@@ -54,6 +53,7 @@ static void session_drop_frame(PetriSession *session) {
     arena_free(&session->frame.systems_arena);
 }
 
+// If a pragma is repeated, the last one counts. If that is invalid, the default is used.
 ClockRates session_pragma_rates(PetriSession *session, const Program *program) {
     ClockRates rates = {session->options.fps, TEMPO, QUANTUM};
     for (uint32_t i = 0; i < program->pragma_count; i++) {
@@ -138,7 +138,7 @@ double petri_resolution(const PetriSession *session) {
 void petri_reset(PetriSession *session) {
     if (!session)
         return;
-    session->rollback_pending = false; // the state to roll back to is discarded
+    session->rollback_pending = false; // no longer needed, because the state is cleared
     state_clear(session->state);
     scene_reset(session->scene);
     session_clear_frame(session);
@@ -177,8 +177,8 @@ void session_set_globals(const PetriSession *session, Vm *vm) {
         isnan(session->options.run_time) ? VALUE_NULL : value_number(session->options.run_time);
 }
 
-// Runs a program and returns its value. Its parameters are the values of the frame so far. Its exports are appended to
-// them.
+// Runs a program whose parameters are all values of the frame so far. Appends its exports to the values of the frame.
+// Returns the program's value.
 static Value run_program(PetriSession *session, const Program *program) {
     SessionFrame *frame = &session->frame;
     Value result = vm_run(&session->vm, program, frame->values, frame->values + frame->value_count);
@@ -211,10 +211,10 @@ void session_evaluate(PetriSession *session, const State *state) {
     frame->evaluated = true;
 }
 
-// Evaluates the frame in the state from which it was computed, if known, else in the current state.
+// Evaluates the frame again, with the state from which it was computed if that is known, else with the current state.
 static void preview(PetriSession *session, void *context) {
     State **before = context;
-    diag_sink_free(&session->frame.log); // the evaluation fills it again
+    diag_sink_free(&session->frame.log); // empty it, because the evaluation repeats the output of debug()
     if (session->undo_of_frame) {
         *before = state_new(&session->budget);
         if (!*before)
@@ -262,7 +262,7 @@ static void update_names(PetriSession *session, void *context) {
 PetriStatus session_update_names(PetriSession *session) {
     if (session->frame.names_current)
         return PETRI_OK;
-    DiagSink log = session->frame.log; // already contains the output of debug()
+    DiagSink log = session->frame.log; // unchanged, because it already contains the debug() output of the bindings
     session->frame.log = diag_sink_new(&session->frame.arena, 0);
     PetriStatus status = session_protect(session, NULL, update_names, NULL);
     diag_sink_free(&session->frame.log);
@@ -309,7 +309,8 @@ bool petri_clear_interrupt(PetriSession *session) {
     return session && atomic_exchange(&session->interrupt, false);
 }
 
-// Evaluates the next frame. If the frame does not count, removes the input that was written to the state.
+// Evaluates the script for the current frame. If the frame will be undone, removes the input that was written to the
+// state.
 static PetriStatus evaluate_frame(PetriSession *session) {
     InputUndo undo = {.last = NULL};
     session_set_globals(session, &session->vm);
@@ -320,13 +321,13 @@ static PetriStatus evaluate_frame(PetriSession *session) {
     if (!counts)
         input_undo_write(scene_input(session->scene), session->state, &undo);
     if (status != PETRI_OK)
-        state_clear_exhausted(session->state); // already reported; must not abort the next frame as well
+        state_clear_exhausted(session->state); // the failure is already reported and must not abort the next frame too
     if (status != PETRI_OK)
         session_drop_frame(session);
     return status;
 }
 
-// Updates the systems of an evaluated frame.
+// Updates the systems after the script was evaluated.
 static PetriStatus update_frame(PetriSession *session) {
     SessionFrame *frame = &session->frame;
     session->spent = session->budget.work; // evaluation and systems share one budget
@@ -347,7 +348,7 @@ static PetriStatus update_frame(PetriSession *session) {
     return status;
 }
 
-// Computes the next frame at the given time and beat or, if `at` is NULL, at those of the clock.
+// Computes the next frame at the time and beat in `at`. If `at` is NULL, the clock determines time and beat.
 static PetriStatus step_session(PetriSession *session, const ClockBase *at) {
     if (!session || !session->config.program || session->call_depth > 0)
         return PETRI_INVALID;

@@ -12,7 +12,7 @@ typedef struct HostFunction {
 
 struct PetriCall {
     BuiltinContext *context;
-    double *numbers; // numbers of the result, allocated by the host function
+    double *numbers; // last memory from petri_call_alloc_numbers, for the numbers of the result; NULL: none
     char error[200];
 };
 
@@ -29,8 +29,8 @@ void petri_call_error(PetriCall *call, const char *text) {
                  STR_ARGS(str_truncate(str_from(text), sizeof call->error - 1)));
 }
 
-// Calls a host function. Memory is only allocated before and after its call, because an escape must not unwind through
-// host code.
+// Calls a host function. Memory is allocated before and after the host function runs, but not during it: a failed
+// allocation escapes (longjmp), which must not skip over code of the host.
 static Value call_host(BuiltinContext *context, const Value *args, uint32_t count) {
     const HostFunction *function = (const HostFunction *)(const void *)context->called;
     PetriCall call = {.context = context};
@@ -57,7 +57,7 @@ static bool parse_parameters(Builtin *row) {
         if (!row->variadic && (!session_is_name((Str){at, name}) || row->fixed > MAX_PARAMETERS))
             return false;
         if (!row->variadic && name == whole && ++row->required < row->fixed)
-            return false; // a parameter without a default follows one with a default
+            return false; // this parameter has no default, but an earlier one has
         at += whole;
         if (*at && (at[1] != ' ' || !at[2]))
             return false;

@@ -7,8 +7,8 @@
 
 // --- the state dictionary
 
-// A request to read or write an entry. Looking up a key of numbers allocates nothing and therefore needs no protected
-// call.
+// A request to read or write an entry. Finding a key that contains only numbers allocates nothing, so it needs no
+// protected call.
 typedef struct StateRequest {
     PetriValue key;
     PetriValue value; // value to store
@@ -101,7 +101,7 @@ static HostGlobal *find_host_global(PetriSession *session, const Symbol *name) {
     return NULL;
 }
 
-// Adds a name with two arenas for its values, which are freed with the session.
+// Adds a name with two arenas for its values. The arenas are freed with the session.
 static HostGlobal *add_host_global(PetriSession *session, const Symbol *name) {
     HostGlobals *global = &session->host_globals;
     HostGlobal *added = arena_alloc(&session->arena, sizeof *added);

@@ -59,7 +59,8 @@ static const Ast *parse_source(PetriSession *session, Unit *unit, Arena *arena, 
     return ast;
 }
 
-// Charges the work of parsing although the tree is cached, so that reloading reaches the work limit at the same point.
+// Returns a cached tree, but charges the work of parsing it. The work limit is then reached at the same point as
+// without the cache.
 static const Ast *charge_cached_parse(PetriSession *session, const Ast *ast, uint64_t work) {
     arena_charge(&session->arena, work);
     return ast;
@@ -84,8 +85,8 @@ static const Ast *cache_parsed(PetriSession *session, Unit *cache, const Source 
     return ast;
 }
 
-// Reads and parses an included file. If it cannot be read, sets *problem to the reason and returns false. *ast is NULL
-// if the file has syntax errors.
+// Reads and parses an included file. If it cannot be read, sets *problem to the reason and returns false. If it has
+// syntax errors, sets *ast to NULL and returns true.
 static bool read_include(PetriSession *session, Unit *unit, Str path, Str canonical, const Source **source,
                          const Ast **ast, const char **problem) {
     const char *file = str_to_c(&unit->arena, path);
@@ -148,7 +149,7 @@ static void evaluate_static(PetriSession *session, void *context) {
         vm_run_static(&session->static_vm, &session->loader.compiling->arena, evaluation->code, &evaluation->value);
 }
 
-// Folds a constant expression. Returns false if it exceeds a limit, so that each frame evaluates it instead.
+// Folds a constant expression. Returns false if it could not be folded; each frame then evaluates it instead.
 static bool host_evaluate(void *host, const Code *code, Value *value) {
     PetriSession *session = host;
     Arena *arena = &session->loader.compiling->arena;
@@ -271,7 +272,7 @@ Unit *unit_reload(PetriSession *session, Unit *unit) {
     reloaded->version = str_copy(&reloaded->arena, unit->version);
     bool parsed = unit->parse_cache && unit->parse_cache->ast;
     if (!parsed) {
-        unit_free(unit->parse_cache); // incomplete, because parsing ran out of memory
+        unit_free(unit->parse_cache); // it has no tree if its parsing was aborted
         unit->parse_cache = NULL;
         make_parse_cache(session, unit);
     }
@@ -290,7 +291,7 @@ Unit *unit_load_file(PetriSession *session, const char *file, bool module, bool 
     if (module) { // added to the list before loading, so that an escape does not leak it
         unit->next = session->loader.modules;
         session->loader.modules = unit;
-        unit->retired = true; // until loading is complete
+        unit->retired = true; // reset when loading is complete
     } else {
         session->loader.pending = unit;
         set_script_folder(session, unit, str_from(file));
@@ -298,7 +299,7 @@ Unit *unit_load_file(PetriSession *session, const char *file, bool module, bool 
     Str text;
     const char *problem;
     unit->path = file_canonical(&unit->arena, &session->reach, file);
-    const FileAccess *reach = module ? &session->reach : host_files(session); // the host chose the script
+    const FileAccess *reach = module ? &session->reach : host_files(session); // the host can choose any script
     if (file_read(&unit->arena, reach, file, regular, MAX_SOURCE_BYTES, &text, &unit->version, &problem))
         load_text(session, unit, str_from(file), text, module);
     else
@@ -317,7 +318,7 @@ static void add_to_chain(PetriSession *session, Unit *unit) {
     *first = unit;
 }
 
-// Returns the cached module of a canonical path, or NULL if there is none or its file has changed.
+// Returns the cached module with a canonical path. Returns NULL if there is none, or if its file has changed.
 static Unit *cached_module(PetriSession *session, Str path, Str version) {
     for (Unit *unit = *chain_of(session, path); unit; unit = unit->same_hash) {
         if (unit->retired || !str_equal(unit->path, path))
@@ -362,7 +363,7 @@ const char *petri_source_file(PetriSession *session, size_t number) {
         return NULL;
     for (Unit *unit = session->config.program; unit;
          unit = unit == session->config.program ? session->loader.modules : unit->next) {
-        if (unit->retired || !unit->version.len) // not from a file, or the file could not be read
+        if (unit->retired || !unit->version.len) // no version: loaded from memory, or its file could not be read
             continue;
         if (number <= unit->included_count)
             return (number == 0 ? unit->path : unit->included[number - 1]).bytes;

@@ -61,7 +61,7 @@ static bool is_within(const Parameter *parameter, double x) {
     return x >= parameter->min && x <= parameter->max;
 }
 
-// Returns the range as `MIN..MAX`, without missing ends.
+// Returns the range as `MIN..MAX`. An end that the range does not have is left out, as in `0..`.
 static Str range_text(Arena *arena, const Parameter *parameter) {
     char min[NUMBER_TEXT] = "", max[NUMBER_TEXT] = "";
     size_t before = isinf(parameter->min) ? 0 : number_format(parameter->min, min);
@@ -85,7 +85,7 @@ static Origin origin_of(const Parameter *parameter) {
     return (Origin){parameter->source, parameter->span};
 }
 
-// Reports an error and returns false if the default consists of numbers and the definition does not.
+// Checks that a definition consists of numbers if the default does. Otherwise, reports an error and returns false.
 static bool check_numbers(const Check *check, const Parameter *parameter) {
     Value v = check->define->value;
     Arena *arena = &check->unit->arena;
@@ -118,8 +118,8 @@ static void check_range(const Check *check, const Parameter *parameter) {
     }
 }
 
-// Returns false if the value is false, such as 0: `or` then uses the default. Warns about this unless the default is
-// also false.
+// Returns false if the defined value is false, such as 0, because `or` then uses the default. Warns about this unless
+// the default is known to be false too.
 static bool check_truth(const Check *check, const Parameter *parameter) {
     Arena *arena = &check->unit->arena;
     if (value_true(check->define->value))
@@ -146,7 +146,7 @@ static bool check_parameter(const Check *check, const Parameter *parameter) {
 // Returns the parameter with the most similar name, or NULL if none is similar.
 static const Parameter *nearest_parameter(const Program *program, Str name) {
     const Parameter *found = NULL;
-    int limit = name.len < 2 ? 1 : name.len < 4 ? 2 : 3; // any two names of one letter are similar
+    int limit = name.len < 2 ? 1 : name.len < 4 ? 2 : 3; // 1 accepts no other name of one letter
     StrNearest nearest = {name, limit, {0}};
     for (uint32_t i = 0; i < program->parameter_count; i++)
         if (str_try_nearest(&nearest, program->parameters[i].name->name))
@@ -230,8 +230,8 @@ static bool check_definition(const Check *check) {
 
 bool session_check_definitions(PetriSession *session, Unit *unit) {
     bool good = true, outer = diagnostics_repeat(&session->diagnostics, true);
-    // When recompiling, only new definitions are checked. They are reported even if the same diagnostic was reported
-    // before.
+    // When recompiling, only new definitions are checked. Their problems are reported even if the same diagnostic was
+    // reported before.
     uint32_t first = session->recompiling ? session->reported_defines : 0;
     diagnostics_repeat(&session->diagnostics, outer || session->recompiling);
     for (uint32_t i = first; i < session->config.define_count && !unit->empty; i++)
@@ -328,11 +328,11 @@ bool petri_parameter(PetriSession *session, size_t number, PetriParameter *param
 
 typedef struct Setting {
     const char *name;
-    const char *value; // NULL: the default
+    const char *value; // NULL: reset to the default
     PetriStatus status;
 } Setting;
 
-// Replaces all definitions of a name by one, or removes them.
+// Replaces all definitions of a name by one with the new value. If the new value is NULL, only removes them.
 static void redefine(PetriSession *session, void *context) {
     Setting *setting = context;
     Config *config = &session->config;

@@ -89,7 +89,7 @@ static void print_hash(TextSink *out, Sha256 *hash) {
     text_sink_end_line(out);
 }
 
-// Writes each diagnostic on a line that starts with `mark`, with its position if `positions` is true.
+// Writes each diagnostic on a line that starts with `mark`. If `positions` is true, the line includes its position.
 static void print_lines(TextSink *out, const DiagSink *sink, const char *mark, bool positions) {
     for (uint32_t i = 0; i < sink->count && !out->stopped; i++) {
         text_add_c(&out->text, mark);
@@ -98,7 +98,7 @@ static void print_lines(TextSink *out, const DiagSink *sink, const char *mark, b
     }
 }
 
-// Arguments and result of an output function.
+// Arguments and result of a public output function, such as petri_print.
 typedef struct Printing {
     void (*print)(TextSink *out, PetriSession *session, unsigned what);
     unsigned selection; // sections, or PetriDump
@@ -157,7 +157,7 @@ static void print_code(TextSink *out, PetriSession *session, unsigned what) {
     const Unit *unit = session->config.program;
     if (what == PETRI_DUMP_CODE) {
         program_print(&out->text, &session->symbols, unit->program);
-    } else { // the syntax tree was freed after compilation
+    } else { // parses the text again, because the syntax tree was freed after compilation
         DiagSink discarded = diag_sink_new(out->text.arena, 0);
         const Ast *ast = parse_program(out->text.arena, &session->symbols, unit->source, &discarded);
         ast_print(&out->text, &session->symbols, unit->source, ast);

@@ -21,15 +21,15 @@ typedef struct Job {
     Unit *unit;
     const Ast *ast; // syntax tree of the statement
     const Program *program;
-    Arena *arena; // arena of its value
+    Arena *arena; // arena of the statement's value
     Value value;
     Value *exports;
     double seconds;
     DiagSink log; // output of debug()
     TextSink out;
-    bool binds;      // binds names
+    bool binds;      // the statement binds names
     bool adds_nodes; // its value is added to the tree
-    // If the statement is retained: new contents of the frame and the prompt
+    // New contents of the prompt and the frame, if the statement is retained:
     PromptList *list;
     Value *values;
     Value tree;
@@ -38,7 +38,7 @@ typedef struct Job {
 
 // --- lists
 
-// Allocates a list for `count` statements, with the given names and the exports of a program.
+// Allocates a list for `count` statements. Its names are those in `before`, then the exports of a program (NULL: none).
 static PromptList *make_list(Names before, uint32_t count, const Program *program) {
     uint32_t old = before.count, more = program ? program->export_count : 0;
     PromptList *list = heap_alloc(sizeof *list + count * sizeof *list->statements + (old + more) * sizeof(Symbol *));
@@ -146,7 +146,7 @@ static void parse_text(PetriSession *session, void *context) {
     job->unit = unit_parse(session, STR("prompt"), job->text);
 }
 
-// Parses the text into a unit and makes sure that the visible names have values.
+// Parses the text into a unit. Evaluates the script and the prompt's bindings if the visible names have no values yet.
 static PetriStatus begin_job(PetriSession *session, const char *text, size_t length, Job *job) {
     job->text = (Str){text, length == PETRI_NUL_TERMINATED ? strlen(text) : length};
     if (session->call_depth > 0)
@@ -318,7 +318,7 @@ static bool reject_pragmas(PetriSession *session, const Unit *unit) {
     return true;
 }
 
-// Wraps the current statement in a suite.
+// Wraps the current statement in a suite, which can be compiled as a program.
 static void wrap_statement(PetriSession *session, void *context) {
     Job *job = context;
     const Ast *statement = job->ast;
@@ -349,7 +349,7 @@ PetriStatus petri_prompt(PetriSession *session, const char *text, size_t length,
     return status;
 }
 
-// Returns true if the text is a single expression; else reports an error.
+// Returns true if the text is a single expression. Otherwise, reports an error and returns false.
 static bool is_expression(PetriSession *session, const Unit *unit) {
     const Ast *ast = unit->ast;
     if (ast->count == 1 && ast->children[0]->kind != AST_PRAGMA && !binds(ast->children[0]))
@@ -423,7 +423,7 @@ uint32_t petri_prompt_clear(PetriSession *session, bool bindings) {
         prompt_list_free(dropped.list);
         return 0;
     }
-    session_clear_frame(session); // its tree may refer to removed statements
+    session_clear_frame(session); // the tree of the last frame can refer to removed statements
     session_set_prompts(session, dropped.list);
     session_change_config(session, false);
     return dropped_count;

@@ -96,11 +96,11 @@ PetriStatus petri_save(PetriSession *session, const char *file) {
 typedef struct Restore {
     PetriSession *session;
     Arena *arena;
-    Str rest;
+    Str rest;     // text not read yet
     State *state; // the new dictionary
     Incoming *incoming;
     int64_t frame;
-    uint32_t omitted; // number of non-finite values, which versions before 0.2.0 could save
+    uint32_t omitted; // number of entries ignored because they are not finite; versions before 0.2.0 could save them
 } Restore;
 
 static bool consume_prefix(Restore *restore, Str prefix) {
@@ -110,8 +110,8 @@ static bool consume_prefix(Restore *restore, Str prefix) {
     return true;
 }
 
-// Returns the length of the first element: a quoted string, or everything up to ";", ")", a space or the end of the
-// line. Returns 0 if a string is not terminated.
+// Returns the length of the element at the start of `rest`: a quoted string, or everything up to ";", ")", a space or
+// the end of the line. Returns 0 if a string is not terminated.
 static size_t element_length(Str rest) {
     size_t at = 0;
     char quote = rest.len && (rest.bytes[0] == '\'' || rest.bytes[0] == '"') ? rest.bytes[0] : 0;
@@ -209,7 +209,7 @@ static StateSlot velocity_slot(Restore *restore, StateSlot position) {
 
 static bool read_system(Restore *restore) {
     int64_t occurrence;
-    uint32_t capacity = 0; // always even, so that position and velocity fit together
+    uint32_t capacity = 0; // always even, so there is room for both slots of a particle, position and velocity
     SceneSystem system = {0};
     if (!read_integer(restore, &occurrence) || !consume_prefix(restore, STR(" ")) ||
         !read_key(restore, &system.prefix) || !consume_prefix(restore, STR("\n")))
@@ -230,7 +230,7 @@ static bool read_system(Restore *restore) {
     return true;
 }
 
-// Removes the last line and returns true if its hash matches the text before it.
+// Removes the last line, which contains a hash. Returns true if the hash matches the remaining text.
 static bool hash_matches(Str *text) {
     enum { END = sizeof "end 0123456789abcdef\n" - 1 };
     if (text->len < END)
@@ -273,7 +273,7 @@ static void read_state_file(PetriSession *session, Incoming *incoming, void *con
     Restore restore = {.session = session, .arena = arena, .state = incoming->state, .incoming = incoming};
     if (file_read(arena, NULL, file, true, MAX_STATE_BYTES, &restore.rest, NULL, &reason))
         reason = restore_text(&restore);
-    if (state_clear_exhausted(incoming->state)) // would otherwise be reported as a corrupt file
+    if (state_clear_exhausted(incoming->state)) // running out of memory must not be reported as a corrupt file
         arena_exhausted(arena);
     incoming->valid = !reason;
     if (restore.omitted && !reason)

@@ -47,7 +47,7 @@ static void report_scene(void *host, DiagLevel level, const char *code, const Or
         diag.span = origin->span;
     }
     diag_report(&session->frame.errors, &diag);
-    // A loop may create a thousand nodes at one position; report the position once.
+    // A loop can create a thousand nodes from one position in the script. Their common problem is reported once.
     Str where = diag.source ? str_format(arena, "%.*s %u", STR_ARGS(diag.source->path), diag.span.start) : node;
     session_report_keyed(session, &diag, str_format(arena, "%s %.*s %.*s", code, STR_ARGS(where), STR_ARGS(key)));
 }
@@ -59,7 +59,8 @@ static void report_vm(void *host, const Diag *diag) {
     session_report(session, diag);
 }
 
-// An error in an expression that is folded at load time is reported when a frame evaluates the expression.
+// Receives errors in expressions that are folded at load time. They are ignored here, because they are reported when a
+// frame evaluates the expression.
 static void ignore_diagnostic(void *host, const Diag *diag) {
     (void)host;
     (void)diag;
@@ -162,14 +163,14 @@ PetriStatus session_report_abort(PetriSession *session, PetriStatus status, cons
 }
 
 bool session_rollback(PetriSession *session) {
-    session->rollback_pending = false; // otherwise protected calls would try to roll back
+    session->rollback_pending = false; // so that the protected call of checkpoint_restore does not roll back again
     session->uninterruptible = true;
     session->rollback_pending = checkpoint_restore(session, &session->undo) != PETRI_OK;
     session->uninterruptible = false;
     return !session->rollback_pending;
 }
 
-// Creates the components of a session. If one cannot be allocated, the arena escapes.
+// Creates the components of a session. If one cannot be allocated, aborts the protected call.
 static void init_components(PetriSession *session, void *context) {
     (void)context;
     const PetriOptions *options = &session->options;
@@ -188,14 +189,14 @@ static void init_components(PetriSession *session, void *context) {
     file_access_add(&session->arena, &session->reach, FILE_ACCESS_READ, (const char *const[]){".", NULL});
     file_access_add(&session->arena, &session->reach, FILE_ACCESS_READ, options->read_folders);
     file_access_add(&session->arena, &session->reach, FILE_ACCESS_WRITE, options->write_folders);
-    session->options.read_folders = session->options.write_folders = NULL; // pointed to the host's memory
+    session->options.read_folders = session->options.write_folders = NULL; // they pointed to the host's memory
     session->vm.builtins.noise = session->static_vm.builtins.noise = session->noise;
     session->config.prompts = prompt_list_new((Names){0}, NULL);
     if (!session->state || !session->files || !session->noise || !session->config.prompts ||
         (options->profile && !session->vm.profile))
         arena_exhausted(&session->arena);
     PhysOptions physics = physics_options(options);
-    session->options.cpu = NULL; // pointed to the host's memory
+    session->options.cpu = NULL; // like `ranks`, it pointed to the host's memory
     session->options.ranks = NULL;
     scene_set_physics(session->scene, &physics);
 }
@@ -354,11 +355,11 @@ PetriStatus session_define(PetriSession *session, Str name, Str value) {
 typedef enum LoadPurpose { LOAD_RESTART, LOAD_CONTINUE } LoadPurpose;
 
 typedef struct Load {
-    const char *file; // NULL: load `text`
+    const char *file; // NULL: load `text`, or compile `reload_of`
     bool regular;     // the file must not be a pipe, which can be read only once
     Str name;         // name for messages
     Str text;
-    Unit *reload_of; // script to compile again, or NULL
+    Unit *reload_of; // script whose text is compiled again, or NULL
     // Results
     Unit *unit;
     ClockRates rates;
@@ -384,7 +385,7 @@ static void make_unit(PetriSession *session, void *context) {
 
 // Replaces the loaded script.
 static void install_script(PetriSession *session, const Load *load, LoadPurpose purpose) {
-    session_clear_frame(session); // its tree may refer to the old unit
+    session_clear_frame(session); // the tree of the last frame can refer to the old unit
     if (!session->config.program || !str_equal(session->config.program->folder, load->unit->folder))
         session_clear_files(session);
     unit_free(session->config.program);

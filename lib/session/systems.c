@@ -2,7 +2,7 @@
 #include "session/session.h"
 #include "value/format.h"
 
-// A query about a system. `found` is set when the result is complete.
+// A query about a system, whose result is stored in *out. `found` is set to true when the result is complete.
 typedef struct Request {
     size_t system;
     uint32_t number;
@@ -17,7 +17,7 @@ static bool run_request(PetriSession *session, SessionCall *call, size_t system,
     return session_report_abort(session, status, "the query") == PETRI_OK && request.found;
 }
 
-// Returns the prefix in printed form, which is created once per frame.
+// Returns the prefix of a system in printed form. Creates it on the first call in a frame.
 static const char *system_name(PetriSession *session, size_t number, Value prefix) {
     SessionFrame *frame = &session->frame;
     Arena *arena = &frame->systems_arena;
