@@ -30,8 +30,9 @@ int arcs_of_ellipse(const double n[6], double scale, double start[2], double cur
     return count;
 }
 
-// Follows the implementation notes on elliptical arcs in the SVG specification. Scaled by the radii, the arc lies on a
-// unit circle, whose centre is computed from the chord.
+// Follows the implementation notes on elliptical arcs in the SVG specification. Dividing coordinates by the radii maps
+// the arc to a circle. Its centre is computed from the chord. If the radii are too short for the chord, the circle
+// grows.
 int arcs_to_point(const double start[2], const double n[7], double curves[ARCS_MAX][6]) {
     double x = n[5], y = n[6], c = maths_cos(n[2] * TURN), s = maths_sin(n[2] * TURN);
     double rx = n[0], ry = n[1], dx = (x - start[0]) / 2, dy = (y - start[1]) / 2;

@@ -10,7 +10,7 @@ typedef struct Colour {
 } Colour;
 
 static const Colour GROUND = {0.06, 0.07, 0.09};
-// Minimum radii of bodies: in pixels of a panel, and in pixels of the target.
+// Minimum radii of bodies: in panel pixels, and in pixels of the target. The larger of the two applies.
 static const double MIN_RADIUS = 2, MIN_DEVICE_RADIUS = 1.5;
 // The camera is 0.45 radians to the right of the front view and 0.35 radians above it.
 static const double COS_YAW = 0.9004471023526769, SIN_YAW = 0.43496553411123023;
@@ -126,7 +126,7 @@ static void draw_body(const Panel *panel, const AutoBody *body, const Projected 
     }
 }
 
-// Sort key for drawing from far to near. Bodies at equal depth keep their order.
+// A body to sort, so that bodies are drawn from far to near. Bodies at equal depth keep their order.
 typedef struct DepthEntry {
     Projected seen;
     uint32_t body;

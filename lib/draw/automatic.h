@@ -4,9 +4,9 @@
 // physics. Three-dimensional systems are drawn in perspective, viewed from the front and slightly from the right and
 // above.
 //
-// The view is chosen from the first frame that has particles. When particles leave it, it grows around its centre; it
-// never shrinks. It depends only on the particles of the frames for which auto_frame was called. Axes through the
-// origin and a labelled scale bar provide orientation.
+// The view of a system is chosen in the first frame that has particles. If particles leave the view later, it grows
+// around its centre; it never shrinks. It depends only on the particles of the frames for which auto_frame was called.
+// Axes through the origin and a labelled scale bar provide orientation.
 #ifndef PETRI_DRAW_AUTOMATIC_H
 #define PETRI_DRAW_AUTOMATIC_H
 
@@ -17,7 +17,7 @@ typedef struct AutoBody {
     double position[3]; // finite
     double velocity[3];
     double radius;
-    double shade; // -1 … 1: charge, or 0 … 1: speed
+    double shade; // charge from -1 to 1, or speed from 0 to 1; see `charged`
     bool anchor;
 } AutoBody;
 
@@ -32,12 +32,12 @@ typedef struct AutoBarrier {
     double normal[3];
 } AutoBarrier;
 
-// AUTO_PANEL is the length of the shorter side of a panel in pixels. AUTO_MARGIN is the fraction of it that stays free
-// at each edge.
+// The shorter side of a panel is AUTO_PANEL panel pixels long, whatever the size of the picture. AUTO_MARGIN is the
+// fraction of this side that stays free at each edge.
 enum { AUTO_PANEL = 540 };
 #define AUTO_MARGIN 0.04
 
-// A line of the scale bar, in pixels from the lower left corner of the panel; y points upwards.
+// A line of the scale bar, in panel pixels from the lower left corner of the panel; y points upwards.
 typedef struct AutoLine {
     double x1, y1, x2, y2;
 } AutoLine;
@@ -68,8 +68,8 @@ typedef struct AutoPicture {
     uint32_t count;
 } AutoPicture;
 
-// Chooses the view of a system, or extends it. If there are no bodies, the view does not change. Temporary data is
-// allocated from the arena.
+// Chooses the view of a system if it has not been chosen yet, else extends it if bodies have left it. If there are no
+// bodies, the view does not change. Temporary data is allocated from the arena.
 void auto_frame(Arena *arena, AutoFrame *frame, const AutoSystem *system);
 // Creates the lines of the scale bar for the system's view.
 void auto_scale(Arena *arena, AutoSystem *system);

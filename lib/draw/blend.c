@@ -4,7 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-// Factors f and g of composite modes of the form s·f + d·g. Each factor depends on the alpha of the other colour.
+// Many composite modes compute s·f + d·g. The factors f and g are 0, 1, the alpha of the other colour, or 1 minus this
+// alpha.
 typedef enum Factor { NOTHING, ALL, ALPHA, REST } Factor; // 0, 1, alpha, 1 - alpha
 
 typedef struct Factors {
@@ -86,7 +87,7 @@ static void set_luminance(float c[3], float wanted) {
         c[k] = wanted + (c[k] - wanted) * scale;
 }
 
-// Stretches a colour until its largest and smallest channels differ by `wanted`.
+// Scales the channels so that the smallest becomes 0 and the largest `wanted`. Greys become black.
 static void set_saturation(float c[3], float wanted) {
     float min = fminf(fminf(c[0], c[1]), c[2]), now = saturation_of(c);
     for (int k = 0; k < 3; k++)

@@ -73,7 +73,7 @@ static void end_layer(Canvas *canvas, Layers *layers, double alpha) {
     draw_release(canvas, (size_t)layers->pixels[at] * sizeof(uint32_t));
 }
 
-// Adds a rectangle around the clip area, which inverts the path under the even-odd rule.
+// Adds a rectangle around the clip area to the path. Under the even-odd rule, this inverts the path.
 static void add_outer_rectangle(Canvas *canvas) {
     double x1, y1, x2, y2;
     cairo_t *cr = canvas->cr;

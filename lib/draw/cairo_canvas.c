@@ -45,7 +45,7 @@ typedef struct Page {
     const CanvasPicture *picture;
     const DrawNode *canvas;  // the canvas to draw; NULL: none
     cairo_surface_t *pixels; // an image that is drawn instead of a canvas; NULL: none
-    FloatImage hdr_target;   // the image to draw on instead of the surface; no pixels: none
+    FloatImage hdr_target;   // on an HDR canvas: drawn on instead of the surface; else `pixels` is NULL
     double width;            // size of the content in units; it is scaled to fit the surface
     double height;
     bool black; // true for a black background
@@ -180,7 +180,7 @@ static cairo_surface_t *surface_of_texture(const Texture *texture, bool opaque) 
     return surface;
 }
 
-// Returns a page with the picture, for a surface of any size. The caller destroys its `pixels`.
+// Returns a page that shows the picture on a surface of any size. The caller destroys its `pixels`.
 static Page page_of(const PetriPainter *painter, const CanvasPicture *picture, bool vector) {
     bool made = picture->window && !picture->direct && painter->shown;
     return (Page){.picture = picture,

@@ -1,5 +1,5 @@
-// cairo_canvas.h: drawing of pictures to pixels and files. Cairo draws; in builds without it, all functions return
-// PETRI_UNSUPPORTED.
+// cairo_canvas.h: drawing of pictures to pixels and files with Cairo. Builds without Cairo can draw only to pixels, and
+// only if the host provides a backend (no_cairo.c). Otherwise these functions return PETRI_UNSUPPORTED.
 //
 // A picture is plain data and is not modified while it is drawn. A painter caches fonts and images between pictures.
 // Only one thread at a time may use a picture or painter. There is no global state.
@@ -16,12 +16,12 @@
 
 enum { PICTURE_NAMES = 64 };
 
-// Either `window` or `automatic` is set.
+// Exactly one of `window` and `automatic` is set.
 typedef struct CanvasPicture {
     const DrawNode *const *tops; // all windows of the frame
     uint32_t top_count;
     const DrawNode *window; // the window to show; NULL: none
-    const DrawNode *direct; // the canvas that fills the window; NULL: the window must be composed
+    const DrawNode *direct; // the only canvas, if it fills the window; NULL: the window must be composited
     bool needs_history;     // true if a window refers to earlier frames
     double beat;
     const char *names[PICTURE_NAMES]; // names of global values that shaders can use, such as beat and time
@@ -33,9 +33,9 @@ typedef struct CanvasPicture {
     double height;
     double detail;    // pixels per unit of pictures in the render graph
     bool opaque;      // true for a black background, false for a transparent one
-    FileAccess reach; // which image files the script may read
+    FileAccess reach; // which files the script may read and write
     size_t memory;    // limit in bytes, including what the painter caches
-    uint64_t work;    // work limit of the frame (budget.h); drawing has an additional allowance
+    uint64_t work;    // work limit of a frame (budget.h); drawing has a separate limit, which is computed from it
 } CanvasPicture;
 
 typedef enum CanvasFormat { CANVAS_PNG, CANVAS_SVG, CANVAS_PDF, CANVAS_JPEG } CanvasFormat;
@@ -43,14 +43,15 @@ typedef enum CanvasFormat { CANVAS_PNG, CANVAS_SVG, CANVAS_PDF, CANVAS_JPEG } Ca
 // A `!record` node and the picture that is written to its file.
 typedef struct Recorded {
     const DrawNode *node;
-    const DrawNode *direct; // the canvas that fills the picture; NULL: it must be composed
+    const DrawNode *direct; // the only canvas, if it fills the picture; NULL: the picture must be composited
     Texture *texture;       // an sRGB picture
 } Recorded;
 
 // Renders the render graph of a picture, unless the painter has already done so. After that, draw_records returns the
 // picture's records.
 PetriStatus draw_render(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults);
-// Returns the rendered picture of the window. Returns NULL if there is none, or if its canvas is drawn directly.
+// Returns the rendered picture of the window. Returns NULL if there is none, or if the window's canvas is drawn
+// directly.
 const Texture *draw_rendered(const PetriPainter *painter, const CanvasPicture *picture);
 // Returns the scale at which width x height fits into a box without changing its aspect ratio. *left and *top receive
 // the offset that centres it in the box.

@@ -12,7 +12,8 @@ cairo_operator_t draw_operator(int composite) {
     return operators[composite];
 }
 
-// Returns true for operators that also change pixels outside the shape. Petri restricts them to the shape.
+// Returns true for operators that, in Cairo, also change pixels outside the shape. Petri restricts their effect to the
+// shape.
 static bool is_unbounded(int composite) {
     return composite == COMPOSITE_IN || composite == COMPOSITE_OUT || composite == COMPOSITE_DST_IN ||
            composite == COMPOSITE_DST_ATOP;
@@ -26,8 +27,8 @@ void draw_set_edges(Canvas *canvas, bool antialias, int fill_type) {
 
 // The time to fill a path grows with the number of rows that its edges cross, and faster if edges cross each other. A
 // path of a million points all over the picture would take hours.
-static const double SMOOTH_WORK = 1e6; // limit for antialiasing; takes about a second
-static const double MAX_WORK = 1e7;    // limit without antialiasing; takes a few seconds
+static const double SMOOTH_WORK = 1e6; // limit of path_work for antialiasing; this takes about a second
+static const double MAX_WORK = 1e7;    // limit without antialiasing; this takes a few seconds
 
 bool draw_is_drawable(Canvas *canvas) {
     if (canvas->path_work > MAX_WORK && !canvas->failed) {
@@ -160,7 +161,7 @@ bool draw_find_box(Canvas *canvas, const DisplayCommand *command, const DisplayP
     cairo_get_matrix(cr, &matrix);
     double wide =
         fmax(fmax(fabs(matrix.xx) + fabs(matrix.xy), fabs(matrix.yx) + fabs(matrix.yy)) * paint->stroke_width, 1);
-    double border = command->stroke ? 2 * wide + 2 : 2; // the miter limit is 4
+    double border = command->stroke ? 2 * wide + 2 : 2; // miters reach two line widths, because the limit is 4
     cairo_identity_matrix(cr);
     cairo_path_extents(cr, &box[0], &box[1], &box[2], &box[3]);
     cairo_set_matrix(cr, &matrix);
@@ -220,7 +221,7 @@ static bool multiply_pixels(cairo_surface_t *d, cairo_surface_t *s) {
     return true;
 }
 
-// Returns the whole target, composited with the source, as a group.
+// Composites the current source onto a copy of the whole target, and returns the result as a group.
 static cairo_pattern_t *combine_all(Canvas *canvas, cairo_surface_t *below, int composite) {
     cairo_t *cr = canvas->cr;
     cairo_pattern_t *source = cairo_pattern_reference(cairo_get_source(cr)), *factor = NULL;
@@ -257,7 +258,7 @@ static cairo_pattern_t *combine_all(Canvas *canvas, cairo_surface_t *below, int 
 // Renders the shape as a mask, and paints the source through it once.
 static void draw_through_mask(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint) {
     cairo_t *cr = canvas->cr;
-    draw_set_source(canvas, paint); // before the mask, because this can abort the drawing
+    draw_set_source(canvas, paint); // before the mask is created, because this can abort the drawing
     cairo_save(cr);
     draw_clip_to_box(canvas, command, paint);
     cairo_pattern_t *mask = draw_make_mask(canvas, command, paint);

@@ -19,9 +19,9 @@ static bool charge_pixels(Canvas *canvas, const DisplayPaint *paint, double pixe
     return canvas->vector || draw_charge(canvas, NULL, pixels * cost_of_pixel(paint) + more, draw_omitted);
 }
 
-// Estimates the painted pixels. A fill covers the bounding box of the path, or much less if the path is narrow and
-// slanted. The estimate is therefore the signed area of the path. It is at least a quarter of the box, because areas of
-// opposite orientation cancel. A stroke covers its length times its width.
+// Estimates the number of painted pixels. A narrow and slanted path fills only a small part of its bounding box. The
+// estimate for a fill is therefore the area of the path. It is raised to a quarter of the box if necessary, because
+// parts of opposite orientation cancel. The estimate for a stroke is its length times its width.
 static double pixels_of(const Canvas *canvas, const DisplayPaint *paint, bool fill, bool stroke) {
     const PathSize *size = &canvas->size;
     double width = stroke ? paint->stroke_width * draw_scale_of(canvas->cr) : 0;

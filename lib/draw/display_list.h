@@ -2,8 +2,8 @@
 // attributes resolved. Any backend that can fill, stroke and clip paths can therefore draw a list; cairo_backend.c uses
 // Cairo.
 //
-// All references are indices; DISPLAY_NONE is the null reference. A list is allocated from the arena that it is built
-// with, and is immutable afterwards. Its strings are borrowed from the nodes.
+// All references are indices; DISPLAY_NONE is the null reference. display_list_build allocates the list from the arena
+// that it is given. After that, the list does not change. Its strings are borrowed from the nodes.
 #ifndef PETRI_DRAW_DISPLAY_LIST_H
 #define PETRI_DRAW_DISPLAY_LIST_H
 
@@ -35,9 +35,10 @@ typedef struct DisplayRun {
     uint32_t next; // index of the next run; DISPLAY_NONE: last
 } DisplayRun;
 
-// A path: a linked list of runs. In this path, the last run ends at `end`.
+// A path: a linked list of runs. Commands copy this struct, and the original path can then be extended. A copy
+// therefore uses its last run only up to its own `end`.
 typedef struct DisplayPath {
-    uint32_t first; // DISPLAY_NONE: empty
+    uint32_t first; // index of the first run; DISPLAY_NONE: empty path
     uint32_t last;
     uint32_t end;
     uint8_t fill_type; // FILL_WINDING and so on
@@ -62,12 +63,12 @@ typedef struct DisplaySource {
     DisplaySourceKind kind;
     double color[4];
     double ends[4];       // end points of a linear gradient; frequencies and tile size of noise
-    DisplayMatrix matrix; // maps the unit circle to a radial gradient, or the image pixels of a pattern to units
+    DisplayMatrix matrix; // maps the unit circle to the edge of a radial gradient, or a pattern's image pixels to units
     uint32_t first_stop;  // first stop; for a blend: index of its first source
     uint32_t stop_count;  // number of stops; for a blend: index of its second source; for noise: octaves
     double ratio;         // mixing ratio of a blend (NaN: use `mode`); seed of noise
     int mode;             // composite mode of a blend; type of noise
-    uint32_t image;
+    uint32_t image;       // image of a pattern
 } DisplaySource;
 
 typedef enum DisplayFilterKind {
@@ -91,7 +92,7 @@ typedef struct DisplayFilter {
     int mode;           // composite mode of a blend
     uint32_t paint;     // for FILTER_PAINT
     uint32_t numbers;   // index in `numbers` of 20 matrix elements or 4 blend coefficients; DISPLAY_NONE: use `mode`
-    uint32_t inputs[2]; // indices of filters; DISPLAY_NONE: the unfiltered drawing, or no input
+    uint32_t inputs[2]; // indices of filters; DISPLAY_NONE: the unfiltered drawing; only blends use the second
     Origin place;       // position of its node in the script
 } DisplayFilter;
 
@@ -106,9 +107,9 @@ typedef enum DisplayEffectKind {
 // A path effect, which changes a path before it is filled or stroked.
 typedef struct DisplayEffect {
     DisplayEffectKind kind;
-    uint32_t inner;   // effect that is applied before this one; DISPLAY_NONE: none
-    uint32_t numbers; // index in `numbers` of the dashes, of a row-major 3 x 3 matrix, or of the effects of a sum
-    uint32_t count;
+    uint32_t inner;    // effect that is applied before this one; DISPLAY_NONE: none; not used by sums
+    uint32_t numbers;  // index in `numbers` of the dashes, of a row-major 3 x 3 matrix, or of the effects of a sum
+    uint32_t count;    // number of dashes or of effects in a sum
     double amounts[2]; // by kind: dash offset; corner radius; segment length and deviation of jitter
     double seed;
     Origin place;
@@ -146,7 +147,7 @@ typedef struct DisplayImage {
     double point[2];
     double size[2];
     DisplayFit fit;
-    NodeKind kind; // kind of its node
+    NodeKind kind; // kind of its node, for messages
     Origin place;
 } DisplayImage;
 
@@ -182,7 +183,7 @@ typedef struct DisplayCommand {
     }
 
 typedef struct DisplayList {
-    bool linear; // colours are linear light, except gradient stops and image files
+    bool linear; // true: all colours are in linear light; image files are converted from sRGB when they are drawn
     DISPLAY_ARRAY(DisplayCommand) commands;
     DISPLAY_ARRAY(DisplayMatrix) matrices;
     DISPLAY_ARRAY(DisplayPaint) paints;
@@ -208,7 +209,7 @@ DisplayMatrix display_matrix_multiply(DisplayMatrix m, DisplayMatrix a);
 // Returns true if the matrix is invertible.
 bool display_matrix_is_invertible(const DisplayMatrix *m);
 
-// The array lengths of the previous list. The arrays of the next list are allocated with these capacities.
+// The array lengths of one list. The next list is built with arrays of these capacities.
 typedef struct DisplayListSizes {
     uint32_t commands;
     uint32_t matrices;

@@ -17,8 +17,8 @@ typedef struct Level {
     const DrawNode *node;
     uint32_t next;      // index of the next child
     uint32_t matrix_at; // index of the matrix in the list; DISPLAY_NONE: not added yet
-    uint32_t paint_at;
-    bool saved; // true if a command has saved the clip
+    uint32_t paint_at;  // the same for the paint
+    bool saved;         // true if a DISPLAY_SAVE was added, which leave_node must balance
     DisplayMatrix matrix;
     DisplayPath path;
     GraphicsState state;
@@ -107,8 +107,8 @@ uint32_t display_list_build_paint(DisplayListBuild *build, const GraphicsState *
     return build->list->paints.count - 1;
 }
 
-// Adds a command in the state of a level. `own` is the graphics state of the node itself; NULL: use the state of the
-// level.
+// Adds a command with the matrix, path and graphics state of a level. If `own` is not NULL, it replaces the graphics
+// state of the level.
 static DisplayCommand *add_command(DisplayListBuild *build, Level *level, DisplayCommandKind kind,
                                    const GraphicsState *own) {
     DisplayList *list = build->list;
@@ -140,14 +140,15 @@ static bool saves_clip(NodeKind kind) {
     return kind == KIND_CANVAS || kind == KIND_CANVAS_GROUP || kind == KIND_LAYER || kind == KIND_TRANSFORM;
 }
 
-// Saves the clip before it changes. The node that restores it later is the nearest ancestor that limits clips.
+// Saves the clip before it changes, unless this was already done. Clips end with the nearest enclosing canvas, group,
+// layer or transform, so its level records that the clip must be restored.
 static void save_clip(Walk *walk) {
     uint32_t at = walk->depth - 1;
     while (at > 0 && !saves_clip((NodeKind)walk->levels[at].node->kind))
         at--;
     if (walk->levels[at].saved)
         return;
-    // Nothing has been clipped at this level yet, so saving the clip now is equivalent to saving it at the start.
+    // No clip has been set inside this node yet, so saving the clip now is equivalent to saving it at the node's start.
     walk->levels[at].saved = true;
     add_command(&walk->build, &walk->levels[walk->depth - 1], DISPLAY_SAVE, NULL);
 }
@@ -183,7 +184,8 @@ static void enter_node(Walk *walk, const DrawNode *node) {
         level->next = node->child_count; // the content has no area or is out of range: skip it
 }
 
-// Applies the changes made by nested paint nodes to the siblings after this node.
+// Sources, filters and effects that were set inside a node also apply to the siblings after the node: copies them to
+// the enclosing level.
 static void propagate_paint(Level *outside, const GraphicsState *inside) {
     outside->state.source = inside->source;
     outside->state.filter = inside->filter;
@@ -217,7 +219,8 @@ static void add_path_command(DisplayListBuild *build, Level *level, const DrawNo
     command->stroke = stroke;
 }
 
-// Adds a shape to the current path, or draws it without changing the current path if the node sets fill or stroke.
+// If the node sets fill or stroke, draws the shape and leaves the current path unchanged. Otherwise, adds the shape to
+// the current path.
 static void add_shape(DisplayListBuild *build, Level *level, const DrawNode *node) {
     bool fill = draw_flag(node, ATTR_FILL), stroke = draw_flag(node, ATTR_STROKE);
     if (!fill && !stroke) {
@@ -302,7 +305,7 @@ static void add_node(Walk *walk, const DrawNode *node) {
 }
 
 static void reserve_arrays(Arena *arena, DisplayList *list, const DisplayListSizes *sizes) {
-    enum { MAX_COMMANDS = 1 << 16 }; // longer lists are assumed to be rare; start small
+    enum { MAX_COMMANDS = 1 << 16 }; // after a longer list, arrays start small again
     if (sizes->commands == 0 || sizes->commands > MAX_COMMANDS || sizes->numbers > 16 * MAX_COMMANDS)
         return;
 #define ROOM(array)                                                                                                    \

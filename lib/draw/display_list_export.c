@@ -10,8 +10,8 @@ static const char other_node[] = "the picture of another node";
 enum { MAX_EFFECT_ELEMENTS = 2000000 }; // limit for path elements that effects create in a picture
 
 typedef struct DisplayListExport {
-    const CanvasPicture *picture; // NULL: a canvas is exported
-    PetriPainter *painter;        // provides the pictures of other nodes; NULL: not available
+    const CanvasPicture *picture; // the picture to export; NULL: only one canvas is exported
+    PetriPainter *painter;        // provides the pictures of other nodes; NULL: such pictures are not available
     Arena *arena;
     DISPLAY_ARRAY(double) out;
     const DisplayList *list;
@@ -306,7 +306,7 @@ static void add_command(DisplayListExport *numbers, const DisplayCommand *comman
     case DISPLAY_SAVE:
         ADD(PETRI_DRAW_SAVE);
         break;
-    case DISPLAY_RESTORE: // also restores matrix and paint
+    case DISPLAY_RESTORE: // the host also restores its matrix and paint
         numbers->matrix = numbers->paint = DISPLAY_NONE;
         ADD(PETRI_DRAW_RESTORE);
         break;
@@ -341,7 +341,8 @@ static void add_system(DisplayListExport *numbers, const AutoSystem *system) {
         ADD(system->scale[i].x1, system->scale[i].y1, system->scale[i].x2, system->scale[i].y2);
 }
 
-// Returns the first canvas below a node. Other nodes are reported as unsupported.
+// Returns the first canvas in the tree of a node. Effects, and pictures next to the canvas, are reported as
+// unsupported.
 static const DrawNode *find_canvas(DisplayListExport *numbers, const DrawNode *node, int depth) {
     enum { MAX_DEPTH = 100 };
     if (node->kind == KIND_CANVAS || depth > MAX_DEPTH)

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { MAX_DEPTH = 100 }; // less than NODE_MAX_HEIGHT, because the stack may be small
+enum { MAX_DEPTH = 100 }; // of nested filters or effects; less than NODE_MAX_HEIGHT, because the stack may be small
 
 static uint32_t add_numbers(DisplayListBuild *build, uint32_t count, const double *numbers) {
     double *at = DISPLAY_ADD(build->arena, build->list->numbers, count);
@@ -162,7 +162,8 @@ static bool read_dash(DisplayListBuild *build, const DrawNode *node, DisplayEffe
     return sum > 0 && isfinite(sum);
 }
 
-// Reads the row-major matrix of a path effect. If it is not given, points are scaled, then rotated, then translated.
+// Reads the row-major matrix of a path effect. If the node has no matrix, creates one that scales, then rotates, then
+// translates points.
 static void read_path_matrix(DisplayListBuild *build, const DrawNode *node, DisplayEffect *effect) {
     const AttrValue *all = draw_attr(node, ATTR_MATRIX);
     double scale[2], move[2], angle = draw_number(node, ATTR_ROTATE);

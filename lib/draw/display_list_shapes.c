@@ -9,8 +9,8 @@ static const double TURN = 6.283185307179586;
 
 const DisplayPath display_list_build_no_path = {DISPLAY_NONE, DISPLAY_NONE, 0, FILL_WINDING};
 
-// Adds an element to the last run of the path. Begins another run if a different path has been extended in the
-// meantime.
+// Adds an element to the last run of the path. If elements of other paths were added after this run, begins another
+// run.
 static void add_element(DisplayListBuild *build, DisplayPath *path, PathElement kind, uint32_t count,
                         const double *numbers) {
     DisplayList *list = build->list;
@@ -35,7 +35,7 @@ static void move_to(DisplayListBuild *build, DisplayPath *path, double x, double
     add_element(build, path, PATH_MOVE, 2, (const double[]){x, y});
 }
 
-// Starts an empty path at 0;0, before a line or curve is added.
+// If the path is empty, starts it at 0;0. Must be called before a line or curve is added.
 static void begin_path(DisplayListBuild *build, DisplayPath *path) {
     if (path->first == DISPLAY_NONE)
         move_to(build, path, 0, 0);
@@ -129,7 +129,7 @@ static void add_ellipse(DisplayListBuild *build, DisplayPath *path, const DrawNo
     close_path(build, path);
 }
 
-// Returns the angle in turns between the directions from a to p and from p to b, at most 0.25.
+// Returns the angle in turns between the directions from a to p and from p to b. Returns 0.25 for larger angles.
 static double turn_at(const double *a, const double *p, const double *b) {
     double x1 = p[0] - a[0], y1 = p[1] - a[1], x2 = b[0] - p[0], y2 = b[1] - p[1];
     double lengths = maths_hypot(x1, y1) * maths_hypot(x2, y2);

@@ -8,21 +8,22 @@
 
 typedef struct FloatImageMemory FloatImageMemory; // float_image.c
 
-// An image of floats: red, green, blue and alpha, premultiplied, 0 to 1; rows from the top.
+// An image of floats: premultiplied red, green, blue and alpha, rows from the top. Values range from 0 to 1, except
+// that colours on HDR canvases (more than 8 bits per channel) can exceed 1.
 typedef struct FloatImage {
     int width;
     int height;
     float *pixels; // NULL: empty image
-    int x;         // position of the left edge on the target, for images that are drawn on
+    int x;         // if the image is `hdr_target`: position of its top left corner on the target
     int y;
 } FloatImage;
 
-// Pango's objects, and the font that is set in the layout.
+// Pango's objects. `family` and `font` are the font that was last set in the layout.
 struct TextContext {
     PangoFontMap *fonts;
     PangoContext *context;
     PangoLayout *layout;
-    const char *family; // NULL at the start of each picture
+    const char *family; // reset to NULL at the start of each picture; NULL: no font set
     DisplayText font;
 };
 
@@ -42,10 +43,10 @@ typedef struct Canvas {
     DiagSink *faults;
     bool vector;         // true if the target is a vector surface, false if it is an image
     uint32_t layers;     // number of open layers
-    double layer_pixels; // pixels of the open layers
+    double layer_pixels; // total number of pixels of the open layers
     double columns;      // width of the target in pixels; `rows` is its height
     double rows;
-    double path_work;               // number of rows that the edges of the current path cross
+    double path_work;               // sum over the edges of the current path: 1 + number of rows that the edge crosses
     PathSize size;                  // extent of the current path
     const DisplayList *list;        // the list being drawn; NULL: none
     const DisplayCommand *path_of;  // the command whose path is current; NULL: none
@@ -53,8 +54,8 @@ typedef struct Canvas {
     bool failed;                    // true after an error was reported
     size_t charged;                 // bytes charged to the painter's budget
     FloatImageMemory *float_images; // all allocated float images
-    FloatImage hdr_target;          // the image drawn on instead of the target's pixels; no pixels: none
-    // Saved while drawing is redirected offscreen: the previous targets and the offscreen surface.
+    FloatImage hdr_target;          // on an HDR canvas: drawn on instead of the pixels of `cr`; else `pixels` is NULL
+    // While drawing is redirected offscreen: the previous targets, and the surface that is drawn on.
     cairo_t *outer;
     FloatImage outer_hdr_target;
     cairo_surface_t *offscreen;
@@ -69,18 +70,18 @@ __attribute__((format(printf, 5, 6))) void draw_report_canvas_at(Canvas *canvas,
                                                                  const char *code, const char *format, ...);
 
 // offscreen.c
-// Charges bytes to the picture. Returns false if that would exceed the memory limit.
+// Charges memory to the picture's limit. Returns false, and charges nothing, if that would exceed the limit.
 bool draw_reserve(Canvas *canvas, size_t bytes);
 void draw_release(Canvas *canvas, size_t bytes);
 // Redirects drawing to a new surface whose top left corner is at x, y of the target. Returns NULL if out of memory.
 cairo_surface_t *draw_push_offscreen(Canvas *canvas, int width, int height, double x, double y);
 void draw_pop_offscreen(Canvas *canvas);
-// Charges work, in nanoseconds, to the picture. If that exceeds the limit, reports `outcome`, which says what happens
-// instead, and returns false.
+// Charges work, in nanoseconds, to the picture. If that would exceed the limit, reports `outcome` (what is drawn
+// instead) and returns false.
 extern const char draw_omitted[]; // outcome: everything from here is omitted
 bool draw_charge(Canvas *canvas, const Origin *place, double work, const char *outcome);
-// If `lacking`, reports that something is drawn without `what` because of the memory limit. If the machine is out of
-// memory, aborts the drawing instead.
+// Does nothing unless `lacking`. Reports that something is drawn without `what`, if the memory limit is the reason. If
+// the machine is out of memory, aborts the drawing instead.
 void draw_report_degraded(Canvas *canvas, const Origin *place, const char *what, bool lacking);
 // Frees everything that the canvas still holds.
 void draw_close(Canvas *canvas);
@@ -101,7 +102,7 @@ double draw_scale_of(cairo_t *cr);
 // path.
 void draw_clamp_point(Canvas *canvas, double *x, double *y);
 void draw_ellipse_path(Canvas *canvas, double x, double y, double rx, double ry, double start, double sweep, bool join);
-// Makes the command's path the current one, in the current transform.
+// Makes the command's path Cairo's current path, in the current transform.
 void draw_set_path(Canvas *canvas, const DisplayCommand *command);
 void draw_add_element(Canvas *canvas, PathElement kind, const double *numbers);
 void draw_forget_path(Canvas *canvas);
@@ -111,7 +112,7 @@ cairo_operator_t draw_operator(int composite);
 // Sets antialiasing and fill rule for filling and clipping. Cairo keeps these settings, so they must be set before each
 // use.
 void draw_set_edges(Canvas *canvas, bool antialias, int fill_type);
-// Fills or strokes the current path, or paints both as one shape.
+// Fills or strokes the current path. If the command does both, paints them as one shape.
 void draw_current_path(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint);
 // Returns the command's shape as a mask. The caller destroys it.
 cairo_pattern_t *draw_make_mask(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint);
@@ -155,13 +156,14 @@ void draw_text(Canvas *canvas, const DisplayCommand *command, const DisplayPaint
 
 // images.c
 void draw_image(Canvas *canvas, const DisplayImage *image, const DisplayPaint *paint);
-// Returns the pixels of an image. The caller destroys them. Returns NULL, after a report, if there is none.
+// Returns the pixels of an image. The caller destroys them. Returns NULL if there is none. A file that cannot be read
+// is reported.
 cairo_surface_t *draw_find_image(Canvas *canvas, const DisplayImage *image);
 // Like draw_find_image, but does not copy the pixels: sets *texture to the rendered picture of a node, or *file to the
 // cached pixels of a file. The other pointer is set to NULL. Returns false if both are NULL.
 bool draw_find_pixels(Canvas *canvas, const DisplayImage *image, const Texture **texture, cairo_surface_t **file);
 void draw_images_close(PetriPainter *painter);
-// Decodes a JPEG file. Returns NULL with a reason in *problem; without a reason if out of memory.
+// Decodes a JPEG file. After a failure, returns NULL and sets *problem to the reason, or to NULL if out of memory.
 cairo_surface_t *draw_read_jpeg(Str bytes, const char **problem);
 
 // automatic.c

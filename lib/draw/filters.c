@@ -6,7 +6,7 @@
 #include <math.h>
 
 enum { MAX_PIXELS = 1 << 26 };         // maximum number of pixels of a filtered image
-static const double MAX_OFFSET = 2000; // pixels by which an offset can extend the image
+static const double MAX_OFFSET = 2000; // maximum number of pixels by which an offset or radius extends the image
 
 // The inputs of a filter.
 typedef struct FilterContext {
@@ -161,7 +161,8 @@ static bool find_box(Canvas *canvas, const DisplayCommand *command, const Displa
     for (int k = 0; k < 2; k++) {
         double low = known ? fmax(seen[k], figure[k]) : seen[k];
         double high = known ? fmin(seen[2 + k], figure[2 + k]) : seen[2 + k];
-        // Parts outside can become visible, and parts inside can move outside, by at most the margin.
+        // The filter changes pixels at most `margin` beyond the shape. If these are all outside the clip, nothing is
+        // visible.
         if (known && (figure[k] - margin >= seen[2 + k] || figure[2 + k] + margin <= seen[k]))
             return false;
         low = known ? fmax(seen[k] - margin, figure[k] - margin) : low - margin;
@@ -178,7 +179,7 @@ static bool can_filter(Canvas *canvas, const DisplayFilter *filter, const Box *b
     return draw_charge(canvas, &filter->place, work, "drawn without the filter");
 }
 
-// Draws only this command, to a new image, and returns the image.
+// Draws the command to a new image, without its filter and composite mode, and returns the image.
 static FloatImage draw_offscreen(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint,
                                  const Box *box) {
     cairo_matrix_t matrix;
@@ -204,7 +205,7 @@ static FloatImage draw_offscreen(Canvas *canvas, const DisplayCommand *command, 
     return image;
 }
 
-// Composites the result onto the target.
+// Composites the filtered image onto the target.
 static void composite_result(Canvas *canvas, const FloatImage *image, const Box *box, int composite) {
     cairo_t *cr = canvas->cr;
     if (canvas->hdr_target.pixels) {

@@ -90,17 +90,17 @@ void float_image_write(const FloatImage *image, cairo_surface_t *surface) {
 
 // A one-dimensional filter, which is applied to each row or column of an image.
 enum { MAX_REACH = 24 };
-static const double MAX_EXACT_SIGMA = 8; // standard deviation, pixels
+static const double MAX_EXACT_SIGMA = 8; // standard deviation in pixels; larger ones are approximated with cells
 
 typedef struct LineFilter {
     void (*apply)(const struct LineFilter *filter, float *line, float *other, int count);
-    int reach;
+    int reach; // in pixels, or in cells
     bool erode;
     int cell; // number of pixels that are averaged to a cell
     float weights[MAX_REACH + 1];
 } LineFilter;
 
-// Applies a filter to all rows or all columns.
+// Applies a filter to all rows (axis 0) or all columns (axis 1).
 static void change_lines(Canvas *canvas, FloatImage *image, int axis, const LineFilter *filter) {
     int count = axis ? image->height : image->width, lines = axis ? image->width : image->height;
     size_t step = axis ? 4 * (size_t)image->width : 4, between = axis ? 4 : 4 * (size_t)image->width;
@@ -179,8 +179,8 @@ static void find_extremes(const LineFilter *filter, float *line, float *other, i
         }
 }
 
-// Averaging to cells and interpolating between cells also blur: their variances are (cell² - 1)/12 and twice that.
-// Variances add up, so the weights provide the remaining variance.
+// Averaging over cells and interpolating between cells also blur: their variances are (cell² - 1)/12 and (cell² - 1)/6.
+// Variances add up, so the weights must provide only the remaining variance.
 static void set_weights(LineFilter *filter, double sigma) {
     double sum = 0, cell = sigma > MAX_EXACT_SIGMA ? floor(sigma / 4) : 1;
     filter->cell = (int)cell;

@@ -82,8 +82,8 @@ static double extent(const Bounds *bounds, const double middle[3], int axes) {
     return extent;
 }
 
-// Bounds of all bodies that are not ignored: of their discs, their positions, and their paths in the next AHEAD
-// seconds.
+// Bounds of the bodies that are not ignored: of their discs, of their positions, and of their ways (the lines along
+// which they move in the next AHEAD seconds).
 typedef struct Extents {
     Bounds discs;
     Bounds positions;
@@ -117,8 +117,8 @@ static double round_up(double x) {
     return maths_pow(10, step / 10);
 }
 
-// Extends the bounds to walls that bodies may soon reach. The distance of these walls from the centre of the bounds is
-// at most twice the bounds' half size.
+// Extends the bounds to nearby walls, because bodies can soon reach them. A wall is nearby if its distance from the
+// centre of the bounds is at most twice the half size of the bounds.
 static void include_walls(Bounds *shown, const AutoSystem *system, int axes) {
     const double near = 2 * half_size(shown, axes);
     double middle[3], foot[3];
@@ -154,7 +154,7 @@ static void choose(AutoFrame *frame, const AutoSystem *system, const Extents *ex
         double middle = shown.low[k] + (shown.high[k] - shown.low[k]) / 2;
         frame->middle[k] = fabs(middle) < half / 10 ? 0 : middle;
     }
-    // In three dimensions, corners of the box may point towards the camera, so the view is larger.
+    // In perspective, corners of the box that point towards the camera need more space, so the view is larger.
     double wanted = fmax((axes == 3 ? 1.25 : 1.1) * extent(&shown, frame->middle, axes), least);
     frame->half = round_up(wanted > 1e-9 ? wanted : 1);
 }

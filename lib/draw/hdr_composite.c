@@ -105,8 +105,8 @@ static void composite_stamp(Canvas *canvas, Stamp *stamp) {
         cairo_pattern_destroy(stamp->colors);
 }
 
-// Returns the current source within the clip as a group. With CAIRO_CONTENT_ALPHA, the group is the coverage of the
-// clip.
+// Returns a group that contains the current source within the clip. If the content is CAIRO_CONTENT_ALPHA, the group
+// contains the coverage of the clip instead.
 static cairo_pattern_t *make_group(cairo_t *cr, cairo_content_t content, double alpha) {
     cairo_pattern_t *source = cairo_pattern_reference(cairo_get_source(cr));
     cairo_push_group_with_content(cr, content);
@@ -130,7 +130,7 @@ void hdr_draw_path(Canvas *canvas, const DisplayCommand *command, const DisplayP
     if (paint->source != DISPLAY_NONE && hdr_paint_from_source(canvas, paint->source, alpha, &shade))
         stamp.shade = &shade;
     else
-        draw_set_source(canvas, paint); // before the groups, because this can abort the drawing
+        draw_set_source(canvas, paint); // before groups are created, because this can abort the drawing
     cairo_save(cr);
     draw_clip_to_box(canvas, command, paint);
     if (paint->source != DISPLAY_NONE && !stamp.shade)

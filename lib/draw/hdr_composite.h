@@ -1,12 +1,12 @@
-// hdr_composite.h: HDR canvases (spec canvas.md 1.5). Cairo renders 8-bit coverage masks; hdr_paint.h computes colours,
-// and this file composites them in linear float.
+// hdr_composite.h: HDR canvases, which have more than 8 bits per channel (spec canvas.md 1.5). Cairo renders only 8-bit
+// coverage masks; hdr_paint.h computes colours, and this file composites them as linear floats.
 #ifndef PETRI_DRAW_HDR_COMPOSITE_H
 #define PETRI_DRAW_HDR_COMPOSITE_H
 
 #include "draw/float_image.h"
 #include "draw/hdr_paint.h"
 
-// Draw onto the target within the clip: the current path, an image, or a float image at x, y.
+// Each function draws onto the target within the clip: the current path, an image, or a float image at x, y.
 void hdr_draw_path(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint);
 void hdr_draw_image(Canvas *canvas, const DisplayPaint *paint, const HdrPaint *image);
 void hdr_composite(Canvas *canvas, const FloatImage *image, double x, double y, int composite);

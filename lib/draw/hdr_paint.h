@@ -11,7 +11,7 @@ typedef struct HdrPaint {
     const Texture *texture;  // the rendered picture of a node
     cairo_surface_t *file;   // an image file; 32-bit sRGB pixels
     bool repeats;            // true if the pixels repeat
-    cairo_matrix_t to_units; // maps target pixels to the units of the source
+    cairo_matrix_t to_units; // maps target pixels to the units of the source, or to the pixels of its image
     float alpha;
 } HdrPaint;
 

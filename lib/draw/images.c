@@ -14,8 +14,8 @@ struct CachedImage {
     CachedImage *next;
     char *path;
     char *version;            // version of the file when it was read
-    cairo_surface_t *surface; // NULL: cannot be read
-    char *problem;            // why it cannot be read
+    cairo_surface_t *surface; // NULL: the file cannot be read
+    char *problem;            // why the file cannot be read
     Budget *budget;           // charged for the pixels
     size_t charged;
 };
@@ -83,7 +83,7 @@ static cairo_surface_t *read_png(Str bytes, const char **problem) {
     return NULL;
 }
 
-// Returns NULL without a problem if out of memory.
+// Returns NULL and the reason in *problem if the image cannot be decoded. If out of memory, *problem is NULL.
 static cairo_surface_t *decode_image(Str bytes, const char **problem) {
     if (str_starts_with(bytes, STR("\x89PNG\r\n\x1a\n")))
         return read_png(bytes, problem);
@@ -109,7 +109,7 @@ static CachedImage *load_image(PetriPainter *painter, const FileAccess *reach, c
     Str bytes;
     const char *problem = NULL;
     bool read = file_read(&painter->arena, reach, path, true, MAX_BYTES, &bytes, NULL, &problem);
-    CachedImage *picture = heap_calloc(1, sizeof *picture); // nothing after this can longjmp
+    CachedImage *picture = heap_calloc(1, sizeof *picture); // freed before any longjmp below
     if (!picture)
         arena_exhausted(&painter->arena);
     picture->path = heap_strndup(path, strlen(path));
@@ -150,7 +150,7 @@ typedef struct Box {
     double y;
     double scale_x;
     double scale_y;
-    bool cut; // clip to width x height at x, y
+    bool cut; // true: clip to width x height at the `point` of the image
     double width;
     double height;
 } Box;
@@ -175,7 +175,7 @@ static bool find_box(const DisplayImage *image, double width, double height, Box
     return box->scale_x != 0 && box->scale_y != 0 && isfinite(box->scale_x) && isfinite(box->scale_y);
 }
 
-// Paints the surface, or on an HDR canvas the shade.
+// Paints the surface. On an HDR canvas, the surface is NULL, and the shade is painted.
 static void paint_image(Canvas *canvas, cairo_surface_t *surface, HdrPaint *shade, double width, double height,
                         const Box *box, const double point[2], const DisplayPaint *paint) {
     cairo_t *cr = canvas->cr;

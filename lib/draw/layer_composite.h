@@ -13,7 +13,7 @@ typedef struct LayerComposite {
     float alpha;
     Sampler sampler;
     int bits;  // bits per channel: 8, 16 or 32
-    bool srgb; // true if 8-bit channels are sRGB-encoded
+    bool srgb; // true: the result has 8-bit sRGB channels, whatever `bits` is
     Budget *budget;
 } LayerComposite;
 
