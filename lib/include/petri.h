@@ -315,7 +315,7 @@ PETRI_API PetriStatus petri_set_parameter(PetriSession *session, const char *nam
 // The frame that was computed last.
 typedef struct PetriFrame {
     int64_t number; // -1: no frame yet
-    double time;    // seconds; 0 in frame 0 of petri_step; after petri_restore, frame number / fps, even in real time
+    double time;    // seconds since frame 0; frame number / fps after petri_restore, even in real time
     double beat;
     double fps;
     double tempo;              // beats per minute

@@ -262,7 +262,7 @@ static void update_names(PetriSession *session, void *context) {
 PetriStatus session_update_names(PetriSession *session) {
     if (session->frame.names_current)
         return PETRI_OK;
-    DiagSink log = session->frame.log; // unchanged, because it already contains the debug() output of the bindings
+    DiagSink log = session->frame.log; // kept, because it already contains the debug() output of the bindings
     session->frame.log = diag_sink_new(&session->frame.arena, 0);
     PetriStatus status = session_protect(session, NULL, update_names, NULL);
     diag_sink_free(&session->frame.log);

@@ -7,8 +7,8 @@
 
 // --- the state dictionary
 
-// A request to read or write an entry. Finding a key that contains only numbers allocates nothing, so it needs no
-// protected call.
+// A request to read or write an entry of the state dictionary. Finding a key that contains only numbers allocates
+// nothing, so it needs no protected call.
 typedef struct StateRequest {
     PetriValue key;
     PetriValue value; // value to store

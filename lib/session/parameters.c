@@ -85,7 +85,7 @@ static Origin origin_of(const Parameter *parameter) {
     return (Origin){parameter->source, parameter->span};
 }
 
-// Checks that a definition consists of numbers if the default does. Otherwise, reports an error and returns false.
+// Reports an error and returns false if the default consists of numbers, but the definition does not.
 static bool check_numbers(const Check *check, const Parameter *parameter) {
     Value v = check->define->value;
     Arena *arena = &check->unit->arena;
@@ -146,7 +146,7 @@ static bool check_parameter(const Check *check, const Parameter *parameter) {
 // Returns the parameter with the most similar name, or NULL if none is similar.
 static const Parameter *nearest_parameter(const Program *program, Str name) {
     const Parameter *found = NULL;
-    int limit = name.len < 2 ? 1 : name.len < 4 ? 2 : 3; // 1 accepts no other name of one letter
+    int limit = name.len < 2 ? 1 : name.len < 4 ? 2 : 3; // a limit of 1 accepts no other one-letter name
     StrNearest nearest = {name, limit, {0}};
     for (uint32_t i = 0; i < program->parameter_count; i++)
         if (str_try_nearest(&nearest, program->parameters[i].name->name))
