@@ -12,7 +12,7 @@
 void maths_exp_array(CpuLevel level, const double *x, size_t count, double *to);
 void maths_log_array(CpuLevel level, const double *x, size_t count, double *to);
 void maths_sin_cos_array(CpuLevel level, const double *x, size_t count, double *sines, double *cosines);
-// maths_pow_array computes x[i]^y[i], maths_power_array x[i]^power.
+// maths_pow_array computes x[i]^y[i], and maths_power_array computes x[i]^power.
 void maths_pow_array(CpuLevel level, const double *x, const double *y, size_t count, double *to);
 void maths_power_array(CpuLevel level, const double *x, double power, size_t count, double *to);
 // Computes the sine of t[i] full turns, like turns_sin (random.h).

@@ -44,7 +44,7 @@ static inline bool double_is_finite(double x) {
     return double_absolute(x) < DOUBLE_INFINITY;
 }
 
-// Returns m with |x| = m 2^*exponent and 2^52 ≤ m < 2^53. x must be finite and not 0.
+// Finds m and *exponent with |x| = m * 2^*exponent and 2^52 ≤ m < 2^53. Returns m. x must be finite and not 0.
 static inline uint64_t double_split(double x, int *exponent) {
     uint64_t m = double_bits(x) & (DOUBLE_ONE - 1);
     int field = (int)(double_bits(x) >> 52 & 0x7ff);

@@ -2,12 +2,14 @@
 //
 // Ziv's method (ACM TOMS 17, 1991): the result is computed with a fraction of 192 bits, then 384 and 768, until all
 // numbers within the error bound round to the same double. This terminates, because no result is exactly halfway
-// between two doubles. By Lindemann's theorem the results of atan2 and the functions of one argument are not algebraic,
-// except in cases that are handled first (0, 1, tiny ratios). Halfway cases of pow are found with integer arithmetic.
-// The hardest known arguments (tables by Lefèvre and Muller, and later work) need a relative accuracy of fewer than 128
-// bits. 384 bits of fraction give more than 300.
+// between two doubles. By the theorems of Lindemann and of Gelfond and Schneider, the results of atan2 and the
+// functions of one argument are not algebraic. The exceptions are integer results of log2 and log10, and cases that are
+// handled first (0, 1, tiny ratios). Halfway cases of pow are found with integer arithmetic. The hardest known
+// arguments (tables by Lefèvre and Muller, and later work) need a relative accuracy of fewer than 128 bits. A fraction
+// of 384 bits gives more than 300.
 //
-// The error of each function of fixed.h is below 2^16 ulps. 2^SLACK ulps also cover the few operations added here.
+// The error of each function of fixed.h is below 2^16 ulps. The bound used here, 2^SLACK ulps, also covers the few
+// operations added in this file.
 #include "maths/double_bits.h"
 #include "maths/fast.h"
 #include "maths/fixed.h"
@@ -54,8 +56,8 @@ static double exact_trig(double x, Trig trig) {
             c = fixed_negate(&t);
         }
         if (trig == TANGENT) {
-            // Half turns cancel in the quotient, as they negate both sine and cosine. The error of a quotient q grows
-            // with q^2.
+            // A half turn negates both sine and cosine, so it does not change the quotient. The error of a quotient q
+            // grows with q^2.
             int shift = double_exponent(fixed_to_double(&c));
             slack += shift < 0 ? -2 * shift : 0;
             s = fixed_quotient(&s, &c);
@@ -76,7 +78,8 @@ EXACT(tan, exact_trig, TANGENT)
 
 // --- arcs
 
-// The result for the angle r of (a, b), 0 ≤ b ≤ a: r, pi/2 - r, pi/2 + r, or pi - r.
+// How to compute an angle from the angle r of a point in the first octant: r, pi/2 - r, pi/2 + r or pi - r, in the
+// order of the constants.
 typedef enum Octant { AS_IT_IS, FROM_QUARTER, PAST_QUARTER, FROM_HALF } Octant;
 
 static Fixed in_octant(const Fixed *angle, Octant octant) {
@@ -96,9 +99,9 @@ static Fixed circle_angle(const Fixed *b, const Fixed *a, bool mirrored) {
     return in_octant(&angle, mirrored ? (swap ? PAST_QUARTER : FROM_HALF) : (swap ? FROM_QUARTER : AS_IT_IS));
 }
 
-// Returns asin x or acos x for 2^-60 ≤ |x| < 1, the angle of (sqrt(1 - x^2), |x|) or (|x|, sqrt(1 - x^2)). 192 bits
-// represent |x| exactly and its square within an ulp. 1 - x^2 ≥ 2^-53 is scaled to [1/4, 1] by an even shift before the
-// root is taken.
+// Returns asin x or, if `cosine`, acos x for 2^-60 ≤ |x| < 1. asin |x| is the angle of (sqrt(1 - x^2), |x|), and acos
+// |x| is that of (|x|, sqrt(1 - x^2)). 192 bits represent |x| exactly and its square within an ulp. 1 - x^2 ≥ 2^-53 is
+// scaled to [1/4, 1] by an even shift before the root is taken.
 static double exact_circle(double x, bool cosine) {
     double result = 0;
     bool done = false;
@@ -134,8 +137,9 @@ double exact_acos(double x) {
 
 // Returns the double nearest to atan(q) = q - q^3/3 + … for q = (b / a) 2^scale below 2^-60, with integers b and a
 // below 2^53. Such a quotient is either a midpoint between two doubles or at least 2^-107 q away from every midpoint.
-// So subtracting q^3/3, which is below 2^-120 q, changes the rounding only of midpoints, which round down. The quotient
-// is therefore truncated to 120 bits, an exact quotient is reduced by an ulp, and the last bit is set.
+// So subtracting q^3/3, which is below 2^-120 q, changes the rounding only of midpoints, which then round down. The
+// code has the same effect: it truncates b / a to 128 bits of fraction, reduces an exact quotient by an ulp, and sets
+// the last bit.
 static double tiny_ratio(uint64_t b, uint64_t a, int scale) {
     __extension__ typedef unsigned __int128 Long;
     Fixed q = fixed_from_int(0, 2);
@@ -170,7 +174,8 @@ static double exact_ratio(double b, double a, double x) {
     double result = 0;
     bool done = false;
     for (int size = FIRST_SIZE; !done && size <= FIXED_MAX_LIMBS; size *= 2) {
-        // A ratio below 2^-100 cannot change the rounding of pi/2 and pi, which are 2^-56 away from any midpoint.
+        // A ratio below 2^-100 is replaced by 0. It cannot change the rounding of pi/2 and pi, which are 2^-56 away
+        // from any midpoint.
         Fixed a_fixed = fixed_from_double((double)am * 0x1p-53, size);
         Fixed b_fixed = fixed_from_double((double)bm * 0x1p-53, size);
         b_fixed = scale < -100 ? fixed_from_int(0, size) : fixed_scale(&b_fixed, scale);
@@ -201,7 +206,7 @@ double exact_atan2(double y, double x) {
 // --- exponential and logarithms
 
 // Computes e^t = 2^k e^r with t = k ln2 + r and e^r in [1/2, 2]. If an error of 2^slack ulps in e^r cannot change the
-// rounded value, sets *result to it and returns true.
+// rounded value of e^t, sets *result to that value and returns true.
 static bool decide_exp(const Fixed *t, int slack, double *result) {
     int k = (int)(fixed_to_double(t) * LOG_2E_HIGH);
     Fixed log_2 = fixed_constant(fixed_log_2, FIXED_MAX_LIMBS, t->size);
@@ -269,7 +274,7 @@ double exact_pow_sign(double x, double y) {
     return x > 0 ? 1 : !is_whole(y) ? 0 : is_odd(y) ? -1 : 1;
 }
 
-// Splits x into *odd * 2^*exponent with an odd integer.
+// Finds an odd integer *odd and an *exponent such that |x| = *odd * 2^*exponent.
 static void split_odd(double x, uint64_t *odd, int *exponent) {
     *odd = double_split(x, exponent);
     int zeros = __builtin_ctzll(*odd);
@@ -284,11 +289,10 @@ static uint64_t whole_root(uint64_t m) {
 }
 
 // Requires x > 0. If x^y has at most 64 significant bits, sets *result to the power, rounded, and returns true. All
-// midpoints are among these powers, because a midpoint has 54 bits.
-// Let x = m 2^e and y = k 2^f with odd m and k. For m = 1 the power has finitely many bits if e y is an integer. For
-// m > 1, y must be positive, because the binary fraction of 1/m is periodic. For f < 0, the square root must be exact
-// -f times in a row, which is possible at most five times for m < 2^53. Since m ≥ 3, m^(k 2^f) has at most 64 bits
-// only if the exponent is at most 40.
+// midpoints are among these powers, because a midpoint has 54 bits. Let x = m 2^e and y = k 2^f with odd m and k. For
+// m = 1 the power has finitely many bits if e y is an integer. For m > 1, y must be positive, because the binary
+// fraction of 1/m is periodic. For f < 0, the square root must be exact -f times in a row, which is possible at most
+// five times for m < 2^53. Since m ≥ 3, m^(k 2^f) has at most 64 bits only if k 2^f is at most 40.
 static bool pow_is_exact(double x, double y, double *result) {
     uint64_t m, k, power = 1;
     int e, f;

@@ -1,9 +1,10 @@
 // exact_reduction.c: reduction of large arguments for the fast paths of sine, cosine and tangent.
 //
-// Payne and Hanek's method (1983) with integers, like fixed_reduce. 256 bits of m 2/pi 2^exponent are computed, and the
-// upper 64 are the integer part. The upper 128 bits of the fraction are used. The lowest limb is truncated and the
-// error of the product is below m (2^53), so the angle is accurate to 2^-127 quarter turns. After conversion to two
-// doubles it is accurate to 2^-116.
+// Payne and Hanek's method (1983) with integers, like fixed_reduce. With |x| = m 2^exponent, the product of m and
+// 2/pi 2^exponent is the number of quarter turns. 64 bits of its integer part and 192 of its fraction are computed. As
+// the table is truncated, they are too small by less than m < 2^53 units of the last bit. Only the upper 136 bits of
+// the fraction are used, so the angle is accurate to 2^-127 quarter turns. After conversion to two doubles it is
+// accurate to 2^-116.
 #include "maths/double_bits.h"
 #include "maths/fast.h"
 #include "maths/fixed.h"
@@ -30,7 +31,8 @@ void exact_reduction(double x, uint64_t *n, double *high, double *low) {
     // Round to a multiple of pi/512: the integer part and 8 bits of the fraction become n.
     uint64_t upper = product[2] << 8 | product[1] >> 56, rest = product[1] << 8 | product[0] >> 56;
     *n = (product[3] << 8 | product[2] >> 56) + (upper >> 63);
-    // The remainder in [-1/2, 1/2) steps of pi/512, in units of 2^-64: its first 53 bits, then the next 75.
+    // The remainder is in [-1/2, 1/2) steps of pi/512. `first` holds its upper 53 bits and `second` the next 75, both
+    // in units of 2^-64 steps.
     double first = (double)(int64_t)(upper & ~UINT64_C(2047));
     double second = (double)(upper & 2047) + (double)rest * 0x1p-64;
     if (x < 0) {
@@ -38,7 +40,7 @@ void exact_reduction(double x, uint64_t *n, double *high, double *low) {
         first = -first;
         second = -second;
     }
-    // Multiply by pi/512 2^-64. The product also consists of two doubles.
+    // Multiply by 2^-64 pi/512 = 2^-72 pi/2. The product is the sum of two doubles.
     double a = first * HALF_PI_HIGH, b = real_two_product_error(first, HALF_PI_HIGH, a);
     b += first * HALF_PI_LOW + second * HALF_PI_HIGH;
     double sum = a + b;

@@ -37,11 +37,12 @@ MATHS_FUNCTIONS(DECLARE_ONE, DECLARE_TWO)
 // Returns the sign of x^y for a negative x: -1 for odd integers y, 1 for even integers y, else 0 (the result is NaN).
 double exact_pow_sign(double x, double y);
 
-// fast_log_near returns an approximation of ln m for m in [1/2, 2), fast_atan_near of atan q for q in [0, 1].
+// Return approximations: fast_log_near of ln m for m in [1/2, 2), and fast_atan_near of atan q for q in [0, 1].
 double fast_log_near(double m);
 double fast_atan_near(double q);
 
-// Reduces a finite x ≥ 1 to x = (n pi/512 mod 2 pi) + high + low with |high| ≤ pi/1024. The error is at most 2^-110.
+// Finds n, high and low such that x equals n pi/512 + high + low modulo 2 pi, with |high| ≤ pi/1024. The error is at
+// most 2^-110. x must be finite with |x| ≥ 1.
 void exact_reduction(double x, uint64_t *n, double *high, double *low);
 
 #endif

@@ -1,8 +1,8 @@
 // fast_arc.h: fast paths of asin, acos, atan2 and tan. They need branches, so there are no vector variants.
 //
-// Each function uses a Taylor series around the nearest c = i/128: f(c + d) = a0 + a1 d + a2 d^2 + … up to d^8, with
-// |d| ≤ 2^-8. The coefficients a0 and a1 are stored as two doubles each. Sources of error, with u = 2^-53 (rounding x
-// changes it by at most u |x|):
+// Each function f uses a Taylor series around the nearest c = i/128: f(c + d) = a0 + a1 d + a2 d^2 + … up to d^8, with
+// |d| ≤ 2^-8. Only asin uses other points c and up to d^9 for x ≥ 1/16. The coefficients a0 and a1 are stored as two
+// doubles each. Sources of error, with f for f(c + d) and u = 2^-53 (rounding x changes it by at most u |x|):
 //   d          exact for the high part of a two-part argument. The low part is used in a1 d + a2 d^2 only; its other
 //              contributions are below 3 |a3| d^2 u < 2^-68 f for atan, 2^-69 f in row 0
 //   a0, a1 d   exact up to 2^-104
@@ -13,7 +13,8 @@
 // are below 2^-74. The total is below 2^-65.9 f.
 //
 // asin (1/16 ≤ x ≤ 15/16): |d| ≤ 2^-7 (1 - c), terms up to d^9, |a10 d^10| ≤ 0.013 · 2^-70. The generator asserts
-// s < 2^-16 f, so the same bound holds. d is exact, because c has 11 bits and a - c has no bit below those of a.
+// s < 2^-16 f, so the bound for c ≤ 1/16 also holds here. d is exact, because c has 11 bits and a - c has no bit below
+// those of a.
 //
 // acos x = sqrt(1 - x) P(x) for x > 15/16, where P has no singularity near 1: s ≤ 0.09 · 2^-16, P ≥ 1.41, |a9| ≤ 0.02.
 // The error is below 2^-69.9. The two-part root (2^-104) and the two-part product add 2^-72. The subtraction from pi/2
@@ -50,7 +51,7 @@ KERNEL const double *arc_row(const double (*table)[ARC_COLUMNS], unsigned first,
     return table[i - first];
 }
 
-// Evaluates the series of a table row at d.
+// Evaluates the series of a table row at d, as high + low.
 KERNEL void arc_series(const double *row, double d, double *high, double *low) {
     const double *a = row + 4;
     // Estrin's scheme has a shorter dependency chain than Horner's.
@@ -151,8 +152,8 @@ KERNEL bool atan2_fast(double y, double x, double *result) {
                                           {{HALF_PI_HIGH, HALF_PI_LOW, -1}, {HALF_PI_HIGH, HALF_PI_LOW, 1}}};
     double a = real_absolute(x), b = real_absolute(y), high, low;
     double small = a < b ? a : b, large = a < b ? b : a;
-    // These limits prevent overflow and underflow, make the error of the angle exceed that of pi (2^-105), and reject
-    // NaN.
+    // These limits prevent overflow and underflow and reject NaN. They also keep the angle so large that the error of
+    // pi (2^-105) is negligible.
     if (!(small > 0x1p-400 && large < 0x1p400 && small > 0x1p-36 * large))
         return false;
     atan_parts(small, large, &high, &low);
@@ -172,7 +173,7 @@ KERNEL bool tan_fast(const ReducedArgument *turn, double *result) {
     arc_sum(ch, cl, 0, &ch, &cl);
     double inverse = 1 / ch, q = sh * inverse;
     double rest = (real_residue(sh, q, ch) + (sl - q * cl)) * inverse;
-    // For a small sine or cosine the absolute error of the reduction would be too large.
+    // If the sine or cosine is smaller, the absolute error of the reduction is too large relative to it.
     bool large = real_absolute(sh) > 0x1p-26 && real_absolute(ch) > 0x1p-26;
     return lanes_decide(q, rest, real_absolute(q) * TAN_ERROR, result) && large;
 }

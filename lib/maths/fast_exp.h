@@ -1,4 +1,5 @@
-// fast_exp.h: fast path of the exponential function, vectorised. Computes e^(x + tail) as high + low.
+// fast_exp.h: fast path of the exponential function, vectorised. Computes e^(x + tail), where the tail is the low part
+// of the argument.
 //
 // Tang's method (ACM TOMS 15, 1989): x = k ln2/128 + r and e^x = 2^(k/128) e^r. A table holds 2^(i/128) as two doubles.
 //
@@ -20,7 +21,7 @@
 #include "maths/maths_tables.h"
 
 #define EXP_ERROR 0x1p-67
-#define EXP_MAX 708.0 // the result neither overflows nor is subnormal
+#define EXP_MAX 708.0 // for smaller |x| the result neither overflows nor is subnormal
 
 // Computes e^(x + tail) = 2^(exponent / 2^52) (high + low) for |x| < EXP_MAX. high is in [0.99, 2), |low| < 2^-16.
 KERNEL void exp_parts(Real x, Real tail, Bits *exponent, Real *high, Real *low) {

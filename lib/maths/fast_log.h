@@ -22,11 +22,11 @@
 #include "maths/fast_exp.h"
 
 #define LOG_ERROR 0x1.4p-67
-#define LOG_CUBE_ERROR 0x1p-50 // at least 7.5 u
+#define LOG_CUBE_ERROR 0x1p-50 // factor of |c| in the total above; at least 7.5 u
 
 #define LOG_REACH 0x1p-16 // maximum of z^2
 
-#define LOG_FIRST UINT64_C(0x3fe6000000000000) // 0.6875
+#define LOG_FIRST UINT64_C(0x3fe6000000000000) // the bits of 0.6875
 
 // Computes ln x as high + low for positive normal x, with |low| < 2^-15 |high|. Sets *cube to c (see above), from which
 // the error bound follows.

@@ -21,7 +21,7 @@ KERNEL Real real_choose(Bits mask, double yes, double no) {
     return real_of(bits_choose(mask, bits_of(real_set(yes)), bits_of(real_set(no))));
 }
 
-// Returns floor(x) for |x| < 2^50, and sets *whole to its value as an integer.
+// Returns floor(x) for |x| < 2^50, and sets *whole to the same number as an integer.
 KERNEL Real real_floor(Real x, Bits *whole) {
     Real near = real_steps(x, 1, whole);
     Bits above = LANES_MASK(near > x);
@@ -36,7 +36,8 @@ typedef struct NoiseLanes {
     Bits base_x, base_y;
 } NoiseLanes;
 
-// Adds the contribution of the vertex (a, b) to `value`. a and b are given as doubles and as integers.
+// Adds the contribution of the vertex (a, b), relative to the base vertex, to `value`. whole_a and whole_b are a and b
+// as integers.
 KERNEL Real noise_vertex(const NoiseLanes *p, Real value, Real a, Real b, Bits whole_a, Bits whole_b, Real squish) {
     const Bits byte = bits_set(255);
     Real dx = (p->x - a) - squish, dy = (p->y - b) - squish, reach = (real_set(2) - dx * dx) - dy * dy;
@@ -62,7 +63,7 @@ KERNEL Real noise_lanes(const PlaneNoise *noise, const double *permutation, Real
     Bits far = LANES_MASK(sum > real_set(1)), right = LANES_MASK(fx > fy);
     Real corner = real_choose(far, 1, 0), u = real_choose(far, 2, 1) - sum, side = real_choose(right, 1, -1);
     value = noise_vertex(&p, value, corner, corner, far & one, far & one, real_choose(far, 2 * squish, 0));
-    // the last vertex: a neighbour of the nearer one, outside the cell, or the farther of (0, 0) and (1, 1)
+    // the last vertex: either a neighbour of that vertex outside the cell, or the farther of (0, 0) and (1, 1)
     Bits beyond = bits_choose(far, LANES_MASK(u < fx) | LANES_MASK(u < fy), LANES_MASK(u > fx) | LANES_MASK(u > fy));
     Bits other = ~far & one, step = (right & bits_set(2)) - one;
     Real rest = real_set(1) - corner;

@@ -10,10 +10,10 @@
 //                pi/512 up to 2^-122. The absolute error is below 2^-95, and 0 for n = 0
 //   cos r - 1    at most 2^-17.69. Truncation after r^6/720: 2^-82. Roundings: the square (u), the sum near 1/2 (u/2)
 //                multiplied by it, and the addition of r low: 2^-71, or 1.93 · 2^-70 without a fused multiply-add
-//   S times it   the product and two later sums that are not larger: at most 3 · 2^-71 S
+//   S (cos r-1)  the product and two later sums that are not larger: at most 3 · 2^-71 S
 //   sin r - r    at most 2^-27.6. Truncation after r^7/5040: 2^-85 |r|. Roundings: below 2^-77 |C r|
 //   C r, S       exact up to 2^-104
-// The total is below 3.5 · 2^-70 S + 2^-76 |sin x| + 2^-95. S is at most 2 |sin x| (for n = 1, r = -pi/1024) and
+// The total is below 3.5 · 2^-70 S + 2^-76 |sin x| + 2^-95. S / |sin x| is at most 2 (for n = 1, r = -pi/1024) and
 // smaller for larger n. So the error is below 2^-67.1 |sin x| + 2^-95.
 #ifndef PETRI_MATHS_FAST_SINCOS_H
 #define PETRI_MATHS_FAST_SINCOS_H
@@ -69,7 +69,7 @@ KERNEL Real real_flip(Real a, Bits sign) {
     return real_of(bits_of(a) ^ sign);
 }
 
-// Returns the table row for n. In odd quadrants the table is read backwards, at index 256 - n mod 256.
+// Returns the table row for n. In odd quadrants the table is read backwards, at index 256 - (n mod 256).
 KERNEL Row sincos_row(Bits n) {
     Bits backwards = bits_set(0) - (n >> 8 & bits_set(1)), index = n & bits_set(255);
     index = (index ^ backwards) + (backwards & bits_set(257));

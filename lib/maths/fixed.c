@@ -129,7 +129,8 @@ static inline __attribute__((always_inline)) void multiply_limbs(const uint64_t 
 }
 
 // Multiplies the operands as unsigned numbers by the schoolbook method, then drops the lower limbs. A negative a is
-// represented as a + 2^(64 n), so b 2^(64 n) must be subtracted, and vice versa.
+// represented as a + 2^(64 n). The product is then too large by b 2^(64 n), which is subtracted. The same applies to a
+// negative b.
 Fixed fixed_mul(const Fixed *a, const Fixed *b) {
     Fixed r;
     r.size = a->size;
@@ -170,7 +171,7 @@ Fixed fixed_series(const Fixed *x, Series series) {
     return sum;
 }
 
-// Long division by half limbs, so that 64-bit divisions suffice.
+// Long division, half a limb at a time, so that 64-bit divisions suffice.
 Fixed fixed_div_small(const Fixed *a, uint32_t by) {
     Fixed x = absolute_value(a), r;
     r.size = a->size;
@@ -222,7 +223,7 @@ Fixed fixed_inverse_root(const Fixed *a) {
     return r;
 }
 
-// Returns the number of bits of a non-negative number.
+// Returns the number of bits of a non-negative number, without leading zeros.
 static int bit_length(const Fixed *a) {
     for (int i = a->size; i >= 0; i--)
         if (a->limb[i])

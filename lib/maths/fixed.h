@@ -2,7 +2,7 @@
 //
 // A Fixed is a two's complement integer in units of 2^-(64 size), called ulps here. It has `size` 64-bit limbs of
 // fraction, lowest first, and one limb for the sign and the integer part. All numbers of a computation must have the
-// same size. Nothing is allocated. A result may overwrite an argument.
+// same size. Nothing is allocated. A result may be assigned to one of the arguments.
 #ifndef PETRI_MATHS_FIXED_H
 #define PETRI_MATHS_FIXED_H
 
@@ -27,19 +27,19 @@ bool fixed_is_negative(const Fixed *a);
 Fixed fixed_negate(const Fixed *a);
 Fixed fixed_add(const Fixed *a, const Fixed *b);
 Fixed fixed_sub(const Fixed *a, const Fixed *b);
-// Returns a 2^shift, truncated if shift is negative. |shift| < 64 size.
+// Returns a * 2^shift, truncated if the shift is negative. Requires |shift| < 64 size.
 Fixed fixed_scale(const Fixed *a, int shift);
 // fixed_mul returns the product, too small by less than an ulp. fixed_div_small returns the quotient, truncated towards
 // zero.
 Fixed fixed_mul(const Fixed *a, const Fixed *b);
 Fixed fixed_div_small(const Fixed *a, uint32_t by);
-// Returns a times an integer below 2^63, modulo 2^64 in the integer part; exact unless it overflows.
+// Returns a * by for by < 2^63. The result is exact, except that the integer part is reduced modulo 2^64.
 Fixed fixed_mul_small(const Fixed *a, uint64_t by);
 // Return 1 / a and 1 / sqrt(a) for a in [1/2, 2), within 16 ulps.
 Fixed fixed_inverse(const Fixed *a);
 Fixed fixed_inverse_root(const Fixed *a);
 
-// The series 1/first! ± x/(first + stride)! + x^2/(first + 2 stride)! ± …; the last term has the divisor last!.
+// The series 1/first! ± x/(first + stride)! + x^2/(first + 2 stride)! ± …, up to the term with the divisor last!.
 typedef struct Series {
     int first, last, stride; // last - first is a multiple of the stride
     bool alternating;
@@ -47,9 +47,9 @@ typedef struct Series {
 // Returns the sum of a series for 0 ≤ x < 2^-6, within 3 ulps.
 Fixed fixed_series(const Fixed *x, Series series);
 
-// Returns a double near a, with an error below 2^-50 |a| + 1 ulp.
+// Converts a Fixed to a double with an error below 2^-50 |a| + 1 ulp.
 double fixed_to_double(const Fixed *a);
-// Returns the double nearest to a 2^scale, ties to even.
+// Returns the double nearest to a * 2^scale, ties to even.
 double fixed_round(const Fixed *a, int scale);
 // If all numbers within 2^slack ulps of a, multiplied by 2^scale, round to the same double, sets *result to that double
 // and returns true.
@@ -64,7 +64,7 @@ void fixed_sin_cos(const Fixed *r, Fixed *sine, Fixed *cosine);
 Fixed fixed_log(double m, int exponent, int size);
 // Returns atan(b / a) for 0 ≤ b ≤ a and 1/2 ≤ a ≤ 1.
 Fixed fixed_atan(const Fixed *b, const Fixed *a);
-// Returns x - quadrant pi/2 in [-pi/4, pi/4] for a finite x. *quadrant is reduced by full turns.
+// Returns x - q pi/2 for a finite x and the integer q nearest to x / (pi/2). Sets *quadrant to q modulo 4.
 Fixed fixed_reduce(double x, int size, int *quadrant);
 
 #endif

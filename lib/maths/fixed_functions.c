@@ -1,8 +1,8 @@
 // fixed_functions.c: the elementary functions of fixed.h.
 //
-// The argument is reduced to a small argument, and a Taylor series is summed by Horner's rule. Each step multiplies the
-// error so far by less than 2^-6 and adds 2 ulps for a product and a constant, so the total error is below 3 ulps. The
-// series is truncated where the remaining terms are below one ulp.
+// Each function reduces its argument to a small number, and sums a Taylor series of it by Horner's rule. Each step
+// multiplies the error so far by less than 2^-6 and adds 2 ulps for a product and a constant, so the total error is
+// below 3 ulps. The series is truncated where the remaining terms are below one ulp.
 #include "maths/double_bits.h"
 #include "maths/fast.h"
 #include "maths/fixed.h"
@@ -35,9 +35,9 @@ Fixed fixed_exp(const Fixed *r) {
     return sum;
 }
 
-// Computes s = sin x and v = 1 - cos x of the halved argument, then doubles the angle with 1 - cos 2x = 2 s^2 and
-// sin 2x = 2 s (1 - v). A doubling multiplies the error by less than 4, on average by less than 3. After six doublings
-// the error is below 2^12 ulps.
+// Halves the argument six times, computes s = sin x and v = 1 - cos x of the result, and doubles the angle six times. A
+// doubling uses 1 - cos 2x = 2 s^2 and sin 2x = 2 s (1 - v). It multiplies the error by less than 4, on average by less
+// than 3. After six doublings the error is below 2^12 ulps.
 void fixed_sin_cos(const Fixed *r, Fixed *sine, Fixed *cosine) {
     Fixed x = fixed_scale(r, -SINCOS_HALVINGS), one = fixed_from_int(1, r->size), square = fixed_mul(&x, &x);
     int last = last_term(SINCOS_HALVINGS, r->size) | 1; // odd, for the sine; the cosine uses the next even number
@@ -77,8 +77,8 @@ Fixed fixed_log(double m, int exponent, int size) {
 }
 
 // Starts from a double h near the angle. Rotating (a, b) by -h leaves the small angle atan(t) with
-// t = (b cos h - a sin h) / (a cos h + b sin h), |t| < 2^-40. The divisor is the length of (a, b), in [1/2, 1.42]. The
-// error is below 2^12 ulps for sine and cosine, 2^13 for the numerator and 2^14 for the quotient.
+// t = (b cos h - a sin h) / (a cos h + b sin h), |t| < 2^-40. The divisor is nearly the length of (a, b), in
+// [1/2, 1.42]. The error is below 2^12 ulps for sine and cosine, 2^13 for the numerator and 2^14 for the quotient.
 Fixed fixed_atan(const Fixed *b, const Fixed *a) {
     double h = fast_atan_near(fixed_to_double(b) / fixed_to_double(a));
     Fixed angle = fixed_from_double(h, a->size), sine, cosine, u, v, square, sum = fixed_from_int(0, a->size);
@@ -104,8 +104,8 @@ Fixed fixed_atan(const Fixed *b, const Fixed *a) {
 
 // Payne and Hanek's method (1983) multiplies only by the bits of 2/pi that matter: the bits before them contribute full
 // turns, the bits after them amounts below the precision. x = m 2^exponent with an integer m < 2^53. The window of
-// 2/pi 2^exponent has two limbs more than the result: one above the binary point and one below the last ulp. So the
-// truncated bits contribute less than an ulp.
+// 2/pi 2^exponent has `size` + 2 limbs: one above the binary point, and `size` + 1 below it, one more than the result.
+// So the truncated bits contribute less than an ulp.
 Fixed fixed_reduce(double x, int size, int *quadrant) {
     enum { LIMBS = 1024 / 64 + FIXED_MAX_LIMBS + 2 };
     int exponent;

@@ -4,8 +4,8 @@
 usage: generate_tables.py >maths_tables.h
 
 Needs only Python. Real numbers are integers in units of 2^-BITS. Every series is summed until its terms are 0. Each
-constant is the double nearest to the exact value or, if fixed-point, truncated. nearest asserts that a value is far
-enough from a midpoint to be rounded. This script also asserts what the fast paths' error bounds assume.
+constant is the double nearest to the exact value or, if fixed-point, truncated. The function nearest() asserts that a
+value is far enough from a midpoint to be rounded. This script also asserts what the fast paths' error bounds assume.
 """
 from fractions import Fraction
 
@@ -96,7 +96,7 @@ def double(value):
 
 
 def parts(x, unit=None):
-    """Returns x as high + low, where the high part is a multiple of 2^-unit."""
+    """Returns x as high + low. The high part is a multiple of 2^-unit if a unit is given, else the nearest double."""
     high = nearest(x, unit)
     return [high, nearest(x - fixed(high))]
 
@@ -235,7 +235,8 @@ for i in range(9):
 rows[0] = parts(0) + parts(ONE) + [nearest(fixed(v)) for v in taylor_asin(Fraction(0), 8)[2:]]
 show('double', 'asin_table', '[9][11]', rows, 'Taylor coefficients of asin at i/128: two as high + low, seven more')
 
-# For larger x the rows become narrower with 1 - x, whose exponent and upper 6 mantissa bits select row i, from 1/16.
+# For larger x the rows become narrower, in proportion to 1 - x. Its exponent and upper 6 mantissa bits select the row.
+# Row 0 starts at 1 - x = 1/16.
 rows = []
 for i in range(256):
     unit = Fraction(1, 16) * 2**(i // 64)

@@ -88,7 +88,7 @@ KERNEL Real real_absolute(Real a) {
 #endif
 }
 
-// Returns a b + c, rounded once (fused) or twice. Use only where the error bound covers both cases.
+// Returns a * b + c, rounded once (fused) or twice. Use only where the error bound covers both cases.
 KERNEL Real real_muladd(Real a, Real b, Real c) {
 #if !HAS_FMA
     return a * b + c;
@@ -106,15 +106,15 @@ KERNEL Real real_muladd(Real a, Real b, Real c) {
 }
 
 #if !HAS_FMA
-// Returns the upper 26 bits of a; the difference from a also has 26 bits (Veltkamp). |a| < 2^996.
+// Returns the upper 26 bits of a for |a| < 2^996. The difference from a also has at most 26 bits (Veltkamp).
 KERNEL Real real_split_high(Real a) {
     Real c = a * real_set(134217729.0);
     return c - (c - a);
 }
 #endif
 
-// Returns the exact rounding error a b - p of p = a b, by a fused operation or by Dekker's method (1971). No operand or
-// result may be subnormal.
+// Returns the exact rounding error a * b - p of the product p, by a fused operation or by Dekker's method (1971). No
+// operand or result may be subnormal.
 KERNEL Real real_two_product_error(Real a, Real b, Real p) {
 #if HAS_FMA
     return real_muladd(a, b, -p);
@@ -124,7 +124,7 @@ KERNEL Real real_two_product_error(Real a, Real b, Real p) {
 #endif
 }
 
-// Returns c - a b, the residue of a quotient or a root. Exact if the residue fits a double and a b is near c.
+// Returns c - a * b, the residue of a quotient or a root. Exact if the residue fits a double and a * b is near c.
 KERNEL Real real_residue(Real c, Real a, Real b) {
 #if HAS_FMA
     return real_muladd(-a, b, c);
@@ -145,7 +145,7 @@ KERNEL Real real_two_sum_error(Real a, Real b, Real s) {
     return (a - (s - t)) + (b - t);
 }
 
-// Returns table[index] in each lane.
+// Looks up `table` in each lane: the lane of `index` selects the element.
 KERNEL Real real_gather_table(const double *table, Bits index) {
 #if LANES == 1
     return table[index];
@@ -218,7 +218,7 @@ KERNEL void real_load_rows(const double *const *rows, Real *columns) {
 #endif
 }
 
-// Loads row `index` of a table with four columns in each lane.
+// Like real_load_rows for rows of a table: each lane of `index` is the number of a row.
 KERNEL void real_gather_table_row(const double (*table)[4], Bits index, Real *columns) {
 #if LANES == 1
     const double *rows[] = {table[index]};
@@ -230,7 +230,7 @@ KERNEL void real_gather_table_row(const double (*table)[4], Bits index, Real *co
     real_load_rows(rows, columns);
 }
 
-// Returns the upper 12 bits as signed numbers.
+// Returns the upper 12 bits of each lane as a signed number.
 KERNEL Real lanes_exponent(Bits a) {
 #if LANES == 1
     return (double)((int64_t)a >> 52);

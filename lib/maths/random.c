@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-// Returns x ≥ 0 minus the nearest integer (ties to even), which is exact. Sets *quadrant to that integer modulo 4.
+// Returns x minus the nearest integer (ties to even), exactly, for x ≥ 0. Sets *quadrant to that integer modulo 4.
 static double quarter_rest(double x, unsigned *quadrant) {
     *quadrant = 0;
     if (!(x < 9007199254740992.0)) {

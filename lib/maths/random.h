@@ -9,12 +9,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// Return sine and cosine of t turns. They are exact at quarter turns, apart from the sign of zero (B1.2).
+// Return the sine and cosine of t full turns. They are exact at quarter turns, apart from the sign of zero (B1.2).
 double turns_sin(double t);
 double turns_cos(double t);
 
 #define RANDOM_HASH_START UINT64_C(0xe220a8397b1dcdaf)
-// Returns the seed hash (B9.2) after hashing one more 64-bit number.
+// Returns the seed hash (B9.2) `hash`, extended by the 64-bit number y.
 static inline uint64_t random_hash_step(uint64_t hash, uint64_t y) {
     hash ^= y;
     hash += 0x9e3779b97f4a7c15u;
@@ -27,7 +27,7 @@ uint64_t random_hash_number(double x);
 
 // Returns item i of the five-round Squares generator (Widynski, "Squares: A Fast Counter-Based RNG"; spec B9.4).
 uint64_t random_raw(uint64_t key, uint64_t i);
-// Return item i of a stream in the distribution of their name (B9.5).
+// Each returns item i of a stream with the distribution that its name states (B9.5).
 double random_uniform(uint64_t key, uint64_t i);
 double random_beta(uint64_t key, uint64_t i);
 double random_normal(uint64_t key, uint64_t i);
