@@ -1,5 +1,4 @@
-// test_canvas.c: compares each pixel of canvases with the formulas of the specification (canvas.md 4 to 7), computed
-// with doubles.
+// test_canvas.c: compares each pixel of canvases with the formulas of canvas.md 4 to 7, computed with doubles.
 #include "drawn.h"
 #include "model.h"
 #include "turbulence.h"
@@ -257,8 +256,7 @@ static void test_blur(void **state) {
             for (int x = 0; x < 60; x++) {
                 double at = x + 0.5, part = sigmas[i] * sqrt(2);
                 double light = (erf((at - 20) / part) - erf((at - 40) / part)) / 2;
-                // Pixels are averages over an area, which matters for a small blur. The test therefore compares sums
-                // over pixels.
+                // Pixels are averages over an area, which matters for a small blur. So sums over pixels are compared.
                 if (sigmas[i] < 2) {
                     double sum = 0, all = 0;
                     for (int k = -10; k <= 10; k++) {
@@ -395,8 +393,7 @@ static void test_noise(void **state) {
         {"frequency=0.1", {0.1, 0.1}, 8, 0, {0, 0}, false},
         {"frequency=0.05;0.2 octaves=3 seed=7", {0.05, 0.2}, 3, 7, {0, 0}, false},
         {"frequency=0.07 octaves=4 seed=-3 type=:turbulence", {0.07, 0.07}, 4, -3, {0, 0}, true},
-        // In 20 units there are 2.6 waves, and the nearest integer by ratio is 3. In 30 units there are 3.9, which
-        // gives 4.
+        // 20 units contain 2.6 waves; the nearest integer by ratio is 3. 30 units contain 3.9, which gives 4.
         {"frequency=0.13 octaves=2 seed=2 size=20;30", {3 / 20.0, 4 / 30.0}, 2, 2, {3, 4}, false},
     };
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
@@ -434,8 +431,7 @@ static bool is_on(const Drawn *drawn, int x, int y) {
     return drawn_byte(drawn, x, y, 0) > 127;
 }
 
-// Section 3.3: arcs of the two circles of radius 20 through 20;30 and 40;30, with the centre left or right, above or
-// below.
+// Section 3.3: arcs of the two circles of radius 20 through 20;30 and 40;30, on either side of their chord.
 static void test_arc_to(void **state) {
     (void)state;
     for (int which = 0; which < 4; which++) {
@@ -498,8 +494,7 @@ static void test_path_effects(void **state) {
     drawn_close(&drawn);
 }
 
-// Jitter stays within its deviation, changes the line, and is the same in each frame. Another seed gives another
-// result.
+// Jitter stays within its deviation, changes the line, is the same in each frame, and depends on the seed.
 static void test_jitter(void **state) {
     (void)state;
     uint32_t *seen[2];
