@@ -61,7 +61,7 @@ static Token bad_character(Lexer *lexer, uint32_t start) {
     return token_to(lexer, start, (uint32_t)end, GR_UNDEF);
 }
 
-// Returns the token of a word, or of a symbol, node or tag, which start with `:`, `!` or `#`.
+// Returns the token of a word, or of a symbol, node or tag. The last three start with `:`, `!` or `#`.
 static Token word(Lexer *lexer, uint32_t start) {
     const char *text = lexer->source->text.bytes;
     char sigil = text[start];

@@ -1,8 +1,9 @@
 // parser.y: the grammar, which builds a syntax tree from tokens (spec language.md L3). bison converts this file to C.
 //
-// No word is reserved. Before each word, the driver calls gr_accepts to check whether the current parser state has an
-// action for the keyword. If not, the driver passes the word as a name. The check uses the LALR(1) state directly after
-// a shift, so default reductions and LAC must be off. L2.12 tabulates where each keyword is accepted.
+// No word is reserved. Before it passes a word that looks like a keyword, the driver calls gr_accepts to check whether
+// the current parser state has an action for the keyword. If not, the driver passes the word as a name. The check uses
+// the LALR(1) state directly after a shift, so default reductions and LAC (lookahead correction) must be off. L2.12
+// tabulates where each keyword is accepted.
 //
 // Parse stacks contain only pointers into the program's arena, so no destructors are needed.
 %code requires {
@@ -83,7 +84,7 @@ static Ast *new_function_ast(ParseContext *context, Span span, const Ast *name, 
     return check_height(context, ast_new(context->arena, AST_FUNC, span, name ? name->name : NULL, children, 2));
 }
 
-// Returns the only item of a list, or a node that contains all items.
+// Returns the item of a list with one item. Otherwise, returns a node whose children are the items.
 static Ast *one_or_list(ParseContext *context, AstKind kind, Span span, AstList *list) {
     return list->count == 1 ? list->items[0] : NODE_OF(kind, span, NULL, list);
 }
@@ -107,7 +108,7 @@ static AstList *prepend_item(ParseContext *context, Ast *first, const AstList *r
 %nterm <list> pragmas items bindings lets params params_opt for_clauses name_list attrs decorations compose wbinds
 %nterm <list> args args_opt named_args elifs
 
-// A name after the bindings of a `where` starts a further binding (L3.1).
+// Resolves a conflict: a name after the bindings of a `where` starts a further binding (L3.1).
 %precedence WHERE_END
 %precedence NAME
 
@@ -202,7 +203,7 @@ statement:
   | "%include" comp NEWLINE { $$ = UNARY(AST_INCLUDE, @comp, $comp); }
   ;
 
-// `parent <<`. The rest of the statement is on the same line or on the next.
+// The start `parent <<` of a statement. The rest of the statement is on the same line or on the next.
 lead:
     decorated "<<"
   | decorated "<<" NEWLINE
@@ -378,7 +379,7 @@ static int yyreport_syntax_error(const yypcontext_t *at, ParseContext *context) 
     return 0;
 }
 
-// Records where the program is nested too deeply. bison calls this function only if its stack is full.
+// Records where the program is nested too deeply. check_height calls this function, and bison if its stack is full.
 static void gr_error(const Span *span, ParseContext *context, const char *text) {
     (void)text;
     if (!context->overflow)

@@ -37,7 +37,7 @@ typedef struct AstList {
 } AstList;
 
 AstList *ast_list_new(Arena *arena);
-// Both functions append to the list and return it.
+// The next two functions append to the list and return it.
 AstList *ast_list_add(AstList *list, Ast *item);
 AstList *ast_list_add_all(AstList *list, const AstList *more);
 

@@ -1,10 +1,11 @@
 // ast_list.h: the kinds of syntax tree nodes, one row each.
 //
-// AST(KIND, "name in --dump=ast"), followed by the children. `names` is a NAMES node. `?` marks a child that may be
-// NULL. `…` means zero or more. `name` is the field Ast.name, not a child.
+// AST(KIND, "name in --dump=ast"). The comment of a row lists the children. `names` is a child of kind NAMES. `?`: the
+// child can be NULL. `…`: zero or more. `[ ]`: optional. `name` and `value` alone or before a semicolon are not
+// children but the fields Ast.name and Ast.value.
 // clang-format off
-AST(LITERAL,    "literal")      // value: a number, string or symbol
-AST(NODE,       "node")         // name: kind of the new node
+AST(LITERAL,    "literal")      // value; a number, string or symbol
+AST(NODE,       "node")         // name; the kind of the new node
 AST(NAME,       "name")         // name
 AST(NAMES,      "names")        // NAME…
 AST(COMPOSE,    "compose")      // part…

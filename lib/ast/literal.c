@@ -41,7 +41,7 @@ const char *literal_number(Str token, double *x) {
             return "an underscore in a number must be between two digits";
     *x = number_parse(token);
     if (suffix)
-        *x = *x * suffix->factor; // a second rounding, after that of the digits
+        *x = *x * suffix->factor; // rounds again, after number_parse has rounded
     return NULL;
 }
 

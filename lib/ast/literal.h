@@ -12,8 +12,8 @@ const char *literal_number(Str token, double *x);
 double literal_timecode(Str token);
 // Decodes a string token: removes its quotes and resolves escapes. Returns NULL on success, else an error message.
 const char *literal_string(Arena *arena, Str token, Str *text);
-// Parses a string as a number according to L16.3: optional sign, digits with underscores or inf or nan, suffix, and
-// surrounding spaces. Returns false if the whole string is not a number.
+// Parses a string as a number according to L16.3: a number as in literal_number, `inf` or `nan`. A sign and surrounding
+// spaces are allowed. Returns false if the whole string is not a number.
 bool literal_parse_number(Str text, double *x);
 // Parses a string as a timecode. Returns false if the whole string is not a timecode.
 bool literal_parse_timecode(Str text, double *x);

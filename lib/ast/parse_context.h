@@ -29,9 +29,9 @@ typedef struct ParseContext {
     Ast *program;        // the result
     bool failed;         // an error was reported
     uint32_t error_line; // line of the last error
-    bool too_deep;       // a nesting limit was exceeded; it is reported once and parsing stops
-    bool reported;       // an invalid token was already reported, so the parser's error about it is not
-    // Set by the grammar while it processes a token.
+    bool too_deep;       // a nesting limit was exceeded and reported, so parsing stops
+    bool reported;       // an invalid token was already reported, so the parser's error about it is dropped
+    // The next three fields are set by the grammar while it processes a token.
     Unexpected unexpected;
     bool overflow;                // the tree is too high, or the parser's stack is full
     Span overflow_at;             // location of the overflow

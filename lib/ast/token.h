@@ -6,7 +6,7 @@
 #include "value/value.h"
 
 typedef struct Token {
-    int kind;    // a token of grammar/parser.y
+    int kind;    // number of a token of grammar/parser.y, such as NAME
     int keyword; // NAME: the token of the keyword with this spelling; 0: none
     Span span;
     const char *error; // error in the indentation or nesting (layout.h); NULL: none
@@ -18,7 +18,7 @@ typedef struct Lexer {
     uint32_t at; // offset of the next character
 } Lexer;
 
-// Returns a lexer at the start of the source, after a hashbang line.
+// Returns a lexer at the start of the source, or after its hashbang line.
 Lexer lexer_new(const Source *source);
 // Returns the next token. Skips white space, comments and line continuations. A NEWLINE token includes
 // subsequent blank and comment lines and the indentation of the next line. At the end of the source, every call returns

@@ -1,16 +1,18 @@
 // code.h: code of the VM: instructions that work on registers.
 //
-// A Code is compiled from a function, the main program or a module. Its registers are the slots, followed by
-// temporaries. An operand is the number of a register. Negative numbers are constants, which are copied to the memory
-// directly before the first register when the code is entered, so that both are read in the same way. Instructions with
-// many operands refer to a list of numbers. Every instruction has a position in the source, for diagnostics. Code
-// contains no pointers to data of the compiler.
+// A Code is compiled from a function, the main program or a module. Its registers are the slots, which hold the values
+// of names, followed by temporaries. An operand is the number of a register. A negative operand refers to a constant:
+// when the code is entered, its constants are copied to the memory directly before the first register. So constants and
+// registers are read in the same way. An instruction with many operands refers to a list in Code.operands. Every
+// instruction has a position in the source, for diagnostics. Code contains no pointers to data of the compiler.
+//
+// The code of a node, where r0 is the slot of i:
 //
 //   !particle id=i position=2*i;0       mul      r3 = 2 r0
 //                                       compose  r3 = (r3, 0)
 //                                       node     r4 = particle (r0, r3)
 //
-// Instructions are in the order of evaluation. None is moved or omitted.
+// Instructions are in the order of evaluation. The compiler neither reorders nor removes them.
 #ifndef PETRI_PROGRAM_CODE_H
 #define PETRI_PROGRAM_CODE_H
 
@@ -29,10 +31,10 @@ typedef enum Opcode {
 
 // The constant parts of a node that one instruction creates.
 typedef struct NodeCode {
-    const Node *base;                  // kind and tags
+    const Node *base;                  // prototype of the node, with its kind and tags
     const Symbol *const *names;        // names of the attributes, without duplicates
-    const Origin *decorated;           // position of the node with its attributes; NULL: it has none
-    const NodeList *constant_children; // NULL: the children are not constant
+    const Origin *decorated;           // position of the node with its tags and attributes; NULL: it has neither
+    const NodeList *constant_children; // NULL: no children, or they are computed at run time
 } NodeCode;
 
 // Where a new closure finds a captured value.
@@ -44,12 +46,12 @@ typedef enum CaptureKind {
 
 typedef struct Capture {
     CaptureKind kind;
-    uint32_t slot;
+    uint32_t slot; // number of the slot or of the captured value; unused for CAPTURE_SELF
 } Capture;
 
 typedef struct FunctionCode {
     Str name;                    // "<anon>" for an anonymous function
-    const Symbol *const *params; // parameters, which use the first slots
+    const Symbol *const *params; // names of the parameters, whose values are in the first slots
     uint32_t param_count;
     uint32_t capture_count;
     const Capture *captures;
@@ -57,7 +59,7 @@ typedef struct FunctionCode {
 } FunctionCode;
 
 typedef struct CallCode {
-    uint32_t arg_count;         // number of positional arguments, which come first
+    uint32_t arg_count;         // number of positional arguments, which precede the named ones
     const Symbol *const *names; // names of the named arguments
     uint32_t named_count;
 } CallCode;
@@ -68,44 +70,48 @@ typedef struct DecorateCode {
     const Symbol *const *names; // names of the attributes
 } DecorateCode;
 
-// Plan for a loop whose iterations are independent and whose only effect is the values they yield, so that a batch of
-// iterations can be executed one instruction at a time. Registers written by the body become columns.
+// Plan for a loop that can be executed in batches: each instruction is executed for a batch of iterations before the
+// next instruction. The iterations must be independent, and their only effects must be errors and yielded values. A
+// register that the body writes becomes a column, which has a value for each iteration.
 typedef struct BatchPlan {
-    uint32_t end;            // index of the NEXT instruction
-    int32_t first_register;  // first register that may be a column
-    uint32_t register_count; // number of registers that may be columns
-    const uint8_t *columns;  // by register - first_register: column number from 1; 0: uniform
+    uint32_t end;            // index of the loop's NEXT instruction
+    int32_t first_register;  // register of the first element of `columns`
+    uint32_t register_count; // number of elements of `columns`
+    const uint8_t *columns;  // by register: number of its column, from 1; 0: same value in all iterations
     uint32_t column_count;
-    uint32_t yield_count; // number of YIELD instructions
+    uint32_t yield_count; // number of YIELD instructions in the body
 } BatchPlan;
 
-// Limits of a batch plan. CODE_MAX_READ limits the registers that one instruction reads.
+// Limits of a batch plan: columns, YIELD instructions, and operands that one instruction reads.
 enum { CODE_MAX_COLUMNS = 64, CODE_MAX_YIELDS = 8, CODE_MAX_READ = 32 };
 
 typedef struct Instr {
     uint16_t op;
-    uint16_t loop; // nesting depth of the loop, from 0
-    int32_t d;     // register written, or first register bound; YIELD_NODE: 1 if the iteration retains nothing else
+    uint16_t loop; // instructions of loops: nesting depth of the loop, from 0
+    // Register written, or first register bound. YIELD_NODE: 1 if the other data that an iteration allocates can be
+    // freed, else 0.
+    int32_t d;
     union {
         int32_t a;
         uint32_t list; // index of the first operand in Code.operands
     };
     int32_t b;
     union {
-        int32_t c;
+        int32_t c;      // third operand; LT, GT, LE, GE: 1 if both operands are the same name
         uint32_t count; // number of operands in the list, or of registers bound
     };
-    // Instruction to jump to; number of a capture, engine name or lookup; YIELD_NODE: register of the loop's name.
+    // Depends on the instruction: index of the instruction to jump to, or number of a capture, engine name or lookup.
+    // YIELD_NODE: register of the loop's name.
     uint32_t target;
     const Origin *at; // position in the source
     union {
         const NodeCode *node;
-        const NodeList *constant_children; // APPEND: NULL: not constant
+        const NodeList *constant_children; // APPEND; NULL: the children are operand b
         const DecorateCode *decorate;
         const FunctionCode *function; // CLOSURE
         const CallCode *call;
         const Builtin *builtin;
-        const BatchPlan *batch_plan; // FOR, FOR_RANGE: NULL: iterations are executed one by one
+        const BatchPlan *batch_plan; // FOR, FOR_RANGE; NULL: iterations are executed one by one
         const Symbol *name;          // UNBOUND
         const Symbol *const *names;  // IMPORT
         const Origin *inner_origin;  // SLICE: position of the range; LOOKUP: position of the key
@@ -113,20 +119,20 @@ typedef struct Instr {
 } Instr;
 
 struct Code {
-    const Source *source; // source of its first instruction
+    const Source *source; // source of the compiled expression; instructions of included files have others
     const Instr *instrs;
     uint32_t count;
     uint32_t register_count;
-    uint32_t slot_count; // registers of names; null initially in the main program and in modules
+    uint32_t slot_count; // number of slots, which are initially null in the main program and in modules
     uint32_t loop_count; // maximum nesting depth of loops
     const int32_t *operands;
-    const Value *constants; // the last constant is operand -1
+    const Value *constants; // operand -1 refers to the last constant
     uint32_t constant_count;
     const uint32_t *lines; // source line of each instruction, from 1; NULL: not recorded
 };
 
-// Stores the operands that an instruction reads in `reads` and returns their number, at most CODE_MAX_READ for an
-// instruction of a BatchPlan. `operands` is Code.operands.
+// Returns the number of operands that an instruction reads, and stores them in `reads`. In the body of a loop with a
+// BatchPlan, there are at most CODE_MAX_READ. `operands` is the array Code.operands that contains the lists.
 uint32_t program_operands_read(const int32_t *operands, const Instr *instr, int32_t *reads);
 
 #endif

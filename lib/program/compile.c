@@ -28,8 +28,8 @@ void compile_report(Compiler *compiler, Span span, DiagLevel level, const char *
     diag_report(compiler->diags, &(Diag){level, compiler->source, span, text, hint, code});
 }
 
-// Returns true if child i is all or part of the value of an expression. If that value becomes children of a node, so
-// does the child's value.
+// Returns true if the value of an expression is or contains the value of its child i. If the expression's value becomes
+// children of a node, so does the value of this child. `count` is the number of children.
 static bool is_part(ExprKind kind, uint32_t i, uint32_t count) {
     return kind == EXPR_COMPOSE || (kind == EXPR_IF && (i % 2 == 1 || i + 1 == count));
 }
@@ -39,7 +39,7 @@ static const Expr *compile_part(Compiler *compiler, const Ast *ast, bool in_chil
     return compile_expr(compiler, ast);
 }
 
-// Compiles all children in order, as the children of one expression.
+// Compiles the children of a syntax tree node in order. Returns an expression of the given kind with these children.
 static Expr *compile_children(Compiler *compiler, ExprKind kind, const Ast *ast, bool in_children) {
     const Expr **children = arena_alloc_array(compiler->scratch, ast->count, sizeof *children);
     for (uint32_t i = 0; i < ast->count; i++)
@@ -48,7 +48,7 @@ static Expr *compile_children(Compiler *compiler, ExprKind kind, const Ast *ast,
     return compile_expr_new(compiler, kind, ast, children, ast->count);
 }
 
-// Compiles all children in order, to an expression of the same kind as the syntax tree (SAME in expr_list.h).
+// Compiles a syntax tree node to an expression of the same kind with the same children (SAME in expr_list.h).
 static Expr *compile_same(Compiler *compiler, const Ast *ast, bool in_children) {
     static const ExprKind kinds[] = {
 #define EXPR(kind)
@@ -64,7 +64,8 @@ static const Expr *compile_arith(Compiler *compiler, const Ast *ast) {
     return expr;
 }
 
-// If a name is compared with itself, both operands are the same object, so that even NaN equals itself (L5.5).
+// Sets `slot` to 1 if a name is compared with itself. Then both operands are the same object, so even NaN equals itself
+// (L5.5).
 static const Expr *compile_order(Compiler *compiler, const Ast *ast) {
     const Ast *left = ast->children[0], *right = ast->children[1];
     Expr *expr = compile_same(compiler, ast, false);
@@ -211,7 +212,8 @@ static const Expr *compile_template(Compiler *compiler, const Ast *ast) {
     return compile_call(compiler, ast, args, count);
 }
 
-// A closure depends on its defaults, which are its children, and on its captures, but not on its body.
+// Adds the dependencies of a closure on its captures. Those on its defaults are already set, because the defaults are
+// its children. What the body reads during a call is not a dependency.
 static void describe_closure(Expr *expr) {
     const FunctionCode *code = expr->as.function;
     for (uint32_t i = 0; i < code->capture_count; i++) {
@@ -332,7 +334,7 @@ static const Expr *compile_include(Compiler *compiler, const Ast *ast, bool in_c
         return compile_constant(compiler, ast, VALUE_NULL);
     const Source *outer = compiler->source;
     compiler->source = include.source;
-    compiler->depth--; // its statements have the depth of the directive
+    compiler->depth--; // the included statements have the depth of the directive
     const Expr *expr = compile_suite(compiler, include.ast, in_children);
     compiler->depth++;
     compiler->source = outer;
@@ -342,7 +344,7 @@ static const Expr *compile_include(Compiler *compiler, const Ast *ast, bool in_c
 static const Expr *compile_kind(Compiler *compiler, const Ast *ast, bool in_children) {
     switch (ast->kind) {
     case AST_LITERAL:
-        return compile_constant(compiler, ast, value_copy(compiler->arena, ast->value)); // outlives the tree
+        return compile_constant(compiler, ast, value_copy(compiler->arena, ast->value)); // the value outlives the tree
     case AST_NODE:
         return compile_node(compiler, ast);
     case AST_NAME:
@@ -432,7 +434,8 @@ static void collect_pragmas(Compiler *compiler, const Ast *ast, Program *program
     program->pragmas = pragmas;
 }
 
-// Stores the top-level bindings that are visible at the end, oldest first.
+// Stores the top-level bindings that are visible at the end of the file, in source order. `params` is the innermost
+// binding that is not exported.
 static void collect_exports(Compiler *compiler, Program *program, const Binding *params) {
     uint32_t count = 0;
     for (const Binding *binding = compiler->function->scope; binding != params; binding = binding->outer)

@@ -18,14 +18,14 @@ struct Binding {
     bool used;        // a use of the name was resolved to this binding
     bool is_constant; // the value is always `constant`
     Value constant;
-    const Ast *value; // syntax tree of the value; NULL: one of several names, or not bound by `let` or `func`
+    const Ast *value; // syntax tree of the value; NULL: unpacked to several names, or no `let` or `func`
 };
 
 // The function whose body is being compiled.
 typedef struct FunctionScope FunctionScope;
 struct FunctionScope {
     FunctionScope *outer;
-    const Symbol *self;  // name of the function, visible in its body; NULL: anonymous
+    const Symbol *self;  // name of the function, visible in its body; NULL: none
     Binding *scope;      // innermost visible binding
     uint32_t next_slot;  // first free slot
     uint32_t frame_size; // maximum of next_slot
@@ -39,7 +39,7 @@ struct FunctionScope {
 typedef struct Include {
     const Ast *ast; // NULL: nothing to include
     const Source *source;
-    Span span; // position of the error
+    Span span; // position at which an error is reported
     Str fault; // error message; empty: none
 } Include;
 
@@ -53,20 +53,20 @@ struct Compiler {
     DiagSink *diags;
     FunctionScope *function;
     bool in_include_path;  // compiling the path of an %include; lints are off
-    uint32_t repeats;      // number of enclosing loops and functions; > 0: may be evaluated several times per frame
+    uint32_t repeats;      // enclosing loops and functions, plus 1 in a module; > 0: code may run repeatedly in a frame
     uint32_t lookup_count; // number of state lookups so far
     bool in_children;      // the value of the next expression becomes all or some of a node's children
-    bool is_module;        // the file only binds names, which other files import, so none is reported as unused
-    uint32_t depth;        // number of enclosing expressions; 1: a top-level statement
+    bool is_module;        // the file only binds names; other files import them, so none is reported as unused
+    uint32_t depth;        // nesting depth of the current expression; 1: a top-level statement
     DefineUse *define_uses;
     Parameter *parameters;
     uint32_t parameter_count;
     uint32_t parameter_capacity;
     Str *imports;
     uint32_t import_count;
-    const Ast *subject;           // expression to which attributes or children are being added
-    const Ast *key;               // key of the state that is being looked up
-    const Ast *parameter_use;     // second NAME of the last parameter `let NAME=NAME or DEFAULT`; may be unbound
+    const Ast *subject;       // expression to which attributes or children are being added
+    const Ast *key;           // key of the state that is being looked up
+    const Ast *parameter_use; // second NAME of the last parameter `let NAME=NAME or DEFAULT`; not reported if unbound
     const Ast *parameter_default; // DEFAULT of the last parameter; NULL: the right side has several `or`
     Include *includes;            // in order of the %include directives
     uint32_t include_count;
@@ -74,6 +74,7 @@ struct Compiler {
     const Compiler *folding_pass;
 };
 
+// State at the start of a scope, to which its end returns.
 typedef struct ScopeMark {
     Binding *scope;
     uint32_t next_slot;
@@ -102,7 +103,7 @@ void compile_set_constant(Compiler *compiler, uint32_t count, Value value);
 const Binding *compile_find_binding(const Compiler *compiler, const Symbol *name);
 const Expr *compile_name(Compiler *compiler, const Ast *ast);
 void compile_function_open(Compiler *compiler, FunctionScope *function, const Symbol *self);
-// Continues with the enclosing function.
+// Ends a function and continues with the enclosing function.
 void compile_function_close(Compiler *compiler, FunctionScope *function);
 // Returns the built-in or host function with this name, or NULL.
 const struct Builtin *compile_find_builtin(const Compiler *compiler, Str name);
@@ -118,17 +119,18 @@ void compile_note_default(Compiler *compiler, const Expr *default_expr);
 void compile_note_define(Compiler *compiler, const Binding *binding);
 
 // The simplifier (fold.c).
-// Folds constant parts of an expression and returns the result. `mark` is the function's next slot before the
-// expression was compiled; slots >= mark belong to the expression.
+// Folds constant parts of an expression and returns the result. `mark` is FunctionScope.next_slot before the expression
+// was compiled, so the names that the expression binds have slots >= mark.
 const Expr *fold_expr(Compiler *compiler, Expr *expr, uint32_t mark);
 // Sets the dependencies of a new expression from its kind and children.
 void fold_set_dependencies(Expr *expr);
 // Adds the dependencies of `child` to an expression.
 void fold_add_dependency(Expr *expr, const Expr *child);
 
-// Lints for `petri check` (lint.c): code that is valid but unlikely to be intended. They do nothing unless enabled.
+// Lints for `petri check` (lint.c): code that is valid but unlikely to be intended. They do nothing unless
+// CompileOptions.lint is set.
 void lint_bind(Compiler *compiler, const Binding *binding);
-// Reports unused names at the end of their scope: the bindings from `scope` up to, but not including, `end`.
+// Called at the end of a scope. Reports its unused names: the bindings from `scope` up to, but not including, `end`.
 void lint_unused(Compiler *compiler, const Binding *scope, const Binding *end);
 void lint_call(Compiler *compiler, const Ast *ast, const Expr *callee, const CallCode *code);
 void lint_branches(Compiler *compiler, const Expr *expr);

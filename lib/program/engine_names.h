@@ -1,6 +1,6 @@
 // engine_names.h: the names that the engine defines for the main program (spec language.md L16.1).
 //
-// ENGINE_NAME(ID, "name", static): the value of a static name is constant during a run (L17.2).
+// ENGINE_NAME(ID, "name", static). `static`: true if the value is constant during a run (L17.2).
 // clang-format off
 ENGINE_NAME(FRAME,       "frame",       false)
 ENGINE_NAME(FPS,         "fps",         false)

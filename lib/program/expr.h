@@ -29,8 +29,8 @@ struct Expr {
     // Dependencies of the value, for the simplifier (fold.c)
     bool dynamic;         // may change from frame to frame
     bool uses_closure;    // depends on the running closure: its captures or itself
-    bool can_batch;       // FOR: its nodes become children and may be in batches (value/node_batch.h)
-    uint32_t lowest_slot; // lowest slot that is read; UINT32_MAX: none
+    bool can_batch;       // FOR: its nodes become children of a node, so they can be stored in batches
+    uint32_t lowest_slot; // lowest slot that the expression reads; UINT32_MAX: none
     Origin origin;
     union {
         Value value;                // CONST
@@ -39,7 +39,7 @@ struct Expr {
         const FunctionCode *function;
         const CallCode *call;
         const Decoration *decorate;
-        const NodeList *constant_children; // APPEND: NULL: not constant
+        const NodeList *constant_children; // APPEND; NULL: not constant
     } as;
     const Expr *const *children;
 };

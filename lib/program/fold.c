@@ -44,7 +44,7 @@ void fold_set_dependencies(Expr *expr) {
         fold_add_dependency(expr, expr->children[i]);
 }
 
-// Returns false for kinds that affect the frame, are constant already, or are as fast as a constant.
+// Returns false for kinds that bind names, are constant already, or are as fast to evaluate as a constant.
 static bool is_candidate(const Compiler *compiler, const Expr *expr) {
     switch (expr->kind) {
     case EXPR_CONST:
@@ -88,14 +88,15 @@ static bool node_reaches_closure(const Node *node, uint32_t *visits) {
     return false;
 }
 
-// Returns false if a value is too long, or if it contains closures and the expression may be evaluated several times
-// per frame. Each evaluation must create new closures, which count their own calls, so they cannot be shared.
+// Returns false if an expression must not be replaced by its value. This is the case if the value is too long. It is
+// also the case if the value contains closures and the expression may be evaluated several times per frame. Each
+// evaluation must then create new closures, because a closure counts its own active calls.
 static bool can_fold(const Compiler *compiler, Value value) {
     uint32_t visits = 0;
     return value.len <= MAX_ELEMENTS && (compiler->repeats == 0 || !reaches_closure(value, &visits));
 }
 
-// Returns a constant that replaces an expression and keeps its dependencies.
+// Returns a CONST that replaces an expression. It keeps the flags `dynamic` and `uses_closure` of the expression.
 static const Expr *replace_with_constant(Compiler *compiler, const Expr *expr, Value value) {
     Expr *folded = arena_copy(compiler->scratch, expr, sizeof *expr);
     folded->kind = EXPR_CONST;
@@ -106,7 +107,7 @@ static const Expr *replace_with_constant(Compiler *compiler, const Expr *expr, V
     return folded;
 }
 
-// Stores constant children in one array, which the parent nodes of all frames share.
+// If the children of an APPEND are constant, stores them in one array, which its parent nodes share in all frames.
 static void share_constant_children(Compiler *compiler, Expr *expr) {
     if (expr->kind != EXPR_APPEND || expr->children[1]->kind != EXPR_CONST)
         return;
@@ -138,8 +139,8 @@ static const Expr *prune_branches(Compiler *compiler, const Expr *expr) {
     return rest;
 }
 
-// Evaluates an expression that reads only its own slots. Returns false, with the arenas rewound, if it cannot be
-// evaluated or the value must not be folded.
+// Evaluates an expression that reads only its own slots. Returns false and frees the value if the evaluation fails or
+// can_fold rejects the value.
 static bool evaluate_expr(Compiler *compiler, const Expr *expr, Value *value) {
     const CompileHost *host = &compiler->options->host;
     ArenaMark before = arena_mark(compiler->arena), scratch = arena_mark(compiler->scratch);

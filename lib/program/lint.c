@@ -29,8 +29,8 @@ void lint_bind(Compiler *compiler, const Binding *binding) {
                        (Str){0});
 }
 
-// Returns true for the name of a loop, because the loop may only repeat something, and for names that start with an
-// underscore.
+// Returns true for the name of a loop, because some loops only repeat their body. Also returns true for names that
+// start with an underscore.
 static bool can_be_unused(const Binding *binding) {
     return binding->kind == BINDING_LOOP || binding->name->name.bytes[0] == '_';
 }
@@ -48,8 +48,8 @@ void lint_unused(Compiler *compiler, const Binding *scope, const Binding *end) {
                 str_format(compiler->arena, "unused %s '%.*s'", kinds[binding->kind], STR_ARGS(binding->name->name)));
 }
 
-// Uses the error text of lib/builtin, so that the diagnostic sink drops the duplicate if the first frame executes the
-// call.
+// Reports a wrong number of arguments. The text is that of lib/builtin, which reports the same error if the first frame
+// executes the call. So the diagnostic sink drops the second report as a duplicate.
 static void lint_builtin_call(Compiler *compiler, const Ast *ast, const Builtin *builtin, const CallCode *code) {
     uint32_t count = code->arg_count + code->named_count;
     bool few = count < builtin->required;
@@ -84,7 +84,7 @@ static void lint_user_call(Compiler *compiler, const Ast *ast, const Ast *functi
         if (!find_param(params, code->names[i]))
             add_warning(compiler, ast->span, "wrong-arguments",
                         str_format(arena, "the function has no parameter '%.*s'", STR_ARGS(code->names[i]->name)));
-    // A template without a suite may omit its first argument.
+    // Missing arguments of templates are not reported, because a template without a suite may omit its first argument.
     for (uint32_t i = code->arg_count; i < params->count && ast->kind == AST_CALL; i++) {
         const Ast *param = params->children[i];
         if (param->count == 0 && !is_named(code, param->name))
@@ -162,7 +162,8 @@ void lint_arith(Compiler *compiler, const Ast *ast, const Expr *expr) {
         }
 }
 
-// Reports a missing module now. The VM would report it when it executes the import, which may be much later.
+// Reports a missing module at compile time. The VM reports it only when it executes the import, which may be much
+// later.
 void lint_import(Compiler *compiler, const Ast *ast, const Expr *file) {
     if (!lint_enabled(compiler) || file->kind != EXPR_CONST || file->as.value.len == 0)
         return;

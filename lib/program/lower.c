@@ -1,9 +1,9 @@
 // lower.c: lowering of expressions to instructions; see code.h.
 //
 // Temporaries are allocated like a stack above the slots, so a pending operand is never overwritten. A name used as an
-// operand is not copied: the instruction reads its slot, still within the scope of the name. The destination of a value
-// may be the slot of a name that is not visible yet. Names within the value may use the same slot, so the destination
-// is written last.
+// operand is not copied: the instruction reads its slot, still within the scope of the name. In `let x=VALUE`, the
+// value is written directly to the slot of x. Names that VALUE binds may use the same slot, because x is not visible
+// there. So the destination of a value is written only after all of its operands have been read.
 #include "program/lower.h"
 
 #include "base/source.h"
@@ -224,8 +224,8 @@ static void lower_closure(Lowering *lowering, const Expr *expr, int32_t d) {
                (Instr){.op = OP_CLOSURE, .d = d, .list = list, .count = expr->count, .as.function = expr->as.function});
 }
 
-// Returns the built-in if a call passes one positional argument for each of its parameters, so that arguments need not
-// be matched to parameters; else NULL.
+// Returns the built-in that a call can execute directly, or NULL. In such a call, all arguments are positional and no
+// parameter is omitted, so that arguments need not be matched to parameters.
 static const Builtin *direct_builtin(const Expr *callee, const CallCode *code) {
     if (callee->kind != EXPR_CONST || callee->as.value.kind != VALUE_MIXED || callee->as.value.len != 1 ||
         callee->as.value.as.items[0].type != ITEM_FUNCTION || code->named_count > 0)

@@ -8,9 +8,9 @@
 
 typedef struct LowerOptions {
     Arena *arena;           // memory of the code
-    Arena *values;          // memory of values that the code refers to, which may live longer than the code
+    Arena *values;          // memory of values that the code refers to; they may live longer than the code
     Arena *scratch;         // temporary data
-    uint32_t *lookup_count; // number of state lookups in the program so far, updated; NULL: lookups are not numbered
+    uint32_t *lookup_count; // number of the program's state lookups so far, increased; NULL: they are not numbered
     bool lines;             // record the source line of each instruction
 } LowerOptions;
 
@@ -29,22 +29,22 @@ typedef struct Lowering {
     int32_t *operands;
     uint32_t operand_count;
     uint32_t operand_capacity;
-    Value *constants; // the first constant is operand -1
+    Value *constants; // operand -1 refers to the first constant (last in Code)
     uint32_t constant_count;
     uint32_t constant_capacity;
     int32_t next_register;    // first unused register
     int32_t register_count;   // maximum of next_register
     uint32_t loop_depth;      // number of enclosing loops
     uint32_t loop_count;      // maximum of loop_depth
-    const Expr *yielded_node; // the only node that an iteration of the loop creates, if it may be batched; else NULL
-    uint32_t yielded_loop;    // index of the instruction that starts that loop
+    const Expr *yielded_node; // only node that an iteration of this loop creates, if it can be batched; else NULL
+    uint32_t yielded_loop;    // index of the instruction that starts this loop
 } Lowering;
 
 // Destination of the value of an expression.
 typedef struct Target {
-    int32_t d;    // register
-    bool to_loop; // yield it to `loop` instead
-    uint16_t loop;
+    int32_t d;     // register
+    bool to_loop;  // the value is yielded to `loop`, and `d` is not used
+    uint16_t loop; // nesting depth of the loop
 } Target;
 
 // Appends an instruction with the position of `at`.
@@ -57,16 +57,17 @@ const Symbol *const *lower_names(const Lowering *lowering, const Symbol *const *
 int32_t lower_temporary(Lowering *lowering);
 // Adds a constant and returns its operand.
 int32_t lower_constant(Lowering *lowering, Value value);
-// Emits instructions that compute an expression. Returns the operand that contains its value.
+// Emits the instructions, if any, that compute an expression. Returns the operand that contains its value.
 int32_t lower_operand(Lowering *lowering, const Expr *expr);
-// Emits several expressions and returns the start of the list of their operands.
+// Like lower_operand for several expressions. Returns the start of the list of their operands.
 uint32_t lower_operands(Lowering *lowering, const Expr *const *exprs, uint32_t count);
+// Appends a list of operands and returns its start in Code.operands.
 uint32_t lower_list(Lowering *lowering, const int32_t *operands, uint32_t count);
 // Emits instructions that compute an expression into register `d`.
 void lower_into(Lowering *lowering, const Expr *expr, int32_t d);
 // Emits a statement that only binds names.
 void lower_statement(Lowering *lowering, const Expr *expr);
-// Sets the target of a jump to the next instruction.
+// Sets the target of the jump at index `jump` to the instruction that is emitted next.
 void lower_patch_jump(Lowering *lowering, uint32_t jump);
 void lower_if(Lowering *lowering, const Expr *expr, const Target *target);
 

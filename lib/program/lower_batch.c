@@ -36,8 +36,8 @@ static bool calls_pure(const Lowering *lowering, const Instr *instr) {
     return builtin && builtin->pure;
 }
 
-// Returns true if an instruction of a loop's body can be executed for a batch: iterations do not depend on each other,
-// and its only effects are values and errors.
+// Returns true if instruction i of a loop's body can be executed for a batch of iterations. It must not make iterations
+// depend on each other, and its only effects must be values and errors. `end` is the end of the body.
 static bool can_batch_instr(const Lowering *lowering, uint32_t i, uint32_t end) {
     static const bool never[OP_COUNT] = {
         [OP_UNBOUND] = true,    [OP_CLOSURE] = true, [OP_IMPORT] = true,    [OP_FOR] = true,
@@ -49,13 +49,14 @@ static bool can_batch_instr(const Lowering *lowering, uint32_t i, uint32_t end) 
            (!strchr(operand_formats[instr->op], 'l') || instr->count <= CODE_MAX_READ - 2);
 }
 
-// Assigns column numbers to the registers that a body writes. Returns false if there are too many, or if a register is
-// read before it is written.
+// Assigns column numbers to the registers that a body writes. Returns false if there are too many, if a register below
+// plan->first_register is written, or if the body reads a register first and writes it later.
 static bool number_columns(const Lowering *lowering, uint32_t start, BatchPlan *plan, uint8_t *columns) {
     for (uint32_t i = start; i < plan->end; i++) {
         const Instr *instr = &lowering->instrs[i];
         int32_t reads[CODE_MAX_READ];
-        // Mark registers that are read first: if one is written later, it would carry a value between iterations.
+        // Mark registers that are read before they are written. If such a register is written later, it would carry a
+        // value from one iteration to the next.
         for (uint32_t k = i == start ? 0 : program_operands_read(lowering->operands, instr, reads); k-- > 0;)
             if (reads[k] >= plan->first_register && reads[k] != CODE_NO_OPERAND &&
                 !columns[reads[k] - plan->first_register])

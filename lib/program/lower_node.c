@@ -31,7 +31,8 @@ static bool names_differ(const Decoration *code) {
     return true;
 }
 
-// Returns a copy of a node with the positions of its attributes, for messages.
+// Returns a copy of a node that stores the positions of its attributes, for messages. Returns the node itself if it is
+// not from the same file as the attributes.
 static const Node *with_attr_origins(Arena *arena, const Node *node, const Expr *decorate) {
     const Decoration *code = decorate->as.decorate;
     if (!node->origin || node->origin->origin.source != decorate->origin.source)
@@ -48,7 +49,8 @@ static const Node *with_attr_origins(Arena *arena, const Node *node, const Expr 
 
 enum { MAX_DISTINCT = 64 }; // maximum number of attributes that are checked for duplicates
 
-// Builds one instruction that creates a node with its attributes and children. Returns false if that is not possible.
+// Sets *instr to an instruction that creates a node with its attributes and children. Returns false if one instruction
+// is not enough.
 static bool build_node(Lowering *lowering, const Expr *expr, Instr *instr) {
     Arena *values = lowering->options->values;
     const Expr *append = expr->kind == EXPR_APPEND ? expr : NULL;
@@ -110,7 +112,8 @@ static bool has_small_parts(const Expr *expr) {
     return true;
 }
 
-// Returns true if no instruction retains data that was allocated in the current iteration of the loop.
+// Returns true if none of the instructions keeps data that the current iteration allocated, so that this data can be
+// freed.
 static bool retains_nothing(const Instr *instrs, uint32_t count) {
     static const bool retained[OP_COUNT] = {
         [OP_CLOSURE] = true,  [OP_IMPORT] = true,     [OP_NODE] = true, [OP_APPEND] = true,
@@ -174,10 +177,10 @@ void lower_for(Lowering *lowering, const Expr *expr, int32_t d) {
     int32_t source[3];
     for (int i = 0; i < (spans ? 3 : 1); i++)
         source[i] = lower_operand(lowering, spans ? over->children[i] : over);
-    uint16_t loop = (uint16_t)lowering->loop_depth++; // fits, because the nesting of expressions is limited
+    uint16_t loop = (uint16_t)lowering->loop_depth++; // fits in 16 bits, because the nesting of expressions is limited
     if (lowering->loop_depth > lowering->loop_count)
         lowering->loop_count = lowering->loop_depth;
-    if (spans) // without building the range
+    if (spans) // the loop counts, without building the range
         lower_emit(lowering, over,
                    (Instr){.op = OP_RANGE_INIT, .loop = loop, .a = source[0], .b = source[1], .c = source[2]});
     Instr loop_instr = {

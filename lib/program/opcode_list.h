@@ -1,8 +1,8 @@
 // opcode_list.h: the instructions of the VM.
 //
-// OPCODE(ID, "name in --dump=code", "operands"). Each letter is one operand, in the order of --dump=code. d: register
-// written; a, b, c: operands read; l: list of operands read; j: jump target; s: registers bound; o: loop; i: number
-// (Instr.target); x: other data (Instr.as).
+// OPCODE(ID, "name in --dump=code", "operands"). Each letter is one operand, in the order in which --dump=code
+// prints them. d: register written; a, b, c: operands read; l: list of operands read; j: jump target; s: registers
+// bound; o: loop; i: number (Instr.target); x: other data (Instr.as or Instr.target).
 // clang-format off
 OPCODE(MOVE,       "move",       "da")   // d = a
 OPCODE(CAPTURE,    "capture",    "di")   // d = captured value number i of the running closure
@@ -21,8 +21,8 @@ OPCODE(YIELD_NODE,    "yield node",    "olx")  // adds a node with attributes l 
 OPCODE(NEXT,       "next",       "osj")  // s = next elements of loop o, and jumps back if there are any
 OPCODE(END_LOOP,    "end loop",    "do")   // d = the result of loop o
 OPCODE(JUMP,       "jump",       "j")
-OPCODE(JUMP_TRUE,  "jump true",  "aj")   // if a is true
-OPCODE(JUMP_FALSE, "jump false", "aj")   // if a is false
+OPCODE(JUMP_TRUE,  "jump true",  "aj")   // jumps if a is true
+OPCODE(JUMP_FALSE, "jump false", "aj")   // jumps if a is false
 OPCODE(NODE,       "node",       "dlbx") // d = a node with attributes l, and with children b
 OPCODE(APPEND,     "append",     "dab")  // d = a with children b
 OPCODE(DECORATE,   "decorate",   "dblx") // d = b with the expression's tags, and with attributes l
@@ -32,7 +32,7 @@ OPCODE(XOR,        "xor",        "dab")
 OPCODE(NOT,        "not",        "da")
 OPCODE(EQ,         "eq",         "dab")
 OPCODE(NE,         "ne",         "dab")
-OPCODE(LT,         "lt",         "dab")  // for LT, GT, LE, GE, c: 1 if both operands are the same object
+OPCODE(LT,         "lt",         "dab")  // LT, GT, LE and GE also use Instr.c
 OPCODE(GT,         "gt",         "dab")
 OPCODE(LE,         "le",         "dab")
 OPCODE(GE,         "ge",         "dab")

@@ -27,7 +27,7 @@ static Str text_between(const Source *source, uint32_t start, uint32_t end) {
     return str_trim((Str){source->text.bytes + start, end > start ? end - start : 0});
 }
 
-// Returns the text after the first `or`.
+// Returns the source text of a default: the part of `value` after the first `or`. `use` is the NAME before the `or`.
 static Str default_text(const Source *source, const Ast *use, const Ast *value) {
     Str rest = text_between(source, use->span.end, value->span.end);
     if (str_starts_with(rest, STR("or")))
@@ -56,7 +56,7 @@ static bool parse_bound(Str text, double if_absent, double *x) {
     return text.len == 0 || (literal_parse_number(text, x) && !isnan(*x));
 }
 
-// Parses `MIN..MAX` or `MIN..MAX|STEP`; one of the ends may be missing.
+// Parses `MIN..MAX` or `MIN..MAX|STEP`, where either MIN or MAX can be omitted. Returns false for other text.
 static bool parse_range(Str word, Parameter *parameter) {
     double min, max, step = 0;
     const char *dots = NULL, *bar = memchr(word.bytes, '|', word.len);

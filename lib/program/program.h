@@ -40,16 +40,16 @@ typedef struct Parameter {
     Str default_text; // source text of the default
     bool is_static;   // the default is the constant `value`
     Value value;
-    Str comment; // without the range at its start
+    Str comment; // comment that describes the parameter, without the range at its start
     double min;  // lower end of the range in the comment, inclusive; -INFINITY: none
-    double max;  // upper end, inclusive; INFINITY: none
+    double max;  // upper end of the range, inclusive; INFINITY: none
     double step; // step of the range; 0: none
 } Parameter;
 
 // How a program uses a name that -D defines.
 typedef struct DefineUse {
     bool read;    // the program reads the definition's value
-    Origin bound; // position at which the program first binds the same name; source NULL: it does not
+    Origin bound; // position at which the program first binds the same name; source NULL: nowhere
     bool by_let;  // the binding at `bound` is a top-level `let`
 } DefineUse;
 
@@ -57,14 +57,14 @@ typedef struct Program {
     const Source *source;
     const Code *code;
     uint32_t lookup_count; // number of state lookups; the VM has an inline cache for each
-    uint32_t param_count;  // values set by the host, in the first slots
-    const Export *exports; // top-level bindings, in order; if a name is repeated, the last one is used
+    uint32_t param_count;  // number of values that the host sets, which are in the first slots
+    const Export *exports; // top-level bindings, in source order; the last one with a name is used
     uint32_t export_count;
     const Pragma *pragmas;
     uint32_t pragma_count;
     const Parameter *parameters; // in source order
     uint32_t parameter_count;
-    const DefineUse *define_uses; // for each of CompileOptions.defines
+    const DefineUse *define_uses; // one element per element of CompileOptions.defines
     const Str *imports;           // constant paths of modules imported at the top level
     uint32_t import_count;
 } Program;
@@ -72,33 +72,33 @@ typedef struct Program {
 // Functions that the compiler calls.
 typedef struct CompileHost {
     void *user_data;
-    // Parses a file for %include. Returns NULL with a borrowed *reason on failure. The source must live as long as the
-    // program, and the tree until the end of the compilation.
+    // Parses a file for %include. On failure, returns NULL and sets *reason, which belongs to the host. The source must
+    // live as long as the program, and the tree until the end of the compilation.
     const Ast *(*include)(void *host, Str path, const Source **source, Str *reason);
-    // Executes code with new slots. Returns false with *value null if the code is dynamic (L17.2), fails or exceeds a
-    // limit.
-    // The value is allocated in the program's arena, which the simplifier rewinds if it does not use the value.
+    // Executes code with new slots. Returns false and sets *value to null if the code is dynamic (L17.2), fails or
+    // exceeds a limit. The value is allocated in the program's arena, which the simplifier rewinds if it does not use
+    // the value.
     bool (*evaluate)(void *host, const Code *code, Value *value);
 } CompileHost;
 
 typedef struct Define {
     const Symbol *name;
     Value value;
-    const char *text; // name=value, as in petri_define
+    const char *text; // the definition in the form name=value
 } Define;
 
 typedef struct CompileOptions {
-    bool module;           // engine names and -D names are not visible; unbound names are reported at run time
-    bool lint;             // also report code that is unlikely to be intended
-    bool simplify;         // fold constant expressions (L17.1)
-    bool lines;            // record the source line of each instruction
+    bool module;   // compile a module: engine and -D names are not visible, unbound names are reported at run time
+    bool lint;     // also report code that is unlikely to be intended
+    bool simplify; // fold constant expressions (L17.1)
+    bool lines;    // record the source line of each instruction
     const Define *defines; // if a name is repeated, the last definition is used
     uint32_t define_count;
-    const Symbol *const *params; // names of values that each run receives; if repeated, the last one is used
+    const Symbol *const *params; // names of values that each run receives; the last one with a name is used
     uint32_t param_count;
     const struct Builtin *const *functions; // host functions; none has the name of a built-in
     uint32_t function_count;
-    const struct FileAccess *files; // provides the modules; NULL: the disk
+    const struct FileAccess *files; // provides the files of modules; NULL: the disk
     CompileHost host;
 } CompileOptions;
 

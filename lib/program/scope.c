@@ -73,7 +73,8 @@ const Binding *compile_find_binding(const Compiler *compiler, const Symbol *name
     return NULL;
 }
 
-// Captures a name that is bound in an enclosing function. Each function captures a name only once.
+// Makes `function` capture a name, unless it already does, and returns the CAPTURE. `outer` is the expression of the
+// name in the enclosing function.
 static const Expr *add_capture(Compiler *compiler, FunctionScope *function, const Ast *ast, const Expr *outer) {
     Capture wanted = {outer->kind == EXPR_SLOT      ? CAPTURE_SLOT
                       : outer->kind == EXPR_CAPTURE ? CAPTURE_OUTER

@@ -17,7 +17,7 @@ typedef struct Walker {
     BindingCallback *callback;
     void *user_data;
     ScopeEntry *scope;
-    uint32_t end;   // end of the innermost suite or expression that is a scope
+    uint32_t end;   // end of the current scope in the text
     uint32_t depth; // BindingInfo.depth
 } Walker;
 
@@ -29,7 +29,7 @@ static ScopeEntry *push_entry(Walker *walker, const Symbol *name, uint32_t at, c
     return walker->scope = entry;
 }
 
-// Reports a binding whose name is at offset `at` and is visible from `start` to the end of the enclosing scope.
+// Reports a binding. Its name is at offset `at` and is visible from `start` to the end of the current scope.
 static void report_binding(Walker *walker, NameKind kind, const Symbol *name, uint32_t at, uint32_t start,
                            Span value_span, bool is_sole) {
     BindingInfo info = {.kind = kind,
@@ -49,6 +49,7 @@ static const ScopeEntry *find_entry(const Walker *walker, const Symbol *name) {
     return entry;
 }
 
+// Reports a use of a name at offset `at`. `entry` is BindingInfo.binding_start.
 static void report_use(const Walker *walker, const Symbol *name, uint32_t at, uint32_t entry) {
     BindingInfo info = {.kind = NAME_USE, .span = {at, at + (uint32_t)name->name.len}, .binding_start = entry};
     walker->callback(walker->user_data, &info);

@@ -8,12 +8,12 @@
 // Must match PetriNameKind of petri.h.
 typedef enum NameKind { NAME_USE, NAME_LET, NAME_FUNC, NAME_PARAM, NAME_LOOP, NAME_IMPORT } NameKind;
 
-#define NAME_FREE UINT32_MAX // binding_start of a name that the script does not bind
+#define NAME_FREE UINT32_MAX // value of binding_start if the script does not bind the name
 
 typedef struct BindingInfo {
     NameKind kind;
     Span span;              // location of the name
-    uint32_t binding_start; // offset of the name in its binding; NAME_FREE: none
+    uint32_t binding_start; // offset of the place where the name is bound; NAME_FREE: none
     // The other fields are set for all kinds except NAME_USE.
     Span scope;     // where the name is visible
     Span value;     // source of the bound value or function, or file name of an import

@@ -30,8 +30,9 @@ const char *content_sniff_encoding(const Source *source) {
     return alternates(source->text) ? "UTF-16" : NULL;
 }
 
-// Returns true if the source is certainly meant to be a script: its name ends with .fl, its hashbang line names petri,
-// or it is neither a file nor a stream such as `<stdin>` but comes from the host, for example from a prompt.
+// Returns true if the source is certainly meant to be a script: its name ends with .fl or its hashbang line names
+// petri. Also returns true if the source is neither a file nor a stream such as `<stdin>`. It then comes from the host,
+// for example from a prompt.
 static bool claims_to_be_script(const Source *source) {
     Str first = source_locate(source, 0).text, petri = STR("petri");
     bool read = str_starts_with(source->path, STR("/")) || str_starts_with(source->name, STR("<"));

@@ -6,8 +6,9 @@
 
 // Returns the name of the source's encoding, such as "UTF-16", if it is not UTF-8; else NULL.
 const char *content_sniff_encoding(const Source *source);
-// Called if a source failed to parse. If it is not a script, replaces its diagnostics with a single error. That is the
-// case if it is binary, or if at least half of its lines are invalid and it does not claim to be a script.
+// Called if a source failed to parse. If the source is not a script, replaces its diagnostics with a single error. A
+// binary file is not a script. Nor is a text in which at least three lines and at least half of all lines are
+// invalid, unless its name or hashbang line shows that it is meant to be one.
 void content_sniff_report(const Source *source, DiagSink *diags);
 
 #endif

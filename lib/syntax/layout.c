@@ -23,7 +23,7 @@ static Token fatal_token(Span span, const char *error) {
     return (Token){.kind = GR_UNDEF, .span = span, .error = error, .fatal = true};
 }
 
-// Returns the next pending token for the newline in layout->line, or a token of kind GR_EMPTY.
+// Returns the next INDENT or DEDENT after the newline in layout->line, or a token of kind GR_EMPTY if there is none.
 static Token newline_token(Layout *layout) {
     Span here = {layout->line.end, layout->line.end};
     LayoutLevel *top = &layout->levels[layout->level_count - 1];

@@ -1,7 +1,8 @@
 // layout.h: conversion of newlines and indentation to NEWLINE, INDENT and DEDENT tokens (spec language.md L2.10).
 //
 // The layout filters the tokens between lexer and parser. Inside parentheses it removes newline tokens. Elsewhere it
-// compares the indentation of the next line with a stack of indentations.
+// compares the indentation of the next line with a stack of indentations, and inserts an INDENT or DEDENTs if they
+// differ.
 #ifndef PETRI_SYNTAX_LAYOUT_H
 #define PETRI_SYNTAX_LAYOUT_H
 
@@ -12,29 +13,30 @@ enum { LAYOUT_MAX_DEPTH = 1000 }; // maximum nesting of indentations, and of par
 
 typedef struct LayoutLevel {
     uint32_t indent; // columns
-    bool rejected;   // the parser rejected the INDENT, so no DEDENT follows
+    bool rejected;   // the parser rejected the INDENT, so its DEDENT is omitted
 } LayoutLevel;
 
 typedef struct Layout {
     Lexer lexer;
-    uint32_t level_count; // number of levels, including the first with indentation 0
-    LayoutLevel levels[LAYOUT_MAX_DEPTH + 1];
+    uint32_t level_count;                     // number of levels, including the first with indentation 0
+    LayoutLevel levels[LAYOUT_MAX_DEPTH + 1]; // stack of indentations
     uint32_t paren_count;
     uint32_t parens[LAYOUT_MAX_DEPTH]; // offsets of the open parentheses
-    Span line;                         // newline token that is converted to an INDENT or DEDENTs
-    uint32_t indent;                   // indentation of the line after it
+    Span line;                         // newline token after which an INDENT or DEDENTs are inserted
+    uint32_t indent;                   // indentation of the line after `line`
     bool indent_pending;               // the INDENT or DEDENTs of `line` have not all been returned yet
-    bool indent_mismatch;              // no line above has the same indentation; the next token gets an error
+    bool indent_mismatch;              // the indentation matches no line above; the next token gets an error
 } Layout;
 
 void layout_init(Layout *layout, const Source *source);
-// Returns the next token. If no line above has the same indentation, `error` of the line's first token is set. If a
-// nesting limit is exceeded, the token's kind is GR_UNDEF.
+// Returns the next token. If the indentation of a line matches no line above, sets `error` of its first token. If a
+// nesting limit is exceeded, returns a token of kind GR_UNDEF.
 Token layout_next(Layout *layout);
-// Continues scanning at `offset`, inside or before the last returned token, which must not be a newline or parenthesis.
+// Continues scanning at `offset`, which is inside or before the last returned token. That token must not be a newline
+// or parenthesis.
 void layout_resume(Layout *layout, uint32_t offset);
-// Recovers from a syntax error at `token`: closes all parentheses, so that the next line is parsed normally, and marks
-// a rejected INDENT.
+// Recovers from a syntax error at `token`: closes all parentheses, so that the next line is parsed normally. If
+// `token` is an INDENT, its DEDENT will be omitted.
 void layout_recover(Layout *layout, const Token *token);
 
 #endif

@@ -12,7 +12,7 @@
 
 enum { MAX_EXPECTED = 3 }; // if more tokens are expected, messages list none of them
 
-// Reports an error, unless the previous error is on the same line.
+// Reports an error, unless the previous error is on the same line. In both cases, parsing has failed.
 static void report_error(ParseContext *context, Span span, const char *code, Str text, Str hint) {
     uint32_t line = source_line(context->source, span.start);
     bool follows = context->failed && line == context->error_line;
@@ -254,7 +254,8 @@ static void resolve_keyword(const ParseContext *context, Layout *layout, const g
     } else if (token->kind == NAME && token->keyword && gr_accepts(parser, token->keyword)) {
         token->kind = token->keyword;
     } else if (token->kind == NAME && !gr_accepts(parser, NAME)) {
-        // If only `in` or `from` can follow, the keyword is also recognised as the prefix of a word (K11).
+        // If only `in` or `from` can follow, the keyword is also recognised as the prefix of a word: `for x in1;2`
+        // means `for x in 1;2` (K11).
         if (gr_accepts(parser, IN) && !gr_accepts(parser, AND) && str_starts_with(text, STR("in")))
             resize_token(layout, token, IN, 2);
         else if (gr_accepts(parser, FROM) && str_starts_with(text, STR("from")))
@@ -262,6 +263,7 @@ static void resolve_keyword(const ParseContext *context, Layout *layout, const g
     }
 }
 
+// Adds a hint to the error of a token that follows an unclosed parenthesis on an earlier line.
 static void add_paren_hint(ParseContext *context, const Layout *layout, const Token *token, uint32_t errors_before) {
     if (layout->paren_count == 0 || context->diags->count == errors_before)
         return;

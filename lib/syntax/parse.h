@@ -8,7 +8,7 @@
 // table. Reports all errors to the sink. Returns NULL if there was an error.
 const Ast *parse_program(Arena *arena, SymbolTable *symbols, const Source *source, DiagSink *diags);
 // Like parse_program, but for editors: reports no errors and omits statements that have errors. Returns NULL if no tree
-// could be built. Calls `seen` with each token unless it is NULL.
+// could be built. Calls `seen` with each token, unless `seen` is NULL.
 const Ast *parse_tolerant(Arena *arena, SymbolTable *symbols, const Source *source, ParseTokenCallback *seen,
                           void *user_data);
 

@@ -1,8 +1,8 @@
 // syntax_hint_list.h: hints for syntax errors caused by habits from other languages.
 //
 // HINT(BEFORE, AFTER, "hint"): the hint applies if the line before the unexpected token matches BEFORE and the rest of
-// the line matches AFTER. Both are POSIX extended regular expressions. If the unexpected token is the start of a
-// comment, the rest of the line is empty. The first matching row is used, so special cases come first.
+// the line matches AFTER. Both are POSIX extended regular expressions. If a comment starts at the unexpected
+// token, AFTER is matched with an empty text. The first matching row is used, so special cases come first.
 // clang-format off
 #ifndef HINT
 #define HINT(before, after, hint)

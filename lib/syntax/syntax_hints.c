@@ -14,7 +14,7 @@ static const struct {
 #include "syntax/syntax_hint_list.h"
 };
 
-enum { MAX_CONTEXT = 300 }; // maximum number of bytes that are matched on either side of the token
+enum { MAX_CONTEXT = 300 }; // maximum number of bytes before the token, and after its start, that are matched
 
 // Returns true if a pattern certainly does not match. This is a quick test for patterns that start with a literal
 // character.

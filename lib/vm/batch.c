@@ -4,8 +4,8 @@
 #include <string.h>
 
 enum {
-    MIN_BATCH = 8,    // minimum number of iterations in a batch
-    MAX_FAILURES = 4, // failed batches after which a loop is executed iteration by iteration
+    MIN_BATCH = 8,    // minimum number of remaining iterations for which batches are used
+    MAX_FAILURES = 4, // maximum number of failed batches after which batches are tried again
 };
 
 // Binds the loop's names in all iterations of the batch.
@@ -27,8 +27,8 @@ static void bind_iterations(LoopBatch *batch, const Instr *start, const Loop *lo
 
 // --- branches
 
-// Removes iterations from the selection until execution reaches instruction `target`: those whose element of
-// `continues` is false, or all if `continues` is NULL.
+// Removes iterations from the selection until execution reaches instruction `target`. Selected iteration number k stays
+// if continues[k] is true. If `continues` is NULL, none stays.
 static void deselect_iterations(LoopBatch *batch, uint32_t target, const bool *continues) {
     uint32_t remaining = 0;
     for (uint32_t k = 0; k < batch->selected_count; k++) {
@@ -81,7 +81,7 @@ static void yield_nodes(LoopBatch *batch, const Instr *instr, Loop *loop) {
     uint32_t count = program_operands_read(batch->code->operands, instr, reads);
     Value *slots = batch->frame->slots;
     Instr row = *instr;
-    row.d = 0; // keep temporary data until all iterations have been added
+    row.d = 0; // do not free temporary data before all iterations have been added
     ArenaMark before = loop->mark;
     const NodeBatch *nodes = loop->batch;
     for (uint32_t iteration = 0; iteration < batch->count; iteration++) {

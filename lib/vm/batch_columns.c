@@ -13,7 +13,7 @@ static bool all_selected(const LoopBatch *batch) {
     return batch->selected_count == batch->count;
 }
 
-// Converts a column to COLUMN_VALUES, so that single values can be written.
+// Converts a column to COLUMN_VALUES, so that values of any kind can be written for some of the iterations.
 static void make_values(const LoopBatch *batch, int32_t d, Column *column) {
     Value same = column->kind == COLUMN_UNIFORM ? batch->frame->slots[d] : VALUE_NULL;
     if (column->kind == COLUMN_VALUES)
@@ -205,7 +205,8 @@ static bool can_share(const Instr *instr) {
     return instr->op != OP_NODE && instr->op != OP_APPEND && instr->op != OP_DECORATE && instr->op != OP_LOOKUP;
 }
 
-// Executes an instruction once per selected iteration, with the registers set to the iteration's values.
+// Executes an instruction once per selected iteration, with the registers set to the iteration's values. If no operand
+// is a column and the result can be shared, executes it only once.
 static void run_each_iteration(LoopBatch *batch, const Instr *instr) {
     int32_t reads[CODE_MAX_READ];
     Value *registers[CODE_MAX_READ], values[BATCH_SIZE];

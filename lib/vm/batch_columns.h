@@ -1,7 +1,9 @@
 // batch_columns.h: columnar (SIMD-style) execution of a batch of up to 64 loop iterations; see vm_run_batches.
 //
-// Each instruction runs for the whole batch. Registers become columns; branches narrow the selection vector until
-// control flow reconverges. Arithmetic uses simple loops; other instructions run per selected iteration, as in vm_eval.
+// The registers that the body writes become columns. Each instruction is executed for all selected iterations before
+// the next instruction. At first, all iterations are selected. If iterations take different branches, those that skip
+// the next instructions leave the selection, and join it again where their execution continues. Arithmetic and other
+// frequent instructions process arrays; the rest are executed as in vm_eval, once per selected iteration.
 #ifndef PETRI_VM_BATCH_COLUMNS_H
 #define PETRI_VM_BATCH_COLUMNS_H
 
@@ -34,9 +36,9 @@ typedef struct LoopBatch {
     uint32_t selected_count;           // number of elements of `selection`
     uint8_t selection[BATCH_SIZE];     // selected iterations, ascending
     uint32_t resume_at[BATCH_SIZE];    // by iteration: instruction at which the iteration joins the selection
-    uint32_t reconverge_at;            // first instruction at which further iterations join the selection
+    uint32_t reconverge_at;            // next instruction at which iterations join the selection
     uint32_t yield_counts[BATCH_SIZE]; // by iteration: number of yielded values
-    Value *yields;                     // plan->yield_count elements per iteration
+    Value *yields;                     // yielded values: room for plan->yield_count per iteration
 } LoopBatch;
 
 // Returns the column of an operand, or NULL if its value is the same in all iterations.
@@ -59,12 +61,12 @@ static inline Value column_read(const LoopBatch *batch, int32_t operand, uint32_
     return column ? column_value(column, iteration) : batch->frame->slots[operand];
 }
 
-// Writes a value for each selected iteration, in order.
+// Writes values[k] to register d of the selected iteration number k, for all k.
 void vm_batch_store(LoopBatch *batch, int32_t d, const Value *values);
 // Like vm_batch_store, for numbers.
 void vm_batch_store_numbers(LoopBatch *batch, int32_t d, const double *numbers);
-// Returns the numbers of an operand, one per selected iteration. The result may point to `buffer`. Returns NULL unless
-// the operand is a single number in all selected iterations.
+// Returns the numbers of an operand, one per selected iteration, or NULL if they are not stored as single numbers. The
+// numbers are copied to `buffer` if necessary.
 const double *vm_batch_numbers(const LoopBatch *batch, int32_t operand, double buffer[BATCH_SIZE]);
 // Executes an operator on numbers for all selected iterations at once. Returns false if that is not possible.
 bool vm_batch_try_operator(LoopBatch *batch, const Instr *instr);

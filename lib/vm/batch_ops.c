@@ -5,11 +5,11 @@
 #include <math.h>
 #include <string.h>
 
-enum { MAX_SLICE_LENGTH = 16 }; // slices up to this length are copied to one array
+enum { MAX_SLICE_LENGTH = 16 }; // maximum length of slices that run_slice copies
 
 // --- built-ins
 
-// Calls an element-wise built-in once, with vectors of all iterations' arguments.
+// Calls an element-wise built-in only once. Each argument is a vector of the values in all selected iterations.
 static bool run_each(LoopBatch *batch, const Instr *instr) {
     enum { MAX_OPERANDS = 4 };
     const Builtin *builtin = instr->as.builtin;
@@ -97,7 +97,8 @@ static bool run_compose(LoopBatch *batch, const Instr *instr) {
     return true;
 }
 
-// Slices one vector of numbers. All slices have the same length and are copied to one array.
+// Slices a vector of numbers that is the same in all iterations. The slices must have the same length. They are copied
+// to one array.
 static bool run_slice(LoopBatch *batch, const Instr *instr) {
     double left[BATCH_SIZE], right[BATCH_SIZE];
     const double *from = vm_batch_numbers(batch, instr->b, left);

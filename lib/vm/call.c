@@ -5,12 +5,12 @@ bool vm_stack_left(const Vm *vm) {
     const char *here = __builtin_frame_address(0);
     // The stack grows down on all supported machines; the absolute distance works in either direction.
     size_t used = vm->stack_base > here ? (size_t)(vm->stack_base - here) : (size_t)(here - vm->stack_base);
-    // The other half is reserved for evaluating the expressions of one function, whose nesting is limited
-    // (AST_MAX_HEIGHT), and for the C functions called by that evaluation.
+    // Calls use at most half of the stack. The rest is reserved for evaluating the expressions of one function, whose
+    // nesting is limited (AST_MAX_HEIGHT), and for the C functions that this evaluation calls.
     return used < vm->stack_bytes / 2;
 }
 
-// Returns a captured value. Closures capture only names of the enclosing function.
+// Returns a value that a new closure captures. `frame` is the frame of the enclosing function.
 static Value outer_value(const Frame *frame, const Capture *capture) {
     switch (capture->kind) {
     case CAPTURE_SLOT:
@@ -74,7 +74,7 @@ static bool can_enter(Vm *vm, const Closure *closure, const Origin *at) {
 
 static Value call_closure(Vm *vm, Closure *closure, const Arguments *args, const Origin *at) {
     const FunctionCode *code = closure->code;
-    if (closure->evaluation_id != vm->evaluation_id) { // folded, or left by an aborted evaluation
+    if (closure->evaluation_id != vm->evaluation_id) { // folded, or last called in an aborted evaluation
         closure->evaluation_id = vm->evaluation_id;
         closure->active_calls = 0;
     }
@@ -104,7 +104,8 @@ static Value call_item(Vm *vm, Item item, const Arguments *args, const Origin *a
     const Builtin *builtin = item.as.function->builtin;
     if (!builtin)
         return call_closure(vm, (Closure *)item.as.function, args, at);
-    if (!vm_can_call(vm, builtin, at, args->positional, args->count + args->named_count)) // named arguments follow
+    if (!vm_can_call(vm, builtin, at, args->positional,
+                     args->count + args->named_count)) // named ones follow the positional
         return VALUE_NULL;
     return builtin_call(&vm->builtins, builtin, args->positional, args->count, args->names, args->named,
                         args->named_count);

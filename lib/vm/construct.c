@@ -73,7 +73,8 @@ Value vm_decorate(Vm *vm, const int32_t *list, const Value *slots, const Instr *
     return subject;
 }
 
-// Sets the attributes of a new node. All names differ, so nothing is replaced. Null and streams are omitted (L7.2).
+// Sets the attributes of a new node. All names differ, so nothing is replaced. Attributes that are null or
+// streams are omitted (L7.2).
 static void set_attributes(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, Node *node,
                            Attr *attrs) {
     uint32_t count = 0, height = node->height;

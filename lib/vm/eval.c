@@ -141,7 +141,7 @@ NOINLINE static void eval_import(Vm *vm, Frame *frame, const Instr *instr, Value
 #define C slots[instr->c]
 #define D slots[instr->d]
 
-// Two numbers are computed inline; other values use the general function.
+// An operation on two numbers is executed inline. Other operands are passed to the general function.
 #define ARITHMETIC(opcode, arith, operator)                                                                            \
     case opcode: {                                                                                                     \
         const Value *a = &A, *b = &B;                                                                                  \
@@ -152,7 +152,7 @@ NOINLINE static void eval_import(Vm *vm, Frame *frame, const Instr *instr, Value
         break;                                                                                                         \
     }
 
-// `claim` compares the numbers x and y; NaN is greater than everything (L5.5).
+// `claim` is the comparison of two numbers x and y. If one is NaN, > and >= are true (L5.5).
 #define COMPARISON(opcode, claim)                                                                                      \
     case opcode: {                                                                                                     \
         const Value *a = &A, *b = &B;                                                                                  \
@@ -235,7 +235,7 @@ static inline __attribute__((always_inline)) Value eval_code(Vm *vm, Frame *fram
             loop->at += instr->count;
             if (loop->at == loop->retry_at)
                 vm_run_batches(vm, frame, code, code->instrs + instr->target - 1, loop);
-            uint64_t cost = 1 + (uint64_t)(instr - code->instrs - instr->target) / VM_INSTRS_A_UNIT; // of the body
+            uint64_t cost = 1 + (uint64_t)(instr - code->instrs - instr->target) / VM_INSTRS_A_UNIT; // one iteration
             if (!loop->result.overflow && next_iteration(vm, instr, loop, slots, cost))
                 instr = code->instrs + instr->target - 1;
             break;

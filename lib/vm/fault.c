@@ -4,7 +4,8 @@
 #include <stdarg.h>
 
 // Returns true if an error must be reported, and records the error. Returns false if the same error was already
-// reported at this position in this frame, if too many errors were reported, or if execution is speculative.
+// reported at this position in this frame, or if too many errors were reported. If execution is speculative, sets
+// speculation_failed instead and returns false.
 static bool first_fault(Vm *vm, const Origin *at, uint64_t what) {
     if (vm->reported_count >= VM_REPORTED / 2)
         return false;

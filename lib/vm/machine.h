@@ -9,8 +9,8 @@
 
 #include <string.h>
 
-// A user function as a value: its code and captured values. Lives as long as the frame, or as the program if it was
-// folded at load time.
+// A user function as a value: its code and captured values. Lives until the arena of the frame is reset, or as long as
+// the program if it was folded at load time.
 typedef struct Closure {
     Function base; // first member, so that a Function pointer can be cast to Closure
     const FunctionCode *code;
@@ -21,7 +21,7 @@ typedef struct Closure {
     Value self; // a vector with this function as its only element
 } Closure;
 
-// A node and the item of a vector that contains it.
+// A node and an item that refers to it. The item is the only element of the vector that is the node's value.
 typedef struct NodeValue {
     Node node;
     Item item;
@@ -36,8 +36,8 @@ typedef struct Loop {
     // batch_nodes.c
     NodeBatch *batch;       // batch to which the next node may be added; NULL: none
     uint32_t short_batches; // number of batches with few nodes
-    bool not_counting;      // the values of the loop's name do not count up
-    ArenaMark mark;         // mark of the arena after the last node
+    bool not_counting;      // the values of the loop's name do not increase by 1 from node to node
+    ArenaMark mark;         // end of Vm.arena after the last node
     uint32_t reported;      // Vm.reported_count when `mark` was set
     // batch.c
     uint32_t retry_at;       // value of `at` at which batches are tried again; 0: never
@@ -47,7 +47,7 @@ typedef struct Loop {
 // Activation record of a code.
 typedef struct Frame {
     Value *slots;     // registers; the constants are stored directly before them
-    Loop *loops;      // by nesting depth
+    Loop *loops;      // one per nesting depth
     Closure *closure; // NULL in the main program and in modules
 } Frame;
 
@@ -62,13 +62,14 @@ struct ImportLink {
 Frame vm_frame(Vm *vm, const Code *code, Closure *closure);
 // Executes a code and returns its result.
 Value vm_eval(Vm *vm, Frame *frame, const Code *code);
-// Executes a CALL of a callee with the given arguments.
+// Executes a CALL. `values` are the positional arguments, followed by the named ones.
 Value vm_call(Vm *vm, const Instr *instr, Value callee, const Value *values);
 Value vm_make_closure(Vm *vm, const Frame *frame, const FunctionCode *code, const Value *defaults);
 // Executes an IMPORT from the module at path `file`.
 void vm_import(Vm *vm, Frame *frame, const Instr *instr, Value file);
 
-// construct.c: instructions that create or look up values. `slots` are the registers, `list` the operand numbers.
+// Instructions that create or look up values (construct.c, eval.c). `slots` are the registers. `list` is the list of
+// operands of the instruction.
 Value vm_make_node(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr);
 Value vm_call_builtin(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr);
 bool vm_is_true(const Value *v);
@@ -76,8 +77,8 @@ bool vm_is_true(const Value *v);
 // loop's source, or null past its end.
 Value vm_unpack_element(Vm *vm, Value value, uint32_t i);
 Value vm_loop_element(Vm *vm, const Loop *loop, uint32_t i);
-// batch.c: executes as many further iterations of a loop as possible in batches. `start` is its FOR or FOR_RANGE, which
-// has a BatchPlan. Called again when loop->at reaches loop->retry_at.
+// batch.c: executes as many of the loop's remaining iterations as possible in batches. `start` is its FOR or FOR_RANGE,
+// which has a BatchPlan. Called again when loop->at reaches loop->retry_at.
 void vm_run_batches(Vm *vm, Frame *frame, const Code *code, const Instr *start, Loop *loop);
 // Prepares a loop over a range.
 void vm_range_init(Vm *vm, const Origin *at, Loop *loop, Value start, Value stop, Value step);
@@ -87,7 +88,8 @@ Value vm_decorate(Vm *vm, const int32_t *list, const Value *slots, const Instr *
 Value vm_append(Vm *vm, const Instr *instr, Value parent, Value children);
 Value vm_compose(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, const Origin *at);
 Value vm_lookup(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr);
-// Returns the value in the state for a key of numbers, without a copy. `lookup` is the number of the lookup.
+// Returns the value in the state for a key of numbers. The value is not copied. `lookup` is the number of the lookup
+// (Instr.target).
 Value vm_lookup_numbers(Vm *vm, uint32_t lookup, const double *numbers, uint32_t len);
 Value vm_range(Vm *vm, const Origin *at, Value start, Value stop, Value step);
 Value vm_index(Vm *vm, Value vector, Value index);

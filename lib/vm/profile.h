@@ -1,7 +1,8 @@
 // profile.h: a profiler that measures the evaluation time of each source line.
 //
 // The VM reports each change of line, and the time since the last change is charged to the previous line. The time of a
-// call is charged to the lines of the function. Returning from a call does not count as another hit of the line.
+// call is charged to the lines of the function. Returning from a call does not count as another hit of
+// the calling line.
 #ifndef PETRI_VM_PROFILE_H
 #define PETRI_VM_PROFILE_H
 
@@ -51,7 +52,7 @@ void vm_profile_move(Profile *profile, const Source *source, uint32_t line);
 // Charges the elapsed time to the previous line and returns to `place`, the position of a call.
 void vm_profile_return(Profile *profile, ProfilePosition place);
 
-// Must be called for each instruction, with its line.
+// Must be called before each instruction, with its line.
 static inline void vm_profile_at(Profile *profile, const Source *source, uint32_t line) {
     if (line != profile->position.line || source != profile->position.source)
         vm_profile_move(profile, source, line);
