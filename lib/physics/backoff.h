@@ -1,9 +1,9 @@
 // backoff.h: decides from earlier jobs whether to use helper threads.
 //
-// On a busy machine a helper that has begun a chunk may lose its processor for milliseconds, while the caller waits.
-// Sometimes no helper arrives at all. When waiting has cost more time than helpers have saved, the caller works alone
-// for a pause. The pause is much longer than the lost time, so the loss hardly matters. This affects only speed, never
-// results.
+// A helper is a thread of the pool other than the caller. On a busy machine a helper that has begun a chunk can lose
+// its processor for milliseconds, while the caller waits. Sometimes no helper arrives at all. When this has cost more
+// time than helpers have saved, the caller works alone for a pause. The pause is much longer than the lost time, so the
+// loss hardly matters. This affects only speed, never results.
 #ifndef PETRI_PHYSICS_BACKOFF_H
 #define PETRI_PHYSICS_BACKOFF_H
 
@@ -12,7 +12,7 @@
 
 enum {
     PHYS_MAX_UNANSWERED = 16, // consecutive jobs without a helper before a pause
-    PHYS_LOSS_DIVISOR = 20,   // at most 1/20 of the time is lost
+    PHYS_LOSS_DIVISOR = 20,   // length of a pause divided by the lost time, before doublings
     PHYS_MAX_DOUBLINGS = 4,   // maximum number of doublings of the pause while the machine stays busy
 };
 
@@ -20,7 +20,7 @@ enum {
 typedef struct PhysBackoff {
     int64_t saved;             // time saved by helpers, minus the time spent waiting for them
     uint64_t pause_length;     // length of the last pause; 0: none so far
-    uint64_t pause_end;        // end of the last pause, which may be in the future
+    uint64_t pause_end;        // end of the last pause, or of the present one
     int doublings;             // number of times that the last pause was doubled
     int unanswered;            // consecutive jobs without a helper
     uint64_t unanswered_since; // beginning of the first of these jobs
@@ -43,13 +43,14 @@ typedef struct PhysTuner {
 
 enum {
     PHYS_TUNER_PERIOD = 1024, // jobs in a period
-    PHYS_TUNER_PROBES = 24,   // number of jobs timed each way at the start of a period, first the slower way
-    PHYS_TUNER_WARMUP = 8,    // first probes of each way, which are not measured because caches are cold
+    PHYS_TUNER_PROBES = 24,   // jobs timed in each way at the start of a period: first the slower way, then the faster
+    PHYS_TUNER_WARMUP = 8,    // number of first probes of each way that are ignored, because caches are cold
 };
 
 // Returns true if the next job should use helpers.
 bool phys_tuner_should_help(const PhysTuner *tuner);
-// Counts a job that is done alone because that is faster. Returns false if the job should be timed.
+// For a job that is done alone because that is faster. If the job need not be timed, counts it and returns true.
+// Otherwise returns false, and the job's time must be passed to phys_tuner_learn.
 bool phys_tuner_skip(PhysTuner *tuner);
 // Records the time of a job per unit of work.
 void phys_tuner_learn(PhysTuner *tuner, bool helped, double nanoseconds);

@@ -1,13 +1,14 @@
 // domain.h: domain decomposition of one system over MPI ranks.
 //
-// Space is divided into patches; contiguous ranges of patches along a Hilbert curve are assigned to ranks. A rank owns
-// the particles in its patches and receives the remote particles within reach, its halo, before each step. Owned and
-// halo particles form a local system in global column order, so sums match a single process bit for bit and no forces
-// are sent. All interaction ranges must be bounded.
+// Space is divided into patches. Contiguous ranges of patches along a Hilbert curve are assigned to ranks. A rank owns
+// the particles in its patches. Its halo consists of the particles of other ranks that can interact with them. Before
+// each step the rank receives the positions of its halo. Owned and halo particles form the local system of the rank.
+// Forces are summed in the order of global columns, those of the whole system. So sums match a single process bit for
+// bit, and no forces are sent. The range of all pair forces must be bounded.
 //
-// The halo is valid until a particle has moved by half the skin. Then particles migrate, and halos and lists are
-// rebuilt on all ranks together. At the end of a frame all ranks receive all rows. The columns of the whole system are
-// not updated then, because they are not used while the decomposition continues.
+// The halo is valid until a particle has moved by half the skin (neighbour_list.h). Then particles migrate, and halos
+// and lists are rebuilt on all ranks together. At the end of a frame all ranks receive all rows. The columns of the
+// whole system are not updated then, because they are not used while the decomposition continues.
 #ifndef PETRI_PHYSICS_DOMAIN_H
 #define PETRI_PHYSICS_DOMAIN_H
 
@@ -19,7 +20,7 @@ typedef struct Transfer {
     uint32_t column;
 } Transfer;
 
-// Particles to send or receive, by rank: items start[r] to start[r + 1] - 1 belong to rank r.
+// Global columns of particles to send to or receive from each rank: items start[r] to start[r + 1] - 1 are for rank r.
 typedef struct Transfers {
     uint32_t *start;
     Buffer starts;
@@ -32,15 +33,15 @@ typedef struct ColumnList {
 } ColumnList;
 
 typedef struct Domain {
-    bool is_valid; // the fields below describe the current frame
+    bool is_valid; // the fields below are up to date
     PhysSystem *local;
     Buffer spare;             // memory for the next columns of `local`, which are copied from the current ones
     uint64_t columns_version; // PhysSystem.columns_version for which `local` was built
     // interaction ranges
     bool contact;                   // some force acts on contact
-    double bound;                   // largest max_distance of the other forces; 0: none
+    double bound;                   // largest max_distance of the other pair forces; 0: no such force
     double max_radius;              // largest radius of the particles that are not in `large`
-    NeighbourList survey;           // patch of each particle, and the skin of all lists; holds no neighbours
+    NeighbourList survey;           // `cell`: patch of each particle; `skin`: skin of all lists; lists no neighbours
     uint32_t large[PHYS_MAX_LARGE]; // columns of particles much larger than the others
     uint32_t large_count;
     // ownership
@@ -49,20 +50,20 @@ typedef struct Domain {
     Buffer interior;     // uint32_t by patch: 1 if no other rank can need its particles, else 0
     Buffer owners;       // uint32_t by column: rank
     Buffer counts;       // uint32_t by rank: number of owned particles
-    // uint32_t: the local system's `order`, its previous `order`, and its `column_of`. Its handles are global
-    // columns.
+    // uint32_t: the local system's `order`, its previous `order`, and its `column_of`. The handles of the local system
+    // are global columns.
     Buffer orders, last_orders, column_of;
     bool can_reorder;     // result of phys_can_reorder; the same on all ranks
-    Buffer remote;        // bool by local column: in the halo, or moved to another rank
+    Buffer remote;        // bool by local column: the particle is in the halo or has moved to another rank
     Buffer built;         // double: positions and radii of owned particles at the last rebuild, in column order
     bool built_valid;     // true if `built` was recorded
-    Buffer movers;        // uint32_t by column: number of earlier particles of its group that are not anchors
+    Buffer movers;        // uint32_t by column: number of earlier particles of the same group that are not anchors
     Buffer random_offset; // uint32_t by local column: `movers` of the particle
-    Transfers to, from;   // halo particles by rank
-    // during a rebuild, when the system's columns hold the particles to send and those received
-    ColumnList boundary; // columns of owned particles that other ranks may need
-    ColumnList arrivals; // columns received in this rebuild, owned or halo
-    Buffer sources;      // uint32_t by local column: column from which its values are copied
+    Transfers to, from;   // halo particles by rank; in phys_domain_move: migrating particles
+    // Used during a rebuild. Then the system's columns are up to date for particles to send and received particles.
+    ColumnList boundary; // columns of owned particles that other ranks possibly need
+    ColumnList arrivals; // columns of received particles, which are now owned or in the halo
+    Buffer sources;      // uint32_t by local column: source column, in the last local system or the system
     // communication
     Buffer transfers; // Transfer
     uint32_t transfer_count;
@@ -75,19 +76,20 @@ typedef struct Domain {
     uint64_t padded;             // upper bound of the list entries on all ranks, including dummies
     double seconds;              // CPU time of this rank since the last balancing
     uint64_t steps;              // since the last balancing
-    uint64_t rebalance_interval; // steps before patches may be balanced again
+    uint64_t rebalance_interval; // steps after a balancing before uneven load causes another
     Buffer rank_seconds;         // double by rank: `seconds` of that rank
 } Domain;
 
-// domain.c: decides whether this frame uses domain decomposition, and prepares it. The result is the same on all ranks.
-// Returns false and sets system->failed if out of memory.
+// domain.c: returns true if this frame uses domain decomposition, which is then prepared. The result is the same on all
+// ranks. Returns false and sets system->failed if out of memory.
 bool phys_domain_begin(PhysSystem *system, const PhysTime *time);
 // Updates or rebuilds the halo and takes one step. Returns false if the step was aborted.
 bool phys_domain_step(PhysSystem *system, double clock, double delta, double speed_of_light);
 void phys_domain_free(PhysSystem *system);
 
-// domain_collect.c: writes the rows of all particles on every rank, as phys_write_rows does, but not the columns
-// (PhysSystem.columns_stale). Returns false if the frame was aborted; then the rows are unchanged.
+// domain_collect.c: writes the rows of all particles on every rank, as phys_write_rows does for one process. The
+// system's columns are then out of date (PhysSystem.columns_stale). If the frame was aborted, leaves the rows unchanged
+// and returns false.
 bool phys_domain_collect(PhysSystem *system, bool keep_last_finite);
 
 // domain_balance.c: assigns patches to ranks by the measured cost of their particles. The system's columns must be up
@@ -97,9 +99,9 @@ bool phys_domain_balance(PhysSystem *system, Domain *domain);
 // Returns the index of a cell along a Hilbert curve through a cube with n = 1 to 3 axes and 2^levels cells along each.
 uint64_t phys_hilbert_index(const uint32_t *cell, uint32_t n, uint32_t levels);
 
-// domain_select.c: finds the interior patches, which no particle of another rank can reach with the current skin.
+// domain_select.c: finds the interior patches: owned patches that no particle of another rank can reach with this skin.
 bool phys_domain_find_interior(PhysSystem *system, Domain *domain);
-// Adds a transfer for each boundary particle and each rank that needs it. The columns of boundary particles must be
+// Adds a transfer of each boundary particle to each rank that needs it. The columns of boundary particles must be
 // up to date.
 bool phys_domain_select(PhysSystem *system, Domain *domain);
 
@@ -111,23 +113,25 @@ bool phys_domain_move(PhysSystem *system, Domain *domain);
 bool phys_domain_find_halo(PhysSystem *system, Domain *domain);
 // Exchanges the positions of halo particles before a step.
 bool phys_domain_exchange(PhysSystem *system, Domain *domain);
-// Append to a list.
+// Append to a list of columns or to domain->transfers.
 bool phys_list_column(PhysSystem *system, ColumnList *list, uint32_t column);
 bool phys_add_transfer(PhysSystem *system, Domain *domain, uint32_t rank, uint32_t column);
 // Sets each number to its maximum over all ranks.
 void phys_domain_reduce(PhysSystem *system, double *numbers, size_t count);
 
-// domain_local.c: builds the local system of owned and halo particles from its predecessor and `arrivals`, or from the
-// system's columns if there is no predecessor (!domain->is_valid).
+// domain_local.c: builds the local system of owned and halo particles. `arrivals` come from the system's columns. The
+// other particles come from the previous local system, or from the system's columns if there is none
+// (!domain->is_valid).
 bool phys_domain_build_local(PhysSystem *system, Domain *domain);
 // Updates the forces of the local system.
 bool phys_domain_update_forces(PhysSystem *system, Domain *domain);
-// Copies the positions in the random streams back to the system. They are the same on all ranks.
+// Copies the positions in the random streams (Force.item) back to the system. They are the same on all ranks.
 void phys_domain_return_items(PhysSystem *system, const PhysSystem *local);
-// Copies changed attributes and rows to the local system. All rows must be up to date.
+// After attributes have changed between frames, copies attributes and rows to the local system. All rows must be up to
+// date.
 void phys_domain_reload(const PhysSystem *system, Domain *domain);
 
-// Returns the local column of the particle in a global column.
+// Returns the local column of a particle by its global column.
 static inline uint32_t phys_local_column(const Domain *domain, uint32_t column) {
     return domain->local->column_of[column];
 }

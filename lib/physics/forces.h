@@ -1,4 +1,4 @@
-// forces.h: the rows of force_list.h as structs. If the kind is a constant, so are all fields of its row.
+// forces.h: the rows of force_list.h as structs. If the compiler knows the kind, it also knows all fields of the row.
 #ifndef PETRI_PHYSICS_FORCES_H
 #define PETRI_PHYSICS_FORCES_H
 
@@ -18,11 +18,12 @@ typedef enum ForceNeed {
     NEED_STREAM,
 } ForceNeed;
 
+// The distances at which a pair force acts (force_list.h).
 typedef enum PairReach { REACH_CONTACT, REACH_FAR } PairReach;
 
 typedef struct ForceRow {
     Stage stage;
-    ForceNeed need;  // for a pair force: of both particles
+    ForceNeed need;  // a pair force needs it from both particles
     PairReach reach; // pair forces only
     int sign;        // pair forces only: PairTerm.strength is sign · strength
     int vectors;     // number of PhysForce vectors that the force reads

@@ -41,22 +41,22 @@ static inline uint32_t phys_cell_of(const Grid *grid, const double *position, si
 typedef struct ListSearch {
     const NeighbourList *list;
     const Grid *grid;
-    const bool *remote;  // by column: true for particles that need no list; NULL: all need one
-    uint32_t own;        // particles with a smaller key belong to the pass's own group
-    uint32_t dummy;      // sorted index with which lists are padded
-    uint64_t scan_limit; // maximum number of candidates per chunk
+    const bool *remote;  // by column: true for particles that need no list; NULL: all particles need one
+    uint32_t own;        // particles with a key below this belong to the pass's own group
+    uint32_t dummy;      // sorted index of the dummy particle that pads lists
+    uint64_t scan_limit; // maximum number of candidates (particles tested as neighbours) per chunk
 } ListSearch;
 
 typedef struct ListChunk {
-    uint32_t block, block_end; // blocks of LANES sorted indices
+    uint32_t block, block_end; // range of blocks; a block is LANES consecutive sorted indices
     uint64_t begin, used, end; // range in ListView.entries; `used` is its first unused entry
     uint64_t scanned;          // number of candidates tested
-    bool crowded, full;        // reasons for stopping early: too many neighbours; no entries left
+    bool crowded, full;        // why the search stopped early: too many neighbours or candidates; no entries left
 } ListChunk;
 
-// grid.c: chooses a grid of at most `max` cells, and sets list->contact_distance, list->skin and the largest radius of
-// a regular particle. Sets list->cell to PHYS_CELL_IDLE, PHYS_CELL_LARGE or another value. Returns false if the typical
-// distance of interacting particles is too small or too large.
+// grid.c: chooses a grid of at most `max` cells. Sets list->contact_distance, list->skin and *max_radius, the largest
+// radius of a regular particle. Sets list->cell to PHYS_CELL_IDLE, PHYS_CELL_LARGE or, for regular particles, another
+// value. Returns false if contact_distance is too small or too large.
 bool phys_grid_layout(const PairPass *pass, NeighbourList *list, double max, Grid *grid, double *max_radius);
 
 // grid_search.c: builds the lists of all regular particles, padded with the sorted index `dummy`. Returns false if out

@@ -10,12 +10,12 @@ typedef struct IntegratePass {
     const Columns *columns; // with a separate `scratch` for each thread
     double delta;
     double speed_of_light;
-    const Force *const *forces; // single-particle forces, then barriers; both from the group outwards to the top
-    uint32_t force_count;
-    uint32_t barrier_count;  // the last elements of `forces` that are barriers
-    bool keep_force;         // true: store the sums for PhysColumns.force; false: leave zeros for the next step
-    const atomic_bool *stop; // set when the frame is aborted, so that the remaining rows are skipped; NULL: never
-    uint64_t draw_count;     // random numbers that each random force has drawn for the group so far
+    const Force *const *forces; // single-particle forces, then barriers; each from the group outwards to the top
+    uint32_t force_count;       // length of `forces`, with barriers
+    uint32_t barrier_count;     // number of barriers, which are the last elements of `forces`
+    bool keep_force;            // true: store the sums for PhysColumns.force; false: set them to 0 for the next step
+    const atomic_bool *stop;    // set when the frame is aborted, so that the remaining rows are skipped; NULL: never
+    uint64_t draw_count;        // random numbers that each random force has drawn for the group so far in this step
 } IntegratePass;
 
 static inline bool phys_integrate_stopped(const IntegratePass *pass) {
@@ -32,18 +32,19 @@ typedef struct Integrator {
     size_t lanes;
     IntegratePass pass;
     const Group *group;
-    bool wide;   // processes `lanes` particles at a time; chunks may run on any thread
+    bool wide;   // processes `lanes` particles at a time; chunks can run on any thread
     bool random; // one of the forces is random
 } Integrator;
 
-// integrate.c: runs phys_integrate_begin, phys_integrate_rows for all particles of the group, and phys_integrate_end.
-// phys_integrate_begin returns false if the budget is exceeded or the frame is interrupted.
+// integrate.c: runs the three functions below, with phys_integrate_rows for all particles of the group.
 void phys_integrate(PhysSystem *system, uint32_t group, double delta, double speed_of_light);
+// Prepares `integrator`. Returns false if the budget is exceeded or the frame is interrupted.
 bool phys_integrate_begin(PhysSystem *system, uint32_t group, double delta, double speed_of_light,
                           Integrator *integrator);
-// Integrates particles first to end - 1, on any thread if `wide`. `first` minus the group's first column must be a
-// multiple of `lanes`.
+// Integrates particles first to end - 1. If `wide` is set, any thread may call this. `first` minus the group's first
+// column must be a multiple of `lanes`.
 void phys_integrate_rows(const Integrator *integrator, size_t first, size_t end);
+// Advances the random streams by the items that the group has used.
 void phys_integrate_end(const Integrator *integrator);
 // Reflects particle i, which has just moved, at all barriers. `before` is its velocity before the move.
 void phys_integrate_reflect(const IntegratePass *pass, size_t i, const double *before);

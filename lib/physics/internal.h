@@ -1,16 +1,17 @@
 // internal.h: internal declarations of lib/physics. No other library includes it.
 //
-// A system exists in two forms. The description has records in the order of the calls. It also has a row for each
-// particle: 2 n doubles in n dimensions, the position and the velocity. Results are read from the rows. For simulation
-// it is arranged: particles are copied into columns, where component k of particle i is at [k * stride + i]. Columns
-// are in pre-order of the groups, and the particles of a group itself come before those of its sub-groups. Forces are
-// sorted by group and by the stage in which they act. Therefore:
+// A system exists in two forms. The first is the description: a record per particle and per force, in the order of the
+// calls that added them. The number of a particle in this order is its handle. The description also has a row for each
+// particle: its position and velocity, 2 n doubles in n dimensions. Results are read from the rows. The second form is
+// arranged for simulation: particles are copied into columns, where component k of particle i is at [k * stride + i].
+// The index i is called the column of the particle. Particles are in pre-order of their groups, so those of a group
+// itself come before those of its sub-groups. Forces are sorted by group and by the stage in which they act. Therefore:
 //
 //   - the particles of a group are one contiguous range, with or without its sub-groups;
-//   - the partners of a particle in a pass over pairs are its own range and one range per enclosing group;
-//   - all forces that one stage applies for one group are contiguous.
+//   - in a pass over pairs, the partners of a particle are in the range of its group and one range per enclosing group;
+//   - the forces that one group declares for one stage are contiguous.
 //
-// Kernels use columns rather than rows, because each lane processes a different particle.
+// Kernels use columns rather than rows, because each SIMD lane processes a different particle.
 #ifndef PETRI_PHYSICS_INTERNAL_H
 #define PETRI_PHYSICS_INTERNAL_H
 
@@ -20,12 +21,12 @@
 #include <math.h>
 
 // A growing array whose memory is reused from frame to frame. The memory is an arena of one block, because only
-// lib/base uses the heap.
+// lib/base calls malloc.
 typedef struct Buffer {
     Arena arena;
     void *bytes;
     uint64_t capacity; // in bytes
-    bool shown;        // the host may still read the memory, so it is retired instead of freed
+    bool shown;        // the host can still be reading the memory, so it is retired instead of freed
 } Buffer;
 
 #define NO_GROUP UINT32_MAX
@@ -33,8 +34,8 @@ typedef struct Buffer {
 
 enum {
     PHYS_MAX_LISTS = 8,          // maximum number of neighbour lists, one per pass
-    PHYS_MAX_RANGES = 8,         // maximum number of groups in a pass with a list
-    PHYS_MIN_FOR_THREADS = 1500, // particles; smaller systems run on one thread, because each needs little work
+    PHYS_MAX_RANGES = 8,         // maximum number of groups in a pass with a neighbour list
+    PHYS_MIN_FOR_THREADS = 1500, // particles; with fewer, most work is done on one thread
 };
 
 typedef struct Group {
@@ -42,8 +43,8 @@ typedef struct Group {
     uint32_t first;  // particles of the group itself: columns first … first + count - 1
     uint32_t count;
     uint32_t movers;               // number of particles that are not anchors; valid if Columns.random_offset is set
-    uint32_t populated;            // nearest group with particles, from this group upwards; NO_GROUP: none
-    uint32_t nearest[STAGE_COUNT]; // by stage: nearest group with forces, from this group upwards; NO_GROUP: none
+    uint32_t populated;            // this group or the nearest enclosing one with particles; NO_GROUP: none
+    uint32_t nearest[STAGE_COUNT]; // by stage: this group or the nearest enclosing one with forces; NO_GROUP: none
 } Group;
 
 typedef struct ParticleRecord {
@@ -64,11 +65,12 @@ typedef struct ForceRecord {
     uint32_t arranged; // index among the arranged forces
 } ForceRecord;
 
-// A force as the kernels see it: vectors point to the copies, `from` and `to` are columns.
+// A force as the kernels see it. In `given`, the vectors point to the copies, and `from` and `to` are columns instead
+// of handles.
 typedef struct Force {
     PhysForce given;
     double strength; // in this step, after easing
-    uint64_t item;   // random: number of stream items used so far in this frame
+    uint64_t item;   // of a random force: number of stream items used so far in this frame
 } Force;
 
 typedef struct Columns {
@@ -79,27 +81,28 @@ typedef struct Columns {
     double *velocity;
     double *own_force; // PhysParticle.force; like `ease`, valid only if system->has_own_forces
     double *force;     // sum of all forces of the step
-    bool forces_clear; // `force` is all zeros, as the previous step left it
+    bool forces_clear; // the previous step has left all elements of `force` 0
     double *ease;      // ramp time of own_force
     double *radius;
     double *mass;
-    bool uniform_mass; // all particles have radius[0] and mass[0]
+    bool uniform_mass; // all particles have the radius and mass of column 0
     bool no_anchors;   // no particle is an anchor
     double *charge;
     double *section; // radius^(n-1); valid if a force needs it
     double *volume;  // radius^n; valid if a force needs it
-    // By column: number of earlier particles of its group that use random numbers. NULL: integrate.c counts them.
+    // By column: number of earlier particles of the same group that are not anchors, and so use random numbers. NULL:
+    // integrate.c counts them.
     const uint32_t *random_offset;
     double *scratch; // 3 n doubles for the running kernel
     bool *anchor;
 } Columns;
 
 struct PhysSystem {
-    Arena home;     // holds this struct
-    uint64_t bytes; // total capacity of all buffers
-    bool failed;    // out of memory since phys_begin
-    bool arranged;  // particles and forces are arranged as described
-    bool forces_arranged;
+    Arena home;               // holds this struct
+    uint64_t bytes;           // total capacity of all buffers
+    bool failed;              // memory has run out since phys_begin
+    bool arranged;            // particles are sorted and copied to the columns
+    bool forces_arranged;     // forces are sorted
     bool radius_powers_valid; // section and volume are up to date
     bool any_not_finite;      // some element of `not_finite` is set
     bool any_from_attribute;  // some element of `from_attribute` is set
@@ -111,38 +114,40 @@ struct PhysSystem {
     uint32_t group_count;
     uint32_t particle_count;
     uint32_t force_count;
-    bool has_forces;         // a step was taken since phys_begin or phys_skip_frame, so the force columns hold its sums
+    bool has_forces;         // a step was taken since the last phys_begin or phys_skip_frame
     bool has_own_forces;     // some particle has a `force` attribute
     bool has_eased_forces;   // some particle's `force` attribute is eased in; implies has_own_forces
     uint64_t vector_doubles; // doubles in use in `vectors`
     Buffer groups;           // Group
     uint32_t record_stride;  // 0: all particles share the first record; else 1
-    Buffer particles;        // ParticleRecord by handle * record_stride
+    Buffer particles;        // ParticleRecord; index: handle * record_stride
     Buffer rows;             // 2 n doubles by handle
     Buffer own_forces;       // n doubles by handle: the `force` attributes; valid if has_own_forces
-    Buffer last_rows;        // rows of the previous description
+    Buffer last_rows;        // rows of the previous description, which the host can still read
     Buffer force_rows;       // n doubles by handle: the forces of the last step; used if PhysOptions.keep_forces
-    Buffer from_attribute;   // uint8_t by handle: PHYS_POSITION and PHYS_VELOCITY that came from attributes; valid if
-                             // any_from_attribute
-    Buffer not_finite;    // uint8_t by handle: PHYS_POSITION and PHYS_VELOCITY that were not finite in the last frame
+    // uint8_t by handle: PHYS_POSITION and PHYS_VELOCITY are set if that vector came from an attribute. Valid if
+    // any_from_attribute.
+    Buffer from_attribute;
+    Buffer not_finite;    // uint8_t by handle: like from_attribute, for vectors that were not finite in the last frame
     Buffer force_records; // ForceRecord in the order of the calls
     Buffer vectors;       // double: copies of the forces' vectors
     // arranged for simulation
-    Buffer indices;        // uint32_t: `order`, `column_of`, `starts`
+    Buffer indices;        // uint32_t: memory of `order`, `column_of` and `starts`
     Buffer forces;         // Force, by group, then stage, then declaration
     Buffer terms;          // PairTerm of the running pass
-    Buffer chain;          // Force *: the forces that act on the current group
+    Buffer chain;          // Force *: single-particle forces and barriers that act on the current group
     Buffer column_data;    // memory of `columns`
     uint32_t *order;       // column -> handle
     uint32_t *column_of;   // handle -> column
-    uint32_t handle_count; // length of `column_of`; missing handles have NO_COLUMN
-    uint32_t *starts;      // by g * STAGE_COUNT + s: first force of group g at stage s; the next element is the end
+    uint32_t handle_count; // length of `column_of`; a handle without a particle has NO_COLUMN
+    // Element g * STAGE_COUNT + s: first force of group g in stage s. The next element is the end of these forces.
+    uint32_t *starts;
     Columns columns;
     // retained between steps and frames
     uint64_t frame;              // number of the current frame
     struct NeighbourList *lists; // PHYS_MAX_LISTS elements
     // reordering (reorder.c)
-    bool can_reorder;   // all particles are in one group, and only its single pass over pairs depends on their order
+    bool can_reorder;   // all particles are in one group, and only that group's single pass depends on their order
     bool in_cell_order; // columns are in the sorted order of that pass's neighbour list
     // domain decomposition (domain.h)
     uint64_t columns_version; // increases when the columns are filled
@@ -152,9 +157,9 @@ struct PhysSystem {
     bool columns_stale;       // positions and velocities in the columns are out of date; those in the rows are current
     Buffer domain;            // Domain
     PhysRankStats rank_stats;
-    bool *remote;  // of a local system: by column, true for halo particles; else NULL
+    bool *remote;  // of a local system: by column, true for particles of other ranks; else NULL
     double skin;   // of a local system: skin of all lists
-    bool unlisted; // of a local system: a pass has run without a list
+    bool unlisted; // of a local system: a pass has run without a list since the halo was rebuilt
 };
 
 // A range of forces.
@@ -171,7 +176,7 @@ static inline double *phys_row(const PhysSystem *system, uint32_t particle) {
     return (double *)system->rows.bytes + (size_t)2 * system->dimensions * particle;
 }
 
-// Charges work to the system's budget. Returns false if the step must be aborted. For the main thread only.
+// Charges work to the system's budget. Returns false if the step must be aborted. Only the main thread may call this.
 static inline bool phys_charge(const PhysSystem *system, uint64_t units) {
     return budget_charge(system->options.budget, units) == BUDGET_OK;
 }
@@ -186,12 +191,13 @@ static inline const atomic_bool *phys_stop(const PhysSystem *system) {
     return system->options.budget ? system->options.budget->interrupt : NULL;
 }
 
-// buffer.c: reserves memory for `count` elements of `size` bytes and keeps the first `retained` bytes. Returns false
-// and sets system->failed if out of memory.
+// buffer.c: reserves memory for `count` elements of `size` bytes and preserves the first `retained` bytes of the
+// contents. Returns false and sets system->failed if out of memory.
 bool phys_buffer_reserve(PhysSystem *system, Buffer *buffer, uint64_t retained, uint64_t count, uint64_t size);
 void phys_buffer_free(Buffer *buffer);
 
-// groups.c: sort particles or forces by group. Particles must be arranged first. Return false if out of memory.
+// groups.c: phys_arrange sorts the particles by group. phys_arrange_forces sorts the forces and must be called after
+// it. Both return false if out of memory.
 bool phys_arrange(PhysSystem *system);
 bool phys_arrange_forces(PhysSystem *system);
 
@@ -199,18 +205,20 @@ static inline const ParticleRecord *phys_record(const PhysSystem *system, uint32
     return (const ParticleRecord *)system->particles.bytes + (size_t)particle * system->record_stride;
 }
 
-// particles.c: copies rows to columns and back. phys_fill_columns and phys_clear_not_finite return false if out of
-// memory.
+// particles.c: copies rows to columns and back.
 enum { PHYS_POSITION = 1, PHYS_VELOCITY = 2 }; // bits of `not_finite` and `from_attribute`
+// Allocates `not_finite` and clears it. Returns false if out of memory.
 bool phys_clear_not_finite(PhysSystem *system);
+// Allocates and fills all columns except powers of radii. Returns false if out of memory.
 bool phys_fill_columns(PhysSystem *system);
 // Fills only the positions and velocities of the columns.
 void phys_fill_motion(PhysSystem *system);
 void phys_update_radius_powers(PhysSystem *system);
+// Writes all rows from this system's columns.
 void phys_write_rows(PhysSystem *system, bool keep_last_finite);
-// Writes the rows of the particles in `columns`. `order` holds their handles. `columns->anchor` may be NULL. Values
-// that PhysTime.keep_last_finite restores are also written to the columns of `home`: this system, or a system whose
-// handles are this system's columns. `home` may be NULL.
+// Writes the rows of the particles in `columns`. `order` holds their handles. `columns->anchor` may be NULL if the
+// forces of anchors are 0. Values that PhysTime.keep_last_finite restores are also written to the columns of `home`,
+// unless it is NULL. `home` is this system or its local system (domain.h), whose handles are this system's columns.
 void phys_write_column_rows(PhysSystem *system, const Columns *columns, const uint32_t *order, bool keep_last_finite,
                             const PhysSystem *home);
 
@@ -223,23 +231,26 @@ void phys_link_groups(PhysSystem *system);
 // step.c: takes one step of `delta` at `clock`. Returns false if the step was aborted half-way.
 bool phys_step(PhysSystem *system, double clock, double delta, double speed_of_light);
 
-// reorder.c: puts the columns into the sorted order of a list, so that kernels need no index. phys_can_reorder
-// returns whether the system allows this. phys_restore_order restores the order of the description and drops the list.
-// phys_forget_order only drops the list, for columns that are about to be rebuilt.
+// reorder.c: phys_reorder puts the columns into the sorted order of a list, so that kernels need not look
+// up columns. phys_can_reorder returns whether the system allows this. phys_restore_order restores the ascending order
+// of handles and drops all lists. phys_forget_order only drops the lists, for columns that are about to be rebuilt.
 bool phys_can_reorder(const PhysSystem *system);
 void phys_reorder(PhysSystem *system, struct NeighbourList *list);
 void phys_restore_order(PhysSystem *system);
 void phys_forget_order(PhysSystem *system);
 
-// Kernels that apply forces to the particles of one group (for links: to any two particles).
+// Applies links. The two particles of a link can be in any groups.
 void phys_apply_links(const Columns *columns, ForceRange forces);
-// The motion that follows the pair forces. A pass over pairs that receives it may move particles as soon as their
-// forces are complete, and then sets `done`.
+// The motion that follows the pair forces. A pass that receives it may move the particles itself, as soon as their
+// forces are complete. In that case the pass sets `done`.
 typedef struct Move {
     double delta;
     double speed_of_light;
     bool done;
 } Move;
+// Applies all pair forces for which one particle is in `group` and the other is in `group` or an enclosing one. A pass
+// computes the forces that one of these groups declares. `move`: NULL: passes
+// must not move particles.
 void phys_apply_pairs(PhysSystem *system, const Group *group, Move *move);
 // barrier.c: reflects particle i at one barrier after a move of `delta` (spec physics.md 4.4).
 void phys_reflect(const Columns *columns, size_t i, const Force *barrier, double delta, double speed_of_light);
@@ -248,7 +259,7 @@ static inline double *phys_acceleration(const Columns *columns) {
     return columns->scratch;
 }
 
-// Returns the index of particle i's radius and mass.
+// Returns the index of particle i's radius and mass in their columns.
 static inline size_t phys_numbers_at(const Columns *columns, size_t i) {
     return columns->uniform_mass ? 0 : i;
 }
@@ -269,7 +280,7 @@ static inline ForceRange phys_forces(const PhysSystem *system, uint32_t group, S
     return start[0] == start[1] ? (ForceRange){0} : (ForceRange){forces + start[0], forces + start[1]};
 }
 
-// Returns the next group above `group` that has forces of a stage, or NO_GROUP.
+// Returns the nearest group that encloses `group` and has forces of a stage, or NO_GROUP.
 static inline uint32_t phys_next_above(const Group *groups, uint32_t group, Stage stage) {
     return group ? groups[groups[group].parent].nearest[stage] : NO_GROUP;
 }

@@ -1,10 +1,11 @@
 // kernels.h: parameters of the vector kernels and the table of kernels for each instruction set.
 //
-// The kernels are written once (kernel_*.c over lanes.h) and compiled once per instruction set. They use the formulas
-// of pair_formulas.h and single_formulas.h. More dimensions, more forces and very few particles use the same formulas
-// with one lane (pair_rows.c and kernel_integrate.c). All variants give bit-identical results, because:
+// The kernels are written once (kernel_*.c, with the operations of lanes.h) and compiled once per instruction set. They
+// use the formulas of pair_formulas.h and single_formulas.h. Passes with too many dimensions or forces, or with very
+// few particles, use the same formulas with one lane (pair_rows.c and kernel_integrate.c). All variants give
+// bit-identical results, because:
 //
-//   - a lane is a target, or a pair whose term is added to two targets one after the other in the right order;
+//   - a lane is one target, or one pair whose term is added to both of its particles' sums in the right order;
 //   - a term that does not apply does not change its sum. Adding +0.0 would change a sum of -0.0, so lanes are blended
 //     or use the neutral zero of the operation: x + -0.0 and x - +0.0 are x for all x;
 //   - nothing is contracted, reassociated or approximated.
@@ -24,7 +25,7 @@ enum {
     PHYS_PAIR = 2,
 };
 
-// One force of a pass. Its sign is chosen so that a positive coefficient attracts.
+// One force of a pass. `strength` has a sign such that a positive K (pair_formulas.h) attracts.
 typedef struct PairTerm {
     PhysForceKind kind;
     double strength;
@@ -33,7 +34,7 @@ typedef struct PairTerm {
     double overlap;
 } PairTerm;
 
-// The forces of one pass over pairs and the columns that they use.
+// The forces of one pass over pairs (phys_apply_pairs) and the columns that they use.
 typedef struct PairPass {
     size_t dimensions;
     size_t stride;
@@ -71,14 +72,14 @@ typedef struct ListView {
     double *radius;                        // by sorted index: radii for which the lists were built
     bool same_radii;                       // `radius` holds the current radii
     double one_radius;       // common radius of all listed particles; 0: radii differ, or `sources` is set
-    double *packed;          // current position and radius, `width` doubles per sorted index, then a dummy
-    uint32_t width;          // PHYS_QUAD, or PHYS_PAIR in two dimensions if `one_radius` is set
+    double *packed;          // current positions and radii, `width` doubles per sorted index, then a dummy particle
+    uint32_t width;          // PHYS_QUAD; in two dimensions with `one_radius` set: PHYS_PAIR, without radii
     double *sources;         // mass and charge, two doubles per sorted index; NULL: no force needs them
     double max_move_squared; // lists are valid while no squared distance from `built` exceeds this
     // Lists of LANES particles, interleaved as [k][lane] and padded with dummies. An entry is the sorted index of a
     // partner times `width`.
     uint32_t *entries;
-    uint64_t *at;         // by block of LANES sorted indices: first of its entries
+    uint64_t *at;         // by block of LANES sorted indices: index of its first entry
     uint32_t *max_length; // by block: length of its longest list
 } ListView;
 
@@ -99,13 +100,14 @@ typedef struct Kernels {
     void (*list_search)(const struct ListSearch *search, struct ListChunk *chunk);
     // Adds the forces on the regular particles of blocks first to end - 1.
     void (*list_forces)(const PairPass *pass, const ListView *view, size_t first, size_t end);
-    // Adds the forces that columns first to end - 1 exert on `count` particles, at most LANES. `targets` holds LANES
-    // column numbers.
+    // Adds the forces that columns first to end - 1 exert on `count` particles, at most LANES. `targets` holds their
+    // columns and must be readable for LANES elements.
     void (*range_forces)(const PairPass *pass, const uint32_t *targets, size_t count, size_t first, size_t end);
     // Applies single-particle forces, barriers and motion to some particles.
     IntegrateKernel *integrate;
-    // Copies positions and velocities to the rows of their handles, LANES particles at a time. Stops at values that are
-    // not finite, or that would replace a zero of the other sign. Returns the first particle that was not copied.
+    // Copies positions and velocities to the rows of their handles, LANES particles at a time. Stops before LANES
+    // particles of which a value is not finite or would replace a zero of the other sign. Returns the first particle
+    // that was not copied.
     size_t (*write_rows)(const struct Columns *columns, const uint32_t *order, double *rows, size_t first, size_t end);
 } Kernels;
 

@@ -333,8 +333,8 @@ KERNEL void real_store_quads(double *quads, const Real *parts) {
     real_store_rows(rows, parts);
 }
 
-// Writes base + lane for each lane of the mask contiguously, and returns their number. `to` must have space for LANES
-// elements.
+// Writes base + lane for each lane of the mask contiguously, and returns how many there are. `to` must have space for
+// LANES elements.
 KERNEL size_t mask_indices(Mask mask, uint32_t base, uint32_t *to) {
     Lanes bits = mask_bits(mask);
 #if LANES == 8
@@ -349,8 +349,8 @@ KERNEL size_t mask_indices(Mask mask, uint32_t base, uint32_t *to) {
 #endif
 }
 
-// Copies the elements of `from` that are in the mask and differ from `except`. Stores them contiguously and returns
-// their number. Both arrays must have space for LANES elements.
+// Copies the elements of `from` whose lanes are in the mask and that differ from `except`. Stores them contiguously and
+// returns their number. Both arrays must have space for LANES elements.
 KERNEL size_t mask_compress(Mask mask, const uint32_t *from, uint32_t except, uint32_t *to) {
 #if LANES == 8
     __m256i numbers = _mm256_loadu_si256((const __m256i *)from);

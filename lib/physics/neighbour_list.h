@@ -1,11 +1,12 @@
 // neighbour_list.h: Verlet neighbour lists for passes whose forces all have a bounded range.
 //
-// The list of a particle holds all others that could interact with it before any particle has moved by half the skin.
-// So it serves many steps and is retained between frames. Each list is in the order of the pass, and unlisted particles
-// contribute nothing, so the sums equal those over all pairs bit for bit.
+// The list of a particle holds all particles that can interact with it before some particle has moved by half the skin.
+// The skin is a margin added to the interaction range. So a list serves many steps and is retained between frames. Each
+// list has the order in which the pass would visit all partners. Partners that are not listed contribute nothing, so
+// the sums equal those over all pairs bit for bit.
 //
 // Particles are sorted by grid cell. The index of a particle in that order is its sorted index: regular particles come
-// first, then the few particles that are much larger than the others, then idle particles.
+// first, then the few particles that are much larger than the others, then idle particles, which have no partners.
 #ifndef PETRI_PHYSICS_NEIGHBOUR_LIST_H
 #define PETRI_PHYSICS_NEIGHBOUR_LIST_H
 
@@ -33,10 +34,11 @@ typedef struct PassRanges {
     ColumnRange at[PHYS_MAX_RANGES];
 } PassRanges;
 
+// The lists of all particles of one pass.
 typedef struct NeighbourList {
     // the pass that the list is for
-    uint32_t group; // group whose particles the forces act on
-    uint32_t level; // group that declares the forces
+    uint32_t group; // every pair has a particle of this group
+    uint32_t level; // group that declares the forces: `group` or an enclosing one
     uint64_t frame; // frame of the last use; 0: never used
     PassRanges ranges;
     size_t dimensions;
@@ -50,13 +52,13 @@ typedef struct NeighbourList {
     uint64_t next_motion_version; // PhysSystem.motion_version that `next_packed` matches; 0: none
     bool next_valid;              // in `next_packed`, no particle has moved by half the skin
     uint32_t *key;                // by sorted index: position in the order of the pass
-    uint32_t *cell;               // by position in the ranges: grid cell, later sorted index
+    uint32_t *cell;               // by position in `ranges`: grid cell, later sorted index
     const uint32_t *order;        // by column: position in the order of the pass; NULL: columns are in that order
-    uint32_t total;               // number of particles; those after view.listed are idle (PHYS_CELL_IDLE)
+    uint32_t total;               // number of particles; sorted indices from view.listed on are idle (PHYS_CELL_IDLE)
     double contact_distance;      // typical distance of interacting particles, the unit of the skin
-    double skin;                  // margin added to the range of each particle
+    double skin;                  // margin added to the interaction range of each pair
     uint64_t radius_version;      // PhysSystem.radius_version for which the lists were built
-    bool skin_is_fixed;           // set by the domain decomposition
+    bool skin_is_fixed;           // `skin` is set by the domain decomposition
     uint64_t scanned;             // candidates tested in the last build
     uint64_t padded;              // entries of all lists, including dummies
     // tuning
@@ -64,39 +66,39 @@ typedef struct NeighbourList {
     uint32_t lifetime; // steps that the previous build served
     double cost;       // of a step with the previous build; 0: unknown
     bool shrinking;    // true: the last adjustment reduced the skin; false: it increased the skin
-    uint32_t cooldown; // remaining steps that compute all pairs instead
+    uint32_t cooldown; // remaining steps that compute all pairs instead of using lists
     uint32_t backoff;  // length of the last `cooldown`; 0: none
     Buffer arrays;
     Buffer cells;
     Buffer entries;
 } NeighbourList;
 
-// force_pair.c: returns a pass over the columns, without forces.
+// force_pair.c: returns a pass that uses these columns and as yet has no forces.
 PairPass phys_columns_pass(const Columns *columns);
 
-// neighbour_list.c: computes a pass with neighbour lists, or returns false if computing all pairs is faster. `move` is
-// as in phys_apply_pairs.
+// neighbour_list.c: computes a pass with neighbour lists. If lists cannot be used or computing all pairs is faster,
+// adds no forces and returns false. `move` is as in phys_apply_pairs.
 bool phys_neighbour_list_pass(PhysSystem *system, const Kernels *kernels, const PairPass *pass, uint32_t group,
                               uint32_t level, Move *move);
 void phys_neighbour_list_free(NeighbourList *list);
-// Adapts the skin to a list or halo that served `lifetime` steps.
+// Adapts the skin, given that the last halo has served `lifetime` steps.
 void phys_adapt_skin(NeighbourList *list, uint32_t lifetime);
 
 // The two functions below are for local systems (domain.h), whose lists are rebuilt when the halo is.
 //
-// Refreshes the lists, which have served `age` steps. Returns false if they must be rebuilt.
+// Refreshes all lists. Returns false if one must be rebuilt or has not served exactly `age` steps.
 bool phys_lists_valid(PhysSystem *system, uint32_t age);
 // Drops all lists. New lists use this skin.
 void phys_lists_drop(PhysSystem *system, double skin);
 
-// grid.c: builds a list for the current positions with list->skin. Returns false if out of memory, if the typical
-// distance of interacting particles is too small or too large, or if lists would not pay off.
+// grid.c: builds the lists of a pass for the current positions and list->skin. Returns false if out of memory, if
+// contact_distance is too small or too large, or if lists would not pay off.
 bool phys_grid_build(PhysSystem *system, const Kernels *kernels, const PairPass *pass, NeighbourList *list);
 
 // neighbour_list.c: returns the number of entries above which a list costs more than all pairs.
 uint64_t phys_max_useful_entries(const NeighbourList *list);
 
-// Returns the first remote column at or after `from`, or the number of columns.
+// Returns the first remote column at or after `from`. If there is none, returns the number of columns.
 static inline uint32_t phys_next_remote(const PhysSystem *local, uint32_t from) {
     const bool *mark =
         from < local->particle_count ? memchr(local->remote + from, true, local->particle_count - from) : NULL;
@@ -109,8 +111,8 @@ static inline double phys_skin_square(double skin) {
     return 0.25 * skin * skin * (1 - 1e-6);
 }
 
-// Returns the limit below which keys belong to the pass's own group. Without enclosing groups, keys are handles, which
-// may have gaps.
+// Returns the limit below which keys belong to the pass's own group. Without enclosing groups there is no limit: all
+// keys belong to it, and they can be handles with gaps.
 static inline uint32_t phys_own_keys(const NeighbourList *list) {
     return list->ranges.count > 1 ? list->ranges.at[0].count : UINT32_MAX;
 }

@@ -4,7 +4,7 @@
 //
 // The target (`from`) receives + f and the partner − f, whichever of the two comes first in the pass. Every K is
 // symmetric, so if the two are exchanged, d, u and f change their signs exactly and K stays the same. S is the
-// strength, with the sign of the force's row; a positive K attracts.
+// strength times the sign in the force's row (force_list.h). A positive K attracts.
 #ifndef PETRI_PHYSICS_PAIR_FORMULAS_H
 #define PETRI_PHYSICS_PAIR_FORMULAS_H
 

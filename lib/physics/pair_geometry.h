@@ -5,7 +5,8 @@
 
 #include "physics/pair_formulas.h"
 
-// Kernels are specialised on the first force of a pass if it has no bound (the lead), and on the forces after it.
+// Kernels are specialised on the first force of a pass if it has no bound (the lead), and on the other forces (the
+// rest).
 enum { LEAD_NONE = PHYS_FORCE_KINDS }; // other values are a PhysForceKind
 typedef enum PairRest {
     REST_NONE,
@@ -76,8 +77,8 @@ KERNEL PairEnd pair_partner(const PairPass *pass, PairShape shape, size_t j) {
     return end;
 }
 
-// For contact forces: excludes pairs that are certainly not in contact, before the square root. The limit is slightly
-// too large, so that rounding cannot exclude a pair with l < r₁+r₂, however small the numbers are.
+// For contact forces: excludes pairs that are certainly not in contact, before their square roots are computed. The
+// limit is slightly too large, so that rounding cannot exclude a pair with l < r₁+r₂, however small the numbers are.
 KERNEL Mask pair_near(Mask live, Real square, Real reach) {
     Real wide = reach * reach * real_set(1 + 0x1p-48);
     return real_less_where(live, square, wide + real_set(DBL_MIN));
@@ -109,7 +110,8 @@ KERNEL bool pair_geometry(PairShape shape, const PairEnd *target, const PairEnd 
     return true;
 }
 
-// Returns the lanes in contact. Radii of 0 are excluded later by both_nonzero, which few pairs reach.
+// Returns the lanes in contact. Lanes with a radius of 0 are excluded only later, by both_nonzero, for the few pairs
+// left.
 KERNEL Mask pair_in_contact(const PairGeometry *pair) {
     return real_less_where(pair->valid, pair->length, pair->reach);
 }

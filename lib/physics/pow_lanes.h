@@ -5,7 +5,8 @@
 #include "maths/arrays.h"
 #include "physics/lanes.h"
 
-// Replaces unused lanes by 1, because they may hold numbers for which pow is slow, such as negative ones.
+// Computes base^power with a function call. Replaces unused lanes by 1, because they can hold numbers for which pow is
+// slow, such as negative ones.
 static __attribute__((noinline, unused)) Real pow_by_lane(Mask mask, Real base, double power) {
     double lanes[LANES];
     real_store(lanes, real_select(mask, base, real_set(1)));
@@ -19,7 +20,7 @@ static inline bool pow_is_plain(double power) {
 }
 
 // Returns base^power in the lanes of the mask; other lanes are undefined. A negative exponent counts as 0. `plain` may
-// be true only if pow_is_plain(power). In loops it should be a compile-time constant, because even a call that never
+// be true only if pow_is_plain(power). In loops `plain` should be a compile-time constant: even a call that never
 // happens makes the compiler spill registers.
 KERNEL Real real_pow(bool plain, Mask mask, Real base, double power) {
     if (power == 1)

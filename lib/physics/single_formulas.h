@@ -96,8 +96,8 @@ KERNEL void single_drag(const Singles *s) {
     Real c = real_set(s->force->strength) * real_sqrt(square);
     c *= real_load(s->columns->section + s->block->first);
     Real limit = s->block->mass / real_set(s->pass->delta);
-    // This order of the comparison preserves a NaN (0 · ∞), so the force does not act. The opposite order would stop
-    // the particle.
+    // With this order of the comparison, a NaN (0 · ∞) stays NaN, and move_particles ignores the sum of forces. With
+    // the opposite order, c would be the limit, which stops the particle.
     c = real_select(real_less(limit, c), limit, c);
     Mask applies = where_not_zero(s->block->live, real_load(s->columns->radius + s->block->first));
     for (size_t k = 0; k < s->n; k++) {
@@ -118,7 +118,8 @@ KERNEL void single_buoyancy(const Singles *s) {
         add_force_component(s->block, k, applies, vector_component(given->vector, k) * weight);
 }
 
-// Returns the number of items of the stream that particles before this one have used in this frame.
+// Returns the number of items of the stream that have been used in this frame: in earlier steps, and by earlier
+// particles in this step.
 KERNEL uint64_t items_before(const Singles *s, size_t lane) {
     const uint32_t *draws = s->columns->random_offset;
     return s->force->item + (draws ? s->n * draws[s->block->first + lane] : s->pass->draw_count);

@@ -1,6 +1,6 @@
 // system.h: interface of the particle engine (spec physics.md section 4).
 //
-// A system is an array of doubles per attribute. The engine does not know Flitter: lib/scene translates `!physics`
+// The engine works on arrays of doubles and does not know Flitter: lib/scene translates `!physics`
 // trees into calls of these functions and writes the results to the state. The caller describes a system (phys_begin,
 // phys_add_…) and then simulates it frame by frame. Between frames it changes particles and forces with
 // phys_update_particle, phys_begin_forces and phys_set_key, or describes the system again. All arithmetic is IEEE
@@ -31,7 +31,7 @@ typedef struct PhysParticle {
     double mass;         // >= 0; a particle with mass 0 is never accelerated
     double charge;
     bool anchor;
-    bool position_from_attribute; // true until a frame has stored the position (PhysTime.keep_last_finite)
+    bool position_from_attribute; // not from an earlier frame (PhysTime.keep_last_finite)
     bool velocity_from_attribute; // like position_from_attribute
 } PhysParticle;
 
@@ -42,7 +42,8 @@ typedef enum PhysForceKind {
         PHYS_FORCE_KINDS,
 } PhysForceKind;
 
-// One force applier or barrier. Fields that its kind does not use are ignored. phys_add_force copies the vectors.
+// One force applier or barrier. A field whose note begins with kinds of forces is ignored by other kinds.
+// phys_add_force copies the vectors.
 typedef struct PhysForce {
     PhysForceKind kind;
     double strength;
@@ -80,9 +81,9 @@ PhysThreads *phys_threads_new(int count);
 void phys_threads_free(PhysThreads *threads);
 
 // Ranks (processes) that simulate the same systems together. All of them make the same calls. Large passes over pairs
-// are divided among them, and results are exchanged as `count` blocks of `block_length` doubles, `stride` doubles
-// apart. If the script is interrupted (Budget.interrupt), all callbacks return without waiting for other ranks, and
-// received numbers are zeros.
+// are divided among them, and results are exchanged as `count` blocks of `block_length` doubles. Blocks begin
+// `stride` doubles apart. If the script is interrupted (Budget.interrupt), all callbacks return without waiting for
+// other ranks, and received numbers are zeros.
 typedef struct PhysRanks {
     int rank; // of this process, counted from 0
     int rank_count;
@@ -115,7 +116,7 @@ typedef struct PhysRankStats {
     uint64_t steps;
     uint64_t step_bytes; // sent in steps: halos, migrating particles, sums of pair forces
     uint64_t step_messages;
-    uint64_t reductions;  // collective operations
+    uint64_t reductions;  // number of collective operations
     uint64_t frame_bytes; // sent at the end of frames to collect all particles
     uint64_t own;         // particles of this rank's region, summed over steps
     uint64_t halo;        // particles received from other regions, summed over steps
@@ -148,7 +149,7 @@ void phys_begin(PhysSystem *system, uint32_t dimensions);
 uint32_t phys_add_group(PhysSystem *system, uint32_t parent);
 // Adds a particle to a group and returns its handle: 0, 1, 2, … in the order of the calls. Vectors are copied.
 uint32_t phys_add_particle(PhysSystem *system, uint32_t group, const PhysParticle *particle);
-// Reserves memory for `more` particles that may be added next. A failure has no effect.
+// Reserves memory for `more` particles, which the caller expects to add next. A failure has no effect.
 void phys_expect_particles(PhysSystem *system, uint64_t more);
 // Adds a force applier or barrier to a group and returns its number: 0, 1, 2, … in the order of the calls.
 uint32_t phys_add_force(PhysSystem *system, uint32_t group, const PhysForce *force);
@@ -177,11 +178,11 @@ typedef struct PhysTime {
     double clock;          // simulation clock at `last`
     double resolution;     // maximum step; > 0 and finite
     bool lockstep;         // take all steps that are due; false: only one, or two with high `performance`
-    double performance;    // of the host; above 1.5 allows a second step per frame without lockstep
+    double performance;    // speed of the host; without lockstep, a value above 1.5 allows a second step per frame
     double speed_of_light; // <= 0: no limit
     bool keep_last_finite; // a position or velocity that is not finite after the frame is reset to its value before the
-                           // frame. A result equal to the old value is not stored (0 does not become -0), unless the
-                           // old value came from an attribute
+                           // frame. Unless the old value came from an attribute, a result equal to it is not stored,
+                           // so 0 does not become -0
 } PhysTime;
 
 typedef enum PhysStatus {
@@ -202,17 +203,17 @@ typedef struct PhysResult {
 // Simulates one frame (spec section 4). The result is deterministic to the last bit.
 PhysResult phys_simulate(PhysSystem *system, const PhysTime *time);
 
-// Call this instead of phys_simulate in a frame in which nothing is simulated. Returns false if memory ran out since
-// phys_begin.
+// Call this instead of phys_simulate in a frame in which nothing is simulated. Returns false if memory has run out
+// since phys_begin.
 bool phys_skip_frame(PhysSystem *system);
 
 uint32_t phys_particle_count(const PhysSystem *system);
-// Return the n doubles of a particle by handle; its velocity follows its position. The pointer does not change until
-// the next phys_begin, and its memory stays readable until the phys_begin after that. Values may be non-finite. Before
-// phys_simulate they are the values passed to phys_add_particle.
+// Return the position or velocity of the particle with this handle: n doubles. Its velocity follows its position in
+// memory. The pointer does not change until the next phys_begin, and its memory stays readable until the phys_begin
+// after that. Values can be non-finite. Before phys_simulate they are the values passed to phys_add_particle.
 const double *phys_position(const PhysSystem *system, uint32_t particle);
 const double *phys_velocity(const PhysSystem *system, uint32_t particle);
-// Return true if the result of the last phys_simulate was finite. Always true without keep_last_finite.
+// Return true if the vector that the last phys_simulate computed was finite. Always true without keep_last_finite.
 bool phys_position_finite(const PhysSystem *system, uint32_t particle);
 bool phys_velocity_finite(const PhysSystem *system, uint32_t particle);
 
@@ -220,8 +221,8 @@ bool phys_velocity_finite(const PhysSystem *system, uint32_t particle);
 //
 // One attribute of all particles, indexed by handle.
 typedef struct PhysColumn {
-    const double *numbers; // value of handle 0; NULL: no particles
-    size_t stride;         // doubles from one particle to the next; 0: all particles share one value
+    const double *numbers; // value of the particle with handle 0; NULL: no particles
+    size_t stride;         // distance in doubles between the values of two particles; 0: all share one value
 } PhysColumn;
 typedef struct PhysColumns {
     PhysColumn position; // as simulated, n doubles

@@ -1,8 +1,8 @@
 // threads.h: a thread pool for physics.
 //
-// A job is divided into chunks, which idle threads and the caller claim in turn. The caller never waits for a thread
-// that has not started; after long waits it works alone for a while (backoff.h). A chunk's work depends only on its
-// number. Threads spin briefly before they sleep. Short jobs use only spinning threads.
+// A job is divided into chunks, which idle threads and the caller claim in turn. The caller waits only for chunks that
+// other threads have claimed. After long waits it works alone for a while (backoff.h). A chunk's work depends only on
+// its number. Idle threads spin briefly before they sleep. Short jobs use only spinning threads.
 #ifndef PETRI_PHYSICS_THREADS_H
 #define PETRI_PHYSICS_THREADS_H
 
@@ -16,20 +16,20 @@ enum {
 
 typedef void PhysTask(void *context, int chunk, int chunks);
 
-// Calls `work` for chunks 0 to chunks - 1 on all threads of the system, in any order. Chunk 0 runs on the caller's
-// thread.
+// Calls `work` for chunks 0 to chunks - 1, in any order, on the caller's thread and idle threads of the pool. Chunk 0
+// runs on the caller's thread.
 void phys_parallel(const PhysSystem *system, int chunks, PhysTask *work, void *context);
 
-// Returns how many threads to use for a job of 10 to 50 µs, too short to wake a sleeping thread: 0 to run it inline, 1
-// to run it with phys_parallel_short on the caller's thread, which measures its time. Wakes a thread for later jobs if
-// such jobs arrive in quick succession.
+// Returns how many threads to use for a job of 10 to 50 µs, which is too short to wake a sleeping thread. 0: do the
+// work without phys_parallel_short. 1: call phys_parallel_short with one chunk, which runs on the caller's thread and
+// is timed. If such jobs arrive in quick succession, wakes sleeping threads for later jobs.
 int phys_short_job_threads(const PhysSystem *system, uint64_t units);
 // Like phys_parallel, for a job of `units` of work for which phys_short_job_threads did not return 0.
 void phys_parallel_short(const PhysSystem *system, int chunks, uint64_t units, PhysTask *work, void *context);
 
-// State of a wait, within a chunk, for work that another thread has claimed. Initialise it with {0}, then call
-// phys_spin_wait until the work is done. phys_spin_wait yields the processor after a long wait. Chunk 0, which runs on
-// the caller's thread, then reports the wait with phys_spin_wait_end.
+// State of a wait inside a chunk for work that another thread has claimed. Initialise it with {0}, then call
+// phys_spin_wait until the work is done. phys_spin_wait yields the processor if the wait is long. If chunk 0 has
+// waited, it must report this with phys_spin_wait_end, because it runs on the caller's thread.
 typedef struct PhysSpinWait {
     int spins;
     uint64_t since;
