@@ -13,7 +13,7 @@ char *memory_strndup(const char *text, size_t length); // copies `length` bytes 
 char *memory_strdup(const char *text);
 
 typedef struct ByteBuffer {
-    char *data;    // NUL-terminated; NULL before the first addition, which may be empty
+    char *data;    // NUL-terminated; NULL until text is added, even empty text
     size_t length; // bytes, without the NUL
     size_t capacity;
 } ByteBuffer;
@@ -24,8 +24,8 @@ __attribute__((format(printf, 2, 3))) void byte_buffer_format(ByteBuffer *text, 
 __attribute__((format(printf, 2, 0))) void byte_buffer_format_list(ByteBuffer *text, const char *format, va_list list);
 // Adds text to the ByteBuffer that `bytes` points to. Always returns true. Can be used as a PetriWriteCallback.
 bool byte_buffer_collect(void *bytes, const char *text, size_t length);
-// Sets *line to the line at *at without its newline and moves *at to the next line. Returns false at the end of the
-// text.
+// Sets *line to the line at offset *at, without its newline, and moves *at to the next line. Returns false at the end
+// of the text.
 bool byte_buffer_next_line(const ByteBuffer *text, size_t *at, Str *line);
 // Reads `fd` to its end and adds the data. Stops early once the buffer has more than max_bytes. Returns false and sets
 // errno on failure.
@@ -39,7 +39,7 @@ void memory_free_text(char **text);
 
 // A list of strings. The list owns copies of them.
 typedef struct TextList {
-    char **items; // NUL-terminated strings, then NULL; NULL if the list is empty
+    char **items; // `count` strings, then a null pointer; NULL before the first texts_add
     size_t count;
 } TextList;
 

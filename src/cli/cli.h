@@ -17,7 +17,7 @@ struct PlotSupport;
 // Exit codes. After a signal, the exit code is STATUS_SIGNAL plus the number of the signal.
 enum { STATUS_DONE = 0, STATUS_FAILED = 1, STATUS_USAGE = 2, STATUS_SIGNAL = 128 };
 
-// Bits for the commands that accept an option. FOR_GOLDEN: a golden file may contain the option.
+// Bits for the commands that accept an option. FOR_GOLDEN: the option is allowed in a golden file.
 // clang-format off
 enum { FOR_RUN = 1, FOR_RENDER = 2, FOR_VIEW = 4, FOR_REPL = 8, FOR_TEST = 16, FOR_CHECK = 32, FOR_GOLDEN = 64,
        FOR_SWEEP = 128, FOR_FMT = 256, FOR_LSP = 512, FOR_LINK = 1024, FOR_OPEN = 2048 };
@@ -33,7 +33,9 @@ typedef struct OptionSpec {
     bool (*read)(const struct Args *args, void *field); // stores args->value; returns false after a message
     int64_t min;                                        // range of an integer
     int64_t max;
-    const char *const *words; // allowed values, then NULL; NULL: any. If `value` is "LIST": a comma-separated list
+    // Allowed values, then a null pointer; NULL: any value. If `value` is "LIST", the argument is a list of these
+    // words, separated by commas.
+    const char *const *words;
 } OptionSpec;
 
 // All options, then an entry without a name.
@@ -46,10 +48,10 @@ struct CommandContext {
     const char *program;                    // path of this program, valid in any working directory
     const char *invoked_as;                 // argv[0], for hints that show commands
     const char *cpu;                        // PetriOptions.cpu
-    const struct PlotSupport *plot_support; // plots of petri sweep; NULL: only petri-pictures can plot
-    int (*run_lsp)(const CommandContext *context, struct Options *options); // petri lsp; NULL: only petri-lsp has it
-    const struct PetriRanks *ranks;   // the processes that mpirun has started; NULL: a single process
-    const struct MpiChannel *channel; // messages between these processes; NULL: a single process
+    const struct PlotSupport *plot_support; // plans and plots of petri sweep; NULL: not in this program
+    int (*run_lsp)(const CommandContext *context, struct Options *options); // petri lsp; NULL except in petri-lsp
+    const struct PetriRanks *ranks;   // the processes (ranks) that mpirun has started; NULL: only one
+    const struct MpiChannel *channel; // messages between the ranks; NULL: a single process
     void (*leave_ranks)(void);        // stops waiting for the other ranks; can be called by a signal handler
 };
 
@@ -60,12 +62,12 @@ typedef struct Command {
     const char *details;              // a few sentences, for the command's help
     const char *examples;             // example command lines for the help; NULL: none
     unsigned options;                 // FOR_... bit of the command; 0: no options
-    const char *missing_operand;      // message if there is no operand; NULL: none, or `run` prints its own
+    const char *missing_operand;      // message if no operand is given; NULL: not checked before `run`
     const char *no_stdin;             // message if the operand is `-`; NULL: `-` means standard input
     const char *second_operand_error; // message format for a second operand; NULL: reported as a second script
     bool accepts_many;                // accepts several scripts and folders
-    bool live;                        // follows the wall clock and runs until it is stopped
-    bool parses_arguments;            // reads argv itself
+    bool live;                        // by default: follows the wall clock and runs until it is stopped
+    bool parses_arguments;            // `run` parses argv itself
     int (*run)(const CommandContext *context, struct Options *options); // returns the exit status
 } Command;
 

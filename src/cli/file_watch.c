@@ -23,9 +23,9 @@
 #define HAVE_INOTIFY 0
 #endif
 
-// QUIET_SECONDS: how long a file must be stable before a change is reported. MAX_WRITE_SECONDS: the same while a
-// process has the file open for writing. SLOW_POLL_SECONDS, FAST_POLL_SECONDS: interval between polls of all files,
-// with and without inotify.
+// QUIET_SECONDS: how long a file must be stable before a change is reported. MAX_WRITE_SECONDS: the same for a file
+// that a process has written to and not closed yet. SLOW_POLL_SECONDS: interval between polls of all files if inotify
+// is used. FAST_POLL_SECONDS: the same without inotify.
 static const double QUIET_SECONDS = 0.05, MAX_WRITE_SECONDS = 2, SLOW_POLL_SECONDS = 1, FAST_POLL_SECONDS = 0.2;
 
 // Identity and version of a file, from stat. All zero if there is no regular file.
@@ -44,8 +44,8 @@ typedef struct File {
     Stamp found;    // stamp at the last poll
     double since;   // time when `found` was first seen
     bool pending;   // `found` differs from `reported` and is not reported yet
-    bool written;   // a process has written to the file and not closed it
-    // inotify watches of the folders of the path and of the file that it links to (often the same); -1: none.
+    bool written;   // a process has written to the file and not closed it yet
+    // inotify watches of the folders of `path` and of `target`, in this order (often the same watch); -1: none.
     int folders[2];
     const char *names[2]; // file names in these folders; they point into `path` and `target`
     char *target;         // path with symbolic links resolved; NULL: does not exist
@@ -62,7 +62,7 @@ struct FileWatch {
 
 static Stamp stamp_of(const char *path) {
     struct stat info;
-    if (stat(path, &info) != 0 || !S_ISREG(info.st_mode)) // reading a pipe again would block for ever
+    if (stat(path, &info) != 0 || !S_ISREG(info.st_mode)) // pipes count as missing: reading one again could block
         return (Stamp){0};
     return (Stamp){true,
                    (int64_t)info.st_dev,
@@ -151,7 +151,7 @@ static bool handle_events(FileWatch *watch) {
     return (watch->timer >= 0 && read(watch->timer, &expired, sizeof expired) > 0) || any;
 }
 
-// Makes the descriptor readable after this many seconds. 0 stops the timer.
+// Makes the watch's descriptor readable after this many seconds. 0 stops the timer.
 static void set_timer(const FileWatch *watch, double seconds) {
     struct itimerspec time = {.it_value = {(time_t)seconds, (long)((seconds - (double)(time_t)seconds) * 1e9)}};
     if (watch->timer >= 0)
@@ -254,7 +254,7 @@ void file_watch_add(FileWatch *watch, const char *path) {
     watch->files = memory_realloc(watch->files, (watch->count + 1) * sizeof *watch->files);
     File *file = &watch->files[watch->count++];
     *file = (File){.path = memory_strdup(path)};
-    watch_folders(watch, file); // before stat, so that no change in between is missed
+    watch_folders(watch, file); // before stamp_of, so that no change between both calls is missed
     file->reported = file->found = stamp_of(path);
     schedule_wake(watch, QUIET_SECONDS);
 }

@@ -1,9 +1,9 @@
 // file_watch.h: detection of files that have changed on disk.
 //
-// A file has changed if its size, modification time or inode differs from the last report. Changes are reported when
-// the file has been stable for a moment and its writer, if inotify shows one, has closed it. A missing file is reported
-// when it exists again. On Linux, inotify wakes the caller. All files are also polled about once per second, because
-// inotify misses changes on some file systems.
+// A file has changed if its size, modification time or inode differs from the values at the last report. A change is
+// reported when the file has been stable for a moment. While inotify shows that a process has not closed the file after
+// writing, the file must be stable for longer. A missing file is reported when it exists again. On Linux, inotify wakes the
+// caller. All files are also polled about once per second, because inotify misses changes on some file systems.
 #ifndef PETRI_SRC_FILE_WATCH_H
 #define PETRI_SRC_FILE_WATCH_H
 

@@ -40,7 +40,8 @@ static void exec_writer(int stream, char **words) {
     static const int ignored[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
     for (size_t i = 0; i < sizeof ignored / sizeof ignored[0]; i++)
         signal(ignored[i], SIG_IGN);
-    // petri-hdf5 must not inherit standard output, or a program that reads petri's output would wait for petri-hdf5.
+    // petri-hdf5 must not inherit standard output. Otherwise a program that reads petri's output would wait for
+    // petri-hdf5.
     int cause = errno, nothing = open("/dev/null", O_WRONLY);
     if (nothing >= 0 && dup2(stream, STDIN_FILENO) >= 0 && dup2(nothing, STDOUT_FILENO) >= 0)
         cause = helper_exec(words[0], words);
@@ -49,8 +50,8 @@ static void exec_writer(int stream, char **words) {
     _exit(STATUS_FAILED);
 }
 
-// Waits for the byte that petri-hdf5 sends after each step that is likely to fail. Returns false if petri-hdf5 has
-// exited instead.
+// Waits for the byte that petri-hdf5 sends when it is ready for data, and after each HDF5_SYNC. Returns false if
+// petri-hdf5 has exited instead.
 static bool wait_for_ready(int stream) {
     char word;
     ssize_t length;

@@ -20,19 +20,20 @@ typedef struct Hdf5 {
     int cleanup_id; // number from signal_cleanup_begin
 } Hdf5;
 
-// Starts petri-hdf5. Returns false after a message. `kind` is "trajectory" (any number of Hdf5Head, each followed by
-// its data) or "table" (one HDF5_ADD with CSV, then HDF5_COMMIT). With `after`, the trajectory survives a crash of both
-// programs and can be resumed. `after` is NULL or "FRAME LAST": the frame to resume after (-1: none), and the last
-// frame that the file should contain.
+// Starts petri-hdf5. Returns false after a message. `kind` selects what the caller writes to the stream: "trajectory"
+// (any number of Hdf5Head, each followed by its data) or "table" (one HDF5_ADD with CSV, then HDF5_COMMIT). If `after`
+// is not NULL, the trajectory survives a crash of petri and petri-hdf5 and can be resumed. `after` is then "FRAME
+// LAST": the frame to resume after (-1: none), and the last frame that an existing file should contain.
 bool hdf5_start(Hdf5 *writer, const char *kind, const char *path, const char *after);
-// Waits until the data before the last HDF5_SYNC is on disk. On failure, returns false after a message from petri-hdf5.
+// Waits until petri-hdf5 answers an HDF5_SYNC: all data sent before it is on disk. On failure, returns false after a
+// message from petri-hdf5.
 bool hdf5_wait(Hdf5 *writer);
 // Writes a whole table. Returns false after a message.
 bool hdf5_table(const char *path, const char *csv, size_t length);
-// Returns true if the file name says that a table is written as HDF5 (.h5, .hdf5).
+// Returns true if the file name ends in .h5 or .hdf5. A table is then written as HDF5.
 bool hdf5_has_suffix(const char *path);
-// Closes the stream and waits until the file has its final name. Returns false if petri-hdf5 was not started or failed.
-// In the latter case, it has printed a message.
+// Closes the stream and waits until the file has its final name. Returns false if petri-hdf5 was not started, or
+// if it failed; a message was then printed.
 bool hdf5_end(Hdf5 *writer);
 
 // Format of the stream. Both programs are built together, so it has no version and uses native byte order.
@@ -42,7 +43,7 @@ typedef enum Hdf5Command {
     HDF5_COMMIT,  // the file is complete; also implied if the stream ends after data was added
     HDF5_DISCARD, // discard the file
     HDF5_SYNC,    // write everything so far to disk; answered by one byte
-    HDF5_NEW_RUN, // in a spool (hdf5/spool.h): the following data comes from another run
+    HDF5_NEW_RUN, // only in a spool (hdf5/spool.h): the following data comes from another run
 } Hdf5Command;
 
 typedef struct Hdf5Head {
@@ -50,8 +51,9 @@ typedef struct Hdf5Head {
     uint64_t bytes;
 } Hdf5Head;
 
-// Header of a frame. It is followed by the new ids that are not integers >= 0, as NUL-terminated strings, and then by
-// the systems. Strings are padded with NULs to a multiple of eight bytes.
+// Header of a frame. It is followed by NUL-terminated strings, and then by the systems. The strings are the ids that
+// are not integers >= 0 and did not occur in an earlier frame of the run. NULs pad all strings together to a multiple
+// of eight bytes.
 typedef struct Hdf5Frame {
     int64_t number;
     double time;
@@ -60,8 +62,9 @@ typedef struct Hdf5Frame {
     uint64_t system_count;
 } Hdf5Frame;
 
-// Header of a system. It is followed by the name of the system and by one array per quantity: positions, velocities,
-// radii, masses and charges as double; ids and anchor flags as int64_t. The id -2-K means string K of all frames.
+// Header of a system. It is followed by the name of the system, padded like the strings of a frame, and by one array
+// per quantity: positions, velocities, radii, masses and charges as double; ids and anchor flags as int64_t. The id
+// -2-K means string K, counted from 0 over all frames of the run.
 typedef struct Hdf5System {
     uint64_t particles;
     uint64_t dimensions;

@@ -16,12 +16,13 @@ int help_end(Output *output);
 void help_write(Output *output, const ByteBuffer *text);
 // Writes text like help_write, to standard output. Returns the exit status.
 int help_print(const ByteBuffer *text);
-// Adds paragraphs and a newline. A line that does not begin with a space is joined to the line above.
+// Adds paragraphs and a newline. Joins the lines of a paragraph. Keeps empty lines and lines that begin with a space.
 void help_prose(ByteBuffer *text, const char *prose);
 // Adds a line with an option and its help.
 void help_option(ByteBuffer *text, const OptionSpec *spec);
 
-// Text of `petri help` and of the manual: HELP_TITLE follows the program's name, HELP_BEGINNING the list of commands.
+// Text of `petri help` and of the manual: HELP_TITLE is printed after the program's name, and
+// HELP_BEGINNING after the list of commands.
 extern const char HELP_TITLE[], HELP_BEGINNING[];
 
 // A word of the language that is neither a function nor a node (topics.c).
@@ -41,7 +42,7 @@ extern const char FORMULA_LETTERS[]; // explains the symbols in formulas
 // Adds the help for all functions, nodes and words with this name. If there are none, adds the help for attributes with
 // this name. `!name` matches only nodes. Returns false if nothing has this name.
 bool topics_print(ByteBuffer *text, const char *topic);
-// Offers the names of all topics as candidates.
+// Passes all names that topics_print knows to nearest_offer.
 void topics_offer(StrNearest *nearest);
 
 #endif

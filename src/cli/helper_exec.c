@@ -50,7 +50,7 @@ static int exec_helper(const char *name, char **argv, char path[PATH_MAX + 64]) 
     for (size_t i = 0; i < sizeof folders / sizeof folders[0]; i++) {
         strcpy(base_name, folders[i]);
         strcat(base_name, name);
-        execvp(path, argv); // searches PATH if there is no slash
+        execvp(path, argv); // searches PATH if `path` has no slash
         cause = cause == 0 || errno != ENOENT ? errno : cause;
     }
     *base_name = '\0';

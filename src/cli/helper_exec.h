@@ -1,6 +1,6 @@
 // helper_exec.h: execution of helper programs such as petri-pictures and petri-ranks.
 //
-// petri itself links few libraries. For commands that need others, it executes a helper program (exec).
+// petri itself links few libraries. For commands that need others, a helper program replaces the process (exec).
 #ifndef PETRI_SRC_HELPER_EXEC_H
 #define PETRI_SRC_HELPER_EXEC_H
 
@@ -15,10 +15,10 @@ int helper_exec_pictures(char **argv);
 // Executes petri-lsp, the language server. Returns -1 if this program is petri-lsp. On failure, returns the exit status
 // after a message.
 int helper_exec_lsp(char **argv);
-// Executes petri-ranks if mpirun has started several processes. Returns -1 if it has not, or if petri-ranks does not
-// exist and `needed` is false. On other failures, returns the exit status after a message.
+// Executes petri-ranks if mpirun has started several processes. Returns -1 if mpirun has not done so, or if
+// petri-ranks does not exist and `needed` is false. On other failures, returns the exit status after a message.
 int helper_exec_ranks(char **argv, bool needed);
-// Executes a helper program. Returns only on failure: the value of errno.
+// Replaces the calling process with a helper program. Returns only on failure: the value of errno.
 int helper_exec(const char *name, char **argv);
 
 #endif

@@ -106,7 +106,7 @@ static bool ensure_started(FrameHistory *history, PetriSession *session) {
     return history->keyframe_count > 0 || history_start(history, session, history->why);
 }
 
-// Returns the epoch of a frame after the first.
+// Returns the epoch of a frame, which must be after the first frame of the timeline.
 static const Epoch *epoch_of(const FrameHistory *history, int64_t frame) {
     size_t at = history->epoch_count - 1;
     while (at > 0 && history->epochs[at].start >= frame)
@@ -130,7 +130,7 @@ static bool begin_epoch_if_changed(FrameHistory *history, PetriSession *session,
     if (epoch_of(history, frame + 1)->config == petri_config_revision(session))
         return true;
     drop_frames_after(history, frame);
-    // If this is the first frame, no frame of the old configuration is left.
+    // At the first frame of the timeline, no frame of the old configuration is left, so everything is dropped.
     return begin_epoch(history, session, frame <= history->first);
 }
 
@@ -181,7 +181,7 @@ PetriStatus history_step(FrameHistory *history, PetriSession *session) {
     return status;
 }
 
-// Returns the last keyframe before `frame` in its epoch, or NULL. `frame` is after the first.
+// Returns the last keyframe before `frame` in its epoch, or NULL. `frame` must be after the first frame.
 static const Keyframe *keyframe_before(const FrameHistory *history, int64_t frame) {
     uint32_t epoch = epoch_of(history, frame)->number;
     for (size_t i = history->keyframe_count; i > 0; i--) {
@@ -193,7 +193,7 @@ static const Keyframe *keyframe_before(const FrameHistory *history, int64_t fram
 }
 
 // Recomputes frames up to `frame`, which must be in the timeline. Starts at the current frame if it is between the
-// keyframe `from` and `frame`, else at the keyframe.
+// keyframe `from` and `frame` and the session has the configuration `config`. Otherwise starts at the keyframe.
 static PetriStatus replay_frames(const FrameHistory *history, PetriSession *session, const Keyframe *from,
                                  uint64_t config, int64_t frame) {
     int64_t now = petri_frame(session).number;

@@ -8,14 +8,16 @@
 // A change of the configuration (script, definitions, clock rates, prompt statements) starts a new epoch with its own
 // keyframe. A frame is always recomputed with the configuration of its epoch. Stepping from a past frame under a
 // changed configuration discards the frames after it. If the session follows the wall clock, a frame is recomputed at
-// its recorded time. A step from a past frame then computes a frame at the current time and discards all later frames.
+// its recorded time. In this case, a step from a past frame computes a frame at the current time and discards all later
+// frames.
 #ifndef PETRI_SRC_CLI_HISTORY_H
 #define PETRI_SRC_CLI_HISTORY_H
 
 #include "cli/byte_buffer.h"
 #include "petri.h"
 
-// Limits of the keyframes: number, minimum distance in frames, and bytes. Two keyframes are kept regardless of size.
+// HISTORY_MAX: maximum number of keyframes. HISTORY_INTERVAL: frames after which the next keyframe is stored.
+// HISTORY_BYTES: maximum size of all keyframes together. Two keyframes are kept even if they are larger.
 enum { HISTORY_MAX = 512, HISTORY_INTERVAL = 8 };
 #define HISTORY_BYTES ((size_t)64 << 20)
 
@@ -57,7 +59,7 @@ typedef struct FrameHistory {
 } FrameHistory;
 
 // Starts a new timeline at the current frame and drops the old one. `why` becomes history->why. Returns false if out of
-// memory; the other functions then try again.
+// memory; the other functions then try again to start it.
 bool history_start(FrameHistory *history, PetriSession *session, const char *why);
 void history_free(FrameHistory *history);
 // Like petri_step, but records the frame.
@@ -67,8 +69,8 @@ PetriStatus history_step(FrameHistory *history, PetriSession *session);
 // at an intermediate frame.
 PetriStatus history_goto(FrameHistory *history, PetriSession *session, int64_t frame, ByteBuffer *why);
 // Recomputes the current frame, with its systems and tree, from the previous keyframe. Does nothing for the first
-// frame of the timeline and for frames that cannot be recomputed. PETRI_INTERRUPTED and PETRI_OUT_OF_MEMORY change
-// nothing.
+// frame of the timeline and for frames that cannot be recomputed. Changes nothing if it returns
+// PETRI_INTERRUPTED or PETRI_OUT_OF_MEMORY.
 PetriStatus history_recompute(FrameHistory *history, PetriSession *session);
 // Goes to the frame at which history_start was called, even if its keyframe was dropped. Keeps the current
 // configuration.

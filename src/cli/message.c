@@ -47,7 +47,7 @@ void message(const char *format, ...) {
     length = without_controls(line, length);
     line[length] = '\n';
     length++;
-    // stdio would lose output when a signal such as Ctrl-C interrupts it.
+    // Not stdio, which would lose output if a signal such as Ctrl-C interrupted the write.
     file_write(STDERR_FILENO, line, length);
 }
 
@@ -57,7 +57,7 @@ StrNearest nearest_start(const char *word) {
 }
 
 bool nearest_offer(StrNearest *nearest, const char *name) {
-    // A prefix counts as similar, such as `--def` for `--define`.
+    // A word that is a prefix of the name counts as similar, such as `def` for `define`.
     bool shortened = nearest->wanted.len >= 3 && str_starts_with(str_from(name), nearest->wanted);
     if (!shortened || nearest->limit <= 1)
         return !shortened && str_try_nearest(nearest, str_from(name));

@@ -1,6 +1,7 @@
 // mpi_channel.h: messages between the processes that mpirun has started.
 //
-// They are used for asynchronous work, such as the assignment of sweep runs. PetriRanks has collective operations.
+// The messages are for asynchronous work, such as the assignment of sweep runs. For collective operations, see
+// PetriRanks.
 #ifndef PETRI_SRC_MPI_CHANNEL_H
 #define PETRI_SRC_MPI_CHANNEL_H
 
@@ -9,9 +10,10 @@
 typedef struct MpiChannel {
     int rank;  // number of this process, from 0
     int count; // number of processes
-    // Sends a message. A long message may block until it is received.
+    // Sends a message. Sending a long message can block until it is received.
     void (*send)(int to, const void *bytes, size_t length);
-    // Appends a received message to `message` and sets *from to its sender. Returns false if there is none.
+    // Appends a received message to `message` and sets *from to its sender. Returns false, without
+    // waiting, if no message has arrived.
     bool (*receive)(int *from, ByteBuffer *message);
 } MpiChannel;
 

@@ -32,7 +32,7 @@ static int start_script(const CommandContext *context, const char *name) {
         return STATUS_USAGE;
     }
     SCOPED_BYTE_BUFFER path = {0};
-    // Otherwise the next command would parse a name that starts with a dash as an option.
+    // Without `./`, later commands would parse a name that starts with a dash as an option.
     byte_buffer_format(&path, "%s%s%s", name[0] == '-' ? "./" : "", name,
                        str_ends_with(str_from(name), STR(".fl")) ? "" : ".fl");
     int status = write_dish(path.data);

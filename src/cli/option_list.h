@@ -2,7 +2,7 @@
 //
 // FIELD(type, name, default): a field of Options (options.h).
 // OPTION(commands, "name", 'letter' or 0, "VALUE" or NULL, reader, field, "help"): an option. The readers are in
-// options.c. FOR_GOLDEN marks options that a golden may contain because they write no files.
+// options.c. FOR_GOLDEN marks options that are allowed in a golden, because they write no files.
 // clang-format off
 FIELD(const char *, output,       NULL)           // render, open, sweep: output file
 FIELD(const char *, format,       NULL)           // render: format for `-o -`; NULL: not given
@@ -23,7 +23,7 @@ FIELD(const char *, summary,      NULL)
 FIELD(const char *, plot,         NULL)
 FIELD(const char *, plan,         NULL)
 FIELD(const char *, shard,        NULL)
-FIELD(int64_t,      frames,       -1)             // INT64_MAX: unlimited
+FIELD(int64_t,      frames,       -1)             // -1: not given; INT64_MAX: unlimited
 FIELD(double,       run_time,     NAN)            // seconds; NaN: unlimited
 FIELD(int64_t,      every,        1)
 FIELD(Size,         size,         {0})            // size of pictures in pixels; 0: the size that the script sets
@@ -39,7 +39,7 @@ FIELD(TextList,     write_folders, {0})
 FIELD(bool,         no_files,     false)
 FIELD(const char *, state_file,   NULL)           // NULL: none
 FIELD(int64_t,      save_every,   0)              // frames between saves; 0: every few seconds
-FIELD(int64_t,      limit,        100000)         // repl: frames of .run and .until
+FIELD(int64_t,      limit,        100000)         // repl: maximum frames of .run and .until
 FIELD(int64_t,      threads,      0)              // 0: number of CPUs
 FIELD(uint64_t,     memory,       0)              // bytes; 0: default of the library
 FIELD(uint64_t,     work,         0)              // units per frame; 0: default of the library

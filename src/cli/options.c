@@ -144,7 +144,7 @@ static bool no_colour(void) {
     return refused && refused[0] != '\0';
 }
 
-// Returns true if messages are coloured without --color.
+// Returns true if messages are coloured when --color is not given.
 static bool colour_by_default(void) {
     return progress_possible() && !no_colour();
 }

@@ -24,7 +24,7 @@ typedef struct Options {
 #undef FIELD
 #undef OPTION
     const char *script; // the last operand; NULL: none
-    ScriptList scripts; // operands of commands that accept several scripts, sorted
+    ScriptList scripts; // scripts in the operands, for commands that accept several; sorted
     bool unreadable;    // true if a path could not be read
     const char *(*read)(void *host, const char *path, size_t *length);    // PetriOptions.read_file; NULL: none
     const char *(*unsaved)(void *host, const char *path, size_t *length); // PetriOptions.read_unsaved; NULL: none

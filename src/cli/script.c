@@ -13,7 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-// Maximum size of a script, the same as for files in the library.
+// Maximum size of a script. The library has the same limit for files.
 static const size_t MAX_BYTES = (size_t)256 << 20;
 
 bool script_is_stdin(const char *name) {

@@ -6,13 +6,14 @@
 #include "cli/cli.h"
 #include "petri.h"
 
-// Name of standard input in messages. Relative paths in such a script start at the current folder.
+// Name of standard input in messages. Relative paths in a script from standard input start at the current
+// folder.
 #define SCRIPT_STDIN "<stdin>"
 
 bool script_is_stdin(const char *name);
 // Returns the name, or SCRIPT_STDIN for `-`.
 const char *script_display_name(const char *name);
-// Like petri_load and petri_check, but the name `-` means standard input. If the file does not exist, a message may
+// Like petri_load and petri_check, but the name `-` means standard input. If the file does not exist, a message can
 // suggest another file.
 PetriStatus script_load(PetriSession *session, const char *name);
 PetriStatus script_check(PetriSession *session, const char *name);

@@ -39,7 +39,8 @@ void signal_cleanup_end(int number) {
         atomic_store(&entries[number].state, FREE);
 }
 
-// Other threads keep running. The second pass runs the actions that they registered during the first.
+// Other threads keep running. The second pass runs all actions again, including those that these threads registered
+// during the first pass.
 void signal_cleanup_run(void) {
     atomic_store(&ending, true);
     for (int pass = 0; pass < 2; pass++) {

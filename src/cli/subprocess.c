@@ -22,7 +22,8 @@ int subprocess_temporary_file(void) {
     return fd;
 }
 
-// Runs in the child after fork. Must not use locks or memory that another thread may have held.
+// Runs in the child after fork. Must not take locks or allocate memory, because another thread may have
+// held a lock during fork.
 static void exec_program(const Subprocess *child, const char *program, const char *folder, char **argv) {
     int nothing = open("/dev/null", O_RDONLY);
     if (nothing < 0 || dup2(nothing, STDIN_FILENO) < 0 || dup2(child->output, STDOUT_FILENO) < 0 ||

@@ -18,7 +18,7 @@ static const size_t MAX_BYTES = (size_t)256 << 20;
 typedef struct Formatting {
     PetriSession *session;
     bool only_checks;
-    size_t changed; // scripts that were changed, or would be with --check
+    size_t changed; // scripts that were changed; with --check: scripts that would be changed
     size_t failed;  // scripts that could not be formatted
 } Formatting;
 
@@ -71,7 +71,7 @@ static bool write_script(const char *name, const ByteBuffer *out) {
     return true;
 }
 
-// Writes a formatted script from standard input to standard output, even if it has not changed.
+// Writes a script that was read from standard input, even if formatting has not changed it.
 static int write_stdout(const ByteBuffer *out) {
     return output_text(out->data, out->length, STATUS_DONE);
 }
@@ -82,7 +82,7 @@ static void format_script(Formatting *formatting, const char *name) {
     if (!read_script(name, &text) || !format_text(formatting, name, &text, &out)) {
         formatting->failed++;
         if (script_is_stdin(name) && !formatting->only_checks)
-            write_stdout(&text); // because editors may replace the script with the output
+            write_stdout(&text); // unchanged, because an editor can replace the script with the output
         return;
     }
     bool changed = text.length != out.length || memcmp(text.data, out.data, out.length) != 0;

@@ -33,9 +33,9 @@ typedef struct Writer {
     size_t next;                  // index of the first word of the statement after the current comment
     uint32_t indent;              // indent of the current line
     uint32_t level;               // level of the current statement
-    uint32_t indents[MAX_LEVELS]; // by level: indent in the original text
+    uint32_t indents[MAX_LEVELS]; // indents[L]: indent of level L in the original text
     uint32_t depth;               // number of open brackets
-    Anchor anchors[MAX_LEVELS];   // by depth: anchors of the statement and of each open bracket
+    Anchor anchors[MAX_LEVELS];   // [0]: of the statement; [D]: of the open bracket at depth D
 } Writer;
 
 static Line *current_line(Writer *writer) {
@@ -68,8 +68,8 @@ static void begin_line(Writer *writer, uint32_t indent) {
     byte_buffer_format(&writer->text, "%*s", (int)indent, "");
 }
 
-// Returns the level of a comment on its own line: that of the next statement or, if the comment is indented further,
-// that of a block that ends before it.
+// Returns the level of a comment on its own line. It is between the levels of the previous and the next statement: the
+// deepest of these levels whose original indent does not exceed that of the comment.
 static uint32_t comment_level(Writer *writer, size_t at) {
     const Words *words = writer->words;
     const Word *comment = &words->items[at];
@@ -119,7 +119,7 @@ static bool space_between(const Words *words, size_t at) {
         return !(word->role == ROLE_OPEN && word_is(before, "func"));
     if (before->role == ROLE_SUM || word->role == ROLE_SUM)
         return !word_is_unspaced(words, before->role == ROLE_SUM ? at - 1 : at);
-    // A bracket after an operand is a call or an index.
+    // An opening bracket after an operand is a call or an index, which gets no space.
     return word->role != ROLE_OPEN || before->ends_parameters;
 }
 

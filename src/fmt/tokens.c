@@ -16,7 +16,7 @@ typedef struct Reader {
     uint32_t level; // block level
     bool begins;    // the next word starts a statement
     uint32_t depth; // number of open brackets
-    // By depth; index 0 is the statement outside brackets.
+    // Both arrays are indexed by depth. Index 0 is for the statement, outside all brackets.
     size_t segments[MAX_DEPTH]; // current segment
     bool functions[MAX_DEPTH];  // the bracket holds the parameters of an inline function
     bool binds;                 // the statement binds names, so its `=` are not those of attributes

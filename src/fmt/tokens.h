@@ -8,7 +8,7 @@
 // How a token is spaced.
 typedef enum Role {
     ROLE_OPERAND,  // a name or literal
-    ROLE_PREFIX,   // a sign, `$`, `@` or `..` without start: no space after it
+    ROLE_PREFIX,   // a sign, `$`, `@` or `..` without a start value: no space after it
     ROLE_UNSPACED, // no space on either side
     ROLE_SPACED,   // a space on both sides; also keywords
     ROLE_SUM,      // + or - between operands: spaced or not, see word_is_unspaced
@@ -31,11 +31,11 @@ typedef struct Word {
     bool ends_parameters; // closes the parameters of an inline function
 } Word;
 
-// A part of an expression between operators of lower precedence than a sum.
+// A part of an expression, delimited by brackets, commas and operators of lower precedence than + and -.
 typedef struct Segment {
     bool unspaced; // is in brackets or in an attribute
     bool ranges;   // contains a range
-    bool mixed;    // contains operators of higher precedence than a sum
+    bool mixed;    // contains operators of higher precedence than + and -
 } Segment;
 
 typedef struct Words {

@@ -76,7 +76,8 @@ static bool read_remark(Golden *golden, const char *line, size_t length, ByteBuf
     return false;
 }
 
-// Returns an option of `petri run`. Returns NULL if there is none; `petri run` will then report it.
+// Returns the option of `petri run` that a word means. Returns NULL if there is none; `petri run` then reports the
+// word.
 static const OptionSpec *find_option(const char *word, size_t length) {
     for (const OptionSpec *spec = OPTIONS; spec->name; spec++) {
         bool same = word[1] == '-' ? strlen(spec->name) == length - 2 && memcmp(spec->name, word + 2, length - 2) == 0

@@ -39,7 +39,7 @@ bool golden_update(const Golden *golden, const char *path, const ByteBuffer *out
 // Comparison of lines (golden_line.c).
 //
 // Lines are compared token by token: words and signs as text, strings by their contents regardless of the type of
-// quotes, and numbers by value. With a tolerance R, two values with the numbers a_i and b_i agree if
+// quotes, and numbers by value. With a tolerance R, two lines with the numbers a_i and b_i agree if
 //     max |a_i - b_i| <= R * max(1, max |a_i|, max |b_i|)
 // Keys of the state and hashes are always compared exactly.
 

@@ -22,12 +22,12 @@ typedef struct LineList {
     size_t capacity;
 } LineList;
 
-// The sections of a frame. HEAD contains the @ line, if there is one; BODY the tree and the state. The lines of LOGS
-// and of ERRORS can be in any order.
+// The sections of a frame. HEAD contains the `@` line, if there is one. BODY contains the tree and the state. The
+// lines of LOGS and of ERRORS can be in any order.
 typedef enum Section { HEAD, BODY, LOGS, ERRORS, SECTION_COUNT } Section;
 
-// Reads an output frame by frame. Lines before the first header belong to frame 0. Output with only logs has no
-// headers.
+// Reads an output frame by frame. Lines before the first `@` line belong to frame 0. Output with only logs has no `@`
+// lines.
 typedef struct Reader {
     const char *at;
     const char *end;
@@ -104,7 +104,8 @@ typedef struct Comparison {
     ByteBuffer *error_text;
 } Comparison;
 
-// Adds a description of a difference. Either line may be NULL. Always returns false.
+// Adds a description of a difference. `expected` or `got` is NULL if that output has no such line. If
+// `expected` is NULL, reports the line number `line`. Always returns false.
 static bool report_difference(const Comparison *comparison, const Line *expected, const Line *got, uint32_t line,
                               LineDifference where) {
     ByteBuffer *error_text = comparison->error_text;

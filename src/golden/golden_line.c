@@ -95,7 +95,7 @@ static bool strings_same(const char *a, size_t a_length, const char *b, size_t b
     return str_equal((Str){first.data, first.length}, (Str){second.data, second.length});
 }
 
-// Differences between the numbers of two values.
+// Differences between the numbers of two lines.
 typedef struct Spread {
     double distance;             // largest difference of two numbers
     double size;                 // largest absolute number, at least 1

@@ -36,7 +36,8 @@ typedef struct Suite {
     Output output;
 } Suite;
 
-// Returns the path NAME.ending for a script NAME.fl if that file exists, else NULL. The caller frees it.
+// Returns the path of the file beside a script NAME.fl that is called NAME plus `ending`. Returns NULL if there is
+// none. The caller frees it.
 static char *file_beside(const char *script, const char *ending) {
     size_t length = strlen(script);
     if (length > 3 && strcmp(script + length - 3, ".fl") == 0)
@@ -65,7 +66,7 @@ static void add_case(Suite *suite, const Script *script) {
     };
 }
 
-// Adds an option that overrides the same option in the golden. `petri run` checks its value.
+// Unless `value` is NULL, adds an option that overrides the same option in the golden. `petri run` checks its value.
 static void add_override(char **argv, int *argc, ByteBuffer *text, const char *name, const char *value) {
     if (value) {
         byte_buffer_format(text, "--%s=%s", name, value);

@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-// Adds a change for each `NAME=VALUE` of -D. Ignores invalid definitions, which the run reports.
+// Adds a change for each `NAME=VALUE` of -D. read_definition has already rejected definitions without `=`.
 static void read_definitions(Linked *linked, const TextList *definitions) {
     linked->changes = memory_calloc((definitions->count + 1) * sizeof *linked->changes);
     for (size_t i = 0; i < definitions->count; i++) {

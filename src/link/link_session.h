@@ -13,12 +13,14 @@ typedef struct LinkSession {
     PetriPainter *painter;    // painter that has rendered earlier frames, if later ones need them; else NULL
 } LinkSession;
 
-// Opens a session, loads the script and computes frames up to that of the link, with its changes of parameters. Returns
-// OPTIONS_READ, or an exit status after a message. The caller calls link_session_close even after a failure.
+// Opens a session, loads the script and computes the frames up to the frame of the link, with the changes of parameters
+// in the link. Returns OPTIONS_READ, or an exit status after a message. The caller calls link_session_close even after
+// a failure.
 int link_session_run(LinkSession *link_session, const CommandContext *context, Options *options);
 // Returns the hash of the state. The caller frees it.
 char *link_session_hash(const LinkSession *link_session);
-// Prints a message with the names of the requested files between prefix and suffix. Returns false if there are none.
+// Prints a message with the names of the requested files between prefix and suffix. Returns false, without
+// a message, if there are none.
 bool link_session_print_files(const LinkSession *link_session, const char *prefix, const char *suffix);
 void link_session_close(LinkSession *link_session);
 

@@ -24,10 +24,10 @@ typedef struct Linked {
 
 // Returns true if petri was built with the libraries for links. Otherwise returns false after a message.
 bool link_possible(void);
-// Adds the link, from `#`. Returns false after a message if it is too long.
+// Adds the link, which starts with `#`. Returns false after a message if it is too long.
 bool link_pack(ByteBuffer *out, const Linked *linked);
-// Reads a link: the part after the first `#`, or all of it. Returns false after a message. The caller frees *linked
-// with link_free even after a failure.
+// Reads a link: the part after the first `#`, or all of it if there is no `#`. Returns false after a message. The
+// caller frees *linked with link_free even after a failure.
 bool link_read(Linked *linked, const ByteBuffer *link);
 void link_free(Linked *linked);
 

@@ -4,7 +4,7 @@
 
 #include "cli/cli.h"
 
-// All commands in the order of help, then NULL.
+// The commands of this program in the order of help, then NULL.
 extern const Command *const COMMANDS[];
 // Returns the command with this name, or NULL.
 const Command *command_find(const char *name);

@@ -119,7 +119,7 @@ static int help_topic(const char *topic) {
     return command ? help_for(command) : help_word(topic);
 }
 
-// The argument is always a topic, even if it has the form of an option.
+// Except for --help and -h, the argument is a topic, even if it has the form of an option.
 static int help_run(const CommandContext *context, Options *options) {
     char **words = options->argv;
     (void)context;

@@ -12,7 +12,7 @@ static void write_text(Output *output, const char *text) {
     output_format(output, "%s", text);
 }
 
-// Writes text that a shell script contains in single quotes. Characters in `escaped` get a backslash.
+// Writes text for a string in single quotes in a shell script. Characters in `escaped` get a backslash.
 static void write_quoted(Output *output, const char *text, const char *escaped) {
     for (const char *c = text; *c != '\0'; c++)
         if (*c == '\'')

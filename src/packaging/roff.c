@@ -78,7 +78,7 @@ void roff_paragraphs(Output *output, const char *text) {
             output_format(output, ".EE\n");
             in_example = false;
         }
-        // A new paragraph follows an empty line or starts an example.
+        // A new paragraph begins after an empty line and at the first line of an example.
         if (length > 0 && !first && (empty || (indented && !in_example)))
             output_format(output, ".PP\n");
         if (indented && !in_example) {
