@@ -155,7 +155,7 @@ void input_bind(Input *input, Schema *schema, Value tree, Arena *arena) {
     bindings->arena.escape = NULL;
 }
 
-// Updates what the frame of this beat sees of a switch from the reports.
+// Updates a switch for the frame at this beat from the reports since the last frame.
 static void advance_switch(InputSwitch *item, double beat) {
     bool down = item->down || item->pushes > 0;
     if (item->pushes > 0)
@@ -179,7 +179,8 @@ struct InputChange {
     Value old_value;
 };
 
-// Writes a value under prefix;first;second, where `first` and `second` may be NULL. A null value removes the entry.
+// Writes a value under the key prefix;first;second. If `first` or `second` is NULL, the key is shorter. A null value
+// removes the entry.
 static void write_word(const Writer *writer, Value prefix, const Symbol *first, const Symbol *second, Value value) {
     Vector key = vector_new(writer->arena);
     vector_add(&key, prefix);

@@ -13,7 +13,7 @@ enum { INPUT_BUTTONS = 8, INPUT_KEYS = 105, INPUT_KEY_NONE = -1 };
 
 // A key or button.
 typedef struct InputSwitch {
-    bool down;       // as reported
+    bool down;       // as last reported
     bool frame_down; // as the current frame sees it
     bool toggled;    // inverted by each press
     uint32_t pushes; // number of presses since the last frame
@@ -21,7 +21,7 @@ typedef struct InputSwitch {
     double released; // beat of the frame that saw the last release; NaN: none yet
 } InputSwitch;
 
-// Destination of the input of a node in the last frame's tree.
+// Where the input for a `!pointer` or `!key` in the last frame's tree is stored.
 typedef struct InputBinding {
     Value state; // state key
     int key;     // INPUT_KEY_NONE: a pointer
@@ -54,7 +54,7 @@ typedef struct Input {
     const Symbol *beat;
 } Input;
 
-// Initialises input without reports and bindings.
+// Initialises the structs: no reports and no bindings.
 void input_reset(InputState *input_state, InputBindings *bindings);
 void input_init(Input *input, SymbolTable *symbols);
 void input_free(Input *input);
@@ -66,22 +66,22 @@ bool input_key_is_bound(const Input *input, int key);
 
 // Report input of the host. Pressing a key that is already pressed changes nothing.
 void input_report_key(Input *input, int key, bool pressed);
-// `position` is NULL outside the window, else two finite numbers; bit i of `buttons` is button i.
+// `position` is NULL outside the window, else two finite numbers; bit i of `buttons` is set if button i is pressed.
 void input_report_pointer(Input *input, const double *position, uint32_t buttons);
 // Releases all keys and buttons, and moves the pointer out of the window.
 void input_release_all(Input *input);
 
 // Adds a binding. Copies the state key.
 void input_add_binding(InputBindings *bindings, Value state, int key);
-// Reads the bindings from the windows of a frame's tree. Messages are allocated from `arena`, and its `escape` is also
-// used if memory for the bindings runs out.
+// Reads the bindings from the windows of a frame's tree. Messages are allocated from `arena`. If memory for the
+// bindings runs out, its `escape` is used.
 void input_bind(Input *input, Schema *schema, Value tree, Arena *arena);
 // Changes made by input_write, which are undone if the frame is aborted.
 typedef struct InputChange InputChange;
 typedef struct InputUndo {
     const InputChange *last; // last change, in the arena of input_write; NULL: none
-    bool has_reports;
-    InputState state;
+    bool has_reports;        // true if `state` is set
+    InputState state;        // as before input_write
 } InputUndo;
 // Writes the input to the state before the frame of this beat is evaluated. `arena` is the frame's arena.
 void input_write(Input *input, State *state, Arena *arena, double beat, InputUndo *undo);

@@ -111,7 +111,8 @@ static bool is_missing(const PhysicsTree *tree, StateSlot slot, const double *ro
     return false;
 }
 
-// Returns true if no missing entry and no entry of a single number was written. The owner does not notice such writes.
+// Returns true if nothing else has written to missing entries or to entries of a single number. Such writes do not mark
+// the owner as modified.
 static bool unreferenced_in_sync(const PhysicsTree *tree) {
     const Mirror *mirror = &tree->system->mirror;
     if (tree->dimensions > 1 && mirror->missing == 0)
@@ -158,8 +159,8 @@ static void copy_body(const PhysicsTree *tree, uint32_t body) {
             state_slot_set(tree->frame->state, slots[i], value_numbers_view(rows[i], n));
 }
 
-// Detaches the entries of anchors, because an anchor may have been a particle in the last frame and still reference a
-// row. Stores copies if `store` is set.
+// Detaches the entries of anchors. If an anchor was a particle in the last frame, its entries still reference rows.
+// Stores copies if `store` is set.
 static void copy_anchors(const PhysicsTree *tree, bool store) {
     const Mirror *mirror = &tree->system->mirror;
     for (uint32_t i = 0; i < mirror->anchor_count; i++) {
@@ -169,8 +170,8 @@ static void copy_anchors(const PhysicsTree *tree, bool store) {
     }
 }
 
-// Lets an entry reference a row that holds a finite result or the state's old value. Returns false if entry and row are
-// not in sync afterwards.
+// Makes an entry reference its row. The row holds a finite result if `result` is set, else the number with which the
+// frame started. Returns false if entry and row are not in sync afterwards.
 static bool lend_entry(const PhysicsTree *tree, StateSlot slot, const double *row, bool result) {
     Mirror *mirror = &tree->system->mirror;
     State *state = tree->frame->state;
@@ -207,7 +208,8 @@ static bool lend_bodies(PhysicsTree *tree, bool simulated) {
     return in_sync;
 }
 
-// Gives copies to entries that still reference the previous description.
+// Gives copies to entries that still reference the previous description. If `referenced` is set, the entries of the new
+// tree already reference the new one.
 static void close_last(PhysicsTree *tree, bool referenced) {
     Mirror *mirror = &tree->system->mirror;
     State *state = tree->frame->state;

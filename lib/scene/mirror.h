@@ -1,9 +1,10 @@
 // mirror.h: synchronises the positions and velocities of a `!physics` system between engine and state.
 //
-// They are stored in two places. The engine has a row of numbers for each particle (physics/system.h), from which each
-// frame starts and to which its results are written. The state has an entry for each position and each velocity, which
-// scripts read and which a host or another node may overwrite. The mirror keeps rows and entries in sync, if possible
-// without copying. It also decides whether the engine's description of the last frame can be used for the next one.
+// They are stored in two places. The engine has a row of numbers for each position and each velocity
+// (physics/system.h). A frame starts with these numbers and replaces them by its results. The state has an entry for
+// each position and each velocity, which scripts read and which a host or another node may overwrite. The mirror keeps
+// rows and entries in sync, if possible without copying. It also decides whether the engine's *description* (the
+// particles, groups and forces of the last frame's tree) can be used for the next frame.
 //
 // Ownership of the numbers:
 //   - An entry of two or more numbers *references* the engine's row through a pointer (state.h, StateOwner). So a
@@ -11,11 +12,12 @@
 //     new numbers. Its owner is then marked as *modified*, because the row is out of date.
 //   - Every other entry owns a *copy*. Entries of one number do, because the value itself holds the number, and
 //     entries of anchors, which are few. If two particles of a system share a key, all of its entries own copies, and
-//     the later particle wins. The same applies to a system that is skipped in a frame or removed.
-// Rows have a fixed address until phys_begin, and are readable until the phys_begin after that. So before mirror_store
-// returns, each entry that references the previous description is changed to reference the new one or receives a copy.
+//     the later particle wins. The entries of a system that is absent from a frame or removed also own copies.
+// A row keeps its address until phys_begin starts a new description, and stays readable until the phys_begin after
+// that. So before mirror_store returns, each entry that references a row of the previous description is changed. It
+// references a row of the new one or receives a copy.
 //
-// A result may be stored if it is finite and does not equal the stored value (0 does not become -0). Both rules hold
+// A result is stored only if it is finite and does not equal the stored value (0 does not become -0). Both rules hold
 // for rows (PhysTime.keep_last_finite) as well as for copies (numbers_finite; state_slot_set). Otherwise a referencing
 // entry could show a value that a copy must not hold.
 //
@@ -33,7 +35,7 @@
 //       │   out of memory, or keys or numbers do not match                          │
 //       └───────────────────────────────────────────────────────────────────────────┘
 //         mirror_reuse: owner modified, run restarted, other particles, or update aborted;
-//         a mistake in the tree, which must be reported in each frame; system skipped in a frame
+//         a mistake in the tree, which must be reported in each frame; system absent from a frame
 //
 //   STALE    The tree must be read from scratch, with positions and velocities from the state, which is authoritative.
 //   OPEN     A description was begun and not finished: some entries reference the previous description.
@@ -63,8 +65,8 @@ typedef struct Mirror {
     uint32_t missing; // number of entries that the state does not have yet
     double *ids;      // ids of all particles, for scene_view_ids
     uint32_t id_capacity;
-    bool ids_cached; // `ids` or `ids_single` are valid for the current tree
-    bool ids_single; // every id is a single number, stored in `ids`
+    bool ids_cached; // `ids_single` is valid for the current tree, and `ids` if it is true
+    bool ids_single; // every id is a single number; `ids` then holds them
 } Mirror;
 
 typedef struct PhysicsTree PhysicsTree;
@@ -83,8 +85,9 @@ void mirror_open(PhysicsTree *tree);
 // Adds the next particle or anchor. physics_read_bodies sets slot_count when all are added. Returns false if out of
 // memory.
 bool mirror_add(PhysicsTree *tree, StateSlot position, StateSlot velocity, bool anchor);
-// Returns the vector with which a particle starts the frame: the stored vector if the run continues and the vector has
-// n numbers, else the attribute (and sets *from_attribute). A single number is copied to *single.
+// Returns the vector with which a particle starts the frame: the stored vector if the run continues and its length is
+// the number of dimensions, else `attribute`. *from_attribute is set to true if it is `attribute`, else to false. A
+// stored vector of one number is copied to *single.
 PhysVector mirror_start(const PhysicsTree *tree, StateSlot slot, PhysVector attribute, double *single,
                         bool *from_attribute);
 // Removes the entries of particles that are no longer in the tree, except keys that another particle uses:
@@ -96,9 +99,10 @@ bool mirror_reuse(PhysicsTree *tree);
 // Returns which values of a particle the engine keeps from earlier frames.
 PhysPreserve mirror_preserve(const PhysicsTree *tree, uint32_t body);
 
-// Returns true if entries can reference the rows of this tree. If not, results are copied.
+// Returns true if rows of this tree can be *lent*: entries can reference them. If not, results are copied.
 bool mirror_can_lend(const PhysicsTree *tree);
-// Stores the frame's results in the state. `simulated` is false if there are none.
+// Stores the frame's results in the state. `simulated` is false if nothing was simulated, so that there are no new
+// results.
 void mirror_store(PhysicsTree *tree, bool simulated);
 
 #endif

@@ -22,7 +22,7 @@ static double scene_number(const State *state, StateSlot slot, double default_va
 // Returns a system with this prefix that has not been updated in this frame, or NULL. Sets *occurrence to the number of
 // systems with this prefix that have already been updated.
 static PhysicsSystem *known_system(const Scene *scene, StateSlot start, uint32_t *occurrence, Arena *arena) {
-    PhysicsSystem *expected = scene->next_expected; // the order of the last frame
+    PhysicsSystem *expected = scene->next_expected; // the next system in the order of the last frame
     *occurrence = 0;
     if (expected && expected->start == start && expected->occurrence == 0 &&
         expected->last_frame != scene->frame_number)
@@ -155,7 +155,7 @@ static bool fits_in_memory(const Reader *reader, const SystemAttrs *settings) {
     return false;
 }
 
-// Step 6: simulates up to settings->time and returns the clock afterwards.
+// Simulates up to settings->time (step 6) and returns the new clock.
 static double simulate_system(PhysicsTree *tree, const Reader *reader, const SystemAttrs *settings, double last,
                               double clock, uint64_t *steps) {
     PhysTime time = {.last = last,
@@ -230,7 +230,7 @@ static uint64_t update_system(Scene *scene, PhysicsSystem *system, const Reader 
         mirror_store(&tree, false);
     }
     if (!faultless)
-        system->mirror.state = MIRROR_STALE; // so that errors are reported in each frame
+        system->mirror.state = MIRROR_STALE; // so that the next frame reads the tree again and repeats the reports
     scene->exhausted |= tree.out_of_memory;
     physics_cache_tree(&tree);
     set_number(frame, system->last, settings->time);

@@ -52,11 +52,11 @@ void physics_cache_node(const PhysicsTree *tree, uint32_t body, const Node *node
     system->nodes[body] = node;
 }
 
-// Marks the slots of a body. Returns false if out of memory.
+// Adds a body to the mirror and marks its slots. Returns false if out of memory.
 static bool register_body(PhysicsTree *tree, bool anchor, StateSlot position, StateSlot velocity) {
     uint32_t body = tree->body_count, mark = 2 * (tree->scene->body_base + body);
     tree->scene->body_count =
-        body + 1; // set first, so that the marks are outdated for the next tree even if reading is aborted
+        body + 1; // set before the marks: if reading is aborted, they must still be outdated for the next tree
     if (velocity == STATE_NO_SLOT || !mirror_add(tree, position, velocity, anchor) ||
         !physics_set_mark(tree, position, mark) ||
         (!physics_mark(tree, velocity) && !physics_set_mark(tree, velocity, mark + 1)))
@@ -83,7 +83,7 @@ static bool add_body(PhysicsTree *tree, const Node *node, Value id, bool anchor)
         return false;
     }
     check_reserved(tree, &reader, id);
-    tree->keys_collide |= physics_mark(tree, slot) != 0; // the key is the velocity of another particle
+    tree->keys_collide |= physics_mark(tree, slot) != 0; // the position's key is the velocity's key of another particle
     StateSlot velocity = state_slot(tree->frame->state, physics_key(tree, id, true, numbers));
     if (register_body(tree, anchor, slot, velocity))
         return true;
@@ -155,8 +155,8 @@ void physics_read_bodies(PhysicsTree *tree) {
     tree->system->mirror.slot_count = 2 * tree->body_count;
 }
 
-// Finds the ends of a distance force. First tries the ends that the force had in the last frame. Returns false if one
-// does not exist, and sets *has_first to whether `from` exists.
+// Finds the ends of a distance force. First tries the ends that the force had in the last frame. If an end does not
+// exist, returns false. *has_first is then true if only `to` does not exist.
 static bool find_ends(PhysicsTree *tree, Value from, Value to, Link *link, bool *has_first) {
     PhysicsSystem *system = tree->system;
     uint32_t number = tree->next_link++;
@@ -179,7 +179,8 @@ static bool find_ends(PhysicsTree *tree, Value from, Value to, Link *link, bool 
     return true;
 }
 
-// Sets the ends of a link from the ids. Returns false and reports an unknown id.
+// Sets the ends of a distance force to the particles with the ids `from` and `to`. If a particle does not exist,
+// reports this and returns false.
 static bool bind_ends(PhysicsTree *tree, const Reader *reader, const ForceAttrs *read, PhysForce *force) {
     Link link;
     bool first = false;
@@ -196,7 +197,7 @@ static bool bind_ends(PhysicsTree *tree, const Reader *reader, const ForceAttrs 
     return false;
 }
 
-// The seed of a !random is prefix;run;iteration and a 0 for each !random before it (spec 4.2).
+// The seed of a !random is prefix;run;iteration, followed by one 0 for each !random before it (spec 4.2).
 uint64_t physics_random_key(PhysicsTree *tree, uint32_t randoms_before) {
     if (!tree->random_key || randoms_before < tree->random_count) {
         Vector seed = vector_new(tree->frame->arena);
@@ -212,7 +213,8 @@ uint64_t physics_random_key(PhysicsTree *tree, uint32_t randoms_before) {
     return tree->random_key;
 }
 
-// Resolves one bound, which `fixed` replaces unless it is NaN. Returns false if there is no bound.
+// Resolves one bound. If `fixed` is given (not NaN), it replaces the bound. If neither is given, sets the bound to 0
+// and returns false.
 static bool resolve_bound(double fixed, double *bound) {
     *bound = isnan(fixed) ? *bound : fixed;
     bool given = !isnan(*bound);
@@ -220,7 +222,7 @@ static bool resolve_bound(double fixed, double *bound) {
     return given;
 }
 
-// Fills `force` from a force applier or barrier. Returns false if it must be ignored.
+// Fills `force` from the node of a force or barrier. Returns false if the node must be ignored.
 static bool read_force(PhysicsTree *tree, const Reader *reader, uint32_t randoms, PhysForce *force) {
     ForceAttrs read = tree->scene->force_defaults[schema_force(reader->kind)];
     reader_fill(reader, &read);
@@ -247,7 +249,8 @@ static void report_unknown_kind(const Reader *reader) {
     reader_report(reader, "unknown-node", "", text_str(&out));
 }
 
-// Reads one force of a group. It is separate from the recursive function, whose stack frames must be small.
+// Reads one force of a group. Not part of its recursive caller, because the stack frames of that function must be
+// small.
 __attribute__((noinline)) static void read_applier(PhysicsTree *tree, const Node *node, NodeKind kind, uint32_t group,
                                                    uint32_t randoms) {
     Reader reader = reader_of(tree, node, kind);

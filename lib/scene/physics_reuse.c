@@ -2,11 +2,11 @@
 //
 // The engine keeps its values if they equal those in the state (mirror.h). Nodes with program lifetime (value/node.h)
 // are unchanged if their address is the same. Other nodes are compared: a node is the same particle if its id and group
-// equal those of the particle at the same position in the last frame.
+// equal those of the particle with the same number in the last tree.
 #include "scene/systems.h"
 
-// Updates the next particle. Returns false if it is not the particle at this position in the last frame. `identity` is
-// the node that physics_cache_node stores.
+// Updates the next particle or anchor. Returns false if the last frame's tree had a different one with this number.
+// `identity` is the node that physics_cache_node stores.
 __attribute__((noinline)) static bool reuse_body(PhysicsTree *tree, const Node *node, const Node *identity, bool anchor,
                                                  uint32_t group) {
     PhysicsSystem *system = tree->system;

@@ -1,8 +1,8 @@
-// physics_slots.c: ids, keys and slots of particles, if possible without hashing.
+// physics_slots.c: finds particles by their ids and slots, if possible without hashing.
 //
-// The scene marks each slot of the tree that was read last with its particle. One array of marks serves all systems. A
-// mark is 2 * (base + handle) for a position, plus 1 for a velocity. Marks below 2 * base are outdated: they belong to
-// earlier trees.
+// The mark of a slot shows which particle of the tree that was read last uses the slot. One array, by slot, holds the
+// marks for all systems. A mark is 2 * (base + handle) for a position, plus 1 for a velocity. Marks below 2 * base are
+// outdated: they belong to earlier trees.
 #include "base/heap.h"
 #include "scene/systems.h"
 
@@ -84,7 +84,7 @@ void physics_free_marks(const PhysicsTree *tree) {
     scene->body_capacity = 0;
 }
 
-// Marks the slots of the tree again if another tree has been read since.
+// Marks the slots of the tree again if another tree has been read since they were marked.
 static void rebuild_marks(PhysicsTree *tree) {
     const PhysicsSystem *system = tree->system;
     if (tree->scene->marked_system == system)

@@ -104,7 +104,7 @@ static void own_slots(PhysicsSystem *system, StateSlot *slots[OWN_SLOTS]) {
     memcpy(slots, all, sizeof all);
 }
 
-// Removes unused slots from the state if there are many of them. Otherwise ids that come and go would fill it.
+// Removes unused slots from the state if there are many. Without this, ids that come and go would fill the state.
 static void compact_state(Scene *scene, const SceneFrame *frame) {
     enum { MIN_COMPACTED = 4096 };
     uint32_t count = state_slot_count(frame->state), held = 0;
@@ -116,7 +116,7 @@ static void compact_state(Scene *scene, const SceneFrame *frame) {
         held += system->mirror.slot_count;
     }
     if (count / 2 < held)
-        return; // before the first step, slots of particles have no value
+        return; // many slots without a value belong to particles, which get values in the first step
     uint8_t *used = arena_alloc_array(frame->arena, count, sizeof *used);
     StateSlot *moved = arena_alloc_array(frame->arena, count, sizeof *moved), *own[OWN_SLOTS];
     memset(used, 0, count);
@@ -219,7 +219,7 @@ static double single_id(const State *state, const SceneView *view, uint32_t part
     return state_slot_last_number(state, view->slots[2 * (size_t)particle], view->prefix.len + 1);
 }
 
-// Reserves memory for the ids, which is charged to the script's budget. Returns false if out of memory.
+// Reserves memory for the ids and charges it to the script's budget. Returns false if out of memory.
 static bool reserve_ids(PhysicsSystem *system, uint32_t count) {
     Mirror *mirror = &system->mirror;
     if (count <= mirror->id_capacity)

@@ -17,7 +17,7 @@ typedef struct SceneFrame {
     double fps;
     double performance;  // PhysTime.performance
     bool lockstep;       // PhysTime.lockstep
-    uint64_t generation; // changes when programs, and nodes with program lifetime, have been freed
+    uint64_t generation; // changes after nodes with program lifetime have been freed
     double resolution;   // overrides the attribute of all systems; 0: no override
 } SceneFrame;
 
@@ -26,20 +26,20 @@ Scene *scene_new(Arena *arena, Schema *schema);
 void scene_free(Scene *scene);
 // Sets how the physics of new systems is computed. Results do not depend on the options.
 void scene_set_physics(Scene *scene, const PhysOptions *options);
-// Removes all systems and the memory of the last frame's tree. Call it when the state dictionary is cleared.
+// Removes all systems, with what they store of the last frame's tree. Call it when the state dictionary is cleared.
 void scene_reset(Scene *scene);
-// Detach the systems while others are restored with another state dictionary. If restoring fails, scene_attach_systems
-// frees the restored systems and brings back the detached ones. Otherwise free the detached systems after their
-// dictionary.
+// Detach the systems while others are restored with another state dictionary. If restoring fails, call
+// scene_attach_systems, which frees the restored systems and brings back the detached ones. If restoring succeeds, free
+// the old dictionary, then the detached systems with scene_free_systems.
 typedef struct PhysicsSystem PhysicsSystem;
 PhysicsSystem *scene_detach_systems(Scene *scene);
 void scene_attach_systems(Scene *scene, PhysicsSystem *systems);
 void scene_free_systems(PhysicsSystem *systems);
-// A system to save, with the state slots of the particles in its last tree. A later frame needs them to find the
-// entries to remove. Slots are in pairs: position, velocity.
+// A system to save. `slots` are the state slots of the particles in its last tree, in pairs: position, velocity. After
+// the system is restored, the next frame uses them to find the entries of particles that are no longer in the tree.
 typedef struct SceneSystem {
     StateSlot prefix;
-    uint32_t occurrence; // number among systems with the same prefix, from 0
+    uint32_t occurrence; // index among the systems with the same prefix
     const StateSlot *slots;
     uint32_t slot_count;
 } SceneSystem;
@@ -62,8 +62,8 @@ typedef struct SceneView {
 bool scene_view(Scene *scene, const State *state, size_t number, SceneView *view);
 // Returns the id of a particle: its state key without the prefix.
 Value scene_view_id(Arena *arena, const State *state, const SceneView *view, uint32_t particle);
-// Sets *ids to all ids if each is a single number, else to NULL. Returns false if out of memory. Valid until the
-// particles change.
+// Sets *ids to all ids if each is a single number, else to NULL. Returns false if out of memory. *ids is valid until
+// the particles change.
 bool scene_view_ids(const State *state, const SceneView *view, const double **ids);
 // Finds the particle with this id. Returns false if there is none.
 bool scene_view_find(Scene *scene, State *state, Arena *arena, const SceneView *view, Value id, uint32_t *particle);
@@ -71,7 +71,7 @@ bool scene_view_find(Scene *scene, State *state, Arena *arena, const SceneView *
 Input *scene_input(Scene *scene);
 // Updates all systems from the nodes in `tree`. Returns the number of simulation steps taken.
 uint64_t scene_update(Scene *scene, Value tree, const SceneFrame *frame);
-// Returns true if a system could not be updated since the last call because memory ran out.
+// Returns true if, since the last call, memory ran out in the update of a system.
 bool scene_clear_exhausted(Scene *scene);
 // Returns true and sets *end if the budget has stopped the last update half-way. Clears the flag.
 bool scene_clear_stopped(Scene *scene, ArenaOutcome *end);

@@ -30,7 +30,7 @@ struct PhysicsSystem {
     StateSlot clock;
     StateSlot last;
     PhysSystem *engine;
-    Budget *budget; // charged for the memory of this struct, not of the engine
+    Budget *budget; // charged for this struct and mirror.ids, not for the engine
     Mirror mirror;
     uint64_t steps;      // steps taken in the last update
     bool had_simulated;  // its clock was above 0 before the last update, so the script could see its particles
@@ -38,10 +38,10 @@ struct PhysicsSystem {
 
     // The last frame's tree, with which the next one is compared.
     uint32_t dimensions;         // in the last update
-    uint64_t generation;         // of the nodes below
+    uint64_t generation;         // SceneFrame.generation of `children` and `nodes`
     const Node *const *children; // children of the tree if they have program lifetime, else NULL
     uint32_t child_count;
-    const Node **nodes; // by handle: node of the particle if it has program lifetime, else NULL; unused with `children`
+    const Node **nodes; // by handle: node of the particle if it has program lifetime, else NULL
     uint32_t node_count;
     uint32_t node_capacity;
     RandomForce *randoms;
@@ -69,7 +69,7 @@ struct Scene {
     PhysOptions physics;
     uint32_t *bodies; // by slot: mark of its particle (physics_slots.c)
     uint32_t body_capacity;
-    uint32_t body_base;                 // base of the tree read last; smaller marks belong to earlier trees
+    uint32_t body_base;                 // base of the marks of the tree read last (physics_slots.c)
     uint32_t body_count;                // number of particles in that tree
     const PhysicsSystem *marked_system; // system of that tree
     // Symbols of state keys
@@ -90,7 +90,7 @@ struct PhysicsTree {
     uint32_t dimensions;
     Value prefix;
     PhysSystem *engine;
-    uint32_t body_count; // particles and anchors
+    uint32_t body_count; // number of particles and anchors read so far
     bool from_state;     // positions and velocities are read from the state if it has them
     bool keys_collide;   // two particles share a key, or one has a key of the system itself
     bool out_of_memory;
@@ -119,8 +119,8 @@ void physics_cache_node(const PhysicsTree *tree, uint32_t body, const Node *node
 
 // physics_slots.c
 enum { PHYSICS_NO_BODY = -1, PHYSICS_KEY_NUMBERS = 24 };
-// Returns the key prefix;id or prefix;id;:velocity. Short numeric keys are stored in `numbers`, others in the frame's
-// arena.
+// Returns the key prefix;id or prefix;id;:velocity. A short numeric key is stored in `numbers`, any other key in the
+// frame's arena.
 Value physics_key(const PhysicsTree *tree, Value id, bool velocity, double numbers[PHYSICS_KEY_NUMBERS]);
 // Returns true if this is the id of particle `body`.
 bool physics_has_id(const PhysicsTree *tree, uint32_t body, Value id);
@@ -135,7 +135,8 @@ void physics_clear_marks(const PhysicsTree *tree);
 // Frees the marks if they are many and unlikely to be needed again.
 void physics_free_marks(const PhysicsTree *tree);
 
-// physics_reuse.c: updates the engine's description to the tree. Returns false if the tree must be read from scratch.
+// physics_reuse.c: updates the engine's description (mirror.h) so that it matches the tree. Returns false if the tree
+// must be read from scratch.
 bool physics_reuse(PhysicsTree *tree);
 // Stores the tree after a frame, for comparison with the next one.
 void physics_cache_tree(const PhysicsTree *tree);

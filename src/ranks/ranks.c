@@ -37,7 +37,7 @@ typedef struct Ranks {
 } Ranks;
 
 static Ranks ranks;                             // one per process, like MPI
-static volatile sig_atomic_t waiting_cancelled; // set by a signal: do not wait for other ranks
+static volatile sig_atomic_t waiting_cancelled; // set by a signal handler: no longer wait for other ranks
 
 static void pack_blocks(double *to, const double *numbers, size_t count, size_t block_length, size_t stride) {
     for (size_t k = 0; k < count; k++)
@@ -260,8 +260,8 @@ void ranks_begin(CommandContext *context) {
         silence_output();
 }
 
-// If a process exits without MPI_Finalize, mpirun terminates all ranks, including those that wait for it, and exits
-// with its status. Most failures happen on all ranks, so the other ranks sleep while rank 0 reports the error. mpirun
+// If a process exits without MPI_Finalize, mpirun terminates all other ranks and exits with the status of this process.
+// Most failures happen on all ranks. Then the ranks above 0 sleep, so that rank 0 can report the error first. mpirun
 // terminates them when rank 0 exits.
 void ranks_end(int status) {
     enum { GRACE_SECONDS = 5 };
