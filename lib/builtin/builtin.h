@@ -2,7 +2,8 @@
 //
 // A built-in is one row of builtin_list.h: name, function, parameters, purity and one line of help. The function gets
 // its arguments in the order of the parameters; a missing argument is VALUE_ABSENT. It returns the specified value, or
-// null for arguments of the wrong form, and reports a *bad call* with builtin_error.
+// null for arguments of the wrong form. If the spec calls this a *bad call*, it also reports the call with
+// builtin_error.
 #ifndef PETRI_BUILTIN_BUILTIN_H
 #define PETRI_BUILTIN_BUILTIN_H
 
@@ -32,7 +33,7 @@ typedef Value BuiltinCall(BuiltinContext *context, const Value *args, uint32_t c
 typedef struct Builtin {
     const char *name;
     BuiltinCall *call;
-    const char *parameters; // as in the spec: "xs, ys=0", "x", "xs, ..."; after "...", further arguments are accepted
+    const char *parameters; // as in the spec: "xs, ys=0", "x", "xs, ..."; "..." means any further arguments
     uint8_t required;       // minimum number of arguments
     uint8_t fixed;          // number of parameters before "..."; `args` has at least this many elements
     bool variadic;

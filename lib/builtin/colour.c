@@ -16,7 +16,7 @@ static double clamp_unit(double x) {
     return 1 < x ? 1 : x;
 }
 
-// Returns exactly fmod(v, 6). Most hues are at most one period out of range; a single subtraction is then exact.
+// Returns exactly fmod(v, 6). Most hues are between -6 and 12, where at most one subtraction is needed, which is exact.
 static double modulo_6(double v) {
     return v > -6 && v < 6 ? v : v >= 6 && v < 12 ? v - 6 : fmod(v, 6);
 }
@@ -50,7 +50,7 @@ Value builtin_hsl(BuiltinContext *context, const Value *args, uint32_t count) {
     return rgb_of_hsl(context->arena, x[0], clamp_unit(x[1]), clamp_unit(x[2]));
 }
 
-// B11.2: l = v*(1 - s/2), s' = (v - l)/min(l, 1 - l).
+// Converts HSV to HSL (B11.2): l = v*(1 - s/2), and the HSL saturation is (v - l)/min(l, 1 - l).
 Value builtin_hsv(BuiltinContext *context, const Value *args, uint32_t count) {
     if (!value_is_numeric(args[0]) || args[0].len > 3)
         return VALUE_NULL;
@@ -108,7 +108,7 @@ static void transform_3x3(const double *m, double *v) {
     memcpy(v, result, sizeof result);
 }
 
-// Converts OKLab to linear sRGB (B11.4): C·(A·v), where v is B·lab with each element cubed.
+// Converts OKLab to linear sRGB (B11.4): the result is C·(A·v), where v is B·lab with each element cubed.
 static Value rgb_of_oklab(Arena *arena, double l, double a, double b) {
     static const double B[9] = {0.9999999984505199,  1.0000000088817609,   1.000000054672411,
                                 0.3963377921737679,  -0.10556134232365635, -0.08948418209496577,

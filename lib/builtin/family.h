@@ -48,8 +48,8 @@ Value builtin_each(Arena *arena, Value x, double (*f)(double));
         return builtin_each(context->arena, args[0], function);                                                        \
     }
 
-// Like builtin_each, but calls `array_call` for long vectors. Its results must be bit-identical to those of f
-// (maths/arrays.h).
+// Like builtin_each, but calls `array_call` for long vectors. The results of `array_call` must be bit-identical to
+// those of f (maths/arrays.h).
 typedef void BuiltinArrayCall(CpuLevel level, const double *x, size_t count, double *to);
 Value builtin_each_array(Arena *arena, Value x, double (*f)(double), BuiltinArrayCall *array_call);
 
@@ -62,9 +62,11 @@ Value builtin_repeat(Arena *arena, const Value *args, uint32_t count, double (*f
 double *builtin_sort_numbers(Arena *arena, double *numbers, uint32_t len);
 Str *builtin_sort_texts(Arena *arena, Str *texts, uint32_t len);
 
-// Returns the length of the digits at the start of the text, with single underscores between them.
+// Returns the length of the longest prefix of the text that consists of digits, with or without single underscores
+// between them.
 size_t builtin_scan_digits(Str text);
-// Returns true if the text is an integer: digits in the form above, with an optional sign and surrounding white space.
+// Returns true if the text is an integer: digits as in builtin_scan_digits, with an optional sign and surrounding white
+// space.
 bool builtin_is_integer(Str text);
 
 #endif

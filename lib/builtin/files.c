@@ -14,7 +14,7 @@
 enum {
     MAX_NAME_LENGTH = 4096,
     MAX_FILE_SIZE = 1 << 30,
-    MAX_ENTRIES = 16384, // limits the memory of scripts that generate file names
+    MAX_ENTRIES = 16384, // limited because a script can generate any number of file names
 };
 static const size_t MAX_BYTES = (size_t)2 << 30; // limit of the total size of all entries
 
@@ -115,7 +115,7 @@ static const char *describe_error(int error) {
     }
 }
 
-// Reads up to `size` bytes. If the file has grown since its stamp was taken, the next call reads it again.
+// Reads up to `size` bytes. If the file has grown since its stamp was taken, the next file_cache_get reads it again.
 static bool read_bytes(const BuiltinContext *context, const char *path, char *bytes, size_t size, size_t *len,
                        const char **problem) {
     Str host_bytes;
@@ -126,7 +126,7 @@ static bool read_bytes(const BuiltinContext *context, const char *path, char *by
             memcpy(bytes, host_bytes.bytes, *len);
         return !*problem;
     }
-    // Do not block if the file was replaced by a pipe.
+    // O_NONBLOCK: does not block if the file was replaced by a pipe.
     int file = file_access_open(context->file_access, path, O_RDONLY | O_NONBLOCK);
     struct stat info;
     if (file < 0 || fstat(file, &info) != 0) {
@@ -206,7 +206,8 @@ static FileEntry *entry_get(FileCache *cache, Str path, FileParse *parse) {
     return found != HASH_INDEX_NONE ? cache->entries[found] : entry_add(cache, &key, hash);
 }
 
-// Frees the contents of all entries except `kept` if their total size is too large. They are read again when needed.
+// Frees the contents of all entries except `kept` if their total size is too large. Freed contents are read again when
+// needed.
 static void evict_entries(FileCache *cache, const FileEntry *kept) {
     size_t used = 0;
     for (uint32_t i = 0; i < cache->count; i++)

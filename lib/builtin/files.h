@@ -1,7 +1,8 @@
 // files.h: a cache of file contents for built-ins, which reads a file again when it changes (spec builtins.md B13.1).
 //
 // Each combination of a path and a parser has one entry with its own arena. Failures are also cached: a missing file is
-// reported only once, and is read when it appears. Results are copied from the cache, so any call may evict entries.
+// reported only once, and is read when it appears. Built-ins copy what they return from the cache, so that any call can
+// evict entries.
 #ifndef PETRI_BUILTIN_FILES_H
 #define PETRI_BUILTIN_FILES_H
 
@@ -13,8 +14,8 @@ void file_cache_free(FileCache *cache);
 // Discards all entries. Must be called when file access rights change.
 void file_cache_clear(FileCache *cache);
 
-// Parses the bytes of a file. The bytes are in `arena` and may be changed; the result must also be in `arena`. Returns
-// NULL and sets *problem if the file is unreadable.
+// Parses the bytes of a file. The bytes are in `arena`, and the parser is allowed to change them. The result must also
+// be in `arena`. Returns NULL and sets *problem if the bytes are invalid.
 typedef const void *FileParse(Arena *arena, char *bytes, size_t len, const char **problem);
 
 // Returns the result of `parse` for the file `name`, valid until the next call with this cache. Returns NULL if the

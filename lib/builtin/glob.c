@@ -15,8 +15,9 @@
 
 // --- matching one path component
 
-// Returns 1 if the set whose "[" is before *at contains the character, else 0, and moves *at past the "]" of the set.
-// Returns -1 if there is no "]"; the bracket is then literal. A "]" at the start belongs to the set.
+// Matches a character with the set whose "[" is directly before *at. Returns 1 if the set contains it, else 0, and
+// moves *at past the "]" of the set. Returns -1 if there is no "]"; the "[" is then literal. A "]" directly after "["
+// or "[!" is a member of the set.
 static int match_set(Str pattern, size_t *at, int32_t c) {
     size_t i = *at;
     bool negated = i < pattern.len && pattern.bytes[i] == '!', found = false;
@@ -51,7 +52,8 @@ static bool match_one(Str pattern, size_t *at, Str name, size_t *from) {
     return p == c;
 }
 
-// Matches `*` with any characters, `?` with one, `[…]` with a set. Backtracking to the last star is sufficient.
+// Returns true if the name matches the pattern: `*` matches any characters, `?` one character, and `[…]` one from a
+// set. Backtracking to the last star is sufficient.
 static bool match_name(Str pattern, Str name) {
     size_t at = 0, from = 0, star = SIZE_MAX, star_from = 0;
     while (from < name.len || at < pattern.len) {
@@ -86,7 +88,7 @@ typedef struct Glob {
     uint32_t found_capacity;
     uint32_t listings;
     bool limit_exceeded;
-    const char *denied; // a folder to which access is denied, or NULL
+    const char *denied; // a path to which access is denied, or NULL
 } Glob;
 
 static bool is_deep(Str part) {
@@ -147,8 +149,10 @@ static size_t list_hosted(Glob *glob, const char *path, Str **names) {
     return count;
 }
 
-// Counts the entries of a directory if `names` is NULL; else copies as many names as fit into `names` and `bytes`.
-// Allocates nothing while the directory is open, because a failed allocation would leave it open.
+// Sets *count and *size to the number of entries of a directory with valid names and the total length of these names.
+// If `names` is not NULL, also copies the names. *count and *size must then initially be the capacities of `names` and
+// `bytes`; names that do not fit are dropped. Allocates nothing while the directory is open, because a failed
+// allocation would leave it open.
 static void scan_directory(Arena *arena, const char *path, Str *names, char *bytes, size_t *count, size_t *size) {
     size_t most_count = *count, most_size = *size;
     *count = *size = 0;
@@ -212,7 +216,8 @@ static bool path_exists(const FileAccess *file_access, const char *path) {
 
 static void visit_parts(Glob *glob, Str path, uint32_t k);
 
-// Handles a path that matches the parts 0 to k: adds it to the results, or continues in this directory.
+// Handles a path that matches the parts 0 to k: adds it to the results if k is the last part, else continues in this
+// directory.
 static void visit_path(Glob *glob, Str path, uint32_t k) {
     const char *c_path = str_to_c(glob->arena, path);
     arena_charge(glob->arena, PATH_WORK);
@@ -272,8 +277,8 @@ static bool resolve_found(const Glob *glob, Str path, char resolved[PATH_MAX]) {
     return is_hosted(glob->file_access) ? file_access_normalise(name, resolved) : realpath(name, resolved) != NULL;
 }
 
-// Returns the matches as sorted absolute paths without symbolic links. A "**" can find the same match several times,
-// while two different matches can be the same file.
+// Returns the matches as sorted absolute paths without symbolic links. A match that "**" has found several times is
+// returned once. Different matches that are links to the same file are all returned.
 static Value glob_value(Glob *glob) {
     Arena *arena = glob->arena;
     const Str *found = builtin_sort_texts(arena, glob->found, glob->found_count);

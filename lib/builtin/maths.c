@@ -12,7 +12,7 @@ static double fract(double x) {
     return x - number_floor(x);
 }
 
-// Does not reduce the angle, unlike the sine and cosine (B1.1).
+// Unlike turns_sin and turns_cos, does not first reduce the angle to one turn (B1.1).
 static double turns_tan(double x) {
     return maths_tan(x * BUILTIN_TAU);
 }
@@ -51,7 +51,7 @@ ELEMENT_WISE_ARRAY(builtin_cos, turns_cos, turns_cos_array)
 ELEMENT_WISE(builtin_asin, turns_asin)
 ELEMENT_WISE(builtin_acos, turns_acos)
 
-// Near multiples of a quarter turn, the tangent needs extended precision.
+// Returns true near multiples of a quarter turn, where the tangent needs extended precision.
 static bool is_steep(double turns) {
     double quarters = turns * 4;
     return fabs(quarters - floor(quarters + 0.5)) < 0x1p-24;

@@ -59,7 +59,7 @@ static void permutation_make(uint64_t key, uint8_t values[256]) {
     }
 }
 
-// Returns the permutation of a key, from the cache or computed in `local`.
+// Returns the permutation of a key: from the cache or, without a cache, computed in `local`.
 static const uint8_t *permutation_get(NoiseCache *cache, uint64_t key, uint8_t local[256]) {
     if (!cache) {
         permutation_make(key, local);
@@ -108,7 +108,8 @@ static GridOutcome grid_read(Grid *grid, const Value *args, uint32_t count) {
     return len > VALUE_MAX_LEN ? GRID_TOO_LONG : GRID_OK;
 }
 
-// Sets result[j] to the noise, or adds noise*weight, for each combination; the last coordinate varies fastest.
+// For each combination j of the coordinates, sets result[j] to the noise or, if `add`, adds noise*weight to it. The
+// last coordinate varies fastest.
 static void grid_noise(Arena *arena, const Grid *grid, const uint8_t *permutation, double *result, bool add,
                        double weight) {
     enum { CHARGE_INTERVAL = 1024 };
@@ -136,7 +137,8 @@ static void grid_noise(Arena *arena, const Grid *grid, const uint8_t *permutatio
     }
 }
 
-// Multiplies every coordinate by 2: in place if `own`, meaning that the arrays belong to `grid`, else in new arrays.
+// Multiplies every coordinate by 2. If `own`, the arrays belong to the grid and are changed; otherwise the grid gets
+// new arrays.
 static void grid_double(Arena *arena, Grid *grid, bool own) {
     for (int i = 0; i < grid->dims; i++) {
         double *axis = own ? (double *)grid->axes[i] : arena_alloc_array(arena, grid->lens[i], sizeof *axis);
@@ -184,7 +186,8 @@ void builtin_noise_points(BuiltinContext *context, Value seed, const double *x, 
 // A coordinate overflows after about 1000 doublings, so a larger number of octaves must be a mistake.
 enum { MAX_OCTAVES = 1024 };
 
-// Sums octaves of noise (B10.11): r = noise, then r = r + noise(c*2^o)*k^o. The sum is divided by the total weight.
+// Sums octaves of noise (B10.11): r = noise(c), then r = r + noise(c*2^o)*k^o for o = 1, 2, … The sum is divided by the
+// total weight.
 static void sum_octaves(BuiltinContext *context, Grid *grid, uint64_t seed, uint32_t octaves, double k,
                         double *result) {
     uint8_t local[256];

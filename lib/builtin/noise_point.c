@@ -1,9 +1,9 @@
 // noise_point.c: classic OpenSimplex noise at one point (spec builtins.md B10.4 to B10.9); see noise_point.h.
 //
-// A point is in a cell of the skewed lattice. The cell's regions (A at the base corner, B at the far corner, C and D
-// between) determine which vertices influence the point. There is a fixed set of vertices, and a few extra vertices
-// outside the cell that depend on which coordinates are closest. The noise is the sum of all contributions in the order
-// of the spec.
+// A point is in a cell of the skewed lattice. Each cell is divided into regions: A at the base corner, B at the far
+// corner, C and D between. Which vertices influence the point depends on its region. Each region has a fixed set of
+// core vertices. A few extra vertices outside the cell also depend on the position in the region. The noise is the sum
+// of the contributions of all these vertices, in the order of the spec.
 #include "builtin/noise_point.h"
 
 #include "base/number.h"
@@ -81,8 +81,8 @@ static inline double add_vertices(const NoisePoint *point, double value, const N
 
 // --- selection of extra vertices
 
-// Returns the index of the lowest set bit, bit(c) in the spec; the mask must not be 0. lowest_gap does so for the
-// lowest clear bit, gap(c).
+// Returns the index of the lowest set bit of a mask that is not 0 (bit(c) in the spec). lowest_gap returns the index of
+// the lowest clear bit (gap(c)).
 static int lowest_bit(unsigned mask) {
     int i = 0;
     while (!(mask >> i & 1))
@@ -102,8 +102,8 @@ static NoiseVertex vertex_of_mask(unsigned mask, int set, int clear, int units) 
     return v;
 }
 
-// Returns the vertex with offset `all` in every coordinate, and a further offset `late`, subtracted last, in one
-// coordinate.
+// Returns the vertex with offset `all` in every coordinate. In one coordinate, it also has the offset `late`, which is
+// subtracted last.
 static NoiseVertex vertex_late(int all, int coordinate, int late, int units) {
     NoiseVertex v = vertex_of_mask(0, 0, all, units);
     v.late[coordinate] = (int8_t)late;
@@ -111,7 +111,7 @@ static NoiseVertex vertex_late(int all, int coordinate, int late, int units) {
 }
 
 // Two candidates with their scores and coordinate masks. The flags are called "big" in B10.9 and are unused in B10.8.
-// At the far corner of the cell the smallest scores win, so scores are negated there.
+// The greatest scores win in regions A and C. In B and D, the smallest win, so scores are negated there.
 typedef struct Candidates {
     double a, b;
     unsigned mask_a, mask_b;
@@ -131,7 +131,8 @@ static void replace_lesser(Candidates *c, double score, unsigned mask, bool flag
     }
 }
 
-// The choice of extra vertices for regions A and B in three and four dimensions: `row` is an index in a table.
+// The choice of extra vertices for regions A and B in three and four dimensions: `row` is the row of a table in
+// noise_tables.h.
 typedef struct Choice {
     bool corner_is_nearer; // true if the corner of the cell is nearer than one of the candidates
     unsigned row;
@@ -250,8 +251,9 @@ double noise_point_3(const uint8_t *permutation, const double *c) {
 
 // --- four dimensions (B10.9)
 
-// Returns the initial scores of region C: the greater of each of three pairs of opposite edges. Region D (`far`)
-// mirrors C. Every candidate is initially "big".
+// Returns the two winning candidates of region C. For each of the three ways to split the coordinates into two pairs,
+// the pair with the greater sum is a candidate and "big". Each single coordinate is a candidate that is not "big".
+// Region D (`far`) mirrors C.
 static inline Candidates candidates_4cd(const double *f, double sum, bool far) {
     double sign = far ? -1 : 1;
     unsigned flip = far ? 15 : 0;

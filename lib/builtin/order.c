@@ -191,7 +191,7 @@ static Census read_census(Arena *arena, const Value *v) {
     return census;
 }
 
-// Returns the number of elements of census->numbers that are less than x, or also equal to x if `inclusive`.
+// Returns the number of elements of census->numbers that are less than x or, if `inclusive`, less than or equal to x.
 static uint32_t numbers_below(const Census *census, double x, bool inclusive) {
     uint32_t low = 0, high = census->number_count;
     while (low < high) {

@@ -38,8 +38,8 @@ static bool read_digits(Str text, double *x) {
     return text.len > 0;
 }
 
-// Parses [[hh:]mm:]ss[,mmm] to seconds, adding in this order: mmm/1000, ss, 60*mm, 3600*hh. Returns false if it is
-// invalid.
+// Parses [[hh:]mm:]ss[,mmm] to seconds, adding in this order: mmm/1000, ss, 60*mm, 3600*hh. Returns false if the text
+// is invalid.
 static bool read_time(Str text, double *time) {
     Str rest = str_trim(text), clock, part;
     double milliseconds = 0, parts[3];

@@ -35,7 +35,8 @@ Value builtin_ord(BuiltinContext *context, const Value *args, uint32_t count) {
     return value_numbers_view(result, (uint32_t)len);
 }
 
-// Returns the index of the next non-empty separator at or after `at`, or text.len.
+// Returns the index of the first separator at or after `at`, or text.len if there is none. The separator must not be
+// empty.
 static size_t find_separator(Str text, Str separator, size_t at) {
     while (separator.len <= text.len - at) {
         const char *first = memchr(text.bytes + at, separator.bytes[0], text.len - at - separator.len + 1);
@@ -60,7 +61,8 @@ static size_t count_pieces(Str text, Str separator) {
     return kept;
 }
 
-// Returns `len` slices of the text, whose bytes live as long as the value that the text is from.
+// Returns the first `len` parts of the text. Their bytes are not copied, so they live as long as the value from which
+// the text comes.
 static Value split_text(Arena *arena, Str text, Str separator, uint32_t len) {
     Str *pieces = arena_alloc_array(arena, len, sizeof *pieces);
     size_t at = 0;

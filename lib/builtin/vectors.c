@@ -29,7 +29,7 @@ static Value zip_items(Arena *arena, const Value *parts, uint32_t count, uint32_
     return (Value){.len = len * count, .kind = VALUE_MIXED, .as.items = result};
 }
 
-// Every element of every vector is used, so the result is mixed if any vector is mixed (B3.5).
+// The result is mixed if any vector is mixed, because every element of every vector is used (B3.5).
 Value builtin_zip(BuiltinContext *context, const Value *args, uint32_t count) {
     Value *parts = arena_alloc_array(context->arena, count, sizeof *parts);
     uint32_t kept = 0, len = 0;
