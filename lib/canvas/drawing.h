@@ -15,9 +15,8 @@ struct DrawNode {
     uint32_t child_count;
     const AttrValue *attrs; // in the order written, which is also the order of transforms
     const DrawNode *const *children;
-    Str tags; // tags of a picture node, each followed by a space; they identify the node in the next frame
-    Origin
-        origin; // position of the shader source or of the node; it may be reported when the script is no longer loaded
+    Str tags;      // tags of a picture node, each followed by a space; they identify the node in the next frame
+    Origin origin; // position of the shader program, else of the node; the script can be unloaded before it is reported
 };
 
 // Returns the attribute; NULL if it is not set.

@@ -21,8 +21,9 @@ static void report_misplaced(const Reader *reader, const Node *child, bool known
                      node_origin(child, NULL), name, text_str(&out));
 }
 
-// Returns true if the script may access the file of a node. The check is done here because the position in the script
-// is known; writing the file checks again.
+// Returns false, after a report, if the node must be left out because the script is not allowed to read its file. A
+// forbidden write is reported too, because the position in the script is known here. It returns true; the write fails
+// later.
 static bool can_use_file(const Reader *reader, const DrawNode *node) {
     const FileAccess *reach = reader->schema->file_access;
     const AttrValue *name = reach && schema_row(reader->kind, ATTR_FILENAME) ? draw_attr(node, ATTR_FILENAME) : NULL;
@@ -45,8 +46,7 @@ static bool can_use_file(const Reader *reader, const DrawNode *node) {
 
 static const DrawNode *read_node(Schema *schema, Arena *arena, const Node *node, NodeKind kind);
 
-// Returns true if the node contains filters. `!blend` and similar nodes are paint sources or filters, depending on
-// their children.
+// Returns true if the node contains filters. `!blend` is a filter if it contains filters, else a paint source.
 static bool holds_filters(const Reader *reader, const Node *node, int depth) {
     enum { MAX_DEPTH = 100 };
     const Schema *schema = reader->schema;

@@ -64,12 +64,12 @@ static void fit_tiles(Noise *noise) {
     }
 }
 
-// The position of a coordinate in the lattice.
+// The position of a coordinate x or y in the lattice.
 typedef struct LatticePoint {
-    int cell;
-    int next;
-    double part;
-    double ease;
+    int cell;    // index of its cell
+    int next;    // index of the next cell
+    double part; // position within the cell, 0 to 1
+    double ease; // `part`, smoothed for interpolation
 } LatticePoint;
 
 static int in_lattice(double cell, double tile) {
@@ -128,7 +128,7 @@ static void noise_at(const Noise *noise, double x, double y, double out[CHANNELS
     double sums[CHANNELS] = {0, 0, 0, 0}, ratio = 1;
     for (uint32_t octave = 0; octave < noise->source->stop_count && isfinite(ratio); octave++, ratio *= 2) {
         double at_x = x * noise->frequency[0] * ratio, at_y = y * noise->frequency[1] * ratio;
-        if (!(fabs(at_x) < 1e15) || !(fabs(at_y) < 1e15)) // doubles have no fraction bits left
+        if (!(fabs(at_x) < 1e15) || !(fabs(at_y) < 1e15)) // doubles this large have no fraction bits left
             break;
         LatticePoint place_x = lattice_point_of(at_x, noise->tile[0] * ratio),
                      place_y = lattice_point_of(at_y, noise->tile[1] * ratio);

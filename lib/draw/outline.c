@@ -74,7 +74,7 @@ static Flat flatten_subpath(Outline *from, uint32_t *at) {
 // A position on a flattened subpath.
 typedef struct Walk {
     const Flat *flat;
-    uint32_t piece; // index of the current line, from this point to the next
+    uint32_t piece; // the current line, which leads from the point with this index to the next point
     double before;  // total length of the lines before it
 } Walk;
 
@@ -113,7 +113,7 @@ static void jitter_outline(const DisplayEffect *effect, Outline *from, Outline *
             continue;
         }
         Walk walk = {.flat = &flat};
-        // A closed subpath has no ends, so its first point is half a segment from the start.
+        // A closed subpath has no ends, so the first point of the result is half a segment from the start.
         uint32_t points = (uint32_t)count + (flat.closed ? 0 : 1);
         for (uint32_t i = 0; i < points; i++) {
             OutlinePoint direction,
@@ -173,7 +173,7 @@ static void dash_outline(const DisplayEffect *effect, const double *intervals, O
     }
 }
 
-// Rounds the corner at p between two straight lines: adds a line towards p, and a curve from its end.
+// Rounds the corner at p between two straight lines: adds a line towards p, and from its end a curve around the corner.
 static void round_corner(Outline *out, OutlinePoint before, OutlinePoint p, OutlinePoint after, double radius) {
     double in = distance(before, p), away = distance(p, after);
     OutlinePoint a = between(p, before, in > 0 ? fmin(radius / in, 0.5) : 0);
@@ -183,7 +183,8 @@ static void round_corner(Outline *out, OutlinePoint before, OutlinePoint p, Outl
         (OutlineElement){PATH_CUBIC, {between(a, p, 2.0 / 3), between(b, p, 2.0 / 3), b}};
 }
 
-// Rounds the corners of a subpath: elements `first` to `end` - 1 are a start, lines and curves, and optionally a close.
+// Rounds the corners of the subpath in elements `first` to `end` - 1: a PATH_MOVE, lines and curves, and optionally a
+// PATH_CLOSE.
 static void round_subpath(const OutlineElement *elements, uint32_t first, uint32_t end, double radius, Outline *out) {
     bool closed = end - first > 2 && elements[end - 1].kind == PATH_CLOSE;
     uint32_t last = closed ? end - 1 : end; // index after the last line or curve

@@ -9,7 +9,8 @@ typedef struct OutlinePoint {
     double y;
 } OutlinePoint;
 
-// An element: PATH_MOVE, PATH_LINE, PATH_CUBIC or PATH_CLOSE. Its last point in use is its end point.
+// An element: PATH_MOVE, PATH_LINE, PATH_CUBIC or PATH_CLOSE. PATH_CUBIC uses three points, the others one. The last of
+// these is the end point.
 typedef struct OutlineElement {
     PathElement kind;
     OutlinePoint points[3];
@@ -17,7 +18,7 @@ typedef struct OutlineElement {
 
 typedef struct Outline {
     Arena *arena;
-    double fine; // maximum error when curves are flattened
+    double fine; // length of two pixels in the path's units; determines how finely curves are flattened
     DISPLAY_ARRAY(OutlineElement) elements;
 } Outline;
 

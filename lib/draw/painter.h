@@ -16,11 +16,11 @@ struct PetriPainter {
     TextContext *text_context;
     DisplayListSizes sizes; // array lengths of the last list
     CachedImage *images;
-    PetriCanvasBackend backend; // draws canvases in builds without Cairo; no functions: none
+    PetriCanvasBackend backend; // draws canvases in builds without Cairo; all functions NULL: none
     RenderGraph *render_graph;
     Gl *gl;                 // opened when first needed; NULL: not open
-    const char *gl_problem; // why `gl` cannot be opened; borrowed
-    bool on_window;         // true if gl draws on the host's window
+    const char *gl_problem; // why `gl` cannot be opened; borrowed; NULL: not tried, or open
+    bool on_window;         // true if `gl` is the context of the host's window
     uint32_t *window;       // pixel buffer for the window
     size_t window_capacity;
     uint64_t made;  // serial number of the last picture whose render graph was rendered
@@ -47,12 +47,13 @@ PetriStatus draw_render_pixels(PetriPainter *painter, const CanvasPicture *pictu
 // Writes the rows of a picture to pixels of the same size.
 void draw_texture(const Texture *texture, bool opaque, uint32_t *pixels, size_t stride);
 void draw_clear(uint32_t *pixels, int width, int height, size_t stride);
-// Returns the image of a picture node, resized and flipped according to the node's attributes. Returns NULL after a
-// report.
+// Returns an image, resized and flipped according to the node's attributes. Returns NULL, after a report, if it is too
+// large.
 Texture *draw_sized_image(PetriPainter *painter, const DrawNode *node, const uint32_t *pixels, int width, int height,
                           size_t stride, bool alpha, DiagSink *faults);
 
-// display_list_export.c: the numbers of petri_picture_display_list, for a canvas or for a picture that needs no
+// display_list_export.c
+// Return an array of numbers in the format of petri_picture_display_list, for a canvas or for a picture that needs no
 // shaders.
 const double *draw_canvas_display_list(PetriPainter *painter, const DrawNode *canvas, double width, double height,
                                        size_t *count);
@@ -64,8 +65,8 @@ void draw_tools_close(PetriPainter *painter);
 // picture. Returns PETRI_OK, PETRI_INVALID after an error was reported, or PETRI_OUT_OF_MEMORY.
 PetriStatus draw_canvas(PetriPainter *painter, const CanvasPicture *picture, const DrawNode *node, int width,
                         int height, Texture *texture, DiagSink *faults);
-// Loads the picture of an image node in the render graph. The caller frees it. Returns NULL, after a report, if there
-// is none.
+// Loads the image file of an image node in the render graph. The caller frees the picture. Returns NULL if no file is
+// named, or, after a report, if it cannot be loaded.
 Texture *draw_picture_image(PetriPainter *painter, const CanvasPicture *picture, const DrawNode *node,
                             DiagSink *faults);
 

@@ -34,7 +34,7 @@ static void apply_protected(void *context) {
     read_cairo_path(&from, task->path);
     Outline outline = outline_apply(list, task->effect, from, task->lines);
     if (task->effect != DISPLAY_NONE && !draw_charge(canvas, NULL, 800.0 * outline.elements.count, draw_omitted))
-        return; // drawing the result would cost as much again
+        return; // nothing is drawn, because drawing the result would cost about as much again
     for (uint32_t i = 0; i < outline.elements.count; i++) {
         const OutlineElement *element = &outline.elements.at[i];
         double numbers[6];

@@ -34,15 +34,15 @@ static bool copy_options(PetriPictureOptions *options, const PetriPictureOptions
 // The state of a call of petri_picture.
 typedef struct Request {
     DrawAccess shown;
-    AutoFrame *frames; // view of each system in the last automatic picture
+    AutoFrame *frames; // views of the systems, kept by the session from picture to picture
     const PetriPictureOptions *options;
     PetriPicture *picture;
-    const char *problem; // why there is no picture; NULL: already reported
+    const char *problem; // why there is no picture; NULL: the reason was already reported
     PetriStatus status;
 } Request;
 
-// Returns the window with this number. If the number is negative, returns the first window with content, preferring
-// windows on the screen. If no window has content, returns the first window.
+// Returns the window with this number. If the number is negative, returns the first `!window` with content, else the
+// first `!offscreen` with content, else the first of all windows.
 static const Node *find_window(const DrawAccess *access, int number) {
     const Node *first = NULL, *offscreen = NULL, *window;
     for (uint32_t at = 0; (window = canvas_next_window(access->schema, access->tree, &at));) {
@@ -67,7 +67,7 @@ static bool has_word(Str text, Str word) {
     return false;
 }
 
-// Returns true if a shader refers to the previous frame.
+// Returns true if the node has a shader program that mentions `last`, its picture in the previous frame.
 static bool names_last(const Schema *schema, const Node *node) {
     Value v = attr_value(schema, node, ROW_SHADER_FRAGMENT);
     for (uint32_t i = 0; v.kind == VALUE_MIXED && i < v.len; i++)
@@ -115,7 +115,7 @@ static bool any_needs_history(const DrawAccess *access) {
     return false;
 }
 
-// Copies all windows, because each may show pictures of the others.
+// Copies all windows, because each can show pictures of the others.
 static void copy_windows(Request *request, const Node *access) {
     static _Atomic uint64_t serial;
     PetriPicture *picture = request->picture;
@@ -183,8 +183,8 @@ static bool choose_pixels(Request *request) {
     return true;
 }
 
-// Maximum number of frames to wait for a system to be simulated. A system whose clock stands still is never
-// simulated.
+// Maximum number of frames to wait until each system has been simulated. The wait is limited because a system whose
+// clock stands still is never simulated.
 enum { MAX_START_FRAMES = 2 };
 
 bool petri_picture_ready(PetriSession *session, const PetriPictureOptions *options) {
@@ -232,7 +232,7 @@ bool petri_needs_history(PetriSession *session) {
     return any_needs_history(&access);
 }
 
-// Fills the picture. Returns false if there is nothing to draw. `problem` is the reason unless it was already reported.
+// Fills the picture. Returns false, with the reason in `problem`, if there is nothing to draw.
 static bool make_picture(Request *request) {
     const DrawAccess *access = &request->shown;
     PetriPicture *picture = request->picture;
@@ -308,7 +308,7 @@ PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *opti
     size_t left = access.budget->memory_limit - access.budget->memory;
     picture->picture.work = access.budget->work_limit;
     picture->picture.memory = left < access.memory_limit ? left : access.memory_limit;
-    arena_detach_budget(&picture->arena); // because another thread may free the picture
+    arena_detach_budget(&picture->arena); // because another thread can free the picture
     if (status == PETRI_OK)
         status = request.status;
     if (status == PETRI_OK) {

@@ -12,10 +12,10 @@ struct PetriPicture {
     int height;
     int64_t frame;
     const char *title;
-    DiagSink faults; // diagnostics of drawing so far
+    DiagSink faults; // diagnostics reported so far while the picture was drawn
 };
 
-// Returns true if a picture may have this size in pixels.
+// Returns true if this size in pixels is allowed for a picture.
 static inline bool picture_is_good_size(double width, double height) {
     return width >= 1 && height >= 1 && width <= PETRI_MAX_PICTURE_SIDE && height <= PETRI_MAX_PICTURE_SIDE;
 }

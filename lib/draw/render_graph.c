@@ -13,12 +13,13 @@
 
 enum { MAX_DEPTH = 100, DEFAULT_SIZE = 512 };
 
-// State of a node that is kept until the next frame. A node continues the state of a matching node in the previous
-// frame: the first one with the same parent that no other node has continued.
+// State of a node, kept until the next frame. There, a node with the same parent, kind, tags and id continues it;
+// images must also have the same file. Each state is continued at most once. If several states match a node, the node
+// continues the first one that is left.
 typedef struct GraphNode GraphNode;
 struct GraphNode {
     uint8_t kind;
-    bool matched;
+    bool matched; // true if a node of the next frame has continued this state
     Str tags;
     Str id;
     Str file;
@@ -57,7 +58,7 @@ typedef struct Walk {
     const Frame *before;
     int bits;    // bits per channel of the window
     int depth;   // nesting depth of the node
-    bool gpu;    // true if the GPU context is current
+    bool gpu;    // true if the context of the GPU is current in this thread
     double beat; // beat of the previous frame
     Texture *shown;
 } Walk;
@@ -133,7 +134,7 @@ static Str text_of(Arena *arena, const DrawNode *node, AttrName name) {
     return attr ? str_copy(arena, attr->as.text) : (Str){0};
 }
 
-// Returns the node of the previous frame that this one continues; NULL: none.
+// Returns the state that this node continues: one of the children of `past`; NULL: none.
 static const GraphNode *find_past(const GraphNode *past, const GraphNode *made) {
     for (uint32_t i = 0; past && i < past->count; i++) {
         GraphNode *other = &past->children[i];
@@ -162,7 +163,7 @@ static int bits_of(const DrawNode *node, int bits) {
     return x == 8 || x == 16 || x == 32 ? (int)x : bits;
 }
 
-// Handles a failed allocation of pixels. If the script's limit was the cause, reports it and returns NULL. If the
+// Handles a failed allocation of pixels. If the memory limit was the cause, reports this and returns NULL. If the
 // machine is out of memory, aborts the frame.
 static Texture *report_no_memory(Walk *walk, const DrawNode *node, int width, int height) {
     char name[40];
@@ -208,7 +209,7 @@ static Texture *composite_on_cpu(Walk *walk, const DrawNode *node, Texture *cons
     return texture ? texture : report_no_memory(walk, node, width, height);
 }
 
-// Returns the GPU with its context current; NULL, after a report, if there is none.
+// Makes the context of the GPU current and returns it. Returns NULL, after a report, if there is no GPU.
 static Gl *open_gpu(Walk *walk) {
     PetriPainter *painter = walk->painter;
     const char *problem = painter->gl_problem;
@@ -288,7 +289,7 @@ static GlImage find_texture(void *user_data, Str id) {
     if (found && !texture_upload(walk->painter->gl, found)) {
         if (!walk->painter->budget.memory_refused)
             arena_exhausted(&walk->frame->arena);
-        found = NULL; // the scene will also be left out
+        found = NULL; // make_view then reports the limit and leaves out the scene
     }
     return found ? found->image : (GlImage){0};
 }
@@ -355,7 +356,8 @@ static void add_record(Walk *walk, const DrawNode *node, Texture *texture) {
 static Texture *make_node(Walk *walk, const DrawNode *node, GraphNode *made, const GraphNode *past, int width,
                           int height);
 
-// Renders the children, and returns the number of visible pictures. `inputs` has one entry per child.
+// Renders the children. Stores the pictures that are not hidden in `inputs`, which has space for all children, and
+// returns their number.
 static uint32_t make_inputs(Walk *walk, const DrawNode *node, GraphNode *made, const GraphNode *past, int width,
                             int height, Texture **inputs) {
     uint32_t count = 0;
@@ -390,8 +392,8 @@ static Texture *find_reference(Walk *walk, Str id) {
     return found ? texture_retain(found) : NULL;
 }
 
-// Renders the picture of a node, whose parent is width x height pixels. Returns NULL if there is none. Borrowed from
-// `made`.
+// Renders the picture of a node, whose parent is width x height pixels, and fills the node's state `made`, which owns
+// the picture. Returns NULL if there is none.
 static Texture *make_node(Walk *walk, const DrawNode *node, GraphNode *made, const GraphNode *parent, int width,
                           int height) {
     Arena *arena = &walk->frame->arena;
@@ -448,7 +450,7 @@ static void make_windows(void *context) {
     }
 }
 
-// Frees the older of the two stored frames. The GPU context must be current while images are freed.
+// Frees the older of the two stored frames. Makes the GPU context current first, because images can only be freed then.
 static void clear_old_frame(Walk *walk) {
     const char *problem;
     if (walk->painter->gl)

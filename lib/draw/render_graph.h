@@ -1,8 +1,8 @@
 // render_graph.h: renders a frame's tree of pictures (spec pictures.md 2 to 5): canvases, images, and effects on them.
 //
-// Each node produces one picture, children first. Pictures with an id can be referenced later in the same frame or in
-// the next one. Therefore a painter keeps the pictures of the last frame. If a script has such references
-// (petri_needs_history), one painter must render all frames in order.
+// Each node produces one picture, after its children. A picture with an id can be referenced by later nodes of the same
+// frame and by nodes of the next frame. Therefore a painter keeps the pictures of the last frame. If a script has such
+// references (petri_needs_history), one painter must render all frames in order.
 #ifndef PETRI_DRAW_RENDER_GRAPH_H
 #define PETRI_DRAW_RENDER_GRAPH_H
 
@@ -22,20 +22,20 @@ void render_graph_clear(PetriPainter *painter);
 // PETRI_OUT_OF_MEMORY, or PETRI_INVALID after an error.
 PetriStatus render_graph_run(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults, Texture **shown);
 const Recorded *render_graph_records(const RenderGraph *pictures, uint32_t *count);
-// Returns the current picture with this id, borrowed; NULL: none.
+// Returns the picture with this id in the current frame, or else in the previous frame; NULL: none. It is borrowed.
 Texture *render_graph_find(const RenderGraph *pictures, Str id);
 
 // Computes the size of a node's picture in pixels. *width and *height contain the parent's size and are replaced.
 void render_graph_node_size(const DrawNode *node, int *width, int *height);
 // Returns the canvas whose pixels equal the node's picture. This canvas can be drawn directly at any resolution.
-// Returns NULL if the picture needs effects or compositing.
+// Returns NULL if the picture needs effects, compositing or linear light.
 const DrawNode *render_graph_direct_canvas(const DrawNode *node, int width, int height);
-// Returns true if the picture can be rendered with fewer pixels and differs only in sharpness: no node of the tree has
-// a custom shader or a pattern measured in pixels.
+// Returns true if rendering the picture with fewer pixels changes only its sharpness: no node of the tree has a custom
+// shader or a pattern measured in pixels.
 bool render_graph_scalable(const DrawNode *node);
 // Converts a width or height from units to pixels. `detail`: pixels per unit. Returns at least 1.
 int render_graph_pixels(int side, double detail);
-// Returns true if the node's picture is only its children composited, without a shader.
+// Returns true if the node only composites its children, without a custom shader or an effect.
 bool render_graph_is_plain(const DrawNode *node);
 
 #endif

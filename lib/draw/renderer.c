@@ -75,7 +75,7 @@ double draw_fit(double width, double height, double box_width, double box_height
 
 void draw_limit(PetriPainter *painter, const CanvasPicture *picture) {
     painter->budget.memory_limit = picture->memory;
-    budget_begin(&painter->budget, picture->work / 4 * 3, NULL); // a separate allowance, not charged to the frame
+    budget_begin(&painter->budget, picture->work / 4 * 3, NULL); // a separate limit, not charged to the frame
 }
 
 static void report_limit(void *faults) {
@@ -105,7 +105,7 @@ static PetriStatus make_pictures(PetriPainter *painter, const CanvasPicture *pic
 PetriStatus draw_render(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults) {
     if (picture->window && (picture->needs_history || !picture->direct))
         return make_pictures(painter, picture, faults);
-    if (painter->made > 0) { // the next frame cannot continue anything from this one
+    if (painter->made > 0) { // this frame is not rendered, so the next one has nothing to continue
         render_graph_clear(painter);
         painter->made = 0;
         painter->shown = NULL;
@@ -123,7 +123,7 @@ typedef struct Fetching {
     DiagSink *faults;
 } Fetching;
 
-// Downloads the window's picture from the GPU. If the memory limit does not allow the download, the window has no
+// Downloads the window's picture from the GPU. If the memory limit does not allow this, reports it and removes the
 // picture.
 static void download_shown(void *context) {
     Fetching *fetching = context;

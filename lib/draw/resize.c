@@ -7,8 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-// Computes the weights of the old pixels in the new pixel `at`. The filter is a triangle whose radius is one old or one
-// new pixel, whichever is larger.
+// Computes the weights with which old pixels contribute to the new pixel `at`. The filter is a triangle whose radius is
+// one old or one new pixel, whichever is larger.
 static void compute_weights(int old, int new, int at, int *first, int *count, float *weights) {
     double scale = (double)old / new, reach = fmax(scale, 1), middle = (at + 0.5) * scale, sum = 0;
     int low = (int)fmax(floor(middle - reach), 0), high = (int)fmin(ceil(middle + reach), old);
@@ -23,8 +23,8 @@ static void compute_weights(int old, int new, int at, int *first, int *count, fl
         weights[i] /= (float)sum;
 }
 
-// Resizes lines of `old` pixels to lines of `new` pixels in another array. A pixel is four floats. If `down`, the lines
-// are columns, else rows.
+// Resizes lines of `old` pixels to lines of `new` pixels in another array. The lines are columns if `down`, else rows.
+// A pixel is four floats.
 static void resize_lines(const float *in, float *out, int lines, int old, int new, bool down, float *weights) {
     for (int at = 0; at < new; at++) {
         int first, count;
@@ -38,7 +38,7 @@ static void resize_lines(const float *in, float *out, int lines, int old, int ne
                     sum[k] += weights[i] * in[4 * from + k];
             }
             size_t to = down ? (size_t)at * (size_t)lines + (size_t)line : (size_t)line * (size_t) new + (size_t)at;
-            for (size_t k = 0; k < 4; k++) // also rounded between the two directions
+            for (size_t k = 0; k < 4; k++) // rounds the result of each direction, not only the final result
                 out[4 * to + k] = rintf(sum[k]);
         }
     }

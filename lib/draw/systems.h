@@ -8,9 +8,9 @@
 enum { SYSTEMS_MAX = 64 }; // maximum number of systems in an automatic picture
 
 uint32_t auto_count(const DrawAccess *shown);
-// Copies the first `count` systems to the arena, and extends their views.
+// Copies the first `count` systems to the arena. Chooses or extends their views, which `frames` contains.
 AutoPicture auto_copy(const DrawAccess *shown, Arena *arena, AutoFrame *frames, uint32_t count);
-// Extends the views of all systems. Temporary data is allocated from the arena.
+// Chooses or extends the views of all systems without copying them. Temporary data is allocated from the arena.
 void auto_follow(const DrawAccess *shown, Arena *arena, AutoFrame *frames);
 
 #endif

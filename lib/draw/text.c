@@ -11,8 +11,8 @@
 enum { MAX_TEXT_LENGTH = 10000 };         // bytes
 static const double MAX_FONT_SIZE = 4000; // pixels
 
-// Creates the fonts on first use, not earlier. Pango loads the list of fonts in a background thread; a process that
-// exits in the meantime would free data that the thread still reads.
+// Creates the fonts on first use, not earlier, because Pango then loads the list of fonts in a background thread. A
+// process that exits during this would free data that the thread still reads.
 TextContext *draw_text_context(PetriPainter *painter) {
     TextContext *text_context = painter->text_context;
     if (text_context)
@@ -81,8 +81,9 @@ static const char *find_substitute(const char *name) {
     return NULL;
 }
 
-// Returns the first family in a list of names that is installed or has an installed substitute. If there is none,
-// returns the list, and reports this unless the list is the default.
+// Returns what to request from Pango for a list of family names. Finds the first name that is installed or has an
+// installed substitute. If it has a substitute, returns that, else the list, from which Pango chooses. If no name is
+// found, returns the list, and reports this unless the list is the default.
 static const char *find_family(Canvas *canvas, const char *list) {
     char name[128];
     for (const char *at = list;;) {
@@ -147,7 +148,7 @@ static void set_font(Canvas *canvas, const DisplayText *text) {
     text_context->font = *text;
 }
 
-// Returns true if the font library can handle the size on the target.
+// Returns true if the text is neither too large for the font library nor too small to see.
 static bool has_drawable_size(Canvas *canvas, double size) {
     double pixels = size * draw_scale_of(canvas->cr);
     if (pixels > MAX_FONT_SIZE || size > MAX_FONT_SIZE)
@@ -156,7 +157,7 @@ static bool has_drawable_size(Canvas *canvas, double size) {
     return pixels > 0.1 && size > 0.001 && pixels <= MAX_FONT_SIZE && size <= MAX_FONT_SIZE;
 }
 
-// Moves the point to the top left corner of the layout.
+// Moves the point, which is the centre of the text or the start of its baseline, to the top left corner of the layout.
 static void position_layout(PangoLayout *layout, bool center, double point[2]) {
     PangoRectangle ink;
     double baseline = pango_layout_get_baseline(layout) / (double)PANGO_SCALE;
@@ -179,7 +180,7 @@ void draw_text(Canvas *canvas, const DisplayCommand *command, const DisplayPaint
         return;
     }
     if (!draw_charge_box(canvas, paint, text->size, text->size / 3,
-                         (double)text->text.len)) // about a third of the box is ink
+                         (double)text->text.len)) // per byte, a third of a square
         return;
     TextContext *text_context = draw_text_context(canvas->painter);
     if (!text_context)

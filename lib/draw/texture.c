@@ -83,10 +83,10 @@ void texture_free(Texture *texture) {
     heap_free(texture);
 }
 
-// The sRGB curve at the 256 byte values, and halfway between them.
+// Linear values of the 256 sRGB bytes, and of the sRGB values halfway between successive bytes.
 static float decoded[256], thresholds[256];
-// Indexed by the upper 16 bits of a float: the number of thresholds that do not exceed the float with these upper bits
-// and zero lower bits. After this lookup, one or two comparisons remain.
+// Indexed by the upper 16 bits of a float: the number of thresholds that do not exceed the float if its lower bits are
+// zero. After this lookup, one or two comparisons find the number for the exact float.
 enum { ONE = 0x3f80 }; // upper half of 1.0
 static uint8_t below[ONE + 1];
 

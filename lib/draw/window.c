@@ -30,7 +30,7 @@ typedef struct Presentation {
     double scale;
     int width;
     int height;
-    const Texture *texture; // the picture's texture on the GPU; NULL: show the painter's pixels
+    const Texture *texture; // the picture's texture on the GPU; NULL: show the pixels in `painter->window`
     bool done;
 } Presentation;
 
@@ -89,7 +89,7 @@ static void present_protected(void *context) {
         presentation->done = presentation->done && present_label(presentation, &presentation->labels[i]);
 }
 
-// Renders the picture: to a texture if possible, else to the window's pixels.
+// Renders the picture: to a texture if possible, else to the pixels in `painter->window`.
 static PetriStatus prepare_picture(Presentation *presentation) {
     PetriPainter *painter = presentation->painter;
     PetriPicture *picture = presentation->picture;

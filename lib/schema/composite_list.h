@@ -1,5 +1,5 @@
 // composite_list.h: the compositing modes: COMPOSITE(ID, Cairo's operator, "word"). Cairo has no operator for modulate,
-// so its row names the nearest one. word_list.h has alternative words for these modes.
+// so its row names the most similar one. word_list.h has alternative words for these modes.
 // clang-format off
 #ifndef COMPOSITE
 #define COMPOSITE(id, operator, text)

@@ -103,7 +103,7 @@ void reader_report_attr(const Reader *reader, const char *code, AttrName name, S
 }
 
 static StrNearest nearest_to(Str name) {
-    return (StrNearest){name, 2 + (int)(name.len < 12 ? name.len : 12) / 4, {0}}; // the limit grows with the length
+    return (StrNearest){name, 2 + (int)(name.len < 12 ? name.len : 12) / 4, {0}}; // long names may differ more
 }
 
 static void report_unknown(const Reader *reader, const Symbol *name) {
@@ -179,7 +179,7 @@ static double clamp_to_limits(const Reader *reader, const SchemaRow *row, Value 
     return x < type->low ? type->low : x > type->high ? type->high : x;
 }
 
-// Returns v / sqrt(Σ v_k²); NULL if the length is 0 or not finite.
+// Returns v divided by its length; NULL if the length is 0 or not finite.
 static PhysVector unit_vector(const Reader *reader, PhysVector v) {
     double sum = 0;
     for (uint32_t k = 0; k < reader->dimensions; k++)
@@ -351,7 +351,7 @@ static bool read_numbers(const Reader *reader, Value v, bool even, AttrValue *at
     return true;
 }
 
-// Reads a word, which may be a symbol or a string.
+// Reads a word, which the script gives as a symbol or as a string.
 static bool read_word(const Reader *reader, Value v, AttrType type, int *word) {
     bool text = v.len == 1 && v.kind == VALUE_MIXED && v.as.items[0].type == ITEM_STRING;
     if (!text && !is_number(v))
@@ -427,8 +427,8 @@ static bool read_drawing_attr(const Reader *reader, const SchemaRow *row, Value 
     }
 }
 
-// Returns true if the value has a valid count of numbers, even if these are out of range. Otherwise the attribute is
-// treated as missing.
+// Returns true if the value has a valid count of numbers, even if these are out of range. If false, reader_list treats
+// the attribute as missing.
 static bool has_shape(const SchemaRow *row, Value v) {
     AttrShape shape = schema_types[row->type].shape;
     return value_is_numeric(v) && v.len > 0 && (shape == SHAPE_POINTS || v.len <= (shape == SHAPE_PAIR ? 2u : 1u));
@@ -449,7 +449,7 @@ bool reader_list(const Reader *reader, AttrValue *attrs, uint32_t *count) {
             *attr = (AttrValue){.name = ATTR_NONE};
             if (reader->kind != KIND_SHADER)
                 report_unknown(reader, node->attrs[i].name);
-            else if (read_numbers(reader, v, false, attr)) { // a shader may have uniforms of any name
+            else if (read_numbers(reader, v, false, attr)) { // shaders can have uniforms of any name
                 attr->custom_name = str_to_c(reader->arena, node->attrs[i].name->name);
                 ++*count;
             }

@@ -14,8 +14,8 @@
 
 typedef struct SchemaSink {
     void *user_data;
-    // Reports a mistake in a node. Messages with the same node, code and key are reported only once, so `text` may
-    // contain values that change from frame to frame.
+    // Reports a mistake in a node. Messages with the same node, code and key are reported only once, even if
+    // `text` differs. So `text` can contain values that change from frame to frame.
     void (*report)(void *sink, DiagLevel level, const char *code, const Origin *origin, Str node, Str key, Str text);
 } SchemaSink;
 
@@ -25,10 +25,10 @@ typedef struct SchemaSlot {
     double low; // limits of a number
     double high;
     uint16_t field;
-    uint8_t plain; // AttrShape if values of this shape are stored as they are, else SHAPE_OTHER
+    uint8_t plain; // AttrShape; SHAPE_OTHER: not for the fast path (an alias, or a row without a field)
 } SchemaSlot;
 
-// The table with its names interned in a session's symbol table.
+// The rows of table.h, with their names interned in the symbol table of a session.
 typedef struct Schema {
     SymbolTable *symbols;
     SchemaSink sink;
@@ -38,22 +38,24 @@ typedef struct Schema {
     bool lint;                     // also report values that are unlikely to be intended
     const Symbol *kinds[KIND_COUNT];
     SchemaSlot slots[ROW_COUNT];
-    double words[WORD_COUNT];            // values of the words as symbols
-    uint16_t first_row[KIND_COUNT + 1];  // by kind
+    double words[WORD_COUNT];            // for each word: the number that represents it as a symbol
+    uint16_t first_row[KIND_COUNT + 1];  // by kind: its first row
     int first_in_window;                 // first kind that can be in a window
-    uint8_t by_name[512];                // hash table from node name to its first kind in windows + 1; 0: empty
-    uint8_t next_of_name[KIND_COUNT];    // by kind: the next kind of the same name, + 1; 0: none
+    uint8_t by_name[512];                // hash table by node name: 1 + first kind in windows with this name; 0: empty
+    uint8_t next_of_name[KIND_COUNT];    // by kind: 1 + next kind with the same name; 0: none
     bool has_vector_default[KIND_COUNT]; // by kind: true if a vector has a default that is not 0
 } Schema;
 
 void schema_init(Schema *schema, SymbolTable *symbols, SchemaSink sink);
-// Returns the kind of a node that is used inside `!physics`, or at the top level outside windows; else KIND_COUNT.
+// Returns the kind of a node that can be inside `!physics` or, outside windows, at the top level. Returns KIND_COUNT
+// for other nodes.
 static inline NodeKind schema_kind(const Schema *schema, const Node *node) {
     for (int kind = 0; kind < schema->first_in_window; kind++)
         if (schema->kinds[kind] == node->kind)
             return (NodeKind)kind;
     return KIND_COUNT;
 }
+// Returns the first kind in windows with the node's name. Returns KIND_COUNT if there is none.
 NodeKind schema_window_kind(const Schema *schema, const Node *node);
 // Returns the kind of a node whose parent accepts `children`. Returns KIND_COUNT if the parent does not accept the
 // node.
@@ -88,10 +90,10 @@ void reader_fill(const Reader *reader, void *record);
 typedef struct AttrValue {
     uint16_t name;           // AttrName
     uint16_t row;            // index in schema_rows
-    uint32_t count;          // number of elements
+    uint32_t count;          // number of elements that the script gives
     const char *custom_name; // for ATTR_NONE: name of a custom uniform of a shader; its values are in `list`
     union AttrData {
-        double numbers[4]; // points, sizes, colours (always four numbers), weights, up to four numbers
+        double numbers[4]; // points, sizes, weights, other shapes of up to four numbers; colours always have four
         const double *list;
         Str text; // NUL-terminated
         int word;
@@ -99,9 +101,10 @@ typedef struct AttrValue {
     } as;
 } AttrValue;
 
-// Reads the attributes into an array with space for all of them. Returns false if a required attribute is malformed.
+// Appends the attributes to an array with space for all of them; *count is its length. Returns false if a required
+// attribute is malformed.
 bool reader_list(const Reader *reader, AttrValue *attrs, uint32_t *count);
-// Stores an attribute in the record of its kind, if its row names a field.
+// Stores an attribute in the record of its kind. Does nothing if its row names no field.
 void schema_store(const AttrValue *attr, void *record);
 
 #endif

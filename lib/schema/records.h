@@ -24,7 +24,7 @@ typedef struct BodyAttrs {
 // A force applier or barrier. Bounds that are not set are NaN.
 typedef struct ForceAttrs {
     PhysForce force;
-    double fixed; // value of the attribute fixed, which sets both bounds
+    double fixed; // value of the attribute `fixed`, which replaces both bounds
     Value from;   // ids of particles
     Value to;
 } ForceAttrs;
@@ -35,7 +35,7 @@ typedef struct CounterAttrs {
     Value initial;
     Value rate;
     Value time;
-    Value minimum; // null: no limit
+    Value minimum; // null: no limit; the same for `maximum`
     Value maximum;
     Value reset;
 } CounterAttrs;
@@ -59,7 +59,7 @@ typedef struct GraphicsState {
     int cap;
     int composite;
     bool antialias;
-    // Settings made by earlier drawing nodes, as indices into the display list.
+    // Settings made by earlier drawing nodes: indices in arrays of the display list; DISPLAY_NONE: none.
     uint32_t source; // paint that replaces the colour
     uint32_t filter;
     uint32_t effect; // path effect

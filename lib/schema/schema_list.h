@@ -8,12 +8,12 @@
 // NODE(ID, "kind", PLACE, CHILDREN, "help"), followed by its attributes. PLACE is where the node may be, CHILDREN which
 //     nodes may be in it (PlaceKind). FORCE(ID, "kind", "help", "formula"): a node of force_list.h with the same ID.
 //     The formula has the same lines as in lib/physics/README.md; tests/docs/formulas.sh compares them.
-// ATTR(KIND, NAME, TYPE, field, default, "unit", "help"). The value is stored in the field (records.h). NOWHERE: it is
-//     ignored or, in drawings, looked up by name. The default is IS(x), DESCRIBED(x, "in words"), INHERITED(x, "in
-//     words") with the initial value x, or NONE: NaN for a number, else null. For a vector, x is the last element, and
-//     the others are 0.
-// ALIAS(KIND, NAME, OF, "of", TYPE, field, "unit"): another name for attribute OF of the same kind. OF takes
-// precedence.
+// ATTR(KIND, NAME, TYPE, field, default, "unit", "help"). The value is stored in the field (records.h). If the field is
+//     NOWHERE, the value is ignored or, in drawings, looked up by name. The default is IS(x), DESCRIBED(x, "in words"),
+//     INHERITED(x, "in words") with the initial value x, or NONE: NaN for a number, else null. For a vector, x is the
+//     last element, and the others are 0.
+// ALIAS(KIND, NAME, OF, "of", TYPE, field, "unit"): another name for attribute OF of the same kind. If a node has both
+//     attributes, OF takes precedence.
 // clang-format off
 #ifndef TYPE
 #define TYPE(id, shape, low, high, required, text)
@@ -39,7 +39,7 @@ TYPE(ANY, VALUE, 0, 0, false, "any")
 TYPE(ID, VALUE, 0, 0, false, "id of a particle")
 TYPE(NUMBERS, NUMBERS, 0, 0, false, "any numbers")
 TYPE(NUMBER, NUMBER, -INFINITY, INFINITY, false, "number")
-TYPE(ABOVE_ZERO, NUMBER, -INFINITY, INFINITY, false, "number above 0")  // other numbers have a special meaning
+TYPE(ABOVE_ZERO, NUMBER, -INFINITY, INFINITY, false, "number above 0")  // other numbers are allowed and have a special meaning
 TYPE(FROM_ZERO, NUMBER, 0, INFINITY, false, "number, 0 or more")
 TYPE(PART, NUMBER, 0, 1, false, "number from 0 to 1")
 TYPE(INTEGER, INTEGER, -INFINITY, INFINITY, false, "whole number")
@@ -71,7 +71,7 @@ TYPE(AMOUNTS, PAIR, -INFINITY, INFINITY, false, "one number or two")
 TYPE(TRIPLE, TRIPLE, -INFINITY, INFINITY, false, "one number or three")
 TYPE(QUAD, QUAD, -INFINITY, INFINITY, false, "one number or four")
 TYPE(LIST, LIST, -INFINITY, INFINITY, false, "numbers")
-// For lists, the limits are the number of elements.
+// The limits of these lists are the minimum and maximum number of elements.
 TYPE(FIVE, LIST, 5, 5, false, "five numbers")
 TYPE(NINE, LIST, 9, 9, false, "nine numbers")
 TYPE(TWENTY, LIST, 20, 20, false, "twenty numbers")

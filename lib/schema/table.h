@@ -40,7 +40,7 @@ typedef enum PlaceKind {
     PLACE_NOTHING,
     PLACE_SCENE, // at the top level: systems and counters
     PLACE_PHYSICS,
-    PLACE_TOP,      // at the top level or among pictures; these and all following places can be in windows
+    PLACE_TOP,      // at the top level or among pictures; this and all later places are in windows
     PLACE_WINDOW,   // as CHILDREN: pictures and input nodes
     PLACE_PICTURES, // as CHILDREN: pictures, including those of PLACE_TOP
     PLACE_PICTURE,
@@ -56,25 +56,25 @@ typedef enum PlaceKind {
 // How the value of an attribute is checked and stored.
 typedef enum AttrShape {
     SHAPE_VALUE,   // Value
-    SHAPE_NUMBERS, // Value with at least one number
+    SHAPE_NUMBERS, // Value of one or more numbers
     SHAPE_NUMBER,  // double, clamped to the limits of its type
     SHAPE_INTEGER, // double, rounded down
     SHAPE_TIME,    // double; NaN is allowed
     SHAPE_VECTOR,  // PhysVector with one element per dimension of the system; a single number is repeated
     SHAPE_NORMAL,  // PhysVector of length 1; NULL if its direction is undefined
-    SHAPE_FINITE,  // double, finite
+    SHAPE_FINITE,  // double, finite; malformed outside the limits of its type
     SHAPE_PAIR,    // double[2]; a single number is repeated
     SHAPE_TRIPLE,  // double[3]; a single number is repeated
     SHAPE_QUAD,    // double[4]; a single number is repeated
     SHAPE_LIST,    // doubles; the type's limits are the minimum and maximum count
     SHAPE_SEED,    // double: seed hash of the value, divided by 2^48
-    SHAPE_POINTS,  // an even number of doubles
+    SHAPE_POINTS,  // doubles x, y, x, y…; a last x without y is dropped
     SHAPE_COLOR,   // double[4]
     SHAPE_FLAG,    // bool
     SHAPE_TEXT,    // const char *
     SHAPE_WEIGHT,  // double; a number or a word
     SHAPE_WORD,    // int
-    SHAPE_OTHER,
+    SHAPE_OTHER,   // no attribute has this shape; see SchemaSlot
 } AttrShape;
 
 // Values of the words in word_list.h.
@@ -124,7 +124,7 @@ typedef struct TypeRow {
 typedef struct AttrDefault {
     double value;
     const char *text; // description; "" if there is none
-    bool inherited;   // true: inherited; `value` is the initial value
+    bool inherited;   // true: the default is the value of the enclosing node; `value` is the outermost value
     const char *string;
 } AttrDefault;
 
@@ -161,7 +161,7 @@ PhysForceKind schema_force(NodeKind kind);
 const char *schema_formula(NodeKind kind);
 // Returns the kind of a force's node.
 NodeKind schema_kind_of_force(PhysForceKind force);
-// Returns true if a node of this kind may be a child of a node that accepts `children`.
+// Returns true if a node of this kind is allowed as a child of a node that accepts `children`.
 bool schema_can_contain(NodeKind kind, PlaceKind children);
 // Returns true for nodes that Flitter draws but petri does not.
 bool schema_is_unsupported(Str name);
