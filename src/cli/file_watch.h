@@ -2,8 +2,8 @@
 //
 // A file has changed if its size, modification time or inode differs from the values at the last report. A change is
 // reported when the file has been stable for a moment. While inotify shows that a process has not closed the file after
-// writing, the file must be stable for longer. A missing file is reported when it exists again. On Linux, inotify wakes the
-// caller. All files are also polled about once per second, because inotify misses changes on some file systems.
+// writing, the file must be stable for longer. A missing file is reported when it exists again. On Linux, inotify wakes
+// the caller. All files are also polled about once per second, because inotify misses changes on some file systems.
 #ifndef PETRI_SRC_FILE_WATCH_H
 #define PETRI_SRC_FILE_WATCH_H
 

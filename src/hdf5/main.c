@@ -1,6 +1,6 @@
 // main.c: the program petri-hdf5, which writes HDF5 files for petri (cli/hdf5.h).
 //
-// Usage: `petri-hdf5 trajectory|table FILE [NUMBERS]`, with a socket as standard input.
+// Usage: `petri-hdf5 trajectory|table FILE [NUMBERS]`, with a socket as standard input. NUMBERS: `after` of hdf5_start.
 #include "cli/cli.h"
 #include "cli/hdf5.h"
 #include "hdf5/spool.h"

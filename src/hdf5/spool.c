@@ -17,7 +17,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-// First line of a spool: [0] continues an HDF5 file, [1] contains the whole trajectory.
+// First line of a spool. [0]: the spool continues an HDF5 file. [1]: the spool contains the whole trajectory.
 static const char *const KINDS[] = {"petri way 1 lengthens\n", "petri way 1 is whole \n"};
 enum { LINE = 22 }; // length of the first line
 
@@ -32,6 +32,7 @@ static bool report_error(const Spool *spool, const char *why) {
 }
 
 // Waits up to ten seconds for the lock: the petri-hdf5 of a run that was killed may still be finishing its file.
+// Returns false if the file is still locked after that.
 static bool lock_file(int file) {
     enum { TRIES = 200, PAUSE_MS = 50 };
     for (int i = 0; i < TRIES; i++) {

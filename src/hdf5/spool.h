@@ -1,7 +1,7 @@
 // spool.h: crash-safe storage of new frames of a trajectory (FILE.part), used with `--state`.
 //
-// An HDF5 file gets its name only when it is complete, at the end of a run. If both programs are killed earlier, the
-// spool contains the frames up to the last saved state, and the next run reads them from the spool.
+// An HDF5 file gets its name only when it is complete, at the end of a run. If petri and petri-hdf5
+// are killed before that, the spool contains the frames up to the last saved state. The next run reads them from it.
 #ifndef PETRI_SRC_HDF5_SPOOL_H
 #define PETRI_SRC_HDF5_SPOOL_H
 

@@ -74,7 +74,7 @@ bool store_begin(Store *store, const char *path, bool continues) {
         replace_abort(&store->replacement);
         return report_error(store, strerror(cause));
     }
-    // libhdf5 must not lock the file, because replace_begin already has.
+    // libhdf5 must not lock the file, because replace_begin already holds a lock on it.
     setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1);
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     hid_t access = H5Pcreate(H5P_FILE_ACCESS);
@@ -145,7 +145,7 @@ void store_numbers(Store *store, hid_t object, const char *name, const int *numb
 // Chooses the chunk size: a chunk contains many short rows, or a part of a long row. Unfilled large chunks waste space,
 // and many small chunks waste time.
 static void choose_chunk(int rank, const hsize_t sizes[STORE_RANKS], hsize_t chunk[STORE_RANKS]) {
-    enum { SHORT = 1024, LONG = 65536 }; // minimum and maximum number of values in a chunk
+    enum { SHORT = 1024, LONG = 65536 }; // approximate minimum and exact maximum number of values in a chunk
     hsize_t row = 1;
     for (int k = rank - 1; k > 0; k--) {
         hsize_t size = sizes[k] > LONG / row ? LONG / row : sizes[k];
@@ -198,7 +198,7 @@ void store_grow(Store *store, StoreColumn *column, const hsize_t sizes[STORE_RAN
         store_check(store, H5Dset_extent(column->set, column->sizes));
 }
 
-// Reads the beginning of a row into `out` or, if that is NULL, writes it from `in`.
+// Reads the first elements of a row into `out`. If `out` is NULL, writes them from `in` instead.
 static void move_row(Store *store, const StoreColumn *column, hsize_t row, const hsize_t sizes[STORE_RANKS], void *out,
                      const void *in) {
     hsize_t start[STORE_RANKS] = {row}, count[STORE_RANKS] = {1};

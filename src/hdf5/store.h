@@ -83,9 +83,9 @@ char *store_read_text(Store *store, hid_t object, const char *name);
 int store_read_number(Store *store, hid_t object, const char *name);
 // Sets `name` to the name of the group's member `number`, from 0. Returns false if there is no such member.
 bool store_name_at(Store *store, hid_t group, hsize_t number, ByteBuffer *name);
-// Reads a data set of strings. Returns *count strings of *bytes bytes each. The caller frees them.
+// Reads a data set of strings. Returns an array of *count strings of *bytes bytes each. The caller frees it.
 char *store_read_texts(Store *store, hid_t parent, const char *name, size_t *count, size_t *bytes);
-// Adds a second name (a hard link) for an object.
+// Gives the object called `old` in the group `from` the additional name `name` in the group `to` (a hard link).
 void store_link(Store *store, hid_t from, const char *old, hid_t to, const char *name);
 
 #endif

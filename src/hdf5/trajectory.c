@@ -1,7 +1,8 @@
 // trajectory.c: see trajectory.h.
 //
-// Each system is a group of particles with its own list of steps, because it can be absent from frames. Its number of
-// particles can change: all rows have the maximum length, and unused elements at the end have the id -1.
+// Each system is an HDF5 group with its own list of frame numbers (steps), because a system can be absent from frames.
+// Its number of particles can change. All rows therefore have the length of the longest row, and unused elements at
+// the end of a row have the id -1.
 #include "hdf5/trajectory.h"
 
 #include "cli/hdf5.h"
@@ -139,7 +140,8 @@ static void number_ids(const TrajectoryFile *file, int64_t *ids, uint64_t count)
         ids[i] = ids[i] <= -2 ? file->numbers[-2 - ids[i]] : ids[i];
 }
 
-// Adds a system at `bytes` to the frame. Returns a pointer to the data after the system.
+// Adds the system whose data starts at `bytes` to the file, as part of a frame. Returns a pointer to the data after the
+// system.
 static char *add_system(TrajectoryFile *file, const Hdf5Frame *frame, char *bytes) {
     const Hdf5System *system = (const Hdf5System *)(const void *)bytes;
     char *called = bytes + sizeof *system, *at = called + system->name_bytes;

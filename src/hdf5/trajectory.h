@@ -13,18 +13,17 @@ typedef struct TrajectoryFile {
     hid_t particles;
     Group *groups;
     size_t group_count;
-    TextList texts;   // ids that are strings
+    TextList texts;   // ids that are strings; the file contains -2-K for texts.items[K]
     HashIndex index;  // index of `texts`
-    int64_t *numbers; // by string number of the current run: the id stored in the file
+    int64_t *numbers; // maps the number of a string in the current run to its id in the file
     size_t run_texts; // number of strings of the current run
     int64_t last;     // number of the last frame; -1: none
 } TrajectoryFile;
 
 // Starts an empty trajectory.
-
 void trajectory_file_begin(TrajectoryFile *file, Store *store);
-// Like trajectory_file_begin, but keeps the frames of an existing file up to `after` and removes later ones. Returns
-// false if the file was not written by petri.
+// Like trajectory_file_begin, but keeps the frames of an existing file up to frame `after` and removes later frames.
+// Returns false if the file was not written by petri.
 bool trajectory_file_resume(TrajectoryFile *file, Store *store, int64_t after);
 // Must be called before the first frame of another run, because each run numbers its strings from 0.
 void trajectory_file_begin_run(TrajectoryFile *file);

@@ -23,7 +23,7 @@
 #include <unistd.h>
 
 enum { QUEUE = 4, MAX_WORKERS = 16, MAX_READY = 32 };
-static const double GRACE_SECONDS = 0.05; // time for running jobs after a signal
+static const double GRACE_SECONDS = 0.05; // time that running jobs have after a signal
 
 typedef struct Job Job;
 struct Job {
@@ -61,7 +61,7 @@ struct FrameWriter {
     bool has_frame;      // true if the video has a frame
     int unfinished;      // number of abandoned jobs
     double seconds;      // spent by all threads
-    const char *film;    // this and the following fields are used by the first worker only
+    const char *film;    // `film` to `recording` are used by the first worker only
     double fps;
     Video video;
     uint32_t *pixels; // buffer for a frame of the video
@@ -186,8 +186,8 @@ static Job *pop_ready_job(FrameWriter *writer) {
     return job;
 }
 
-// Renames the files of ready jobs up to the first missing one. Returns these jobs, which the caller passes to
-// finish_jobs.
+// Renames the files of ready jobs in order, up to the first job that is not ready. Returns the jobs of these files,
+// which the caller passes to finish_jobs.
 static Job *commit_ready_jobs(FrameWriter *writer) {
     Job *named = NULL, *job;
     while (!writer->abandoned && (job = pop_ready_job(writer))) {
@@ -221,7 +221,8 @@ static void add_done(FrameWriter *writer, Job *jobs) {
     }
 }
 
-// Waits for the next job. Returns NULL when no more will come. Only the first worker takes jobs that need history.
+// Waits for the next job. Returns NULL when no more jobs will be added. Only the first worker takes jobs that need
+// history.
 static Job *pop_job(FrameWriter *writer, bool first) {
     while (writer->waiting
                ? (writer->waiting->needs_history && !first) || (writer->ready_count >= MAX_READY && !writer->failed)
@@ -343,8 +344,8 @@ void frame_writer_report(FrameWriter *writer, PetriSession *session) {
     }
 }
 
-// Waits until all jobs are finished. After a signal, waits only GRACE_SECONDS, but until the video has no incomplete
-// frame. Returns the number of abandoned jobs.
+// Waits until all jobs are finished. After a signal, waits only GRACE_SECONDS, or longer until a frame is completely
+// written to the video. Returns the number of abandoned jobs.
 static int wait_for_end(FrameWriter *writer) {
     double signalled = 0;
     for (;;) {

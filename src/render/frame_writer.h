@@ -21,8 +21,9 @@ bool frame_writer_add(FrameWriter *writer, PetriPicture *picture, bool for_film,
 // Reports the diagnostics of finished pictures to the session's callback and frees the pictures.
 void frame_writer_report(FrameWriter *writer, PetriSession *session);
 // Waits for all pictures and completes the video. With `abandon`, discards unfinished pictures. After a signal, waits
-// only briefly for files, but until the current frame of a video is complete. Returns false if writing has failed.
-// *error_text is then the reason, or NULL if a picture's diagnostics contain it. Valid until frame_writer_free.
+// only briefly, or longer until a frame is completely written to the video. Returns false if writing has failed.
+// *error_text is then the reason, or NULL if a picture's diagnostics contain it. The text is valid until
+// frame_writer_free.
 bool frame_writer_finish(FrameWriter *writer, PetriSession *session, bool abandon, const char **error_text);
 // Returns the number of pictures that frame_writer_finish has abandoned. If it is not 0, threads may still be drawing.
 // They stop only when the process ends.

@@ -22,7 +22,7 @@ typedef struct Render {
     FrameWriter *writer;
     int64_t drawn;            // number of frames drawn for the output
     bool thread_running;      // true if a thread is still drawing an abandoned picture
-    bool failed;              // true if no more frames must be drawn
+    bool failed;              // true after a failure: no more frames are drawn
     StdoutFile stdout_file;   // temporary file, for output to standard output
     const char *display_name; // name of the output in messages
 } Render;
@@ -97,7 +97,7 @@ static bool check_folder(const char *file) {
     return good;
 }
 
-// Draws the last frame for the video, for a file, or only for its `!record` nodes.
+// Draws the frame that was computed last: for the video, for a file, or only for its `!record` nodes.
 static void draw_frame(Render *render, bool for_film, const char *file) {
     PetriPicture *picture = NULL;
     frames_set_interruptible(&render->frames, true);
@@ -257,7 +257,7 @@ static int render_run(const CommandContext *context, Options *options) {
     stdout_file_close(&render.stdout_file);
     if (render.thread_running) {
         fflush(NULL);
-        _exit(status); // frees nothing, because threads may still use it
+        _exit(status); // frees no memory, because threads may still use it
     }
     petri_close(&render.frames.session);
     return status;

@@ -49,9 +49,9 @@ static void on_signal(int number) {
     }
 }
 
-// Catches SIGINT, SIGTERM and, unless nohup ignores it, SIGHUP. The first one aborts the current frame and ends the
-// run; the state after the previous frame is saved and frames drawn so far are kept. A second one ends the process at
-// once.
+// Catches SIGINT, SIGTERM and, unless it is ignored as under nohup, SIGHUP. The first signal aborts the current frame
+// and ends the run; the state after the previous frame is saved, and frames drawn so far are kept. A second signal ends
+// the process at once.
 static void catch_signals(void) {
     main_thread = pthread_self();
     signal_catch(SIGINT, on_signal, 0);
@@ -106,7 +106,7 @@ static int64_t expected_frames(const Frames *frames) {
     return frames->options->frames;
 }
 
-// Waits until all ranks have called this.
+// Waits until all ranks have called this function.
 static void rank_barrier(const PetriRanks *ranks) {
     for (int rank = 1; ranks && rank < ranks->rank_count; rank++) {
         double nothing = 0;
@@ -149,7 +149,7 @@ void frames_set_interruptible(Frames *frames, bool begins) {
 
 bool frames_step(Frames *frames) {
     progress_update(&frames->progress, frames->done - frames->before_first_picture);
-    int64_t number = petri_frame(frames->session).number + 1; // read before the step, which may abort
+    int64_t number = petri_frame(frames->session).number + 1; // read before the step, which can fail
     frames_set_interruptible(frames, true);
     PetriStatus status = interrupted ? PETRI_INTERRUPTED : petri_step(frames->session);
     frames_set_interruptible(frames, false);

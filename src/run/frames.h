@@ -1,7 +1,7 @@
 // frames.h: the loop over a script's frames, for `petri run` and `petri render`.
 //
-// Order of calls: frames_open, frames_load, frames_begin; while frames_due: frames_step, frames_save_state; frames_end,
-// petri_close.
+// Order of calls: frames_open, frames_load, frames_begin; then, as long as frames_due returns true, frames_step and
+// frames_save_state; then frames_end, petri_close.
 #ifndef PETRI_SRC_FRAMES_H
 #define PETRI_SRC_FRAMES_H
 
@@ -38,7 +38,7 @@ bool frames_due(const Frames *frames);
 bool frames_step(Frames *frames);
 // Saves the state if the time of the next save has come. Must be called after the frame's output is written.
 void frames_save_state(Frames *frames);
-// Sets whether a signal interrupts the session (`begins`) or only requests the end of the run.
+// If `begins` is true, a signal from now on interrupts the session. If false, it only requests the end of the run.
 void frames_set_interruptible(Frames *frames, bool begins);
 // Erases the progress line and, if the run succeeded (`going`), saves the state.
 void frames_end(Frames *frames, bool going);

@@ -20,7 +20,7 @@ static bool is_text(const void *owner, uint32_t entry, const void *key) {
     return strcmp(((const H5md *)owner)->texts.items[entry], key) == 0;
 }
 
-// Sets *number to the negative number that represents the string `text` as an id in the file. Returns false if out of
+// Sets *number to the negative id that represents the string `text` in the data for petri-hdf5. Returns false if out of
 // memory.
 static bool number_text(H5md *file, const char *text, int64_t *number) {
     uint64_t hash = hash_bytes(0, text, strlen(text));
@@ -35,7 +35,7 @@ static bool number_text(H5md *file, const char *text, int64_t *number) {
     return true;
 }
 
-// Appends an id: an integer >= 0 unchanged, any other value as the number of its string. Returns false if out of
+// Appends an id: an integer >= 0 unchanged, any other value as the negative id of its string. Returns false if out of
 // memory.
 static bool add_id(H5md *file, PetriSession *session, PetriValue value) {
     const double MAX_INTEGER = 9007199254740992; // 2^53; doubles cannot represent every larger integer

@@ -17,7 +17,8 @@ typedef struct H5md {
     ByteBuffer ids;  // int64_t ids of the frame's particles
 } H5md;
 
-// Starts petri-hdf5. `resume`: the state from which the run continues; NULL: none. Returns false after a message.
+// Starts petri-hdf5. `resume`: the state from which the run continues; NULL: the file is not resumable. Returns false
+// after a message.
 bool h5md_open(H5md *file, const char *path, const Resume *resume, Output *output);
 // Adds the last frame of a session. Returns false if out of memory. Write errors are stored in `output`.
 bool h5md_add(H5md *file, PetriSession *session, Output *output);

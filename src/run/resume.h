@@ -23,10 +23,10 @@ typedef struct ResumeFile {
     uint32_t dimensions; // number of dimensions in a CSV header; 0: no header yet
 } ResumeFile;
 
-// Opens an XYZ or CSV file and truncates the frames after `after`. Returns false after a message. Does not modify a
-// file that was not written by petri.
+// Opens an XYZ file, or a CSV file if `csv` is true, and removes the frames after frame `after`. Returns false after a
+// message. Does not modify a file that was not written by petri.
 bool resume_open(ResumeFile *file, const char *path, bool csv, int64_t after);
-// Reports frames that are missing between the end of the file and the state.
+// Reports frames that are missing between `last`, the last frame in the file, and the state.
 void resume_report_gap(const char *path, int64_t last, const Resume *resume);
 
 #endif

@@ -3,7 +3,7 @@
 // Extended XYZ, as ASE and OVITO read it, has one block per frame with all systems. The format has three dimensions:
 // missing components are 0, and components after the third are omitted. The species is always X, which both programs
 // accept as "no element".
-// CSV: cli/particles.h. H5MD: h5md.h.
+// For CSV, see cli/particles.h; for H5MD, see h5md.h.
 #include "run/trajectory.h"
 
 #include "base/file.h"
@@ -26,7 +26,7 @@
 enum { XYZ_DIMENSIONS = 3 };
 
 static bool report_error(Trajectory *trajectory, int error) {
-    // petri-hdf5 has reported its error and exited. The error is ECONNRESET if it had not read all data.
+    // These errors mean that petri-hdf5 has reported its own error and exited. ECONNRESET: it had not read all data.
     bool reported = trajectory->format == TRAJECTORY_H5MD && (error == EPIPE || error == ECONNRESET);
     if (!trajectory->failed && !reported)
         message("cannot write %s: %s", trajectory->path, strerror(error));
@@ -34,7 +34,7 @@ static bool report_error(Trajectory *trajectory, int error) {
     return false;
 }
 
-// Called when a signal ends this process at any point. Keeps the complete frames.
+// A SignalCleanup, which can run at any point of the program. Keeps the complete frames.
 static void commit_on_signal(void *context) {
     Trajectory *trajectory = context;
     Output *output = &trajectory->output;

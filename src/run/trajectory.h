@@ -18,11 +18,11 @@ typedef struct Trajectory {
     const char *path;
     TrajectoryFormat format;
     bool open;
-    bool resumable;
-    bool named; // true if the file has its final name and is extended in place
+    bool resumable; // true if a later run can continue the file
+    bool named;     // true if the file has its final name and is extended in place
     Replacement file;
     int cleanup_id;        // from signal_cleanup_begin
-    size_t complete_bytes; // length up to the end of the last frame
+    size_t complete_bytes; // length up to the end of the last complete frame
     size_t flushed_bytes;  // length up to the last complete frame at the last flush
     uint32_t dimensions;   // CSV: largest number of dimensions of a system in the first frame; 0: no header yet
     bool failed;           // true after an error, which has been reported
@@ -38,8 +38,8 @@ void trajectory_add(Trajectory *trajectory, PetriSession *session);
 // Writes all frames to disk. Must be called before a state is saved, so that a run can continue from that state. If it
 // returns false, the state must not be saved. `trajectory` points to a Trajectory.
 bool trajectory_sync(void *trajectory);
-// Completes the file with all complete frames, like a signal that terminates the process. Returns false after a message
-// if this or an earlier write failed. An old file is kept on failure, and if the run failed (`good` is false) before
+// Closes the file, which then contains all complete frames. Returns false after a message if this or an earlier write
+// failed. An old file of the same name is not replaced if a write failed, or if the run failed (`good` is false) before
 // its first complete frame.
 bool trajectory_close(Trajectory *trajectory, bool good);
 

@@ -59,7 +59,8 @@ static int lock_journal(const Journal *journal) {
     return fcntl(journal->file, F_SETLK, &whole);
 }
 
-// Reads the existing results and truncates an incomplete one at the end. Returns STATUS_DONE or the exit status.
+// Reads the existing results and removes an incomplete result at the end of the file. Returns STATUS_DONE or the exit
+// status.
 static int resume_journal(Journal *journal, Sweep *sweep) {
     SCOPED_BYTE_BUFFER text = {0}, head = {0};
     byte_buffer_add(&text, "", 0);

@@ -1,5 +1,6 @@
-// measure.h: execution of runs, one after the other in the same session. The script is loaded once. Each run has its
-// own definitions.
+// measure.h: execution of runs, one after the other in the same session. If the script can be
+// loaded without definitions, its file is read only once. It is compiled again for each run, with the definitions of
+// that run.
 #ifndef PETRI_SRC_MEASURE_H
 #define PETRI_SRC_MEASURE_H
 

@@ -27,7 +27,7 @@ typedef struct Plot {
     Scale y;
 } Plot;
 
-static const size_t FRAMES = SIZE_MAX; // used instead of an axis index
+static const size_t FRAMES = SIZE_MAX; // used instead of an axis index: the x axis is the frame
 
 static void extend_scale(Scale *scale, double x) {
     scale->min = x < scale->min ? x : scale->min;
@@ -40,7 +40,7 @@ static void pad_scale(Scale *scale) {
     scale->max += margin;
 }
 
-// Returns a value of an axis as a number. If some values of the axis are not numbers, returns its index.
+// Returns a value of an axis as a number. If some values of the axis are not numbers, returns `index`.
 static double axis_number(const Axis *axis, uint32_t index) {
     double x = 0;
     for (size_t i = 0; i < axis->values.count; i++)
@@ -50,8 +50,8 @@ static double axis_number(const Axis *axis, uint32_t index) {
     return x;
 }
 
-// Collects the points of a plot of a metric. If the x axis is the frame, uses all rows. Otherwise uses the last row of
-// each run in which the metric is a number.
+// Collects the points of a plot of a metric. If the x axis is the frame, uses all rows. Otherwise uses one row
+// per run: the last in which the metric is a number.
 static Plot collect_points(const Sweep *sweep, size_t axis, size_t metric) {
     const Design *design = &sweep->design;
     Plot plot = {.x = {INFINITY, -INFINITY}, .y = {INFINITY, -INFINITY}};
@@ -87,7 +87,7 @@ static double scale_position(const Scale *scale, double x, double length) {
     return scale->max > scale->min ? (x - scale->min) / (scale->max - scale->min) * length : length / 2;
 }
 
-// Returns a distance between ticks of 1, 2 or 5 times a power of ten that gives about four ticks.
+// Returns the distance between ticks: 1, 2 or 5 times a power of ten, chosen to give about four ticks.
 static double tick_step(const Scale *scale) {
     double rough = (scale->max - scale->min) / 4, power = pow(10, floor(log10(rough)));
     double times = rough / power;

@@ -1,4 +1,5 @@
-// plot_support.h: functions for sweeps that need libraries of petri-pictures: reading plans and drawing plots.
+// plot_support.h: functions of petri sweep that need libraries which petri itself does not link: reading plans and
+// drawing plots.
 #ifndef PETRI_SRC_SWEEP_PLOT_SUPPORT_H
 #define PETRI_SRC_SWEEP_PLOT_SUPPORT_H
 

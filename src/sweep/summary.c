@@ -7,7 +7,7 @@
 #include <string.h>
 
 typedef struct Number {
-    int64_t frame; // -1: each run has one row
+    int64_t frame; // -1 without --every: each run has one row
     double x;
 } Number;
 
@@ -37,7 +37,7 @@ static double quantile(const Number *sorted, size_t count, double fraction) {
     return sorted[i].x + (position - below) * (sorted[next].x - sorted[i].x);
 }
 
-// Appends the statistics of one metric in one frame. The values are sorted.
+// Appends the statistics of one metric in one frame. `sorted` contains the values in ascending order.
 static void add_statistics(ByteBuffer *out, const Number *sorted, size_t count) {
     double sum = 0, squares = 0;
     for (size_t i = 0; i < count; i++)

@@ -84,7 +84,8 @@ static bool read_metrics(Sweep *sweep) {
     return true;
 }
 
-// Parses --shard, such as `2/4`. Without it, uses the rank of mpirun if petri was built without MPI.
+// Parses --shard, such as `2/4`. Without --shard, each process of mpirun executes one shard if petri was built
+// without MPI.
 static bool read_shard(Sweep *sweep) {
     const char *text = sweep->options->shard;
     int shard = 1, shards = 1, rank = 0, count = 0;
@@ -261,7 +262,7 @@ static int finish_sweep(Sweep *sweep, Journal *journal, double start, size_t mad
 
 static int64_t jobs_of(const Sweep *sweep) {
     long processors = sysconf(_SC_NPROCESSORS_ONLN);
-    // mpirun starts one process per processor, so each then executes one run at a time.
+    // Under mpirun, which starts one process per processor, each process executes one run at a time.
     bool alone = !sweep->host->channel && (sweep->shards == 1 || sweep->options->shard);
     return sweep->options->jobs > 0 ? sweep->options->jobs : alone && processors > 1 ? processors : 1;
 }

@@ -21,7 +21,7 @@ typedef struct Design {
     Axis *axes;
     size_t axis_count;
     bool seeded;             // true with --seeds: the last axis is SEED
-    uint32_t *value_indices; // by run and axis: index into the values of the axis
+    uint32_t *value_indices; // [run * axis_count + axis]: index into the values of the axis
     size_t run_count;
 } Design;
 
@@ -34,7 +34,7 @@ typedef struct Metric {
 typedef struct Result {
     char *rows;     // lines of tab-separated cells: frame, value of each metric, error; NULL: not done yet
     int64_t frames; // number of computed frames
-    bool killed;    // true if its process was killed by SIGKILL; the run is repeated once
+    bool killed;    // true if its process was killed by SIGKILL; the run is then repeated once
 } Result;
 
 typedef struct Sweep {
@@ -45,7 +45,7 @@ typedef struct Sweep {
     size_t metric_count;
     ByteBuffer shared;                // options that apply to every run, quoted for a shell
     char identity[SHA256_DIGITS + 1]; // hash of everything that the table depends on
-    Result *results;                  // by run
+    Result *results;                  // indexed by run
     size_t shard;                     // shard of this process, from 0; it executes the runs with run % shards == shard
     size_t shards;
     TextList reported; // diagnostics that were already shown

@@ -115,7 +115,7 @@ void table_commands(const Sweep *sweep, ByteBuffer *out) {
             byte_buffer_format(out, " -D ");
             shell_add_word(out, word.data);
         }
-        // A failed run has failed in the frame after the last computed one.
+        // `frames` does not count the frame in which a run failed, but the command must compute it as well.
         const Result *result = &sweep->results[run];
         byte_buffer_format(out, " --frames %" PRId64 "\n", result->frames + sweep_is_failed(result));
     }

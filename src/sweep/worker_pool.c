@@ -1,8 +1,8 @@
 // worker_pool.c: pre-forked workers that execute sweep runs. A worker reads run numbers from one pipe and writes
 // results to another. The next run is assigned in advance, so that the worker does not wait for it.
 //
-// Under MPI, each rank has such a pool, and rank 0 assigns runs. A rank first sends one request per slot. After that,
-// each result also serves as the next request.
+// Under MPI, each rank has such a pool, and rank 0 assigns runs. Each other rank first requests jobs * RUNS_PER_WORKER
+// runs, as many as its workers can hold. After that, each result also serves as the next request.
 #include "sweep/worker_pool.h"
 
 #include <errno.h>
@@ -44,9 +44,9 @@ typedef struct WorkerPool {
     Sweep *sweep;
     Journal *journal;
     PoolWorker *workers;
-    int64_t jobs;
+    int64_t jobs;      // number of workers
     size_t next;       // first run that has not been assigned yet, apart from those in `returned`
-    int64_t *returned; // runs to assign first: from workers that have ended, or received from rank 0
+    int64_t *returned; // runs to assign before `next`: of workers that have ended, or received from rank 0
     size_t returned_count;
     const MpiChannel *channel; // NULL: no other ranks
     bool ended;                // true if rank 0 has announced the end
@@ -175,7 +175,7 @@ static void assign_runs(WorkerPool *pool) {
             if (run >= 0) {
                 worker->assigned[worker->count++] = run;
                 if (!file_write(worker->run_pipe, (const char *)&run, sizeof run))
-                    kill(worker->pid, SIGKILL); // its pipe is broken; reap_worker then returns its runs
+                    kill(worker->pid, SIGKILL); // its pipe is broken; reap_worker then puts its runs into `returned`
             }
         }
     }
@@ -288,13 +288,13 @@ static bool poll_workers(WorkerPool *pool) {
     return good && receive_messages(pool);
 }
 
-// Requests runs from rank 0, one for each slot.
+// On ranks other than 0, requests as many runs from rank 0 as the workers can hold.
 static void request_runs(const WorkerPool *pool) {
     for (int64_t i = 0; is_remote(pool) && i < pool->jobs * RUNS_PER_WORKER; i++)
         pool->channel->send(0, "", 1);
 }
 
-// Informs the other ranks that all runs are done.
+// On rank 0, informs the other ranks that all runs are done.
 static void announce_end(const WorkerPool *pool) {
     for (int rank = 1; pool->channel && pool->channel->rank == 0 && rank < pool->channel->count; rank++)
         pool->channel->send(rank, &END_OF_RUNS, sizeof END_OF_RUNS);
