@@ -15,7 +15,7 @@ typedef struct Unexpected {
     Span span;
     const char *expected[PARSE_ALTERNATIVES]; // names of tokens that could follow
     int expected_count;                       // 0: more than PARSE_ALTERNATIVES
-    bool value_expected;                      // a value is allowed instead
+    bool value_expected;                      // a value is allowed at this place
 } Unexpected;
 
 // Called with each token that is passed to the grammar. A word that is a keyword in its context has the keyword's kind.

@@ -6,8 +6,8 @@
 #include "value/value.h"
 
 typedef struct Token {
-    int kind;    // number of a token of grammar/parser.y, such as NAME
-    int keyword; // NAME: the token of the keyword with this spelling; 0: none
+    int kind;    // token number from grammar/parser.y, such as NAME
+    int keyword; // NAME: token number of the keyword with this spelling; 0: none
     Span span;
     const char *error; // error in the indentation or nesting (layout.h); NULL: none
     bool fatal;        // a limit was exceeded, so parsing stops
@@ -18,7 +18,7 @@ typedef struct Lexer {
     uint32_t at; // offset of the next character
 } Lexer;
 
-// Returns a lexer at the start of the source, or after its hashbang line.
+// Returns a lexer at the start of the source. A hashbang line is skipped.
 Lexer lexer_new(const Source *source);
 // Returns the next token. Skips white space, comments and line continuations. A NEWLINE token includes
 // subsequent blank and comment lines and the indentation of the next line. At the end of the source, every call returns

@@ -74,7 +74,7 @@ struct Compiler {
     const Compiler *folding_pass;
 };
 
-// State at the start of a scope, to which its end returns.
+// State that is restored at the end of a scope.
 typedef struct ScopeMark {
     Binding *scope;
     uint32_t next_slot;

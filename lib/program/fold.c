@@ -107,7 +107,8 @@ static const Expr *replace_with_constant(Compiler *compiler, const Expr *expr, V
     return folded;
 }
 
-// If the children of an APPEND are constant, stores them in one array, which its parent nodes share in all frames.
+// If the children of an APPEND are constant, stores them in one array. All nodes that the APPEND creates share it, in
+// all frames.
 static void share_constant_children(Compiler *compiler, Expr *expr) {
     if (expr->kind != EXPR_APPEND || expr->children[1]->kind != EXPR_CONST)
         return;

@@ -73,7 +73,8 @@ static bool is_named(const CallCode *code, const Symbol *name) {
     return false;
 }
 
-// Lints a call of a visible function. Extra arguments are ignored, and missing arguments are null (L9.2).
+// Lints a call of a function that the program binds. At run time, extra arguments are ignored, and missing arguments
+// are null (L9.2).
 static void lint_user_call(Compiler *compiler, const Ast *ast, const Ast *function, const CallCode *code) {
     const Ast *params = function->children[0];
     Arena *arena = compiler->arena;

@@ -58,7 +58,7 @@ typedef struct Program {
     const Code *code;
     uint32_t lookup_count; // number of state lookups; the VM has an inline cache for each
     uint32_t param_count;  // number of values that the host sets, which are in the first slots
-    const Export *exports; // top-level bindings, in source order; the last one with a name is used
+    const Export *exports; // top-level bindings, in source order; if a name is repeated, the last one is used
     uint32_t export_count;
     const Pragma *pragmas;
     uint32_t pragma_count;
@@ -94,7 +94,7 @@ typedef struct CompileOptions {
     bool lines;    // record the source line of each instruction
     const Define *defines; // if a name is repeated, the last definition is used
     uint32_t define_count;
-    const Symbol *const *params; // names of values that each run receives; the last one with a name is used
+    const Symbol *const *params; // names of values that each run receives; if a name is repeated, the last one is used
     uint32_t param_count;
     const struct Builtin *const *functions; // host functions; none has the name of a built-in
     uint32_t function_count;

@@ -16,7 +16,7 @@ typedef struct BindingInfo {
     uint32_t binding_start; // offset of the place where the name is bound; NAME_FREE: none
     // The other fields are set for all kinds except NAME_USE.
     Span scope;     // where the name is visible
-    Span value;     // source of the bound value or function, or file name of an import
+    Span value;     // location of the bound value or function, or of an import's file name
     bool is_sole;   // the value is bound to this name only
     uint32_t depth; // number of enclosing blocks and functions
 } BindingInfo;

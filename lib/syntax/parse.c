@@ -12,7 +12,7 @@
 
 enum { MAX_EXPECTED = 3 }; // if more tokens are expected, messages list none of them
 
-// Reports an error, unless the previous error is on the same line. In both cases, parsing has failed.
+// Reports an error, unless the previous error is on the same line. Always sets context->failed.
 static void report_error(ParseContext *context, Span span, const char *code, Str text, Str hint) {
     uint32_t line = source_line(context->source, span.start);
     bool follows = context->failed && line == context->error_line;
@@ -72,8 +72,8 @@ static Str syntax_hint(const char *found, bool needs_block) {
     return (Str){0};
 }
 
-// After a list of names, the parser expects all tokens that can follow any list of names. Returns the token that fits
-// the first word of the line, or NULL.
+// After a list of names, `expected` has the tokens that can follow such a list in any statement: `=`, `in` and `from`.
+// Returns the one that fits the first word of the line. Returns NULL if there is none.
 static const char *after_names(const ParseContext *context, Span span, const char *const *expected, int count) {
     static const struct {
         const char *word;
@@ -402,7 +402,8 @@ static bool opens_string(Str text, Span span) {
     return str_starts_with(string, STR("'''")) || str_starts_with(string, STR("\"\"\""));
 }
 
-// Returns the completeness after the text's last newline.
+// Returns the completeness of a text after its last newline. `first` is the first token of the last top-level
+// statement.
 static ParseCompleteness completeness_after_line(const Layout *layout, const gr_pstate *parser, int first) {
     if (layout->level_count > 1)
         return PARSE_EXTENDABLE;

@@ -15,7 +15,7 @@ const Ast *parse_tolerant(Arena *arena, SymbolTable *symbols, const Source *sour
 // Completeness of input at a prompt.
 typedef enum ParseCompleteness {
     PARSE_COMPLETE,    // complete, or invalid no matter what follows
-    PARSE_EXTENDABLE,  // complete, but indented lines may follow
+    PARSE_EXTENDABLE,  // complete, but indented lines can follow
     PARSE_NEEDS_BLOCK, // indented lines must follow
     PARSE_INCOMPLETE,  // ends inside parentheses, a string or a continued line
 } ParseCompleteness;

@@ -1,7 +1,7 @@
 // syntax_hint_list.h: hints for syntax errors caused by habits from other languages.
 //
-// HINT(BEFORE, AFTER, "hint"): the hint applies if the line before the unexpected token matches BEFORE and the rest of
-// the line matches AFTER. Both are POSIX extended regular expressions. If a comment starts at the unexpected
+// HINT(BEFORE, AFTER, "hint"). BEFORE must match the part of the line to the left of the unexpected token, and AFTER
+// the rest of the line, from the token on. Both are POSIX extended regular expressions. If a comment starts at the
 // token, AFTER is matched with an empty text. The first matching row is used, so special cases come first.
 // clang-format off
 #ifndef HINT

@@ -14,10 +14,10 @@ static const struct {
 #include "syntax/syntax_hint_list.h"
 };
 
-enum { MAX_CONTEXT = 300 }; // maximum number of bytes before the token, and after its start, that are matched
+enum { MAX_CONTEXT = 300 }; // maximum length of the text that is matched on each side, in bytes
 
-// Returns true if a pattern certainly does not match. This is a quick test for patterns that start with a literal
-// character.
+// Returns true if a pattern certainly does not match. This is a quick test for patterns that start with `^` and a
+// literal character.
 static bool cannot_match(const char *pattern, const char *text) {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyz:=,&#-<>`!";
     return pattern[0] == '^' && pattern[1] && strchr(plain, pattern[1]) &&

@@ -5,7 +5,7 @@
 
 enum {
     MIN_BATCH = 8,    // minimum number of remaining iterations for which batches are used
-    MAX_FAILURES = 4, // maximum number of failed batches after which batches are tried again
+    MAX_FAILURES = 4, // after more failed batches, a loop is executed iteration by iteration
 };
 
 // Binds the loop's names in all iterations of the batch.
@@ -126,7 +126,8 @@ static void run_body(LoopBatch *batch, uint32_t at) {
 static bool run_batch(LoopBatch *batch, const Instr *start, Loop *loop) {
     Vm *vm = batch->vm;
     uint32_t first = (uint32_t)(start - batch->code->instrs) + 1;
-    // Charged at the first instruction of the body, because iteration-by-iteration execution charges most work there.
+    // Charged at the position of the body's first instruction, because iteration-by-iteration execution charges most
+    // work there.
     vm_charge(vm, batch->code->instrs[first].at,
               batch->count * (1 + (uint64_t)(batch->plan->end - first) / VM_INSTRS_A_UNIT));
     for (uint32_t i = 0; i < batch->plan->column_count; i++)

@@ -104,8 +104,8 @@ static Value call_item(Vm *vm, Item item, const Arguments *args, const Origin *a
     const Builtin *builtin = item.as.function->builtin;
     if (!builtin)
         return call_closure(vm, (Closure *)item.as.function, args, at);
-    if (!vm_can_call(vm, builtin, at, args->positional,
-                     args->count + args->named_count)) // named ones follow the positional
+    // The named arguments are stored directly after the positional ones.
+    if (!vm_can_call(vm, builtin, at, args->positional, args->count + args->named_count))
         return VALUE_NULL;
     return builtin_call(&vm->builtins, builtin, args->positional, args->count, args->names, args->named,
                         args->named_count);

@@ -235,7 +235,8 @@ static inline __attribute__((always_inline)) Value eval_code(Vm *vm, Frame *fram
             loop->at += instr->count;
             if (loop->at == loop->retry_at)
                 vm_run_batches(vm, frame, code, code->instrs + instr->target - 1, loop);
-            uint64_t cost = 1 + (uint64_t)(instr - code->instrs - instr->target) / VM_INSTRS_A_UNIT; // one iteration
+            // Work of executing the body once.
+            uint64_t cost = 1 + (uint64_t)(instr - code->instrs - instr->target) / VM_INSTRS_A_UNIT;
             if (!loop->result.overflow && next_iteration(vm, instr, loop, slots, cost))
                 instr = code->instrs + instr->target - 1;
             break;

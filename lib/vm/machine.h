@@ -34,14 +34,14 @@ typedef struct Loop {
     uint32_t at; // index of the next element
     Vector result;
     // batch_nodes.c
-    NodeBatch *batch;       // batch to which the next node may be added; NULL: none
-    uint32_t short_batches; // number of batches with few nodes
+    NodeBatch *batch;       // node batch to which the next node can be added; NULL: none
+    uint32_t short_batches; // number of node batches with few rows
     bool not_counting;      // the values of the loop's name do not increase by 1 from node to node
     ArenaMark mark;         // end of Vm.arena after the last node
     uint32_t reported;      // Vm.reported_count when `mark` was set
     // batch.c
     uint32_t retry_at;       // value of `at` at which batches are tried again; 0: never
-    uint32_t failed_batches; // number of batches that had to be executed iteration by iteration
+    uint32_t failed_batches; // number of batches of iterations that had to be executed one by one
 } Loop;
 
 // Activation record of a code.

@@ -1,8 +1,8 @@
 // profile.h: a profiler that measures the evaluation time of each source line.
 //
 // The VM reports each change of line, and the time since the last change is charged to the previous line. The time of a
-// call is charged to the lines of the function. Returning from a call does not count as another hit of
-// the calling line.
+// call is charged to the lines of the function. Returning from a call does not count as another hit of the
+// calling line.
 #ifndef PETRI_VM_PROFILE_H
 #define PETRI_VM_PROFILE_H
 

@@ -64,7 +64,7 @@ typedef struct Vm {
     const ImportLink *imports;      // modules being evaluated, innermost first
     Reported reported[VM_REPORTED]; // hash set of the errors of this frame
     uint32_t reported_count;
-    // An error is not reported but sets speculation_failed. The caller then executes the instructions again.
+    // If true, an error is not reported but sets speculation_failed. The caller then executes the instructions again.
     bool speculative;
     bool speculation_failed;     // an error would have been reported
     uint64_t batched_iterations; // total number of iterations executed in batches
