@@ -8,7 +8,7 @@ bool phys_backoff_pauses(const PhysBackoff *backoff, uint64_t now) {
     return now < backoff->pause_end;
 }
 
-// Starts a pause after a loss of `lost` nanoseconds. It is longer if the last one ended recently.
+// Starts a pause after a loss of `lost` nanoseconds. The pause is longer if the last pause ended recently.
 static void start_pause(PhysBackoff *backoff, uint64_t lost, uint64_t now) {
     bool again = backoff->pause_length && now - backoff->pause_end < backoff->pause_length;
     backoff->doublings = !again                                    ? 0
@@ -21,7 +21,7 @@ static void start_pause(PhysBackoff *backoff, uint64_t lost, uint64_t now) {
     backoff->saved = 0;
 }
 
-// The time saved by helpers is estimated as half of the time that the caller worked.
+// The time saved by helpers is estimated as half of the time in which the caller did not wait.
 void phys_backoff_learn(PhysBackoff *backoff, const PhysJobTimes *job) {
     uint64_t took = job->end - job->begin;
     if (!job->answered) {

@@ -51,7 +51,7 @@ static double acceleration_along(const Columns *columns, const PhysForce *barrie
     return sum;
 }
 
-// Moves the particle again and sets a_k = (v_k − v_k before) / delta.
+// Moves the particle again and sets a_k = (v_k after − v_k before) / delta.
 static void move_again(const Columns *columns, size_t i, double delta, double speed_of_light) {
     size_t n = columns->dimensions;
     Block block = block_at(columns, i);
@@ -63,6 +63,8 @@ static void move_again(const Columns *columns, size_t i, double delta, double sp
         acceleration[k] = (velocity_component(&block, k) - before[k]) / delta;
 }
 
+// Symbols are those of single_formulas.h, and a is the acceleration in the move:
+//
 //   x = Σ (p_k − position_k)·normal_k accumulated from −r;   w = Σ v_k·normal_k;   b = Σ a_k·normal_k
 //   if x ≥ 0: done
 //   if not w < 0: put on the surface; done                     already moving away
@@ -72,7 +74,7 @@ static void move_again(const Columns *columns, size_t i, double delta, double sp
 //   if outside: x' as x above; if x' < 0: put on the surface
 //   if w' < 0: reflect
 //   if b < 0 and w'/b < τ: τ = max(w'/b, 0)                    not beyond the apex of the bounce
-//   if τ > 0: move again with τ for delta and the same force; else a = 0
+//   if τ > 0: move again for the time τ, with the same force; else a = 0
 void phys_reflect(const Columns *columns, size_t i, const Force *force, double delta, double speed_of_light) {
     const PhysForce *barrier = &force->given;
     double radius = columns->radius[phys_numbers_at(columns, i)], x = particle_height(columns, i, barrier, -radius);

@@ -10,7 +10,7 @@ bool phys_buffer_reserve(PhysSystem *system, Buffer *buffer, uint64_t retained, 
         return false;
     uint64_t needed;
     if (!__builtin_mul_overflow(count, size, &needed) && needed <= buffer->capacity)
-        return true; // the fast path: called for every particle
+        return true; // the usual case; must be fast, because this is called for every particle
     uint64_t others = system->bytes - buffer->capacity;
     if (size && count > (PHYS_MAX_BYTES - others) / size) {
         system->failed = true;
@@ -20,7 +20,7 @@ bool phys_buffer_reserve(PhysSystem *system, Buffer *buffer, uint64_t retained, 
     // by little.
     uint64_t more = retained ? buffer->capacity : buffer->capacity / GROWTH_DIVISOR;
     uint64_t capacity = buffer->capacity + more > needed ? buffer->capacity + more : needed;
-    if (!retained) // free the old block first, so that the two need not fit into memory together
+    if (!retained) // free the old block first, so that the old and the new block need not fit into memory together
         phys_buffer_free(buffer);
     if (capacity > PHYS_MAX_BYTES - others)
         capacity = needed;

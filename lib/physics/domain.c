@@ -4,8 +4,8 @@
 #include <time.h>
 
 enum {
-    MIN_PARTICLES = 8000, // fewer are not worth the communication
-    FIRST_INTERVAL = 32,  // steps before the first rebalancing; doubled each time
+    MIN_PARTICLES = 8000, // with fewer, communication costs more than it saves
+    FIRST_INTERVAL = 32,  // steps before the first rebalancing; doubled after each rebalancing
 };
 #define MAX_IMBALANCE 1.15 // largest time of a rank divided by the mean; above it, patches are rebalanced
 
@@ -82,7 +82,7 @@ void phys_domain_free(PhysSystem *system) {
     phys_buffer_free(&system->domain);
 }
 
-// Returns true if a particle has a larger range than the halo was built for.
+// Returns true if a particle has a larger radius than the halo was built for.
 static bool sees_farther(const PhysSystem *system, const Domain *domain) {
     const double *radius = system->columns.radius;
     for (uint32_t i = 0; i < system->particle_count; i++) {
@@ -151,7 +151,7 @@ bool phys_domain_begin(PhysSystem *system, const PhysTime *time) {
     Domain reach, *domain = system->domain.bytes;
     bool shared = pays_off(system, time) && !has_unbounded_force(system, &reach) && begin_frame(system, &reach);
     if (!shared && domain)
-        domain->is_valid = false; // the local system does not take part in this frame
+        domain->is_valid = false; // the local system misses the motion of this frame
     if (!shared && system->columns_stale && !system->failed)
         phys_fill_motion(system);
     system->edited = false;
@@ -159,8 +159,8 @@ bool phys_domain_begin(PhysSystem *system, const PhysTime *time) {
     return shared;
 }
 
-// Returns true if an owned particle has moved by half the skin or has grown. Only needed if a pass has no list to
-// detect this.
+// Returns true if an owned particle has moved by half the skin or has grown. Needed only if a pass has no list: lists
+// detect this themselves.
 static bool left_skin(const PhysSystem *system, const Domain *domain) {
     const Columns *columns = &domain->local->columns;
     const double *built = domain->built.bytes;

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PATCHES_PER_RANK = 8192 }; // with smaller patches, fewer particles must be tested one by one
+enum { PATCHES_PER_RANK = 8192 }; // many: with smaller patches, fewer particles must be tested one by one
 
 static uint32_t rotate_right(uint32_t word, uint32_t by, uint32_t bits) {
     by %= bits;
@@ -45,7 +45,7 @@ uint64_t phys_hilbert_index(const uint32_t *cell, uint32_t n, uint32_t levels) {
 typedef struct Patch {
     uint64_t hilbert_index;
     uint32_t cell;
-    double load; // cost of its particles
+    double load; // total cost of the particles in the patch
 } Patch;
 
 static int compare_patches(const void *left, const void *right) {
@@ -67,7 +67,7 @@ static void index_patches(const Grid *grid, Patch *patches, uint32_t count) {
     }
 }
 
-// Assigns contiguous ranges of patches with nearly equal loads.
+// Assigns contiguous ranges of patches with nearly equal loads to the ranks.
 static void assign_patches(Patch *patches, uint32_t count, uint32_t ranks, uint32_t *owners) {
     double total = 0, so_far = 0;
     for (uint32_t i = 0; i < count; i++)
@@ -80,7 +80,7 @@ static void assign_patches(Patch *patches, uint32_t count, uint32_t ranks, uint3
     }
 }
 
-// Computes the measured cost per particle on each rank, or 1 if no cost has been measured.
+// Sets `prices` to the measured cost per particle on each rank, or to 1 if no cost has been measured.
 static void price_particles(const PhysSystem *system, const Domain *domain, double *prices) {
     const uint32_t *counts = domain->counts.bytes;
     const double *rank_seconds = domain->rank_seconds.bytes;

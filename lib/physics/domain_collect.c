@@ -38,7 +38,7 @@ typedef struct Packing {
     const PhysSystem *local;
     RankSection section;
     size_t vectors;                  // vectors per particle: 2: position and velocity; 3: also force
-    uint32_t start[PHYS_MAX_CHUNKS]; // number of owned particles before each chunk
+    uint32_t start[PHYS_MAX_CHUNKS]; // by chunk: number of owned particles in earlier chunks
 } Packing;
 
 // Copies `count` owned particles, starting at local column `first`, to the section, starting at index `to`.

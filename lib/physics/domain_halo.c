@@ -30,7 +30,7 @@ static bool reserve_transfers(PhysSystem *system, Transfers *transfers, uint64_t
     return true;
 }
 
-// Sorts the transfers by rank; stable.
+// Sorts the transfers by rank into `to`. The sort is stable.
 static bool sort_transfers(PhysSystem *system, const Domain *domain, Transfers *to) {
     const Transfer *transfers = domain->transfers.bytes;
     uint32_t ranks = (uint32_t)system->options.ranks.rank_count;
@@ -174,7 +174,8 @@ static void copy_back(const PhysSystem *system, const Domain *domain, uint32_t h
     }
 }
 
-// Copies the owned ends of links back, because they are sent even if they are not on the boundary.
+// Copies owned particles that are ends of links back to the system's columns. They are sent even if they are not on the
+// boundary.
 static void copy_link_ends_back(const PhysSystem *system, const Domain *domain) {
     const Force *forces = system->forces.bytes;
     for (uint32_t f = 0; f < system->force_count; f++) {
@@ -190,7 +191,8 @@ static void copy_link_ends_back(const PhysSystem *system, const Domain *domain) 
 enum { RUN_LENGTH = 64, SIDE_BY_SIDE = 8, MAX_PATCHES = 32 };
 
 // Returns true if the RUN_LENGTH particles starting at `first` are certainly in interior patches, which is the
-// common case. Tests all patches that their bounding box overlaps. The box is small if the columns are in sorted order.
+// common case. Tests all patches that the particles' bounding box overlaps. The box is small if the columns are in
+// sorted order.
 static bool run_is_interior(const Columns *columns, const Grid *patches, const uint32_t *interior, size_t first) {
     uint32_t low[PHYS_VECTOR_DIMENSIONS] = {0}, high[PHYS_VECTOR_DIMENSIONS] = {0}, count = 1;
     for (size_t k = 0; k < patches->dimensions; k++) {

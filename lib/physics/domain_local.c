@@ -1,8 +1,8 @@
 // domain_local.c: the local system of a rank: its owned particles and its halo.
 //
 // Its handles are the columns of the whole system, with gaps. Its columns are in ascending order of handles, or in the
-// sorted order of a list (reorder.c). In sorted order, owned particles keep their columns when the halo is rebuilt, and
-// arrivals fill the gaps.
+// sorted order of a list (reorder.c). In sorted order, a rebuild of the halo leaves nearly all owned particles in their
+// columns. Arrivals fill the columns that have become free.
 #include "physics/domain.h"
 #include "physics/threads.h"
 
@@ -16,13 +16,16 @@ static int compare_columns(const void *left, const void *right) {
     return (a > b) - (a < b);
 }
 
+// Assigns local column `here` to the particle in global column `column`. Its values will be copied from column
+// `source`.
 static void set_column(const Domain *domain, uint32_t here, uint32_t column, uint32_t source) {
     domain->local->order[here] = column;
     domain->local->column_of[column] = here;
     ((uint32_t *)domain->sources.bytes)[here] = source;
 }
 
-// Reserves `orders`, `sources` and `column_of` for `count` local columns, and retains the old `orders`.
+// Reserves `orders`, `sources` and `column_of` for `count` local columns, and retains the old `orders` in
+// `last_orders`.
 static bool reserve_orders(PhysSystem *system, Domain *domain, uint64_t count) {
     Buffer orders = domain->last_orders;
     domain->last_orders = domain->orders;
@@ -187,7 +190,7 @@ static void copy_chunk(void *context, int chunk, int chunks) {
     copy_range(copy, phys_chunk_begin(count, chunk, chunks), phys_chunk_begin(count, chunk + 1, chunks));
 }
 
-// Attributes come from the system's columns, positions and velocities from the rows.
+// Copies attributes from the system's columns, and positions and velocities from the rows.
 static void reload_chunk(void *context, int chunk, int chunks) {
     const ColumnCopy *copy = context;
     const PhysSystem *system = copy->system;
@@ -300,7 +303,7 @@ static bool build_particles(PhysSystem *system, Domain *domain) {
     return true;
 }
 
-// Records positions and radii of the owned particles if a pass has run without a list.
+// Records positions and radii of the owned particles for left_skin, if a pass has run without a list.
 static bool record_built(PhysSystem *system, Domain *domain) {
     const Columns *columns = &domain->local->columns;
     size_t n = columns->dimensions;
@@ -335,8 +338,8 @@ bool phys_domain_build_local(PhysSystem *system, Domain *domain) {
     return true;
 }
 
-// Replaces the column numbers of a link by local ones. Returns false for a link that acts on no owned particle. The
-// ends of all other links are in the local system.
+// Replaces the column numbers of a link by local ones. Returns false for a link that acts on no owned particle. If
+// a link acts on an owned particle, both ends are in the local system.
 static bool localise_force(const PhysSystem *system, const Domain *domain, Force *force) {
     if (phys_force_row(force->given.kind).stage != STAGE_LINK)
         return true;

@@ -1,6 +1,7 @@
 // domain_select.c: selects the owned particles that other ranks need for their halos.
 //
-// Nearly all particles are in interior patches, which no other rank needs. So patches are tested before particles.
+// Nearly all owned particles are in interior patches, whose particles no other rank needs. So patches are tested before
+// particles.
 #include "physics/domain.h"
 
 #include <float.h>
@@ -13,7 +14,8 @@ static double interaction_range(const Domain *domain, double radius, double part
     return (fmax(touch, domain->bound) + domain->survey.skin) * (1 + 1e-9);
 }
 
-// On each line of patches along an axis, clears the patches within `margin` of a patch that is not interior.
+// On each line of patches along one axis, clears the patches within `margin` of a patch that is 0. The line has
+// `length` patches, `stride` elements apart.
 static void shrink_interior(uint32_t *patches, uint32_t count, uint32_t length, uint32_t stride, uint32_t margin) {
     for (uint32_t l = 0; l < count / length; l++) {
         uint32_t *line = patches + (size_t)(l / stride) * stride * length + l % stride, away = margin;
@@ -55,8 +57,8 @@ bool phys_domain_find_interior(PhysSystem *system, Domain *domain) {
     return true;
 }
 
-// Adds transfers to the owners of all patches that a particle can reach. Rounding errors are harmless, because the
-// index of a patch is monotonic in the position.
+// Adds transfers of a particle to the owners of all patches that it can reach. Rounding errors are harmless, because
+// the index of a patch is monotonic in the position.
 static bool select_for_patches(PhysSystem *system, Domain *domain, uint32_t column, uint32_t *last_sent) {
     const Columns *columns = &system->columns;
     const Grid *grid = &domain->patches;
@@ -81,7 +83,7 @@ static bool select_for_patches(PhysSystem *system, Domain *domain, uint32_t colu
     return true;
 }
 
-// Adds transfers to the owners of large particles that can reach a particle.
+// Adds transfers of a particle to the owners of large particles that can reach it.
 static bool select_for_large(PhysSystem *system, Domain *domain, uint32_t column, const double *positions,
                              uint32_t *last_sent) {
     const Columns *columns = &system->columns;
@@ -101,7 +103,7 @@ static bool select_for_large(PhysSystem *system, Domain *domain, uint32_t column
     return true;
 }
 
-// Returns the positions of all large particles, exchanged between the ranks. Returns NULL if out of memory.
+// Exchanges the positions of large particles, and returns those of all of them. Returns NULL if out of memory.
 static const double *large_positions(PhysSystem *system, Domain *domain) {
     const Columns *columns = &system->columns;
     size_t n = columns->dimensions;

@@ -5,13 +5,13 @@
 #include "physics/neighbour_list.h"
 #include "physics/pair_wavefront.h"
 
-// One pass over the pairs of a group.
+// A pass: the pairs of one group, for the forces that this group or one enclosing group declares.
 typedef struct Pass {
     PhysSystem *system;
     const Kernels *kernels;   // NULL: the pass is computed row by row
     const PairKernel *kernel; // NULL: the pass is computed row by row
     PairPass pairs;           // argument of the kernel
-    Move *move;               // motion after the last pass; NULL: none
+    Move *move;               // motion that follows this pass; NULL: particles must not move
 } Pass;
 
 static void fill_terms(PairTerm *terms, ForceRange forces) {
@@ -45,7 +45,7 @@ static Pass prepare_pass(PhysSystem *system, ForceRange forces) {
     pass.pairs = phys_columns_pass(columns);
     pass.pairs.term_count = (size_t)(forces.end - forces.begin);
     pass.pairs.terms = system->terms.bytes;
-    // With several ranks, no row may be skipped, because other ranks wait for it.
+    // With several ranks, an abort must not skip rows, because other ranks wait for them.
     pass.pairs.stop = system->options.ranks.rank_count > 1 ? NULL : phys_stop(system);
     if (columns->dimensions <= PHYS_VECTOR_DIMENSIONS && pass.pairs.term_count <= PHYS_MAX_TERMS &&
         columns->count >= MIN_FOR_LANES) {
@@ -59,7 +59,7 @@ static void move_rows(const void *context, size_t first, size_t end) {
     phys_integrate_rows(context, first, end);
 }
 
-// Computes a region on several threads, together with the motion if it follows directly.
+// Computes a region on several threads. If pass->move is set, also moves the particles of a triangle.
 static void run_wavefront(const Pass *pass, const PairRegion *region, int threads) {
     Integrator integrator;
     Move *move = region->triangle ? pass->move : NULL;
@@ -93,7 +93,7 @@ static void pass_triangle(const Pass *pass, size_t first, size_t end) {
         phys_pair_row(&pass->pairs, i, i + 1, end);
 }
 
-// Returns the number of vector operations of a rectangle.
+// Returns the number of vector operations of a rectangle with these numbers of rows and columns.
 static size_t vector_count(const Pass *pass, size_t rows, size_t columns) {
     size_t lanes = pass->kernels->lanes;
     return (rows + lanes - 1) / lanes * columns;
@@ -121,7 +121,7 @@ static void pass_rectangle(const Pass *pass, size_t first, size_t end, size_t ot
         pass->kernel->tiles(&pass->pairs, region.row, region.row_end, region.column, region.column_end);
 }
 
-// Charges for `pairs` pairs. Returns false if they must not be computed. A single force has a special kernel, which
+// Charges for `pairs` pairs. Returns false if the step must be aborted. A single force has a special kernel, which
 // needs 0.5 ns per pair.
 static bool charge_pairs(const Pass *pass, uint64_t pairs) {
     enum { GROUP_WORK = 3, SINGLE_A_UNIT = 20, TERMS_A_UNIT = 8, ROWS_A_UNIT = 4 };

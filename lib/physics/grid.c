@@ -2,8 +2,8 @@
 //
 // Cells are at least as wide as the range of a regular particle, so its neighbours are in the same cell or an adjacent
 // one. The grid covers the area of most particles. Particles outside it belong to the cells at its edge, so their
-// neighbours are still in the same or an adjacent cell. A few particles may be much larger than the others. They are in
-// no cell. Every other particle tests all of them.
+// neighbours are still in the same or an adjacent cell. A few particles can be much larger than the others.
+// They are in no cell. Instead, each of them is tested against all particles.
 #include "physics/grid.h"
 
 #include "maths/maths.h"
@@ -20,10 +20,10 @@ typedef struct Samples {
     size_t count;
 } Samples;
 
-// Extent, range of radii, and counts of the particles before they are sorted.
+// Extent and range of radii of the regular particles, and counts, found before particles are sorted.
 typedef struct Survey {
     double low[PHYS_VECTOR_DIMENSIONS], high[PHYS_VECTOR_DIMENSIONS];
-    double max_radius, min_radius; // of regular particles
+    double max_radius, min_radius;
     uint32_t regular, large_count;
 } Survey;
 
@@ -32,7 +32,7 @@ static Survey no_survey(void) {
         .low = {INFINITY, INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY, -INFINITY}, .min_radius = INFINITY};
 }
 
-// Squares of lengths in a list must not be subnormal.
+// Minimum of NeighbourList.contact_distance, so that squares of lengths are not subnormal.
 #define MIN_LENGTH 1e-100
 
 static void sort_doubles(double *values, size_t count) {
@@ -53,7 +53,7 @@ static bool is_idle(const PairPass *pass, const NeighbourList *list, size_t colu
     return lost;
 }
 
-// Samples particles, so that outliers do not determine the grid.
+// Takes samples of the particles and sorts each component. The grid follows the samples and not the outliers.
 static void sample_particles(const PairPass *pass, const NeighbourList *list, Samples *samples) {
     uint64_t every = list->total / SAMPLES + 1, i = 0;
     samples->count = 0;
@@ -93,7 +93,7 @@ static int chunk_count_of(const Sorting *sorting) {
     return sorting->system ? phys_chunk_count(sorting->system, sorting->list->total, PHYS_MIN_FOR_THREADS) : 1;
 }
 
-// Returns the column of a particle by its number in the ranges.
+// Returns the column of particle `number`, counted through all ranges of the pass.
 static inline size_t column_of(const NeighbourList *list, uint32_t number) {
     const ColumnRange *range = list->ranges.at;
     while (number >= range->count)
@@ -143,7 +143,7 @@ static bool find_extremes(const double *numbers, size_t count, double *low, doub
     return lost == 0;
 }
 
-// Surveys a chunk quickly if all of its particles are regular, which is the common case. Otherwise returns false.
+// Surveys a chunk quickly if all of its particles are regular, which is the common case. If not, returns false.
 static bool survey_regular(const Sorting *sorting, size_t first, size_t count, Survey *survey) {
     const PairPass *pass = sorting->pass;
     bool regular = find_extremes(pass->radius + first, count, &survey->min_radius, &survey->max_radius);
@@ -195,7 +195,7 @@ static Survey survey_all(Sorting *sorting) {
     return all;
 }
 
-// Chooses the extent and resolution of the grid: at most about `max` cells, none narrower than `width`.
+// Chooses the extent and resolution of the grid: at most `max` cells, none narrower than `width`.
 static void choose_cells(const Survey *survey, const Samples *samples, double width, double max, Grid *grid) {
     double product = 1;
     double span[PHYS_VECTOR_DIMENSIONS];
@@ -210,7 +210,7 @@ static void choose_cells(const Survey *survey, const Samples *samples, double wi
         span[k] = high - low;
         product *= fmax(span[k] / width, 1);
     }
-    // If the particles are extremely far apart, each axis gets the same number of cells.
+    // If the particles are extremely far apart, each axis gets at most the same number of cells.
     bool vast = !(product <= 1e100);
     double chunk = floor(maths_pow(max, 1.0 / (double)grid->dimensions));
     if (product > max && !vast)
@@ -220,7 +220,7 @@ static void choose_cells(const Survey *survey, const Samples *samples, double wi
         double cells = floor(span[k] / width);
         if (vast && cells > chunk)
             cells = chunk;
-        cells = cells >= 1 && cells <= max / product ? cells : 1; // also if the span is not finite
+        cells = cells >= 1 && cells <= max / product ? cells : 1; // 1 cell also if the span is not finite
         product *= cells;
         grid->cells[k] = (uint32_t)cells;
         grid->scale[k] = cells > 1 ? cells / span[k] : 0;
@@ -305,7 +305,7 @@ static bool reserve_arrays(PhysSystem *system, const PairPass *pass, NeighbourLi
     return true;
 }
 
-// Fills the elements beyond the last particle, which are read but do not affect results.
+// Fills the elements beyond the last particle. Kernels read them, but they do not affect results.
 static void pad_arrays(const PairPass *pass, NeighbourList *list, uint32_t dummy) {
     for (uint32_t index = list->total; index < dummy + PHYS_MAX_LANES; index++) {
         list->view.column[index] = list->ranges.at[0].first;
@@ -326,7 +326,7 @@ static void pad_arrays(const PairPass *pass, NeighbourList *list, uint32_t dummy
         list->view.sources[2 * (size_t)dummy] = list->view.sources[2 * (size_t)dummy + 1] = 0;
 }
 
-// Determines the skin, the large particles, and a grid of at most about `max` cells. Returns false if the typical
+// Determines the skin, the large particles, and a grid of at most `max` cells. Returns false if the typical
 // distance of interacting particles is too small or too large.
 static bool layout_cells(Sorting *sorting, double max, Survey *survey, Grid *grid) {
     NeighbourList *list = sorting->list;

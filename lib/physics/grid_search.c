@@ -8,7 +8,7 @@ enum {
     ENTRIES_SPARE = PHYS_MAX_NEIGHBOURS * PHYS_MAX_LANES,
 };
 
-// A search for the lists of all blocks. Each chunk searches some of the blocks and has part of the memory.
+// A search for the lists of all blocks. Each chunk searches some of the blocks and fills its part of the entries.
 typedef struct SearchJob {
     const Kernels *kernels;
     const ListSearch *search;
@@ -69,7 +69,7 @@ bool phys_grid_search(PhysSystem *system, const Kernels *kernels, const Grid *gr
     uint64_t own = list->ranges.at[0].count, total = list->total;
     ListSearch search = {
         .list = list, .grid = grid, .remote = system->remote, .own = phys_own_keys(list), .dummy = dummy};
-    // If nearly every particle is a candidate of every other, a grid does not help.
+    // If most particles are candidates of most others, a grid does not help, so the search stops.
     search.scan_limit = own * total / 4 + 64 * total;
     if (search.scan_limit > 4000 * total)
         search.scan_limit = 4000 * total;

@@ -4,7 +4,7 @@
 #include "physics/threads.h"
 
 // Appends to the chain all forces of a stage that act on a group: first those of the group itself, then those of the
-// enclosing groups. Returns their number. `already` is the number of forces that the chain holds before.
+// enclosing groups. Returns their number. `already` is the number of forces that the chain holds before the call.
 static uint32_t collect_forces(const PhysSystem *system, uint32_t group, Stage stage, uint32_t already) {
     const Group *groups = system->groups.bytes;
     const Force **chain = system->chain.bytes;

@@ -61,7 +61,7 @@ KERNEL void reflect_lanes(const IntegratePass *pass, size_t n, const Block *bloc
     double lanes[PHYS_VECTOR_DIMENSIONS][LANES];
     for (size_t k = 0; k < n; k++) {
         real_store(lanes[k], before[k]);
-        // Reflected particles move again with the same force.
+        // phys_reflect moves particles again with the same force, which it reads from the columns.
         real_store_where(block->live, columns->force + k * columns->stride + block->first, block->force[k]);
     }
     for (; bits; bits &= bits - 1) {
@@ -152,7 +152,7 @@ KERNEL bool all_finite(const Real *parts, size_t count, Lanes *zeros) {
     return mask_bits(finite) == ALL_LANES;
 }
 
-// Returns true if a part is a zero whose sign differs from the zero in the row.
+// Returns true if a part and its number in the row are zeros of different sign.
 KERNEL bool has_other_zero(const double *row, const Real *parts, size_t count, size_t lane) {
     for (size_t k = 0; k < count; k++)
         if (row[k] == 0 && parts[k][lane] == 0 && signbit(row[k]) != signbit(parts[k][lane]))
@@ -182,7 +182,10 @@ KERNEL void write_lane_rows(size_t n, const uint32_t *order, double *rows, const
 // zeros of different sign.
 KERNEL size_t write_range(const Columns *columns, size_t n, const uint32_t *order, double *rows, size_t first,
                           size_t end) {
-    enum { AHEAD = 64, MANY = 30000 }; // prefetch distance in rows; number of rows that no longer fit into the caches
+    enum {
+        AHEAD = 64,
+        MANY = 30000
+    }; // prefetch distance in rows; with more rows than MANY, they do not fit into the caches
     bool many = columns->count > MANY;
     for (; first + LANES <= end; first += LANES) {
         Real parts[2 * PHYS_VECTOR_DIMENSIONS];

@@ -2,7 +2,8 @@
 // the order of the pass. Every pair is computed twice, once for each particle.
 #include "physics/pair_sum.h"
 
-// Returns the index of the radius in a quad of ListView.packed, which holds x, y, radius or x, y, z, radius.
+// Returns the index of the radius in a quad of ListView.packed. A quad holds x, y, radius or, in three dimensions, x,
+// y, z, radius.
 KERNEL size_t radius_component(size_t dimensions) {
     return dimensions < 3 ? 2 : 3;
 }
@@ -36,7 +37,7 @@ KERNEL PairEnd packed_end(PairShape shape, const ListView *view, const uint32_t 
     return end;
 }
 
-// Loads a column for LANES sorted indices, starting at `index`.
+// Loads an attribute of LANES particles with consecutive sorted indices, starting at `index`.
 KERNEL Real load_sorted(const double *column, const ListView *view, size_t index) {
     return view->direct ? real_load(column + index) : real_gather(column, view->column + index);
 }
@@ -145,7 +146,7 @@ KERNEL bool refresh_range(const PairPass *pass, const ListView *view, size_t dim
             real_store_pairs(view->packed + PHYS_PAIR * s, parts);
         else
             real_store_quads(view->packed + PHYS_QUAD * s, parts);
-        // A NaN counts as a move.
+        // If the distance is NaN, the particle counts as moved.
         Mask still = real_at_most_where(live, square, real_set(view->max_move_squared));
         still = real_at_most_where(still, radius, built);
         hold &= mask_bits(still) == mask_bits(live);
@@ -182,7 +183,7 @@ KERNEL void apply_range(const PairPass *pass, PairShape shape, const uint32_t *t
     target.mass = real_gather(pass->mass, targets);
     target.charge = real_gather(pass->charge, targets);
     for (size_t j = first; j < end; j++) {
-        // A target is at distance 0 from itself, which pair_geometry ignores.
+        // If j is a target itself, their distance is 0, and pair_geometry marks the pair as invalid.
         PairEnd partner = pair_partner(pass, shape, j);
         PairGeometry pair;
         if (pair_geometry(shape, &target, &partner, live, &pair))

@@ -1,4 +1,5 @@
-// kernel_pair.c: computes all pairs of a pass, each once, in tiles of LANES x LANES.
+// kernel_pair.c: computes all pairs of a pass in tiles of LANES x LANES. Only tiles on the diagonal compute pairs
+// twice.
 //
 // A tile has LANES targets in the lanes (its rows) and processes LANES partners (its columns) one after the other. The
 // terms are added to the rows' sums immediately, in ascending order of partners. Then the tile is transposed, and the
@@ -14,8 +15,9 @@ typedef struct Rows {
     Real sum[PHYS_VECTOR_DIMENSIONS];
 } Rows;
 
-// Adds all forces between the `live` rows and one column. If `lead_applies`, the leading force must be known to act on
-// the column. Otherwise this is tested.
+// Adds all forces between the `live` rows and column j, which is number k in its tile. `lead_applies`: the leading
+// force is known to act on the column; false: this is tested. `tile` receives the terms for the column; NULL: not
+// needed.
 KERNEL void add_column(const PairPass *pass, PairShape shape, Rows *rows, Mask live, size_t j, bool lead_applies,
                        Tile *tile, size_t k) {
     const PairEnd *target = &rows->target;
@@ -103,7 +105,8 @@ KERNEL void partial_tile(const PairPass *pass, PairShape shape, Rows *rows, size
     finish_tile(pass, shape, &tile, j, columns);
 }
 
-// Computes the tile on the diagonal: each of its particles is a row and is paired with all the others.
+// Computes the tile on the diagonal: each of its particles is both a row and a column. So each pair is computed twice,
+// and only sums of rows are needed.
 KERNEL void diagonal_tile(const PairPass *pass, PairShape shape, Rows *rows, size_t i, size_t count) {
     for (size_t k = 0; k < count; k++) {
         Mask self = mask_and(mask_first(k + 1), mask_not(mask_first(k)));
@@ -111,7 +114,8 @@ KERNEL void diagonal_tile(const PairPass *pass, PairShape shape, Rows *rows, siz
     }
 }
 
-// Computes LANES rows with all their columns. The columns of a triangle begin to the right of the diagonal.
+// Computes up to LANES rows with all their columns. In a triangle, the diagonal tile comes first, then the columns to
+// its right.
 KERNEL void tile_row(const PairPass *pass, PairShape shape, size_t i, size_t count, size_t column, size_t column_end,
                      bool triangle) {
     Rows rows = {.target = pair_targets(pass, shape, i), .live = mask_first(count)};
@@ -147,7 +151,7 @@ KERNEL void tile_rows(const PairPass *pass, PairShape shape, size_t row, size_t 
     }
 #define PAIR_ENTRY(n, name, lead, rest) [n - 1][lead][rest] = {triangle_##n##name##rest, tiles_##n##name##rest},
 
-// Every force that may be unbounded has kernels in which it is the lead, in 1, 2 and 3 dimensions.
+// Every force that can be unbounded has kernels in which it is the lead, in 1, 2 and 3 dimensions.
 #define LEAD_CONTACT(MAKE, KIND)
 #define LEAD_FAR(MAKE, KIND)                                                                                           \
     MAKE(1, KIND, PHYS_##KIND, REST_NONE)                                                                              \

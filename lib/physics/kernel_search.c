@@ -1,17 +1,18 @@
 // kernel_search.c: builds neighbour lists from the cells of a grid, LANES candidates at a time.
 //
 // Particles with adjacent sorted indices share most of their candidates. So the candidates of a batch of particles are
-// sorted into the order of the pass only once. Each list is filled from them in that order. If a batch spans two rows
-// of cells, or has very many candidates, each particle searches separately, and its list is sorted afterwards.
+// sorted into the order of the pass only once. Each list is filled from these candidates in that order. In some cases
+// each particle searches separately, and its list is sorted afterwards: if the batch spans two rows of cells or has
+// very many candidates, or if the pass has enclosing groups.
 #include "physics/grid.h"
 #include "physics/lanes.h"
 
 enum {
-    MAX_ROWS = 9 + 1, // rows of cells around a cell, and the large particles
+    MAX_ROWS = 9 + 1, // rows of adjacent cells, and one row for the large particles
     WORDS = LANES < 4 ? 4 : 2 * LANES,
-    BATCH = 8,       // particles
+    BATCH = 8,       // number of particles in a batch
     MAX_BATCH = 128, // maximum number of candidates of a batch
-    SPARE = 16,      // dummies after the list of a particle
+    SPARE = 16,      // number of dummies that are first appended to a list
 };
 
 typedef int32_t Words __attribute__((vector_size(4 * WORDS)));
@@ -47,8 +48,8 @@ static void add_row(Finder *finder, uint32_t first, uint32_t end) {
     finder->candidates += end - first;
 }
 
-// Finds the candidates for particles in cells low_cell to high_cell, which are in one row of cells. These are the
-// particles in the same and in adjacent cells, and the large particles.
+// Finds the candidates for particles in cells low_cell to high_cell, which are in one row of cells. Candidates are the
+// particles in these cells and adjacent ones, and the large particles.
 static void find_rows(const ListSearch *search, Finder *finder, uint32_t low_cell, uint32_t high_cell) {
     const Grid *grid = search->grid;
     uint32_t low[PHYS_VECTOR_DIMENSIONS], high[PHYS_VECTOR_DIMENSIONS], rest = low_cell;
@@ -69,6 +70,7 @@ static void find_rows(const ListSearch *search, Finder *finder, uint32_t low_cel
     add_row(finder, search->list->view.regular, search->list->view.listed);
 }
 
+// Returns the cell of a sorted index, which is `cell` or a later one.
 static uint32_t cell_from(const Grid *grid, uint32_t cell, uint32_t index) {
     while (index >= grid->start[cell + 1])
         cell++;
@@ -131,8 +133,9 @@ KERNEL size_t find_near(const ListSearch *search, Finder *finder, Measure shape,
     return count;
 }
 
-// Removes the particle itself. If it belongs to an enclosing group, also removes particles of enclosing groups, whose
-// pairs belong to other passes. Returns the number left.
+// Removes particle `index` itself from finder->near. If it belongs to an enclosing group, also removes other particles
+// of enclosing groups, because their pairs belong to other passes. Sets finder->keys. Returns the number of particles
+// left.
 KERNEL size_t exclude_self(const ListSearch *search, Finder *finder, uint32_t index, size_t found) {
     const uint32_t *key = search->list->key;
     uint32_t limit = key[index] < search->own ? UINT32_MAX : search->own;
@@ -179,7 +182,7 @@ KERNEL uint32_t collect_candidates(const ListSearch *search, Finder *finder) {
         uint32_t *near = finder->near + count, first = finder->first[row], length = finder->end[row] - first;
         int32_t *keys = (int32_t *)finder->keys + count;
         const uint32_t *key = search->list->key + first;
-        for (uint32_t c = 0; c < length; c += BATCH) // elements written after the row are ignored
+        for (uint32_t c = 0; c < length; c += BATCH) // elements written beyond `length` are overwritten or ignored
             for (uint32_t m = c; m < c + BATCH; m++) {
                 near[m] = first + m;
                 keys[m] = (int32_t)key[m];
@@ -189,6 +192,7 @@ KERNEL uint32_t collect_candidates(const ListSearch *search, Finder *finder) {
     return count;
 }
 
+// Fills finder->batch with the candidates, in the order of the pass.
 KERNEL void order_batch(const ListSearch *search, Finder *finder, Measure shape) {
     const ListView *view = &search->list->view;
     Batch *batch = &finder->batch;

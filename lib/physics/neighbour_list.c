@@ -8,7 +8,7 @@
 
 enum {
     MIN_FOR_LISTS = 160, // minimum number of particles in a pass
-    FIRST_COOLDOWN = 64, // steps without lists after lists did not pay off; doubled each time
+    FIRST_COOLDOWN = 64, // steps without lists after a list has not paid off; doubled each time that this is repeated
     MAX_COOLDOWN = 1024,
     ENTRIES_A_UNIT = 4,
     FIRST_LIFETIME = 8, // steps that the first list is expected to serve
@@ -48,8 +48,8 @@ static bool find_ranges(const PhysSystem *system, uint32_t group, uint32_t level
     return true;
 }
 
-// Returns the list of this pass, or else the list that has not been used for the longest time. Returns NULL if other
-// passes of this frame use all lists.
+// Returns the list of this pass. If it has none, returns the list that has not been used for the longest time, or NULL
+// if other passes of this frame use all lists.
 static NeighbourList *find_list(PhysSystem *system, uint32_t group, uint32_t level) {
     NeighbourList *spare = NULL;
     for (int i = 0; i < PHYS_MAX_LISTS; i++) {
@@ -82,7 +82,7 @@ typedef struct ListPass {
     const PairPass *pass;
     NeighbourList *list;
     const Integrator *sweep;     // for step_chunk
-    bool reuse;                  // for step_chunk: all blocks of a chunk reuse the same part of the force columns
+    bool reuse;                  // for step_chunk: all parts of a chunk use the same section of the force columns
     bool valid[PHYS_MAX_CHUNKS]; // by chunk: true if no particle has moved by half the skin
 } ListPass;
 
@@ -172,8 +172,8 @@ static bool refresh_list(const PhysSystem *system, ListPass *work) {
     return run_chunks(system, work, refresh_chunk) && still_idle(work->pass, list);
 }
 
-// Takes the whole step if it consists of only this pass and the motion. Returns false if it does not, or if the
-// particles fit into the cache, where this is not faster.
+// Takes the whole step if it consists of only this pass and the motion. Returns false if it consists of more or the
+// list does not allow this. Also returns false if the particles fit into the cache, where this is not faster.
 static bool step_with_list(PhysSystem *system, ListPass *work, Move *move) {
     NeighbourList *list = work->list;
     bool many = list->total >= MANY || system->options.neighbours == PHYS_NEIGHBOURS_ALWAYS;
@@ -186,7 +186,7 @@ static bool step_with_list(PhysSystem *system, ListPass *work, Move *move) {
     if (!phys_integrate_begin(system, 0, move->delta, move->speed_of_light, &integrator))
         return true; // the budget is exceeded, so the step is aborted
     list->next_valid = run_chunks(system, work, step_chunk);
-    list->next_motion_version = system->motion_version + 1; // its value after the step
+    list->next_motion_version = system->motion_version + 1; // the value of motion_version after the step
     phys_integrate_end(&integrator);
     return true;
 }
@@ -199,7 +199,7 @@ static void large_forces(const ListPass *work) {
     for (uint32_t index = list->view.regular; index < end && !phys_pass_stopped(work->pass);) {
         uint32_t targets[8] = {0}, count = 0;
         bool inner = list->key[index] < own;
-        // Large particles of enclosing groups interact only with the group itself.
+        // In this pass, large particles of enclosing groups interact only with the pass's own group.
         for (; index < end && count < list->lanes && (list->key[index] < own) == inner; index++)
             targets[count++] = list->view.column[index];
         for (uint32_t r = 0; r < (inner ? ranges->count : 1); r++)
@@ -234,16 +234,16 @@ static bool pays_off(const NeighbourList *list) {
     return each + (scan + large + (double)list->padded) / width < all_pairs_cost(list) / width;
 }
 
-// Returns the part of the cost of a step with lists that depends on the skin. It is counted and not timed, because the
-// choice affects the work that is charged.
+// Returns the part of the cost of a step with lists that depends on the skin. It is computed from counts and not timed,
+// because the skin affects the work that is charged, which must not depend on time.
 static double cost_of_step(const NeighbourList *list) {
     double build = (double)list->total * BUILD_COST, width = (double)list->lanes / 8;
     return build / list->lifetime + ((double)list->scanned * SCAN_COST / list->lifetime + (double)list->padded) / width;
 }
 
 // A larger skin makes longer lists that serve more steps. Each new list tries another skin. The skin changes in the
-// same direction as long as the cost falls. Motion also changes the cost, so the skin never shrinks below MIN_LIFETIME
-// steps.
+// same direction as long as the cost falls. If a list has served fewer than MIN_LIFETIME
+// steps, the skin grows in any case, because motion also changes the cost.
 static void tune_skin(NeighbourList *list) {
     double cost = cost_of_step(list);
     bool worse = list->cost > 0 && cost > list->cost;
@@ -260,8 +260,8 @@ void phys_adapt_skin(NeighbourList *list, uint32_t lifetime) {
         list->skin = fmax(list->skin / 1.15, MIN_SKIN * list->contact_distance);
 }
 
-// Sorts the particles and builds the list. Restores the order of the columns if there are large particles or no list,
-// because forces are then summed in column order.
+// Sorts the particles and builds the list. If this fails or there are large particles, forces are summed in column
+// order, so the order of the columns is restored.
 static bool sort_particles(PhysSystem *system, const Kernels *kernels, const PairPass *pass, NeighbourList *list) {
     bool sorted = phys_grid_build(system, kernels, pass, list);
     if (!system->in_cell_order || (sorted && list->view.listed == list->view.regular))
@@ -293,7 +293,7 @@ static bool build_list(PhysSystem *system, const Kernels *kernels, const PairPas
     return false;
 }
 
-// Returns a list for this pass, which may need a rebuild, or NULL if lists cannot be used.
+// Returns a list for this pass, which is built only if list->built is set. Returns NULL if lists cannot be used.
 static NeighbourList *prepare_list(PhysSystem *system, const Kernels *kernels, const PairPass *pass, uint32_t group,
                                    uint32_t level) {
     double bound;

@@ -2,7 +2,8 @@
 //
 // The pairs are divided into blocks as in pair_wavefront.c. Rows of blocks are assigned to ranks in turn. The partial
 // sums of a block's columns are sent to the rank of the next row, one message per block. So all sums have the order of
-// a single process. At the end every rank broadcasts the sums of its rows, and all ranks move all particles.
+// a single process. At the end every rank broadcasts the complete sums of its rows, so all ranks can
+// move all particles.
 #include "physics/pair_wavefront.h"
 
 enum {
@@ -27,7 +28,8 @@ static int row_owner(const Shared *shared, size_t row) {
     return (int)(row % (size_t)shared->ranks->rank_count);
 }
 
-// Returns the force sums of the rows or columns of block `number`, and sets *length to their number.
+// Returns the force sums of the particles of block `number` in the range from `first` to `end` - 1. Sets *length to the
+// number of particles.
 static double *block_sums(const Shared *shared, size_t first, size_t end, size_t number, size_t *length) {
     size_t begin = first + number * shared->blocks.block, rest = end - begin;
     *length = shared->blocks.block < rest ? shared->blocks.block : rest;
@@ -62,8 +64,8 @@ static void broadcast_range(const Shared *shared, int from, double *numbers, siz
     shared->rank_stats->step_bytes += ranks->rank == from ? length * pass->dimensions * sizeof *numbers : 0;
 }
 
-// The sums of a row are complete on the rank that computed it. The column sums of a rectangle are complete on the rank
-// of the last row.
+// The sums of the rows in a row of blocks are complete on the rank that computed it. The column sums of a rectangle are
+// complete on the rank of the last row.
 static void broadcast_sums(const Shared *shared) {
     const PairRegion *pairs = shared->blocks.pairs;
     for (size_t row = 0; row < shared->blocks.rows; row++) {

@@ -1,12 +1,12 @@
 // pair_wavefront.c: computes all pairs of a pass on several threads.
 //
-// The pairs form a triangle or a rectangle, which is divided into blocks. A block may be computed when the blocks to
+// The pairs form a triangle or a rectangle, which is divided into blocks. A block can be computed when the blocks to
 // its left and above it are done, because the sums of its rows and columns have then received all earlier terms in
 // order. Threads claim rows of blocks in turn and follow each other through them, so all sums have the order of a
 // single thread. When a row of a triangle is done, the positions of its particles are no longer needed. Waiting threads
-// may then move them.
+// then move them.
 //
-// A thread sees the result of another thread after about 300 ns, in which it could compute six tiles of pairs. So
+// A thread sees the result of another thread after about 300 ns. In this time it could compute six tiles of pairs. So
 // blocks are small, and different threads write to different cache lines.
 #include "physics/pair_wavefront.h"
 
@@ -27,7 +27,7 @@ enum {
 // A row of blocks.
 typedef struct Row {
     _Alignas(LINE_BYTES) atomic_bool claimed;
-    atomic_size_t done; // number of leading columns of blocks that are done
+    atomic_size_t done; // blocks 0 to done - 1 of the row are done
 } Row;
 
 typedef struct Wavefront {
@@ -37,7 +37,7 @@ typedef struct Wavefront {
     PairPass pass;
     PhysThreads *threads;
     const PairMotion *motion;                 // NULL: none
-    _Alignas(LINE_BYTES) atomic_size_t moved; // number of leading rows whose particles have moved or are being moved
+    _Alignas(LINE_BYTES) atomic_size_t moved; // rows 0 to moved - 1: particles have moved or are being moved
     Row rows[MAX_BLOCKS];
 } Wavefront;
 
@@ -87,7 +87,7 @@ static bool move_next_row(Wavefront *wavefront) {
     return true;
 }
 
-// Waits until `column` blocks of a row are done. Meanwhile, moves particles of complete rows.
+// Waits until blocks 0 to column - 1 of a row are done. During the wait, moves particles of complete rows.
 static void wait_for_row(Wavefront *wavefront, const Row *row, size_t column, bool caller) {
     PhysSpinWait wait = {0};
     while (!is_done_to(row, column))
@@ -106,7 +106,7 @@ static void compute_row(Wavefront *wavefront, size_t row, bool caller) {
     }
 }
 
-// Computes the rows of a chunk, and earlier rows that no thread has claimed.
+// Computes every `chunks`-th row of blocks, starting at `chunk`, and earlier rows that no thread has claimed.
 static void run_rows(void *context, int chunk, int chunks) {
     Wavefront *wavefront = context;
     for (size_t byte = 0; byte < offsetof(Wavefront, moved); byte += LINE_BYTES)

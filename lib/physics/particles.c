@@ -10,8 +10,8 @@
 bool phys_reserve_columns(PhysSystem *system, uint64_t spare) {
     Columns *columns = &system->columns;
     uint64_t n = system->dimensions, count = system->particle_count;
-    // The last element of each array is used only if particles have `force` attributes. When the first such attribute
-    // is set, the columns are reserved again.
+    // The last elements of `vectors` and `scalars` are used only if particles have `force` attributes. When the first
+    // such attribute is set, the columns are reserved again.
     double **vectors[] = {&columns->position, &columns->velocity, &columns->force, &columns->own_force};
     double **scalars[] = {&columns->radius,  &columns->mass,   &columns->charge,
                           &columns->section, &columns->volume, &columns->ease};
@@ -54,7 +54,7 @@ static void power_radii(const PhysSystem *system, double power, double *to) {
     maths_power_array(system->options.cpu, system->columns.radius, power, system->columns.count, to);
 }
 
-// Computes radius^(n-1) and radius^n once, because every step needs them.
+// Computes radius^(n-1) and radius^n if forces need them. All steps use these numbers.
 void phys_update_radius_powers(PhysSystem *system) {
     const Columns *columns = &system->columns;
     const Force *forces = system->forces.bytes;
@@ -119,9 +119,10 @@ typedef struct RowWriter {
     bool any_not_finite[PHYS_MAX_CHUNKS]; // by chunk: some value was not finite
 } RowWriter;
 
-// Applies PhysTime.keep_last_finite to one vector: writes the column's value to the row, or restores the row's value in
-// `home`. Returns false if the column's value was not finite. Only this function prevents inf and nan of `!physics`
-// from reaching the state, whose entries reference the rows (scene/mirror.h).
+// Applies PhysTime.keep_last_finite to one vector. If it is finite, and has changed or came from an attribute, copies
+// it from the columns to the row. Otherwise restores it in the columns of `home` from the row. Returns false if it was
+// not finite. The state references the rows (scene/mirror.h). Only this function, and Kernels.write_rows, keep inf and
+// nan of `!physics` out of them.
 static inline bool keep_last_finite(const Columns *columns, const double *column, double *row, bool from_attribute,
                                     double *home, size_t home_stride) {
     size_t n = columns->dimensions, stride = columns->stride;
@@ -136,7 +137,8 @@ static inline bool keep_last_finite(const Columns *columns, const double *column
     return finite;
 }
 
-// Applies PhysTime.keep_last_finite to one particle. Returns false and sets marks if a value was not finite.
+// Applies PhysTime.keep_last_finite to one particle. If a value was not finite, marks it in `not_finite` and returns
+// false.
 static bool write_finite_row(const RowWriter *writer, size_t i) {
     const PhysSystem *system = writer->system, *home = writer->home;
     const Columns *columns = writer->columns;
@@ -176,7 +178,7 @@ static void write_chunk(void *context, int chunk, int chunks) {
     size_t n = columns->dimensions, end = phys_chunk_begin(columns->count, chunk + 1, chunks);
     size_t first = phys_chunk_begin(columns->count, chunk, chunks);
     if (writer->keep_last_finite) {
-        // Where the kernel stops, the next `lanes` particles are written one at a time.
+        // When the kernel stops, the next `lanes` particles are written one at a time, and then it continues.
         const Kernels *kernels = phys_kernels(system);
         while (first < end) {
             if (n <= PHYS_VECTOR_DIMENSIONS && !system->any_from_attribute)
@@ -201,7 +203,7 @@ bool phys_clear_not_finite(PhysSystem *system) {
     return true;
 }
 
-// Writes the forces by handle, for PhysColumns.force.
+// Copies the forces to force_rows, for PhysColumns.force.
 static void write_forces(PhysSystem *system, const Columns *columns, const uint32_t *order) {
     size_t n = columns->dimensions;
     for (size_t i = 0; i < columns->count; i++) {

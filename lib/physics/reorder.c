@@ -1,8 +1,9 @@
 // reorder.c: spatial reordering of the particle columns.
 //
 // A neighbour list sorts particles by grid cell. If phys_can_reorder allows it, the columns are permuted into that
-// order after each rebuild, so that kernels read neighbours from nearby memory without an index. system->order maps
-// columns to handles. All particles are in one group then, so ascending handles give the order of summation.
+// order whenever the list is rebuilt. Then kernels read neighbours from nearby memory and need not look up columns.
+// system->order maps columns to handles. As all particles are in one group, forces are summed in ascending order of
+// handles.
 #include "physics/neighbour_list.h"
 #include "physics/threads.h"
 
@@ -13,7 +14,7 @@ enum { MAX_ARRAYS = 4 * PHYS_VECTOR_DIMENSIONS + 6 };
 typedef struct Reordering {
     PhysSystem *system;
     const NeighbourList *list;
-    double *arrays[MAX_ARRAYS]; // columns to permute, without positions, which the list already has in its order
+    double *arrays[MAX_ARRAYS]; // columns to permute; phys_reorder copies positions from the list instead
     size_t count;
     size_t next; // first array of the current batch
 } Reordering;
@@ -36,7 +37,7 @@ static void add_arrays(Reordering *reordering, bool positions) {
         add_vector(reordering, columns->ease, 1);
     }
     if (system->has_own_forces || positions)
-        add_vector(reordering, columns->force, columns->dimensions); // otherwise the forces are 0 before the pair pass
+        add_vector(reordering, columns->force, columns->dimensions); // in other cases all forces are still 0
     if (!system->record_stride)
         return;
     double *numbers[] = {columns->radius, columns->mass, columns->charge, columns->section, columns->volume};
@@ -44,7 +45,8 @@ static void add_arrays(Reordering *reordering, bool positions) {
         add_vector(reordering, numbers[i], 1);
 }
 
-// Returns how many arrays fit into ListView.packed, which is free until the list is refreshed, except for its dummy.
+// Returns how many of the remaining arrays fit into ListView.packed at once. Until the list is refreshed, only its
+// dummy is in use, and the rest is scratch memory.
 static size_t arrays_at_once(const Reordering *reordering) {
     size_t left = reordering->count - reordering->next, room = reordering->list->view.width;
     return left < room ? left : room;
@@ -128,7 +130,7 @@ bool phys_can_reorder(const PhysSystem *system) {
 }
 
 void phys_reorder(PhysSystem *system, NeighbourList *list) {
-    if (list->view.listed > list->view.regular) // large particles are summed in column order
+    if (list->view.listed > list->view.regular) // forces on large particles are summed in column order
         return;
     Reordering reordering = {.system = system, .list = list};
     int chunks = phys_chunk_count(system, list->total, PHYS_MIN_FOR_THREADS);

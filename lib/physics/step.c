@@ -12,8 +12,8 @@ static void ease_strengths(const PhysSystem *system, double clock) {
         forces[i].strength = forces[i].given.strength * phys_ramp(forces[i].given.ease, clock);
 }
 
-// Initial value of a particle's force in a step: its `force` attribute, times clock / ease while it is eased in. A
-// factor of 1 changes no bit.
+// Context of start_chunk, which sets the initial force on each particle in a step. It is the particle's `force`
+// attribute, times clock / ease while this is eased in. A factor of 1 changes no bit.
 typedef struct StartForces {
     const PhysSystem *system;
     double clock;
@@ -60,7 +60,7 @@ bool phys_step(PhysSystem *system, double clock, double delta, double speed_of_l
         return false;
     ease_strengths(system, clock);
     start_forces(system, clock);
-    // 1. Forces between particles. A particle moves only when no other force needs its position.
+    // 1. Forces between particles. Only when no other force needs a particle's position, the particle can move.
     Move move = {delta, speed_of_light, false};
     for (uint32_t g = 0; g < system->group_count; g++) {
         phys_apply_links(columns, phys_forces(system, g, STAGE_LINK));

@@ -5,7 +5,7 @@
 #include <assert.h>
 #include <string.h>
 
-// Counts are uint32_t: the limit on bytes keeps them in range.
+// Counts are uint32_t. PHYS_MAX_BYTES keeps them in range.
 _Static_assert(PHYS_MAX_BYTES / sizeof(Group) < UINT32_MAX / STAGE_COUNT, "group numbers must fit");
 _Static_assert(PHYS_MAX_BYTES / sizeof(ParticleRecord) < UINT32_MAX, "particle handles must fit");
 _Static_assert(PHYS_MAX_BYTES / sizeof(ForceRecord) < UINT32_MAX, "force numbers must fit");
@@ -47,7 +47,7 @@ void phys_free(PhysSystem *system) {
     phys_domain_free(system);
     if (system->owns_threads)
         phys_threads_free(system->threads);
-    Arena home = system->home; // copied, because it holds the struct
+    Arena home = system->home; // copied, because its memory holds the struct
     arena_free(&home);
 }
 
@@ -143,8 +143,8 @@ static ParticleRecord record_of(const PhysParticle *particle, uint32_t group, bo
                             .anchor = anchor};
 }
 
-// Stores the record of a particle; `count` includes it. As long as all records are equal, only one is stored. Returns
-// false if out of memory.
+// Stores the record of a particle. `count` is the number of particles, including this one. As long as all records are
+// equal, only one is stored. Returns false if out of memory.
 static bool set_record(PhysSystem *system, uint32_t handle, uint32_t count, const ParticleRecord *record) {
     bool single = !system->record_stride && count > 1;
     if (single && memcmp(phys_record(system, 0), record, sizeof *record) == 0)
@@ -239,7 +239,8 @@ void phys_update_particle(PhysSystem *system, uint32_t particle, const PhysParti
     update_columns(system, particle, &record, row);
 }
 
-// Copies a vector of a force. Returns its index plus 1, or 0 for all zeros and if out of memory.
+// Copies a vector of a force. Returns the index of the copy plus 1. Returns 0 for all zeros (NULL), or if out of
+// memory.
 static uint64_t store_vector(PhysSystem *system, PhysVector vector) {
     uint64_t n = system->dimensions, begin = system->vector_doubles;
     if (!vector || !phys_buffer_reserve(system, &system->vectors, begin * sizeof(double), begin + n, sizeof(double)))
@@ -253,7 +254,7 @@ uint32_t phys_add_force(PhysSystem *system, uint32_t group, const PhysForce *for
     if (!reserve_one(system, &system->force_records, system->force_count, sizeof(ForceRecord)))
         return 0;
     assert(group < system->group_count);
-    int vectors = phys_force_row(force->kind).vectors; // the others may be uninitialised
+    int vectors = phys_force_row(force->kind).vectors; // vectors that the kind does not use can be uninitialised
     ForceRecord record = {.given = *force, .group = group};
     record.vector = vectors > 0 ? store_vector(system, force->vector) : 0;
     record.vector2 = vectors > 1 ? store_vector(system, force->vector2) : 0;
@@ -271,7 +272,7 @@ void phys_begin_forces(PhysSystem *system) {
 
 void phys_set_key(PhysSystem *system, uint32_t force, uint64_t key) {
     if (force >= system->force_count)
-        return; // a number from a call that failed
+        return; // the number comes from a call that failed
     ForceRecord *record = (ForceRecord *)system->force_records.bytes + force;
     record->given.key = key;
     if (system->forces_arranged)
@@ -305,7 +306,7 @@ uint32_t phys_particle_count(const PhysSystem *system) {
 
 const double *phys_position(const PhysSystem *system, uint32_t particle) {
     if (particle >= system->particle_count)
-        return NULL; // a handle from a call that failed
+        return NULL; // the handle comes from a call that failed
     return phys_row(system, particle);
 }
 

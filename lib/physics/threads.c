@@ -13,8 +13,8 @@
 #include <time.h>
 #include <unistd.h>
 
-// Fields of the ticket, a 64-bit word: the number of the job, its number of chunks, and how many are claimed from the
-// back and from the front. Every other thread claims from the back, so that a thread processes nearly the same
+// Fields of the ticket, a 64-bit word: the number of the job, its number of chunks, how many of them are claimed from
+// the back, and how many from the front. Half of the threads claim from the back. So a thread processes nearly the same
 // particles in each job and finds them in its cache.
 enum { COUNT_BITS = 8, BACK_SHIFT = COUNT_BITS, CHUNKS_SHIFT = 2 * COUNT_BITS, JOB_SHIFT = 3 * COUNT_BITS };
 _Static_assert(PHYS_MAX_CHUNKS < 1 << COUNT_BITS, "the number of claimed chunks must fit");
@@ -24,29 +24,29 @@ enum {
     MIN_TUNER_BITS = 13,  // the tuners are for jobs below 2^14 units, below 2^15 units, and above
     LINE_BYTES = 64,      // size of a cache line
     POLLS_PER_CHECK = 64, // polls between two readings of the clock
-    SPIN_NS = 50000,      // a thread polls for work before it sleeps; about as long as waking it takes
-    YIELD_NS = 50000      // a thread polls for other threads before it yields the processor
+    SPIN_NS = 50000,      // time for which a thread polls for work before it sleeps; about as long as waking takes
+    YIELD_NS = 50000      // time for which a thread polls for other threads before it yields the processor
 };
 
 struct PhysThreads {
-    int count;          // number of running threads, without the caller
-    atomic_int serving; // number of threads that have started
+    int count;          // number of created threads, without the caller
+    atomic_int serving; // number of threads that have begun to run
     pthread_t threads[PHYS_MAX_THREADS];
     pid_t process; // process that created the pool; a forked child has none of its threads
     bool started;
     void *block; // allocated memory that contains this struct
-    int wanted;  // number of threads, with the caller
+    int wanted;  // intended number of threads, with the caller
     // used by the caller only
     PhysBackoff backoff;
     PhysTuner tuners[TUNERS]; // by the size of a short job
-    uint64_t last_request;    // when has_awake_helper last found no thread awake
+    uint64_t last_request;    // time when has_awake_helper last found no thread awake
     uint64_t waited;          // nanoseconds that the caller waited in this job
     bool helped;              // a helper took part in the last job
     // the job, in one cache line, because other threads read it first
     _Alignas(LINE_BYTES) atomic_uint_fast64_t ticket;
     PhysTask *work;
     void *context;
-    _Alignas(LINE_BYTES) atomic_uint done; // chunks of all jobs that helpers have finished
+    _Alignas(LINE_BYTES) atomic_uint done; // number of chunks that helpers have finished, in all jobs so far
     // sleeping
     _Alignas(LINE_BYTES) atomic_int sleeping;
     atomic_uint wakeups;          // number of broadcasts of `wake`
@@ -70,7 +70,8 @@ static bool any_left(uint64_t ticket) {
     return count_at(ticket, 0) + count_at(ticket, BACK_SHIFT) < count_at(ticket, CHUNKS_SHIFT);
 }
 
-// Claims a chunk. Returns false if there is none. A claim keeps the job alive, so its fields may be read afterwards.
+// Claims a chunk. Returns false if there is none. The job does not end before the claimed chunk is finished, so its
+// fields stay valid until then.
 static bool claim_chunk(PhysThreads *threads, bool from_back, int *chunk, int *chunks) {
     uint64_t ticket = atomic_load_explicit(&threads->ticket, memory_order_acquire);
     while (any_left(ticket)) {
@@ -85,7 +86,7 @@ static bool claim_chunk(PhysThreads *threads, bool from_back, int *chunk, int *c
     return false;
 }
 
-// Runs chunks until none is left, and returns how many.
+// Runs chunks until none is left, and returns how many it has run.
 static int run_chunks(PhysThreads *threads, bool helping, bool from_back) {
     int chunk, chunks, count = 0;
     for (; claim_chunk(threads, from_back, &chunk, &chunks); count++) {
@@ -156,7 +157,8 @@ PhysThreads *phys_threads_new(int count) {
     return threads;
 }
 
-// Starts as many threads as the system allows. They block all signals, so that only the host's threads receive them.
+// Starts the threads, or as many as the operating system allows. They block all signals, so that only the host's
+// threads receive them.
 static void start_threads(PhysThreads *threads) {
     sigset_t all, before;
     sigfillset(&all);
@@ -245,7 +247,7 @@ static bool has_helpers(PhysThreads *threads) {
     return threads && threads->count > 0 && !phys_backoff_pauses(&threads->backoff, nanoseconds());
 }
 
-// Returns true if a helper is awake. If not, and if short jobs come in quick succession, wakes one for later jobs.
+// Returns true if a helper is awake. If not, and if short jobs come in quick succession, wakes helpers for later jobs.
 static bool has_awake_helper(PhysThreads *threads) {
     uint64_t now = nanoseconds();
     if (phys_backoff_pauses(&threads->backoff, now))

@@ -12,7 +12,7 @@
 
 #include <math.h>
 
-// Arranges what has changed since the last frame for simulation. Returns false if out of memory.
+// Prepares the parts of the system that have changed since the last frame. Returns false if out of memory.
 static bool arrange_system(PhysSystem *system) {
     if (system->failed)
         return false;
@@ -23,7 +23,7 @@ static bool arrange_system(PhysSystem *system) {
             return false;
     }
     if (!system->forces_arranged) {
-        system->radius_powers_valid = false; // the new forces may need other powers
+        system->radius_powers_valid = false; // the new forces possibly need other powers
         system->forces_arranged = phys_arrange_forces(system);
         if (!system->forces_arranged)
             return false;
@@ -31,7 +31,7 @@ static bool arrange_system(PhysSystem *system) {
     system->can_reorder = system->options.ranks.rank_count <= 1 && phys_can_reorder(system);
     if (system->in_cell_order && !system->can_reorder) {
         phys_restore_order(system);
-        if (!phys_arrange_forces(system)) // links contain column numbers
+        if (!phys_arrange_forces(system)) // links contain column numbers, which have changed
             return false;
     }
     if (!system->radius_powers_valid)
@@ -48,7 +48,7 @@ static bool run_step(PhysSystem *system, bool shared, double clock, double delta
 }
 
 static PhysResult abort_frame(PhysSystem *system, const PhysTime *time) {
-    system->arranged = false; // the rows are unchanged, but the columns are not
+    system->arranged = false; // the columns must be filled again from the rows, which are unchanged
     return (PhysResult){.status = system->failed ? PHYS_NO_MEMORY : PHYS_STOPPED, .clock = time->clock};
 }
 
