@@ -72,7 +72,7 @@ static Str syntax_hint(const char *found, bool needs_block) {
     return (Str){0};
 }
 
-// After a list of names, `expected` has the tokens that can follow such a list in any statement: `=`, `in` and `from`.
+// After a list of names, `expected` has the tokens that can follow one in any statement, such as `=`, `in` and `from`.
 // Returns the one that fits the first word of the line. Returns NULL if there is none.
 static const char *after_names(const ParseContext *context, Span span, const char *const *expected, int count) {
     static const struct {
