@@ -112,8 +112,8 @@ static const char *name_in_folder(const char *path) {
     return path + path_directory(str_from(path)).len;
 }
 
-// Updates the watches of a file's folders. For an unchanged folder, inotify returns the same number again; a folder
-// that was deleted and created again gets a new number.
+// Updates the watches of a file's folders. If a folder is unchanged, inotify returns the same number again. If it was
+// deleted and created again, it gets a new number.
 static void watch_folders(const FileWatch *watch, File *file) {
     free(file->target);
     file->target = realpath(file->path, NULL);

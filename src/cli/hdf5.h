@@ -40,9 +40,9 @@ bool hdf5_end(Hdf5 *writer);
 
 typedef enum Hdf5Command {
     HDF5_ADD = 1, // followed by `bytes` bytes of data
-    HDF5_COMMIT,  // the file is complete; also implied if the stream ends after data was added
+    HDF5_COMMIT,  // the file is complete; the end of the stream means the same if data was added
     HDF5_DISCARD, // discard the file
-    HDF5_SYNC,    // write everything so far to disk; answered by one byte
+    HDF5_SYNC,    // write all data sent so far to disk; petri-hdf5 then answers with one byte
     HDF5_NEW_RUN, // only in a spool (hdf5/spool.h): the following data comes from another run
 } Hdf5Command;
 

@@ -52,7 +52,7 @@ static void write_words(Output *output, Str line, size_t column, size_t hang, si
 }
 
 static void write_line(Output *output, Str line, size_t width) {
-    // NARROWEST: if less width is left for the last cell, it is written below the others.
+    // NARROWEST: minimum width for the last cell. If less is left, the cell is written below the other cells.
     enum { NARROWEST = 24, INDENT = 4 };
     size_t indent = 0, gap = 0;
     while (indent < line.len && line.bytes[indent] == ' ')

@@ -28,7 +28,7 @@ typedef struct Options {
     bool unreadable;    // true if a path could not be read
     const char *(*read)(void *host, const char *path, size_t *length);    // PetriOptions.read_file; NULL: none
     const char *(*unsaved)(void *host, const char *path, size_t *length); // PetriOptions.read_unsaved; NULL: none
-    void *unsaved_host;                                                   // passed to both
+    void *unsaved_host;                                                   // first argument of both functions
     bool prompt; // true if the session must keep forces for display and roll back interrupted frames
     int argc;    // arguments after the command's name
     char **argv;

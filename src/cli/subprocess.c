@@ -29,7 +29,7 @@ static void exec_program(const Subprocess *child, const char *program, const cha
     if (nothing < 0 || dup2(nothing, STDIN_FILENO) < 0 || dup2(child->output, STDOUT_FILENO) < 0 ||
         dup2(child->errors, STDERR_FILENO) < 0 || chdir(folder) != 0)
         _exit(STATUS_FAILED);
-    // Ends a script that hangs. The alarm stays set across exec.
+    // Ends a script that hangs. The alarm remains set after exec.
     alarm(SUBPROCESS_MAX_SECONDS);
     execvp(program, argv);
     _exit(STATUS_FAILED);

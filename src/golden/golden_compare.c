@@ -135,8 +135,8 @@ static bool compare_in_order(const Comparison *comparison, const LineList *expec
     return true;
 }
 
-// Finds a line that agrees with `wanted` and marks it as matched. The search starts where the last one ended, because
-// both sets are usually in the same order.
+// Finds a line that agrees with `wanted` and marks it as matched. The search starts after the previous match,
+// because both outputs usually have their lines in the same order.
 static bool claim_match(const Comparison *comparison, const Line *wanted, LineList *set, size_t *next) {
     for (size_t i = 0; i < set->count; i++) {
         Line *line = &set->items[(*next + i) % set->count];

@@ -10,7 +10,7 @@ typedef struct LinkSession {
     Linked linked;
     Frames frames;
     TextList requested_files; // files that the script tried to read
-    PetriPainter *painter;    // painter that has rendered earlier frames, if later ones need them; else NULL
+    PetriPainter *painter;    // has rendered earlier frames on which later pictures depend; NULL: none
 } LinkSession;
 
 // Opens a session, loads the script and computes the frames up to the frame of the link, with the changes of parameters

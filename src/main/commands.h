@@ -1,4 +1,5 @@
-// commands.h: the commands of this program. petri-pictures has all of them, petri those that never draw.
+// commands.h: the commands of this program. petri-pictures has all commands, petri only those
+// that never draw, and petri-lsp only `lsp`.
 #ifndef PETRI_SRC_COMMANDS_H
 #define PETRI_SRC_COMMANDS_H
 

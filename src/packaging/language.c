@@ -66,7 +66,7 @@ static void write_attributes(Output *output, size_t kind) {
     output_format(output, ".RE\n");
 }
 
-// Writes the formulas of a node, one per line. The first node with formulas also explains the symbols.
+// Writes the formulas of a node, one per line. For the first node that has formulas, also explains the symbols.
 static void write_formula(Output *output, const PetriNodeKind *kind) {
     for (const char *line = kind->formula; *line != '\0'; line += line[0] == '\n') {
         size_t length = strcspn(line, "\n");

@@ -49,11 +49,10 @@ struct FrameWriter {
     Job *ready;  // written jobs that wait for earlier jobs, in any order
     int ready_count;
     uint64_t added;
-    uint64_t
-        next_committed; // number of the first job that is not committed; files of earlier jobs have their final names
-    Job *done;          // jobs to be reported and freed
-    bool begun;         // true if the first worker has started
-    bool ending;        // true if no more jobs will be added
+    uint64_t next_committed; // first job that is not committed: its file is not renamed yet
+    Job *done;               // jobs to be reported and freed
+    bool begun;              // true if the first worker has started
+    bool ending;             // true if no more jobs will be added
     bool failed;
     bool abandoned;      // true if no more files are renamed
     bool drawing;        // true while a frame of the video is drawn; such a frame can be abandoned

@@ -22,7 +22,7 @@ extern char **environ;
 
 enum { MAX_WORDS = 64, PIPE_BYTES = 1 << 20, FILM = 3 };
 
-// Arguments for ffmpeg, by suffix. Screen colours are those of BT.709.
+// Arguments for ffmpeg, for each file suffix. Screen colours are those of BT.709.
 #define COLOURS "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709"
 // Many players need an even width and height.
 #define EVEN "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv,format=yuv420p"

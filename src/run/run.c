@@ -120,8 +120,8 @@ static void report_summary(Run *run) {
             run->stats.physics_steps, run->stats.physics_steps == 1 ? "" : "s");
 }
 
-// Opens the trajectory. Must be called after the state was restored. If the state file is unreadable, its trajectory is
-// not modified either. Returns false after a message.
+// Opens the trajectory. Must be called after the state was restored. If the state file is unreadable, an existing
+// trajectory is not modified either. Returns false after a message.
 static bool open_trajectory(Run *run) {
     Frames *frames = &run->frames;
     const Options *options = frames->options;

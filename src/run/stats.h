@@ -10,7 +10,7 @@
 typedef struct Stats {
     int64_t frames;
     uint64_t physics_steps;
-    double particle_steps; // steps of each system times its particles
+    double particle_steps; // sum over all systems: steps times particles
     double evaluation_seconds;
     double physics_seconds;
     double output_seconds;

@@ -1,4 +1,4 @@
-// journal.h: the journal of finished runs, from which the same command resumes an interrupted sweep.
+// journal.h: the journal of finished runs. After an interruption, the same command resumes the sweep from it.
 //
 // The journal is a file beside the table: OUT.part, or OUT.part-2-of-4 for the second of four shards. Its first line
 // identifies the sweep. The results follow in the order in which runs finished. An incomplete result at the end is

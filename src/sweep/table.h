@@ -23,7 +23,7 @@ const char *row_number_name(const Sweep *sweep, size_t number);
 void csv_add(ByteBuffer *out, Str cell);
 
 void table_make(const Sweep *sweep, ByteBuffer *out);
-// Appends one line per run: the command that repeats it.
+// Appends one line for each run: the command that repeats the run.
 void table_commands(const Sweep *sweep, ByteBuffer *out);
 // Appends mean, standard deviation and quantiles of each metric over runs that differ only in SEED.
 void summary_make(const Sweep *sweep, ByteBuffer *out);

@@ -116,7 +116,7 @@ static void become_worker(const WorkerPool *pool, int requests, int results, pid
 #ifdef __linux__
     prctl(PR_SET_PDEATHSIG, SIGKILL);
 #endif
-    // Closes the pipes of other workers, or those workers would not notice when the parent exits.
+    // Closes the pipes of other workers. Otherwise those workers would not notice when the parent exits.
     for (int64_t i = 0; i < pool->jobs; i++) {
         if (pool->workers[i].pid > 0) {
             close(pool->workers[i].run_pipe);
