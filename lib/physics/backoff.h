@@ -49,8 +49,8 @@ enum {
 
 // Returns true if the next job should use helpers.
 bool phys_tuner_should_help(const PhysTuner *tuner);
-// For a job that is done alone because that is faster. If the job need not be timed, counts it and returns true.
-// Otherwise returns false, and the job's time must be passed to phys_tuner_learn.
+// Call this for a job that is done alone because that is faster. If the job need not be timed, counts it and returns
+// true. Otherwise returns false, and the job's time must be passed to phys_tuner_learn.
 bool phys_tuner_skip(PhysTuner *tuner);
 // Records the time of a job per unit of work.
 void phys_tuner_learn(PhysTuner *tuner, bool helped, double nanoseconds);

@@ -338,8 +338,8 @@ bool phys_domain_build_local(PhysSystem *system, Domain *domain) {
     return true;
 }
 
-// Replaces the column numbers of a link by local ones. Returns false for a link that acts on no owned particle. If
-// a link acts on an owned particle, both ends are in the local system.
+// Replaces the column numbers of a link by local ones. Returns false for a link that acts on no owned particle. If a
+// link acts on an owned particle, both ends are in the local system.
 static bool localise_force(const PhysSystem *system, const Domain *domain, Force *force) {
     if (phys_force_row(force->given.kind).stage != STAGE_LINK)
         return true;

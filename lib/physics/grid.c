@@ -2,8 +2,8 @@
 //
 // Cells are at least as wide as the range of a regular particle, so its neighbours are in the same cell or an adjacent
 // one. The grid covers the area of most particles. Particles outside it belong to the cells at its edge, so their
-// neighbours are still in the same or an adjacent cell. A few particles can be much larger than the others.
-// They are in no cell. Instead, each of them is tested against all particles.
+// neighbours are still in the same or an adjacent cell. A few particles can be much larger than the others. They are in
+// no cell. Instead, each of them is tested against all particles.
 #include "physics/grid.h"
 
 #include "maths/maths.h"
@@ -210,7 +210,7 @@ static void choose_cells(const Survey *survey, const Samples *samples, double wi
         span[k] = high - low;
         product *= fmax(span[k] / width, 1);
     }
-    // If the particles are extremely far apart, each axis gets at most the same number of cells.
+    // If the particles are extremely far apart, no axis gets more than `chunk` cells.
     bool vast = !(product <= 1e100);
     double chunk = floor(maths_pow(max, 1.0 / (double)grid->dimensions));
     if (product > max && !vast)
@@ -326,8 +326,8 @@ static void pad_arrays(const PairPass *pass, NeighbourList *list, uint32_t dummy
         list->view.sources[2 * (size_t)dummy] = list->view.sources[2 * (size_t)dummy + 1] = 0;
 }
 
-// Determines the skin, the large particles, and a grid of at most `max` cells. Returns false if the typical
-// distance of interacting particles is too small or too large.
+// Determines the skin, the large particles, and a grid of at most `max` cells. Returns false if the typical distance of
+// interacting particles is too small or too large.
 static bool layout_cells(Sorting *sorting, double max, Survey *survey, Grid *grid) {
     NeighbourList *list = sorting->list;
     Samples samples;

@@ -6,8 +6,8 @@ static size_t slot_of(const ForceRecord *record) {
     return (size_t)record->group * STAGE_COUNT + phys_force_row(record->given.kind).stage;
 }
 
-// Sorts particles by group with a stable counting sort. Group numbers ascend in pre-order, so sorted
-// particles are in pre-order. `first` counts down from the end of each range to its start.
+// Sorts particles by group with a stable counting sort. Group numbers ascend in pre-order, so sorted particles are in
+// pre-order. `first` counts down from the end of each range to its start.
 static void arrange_particles(PhysSystem *system) {
     Group *groups = system->groups.bytes;
     if (system->group_count == 1) { // the columns are already in order, or in the sorted order of a list

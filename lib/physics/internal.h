@@ -231,9 +231,9 @@ void phys_link_groups(PhysSystem *system);
 // step.c: takes one step of `delta` at `clock`. Returns false if the step was aborted half-way.
 bool phys_step(PhysSystem *system, double clock, double delta, double speed_of_light);
 
-// reorder.c: phys_reorder puts the columns into the sorted order of a list, so that kernels need not look
-// up columns. phys_can_reorder returns whether the system allows this. phys_restore_order restores the ascending order
-// of handles and drops all lists. phys_forget_order only drops the lists, for columns that are about to be rebuilt.
+// reorder.c: phys_reorder puts the columns into the sorted order of a list, so that kernels need not look up columns.
+// phys_can_reorder returns whether the system allows this. phys_restore_order restores the ascending order of handles
+// and drops all lists. phys_forget_order only drops the lists, for columns that are about to be rebuilt.
 bool phys_can_reorder(const PhysSystem *system);
 void phys_reorder(PhysSystem *system, struct NeighbourList *list);
 void phys_restore_order(PhysSystem *system);
@@ -249,8 +249,7 @@ typedef struct Move {
     bool done;
 } Move;
 // Applies all pair forces for which one particle is in `group` and the other is in `group` or an enclosing one. A pass
-// computes the forces that one of these groups declares. `move`: NULL: passes
-// must not move particles.
+// computes the forces that one of these groups declares. `move`: NULL: passes must not move particles.
 void phys_apply_pairs(PhysSystem *system, const Group *group, Move *move);
 // barrier.c: reflects particle i at one barrier after a move of `delta` (spec physics.md 4.4).
 void phys_reflect(const Columns *columns, size_t i, const Force *barrier, double delta, double speed_of_light);

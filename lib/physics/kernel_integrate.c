@@ -41,7 +41,7 @@ void integrate_all_one(IntegratePass *pass, size_t first, size_t end) {
 
 #else
 
-// Returns the lanes that some barrier must reflect, because x ≥ 0 does not hold there.
+// Returns the lanes that some barrier must reflect, because x ≥ 0 does not hold there (x as in barrier.c).
 KERNEL Mask lanes_behind_barrier(const IntegratePass *pass, size_t n, const Block *block) {
     Mask clear = block->live;
     const Force *const *barriers = phys_barriers(pass);
@@ -141,7 +141,7 @@ void PER_ISA(integrate_all)(IntegratePass *pass, size_t first, size_t end) {
         integrate_3(pass, first, end);
 }
 
-// Returns true if all lanes are finite. Sets `zeros` to the lanes in which some part is 0.
+// Returns true if all parts are finite in all lanes. Sets `zeros` to the lanes in which some part is 0.
 KERNEL bool all_finite(const Real *parts, size_t count, Lanes *zeros) {
     Mask finite = mask_first(LANES), large = finite;
     for (size_t k = 0; k < count; k++) {
@@ -182,10 +182,8 @@ KERNEL void write_lane_rows(size_t n, const uint32_t *order, double *rows, const
 // zeros of different sign.
 KERNEL size_t write_range(const Columns *columns, size_t n, const uint32_t *order, double *rows, size_t first,
                           size_t end) {
-    enum {
-        AHEAD = 64,
-        MANY = 30000
-    }; // prefetch distance in rows; with more rows than MANY, they do not fit into the caches
+    // AHEAD: prefetch distance in rows. MANY: number of rows above which they do not fit into the caches.
+    enum { AHEAD = 64, MANY = 30000 };
     bool many = columns->count > MANY;
     for (; first + LANES <= end; first += LANES) {
         Real parts[2 * PHYS_VECTOR_DIMENSIONS];

@@ -8,7 +8,7 @@
 
 enum {
     MIN_FOR_LISTS = 160, // minimum number of particles in a pass
-    FIRST_COOLDOWN = 64, // steps without lists after a list has not paid off; doubled each time that this is repeated
+    FIRST_COOLDOWN = 64, // steps without lists after a list has not paid off; doubled after each further failure
     MAX_COOLDOWN = 1024,
     ENTRIES_A_UNIT = 4,
     FIRST_LIFETIME = 8, // steps that the first list is expected to serve
@@ -242,8 +242,8 @@ static double cost_of_step(const NeighbourList *list) {
 }
 
 // A larger skin makes longer lists that serve more steps. Each new list tries another skin. The skin changes in the
-// same direction as long as the cost falls. If a list has served fewer than MIN_LIFETIME
-// steps, the skin grows in any case, because motion also changes the cost.
+// same direction as long as the cost falls. If a list has served fewer than MIN_LIFETIME steps, the skin grows in any
+// case, because motion also changes the cost.
 static void tune_skin(NeighbourList *list) {
     double cost = cost_of_step(list);
     bool worse = list->cost > 0 && cost > list->cost;

@@ -2,8 +2,8 @@
 //
 // The pairs are divided into blocks as in pair_wavefront.c. Rows of blocks are assigned to ranks in turn. The partial
 // sums of a block's columns are sent to the rank of the next row, one message per block. So all sums have the order of
-// a single process. At the end every rank broadcasts the complete sums of its rows, so all ranks can
-// move all particles.
+// a single process. At the end every rank broadcasts the complete sums of its rows, so all ranks can move all
+// particles.
 #include "physics/pair_wavefront.h"
 
 enum {

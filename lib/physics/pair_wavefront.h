@@ -38,8 +38,7 @@ typedef struct PairMotion {
 
 // Returns how many threads to use for `pairs` pairs; 0: do not use phys_pair_wavefront.
 int phys_wavefront_threads(const PhysSystem *system, uint64_t pairs);
-// Computes a region on several threads. `motion` moves the particles of a triangle; NULL: they
-// do not move.
+// Computes a region on several threads. `motion` moves the particles of a triangle; NULL: they do not move.
 void phys_pair_wavefront(const PhysSystem *system, const PairRegion *pairs, int threads, const PairMotion *motion);
 
 // pair_ranks.c: returns whether to divide `pairs` pairs among the ranks.

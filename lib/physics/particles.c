@@ -122,7 +122,7 @@ typedef struct RowWriter {
 // Applies PhysTime.keep_last_finite to one vector. If it is finite, and has changed or came from an attribute, copies
 // it from the columns to the row. Otherwise restores it in the columns of `home` from the row. Returns false if it was
 // not finite. The state references the rows (scene/mirror.h). Only this function, and Kernels.write_rows, keep inf and
-// nan of `!physics` out of them.
+// nan of `!physics` out of the rows.
 static inline bool keep_last_finite(const Columns *columns, const double *column, double *row, bool from_attribute,
                                     double *home, size_t home_stride) {
     size_t n = columns->dimensions, stride = columns->stride;

@@ -60,7 +60,7 @@ bool phys_step(PhysSystem *system, double clock, double delta, double speed_of_l
         return false;
     ease_strengths(system, clock);
     start_forces(system, clock);
-    // 1. Forces between particles. Only when no other force needs a particle's position, the particle can move.
+    // 1. Forces between particles. A particle moves only when all forces that need its position are complete.
     Move move = {delta, speed_of_light, false};
     for (uint32_t g = 0; g < system->group_count; g++) {
         phys_apply_links(columns, phys_forces(system, g, STAGE_LINK));

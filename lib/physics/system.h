@@ -1,11 +1,10 @@
 // system.h: interface of the particle engine (spec physics.md section 4).
 //
-// The engine works on arrays of doubles and does not know Flitter: lib/scene translates `!physics`
-// trees into calls of these functions and writes the results to the state. The caller describes a system (phys_begin,
-// phys_add_…) and then simulates it frame by frame. Between frames it changes particles and forces with
-// phys_update_particle, phys_begin_forces and phys_set_key, or describes the system again. All arithmetic is IEEE
-// double in the order that the specification fixes. Therefore results do not depend on storage order or on the number
-// of threads.
+// The engine works on arrays of doubles and does not know Flitter: lib/scene translates `!physics` trees into calls of
+// these functions and writes the results to the state. The caller describes a system (phys_begin, phys_add_…) and then
+// simulates it frame by frame. Between frames it changes particles and forces with phys_update_particle,
+// phys_begin_forces and phys_set_key, or describes the system again. All arithmetic is IEEE double in the order that
+// the specification fixes. Therefore results do not depend on storage order or on the number of threads.
 #ifndef PETRI_PHYSICS_SYSTEM_H
 #define PETRI_PHYSICS_SYSTEM_H
 
@@ -81,13 +80,15 @@ PhysThreads *phys_threads_new(int count);
 void phys_threads_free(PhysThreads *threads);
 
 // Ranks (processes) that simulate the same systems together. All of them make the same calls. Large passes over pairs
-// are divided among them, and results are exchanged as `count` blocks of `block_length` doubles. Blocks begin
-// `stride` doubles apart. If the script is interrupted (Budget.interrupt), all callbacks return without waiting for
-// other ranks, and received numbers are zeros.
+// are divided among them, and results are exchanged as `count` blocks of `block_length` doubles. Blocks begin `stride`
+// doubles apart. If the script is interrupted (Budget.interrupt), all callbacks return without waiting for other ranks,
+// and received numbers are zeros.
 typedef struct PhysRanks {
     int rank; // of this process, counted from 0
     int rank_count;
-    uint64_t min_pairs; // a pass with fewer pairs is not divided; 0: the engine's default
+    // A pass with fewer pairs is not divided; 0: the engine's default. If set, the domain decomposition has no minimum
+    // number of particles or steps.
+    uint64_t min_pairs;
     void *user_data;
     void (*send)(void *user_data, int to, const double *numbers, size_t count, size_t block_length,
                  size_t stride); // never blocks
