@@ -94,7 +94,7 @@ static void price_particles(const PhysSystem *system, const Domain *domain, doub
         prices[r] = prices[r] > 0 ? prices[r] : highest > 0 ? highest : 1;
 }
 
-// Rounds the number of patches along each axis down to a power of two, so that the two halves of the curve meet at a
+// Rounds the number of patches along each axis down to a power of two. Then the two halves of the curve meet at a
 // straight boundary.
 static void round_patches(Grid *grid) {
     for (size_t k = 0; k < grid->dimensions; k++) {

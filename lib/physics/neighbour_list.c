@@ -48,8 +48,8 @@ static bool find_ranges(const PhysSystem *system, uint32_t group, uint32_t level
     return true;
 }
 
-// Returns the list of this pass. If it has none, returns the list that has not been used for the longest time, or NULL
-// if other passes of this frame use all lists.
+// Returns the list of this pass. If it has none, returns the list that has not been used for the longest time. Returns
+// NULL if other passes of this frame use all lists.
 static NeighbourList *find_list(PhysSystem *system, uint32_t group, uint32_t level) {
     NeighbourList *spare = NULL;
     for (int i = 0; i < PHYS_MAX_LISTS; i++) {

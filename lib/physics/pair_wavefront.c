@@ -1,10 +1,10 @@
 // pair_wavefront.c: computes all pairs of a pass on several threads.
 //
 // The pairs form a triangle or a rectangle, which is divided into blocks. A block can be computed when the blocks to
-// its left and above it are done, because the sums of its rows and columns have then received all earlier terms in
-// order. Threads claim rows of blocks in turn and follow each other through them, so all sums have the order of a
-// single thread. When a row of a triangle is done, the positions of its particles are no longer needed. Waiting threads
-// then move them.
+// its left and above it are done. Only then have the sums of its rows and columns received all earlier terms in order.
+// Threads claim rows of blocks in turn and follow each other through them, so all sums have the order of a single
+// thread. When a row of a triangle is done, the positions of its particles are no longer needed. Waiting threads then
+// move them.
 //
 // A thread sees the result of another thread after about 300 ns. In this time it could compute six tiles of pairs. So
 // blocks are small, and different threads write to different cache lines.
