@@ -20,10 +20,10 @@ typedef struct Hdf5 {
     int cleanup_id; // number from signal_cleanup_begin
 } Hdf5;
 
-// Starts petri-hdf5. Returns false after a message. `kind` selects what the caller writes to the stream: "trajectory"
-// (any number of Hdf5Head, each followed by its data) or "table" (one HDF5_ADD with CSV, then HDF5_COMMIT). If `after`
-// is not NULL, the trajectory survives a crash of petri and petri-hdf5 and can be resumed. `after` is then "FRAME
-// LAST": the frame to resume after (-1: none), and the last frame that an existing file should contain.
+// Starts petri-hdf5. Returns false after a message. `kind` selects what the caller writes to the stream. "trajectory":
+// any number of Hdf5Head, each followed by its data. "table": one HDF5_ADD with CSV, then HDF5_COMMIT. If `after` is
+// not NULL, the trajectory survives a crash of petri and petri-hdf5 and can be resumed. `after` is then "FRAME LAST":
+// the frame to resume after (-1: none), and the last frame that an existing file should contain.
 bool hdf5_start(Hdf5 *writer, const char *kind, const char *path, const char *after);
 // Waits until petri-hdf5 answers an HDF5_SYNC: all data sent before it is on disk. On failure, returns false after a
 // message from petri-hdf5.
@@ -63,8 +63,8 @@ typedef struct Hdf5Frame {
 } Hdf5Frame;
 
 // Header of a system. It is followed by the name of the system, padded like the strings of a frame, and by one array
-// per quantity: positions, velocities, radii, masses and charges as double; ids and anchor flags as int64_t. The id
-// -2-K means string K, counted from 0 over all frames of the run.
+// for each quantity. Positions, velocities, radii, masses and charges are double; ids and anchor flags are int64_t. The
+// id -2-K means string K, counted from 0 over all frames of the run.
 typedef struct Hdf5System {
     uint64_t particles;
     uint64_t dimensions;

@@ -2,8 +2,8 @@
 //
 // The timeline covers the frames `first` to `last`. Some of them, the keyframes, are stored as snapshots. Other frames
 // are recomputed from the keyframe before them, with bit-identical results. HISTORY_BYTES and HISTORY_MAX limit the
-// keyframes. If a limit is exceeded, the keyframe that saves the fewest steps relative to its age is dropped, so
-// keyframes are denser in the recent past.
+// keyframes. If a limit is exceeded, the keyframe that saves the fewest steps relative to its age is dropped. Recent
+// keyframes are therefore denser.
 //
 // A change of the configuration (script, definitions, clock rates, prompt statements) starts a new epoch with its own
 // keyframe. A frame is always recomputed with the configuration of its epoch. Stepping from a past frame under a

@@ -68,8 +68,8 @@ static void begin_line(Writer *writer, uint32_t indent) {
     byte_buffer_format(&writer->text, "%*s", (int)indent, "");
 }
 
-// Returns the level of a comment on its own line. It is between the levels of the previous and the next statement: the
-// deepest of these levels whose original indent does not exceed that of the comment.
+// Returns the level of a comment on its own line. Of the levels from that of the previous to that of the next
+// statement, it is the deepest whose original indent does not exceed that of the comment.
 static uint32_t comment_level(Writer *writer, size_t at) {
     const Words *words = writer->words;
     const Word *comment = &words->items[at];

@@ -1,7 +1,8 @@
 // pack.h: links that contain a script, shared with the playground (src/web/page/link.mjs).
 //
-// A link is `#` and compressed JSON (deflate without a header, then base64url). Its fields: v version, t script text, n
-// file name, c changes of parameters as [after which frame, name, value], f frame, h hash of the state in that frame.
+// A link is `#` and compressed JSON (deflate without a header, then base64url). `v` is the version, `t` the script
+// text, `n` the file name, `f` a frame and `h` the hash of the state in that frame. `c` contains changes of parameters,
+// each as [frame after which it is made, name, value].
 #ifndef PETRI_SRC_PACK_H
 #define PETRI_SRC_PACK_H
 

@@ -14,9 +14,10 @@ typedef struct FrameWriter FrameWriter;
 // Starts the threads. `film`: file name of the video, with `film_fps` frames per second; NULL: none. Videos of
 // `!record` nodes have `fps`. Returns NULL after a message.
 FrameWriter *frame_writer_start(const char *film, double film_fps, double fps);
-// Adds a picture and takes ownership of it. It is added to the video if `for_film` is true, written to `file` unless
-// that is NULL (the name is copied), and written by its `!record` nodes. Pictures that need history must be added for
-// every frame. Waits while the queue is full, unless a signal arrives. Returns false if writing has failed before.
+// Adds a picture and takes ownership of it. The picture is added to the video if `for_film` is true, and written to
+// `file` if that is not NULL. The name is copied. The files of the picture's `!record` nodes are written as well.
+// Pictures that need history must be added for every frame. Waits while the queue is full, unless a signal arrives.
+// Returns false if writing has failed before.
 bool frame_writer_add(FrameWriter *writer, PetriPicture *picture, bool for_film, const char *file);
 // Reports the diagnostics of finished pictures to the session's callback and frees the pictures.
 void frame_writer_report(FrameWriter *writer, PetriSession *session);

@@ -50,8 +50,8 @@ static void on_signal(int number) {
 }
 
 // Catches SIGINT, SIGTERM and, unless it is ignored as under nohup, SIGHUP. The first signal aborts the current frame
-// and ends the run; the state after the previous frame is saved, and frames drawn so far are kept. A second signal ends
-// the process at once.
+// and ends the run. The state after the previous frame is then saved, and frames drawn so far are kept. A second signal
+// ends the process at once.
 static void catch_signals(void) {
     main_thread = pthread_self();
     signal_catch(SIGINT, on_signal, 0);

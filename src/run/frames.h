@@ -33,8 +33,8 @@ bool frames_load(Frames *frames);
 void frames_begin(Frames *frames);
 // Returns true if another frame must be computed.
 bool frames_due(const Frames *frames);
-// Computes one frame. Returns false if the run must end: after a message if the frame failed or exceeded a limit, or
-// without a message if a signal aborted the frame (`abandoned`).
+// Computes one frame. Returns false if the run must end. If the frame failed or exceeded a limit, prints a message. If
+// a signal aborted the frame, only sets `abandoned`.
 bool frames_step(Frames *frames);
 // Saves the state if the time of the next save has come. Must be called after the frame's output is written.
 void frames_save_state(Frames *frames);

@@ -200,8 +200,8 @@ static bool is_view_option(const char *word) {
     return strncmp(word, "--", 2) != 0 || is_named(word, "show");
 }
 
-// Returns true if the picture must be shown: --show was given, input and output are terminals, and the command line
-// requests no text or files, such as --print.
+// Returns true if the picture must be shown. This is the case if --show was given, input and output are terminals, and
+// no option such as --print requests text or files.
 static bool should_show(const Options *options) {
 #ifdef HAVE_CHAFA
     bool at_terminal = isatty(STDIN_FILENO) && isatty(STDOUT_FILENO) && progress_possible();

@@ -12,8 +12,8 @@
 
 typedef enum TrajectoryFormat { TRAJECTORY_XYZ, TRAJECTORY_CSV, TRAJECTORY_H5MD } TrajectoryFormat;
 
-// The file gets its name when it is complete (base/replace.h) or, with `--state`, when the first state is saved; after
-// that it is extended in place (resume.h).
+// The file gets its name when it is complete (base/replace.h). With `--state`, it gets its name when the first state is
+// saved, and is then extended in place (resume.h).
 typedef struct Trajectory {
     const char *path;
     TrajectoryFormat format;
@@ -39,8 +39,8 @@ void trajectory_add(Trajectory *trajectory, PetriSession *session);
 // returns false, the state must not be saved. `trajectory` points to a Trajectory.
 bool trajectory_sync(void *trajectory);
 // Closes the file, which then contains all complete frames. Returns false after a message if this or an earlier write
-// failed. An old file of the same name is not replaced if a write failed, or if the run failed (`good` is false) before
-// its first complete frame.
+// failed. An old file of the same name is kept if a write failed. It is also kept if the run failed (`good` is false)
+// before its first complete frame.
 bool trajectory_close(Trajectory *trajectory, bool good);
 
 #endif
