@@ -7,8 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The contexts of a process are not independent: with Mesa 22.3, a thread that draws also reads internal data of other
-// contexts, and crashes if another thread is drawing in them. Therefore only one thread at a time may use OpenGL.
+// The contexts of a process are not independent. With Mesa 22.3, a thread that draws also reads internal data of other
+// contexts. It crashes if another thread is drawing in them. Therefore this lock lets only one thread at a time use
+// OpenGL.
 static pthread_mutex_t one_thread = PTHREAD_MUTEX_INITIALIZER;
 
 // Returns Mesa's surfaceless platform if it is available, else the default display.

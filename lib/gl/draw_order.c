@@ -47,7 +47,7 @@ static void row_of(const Matrix *a, int row, double out[4]) {
         out[column] = a->m[4 * column + row];
 }
 
-// Returns true if a part of the box may be visible.
+// Returns false only if no part of the box is visible. Can return true for an invisible box.
 static bool is_seen(const Matrix *clip, const SceneBox *box) {
     double w[4], row[4], plane[4], min, max;
     row_of(clip, 3, w);
@@ -136,7 +136,7 @@ static bool is_ball(const Scene *scene, const SceneInstance *instance) {
 }
 
 // Returns the number of segments to draw. For a sphere, halves the model's number as long as no point moves by more
-// than a twentieth of a pixel, or less on shiny surfaces.
+// than a twentieth of a pixel. The limit is lower for shiny surfaces.
 static uint32_t segments_of(const Scene *scene, const SceneInstance *instance, double pixels) {
     double roughness = instance->material->surface.roughness, max = 0.05 * roughness * roughness;
     bool ball = is_ball(scene, instance);

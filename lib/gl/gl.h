@@ -22,15 +22,15 @@ Gl *gl_adopt(const char **problem);
 // Charges the GPU memory of pictures and scenes to this budget from now on. The budget must outlive the Gl. If the
 // budget refuses memory, allocations fail as if the GPU were out of memory, and `memory_refused` is set.
 void gl_charge(Gl *gl, Budget *budget);
-void gl_close(Gl *gl); // NULL is ignored; not between gl_enter and gl_leave
-// Returns false, with the reason in *problem, if the context was lost.
+void gl_close(Gl *gl); // ignores NULL; must not be called between gl_enter and gl_leave
+// Returns false, with the reason in *problem, if the context cannot be used, for example because it was lost.
 bool gl_enter(Gl *gl, const char **problem);
 void gl_leave(Gl *gl);
 
 typedef enum GlFormat { GL_FORMAT_SRGB8, GL_FORMAT_RGBA8, GL_FORMAT_RGBA16F, GL_FORMAT_RGBA32F } GlFormat;
 
-// A picture on the GPU: four premultiplied channels, rows from the bottom. Shaders read and write linear light,
-// whatever the format.
+// A picture on the GPU: four premultiplied channels, bottom row first. Shaders read and write linear light, whatever
+// the format.
 typedef struct GlImage {
     unsigned texture; // 0: none
     int width;

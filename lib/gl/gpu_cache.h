@@ -23,7 +23,7 @@ typedef struct SceneTarget {
     int samples;
     GlFormat format;
     bool extra;    // for a picture that is rendered while another one is being rendered
-    uint64_t used; // number of the scene that last used it
+    uint64_t used; // GpuCache.now when it was last used
     size_t charged;
 } SceneTarget;
 

@@ -1,4 +1,5 @@
-// no_opengl.c: implements gl.h in builds without OpenGL. gl_open fails, so the other functions are never called.
+// no_opengl.c: implements gl.h in builds without OpenGL. gl_open and gl_adopt fail, so functions that need a Gl are
+// never called.
 #include "gl/effect.h"
 #include "gl/scene.h"
 

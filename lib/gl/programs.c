@@ -47,7 +47,7 @@ void gl_programs_close(Gl *gl) {
     gl->programs = NULL;
 }
 
-// Compiles and attaches a shader. Returns false with the compiler's message if it does not compile.
+// Compiles and attaches a shader. If it does not compile, sets *problem to the compiler's message and returns false.
 static bool attach_shader(GLuint program, GLenum kind, const char *text, char **problem) {
     GLuint shader = glCreateShader(kind);
     GLint good = 0, length = 0;

@@ -83,7 +83,7 @@ static Matrix scaling(const double v[3]) {
 // Returns a rotation about an axis: 0 x, 1 y, 2 z.
 static Matrix rotation_about(int axis, double turns) {
     Matrix out = matrix_identity;
-    double part = turns - floor(turns); // quarter turns are exact
+    double part = turns - floor(turns); // so that quarter turns are exact
     double cosine = part == 0.25 || part == 0.75 ? 0 : maths_cos(TURN * part);
     double sine = part == 0.5 ? 0 : maths_sin(TURN * part);
     int a = (axis + 1) % 3, b = (axis + 2) % 3;

@@ -27,14 +27,15 @@ enum { MESH_MAX_SEGMENTS = 1024, MESH_MAX_CORNERS = 12 << 20 };
 Mesh mesh_box(Arena *arena, bool repeat);            // `repeat`: each face shows the whole texture
 Mesh mesh_sphere(Arena *arena, uint32_t segments);   // `segments` is rounded up to a multiple of 4
 Mesh mesh_disc(Arena *arena, uint32_t segments);     // radius 1, facing z; `segments` is rounded up to a multiple of 4
-Mesh mesh_cylinder(Arena *arena, uint32_t segments); // `segments` is at least 2
-Mesh mesh_cone(Arena *arena, uint32_t segments);     // `segments` is at least 2
+Mesh mesh_cylinder(Arena *arena, uint32_t segments); // `segments` below 2 is treated as 2
+Mesh mesh_cone(Arena *arena, uint32_t segments);     // `segments` below 2 is treated as 2
 void mesh_bounds(const Mesh *mesh, float low[3], float high[3]); // the mesh must not be empty
 
 // Modify the surface of a mesh. mesh_flat gives each corner the normal of its triangle. mesh_invert turns the surface
 // inside out.
 void mesh_flat(Arena *arena, Mesh *mesh);
-// Splits the mesh at edges where the normals of triangles differ by more than `turns`, and recomputes the normals.
+// Recomputes the normals. At edges where the normals of the two triangles differ by more than `turns`, the surface gets
+// a sharp edge.
 void mesh_snap(Arena *arena, Mesh *mesh, double turns);
 void mesh_invert(Mesh *mesh);
 void mesh_remap(Arena *arena, Mesh *mesh, int how); // `how` is REMAP_SPHERE and so on

@@ -80,7 +80,7 @@ static uint32_t *join_positions(Arena *arena, const Mesh *mesh) {
 }
 
 // An edge of a triangle, from the corner with the index `corner` to the triangle's next corner. `low` and `high` are
-// the joined positions of its ends, the lower number first.
+// the vertices at its ends (join_positions), the lower index first.
 typedef struct Edge {
     uint32_t low;
     uint32_t high;
@@ -112,8 +112,8 @@ static void unite_corners(uint32_t *parents, uint32_t a, uint32_t b) {
     parents[a > b ? a : b] = a > b ? b : a;
 }
 
-// Unites corners of two triangles at both ends of their common edge. It starts at corner a of one and corner b of the
-// other.
+// Unites corners of two triangles at both ends of their common edge. The edge starts at corner a of one triangle and
+// corner b of the other.
 static void unite_across(uint32_t *parents, const uint32_t *points, uint32_t a, uint32_t b) {
     uint32_t a_end = next_corner(a), b_end = next_corner(b);
     bool same = points[a] == points[b]; // both triangles have the edge in the same direction
@@ -121,7 +121,8 @@ static void unite_across(uint32_t *parents, const uint32_t *points, uint32_t a, 
     unite_corners(parents, a_end, same ? b_end : b);
 }
 
-// Unites corners that will share a normal. Returns the parents of all corners; united corners have the same root.
+// Unites corners that will share a normal. Returns the parents of all corners (union-find): united corners have the
+// same root.
 static uint32_t *find_roots(Arena *arena, const Mesh *mesh, const uint32_t *points, const double (*normals)[3],
                             double turns) {
     uint32_t count = mesh->index_count;

@@ -77,8 +77,8 @@ static Str find_quoted(Str text) {
     return (Str){0};
 }
 
-// Returns the span of the error in a shader whose text starts at `start` in the script: the word that the message
-// quotes if it is on the reported line, else the whole line.
+// Returns the span of the error in a shader whose text starts at `start` in the script. It is the word that the message
+// quotes. If the reported line does not contain this word, it is the whole line.
 static Span span_of(Str source, uint32_t start, const CompilerMessage *message) {
     size_t at = start;
     for (uint32_t line = 1; line < message->line && at < source.len; at++)
