@@ -39,8 +39,8 @@ typedef struct Builtin {
     bool variadic;
     bool named; // accepts parameters by name (B0.3)
     bool pure;  // the result depends only on the arguments, so constant calls can be folded (B0.5)
-    // With at least this many arguments, the function is element-wise (B0.4): for numbers and vectors of equal length,
-    // each element of the result depends only on the elements at the same index. 0: never element-wise.
+    // With at least this many arguments, the function is element-wise (B0.4); 0: never. If all arguments are numbers or
+    // vectors of equal length, each element of the result then depends only on the elements at the same index.
     uint8_t each;
 #define BUILTIN_EACH_POINT UINT8_MAX // for noise; see builtin_noise_points
     const char *help;

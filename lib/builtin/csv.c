@@ -18,9 +18,9 @@ typedef struct CsvFile {
 
 // --- fields
 
-// Scans the field at *at, copies its text to `out` unless `out` is NULL, and moves *at past the separator after it.
-// Sets *last if the separator was a line end or the end of the file. Returns the length of the text, which is at most
-// the length of the field.
+// Scans the field at *at and moves *at past the separator after it. Copies the field's text, without its quotes, to
+// `out` unless `out` is NULL. Sets *last if the separator was a line end or the end of the file. Returns the length of
+// the text, which is at most the length of the field.
 static size_t scan_field(Str in, size_t *at, char *out, bool *last) {
     size_t i = *at, len = 0;
     if (i < in.len && in.bytes[i] == '"') {
@@ -29,7 +29,7 @@ static size_t scan_field(Str in, size_t *at, char *out, bool *last) {
             char c = in.bytes[i++];
             if (c == '"' && (i == in.len || in.bytes[i] != '"'))
                 break;
-            i += c == '"'; // the second of two quotes
+            i += c == '"'; // skips the second of two quotes, which mean one
             if (out)
                 out[len] = c;
             len++;
@@ -62,8 +62,8 @@ static size_t scan_row(Str in, size_t at, size_t *end) {
 
 // --- numbers
 
-// Returns the length of an unsigned decimal number at the start of the text, or 0 if there is none. A number has digits
-// with single underscores between them, at most one point next to a digit, and an optional exponent.
+// Returns the length of an unsigned decimal number at the start of the text, or 0 if there is none. A number has
+// digits, single underscores between digits, at most one point next to a digit, and an optional exponent.
 static size_t scan_decimal(Str text) {
     size_t whole = builtin_scan_digits(text), at = whole, part = 0;
     if (at < text.len && text.bytes[at] == '.') {

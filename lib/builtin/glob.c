@@ -216,7 +216,7 @@ static bool path_exists(const FileAccess *file_access, const char *path) {
 
 static void visit_parts(Glob *glob, Str path, uint32_t k);
 
-// Handles a path that matches the parts 0 to k: adds it to the results if k is the last part, else continues in this
+// Handles a path that matches the parts 0 to k. Adds it to the results if k is the last part, else continues in this
 // directory.
 static void visit_path(Glob *glob, Str path, uint32_t k) {
     const char *c_path = str_to_c(glob->arena, path);

@@ -14,8 +14,8 @@ static void inverse_3x3(const double *m, double *result) {
 }
 
 // One element of the inverse: (m[a]*P - m[b]*Q + m[c]*R)*k, or (-m[a]*P + m[b]*Q - m[c]*R)*k if row plus column is odd
-// (`minus`). p, q and r are the indices of the 2x2 determinants P, Q and R in `d`: 0 to 5 are s0 to s5 of the spec, and
-// 6 to 11 are c0 to c5.
+// (`minus`). The 2x2 determinants P, Q and R are d[p], d[q] and d[r]. Of these indices, 0 to 5 are s0 to s5 of the
+// spec, and 6 to 11 are c0 to c5.
 typedef struct Cofactor {
     uint8_t a, p, b, q, c, r;
     bool minus;

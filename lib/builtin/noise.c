@@ -186,7 +186,7 @@ void builtin_noise_points(BuiltinContext *context, Value seed, const double *x, 
 // A coordinate overflows after about 1000 doublings, so a larger number of octaves must be a mistake.
 enum { MAX_OCTAVES = 1024 };
 
-// Sums octaves of noise (B10.11): r = noise(c), then r = r + noise(c*2^o)*k^o for o = 1, 2, … The sum is divided by the
+// Sums octaves of noise (B10.11): r = noise(c), then r = r + noise(c*2^o)*k^o for o = 1, 2, ... Divides the sum by the
 // total weight.
 static void sum_octaves(BuiltinContext *context, Grid *grid, uint64_t seed, uint32_t octaves, double k,
                         double *result) {

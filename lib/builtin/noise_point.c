@@ -55,8 +55,8 @@ static inline const double *gradient(const NoisePoint *point, const NoiseVertex 
     return dims == 2 ? NOISE_GRAD2[p % 8] : dims == 3 ? NOISE_GRAD3[p % 24] : NOISE_GRAD4[p / 4];
 }
 
-// Adds the contribution of a vertex (B10.5): with d = ((d0 - a) - m*Q) - b per coordinate and A = 2 - d·d, A^4 * (g·d)
-// if A > 0, else nothing.
+// Adds the contribution of a vertex (B10.5): A^4 * (g·d) if A > 0, else nothing. Here d = ((d0 - a) - m*Q) - b for each
+// coordinate, A = 2 - d·d, and g is the gradient.
 static inline double add_vertex(const NoisePoint *point, double value, const NoiseVertex *v, int dims) {
     double d[MAX_DIMS], reach = 2, units = v->units * NOISE_Q[dims];
     for (int i = 0; i < dims; i++) {

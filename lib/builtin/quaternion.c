@@ -64,7 +64,7 @@ Value builtin_qmul(BuiltinContext *context, const Value *args, uint32_t count) {
     return quaternion_value(context->arena, multiply_quaternions(quaternion_of(args[0]), quaternion_of(args[1])));
 }
 
-// Returns a rotation by half a turn about an axis perpendicular to a, for opposite directions (B5.3).
+// Returns the rotation from a to the opposite direction: half a turn about an axis perpendicular to a (B5.3).
 static Quaternion half_turn(double ax, double ay, double az) {
     bool flat = ax != 0 || ay != 0;
     double x = flat ? -ay : 0, y = flat ? ax : -az, z = flat ? 0 : ay;

@@ -74,7 +74,7 @@ void input_release_all(Input *input);
 // Adds a binding. Copies the state key.
 void input_add_binding(InputBindings *bindings, Value state, int key);
 // Reads the bindings from the windows of a frame's tree. Messages are allocated from `arena`. If memory for the
-// bindings runs out, its `escape` is used.
+// bindings runs out, arena->escape is used.
 void input_bind(Input *input, Schema *schema, Value tree, Arena *arena);
 // Changes made by input_write, which are undone if the frame is aborted.
 typedef struct InputChange InputChange;

@@ -2,7 +2,7 @@
 //
 // They are stored in two places. The engine has a row of numbers for each position and each velocity
 // (physics/system.h). A frame starts with these numbers and replaces them by its results. The state has an entry for
-// each position and each velocity, which scripts read and which a host or another node may overwrite. The mirror keeps
+// each position and each velocity, which scripts read and which a host or another node can overwrite. The mirror keeps
 // rows and entries in sync, if possible without copying. It also decides whether the engine's *description* (the
 // particles, groups and forces of the last frame's tree) can be used for the next frame.
 //
@@ -21,8 +21,8 @@
 // for rows (PhysTime.keep_last_finite) as well as for copies (numbers_finite; state_slot_set). Otherwise a referencing
 // entry could show a value that a copy must not hold.
 //
-// An entry is *missing* until the state contains it. Its row then holds the attribute's value, which is not a result,
-// so the entry is created only when the row receives its first finite result. Missing entries are counted: if the host
+// An entry is *missing* until the state contains it. Until then, its row holds the attribute's value, which is not a
+// result. The entry is created when the row receives its first finite result. Missing entries are counted: if the host
 // or another node creates one between two frames, the owner does not become modified, but the count changes.
 //
 // States of a mirror:
@@ -85,13 +85,13 @@ void mirror_open(PhysicsTree *tree);
 // Adds the next particle or anchor. physics_read_bodies sets slot_count when all are added. Returns false if out of
 // memory.
 bool mirror_add(PhysicsTree *tree, StateSlot position, StateSlot velocity, bool anchor);
-// Returns the vector with which a particle starts the frame: the stored vector if the run continues and its length is
-// the number of dimensions, else `attribute`. *from_attribute is set to true if it is `attribute`, else to false. A
-// stored vector of one number is copied to *single.
+// Returns the vector with which a particle starts the frame. This is the stored vector if the run continues and the
+// vector has the right length. Otherwise it is `attribute`, and *from_attribute is true. A stored vector of one number
+// is copied to *single.
 PhysVector mirror_start(const PhysicsTree *tree, StateSlot slot, PhysVector attribute, double *single,
                         bool *from_attribute);
-// Removes the entries of particles that are no longer in the tree, except keys that another particle uses:
-// $(prefix;id;:velocity) may be the position of another particle.
+// Removes the entries of particles that are no longer in the tree, except keys that another particle uses. For example,
+// $(prefix;id;:velocity) can be the key of another particle's position.
 void mirror_remove_vanished(const PhysicsTree *tree);
 
 // Returns true if the description can be updated to this frame's tree. If so, the mirror is STALE until mirror_store.

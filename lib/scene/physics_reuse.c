@@ -1,7 +1,7 @@
 // physics_reuse.c: updates a system whose tree has the same particles as in the last frame.
 //
 // The engine keeps its values if they equal those in the state (mirror.h). Nodes with program lifetime (value/node.h)
-// are unchanged if their address is the same. Other nodes are compared: a node is the same particle if its id and group
+// are unchanged if their address is the same. Other nodes are compared. A node is the same particle if its id and group
 // equal those of the particle with the same number in the last tree.
 #include "scene/systems.h"
 

@@ -23,7 +23,7 @@ typedef struct Link {
 // A system, which is retained between frames and identified by its prefix.
 struct PhysicsSystem {
     PhysicsSystem *next;
-    StateSlot start;     // slot of the prefix, which identifies the system
+    StateSlot start;     // slot of the prefix; its value is the time when the run started
     uint32_t occurrence; // 0, or 1, 2, … for further systems with the same prefix in one frame
     StateSlot run;
     StateSlot iteration;
