@@ -183,7 +183,7 @@ static void draw_wall(const Panel *panel, const AutoBarrier *barrier) {
         return;
     nx /= length;
     ny /= length;
-    // Starts from the point of the wall nearest to the panel's centre, because the barrier's position may be far away.
+    // Starts from the point of the wall nearest to the panel's centre, because the barrier's position can be far away.
     double along = (panel->x - at.x) * -ny + (panel->y - at.y) * nx;
     double x = at.x - ny * along, y = at.y + nx * along;
     cairo_move_to(cr, x - ny * far, y + nx * far);

@@ -1,8 +1,8 @@
 // cairo_canvas.h: drawing of pictures to pixels and files with Cairo. Builds without Cairo can draw only to pixels, and
-// only if the host provides a backend (no_cairo.c). Otherwise these functions return PETRI_UNSUPPORTED.
+// only if the host provides a backend (no_cairo.c). In all other cases, these functions return PETRI_UNSUPPORTED.
 //
 // A picture is plain data and is not modified while it is drawn. A painter caches fonts and images between pictures.
-// Only one thread at a time may use a picture or painter. There is no global state.
+// A picture or painter must be used by only one thread at a time. There is no global state.
 #ifndef PETRI_DRAW_CAIRO_CANVAS_H
 #define PETRI_DRAW_CAIRO_CANVAS_H
 
@@ -33,7 +33,7 @@ typedef struct CanvasPicture {
     double height;
     double detail;    // pixels per unit of pictures in the render graph
     bool opaque;      // true for a black background, false for a transparent one
-    FileAccess reach; // which files the script may read and write
+    FileAccess reach; // which files the script is allowed to read and write
     size_t memory;    // limit in bytes, including what the painter caches
     uint64_t work;    // work limit of a frame (budget.h); drawing has a separate limit, which is computed from it
 } CanvasPicture;

@@ -120,7 +120,7 @@ static void stroke_part(Canvas *canvas, const DisplayCommand *command, const Dis
     }
 }
 
-// Applies a path effect, then fills and strokes the result. The effect may produce different paths for filling and
+// Applies a path effect, then fills and strokes the result. The effect can produce different paths for filling and
 // stroking.
 static void draw_with_effect(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint) {
     cairo_path_t *path = cairo_copy_path(canvas->cr);

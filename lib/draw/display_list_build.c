@@ -1,8 +1,8 @@
 // display_list_build.c: translates the nodes of a canvas to a display list in one pass; see display_list.h and spec
 // canvas.md 2.
 //
-// Trees may be thousands of nodes deep and the calling thread may have a small stack, so the pass uses an explicit
-// stack.
+// Trees can be thousands of nodes deep, and the stack of the calling thread can be small. The pass therefore uses an
+// explicit stack (Level) instead of recursion.
 #include "draw/display_list_build.h"
 
 #include "maths/maths.h"
@@ -153,7 +153,8 @@ static void save_clip(Walk *walk) {
     add_command(&walk->build, &walk->levels[walk->depth - 1], DISPLAY_SAVE, NULL);
 }
 
-// Begins a node whose children have a separate graphics state.
+// Begins a node with children: pushes a level with a copy of the graphics state, which the node and its children
+// change.
 static void enter_node(Walk *walk, const DrawNode *node) {
     NodeKind kind = (NodeKind)node->kind;
     double size[2], origin[2];

@@ -97,7 +97,7 @@ static uint32_t make_noise(DisplayListBuild *build, const DrawNode *node) {
     return add_source(build, source);
 }
 
-// Sources can be nested less deeply than other nodes (NODE_MAX_HEIGHT), because the stack may be small.
+// Sources can be nested less deeply than other nodes (NODE_MAX_HEIGHT), because the stack can be small.
 uint32_t display_list_build_source(DisplayListBuild *build, const GraphicsState *state, const DrawNode *node) {
     enum { MAX_DEPTH = 100 };
     uint32_t made = DISPLAY_NONE;

@@ -49,7 +49,7 @@ typedef struct Canvas {
     double path_work;               // sum over the edges of the current path: 1 + number of rows that the edge crosses
     PathSize size;                  // extent of the current path
     const DisplayList *list;        // the list being drawn; NULL: none
-    const DisplayCommand *path_of;  // the command whose path is current; NULL: none
+    const DisplayCommand *path_of;  // the command whose path is Cairo's current path; NULL: none
     cairo_matrix_t base;            // transform from the list's units to the target
     bool failed;                    // true after an error was reported
     size_t charged;                 // bytes charged to the painter's budget
@@ -94,12 +94,11 @@ void draw_unfiltered(Canvas *canvas, const DisplayCommand *command, const Displa
 // Returns true if the matrix is invertible. Other matrices must not be passed to Cairo, because they put it into a
 // permanent error state.
 bool draw_is_invertible(const cairo_matrix_t *m);
-// Returns the approximate number of pixels per unit.
+// Returns the number of pixels per unit of the current transform, averaged over directions.
 double draw_scale_of(cairo_t *cr);
 
 // cairo_path.c
-// Clamps a point to the range of Cairo's coordinates, and adds it to the extent and cost of the current
-// path.
+// Clamps a point to the range of Cairo's coordinates, and adds it to the extent and cost of the current path.
 void draw_clamp_point(Canvas *canvas, double *x, double *y);
 void draw_ellipse_path(Canvas *canvas, double x, double y, double rx, double ry, double start, double sweep, bool join);
 // Makes the command's path Cairo's current path, in the current transform.
@@ -121,13 +120,13 @@ cairo_pattern_t *draw_make_mask(Canvas *canvas, const DisplayCommand *command, c
 bool draw_find_box(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint, double box[4]);
 // Clips to the bounding box of the painted path.
 void draw_clip_to_box(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint);
-// Returns true if the path can be drawn in reasonable time. If not, the picture fails with an error.
+// Returns true if the current path can be drawn in reasonable time. If not, reports an error, and the picture fails.
 bool draw_is_drawable(Canvas *canvas);
 
 // cost_model.c
 // Charges the cost of drawing the current path. Returns false, after a report, if that exceeds the limit.
 bool draw_charge_path(Canvas *canvas, const DisplayPaint *paint, bool fill, bool stroke);
-// Like draw_charge_path, for `count` boxes of width x height units at any position.
+// Like draw_charge_path, for `count` filled boxes of width x height units, wherever they are.
 bool draw_charge_box(Canvas *canvas, const DisplayPaint *paint, double width, double height, double count);
 
 // cairo_source.c

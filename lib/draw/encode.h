@@ -6,8 +6,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// The bytes of an encoded file, on the heap. They are not in an arena, because an arena calls longjmp if out of memory,
-// and the jump must not skip stack frames of Cairo or libpng. The owner frees `bytes`, even after a failure.
+// The bytes of an encoded file, on the heap. They are not in an arena: if out of memory, an arena calls longjmp, which
+// must not skip stack frames of Cairo or libpng. The owner frees `bytes`, even after a failure.
 typedef struct Encoded {
     unsigned char *bytes;
     size_t length, capacity;

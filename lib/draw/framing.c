@@ -36,8 +36,8 @@ static double distance(const double a[3], const double b[3]) {
     return maths_hypot(maths_hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
 }
 
-// Returns the distance from the centre beyond which bodies are ignored. A few bodies that fly away must not make the
-// others too small to see.
+// Returns the distance from the centre beyond which bodies are ignored, so that a few bodies that fly away do not make
+// the remaining bodies too small to see. It is based on the distance within which nine tenths of the bodies are.
 static double outlier_distance(const AutoSystem *system, const double middle[3], double *numbers) {
     for (uint32_t i = 0; i < system->body_count; i++)
         numbers[i] = distance(system->bodies[i].position, middle);

@@ -70,7 +70,7 @@ static inline void find_color(const Stamp *stamp, const Pixels *colors, int x, i
         color[k] = (float)(pixel >> (k < 3 ? 16 - 8 * k : 24) & 255) / 255;
 }
 
-// Composites: d = k B(s, d) + (1 - k) d, where k is the coverage.
+// Composites each covered pixel s of the source onto the target d: d becomes k B(s, d) + (1 - k) d. k is the coverage.
 static void composite_stamp(Canvas *canvas, Stamp *stamp) {
     FloatImage *wide = &canvas->hdr_target;
     Pixels cover = pixels_of(stamp->cover), colors = pixels_of(stamp->colors);

@@ -13,7 +13,7 @@ typedef struct Noise {
     double slopes[CHANNELS][LATTICE][2];
 } Noise;
 
-// SVG's random number generator; results are 1 to 2³¹ - 2.
+// SVG's random number generator; results range from 1 to 2³¹ - 2.
 static int32_t next_number(int32_t seed) {
     enum { MODULUS = 2147483647, FACTOR = 16807, QUOTIENT = 127773, REST = 2836 };
     int32_t result = FACTOR * (seed % QUOTIENT) - REST * (seed / QUOTIENT);
@@ -122,7 +122,7 @@ static double improved_noise(const Noise *noise, int channel, const LatticePoint
     return interpolate(improved_ease(y->part), above, below);
 }
 
-// Computes the noise of four channels, 0 to 1.
+// Computes the noise of the four channels at x, y. Results range from 0 to 1.
 static void noise_at(const Noise *noise, double x, double y, double out[CHANNELS]) {
     int type = noise->source->mode;
     double sums[CHANNELS] = {0, 0, 0, 0}, ratio = 1;

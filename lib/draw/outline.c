@@ -189,7 +189,7 @@ static void round_subpath(const OutlineElement *elements, uint32_t first, uint32
     bool closed = end - first > 2 && elements[end - 1].kind == PATH_CLOSE;
     uint32_t last = closed ? end - 1 : end; // index after the last line or curve
     OutlinePoint start = elements[first].points[0], back = end_of(&elements[last - 1]);
-    bool gap = closed && distance(start, back) > 0; // closing draws a line
+    bool gap = closed && distance(start, back) > 0; // true if PATH_CLOSE draws a line
     bool corner = closed && (gap || elements[last - 1].kind == PATH_LINE) && elements[first + 1].kind == PATH_LINE;
     OutlinePoint before_start =
         gap ? back : end_of(&elements[last - 2]); // the point before the start, going backwards around the subpath

@@ -53,7 +53,7 @@ typedef struct Saving {
     PetriWriteCallback *write; // receives the bytes; NULL: write the file
     void *user_data;           // passed to `write`
     const Recorded *record;    // the record to write; NULL: the picture itself
-    const FileAccess *reach;   // where the file may be written; NULL: anywhere
+    const FileAccess *reach;   // where writing is allowed; NULL: anywhere
     Encoded bytes;
     PetriStatus status;
 } Saving;
@@ -130,7 +130,7 @@ PetriStatus petri_picture_render(PetriPicture *picture, PetriPainter *painter) {
     return draw_render(painter, &picture->picture, &picture->faults);
 }
 
-// Arguments of fill_record, which runs in a protected call.
+// Arguments of fill_record, which is called through arena_protect.
 typedef struct RecordQuery {
     PetriPicture *picture;
     const Recorded *recorded;

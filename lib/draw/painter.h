@@ -24,7 +24,7 @@ struct PetriPainter {
     uint32_t *window;       // pixel buffer for the window
     size_t window_capacity;
     uint64_t made;  // serial number of the last picture whose render graph was rendered
-    Texture *shown; // rendered picture of its window; NULL: none
+    Texture *shown; // rendered picture of the window in this picture; NULL: none
 };
 
 // renderer.c

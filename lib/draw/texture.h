@@ -24,8 +24,8 @@ Texture *texture_new(Budget *budget, int width, int height, bool linear);
 Texture *texture_from_image(Budget *budget, Gl *gl, GlImage image);
 // Ensures that the picture is on the GPU, whose context must be current. Returns false if out of memory.
 bool texture_upload(Gl *gl, Texture *texture);
-// Ensures that the picture is in memory: an sRGB picture in `bytes`, others in `linear`. Returns false if out of
-// memory.
+// Ensures that the picture is in memory: an sRGB picture in `bytes`, a linear picture in `linear`. Returns false if out
+// of memory.
 bool texture_download(Gl *gl, Texture *texture);
 Texture *texture_retain(Texture *texture);
 // Drops a reference; NULL is ignored. If the picture is on the GPU, the GPU context must be current.

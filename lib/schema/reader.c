@@ -1,6 +1,6 @@
 // reader.c: implementation of reader.h.
 //
-// A system may have millions of particles, so the common case has a fast path: attributes in the order of the table
+// A system can have millions of particles, so the common case has a fast path: attributes in the order of the table
 // with values of the expected form are stored directly. Other attributes are read again by fill_checked, which reports
 // mistakes.
 #include "schema/reader.h"
@@ -103,7 +103,7 @@ void reader_report_attr(const Reader *reader, const char *code, AttrName name, S
 }
 
 static StrNearest nearest_to(Str name) {
-    return (StrNearest){name, 2 + (int)(name.len < 12 ? name.len : 12) / 4, {0}}; // long names may differ more
+    return (StrNearest){name, 2 + (int)(name.len < 12 ? name.len : 12) / 4, {0}}; // long names can differ more
 }
 
 static void report_unknown(const Reader *reader, const Symbol *name) {

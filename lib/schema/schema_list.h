@@ -5,9 +5,10 @@
 //     In systems, numbers outside the limits are clamped. In drawings they are malformed, and a node is omitted if such
 //     a number is in a required attribute.
 // NAME(ID, "attribute"): the names of attributes, each once.
-// NODE(ID, "kind", PLACE, CHILDREN, "help"), followed by its attributes. PLACE is where the node may be, CHILDREN which
-//     nodes may be in it (PlaceKind). FORCE(ID, "kind", "help", "formula"): a node of force_list.h with the same ID.
-//     The formula has the same lines as in lib/physics/README.md; tests/docs/formulas.sh compares them.
+// NODE(ID, "kind", PLACE, CHILDREN, "help"), followed by its attributes. PLACE is where the node is allowed, CHILDREN
+//     which nodes are allowed in it (PlaceKind).
+// FORCE(ID, "kind", "help", "formula"): a NODE for the force with the same ID in force_list.h. The formula has the same
+//     lines as in lib/physics/README.md; tests/docs/formulas.sh compares them.
 // ATTR(KIND, NAME, TYPE, field, default, "unit", "help"). The value is stored in the field (records.h). If the field is
 //     NOWHERE, the value is ignored or, in drawings, looked up by name. The default is IS(x), DESCRIBED(x, "in words"),
 //     INHERITED(x, "in words") with the initial value x, or NONE: NaN for a number, else null. For a vector, x is the

@@ -35,7 +35,7 @@ typedef enum AttrRow {
     ROW_COUNT
 } AttrRow;
 
-// Where a node may be in the tree, and which nodes may be its children.
+// Where a node is allowed in the tree, and (as CHILDREN in schema_list.h) which nodes are allowed as its children.
 typedef enum PlaceKind {
     PLACE_NOTHING,
     PLACE_SCENE, // at the top level: systems and counters
@@ -45,7 +45,7 @@ typedef enum PlaceKind {
     PLACE_PICTURES, // as CHILDREN: pictures, including those of PLACE_TOP
     PLACE_PICTURE,
     PLACE_INPUT,   // pointer and key nodes
-    PLACE_DRAWING, // as CHILDREN: also sources, filters and effects
+    PLACE_DRAWING, // as CHILDREN: drawing nodes, sources, filters and effects
     PLACE_SOURCE,
     PLACE_FILTER,
     PLACE_EFFECT,
@@ -87,7 +87,7 @@ enum { FADE_LINEAR, FADE_QUAD, FADE_CUBIC };
 enum { FLIP_NOT, FLIP_HORIZONTAL, FLIP_VERTICAL, FLIP_BOTH };
 enum { TURBULENCE_FRACTAL, TURBULENCE_FOLDED, TURBULENCE_IMPROVED };
 enum { NOISE_PLANE, NOISE_CYLINDER, NOISE_SPHERE };
-// How pictures are combined, in linear light. MIX_UNKNOWN: the word is unknown.
+// How pictures are combined, in linear light. MIX_UNKNOWN: the script gives an unknown word.
 enum { MIX_OVER, MIX_DEST_OVER, MIX_LIGHTEN, MIX_DARKEN, MIX_ADD, MIX_DIFFERENCE, MIX_MULTIPLY, MIX_UNKNOWN };
 enum { FACE_BACK, FACE_FRONT };
 enum { MIX3D_OVER, MIX3D_SOURCE, MIX3D_DEST, MIX3D_DEST_OVER, MIX3D_ADD, MIX3D_SUBTRACT, MIX3D_LIGHTEN, MIX3D_DARKEN };
