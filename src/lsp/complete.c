@@ -28,8 +28,8 @@ typedef struct Offer {
     TextList labels; // labels added so far
 } Offer;
 
-// Adds an item that replaces the word with `insert`. `order` is the first character of its sort key. Returns the item,
-// or NULL if there is already an item with this label.
+// Adds an item that replaces the word with `insert`. `order` is the first character of the item's sort key. Returns the
+// item, or NULL if there is already an item with this label.
 static Json *add_candidate(Offer *all, const char *label, int kind, const char *insert, char order) {
     if (texts_contain(&all->labels, label))
         return NULL;
@@ -91,7 +91,7 @@ static void offer_name(Offer *all, Document *document, const PetriBinding *name)
     }
 }
 
-// Offers the names that are bound in scripts that include this script, and are visible at the include.
+// Offers names from the scripts that include this script: the names that are visible at the include.
 static void offer_around(Offer *all) {
     Workspace workspace;
     workspace_open(&workspace, all->request->server, all->request->document, false);
@@ -113,7 +113,7 @@ static void offer_names(Offer *all) {
     Document *document = all->request->document;
     PetriBuiltin builtin;
     for (size_t i = document->name_count; i > 0;
-         i--) { // from the end, because the last binding of a name is the innermost
+         i--) { // backwards: a name is added only once, and its last binding is the innermost
         const PetriBinding *name = &document->names[i - 1];
         bool seen = name->kind != PETRI_NAME_USE && name->scope_start <= all->request->offset &&
                     all->request->offset <= name->scope_end;
@@ -130,7 +130,8 @@ static void offer_names(Offer *all) {
         set_detail(add_candidate(all, TOPICS[i].word, AS_CONSTANT, TOPICS[i].word, 'c'), "", TOPICS[i].help);
 }
 
-// Offers the symbols in the script. If `keys`, only those that are state keys of systems or are looked up in the state.
+// Offers the symbols in the script. If `keys` is true, offers only the state keys of systems and symbols that are
+// looked up in the state.
 static void offer_symbols(Offer *all, bool keys) {
     const Document *document = all->request->document;
     for (size_t i = 0; i < document->token_count; i++) {
@@ -182,8 +183,8 @@ static void offer_files(Offer *all, size_t string) {
         closedir(entries);
 }
 
-// Returns the token of the function name in the call around an offset, or SIZE_MAX if there is none. Sets *commas to
-// the number of commas between the arguments before the offset.
+// Finds the call whose argument list contains an offset. Returns the token of the function's name, or SIZE_MAX if there
+// is no such call. Sets *commas to the number of commas between arguments that precede the offset.
 static size_t call_around(const Document *document, size_t offset, size_t *commas) {
     size_t depth = 0;
     *commas = 0;
@@ -196,7 +197,7 @@ static size_t call_around(const Document *document, size_t offset, size_t *comma
             bool call = document_is(document, i - 1, "(") && i > 1 && document->tokens[i - 2].kind == PETRI_TOKEN_NAME;
             if (depth == 0 && call)
                 return i - 2;
-            *commas = depth == 0 ? 0 : *commas; // the commas were inside other brackets
+            *commas = depth == 0 ? 0 : *commas; // these brackets are not a call: ignore their commas
             depth -= depth > 0;
         } else if (document_is(document, i - 1, ",") && depth == 0) {
             ++*commas;
@@ -263,7 +264,7 @@ static bool ends_operand(const Document *document, size_t token) {
                                    : document_is(document, token, ")") || document_is(document, token, "]");
 }
 
-// Offers everything that the grammar allows at the token. `first`: only blanks precede the token in its line.
+// Offers everything that the grammar allows at the token. `first`: true if only blanks precede the token in its line.
 static void offer_all(Offer *all, size_t token, bool first) {
     const Document *document = all->request->document;
     const char *node;
@@ -272,7 +273,7 @@ static void offer_all(Offer *all, size_t token, bool first) {
         offer_symbols(all, true);
         return;
     }
-    if (after_token && ends_operand(document, token - 1)) { // an attribute or an operator word may follow
+    if (after_token && ends_operand(document, token - 1)) { // only an attribute or an operator word can follow
         offer_attributes(all, hover_node_of(document, token, &node));
         offer_keywords(all, "for if else in where and or xor");
         return;

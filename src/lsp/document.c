@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Returns the length of a character in the editor's units.
+// Returns the length of a character in the editor's units: UTF-8 bytes or UTF-16 code units.
 static size_t character_units(int32_t c, size_t bytes, bool utf8) {
     return utf8 ? bytes : c > 0xffff ? 2 : 1;
 }

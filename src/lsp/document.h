@@ -27,7 +27,7 @@ typedef struct Document {
     char *uri;       // as the editor writes it
     char *path;      // name in diagnostics: the path, or the URI if it is not a file URI
     char *canonical; // canonical path (symbolic links and dots resolved) if the file exists, else `path`
-    int64_t version; // of the editor, sent with diagnostics
+    int64_t version; // version number that the editor gave the document; sent with diagnostics
     ByteBuffer text; // lines end in LF
     size_t *lines;   // offset of each line
     size_t line_count;
@@ -36,16 +36,16 @@ typedef struct Document {
     bool unchecked;     // true if diagnostics are outdated
     PetriToken *tokens; // without NEWLINE, INDENT and DEDENT
     size_t token_count;
-    size_t *levels; // indentation level of each token; SIZE_MAX - level if the token begins a statement
-    PetriBinding *names;
+    size_t *levels;      // indentation level of each token; SIZE_MAX - level if the token begins a statement
+    PetriBinding *names; // bindings and uses of names, sorted by offset
     size_t name_count;
     Link *links;
     size_t link_count;
     DocumentDiagnostic *diagnostics;
     size_t diagnostic_count;
     TextList used;   // files that the last check read
-    Json *published; // diagnostics of the last check, as an object with one list per URI
-    Json *values;    // values of constants by name; NULL: not evaluated yet
+    Json *published; // diagnostics of the last check: maps the URI of each file to a list
+    Json *values;    // maps the names of constants to their values; NULL: not evaluated yet
 } Document;
 
 Document *document_new(const char *uri, Str text, int64_t version);
@@ -59,7 +59,7 @@ void document_clear_diagnostics(Document *document);
 
 // Positions. A position after the end of the text is moved to the end.
 size_t document_offset(const Document *document, const Json *position, bool utf8);
-size_t document_offset_at(const Document *document, uint32_t line, uint32_t column); // from 1, as in diagnostics
+size_t document_offset_at(const Document *document, uint32_t line, uint32_t column); // both count from 1
 Json *document_range(const Document *document, size_t start, size_t end, bool utf8);
 void document_position(const Document *document, size_t offset, bool utf8, size_t *line, size_t *character);
 Str document_slice(const Document *document, size_t start, size_t end);
@@ -78,8 +78,8 @@ const PetriBinding *document_binding(const Document *document, const PetriBindin
 // Returns the import or include whose file name is at an offset, or NULL if there is none.
 const Link *document_link(const Document *document, size_t offset);
 
-// Returns the binding that the name at a token refers to. In a statement with a syntax error, returns the visible
-// binding of this name. Returns NULL if the document does not bind the name.
+// Returns the binding that the name at a token refers to. In a statement with a syntax error, returns the innermost
+// binding of this name that is visible there. Returns NULL if the document does not bind the name.
 const PetriBinding *document_resolve(const Document *document, size_t token);
 
 // Converts a file URI such as file:///a%20b to a path such as /a b. Returns NULL if it is not a file URI. The caller

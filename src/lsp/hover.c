@@ -89,7 +89,8 @@ static bool hover_topic(ByteBuffer *out, Str word) {
 
 // --- values
 
-// Returns true if all names in the text from `start` to `end` are constant.
+// Returns true if the expression from `start` to `end` is constant: all names in it are constant, and it contains no
+// node and no `$`.
 static bool is_constant(const Document *document, size_t start, size_t end, unsigned depth) {
     PetriBuiltin builtin;
     for (size_t i = document_token_at(document, start); i < document->token_count && document->tokens[i].start < end;
@@ -247,7 +248,7 @@ static void hover_name(ByteBuffer *out, const RequestContext *request, size_t to
         hover_topic(out, text);
 }
 
-// Appends the value of a number literal, which may have a suffix or be a time code.
+// Appends the value of a number literal, which can have a suffix or be a time code.
 static void hover_number(ByteBuffer *out, Str text) {
     SCOPED_TEXT copy = memory_strndup(text.bytes, text.len);
     double x;

@@ -13,7 +13,7 @@ static Json *text_edit(const RequestContext *request, size_t start, size_t end, 
     return json_put(json_put(json_object_new_object(), "range", range), "newText", json_from(text));
 }
 
-// Returns the offset of a position in the request's parameters.
+// Returns the text offset of a position. `position` is the path of its JSON value in the request's parameters.
 static size_t position_offset(const RequestContext *request, const char *position) {
     return document_offset(request->document, json_path(request->params, position), request->server->utf8);
 }
@@ -167,8 +167,8 @@ static Str quoted_word(const char *text) {
     return !close ? (Str){0} : (Str){open + 1, (size_t)(close - open - 1)};
 }
 
-// Finds the word to replace by `meant` in the range of a diagnostic, and sets *start and *end. Returns false if it is
-// not found.
+// Finds the incorrect word in the range of a diagnostic, which `meant` shall replace. Sets *start and *end to the
+// offsets of the word. Returns false if the word is not found.
 static bool find_invalid_word(const Document *document, const DocumentDiagnostic *diagnostic, Str meant, size_t *start,
                               size_t *end) {
     Str part = document_slice(document, diagnostic->start, diagnostic->end), wrong = quoted_word(diagnostic->text);

@@ -135,7 +135,7 @@ static const struct {
 static const struct {
     const char *method;
     RequestHandler *answer;
-    const char *capability; // name of the capability; NULL: capabilities() adds it
+    const char *capability; // capability with the value true; NULL: see capabilities()
 } requests[] = {
     {"textDocument/completion", answer_completion, NULL},
     {"textDocument/hover", answer_hover, "hoverProvider"},
@@ -255,7 +255,7 @@ static bool handle_message(Server *server, const Json *message) {
     Json *id = json_get(message, "id");
     if (!method) {
         return json_get(message, "result") || json_get(message, "error") || !id
-                   ? true // a response, though the server sends no requests
+                   ? true // ignores a response, because the server sends no requests
                    : rpc_send_error(id, RPC_INVALID_REQUEST, "the message has no method");
     }
     if (id)

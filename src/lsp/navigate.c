@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Returns the name token at the request's position, or SIZE_MAX.
+// Returns the index of the name token at the request's position, or SIZE_MAX if there is none.
 static size_t token_of(const RequestContext *request) {
     const Document *document = request->document;
     size_t token = document_token_at(document, request->offset);
@@ -25,7 +25,8 @@ static Json *location(const Server *server, const Document *document, size_t sta
                     document_range(document, start, end, server->utf8));
 }
 
-// Returns the location of the start of the file that the import or include at the position names, or NULL.
+// If the position is in the file name of an import or include, returns the location of the start of that file, else
+// NULL.
 static Json *file_location(const RequestContext *request) {
     const Link *link = document_link(request->document, request->offset);
     bool own = false;
@@ -93,8 +94,8 @@ static bool is_named(const Document *document, size_t number, Str text) {
     return str_equal(document_slice(document, name->start, name->end), text);
 }
 
-// A name in an included file may refer to one binding in each including script. Adds all these bindings to `meant`,
-// because they must be renamed together.
+// A name in an included file can refer to one binding in each script that includes the file. Adds all these bindings to
+// `meant`, because they must be renamed together.
 static void merge_includer_bindings(const Workspace *workspace, BindingSet *meant, Str text) {
     for (bool more = meant->count > 0; more;) {
         more = false;
@@ -120,7 +121,8 @@ static const PetriBinding *function_of(const Document *document, const PetriBind
     return parameter->kind == PETRI_NAME_PARAMETER ? found : NULL;
 }
 
-// Adds the named arguments with this name in a call in another file: `f(NAME=…)`, `@f NAME=…`.
+// Adds the named arguments with this name in one call, `f(NAME=…)` or `@f NAME=…`. `token` is the function's name in
+// the call, which is not in the file of the function.
 static void add_arguments(Uses *uses, const Workspace *workspace, size_t file, size_t token, Str text) {
     const Document *document = workspace->documents[file];
     bool template = token > 0 && document_is(document, token - 1, "@");
@@ -248,8 +250,8 @@ static bool is_name(Server *server, const char *text) {
     return good;
 }
 
-// Returns an array with the bindings of every name in all files, in order, and sets *count. The caller frees it with
-// free.
+// Returns an array with one element for each name in all files, in order: the bindings of the name. Sets *count. The
+// caller frees the array with free.
 static BindingSet *all_bindings(const Workspace *workspace, size_t *count) {
     *count = 0;
     for (size_t file = 0; file < workspace->count; file++)
@@ -284,8 +286,8 @@ static Json *edits_of(const RequestContext *request, const Document *document, c
     return edits;
 }
 
-// Returns the edits that rename the uses, and applies them in the workspace. Sets *problem if the binding of any name
-// would change.
+// Returns the edits that rename the uses, and applies them to the workspace's own copies of the documents. Sets
+// *problem if any name would refer to a different binding after renaming.
 static Json *rename_uses(const RequestContext *request, Workspace *workspace, const Uses *uses, const char *wanted,
                          const char **problem) {
     size_t count, renamed;

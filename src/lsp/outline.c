@@ -9,7 +9,7 @@
 // SymbolKind of the protocol.
 enum { AS_MODULE = 2, AS_FUNCTION = 12, AS_VARIABLE = 13, AS_OBJECT = 19 };
 
-// Returns the end of the statement that a token begins, including its block.
+// Returns the offset of the end of the statement that a token begins. The end includes the block of the statement.
 static size_t block_end(const Document *document, size_t token) {
     size_t level = document_level(document, token), end = document->tokens[token].end;
     for (size_t i = token + 1; i < document->token_count; i++) {
@@ -159,7 +159,8 @@ static Class class_of(const Document *document, size_t token, int *modifiers) {
                                                             : classes[document->tokens[token].kind];
 }
 
-// Encodes each token as five numbers: lines and characters since the previous token, length, class, modifiers.
+// Encodes each token as five numbers: line and character relative to the previous token, length, class, modifiers. If
+// the previous token is in another line, the character counts from the start of the line.
 typedef struct Encoder {
     Json *data;
     size_t line;

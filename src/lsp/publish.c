@@ -1,7 +1,7 @@
 // publish.c: sending the diagnostics of documents to the editor.
 //
 // A check may also report diagnostics of included files. Each document stores the diagnostics of its last check,
-// grouped by file. For each file, the editor receives the union over all documents.
+// grouped by file. For each file, the editor receives what all documents together store for it.
 #include "lsp/server.h"
 
 #include <stdlib.h>
@@ -16,7 +16,7 @@ static Json *diagnostic_json(const Server *server, const Document *document, con
     json_put_text(json_put_text(json, "source", "petri"), "message", text.data);
     if (diagnostic->code) {
         json_put_text(json, "code", diagnostic->code);
-        if (strcmp(diagnostic->code, "unused-name") == 0) { // editors grey it out
+        if (strcmp(diagnostic->code, "unused-name") == 0) { // the tag 1, because editors grey out the name
             Json *tags = json_object_new_array();
             json_object_array_add(tags, json_object_new_int(1));
             json_put(json, "tags", tags);
@@ -89,7 +89,8 @@ static void publish_file(Server *server, const char *uri) {
     rpc_notify("textDocument/publishDiagnostics", params);
 }
 
-// Publishes all files in the new diagnostics (`now`) or the old diagnostics (`before`) of a document. Frees `before`.
+// Publishes each file that occurs in a document's new diagnostics (`now`) or old diagnostics (`before`). Frees
+// `before`.
 static void publish_changes(Server *server, const Json *now, Json *before) {
     json_object_object_foreach((Json *)now, uri, list) {
         (void)list;

@@ -19,7 +19,8 @@ enum {
 };
 
 typedef enum RpcRead { RPC_MESSAGE, RPC_INVALID, RPC_END } RpcRead;
-// Waits for the next message. Returns RPC_INVALID if it is not valid JSON. The caller releases *message.
+// Waits for the next message. Returns RPC_INVALID if the message is not valid JSON. Returns RPC_END at the end of the
+// input, or if the header of a message is invalid. The caller releases *message.
 RpcRead rpc_read(ByteBuffer *input, Json **message);
 // Returns true if more input can be read without waiting.
 bool rpc_has_input(const ByteBuffer *input);

@@ -18,15 +18,16 @@ typedef struct Server {
     bool shutting_down; // true after the shutdown request
     bool checking;      // true while the document `checked` is being checked
     Document *checked;
-    Json *found; // diagnostics of the current check, as an object with one list per URI
+    Json *found; // diagnostics of the current check: maps the URI of each file to a list
 } Server;
 
 // Returns an open document, or NULL.
 Document *server_document(const Server *server, const char *uri);
-// Returns the open document of a file, or else reads the file and sets *read; the caller then frees the document.
-// Returns NULL if there is no such file.
+// Returns the open document of a file. If the file is not open, reads it and sets *read to true, which means that the
+// caller must free the document. Returns NULL if there is no such file.
 Document *server_file(Server *server, const char *path, bool *read);
-// For PetriOptions.read_unsaved: returns the text of an open document. During a check, records the path in `used`.
+// For PetriOptions.read_unsaved: returns the text of the file if it is open in the editor, else NULL. During a check,
+// adds the path to `used` of the document that is being checked.
 const char *server_unsaved(void *server, const char *path, size_t *length);
 // Updates tokens and names of a document.
 void server_read(Server *server, Document *document);
@@ -48,12 +49,13 @@ typedef struct RequestContext {
     size_t offset; // offset of params.position; 0: the request has no position
 } RequestContext;
 
-// Request handlers. They return the result; NULL means null. On failure they set *problem to a message.
+// Request handlers. They return the result; NULL means the JSON value null. On failure they set *problem to a
+// message.
 typedef Json *RequestHandler(const RequestContext *request, const char **problem);
 RequestHandler answer_completion, answer_hover, answer_signature, answer_definition, answer_references,
     answer_highlight, answer_prepare_rename, answer_rename, answer_symbols, answer_folding, answer_tokens, answer_hints,
     answer_colours, answer_presentations, answer_actions, answer_format;
-// Returns the legend of semantic tokens, for the capabilities.
+// Returns the names of the classes and modifiers of semantic tokens. The capabilities contain them.
 Json *tokens_legend(void);
 
 // Information about a word (hover.c).
@@ -70,7 +72,7 @@ void hover_attribute(ByteBuffer *out, const PetriNodeAttribute *attribute);
 void hover_binding(ByteBuffer *out, Server *server, Document *document, const PetriBinding *name);
 // Returns the value of a constant. Returns NULL if the name is not constant or its evaluation exceeds the work limit.
 const char *hover_value(Server *server, Document *document, const PetriBinding *name);
-// Returns the last top-level binding of a name, which importing scripts use, or NULL if there is none.
+// Returns the binding that scripts import under a name: the last top-level binding. Returns NULL if there is none.
 const PetriBinding *hover_export(const Document *document, Str name);
 
 #endif

@@ -1,7 +1,7 @@
 // workspace.c: see workspace.h.
 //
-// An imported name refers to the last top-level binding of that name in its file. An included file is a separate block:
-// names bound before the include are visible in it, but its bindings are not visible outside.
+// An imported name refers to the last top-level binding of that name in the imported file. An included file is a
+// separate block: names bound before the include are visible in it, but its bindings are not visible outside.
 #include "lsp/workspace.h"
 
 #include "base/source.h"
@@ -76,7 +76,7 @@ static void drop_unconnected(Workspace *workspace) {
     free(connected);
 }
 
-// Sets the targets of all links and workspace->included.
+// Sets the target of each link, and the array workspace->included.
 static void find_targets(Workspace *workspace) {
     free(workspace->included);
     workspace->included = memory_calloc(workspace->count);
@@ -248,7 +248,8 @@ BindingSet workspace_bindings(const Workspace *workspace, size_t file, size_t nu
     if (name->kind != PETRI_NAME_USE)
         return binding_definition(workspace, file, number, 0);
     BindingSet found = resolve_name(workspace, file, text, document_binding(document, name));
-    // In `let NAME=NAME or DEFAULT`, the second NAME, which -D sets, belongs to the parameter.
+    // In the parameter `let NAME=NAME or DEFAULT`, the second NAME means the value set with -D. It refers to the
+    // first.
     bool given = found.count == 0 && before && before->kind == PETRI_NAME_LET && before->value_start == name->start &&
                  str_equal(document_slice(document, before->start, before->end), text);
     return given ? binding_definition(workspace, file, number - 1, 0) : found;

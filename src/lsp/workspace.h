@@ -1,10 +1,10 @@
-// workspace.h: the scripts that imports and includes connect with a script, and name resolution across them.
+// workspace.h: opens a script and all scripts related to it by imports and includes, and resolves names across them.
 #ifndef PETRI_SRC_LSP_WORKSPACE_H
 #define PETRI_SRC_LSP_WORKSPACE_H
 
 #include "lsp/server.h"
 
-// A reference to a name in a document, usually a binding.
+// Identifies a binding in a document.
 typedef struct BindingRef {
     size_t file; // index in Workspace.documents
     size_t name; // index in Document.names
@@ -12,7 +12,8 @@ typedef struct BindingRef {
 
 enum { MAX_BINDINGS = 32 };
 
-// The bindings that a name may refer to: a single binding, or one per including script for a name in an included file.
+// The bindings that a name may refer to. There is usually one. If an included file uses a name without binding it,
+// there may be one for each script that includes the file.
 typedef struct BindingSet {
     BindingRef items[MAX_BINDINGS];
     size_t count;
@@ -24,12 +25,12 @@ typedef struct Workspace {
     bool *own;            // for each document: true if the workspace frees it
     bool *included;       // for each document: true if another document includes it
     size_t count;
-    size_t files_left; // number of directory entries that may still be visited
+    size_t files_left; // number of directory entries that the search may still visit before it stops
 } Workspace;
 
 // Opens the document, the editor's open documents and the files that they import and include. If `whole`, also opens
-// the scripts in the editor's folders, or in the document's folder if the editor has none. Keeps only documents that
-// links connect with the first document.
+// the scripts in the editor's folders, or in the document's folder if the editor has none. Finally drops every document
+// that is not connected with `document` by a chain of imports and includes.
 void workspace_open(Workspace *workspace, Server *server, Document *document, bool whole);
 void workspace_close(Workspace *workspace);
 // Replaces the text of a document within the workspace only.
@@ -37,13 +38,15 @@ void workspace_replace(Workspace *workspace, size_t file, const ByteBuffer *text
 
 // Returns the bindings that a name refers to.
 BindingSet workspace_bindings(const Workspace *workspace, size_t file, size_t name);
-// Returns the bindings of a token of the first document. The token may be in a statement with a syntax error.
+// Returns the bindings that a token of the first document refers to. Also finds bindings for a token in a statement
+// with a syntax error.
 BindingSet workspace_resolve(const Workspace *workspace, size_t token);
 bool binding_sets_overlap(const BindingSet *a, const BindingSet *b);
 // Adds the bindings in `more` that `senses` does not contain. Returns true if any were added.
 bool binding_set_add(BindingSet *senses, const BindingSet *more);
 
-// Returns the binding of a name that is visible where a document includes a file, or NULL.
+// Returns the binding that the name `text` refers to at the place where the document includes a file (`link`). Returns
+// NULL if no binding is visible there.
 const PetriBinding *workspace_visible(const Document *document, const Link *link, Str text);
 const PetriBinding *workspace_name(const Workspace *workspace, BindingRef sense);
 

@@ -118,14 +118,14 @@ size_t argument_lines(const Repl *repl, char *text, size_t around) {
     while (before > text && is_blank(before[-1]))
         before--;
     int64_t count = 0;
-    bool all = strcmp(last, "all") == 0, open = before > text && before[-1] == ';'; // part of a key: :p;2
+    bool all = strcmp(last, "all") == 0, open = before > text && before[-1] == ';'; // part of a key: `:p; 2`
     if (open || (!all && !(read_count(last, &count) && count > 0)))
         return screen_lines(repl, around);
     *before = '\0';
     return all ? SIZE_MAX : (size_t)count;
 }
 
-// Common words that quit or show help. The language has no question mark.
+// Common words for quitting and for help. `?` is never code, because the language does not use it.
 static const struct {
     const char *word;
     const char *command;
@@ -185,7 +185,7 @@ static bool execute_alias(Repl *repl, const char *word, size_t length, const cha
     }
     SCOPED_BYTE_BUFFER line = {0};
     size_t inner = strlen(rest);
-    bool called = !alone && rest[0] == '(' && rest[inner - 1] == ')'; // help(sin)
+    bool called = !alone && rest[0] == '(' && rest[inner - 1] == ')'; // as in help(sin)
     byte_buffer_format(&line, "%s %.*s", command, (int)(alone ? 0 : inner - 2 * called), rest + called);
     repl_command(repl, line.data);
     return true;

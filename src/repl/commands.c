@@ -177,7 +177,7 @@ void repl_command(Repl *repl, const char *line) {
     size_t length = strcspn(line, " \t\n");
     SCOPED_TEXT name = memory_strndup(line, length);
     SCOPED_TEXT rest = argument_trimmed(line + length);
-    const char *alias = bare_alias(name + 1, length - 1); // .exit, .q
+    const char *alias = bare_alias(name + 1, length - 1); // accepts .exit and .q too
     const ReplCommand *command = alias ? repl_find_command(alias, strlen(alias)) : repl_find_command(name, length);
     if (!command)
         report_unknown(repl, name);

@@ -96,8 +96,8 @@ static void offer_files(Search *search) {
     globfree(&found);
 }
 
-// Returns the kind of the node whose attributes are expected at `at`, and sets *length. Returns NULL if no attribute is
-// expected there.
+// Returns the kind of the node to which an attribute at `at` would belong, and sets *length to the length of the kind.
+// Returns NULL if no attribute is expected there.
 static const char *node_before(const char *line, size_t at, size_t *length) {
     if (at == 0 || !isspace((unsigned char)line[at - 1]))
         return NULL;
@@ -201,8 +201,8 @@ static void sort_unique(TextList *words) {
     words->count = kept;
 }
 
-// Sets completion->common to the common prefix of the words without the typed text. Words are sorted, so only the first
-// and the last are compared.
+// Sets completion->common to the common prefix of the words, without the typed text. Words are sorted, so only the
+// first and the last are compared.
 static void find_common(Completion *completion, size_t typed) {
     const char *first = completion->words.items[0], *last = completion->words.items[completion->words.count - 1];
     size_t length = 0;

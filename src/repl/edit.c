@@ -21,7 +21,7 @@ struct Editor {
     EditLine *line;
     History *history;
     char prompt[64];
-    unsigned back; // number of history entries before the newest; 0: the line being typed
+    unsigned back; // which history entry is shown; 1: the newest; 0: none, but the line being typed
 };
 
 // Terminal settings before editing. Global, because the signal handler needs them.
@@ -50,7 +50,7 @@ static const char *prompt_of(EditLine *line) {
     return editor_of(line)->prompt;
 }
 
-// Moves the cursor below the block, where output can follow. May leave one empty line if lines wrap.
+// Moves the cursor below the block, where output can follow. Can leave one empty line if lines wrap.
 static void leave_block(Editor *editor) {
     const LineInfo *info = el_line(editor->line);
     int width = 80, height = 0, column = 0;
@@ -98,7 +98,8 @@ static const char *line_start(const LineInfo *info) {
     return start;
 }
 
-// Keys bound to libedit's built-in functions. petri's functions call a built-in function by pushing its key.
+// Keys bound to libedit's built-in functions. petri's functions call a built-in function by pushing its key into the
+// input.
 #define KEY_ACCEPT "\036"        // Ctrl-^
 #define KEY_LINE_UP "\030\020"   // Ctrl-X Ctrl-P
 #define KEY_LINE_DOWN "\030\016" // Ctrl-X Ctrl-N
@@ -120,7 +121,7 @@ static unsigned char handle_enter(EditLine *line, wint_t character) {
     byte_buffer_add(&text, info->buffer, (size_t)(info->lastchar - info->buffer));
     byte_buffer_add_text(&text, "\n");
     bool more = line_needs_more(editor->repl, text.data, text.length, &consumed);
-    el_cursor(line, (int)text.length); // libedit limits this to the end
+    el_cursor(line, (int)text.length); // moves to the end, at which libedit stops
     if (!more)
         return push_keys(line, KEY_ACCEPT);
     return el_insertstr(line, "\n") == 0 ? CC_REFRESH : CC_ERROR;
@@ -141,8 +142,8 @@ static unsigned char go_up(EditLine *line, wint_t character) {
     return push_keys(line, inside ? KEY_LINE_UP : KEY_HISTORY_UP);
 }
 
-// Down: in the last line of the block, does nothing unless a history entry is shown, because libedit would clear the
-// line.
+// Down: goes to the next line of the block or, from the last line, to the next history entry. In the last line of the
+// block being typed, does nothing, because libedit would clear the line.
 static unsigned char go_down(EditLine *line, wint_t character) {
     (void)character;
     Editor *editor = editor_of(line);
@@ -236,7 +237,7 @@ static void load_history(Editor *editor) {
     }
 }
 
-// Uses wide names, because libedit copies narrow ones and never frees the copies.
+// Uses wide names, because libedit copies narrow names and never frees the copies.
 static void add_functions(EditLine *line) {
     el_wset(line, EL_ADDFN, L"petri-complete", L"complete the word", complete_word);
     el_wset(line, EL_ADDFN, L"petri-enter", L"run the lines, or begin another", handle_enter);

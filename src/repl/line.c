@@ -17,7 +17,7 @@ struct LineReader {
     Editor *editor;  // NULL: lines are not edited
     ByteBuffer text; // input; the bytes at and after `at` have not been returned yet
     size_t at;
-    size_t searched; // number of bytes after `at` known to contain no line feed
+    size_t searched; // number of bytes from `at` that are known to contain no line feed
     bool ended;      // true if the input has ended
 };
 
@@ -38,7 +38,7 @@ void line_reader_free(LineReader *reader) {
 LineWait line_wait(Repl *repl) {
     for (;;) {
         if (repl_interrupted())
-            return WAIT_INTERRUPTED; // a signal that arrives before poll does not interrupt it
+            return WAIT_INTERRUPTED; // checked first, because an earlier signal does not interrupt poll
         struct pollfd files[2] = {{STDIN_FILENO, POLLIN, 0}, {file_watch_descriptor(repl->files), POLLIN, 0}};
         int ready = poll(files, 2, files[1].fd < 0 ? 200 : -1);
         if ((ready < 0 && errno == EINTR) || repl_interrupted())
@@ -50,7 +50,7 @@ LineWait line_wait(Repl *repl) {
     }
 }
 
-// Moves the first line of the buffered input to `line`. Returns false if it is incomplete.
+// Moves the first line of the buffered input to `line`. Returns false if the line is incomplete.
 static bool read_buffered_line(LineReader *reader, ByteBuffer *line) {
     const char *start = reader->text.data + reader->at;
     size_t length = reader->text.length - reader->at;
@@ -77,7 +77,7 @@ static void echo_line(Repl *repl, const ByteBuffer *line) {
     }
 }
 
-// Waits for input and reads a block, or reports changed files.
+// Waits for input and appends some of it to reader->text. If the script's files change first, reports this instead.
 static LineStatus read_block(LineReader *reader, const char *prompt) {
     Output *output = &reader->repl->output;
     if (reader->ended) {
@@ -133,7 +133,7 @@ static bool continues_block(const char *line) {
     return line[0] == ' ' || line[0] == '\t' || strncmp(line, "else", 4) == 0 || strncmp(line, "elif", 4) == 0;
 }
 
-// Returns the start of the last line.
+// Returns the offset at which the last line begins.
 static size_t last_line(const char *text, size_t length) {
     size_t at = length > 0 ? length - 1 : 0;
     while (at > 0 && text[at - 1] != '\n')
@@ -184,7 +184,7 @@ static void make_folders(char *path) {
     }
 }
 
-// Returns the offset of the last `max` lines.
+// Returns the offset at which the last `max` lines begin.
 static size_t start_of_last(const ByteBuffer *lines, size_t max) {
     size_t at = lines->length;
     while (at > 0 && max > 0) {

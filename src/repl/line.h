@@ -15,7 +15,7 @@ typedef struct LineReader LineReader;
 LineReader *line_reader_new(Repl *repl);
 void line_reader_free(LineReader *reader);
 // Reads one line and appends it to `line` without its line feed. Returns LINE_END at the end of the input, and
-// LINE_INTERRUPTED after Ctrl-C. `line` is then unchanged.
+// LINE_INTERRUPTED after Ctrl-C. In both cases, `line` is unchanged.
 LineStatus line_read(LineReader *reader, const char *prompt, ByteBuffer *line);
 
 // Returns true if the statement in `text`, whose lines all end with a line feed, needs more lines. Sets *consumed to
@@ -31,13 +31,13 @@ typedef enum LineWait {
     WAIT_NOTICED,     // changed files were reported, so the prompt must be written again
     WAIT_INTERRUPTED, // Ctrl-C
 } LineWait;
-// Waits for input, for Ctrl-C, or for changes of the script's files, which it reports.
+// Waits for input, for Ctrl-C, or for changes of the script's files. Reports such changes to the user.
 LineWait line_wait(Repl *repl);
 
 // The history file, $XDG_STATE_HOME/petri/history (default: ~/.local/state/petri/history), holds the lines typed in
 // earlier sessions, oldest first.
 enum { SAVED_MAX = 2000 };        // maximum number of lines in the file
-enum { SAVED_LINE_END = '\036' }; // replaces the line feeds in a block, which is one line of the file
+enum { SAVED_LINE_END = '\036' }; // replaces line feeds within a block: the file has one line per block
 // Appends the lines of the history file; each ends with a line feed. Adds nothing if there is no file.
 void saved_read(ByteBuffer *lines);
 // Appends lines to the history file immediately. Ignores write errors.

@@ -53,7 +53,7 @@ static int row_of(const Canvas *canvas, const Range *range, double value) {
 static void draw_curve(Canvas *canvas, const Range *range, const double *values, int64_t count) {
     int last = -1;
     for (int x = 0; x < canvas->columns; x++) {
-        // If there are fewer frames than columns, a frame covers several columns; otherwise some frames are skipped.
+        // With fewer frames than columns, a frame can cover several columns. With more frames, some are skipped.
         double value = values[(int64_t)((double)x * (double)count / canvas->columns)];
         int row = isfinite(value) ? row_of(canvas, range, value) : -1;
         if (row >= 0) {
@@ -171,7 +171,7 @@ static bool run_plot(Repl *repl, const char *rest) {
            plot_frames(repl, expression, count);
 }
 
-enum { LINES_BELOW = 2 }; // rows for the prompt
+enum { LINES_BELOW = 2 }; // terminal rows kept free for the prompt, below the picture
 
 static bool run_show(Repl *repl, const char *rest) {
     (void)rest;

@@ -27,7 +27,7 @@ static bool collect_unless_stopped(void *bytes, const char *text, size_t length)
     return byte_buffer_collect(bytes, text, length) && !repl_interrupted();
 }
 
-// Writes a section through a filter. Returns filter->found.
+// Passes each line of a section to the filter, which writes the lines that it selects. Returns filter->found.
 static size_t print_filtered(Repl *repl, unsigned section, Filter *filter) {
     SCOPED_BYTE_BUFFER text = {0};
     Str line;
@@ -56,7 +56,8 @@ static void note_remaining(const Filter *filter, const char *command, const char
     }
 }
 
-// Selects the entries whose key is or begins with the wanted key. For `:cells` or `cells`, these are `$:cells = …` and
+// Selects the entries whose key is the wanted key or begins with it. For `:cells` or `cells`, these are `$:cells = …`
+// and
 // `$(:cells;0) = …`.
 static void filter_entry(Filter *filter, const char *line, size_t length) {
     const char *key = line + 1 + (line[1] == '(');

@@ -28,7 +28,7 @@ typedef struct Repl {
     bool quit;               // true if the session must end
     bool incomplete;         // true if a step was interrupted: the current frame has its state, but no systems or nodes
     bool rates_changed;      // true if .tempo or .fps was used since the script was loaded
-    TextList definitions;    // arguments of -D and .set
+    TextList definitions;    // definitions NAME=VALUE from -D and .set
 } Repl;
 
 // Writes a note, `-- text`, on a separate line of standard output.
@@ -60,7 +60,8 @@ void repl_refresh(Repl *repl);
 // Watches the script and all files that it uses.
 void repl_watch_files(Repl *repl);
 
-// Commands (commands.c). Each file ends with a table of its commands. To add a command, add a row and its function.
+// Commands (commands.c). Each file that implements commands ends with a table of them. To add a command, add a row and
+// its function.
 typedef enum Completes {
     COMPLETE_LANGUAGE,
     COMPLETE_FILES,
@@ -73,7 +74,7 @@ typedef enum Completes {
 typedef struct ReplCommand {
     const char *name;     // with its dot
     const char *operands; // as shown in help; "": none
-    const char *needed;   // name of the required operand in messages; NULL: no operand is required
+    const char *needed;   // how messages name the operand if it is required; NULL: it is not required
     const char *help;
     bool (*run)(Repl *repl, const char *rest); // returns false, after a message, if the command failed
     Completes complete;                        // how the operand is completed
@@ -81,18 +82,19 @@ typedef struct ReplCommand {
 // Each table ends with a row without a name.
 extern const ReplCommand STEP_COMMANDS[], PRINT_COMMANDS[], PLOT_COMMANDS[], SET_COMMANDS[], SCRIPT_COMMANDS[],
     RECORD_COMMANDS[], OTHER_COMMANDS[];
-// Returns the commands in the order of .help; NULL after the last.
+// Returns the command at an index, in the order of .help. Returns NULL after the last command.
 const ReplCommand *repl_command_at(size_t index);
 // Returns the command with this name, with or without the dot, or NULL.
 const ReplCommand *repl_find_command(const char *name, size_t length);
 void repl_command(Repl *repl, const char *line);
 
 // Commands without a dot (arguments.c).
-// Executes `help`, `?`, `h`, `quit`, `exit` and `q`. Returns true if the text was one of these, or, after a message, if
-// it begins with the name of another command. If the script, the prompt or petri binds the word, the text is code: sets
-// *remark and returns false. The caller prints the remark if the code fails, or if the word is one of these six.
+// Executes the words `help`, `?`, `h`, `quit`, `exit` and `q`. If the text begins with the name of another command,
+// writes a message. Returns true in both cases, and false if the text is code. It is code if the script, the prompt or
+// petri binds its first word. If the word is nevertheless a command, this can set *remark. The caller prints the remark
+// if the code fails, or if the word is one of the six above.
 bool bare_execute(Repl *repl, const char *text, ByteBuffer *remark);
-// Returns the command of one of these six words, such as ".quit" for "q". Returns NULL for other words.
+// Returns the command that one of these six words executes, such as ".quit" for "q". Returns NULL for other words.
 const char *bare_alias(const char *name, size_t length);
 
 // Parsing of operands (arguments.c). Functions that return bool return false after a message.
@@ -100,21 +102,22 @@ const char *bare_alias(const char *name, size_t length);
 char *argument_trimmed(const char *text);
 // Parses a finite number: a number, a time code, or an expression, which is evaluated in the current frame.
 bool argument_number(Repl *repl, const char *text, double *number);
-// Parses an integer >= min, or an expression for one. Does not change *count if the text is empty.
+// Parses an integer >= min, or an expression with such a value. Does not change *count if the text is empty.
 bool argument_count(Repl *repl, const char *text, int64_t min, int64_t *count);
 // Removes `--limit N` from the beginning or the end of the text and sets *limit.
 bool argument_limit(Repl *repl, char *text, int64_t *limit);
-// If the text ends with a positive integer after other text and a blank, removes the integer and sets *count.
+// If the text ends with a positive integer that follows other text and a blank, removes the integer and sets *count.
 void argument_last_count(char *text, int64_t *count);
-// Removes an integer or `all` from the end of the text and returns this number of lines. By default returns the number
-// of screen lines minus `around` on a terminal, and SIZE_MAX elsewhere.
+// If the text ends with a positive integer or `all`, removes it and returns this number of lines, SIZE_MAX for `all`.
+// If not, returns the number of screen lines minus `around` on a terminal, and SIZE_MAX elsewhere.
 size_t argument_lines(const Repl *repl, char *text, size_t around);
 
-// Writes a note that the script has its own binding of a name that was just bound at the prompt (set_commands.c).
+// Writes a note that the script still uses its own binding of a name that was just bound at the prompt
+// (set_commands.c).
 void repl_warn_shadowed(Repl *repl, const char *name);
 // Writes the current frame's `@` line, its log and the watched expressions (step_commands.c).
 void repl_show_frame(Repl *repl);
-// Computes the current frame again if Ctrl-C interrupted it, which loses its systems and nodes, but not the state.
+// If Ctrl-C interrupted the current frame, computes it again, because an interrupted frame has no systems and no nodes.
 void repl_complete_frame(Repl *repl);
 
 // Completion of a word (complete.c).

@@ -63,7 +63,7 @@ static void add_name(Names *names, const Str *line) {
         names->items[names->count++] = name;
 }
 
-// Returns a table: lengths[i][j] is the length of the longest common subsequence of a[i...] and b[j...].
+// Returns a table: lengths[i][j] is the length of the longest common subsequence of a from line i and b from line j.
 static uint32_t *common_lengths(const Str *a, size_t rows, const Str *b, size_t columns) {
     uint32_t *lengths = memory_calloc((rows + 1) * (columns + 1) * sizeof *lengths);
     for (size_t i = rows; i-- > 0;) {

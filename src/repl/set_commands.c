@@ -11,7 +11,8 @@ static bool defines_name(const char *text, const char *name) {
     return strncmp(text, name, length) == 0 && (text[length] == '\0' || text[length] == '=');
 }
 
-// Returns true if the script, the prompt or the engine binds the name; these take precedence over definitions.
+// Returns true if the script, the prompt or the engine binds the name. Such bindings take precedence over
+// definitions.
 static bool is_bound(const Repl *repl, const char *name) {
     size_t seen = 0, defined = 0;
     const char *known;
@@ -29,7 +30,7 @@ static void note_parameter(Repl *repl, const PetriParameter *parameter) {
     repl_note(repl, "%s%s%s", text.data, parameter->comment[0] == '\0' ? "" : "  ", parameter->comment);
 }
 
-// Reports the effect of setting a name. `warned`: a diagnostic has already reported that there is no effect.
+// Reports the effect of setting a name. `warned`: true if a diagnostic has already reported that it has no effect.
 static void report_set(Repl *repl, const char *name, bool warned) {
     PetriParameter parameter;
     if (parameter_find(repl->session, name, &parameter))

@@ -7,11 +7,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-// A request for frames. It ends after `count` frames, when `until` is true, or on Ctrl-C.
+// A request to compute frames. Computing ends after `count` frames, when `until` is true, or on Ctrl-C.
 typedef struct StepRequest {
     int64_t count;
     const char *until; // expression; NULL: none
-    bool limited;      // true if `count` comes from --limit; reaching it is reported
+    bool limited;      // true if `count` comes from --limit. If it is reached, this is reported
 } StepRequest;
 
 // Appends `EXPR = value` for each watched expression.
@@ -28,7 +28,7 @@ static void add_watched(Repl *repl, ByteBuffer *text) {
     }
 }
 
-// Appends the frame's text. Returns true if the text has more lines than the `@` line.
+// Appends the frame's text. Returns true if other lines follow its `@` line.
 static bool format_frame(Repl *repl, ByteBuffer *text) {
     petri_print(repl->session, PETRI_PRINT_LOG, byte_buffer_collect, text);
     add_watched(repl, text);
