@@ -144,7 +144,7 @@ for i in ..5
 END
 petri run --profile --frames 10 --print tree slow.fl
 check "--profile does not change the output" lines_are out 60
-check "--profile prints the number of frames" has err "a frame in 10 frames"
+check "--profile prints the number of frames" has err "ms per frame, 10 frames"
 check "--profile has the slowest line first" [ "$(sed -n 's/.*\(slow.fl:[0-9]*\).*/\1/p' err | head -n 1)" = slow.fl:3 ]
 check "--profile counts how often a line runs" grep -Eq ' 5  slow.fl:6: !item a=twice\(many\+i\)$' err
 check "--profile counts a function's lines" grep -Eq ' 5  slow.fl:2: 2\*x$' err
