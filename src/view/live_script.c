@@ -188,7 +188,7 @@ bool live_script_step(LiveScript *live) {
     watch_sources(live); // the frame may have imported modules
     update_picture(live);
     live->frames += live->before_first_picture ? 0 : 1;
-    // Errors in a frame that completes are reported on standard error only, as by petri run.
+    // If a frame completes, its errors are reported on standard error only, as in petri run.
     truncate_error_text(live, before);
     if (live->options->verbosity >= LOG_DEBUG) {
         char line[200];
@@ -199,7 +199,7 @@ bool live_script_step(LiveScript *live) {
     return true;
 }
 
-// Keeps the new warnings if the load succeeded, else the previous ones.
+// Keeps the new warnings if the load succeeded, else restores the previous warnings (`before`).
 static void choose_warnings(LiveScript *live, Warnings *before, bool loaded) {
     if (loaded) {
         warnings_clear(before);

@@ -1,7 +1,7 @@
 // live_script.h: the script of `petri view`, which runs, is reloaded when it is saved, and produces pictures.
 //
-// If the script cannot be loaded or a frame fails, the error is reported and nothing else changes. The last good
-// program keeps running, or is halted.
+// If the changed script cannot be loaded, the error is reported and the last good program keeps running. If a frame
+// fails, the error is reported and the program is halted.
 #ifndef PETRI_SRC_VIEW_LIVE_SCRIPT_H
 #define PETRI_SRC_VIEW_LIVE_SCRIPT_H
 
@@ -29,11 +29,12 @@ typedef struct LiveScript {
     int64_t frames; // number of frames since the view was opened, not counting those before the first picture
     bool before_first_picture; // the particles of the last frame are not at their positions yet (petri_picture_ready)
     double detail;             // detail of future pictures (PetriPictureOptions)
-    bool awaits_display;  // the display is not open yet; it determines how the painter draws, so no picture is made
-    bool picture_hidden;  // `picture` was made before the first picture: its size is used, but it is not shown
-    bool halted;          // a frame failed; the next load or reset resumes the run
-    bool broken;          // the script on disk cannot be loaded; an earlier version keeps running
-    bool failed;          // an error occurred while reading, writing or recording
+    bool awaits_display; // the display is not open yet: nothing is drawn, because it determines how the painter draws
+    bool
+        picture_hidden; // `picture` is not shown, only its size is used: it was made when before_first_picture was true
+    bool halted;        // a frame failed; the next load or reset resumes the run
+    bool broken;        // the script on disk cannot be loaded; an earlier version keeps running
+    bool failed;        // an error occurred while reading, writing or recording
     bool memory_reported; // a failure to allocate memory for a picture was reported
     StateFile state;
     bool keeps_history; // frames are stored in `history`, so that the user can go back
@@ -52,7 +53,7 @@ typedef struct LiveScript {
 // live_script_close in either case.
 int live_script_open(LiveScript *live, const CommandContext *context, const Options *options);
 void live_script_close(LiveScript *live);
-// Must be called when the display is open. Pictures are made from then on.
+// Must be called once the display is open. From then on, pictures can be drawn.
 void live_script_begin(LiveScript *live);
 // Sets the number of pixels per unit of the script's size for future pictures: at most 1, the default. Screenshots
 // always use 1.
@@ -61,8 +62,8 @@ void live_script_set_detail(LiveScript *live, double detail);
 bool live_script_step(LiveScript *live);
 // Returns true for PETRI_OK. Reports PETRI_OUT_OF_MEMORY once.
 bool live_script_check_drawn(LiveScript *live, PetriStatus status);
-// If one of the script's files has changed, reloads the script, keeps its state and clock, and returns true.
-// live_script_error_text is then empty on success.
+// If one of the script's files has changed, reloads the script, keeps its state and clock, and returns true, even if
+// the reload fails. If it succeeds, live_script_error_text is empty afterwards.
 bool live_script_reload(LiveScript *live);
 // Sets a parameter of the script, or resets it to its default if `value` is NULL. Returns false if this fails.
 bool live_script_set_parameter(LiveScript *live, const char *name, const char *value);
@@ -77,8 +78,8 @@ void live_script_reset(LiveScript *live);
 const char *live_script_error_text(const LiveScript *live);
 // Saves the state if the last save was some seconds ago, or always if `at_once`.
 void live_script_save(LiveScript *live, bool at_once);
-// Writes the last frame's picture to a new PNG file in the current folder, whose name consists of the script's name and
-// the frame number. Sets `name` to the file name. Returns false if the file cannot be written.
+// Writes the last frame's picture to a new PNG file in the current folder. The file name consists of the script's name
+// and the frame number. Sets `name` to the file name. Returns false if the file cannot be written.
 bool live_script_screenshot(LiveScript *live, char *name, size_t size);
 // Writes the collected messages to standard error. Later messages are written there directly.
 void live_script_release_messages(LiveScript *live);

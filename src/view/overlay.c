@@ -23,7 +23,7 @@ typedef struct Layout {
 } Layout;
 
 // Adds a label and wraps its text. Returns NULL if the text is empty. A `full` label is as wide as possible; other
-// labels are as wide as their text. The caller sets its position.
+// labels are as wide as their text. The caller moves the label to its position.
 static PetriLabel *layout_label(Layout *layout, const PetriLabel *style, const char *text, bool full) {
     if (text[0] == '\0')
         return NULL;

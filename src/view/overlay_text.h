@@ -22,8 +22,8 @@ bool overlay_set(char *text, size_t size, const char *from);
 int overlay_lines(const char *text);
 int overlay_columns(const char *text);
 // Wraps text to at most `columns` characters per line (at least 2), at blanks where possible. Lines that begin with a
-// blank quote a script or contain carets; they are truncated instead of wrapped, to keep them aligned. Text that
-// exceeds `size` bytes is omitted.
+// blank quote a script or contain carets below a quoted line. To keep them aligned, they are truncated, not wrapped.
+// Text that exceeds `size` bytes is omitted.
 void overlay_fit(char *out, size_t size, const char *text, int columns);
 
 #endif

@@ -37,8 +37,8 @@ static double round_decimal(double x) {
     return clean == 0 ? 0 : clean; // also turns -0 into 0
 }
 
-// Returns the value that is `steps` multiples of the step size away, within the range. Multiples count from the minimum
-// if the range defines the step, else from 0.
+// Returns the multiple of the step size that is `steps` multiples away from `value`, limited to the range. If the
+// parameter's comment gives a step, multiples count from the minimum, else from 0.
 static double step_from(const PetriParameter *parameter, double value, int steps) {
     double size = step_size(parameter), dust = 1e-9;
     double origin = parameter->step > 0 && isfinite(parameter->min) ? parameter->min : 0;

@@ -152,7 +152,7 @@ static Event next_escape(TerminalInput *input) {
     }
     if (input->bytes[1] == 'O' && !late)
         return (Event){.kind = EVENT_NONE};
-    drop_bytes(input, 1); // the key was pressed with Alt, or the next byte is another escape
+    drop_bytes(input, 1); // the escape means Alt, unless another escape follows
     return input->bytes[0] == 27 ? key_tap_event("escape") : (Event){.kind = EVENT_NONE};
 }
 

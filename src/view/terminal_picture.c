@@ -25,7 +25,8 @@ bool terminal_picture_possible(void) {
     return true;
 }
 
-// Returns true if the environment selects UTF-8 according to the C library's rules. The process never sets its locale.
+// Returns true if the environment selects UTF-8 according to the C library's rules. The result is independent
+// of setlocale, which petri view never calls.
 static bool locale_is_utf8(void) {
     static const char *const names[] = {"LC_ALL", "LC_CTYPE", "LANG"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {

@@ -6,7 +6,8 @@
 //     TerminalCells cells = terminal_picture_fit(way, columns, rows, width, height);   // the size of the script
 //     ... draw it with cells.width x cells.height pixels ...
 //     char *text = terminal_picture_text(way, pixels, &cells, &length);
-// and write the text and a newline. Built without libchafa, terminal_picture_new returns NULL.
+// and write the text and a newline. If petri was built without libchafa, terminal_picture_new
+// returns NULL.
 #ifndef PETRI_SRC_TERMINAL_PICTURE_H
 #define PETRI_SRC_TERMINAL_PICTURE_H
 

@@ -35,8 +35,8 @@ struct Display {
     TerminalCells cells; // size of the last picture
     int columns;         // size of the terminal
     int rows;
-    int left; // columns before the picture
-    int top;  // rows above the picture
+    int left; // number of columns to the left of the picture
+    int top;  // number of rows above the picture
     Overlay shown;
     char title[200];
     bool colour;

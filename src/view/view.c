@@ -158,7 +158,8 @@ static void execute_key(View *view, const char *key) {
     }
 }
 
-// Passes keys that the script binds to the script, unless Control is held.
+// Executes the view's action for a key, unless the script binds this key and Control is not held. Reports every key to
+// the session.
 static void handle_key(View *view, const Event *event) {
     if (!event->key)
         return;
@@ -212,13 +213,13 @@ static void choose_detail(View *view) {
     live_script_set_detail(&view->live, width > 0 && width < view->width ? (double)width / view->width : 1);
 }
 
-// Makes pixels opaque: transparent parts become black.
+// Makes pixels opaque, as if they were drawn on black.
 static void make_opaque(uint32_t *pixels, size_t count) {
     for (size_t i = 0; i < count; i++)
         pixels[i] |= 0xFF000000;
 }
 
-// Draws into view->pixels and shows them.
+// Draws the picture into view->pixels and shows the pixels.
 static PetriStatus show_pixels(View *view, PetriPicture *picture) {
     int width, height;
     PetriStatus status = PETRI_OK;
@@ -245,7 +246,7 @@ static void draw_view(View *view) {
     PetriPicture *picture = view->live.picture_hidden ? NULL : view->live.picture;
     PetriStatus status;
     view->redraw = false;
-    view->drawn = clock_seconds(); // before drawing: if it is slow, the next picture follows at once
+    view->drawn = clock_seconds(); // taken before drawing, so that slow drawing does not delay the next picture
     if (!view->kind->show_directly || !view->kind->show_directly(view->display, picture, &view->overlay, &status))
         status = show_pixels(view, picture);
     live_script_check_drawn(&view->live, status);
@@ -380,7 +381,7 @@ static int run_view(View *view) {
     view->redraw = true;
     view->live.awaits_display = true;
     if (view->live.options->frames > 0)
-        step_script(view); // the display's size is that of the picture
+        step_script(view); // before the display is opened, because the picture determines its size
     follow_script(view);
     catch_interrupts();
     bool opened = open_display(view);

@@ -26,7 +26,7 @@ typedef struct View {
     double notice_ends; // time at which the notice disappears; INFINITY: never
     // The frame rate
     double measured;         // time of the last measurement
-    int64_t measured_frames; // number of frames computed until then
+    int64_t measured_frames; // number of frames computed until the last measurement
     double rate;             // frames per second
     // Pixels of the display
     uint32_t *pixels;
@@ -53,8 +53,7 @@ void view_reset_notice(View *view);
 void view_update_error_text(View *view);
 // Updates frame rate, clocks and keys.
 void view_update_status(View *view);
-// Measures the frame rate and updates the status, but only twice a second to keep it readable. While paused, does not
-// measure; the status shows the current frame.
+// Measures the frame rate and updates the status, but at most twice a second, so that the status remains readable.
 void view_measure_rate(View *view);
 
 #endif

@@ -26,7 +26,7 @@ bool window_has_screen(void) {
 #ifdef HAVE_SDL
 #include <SDL.h>
 
-// The limits of a window's size: at least MIN_SIZE, at most this fraction of the screen.
+// The limits of a window's width and height: at least MIN_SIZE, and at most MAX_SCREEN_FRACTION of the screen.
 enum { MIN_SIZE = 64 };
 static const double MAX_SCREEN_FRACTION = 0.9;
 
@@ -80,7 +80,7 @@ static void release_context(const Display *display) {
         SDL_GL_MakeCurrent(display->window, NULL);
 }
 
-// Creates a hidden window, because SDL may replace it when it creates the context or renderer.
+// Creates a window that is hidden at first, because SDL may replace it when SDL creates the context or renderer.
 static bool create_window(Display *display, const char *title, int width, int height, Uint32 flags) {
     display->window = SDL_CreateWindow(title, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, width, height,
                                        SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI | SDL_WINDOW_HIDDEN | flags);
@@ -256,7 +256,7 @@ static Event window_event(const SDL_WindowEvent *event) {
     }
 }
 
-// If the Wayland server was lost, SDL sends a quit event without a request to close the window.
+// On Wayland, a quit event means that the server was lost: if the user closes the window, a window event comes first.
 static Event quit_event(Display *display) {
     const char *driver = SDL_GetCurrentVideoDriver();
     display->gone = driver && strcmp(driver, "wayland") == 0;
@@ -364,7 +364,8 @@ static void window_resize(Display *display, int width, int height) {
     }
 }
 
-// Fills the screen if there is no window manager: a window then gets the position and size that it requests.
+// Fills the screen by changing the window's position and size. Without a window manager, a window gets what it
+// requests.
 static void fill_screen(Display *display) {
     SDL_Rect screen, *windowed = &display->windowed;
     int number = SDL_GetWindowDisplayIndex(display->window);

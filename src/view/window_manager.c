@@ -8,7 +8,7 @@
 #ifdef SDL_VIDEO_DRIVER_X11
 #include <X11/Xatom.h>
 
-// The library is loaded at run time: SDL has already loaded it, and linking petri with it would slow down every start.
+// The library is not linked, because that would slow down every start of petri. SDL has already loaded it at run time.
 static const char LIBRARY[] = "libX11.so.6";
 
 typedef struct X11 {
@@ -32,8 +32,7 @@ static bool find_symbols(void *library, X11 *x11) {
            find_symbol(library, "XFree", &x11->release);
 }
 
-// Returns true if there is a window manager, a client that redirects requests to change the children of the root
-// window.
+// Returns true if there is a window manager: a client to which X11 redirects requests to change top-level windows.
 static bool is_managed(const X11 *x11, Display *display, Window root) {
     XWindowAttributes attributes;
     return x11->get_attributes(display, root, &attributes) != 0 &&
@@ -83,7 +82,7 @@ static int ignore_error(Display *display) {
     return 0;
 }
 
-// Called by Xlib after an I/O error. When it returns, Xlib calls fail, but the process does not end.
+// Called by Xlib after an I/O error. After it has returned, calls of Xlib fail, but the process does not end.
 static void ignore_io_error(Display *display, void *gone) {
     (void)display;
     *(bool *)gone = true;

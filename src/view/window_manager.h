@@ -8,7 +8,7 @@
 struct SDL_Window;
 
 // Returns true if a request for full screen has an effect: always, except on an X11 screen without a window manager
-// that supports full screen. SDL does not notice that the request is ignored there.
+// that supports full screen. SDL does not notice that such a screen ignores the request.
 bool window_manager_fills_screen(struct SDL_Window *window);
 // Prevents Xlib from terminating the process when an X11 screen is lost. Instead, requests to the screen fail and
 // `*gone` is set. `gone` must remain valid until the process ends.
