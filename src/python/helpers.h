@@ -5,11 +5,12 @@
 #include "petri-draw.h"
 
 // Computes `count` frames, or fewer if a frame fails or a Python function sets *stop. `stop` is NULL if the session has
-// no functions. If `interruptible` is true, Ctrl-C interrupts the step and is then passed to Python's handler. Must be
-// false in threads other than the main thread.
+// no functions. If `interruptible` is true, Ctrl-C interrupts the step and is then passed to Python's handler.
+// `interruptible` must be false in threads other than the main thread.
 PetriStatus petri_python_step(PetriSession *session, size_t count, bool interruptible, const bool *stop);
 
-// Returns the index of a system, or -1 if there is none. The index `number` is tried first. NULL matches any name.
+// Returns the index of the system with a name, or -1 if there is none. The index `number` is tried first. If `name` is
+// NULL, only `number` is tried.
 int petri_python_system(PetriSession *session, int number, const char *name, PetriSystem *system);
 
 // Memory layout of a column of a system.
@@ -24,13 +25,14 @@ bool petri_python_view(PetriSession *session, int number, const char *name, char
 
 // Gets the value of a key with `length` numbers. Returns false if the value is not numeric.
 bool petri_python_state(PetriSession *session, const double *key, uint32_t length, PetriValue *value);
-// Like petri_python_state, for a key of a symbol and a number.
+// Like petri_python_state, for a key that consists of a symbol and a number.
 bool petri_python_pair(PetriSession *session, double symbol, double number, PetriValue *value);
 
 // The PetriFunctionCall of Python functions; `user_data` is the handle of the function.
 PetriValue petri_python_call(PetriCall *call, void *user_data, const PetriValue *arguments, uint32_t count);
 
-// Finalisers that take the object itself, and a wrapper of an inline function, which cffi cannot call.
+// Finalisers that take the object itself instead of its address, and a wrapper of an inline function, which cffi cannot
+// call.
 void petri_python_close(PetriSession *session);
 void petri_python_painter_close(PetriPainter *painter);
 void petri_python_picture_free(PetriPicture *picture);

@@ -191,8 +191,8 @@ static PetriStatus send_display_list(PetriPicture *picture, bool ready) {
     return status;
 }
 
-// Renders and returns the picture of the last frame, for web_picture and for the pictures of later frames. Returns NULL
-// if there is no picture.
+// Renders the picture of the last frame, on which pictures of later frames depend. Returns the picture, so that it can
+// be passed to web_picture, or NULL if there is none.
 EXPORT(PetriPicture *, web_render_if_needed, PetriSession *session, PetriPainter *painter) {
     PetriPictureOptions options = petri_default_picture_options();
     PetriPicture *picture;

@@ -125,7 +125,7 @@ function drawGrid(context, panel, { point, normal: n }) {
         }
 }
 
-// Draws the axes through the origin, if they are in the frame or near it.
+// Draws the axes through the origin. Parts outside the panel are clipped.
 function drawOrigin(context, panel) {
     const { middle, half, dimensions } = panel.system, solid = dimensions === 3;
     const length = solid ? half : 2 * (panel.width + panel.height) / panel.scale;

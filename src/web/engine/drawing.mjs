@@ -36,7 +36,7 @@ const color = (n, at, alpha = 1) =>
 // Returns the size of a picture in the script's units.
 export const pictureSize = numbers => ({ width: numbers[0], height: numbers[1] });
 
-// Adds an elliptical arc from the current point to n[5], n[6], as in SVG.
+// Adds an elliptical arc from the current point to the point n[at + 5], n[at + 6], as in SVG.
 function arcTo(path, [x0, y0], n, at) {
     const [rx, ry, turns, large, clockwise, x, y] = n.subarray(at, at + 7);
     const c = Math.cos(turns * TURN), s = Math.sin(turns * TURN), dx = (x - x0) / 2, dy = (y - y0) / 2;
@@ -50,7 +50,7 @@ function arcTo(path, [x0, y0], n, at) {
         turns * TURN, Math.atan2(-b - my, -a - mx), Math.atan2(b - my, a - mx), clockwise === 0);
 }
 
-// Adds the path elements in n[at] to n[end].
+// Adds the path elements from n[at] up to, but not including, n[end].
 function tracePath(path, n, at, end) {
     let here = [0, 0], first = here;
     while (at < end) {
@@ -126,7 +126,7 @@ class Painter {
         this.scale = scale * Math.sqrt(Math.abs(xx * yy - xy * yx));
     }
 
-    // Sets up the painting of the next path. Returns false if it is invisible.
+    // Sets up the painting of the next path. Returns false if the path would be invisible.
     begin(fill, stroke) {
         const { context, line } = this, composite = COMPOSITES[line.composite];
         this.setMatrix();
@@ -189,7 +189,7 @@ class Painter {
     }
 
     // Paints fill and stroke as one shape. Uses a mask if the overlap of fill and stroke would be visible, if the composite mode affects
-    // pixels outside the path, or if the paint has a different transform (`masked`).
+    // pixels outside the path, or if the caller requires a mask (`masked`).
     paintPath(fill, stroke, act, masked) {
         const composite = COMPOSITES[this.line.composite];
         if (!composite)
@@ -231,7 +231,7 @@ class Painter {
         context.restore();
     }
 
-    // Calls `act` to draw on a separate canvas whose corner is at x, y of the current canvas. Returns the context of the separate canvas.
+    // Calls `act` to draw on a separate canvas, whose top left corner is at x, y of the current canvas. Returns its context.
     apart(width, height, x, y, act) {
         const { context, base, line, filter } = this, apart = this.beside({ width, height }, true);
         Object.assign(this, { context: apart, base: [base[0], base[1] - x, base[2] - y], line: { ...line, composite: 4 }, filter: null });
@@ -388,7 +388,7 @@ class Painter {
         return context.canvas;
     }
 
-    // Sets the paint to pixels at the resolution of the canvas. `make` draws them on a separate canvas.
+    // Returns a paint that consists of pixels at the resolution of the canvas. `make` draws these pixels on a separate canvas.
     imageOfPixels(alpha, make) {
         Object.assign(this, { solid: false, alpha, round: null });
         return () => {

@@ -60,7 +60,7 @@ export class FloatImage {
         return this;
     }
 
-    // Dilates shapes, or erodes them if `least`.
+    // Dilates shapes, or erodes them if `least` is true.
     spread(radii, least) {
         radii.forEach((radius, axis) => {
             const reach = Math.min(nearest(radius), axis ? this.height : this.width);
@@ -96,7 +96,7 @@ export class FloatImage {
         return this;
     }
 
-    // Applies a matrix of four rows of five numbers to colours that are not premultiplied.
+    // Divides the colours by alpha, applies a matrix of four rows of five numbers, and multiplies the new colours by the new alpha.
     recolour(matrix) {
         const plain = [0, 0, 0, 0, 1], out = [0, 0, 0, 0], { pixels } = this;
         for (let i = 0; i < pixels.length; i += 4) {
@@ -150,7 +150,7 @@ function blurOf(sigma) {
         const cells = Math.ceil(count / cell), from = cell > 1 ? new Float32Array(4 * cells) : line;
         for (let i = 0; cell > 1 && i < 4 * count; i++)
             from[4 * Math.floor((i >> 2) / cell) + i % 4] += line[i] / cell;
-        const margin = cell > 1 ? 1 : 0, weighed = new Float32Array(4 * (cells + 2 * margin)); // begins with cell -margin
+        const margin = cell > 1 ? 1 : 0, weighed = new Float32Array(4 * (cells + 2 * margin)); // its first element is cell -margin
         for (let i = -margin; i < cells + margin; i++)
             weigh(weights, from, cells, i, weighed, 4 * (i + margin));
         if (cell === 1)
@@ -165,8 +165,8 @@ function blurOf(sigma) {
     };
 }
 
-// Returns a function that computes the maximum or minimum within `reach` pixels of each pixel. It doubles the length of the runs in each
-// step.
+// Returns a function that computes the maximum or minimum within `reach` pixels of each pixel. Each of its steps
+// doubles the number of pixels that an element covers.
 function spreadOf(reach, choose) {
     return (line, count) => {
         const all = count + 2 * reach, other = new Float32Array(4 * all), wanted = 2 * reach + 1;

@@ -7,7 +7,7 @@ function* numbersFrom(seed) {
     const MODULUS = 2147483647, FACTOR = 16807, MAX_VALUE = MODULUS - 1, whole = Math.trunc(seed);
     let number = whole <= 0 ? 1 - whole % MAX_VALUE : Math.min(whole, MAX_VALUE);
     for (;;)
-        yield number = FACTOR * number % MODULUS; // below 2⁵³
+        yield number = FACTOR * number % MODULUS; // exact, because the product is below 2⁵³
 }
 
 function makeLattice(seed) {

@@ -43,7 +43,7 @@ export interface Options {
     onDiagnostic?: (diagnostic: Diagnostic) => void;
     /**
      * Polled about every ten microseconds during calls that may take long. Return true to end the call with the status
-     * "interrupted"; it then changes nothing. Calls that only read values are not interrupted.
+     * "interrupted"; the call then changes nothing. Calls that only read values are not interrupted.
      * The callback can check a clock, or a SharedArrayBuffer that another thread writes.
      */
     shouldInterrupt?: () => boolean;

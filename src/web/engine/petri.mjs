@@ -26,7 +26,7 @@ export class PetriError extends Error {
     }
 }
 
-// Compiles the engine and returns it. `source` is that of `compile` in wasm.mjs.
+// Compiles the engine and returns it. For `source`, see `compile` in wasm.mjs.
 export async function loadEngine(source) {
     return new Engine(await compile(source));
 }
@@ -97,7 +97,7 @@ export class Session {
         this.onDiagnostic = onDiagnostic;
         this.shouldInterrupt = shouldInterrupt;
         this.image = image;
-        this.painter = null; // 0: not available
+        this.painter = null; // null: not opened yet; 0: not available
         this.followed = null; // the last rendered picture, if later pictures depend on it
         this.unsupported = new Set();
         this.files = new Map();
@@ -267,7 +267,7 @@ export class Session {
         return new Map(this.taken.map(entry => [entry.key, entry.value]));
     }
 
-    // Sets a global, one or more numbers, for scripts that are loaded later. Its value may be changed at any time.
+    // Sets a global, one or more numbers, for scripts that are loaded later. Its value can be changed at any time.
     setGlobal(name, value) {
         const numbers = Float64Array.from(typeof value === 'number' ? [value] : value);
         return this.check(`the name ${name}`, this.with(name, (wasm, called) =>

@@ -1,11 +1,11 @@
-// webgl.mjs: implements the OpenGL ES 3 functions that lib/gl calls with WebGL 2, which uses objects instead of names and arrays instead of
-// addresses.
+// webgl.mjs: implements, with WebGL 2, the OpenGL ES 3 functions that lib/gl calls. WebGL 2 uses objects instead of names, and arrays
+// instead of addresses.
 
 const SETTINGS = { alpha: true, antialias: false, depth: false, premultipliedAlpha: true, stencil: false };
 const EXTENSIONS = ['EXT_color_buffer_float', 'EXT_color_buffer_half_float', 'OES_texture_float_linear', 'EXT_float_blend'];
 const KINDS = ['Buffer', 'Framebuffer', 'Renderbuffer', 'Texture', 'VertexArray'];
 const UNSIGNED_BYTE = 0x1401, RED = 0x1903, INFO_LOG_LENGTH = 0x8B84, SAMPLES = 0x80A9;
-// The indices of arguments that are objects.
+// For each of these functions, the indices of the arguments that are objects.
 const WITH_OBJECTS = {
     attachShader: [0, 1], bindBuffer: [1], bindBufferBase: [2], bindFramebuffer: [1], bindRenderbuffer: [1], bindTexture: [1],
     bindVertexArray: [0], compileShader: [0], framebufferRenderbuffer: [3], framebufferTexture2D: [3], linkProgram: [0],

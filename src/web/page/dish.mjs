@@ -3,7 +3,7 @@ import { Remote } from './engine.mjs';
 import { addImage, paint, sizeOf } from './paint.mjs';
 import { NO_ENGINE, hasEngine } from './feature_check.mjs';
 
-const MAX_STEPS = 8; // maximum number of frames between two pictures; slower scripts run in slow motion
+const MAX_STEPS = 8; // maximum number of frames between two pictures; a script that would need more runs in slow motion
 const SLOW = 500; // ms after which the page offers to stop the computation
 const FIRST_SEEN = 2; // first frame in which particles are at their positions
 
@@ -119,7 +119,7 @@ export class Dish {
         this.host.changed();
     }
 
-    // Runs at the display rate. Each tick computes the frames that became due while the engine was busy. After a pause, running starts a
+    // Runs at the display rate. Each tick computes the frames that have become due since the last tick. After a pause, running starts a
     // new turn, and ticks of the previous turn do nothing.
     async tick(now, turn) {
         if (!this.running || turn !== this.turn)

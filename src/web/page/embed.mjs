@@ -10,7 +10,7 @@ import { packLink } from './link.mjs';
 let compiled = null;
 const engine = () => (compiled ??= loadEngine(new URL('petri/engine.wasm', import.meta.url)).then(({ module }) => module));
 
-const MAX_PROBLEMS = 4; // shown below a picture
+const MAX_PROBLEMS = 4; // maximum number of problems shown below a picture
 
 // A constant, so that attributes of the element are never inserted as HTML.
 const TEMPLATE = `<style>${style}</style>

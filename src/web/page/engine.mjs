@@ -2,7 +2,7 @@
 
 const PATIENCE = 3000; // ms that an interrupted request may take to stop; after that, the engine is terminated
 
-// Creates a worker. A worker must have the same origin as the page. If the script has another origin, a local worker imports it.
+// Creates a worker. A worker must have the same origin as the page. If its script has another origin, a local worker imports the script.
 function makeWorker(url) {
     if (url.origin === location.origin)
         return new Worker(url, { type: 'module' });
@@ -24,7 +24,7 @@ export class Remote {
     // source: the argument of `loadEngine`, or a promise for it. worker: a worker that was already started, or undefined.
     constructor(source, worker) {
         this.source = source;
-        // The id of the last request to interrupt. Shared memory requires a cross-origin isolated page; otherwise null.
+        // The id of the last request to interrupt, in shared memory; null if the page is not cross-origin isolated and cannot share memory.
         this.flag = globalThis.crossOriginIsolated ? new Int32Array(new SharedArrayBuffer(4)) : null;
         this.number = 0;
         this.start(worker);
@@ -79,7 +79,7 @@ export class Remote {
         });
     }
 
-    // Interrupts all pending requests. Returns true if they have ended. Otherwise the engine must be terminated.
+    // Interrupts all pending requests. Returns true if they have ended, and false if the engine must be terminated.
     async stop() {
         if (!this.flag)
             return !this.busy;

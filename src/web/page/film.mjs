@@ -3,7 +3,7 @@ import { packFilm } from './webm.mjs';
 
 const CODECS = [['vp09.00.51.08', 'V_VP9'], ['vp8', 'V_VP8']];
 const BITS = 0.2; // bits per pixel and frame
-const KEY_EVERY = 60; // frames
+const KEY_EVERY = 60; // frames from one key frame to the next
 const MAX_WAITING = 4; // maximum number of frames queued in the encoder
 
 async function chooseCodec(settings) {

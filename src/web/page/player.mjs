@@ -31,7 +31,7 @@ export class Player {
         Object.assign(this, { session, text, name, changes, keyframes: [], every: EVERY, frame: -1, lastFrame: -1, torn: false });
     }
 
-    // Frees the keyframes after a frame.
+    // Frees the keyframes of all frames after `frame`.
     forget(frame) {
         const keep = this.keyframes?.filter(key => key.frame <= frame) ?? [];
         this.keyframes?.filter(key => key.frame > frame).forEach(key => key.snapshot.free());

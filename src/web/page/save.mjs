@@ -1,7 +1,7 @@
 // save.mjs: saves files: the script, or, with a dialog, the picture, a video, the particles or the state.
 
 const SUFFIXES = { picture: 'png', film: 'webm', particles: 'csv', state: 'csv' };
-const SECONDS = 5; // default length of a video; longer if more frames have been computed
+const SECONDS = 5; // default length of a video in seconds; longer if more frames have been computed
 
 export function saveAs(name, blob) {
     const link = document.createElement('a');

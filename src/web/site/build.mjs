@@ -21,7 +21,7 @@ const site = {
 };
 site.text = new Text(site);
 
-// Returns the modules that the scripts on a page import or include, which are the named code blocks.
+// Returns the named code blocks of a page: the modules that scripts on the page import or include.
 const modulesOf = markdown => Object.fromEntries([...markdown.matchAll(/^```flitter (\S+\.fl)\n(.*?)^```/gms)]
     .map(([, name, text]) => [name, text])
     .filter(([name]) => markdown.includes(`"${name}"`)));

@@ -97,7 +97,7 @@ export class Examples {
         if (kind !== 'flitter')
             return this.plain(content);
         if (name.endsWith('.png'))
-            return this.code(content); // an excerpt of the script behind the picture above it
+            return this.code(content); // an excerpt of the script that draws the picture above
         const told = next?.type === 'fence' ? next.info.trim().split(/\s+/) : [];
         if (told[0] === 'tree' && next.content.trim() === 'error')
             return this.code(content);
