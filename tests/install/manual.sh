@@ -35,7 +35,7 @@ if command -v mandoc >/dev/null; then
         grep -q "$(echo "$name" | sed 's/-/\\\\-/g')(" "$share/man/man3/petri.h.3" || echo "$name"
     done >out
     check "the page of the header has all functions" empty out
-    check "the page of the header has its comments" shows man3/petri.h.3 "A session is used by one thread at a time"
+    check "the page of the header has its comments" shows man3/petri.h.3 "Only one thread at a time may use a session"
 else
     without "the pages" mandoc
 fi

@@ -3,7 +3,7 @@
 # states the lifetime of a returned pointer, and the statuses besides PETRI_OK. petri.h must have the rule on threads.
 set -eu
 cd "$1/lib/include"
-grep -q '^// - .*used by one thread at a time' petri.h
+grep -q "^// - Only one thread at a time may use a session" petri.h
 grep -q 'take no handle may be called by any thread' petri.h
 for header in petri petri-draw; do
     awk -v header=$header.h '
