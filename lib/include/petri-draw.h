@@ -258,7 +258,7 @@ enum {
 };
 
 // Gets a picture as a display list. Works without Cairo. For a window, it contains the first canvas. Valid as long as
-// the picture. If out of memory, sets *numbers to NULL.
+// the picture. Sets *numbers to NULL and returns PETRI_OUT_OF_MEMORY if out of memory.
 PETRI_API PetriStatus petri_picture_display_list(PetriPicture *picture, const double **numbers, size_t *count);
 
 // Returns true if the display list describes the picture completely: it needs no effects, no images of other nodes and

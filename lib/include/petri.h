@@ -57,7 +57,7 @@ typedef enum PetriStatus {
     PETRI_INTERRUPTED, // petri_interrupt was called; the call was aborted
 } PetriStatus;
 
-// Returns a short description of a status for messages, or "unknown status". The string is static.
+// Returns a short description of a status for messages, or "unknown status". Lives as long as the library.
 PETRI_API const char *petri_status_text(PetriStatus status);
 
 // Memory functions of the whole process, for hosts with their own allocator or memory accounting. To limit one script,
@@ -845,7 +845,7 @@ PETRI_API bool petri_host_function(const PetriSession *session, size_t number, P
 // Returns false if the text is not a number.
 PETRI_API bool petri_parse_number(const char *text, double *x);
 
-// Returns the version of the library as a static string, such as "0.3.0".
+// Returns the version of the library, such as "0.3.0". Lives as long as the library.
 PETRI_API const char *petri_version(void);
 
 // Returns the version of the library as a number, like PETRI_VERSION_NUMBER.
