@@ -9,8 +9,8 @@ work=$build/fuzz
 
 seed() {
     "$build/tests/fuzz/fuzz_seeds" "$work"
+    # One cp per file, because different folders contain equal file names.
     find "$source/tests/golden" "$source/tests/conformance" "$source/tests/pictures" "$source/samples" \
-        # one at a time, because different folders contain equal file names
         -name '*.fl' -size -4k -exec cp {} "$work/script" \;
     cp "$work"/script/*.fl "$work/simplify/"
     cp "$source"/tests/pictures/*.fl "$work/draw/"
