@@ -162,8 +162,9 @@ cairo_surface_t *draw_find_image(Canvas *canvas, const DisplayImage *image);
 // cached pixels of a file. The other pointer is set to NULL. Returns false if both are NULL.
 bool draw_find_pixels(Canvas *canvas, const DisplayImage *image, const Texture **texture, cairo_surface_t **file);
 void draw_images_close(PetriPainter *painter);
-// Decodes a JPEG file. After a failure, returns NULL and sets *problem to the reason, or to NULL if out of memory.
-cairo_surface_t *draw_read_jpeg(Str bytes, const char **problem);
+// Decodes a JPEG file. Pixels and decoder together take at most `memory` bytes. After a failure, returns NULL and sets
+// *problem to the reason, or to NULL if out of memory.
+cairo_surface_t *draw_read_jpeg(Str bytes, size_t memory, const char **problem);
 
 // automatic.c
 void draw_automatic(Canvas *canvas, const AutoPicture *picture);

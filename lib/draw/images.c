@@ -84,11 +84,13 @@ static cairo_surface_t *read_png(Str bytes, const char **problem) {
 }
 
 // Returns NULL and the reason in *problem if the image cannot be decoded. If out of memory, *problem is NULL.
-static cairo_surface_t *decode_image(Str bytes, const char **problem) {
+static cairo_surface_t *decode_image(Str bytes, const Budget *budget, const char **problem) {
     if (str_starts_with(bytes, STR("\x89PNG\r\n\x1a\n")))
         return read_png(bytes, problem);
-    if (str_starts_with(bytes, STR("\xff\xd8\xff")))
-        return draw_read_jpeg(bytes, problem);
+    if (str_starts_with(bytes, STR("\xff\xd8\xff"))) {
+        bool spent = budget->memory > budget->memory_limit;
+        return draw_read_jpeg(bytes, spent ? 0 : budget->memory_limit - budget->memory, problem);
+    }
     *problem = "neither PNG nor JPEG";
     return NULL;
 }
@@ -116,7 +118,7 @@ static CachedImage *load_image(PetriPainter *painter, const FileAccess *reach, c
     picture->version = heap_strndup(version.bytes, version.len);
     picture->budget = &painter->budget;
     if (read)
-        picture->surface = decode_image(bytes, &problem);
+        picture->surface = decode_image(bytes, picture->budget, &problem);
     if (picture->surface && !charge_image(picture)) {
         cairo_surface_destroy(picture->surface);
         picture->surface = NULL;

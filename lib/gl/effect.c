@@ -87,7 +87,8 @@ int gl_downsample(const DrawNode *node) {
 bool gl_run_passes(Gl *gl, const GlEffect *effect, const GlPass *passes, uint32_t count, GlImage *out) {
     GlImage first = {0}, last = effect->last;
     int reduction = gl_downsample(effect->node);
-    bool good = true;
+    // A script's own program may leave pixels out, and the image may be one that was used before.
+    bool good = true, clears = draw_attr(effect->node, ATTR_FRAGMENT) || draw_attr(effect->node, ATTR_VERTEX);
     for (uint32_t i = 0; i < count && good; i++) {
         int down = passes[i].reduced ? reduction : 1;
         int width = effect->width / down > 0 ? effect->width / down : 1;
@@ -97,6 +98,10 @@ bool gl_run_passes(Gl *gl, const GlEffect *effect, const GlPass *passes, uint32_
         if (good) {
             GlState state = {effect, first, last, target, (int)i, (int)count, down};
             gl_target(gl, target);
+            if (clears) {
+                glClearColor(0, 0, 0, 0);
+                glClear(GL_COLOR_BUFFER_BIT);
+            }
             gl_set_uniforms(gl, passes[i].program, &state);
             gl_draw_quad(gl, passes[i].program);
         }

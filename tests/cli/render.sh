@@ -179,6 +179,69 @@ END
     printf '!window size=40;40\n    !canvas\n        !image filename="half.jpg" size=40\n' >half.fl
     petri render half.fl -o half.png --frames 3
     check "a damaged JPEG file is reported once" count_is err "cannot read 'half.jpg': damaged" 1
+    # A grey progressive JPEG of WIDTH x HEIGHT whose AC coefficients, all 0, are coded COUNT times.
+    scans() {
+        /usr/bin/python3 -I - "$@" <<'END'
+import struct
+import sys
+
+width, height, count = map(int, sys.argv[1:4])
+
+
+def segment(marker, data):
+    return bytes([0xff, marker]) + struct.pack(">H", len(data) + 2) + data
+
+
+def huffman(table, symbol):
+    return segment(0xc4, bytes([table, 1] + [0] * 15 + [symbol]))
+
+
+def scan(first, last, bits):
+    bits += "1" * (-len(bits) % 8)
+    data = bytes(int(bits[i:i + 8], 2) for i in range(0, len(bits), 8)).replace(b"\xff", b"\xff\0")
+    return segment(0xda, bytes([1, 1, 0, first, last, 0])) + data
+
+
+blocks = (width + 7) // 8 * ((height + 7) // 8)
+end_of_blocks = "0" + "1" * 14  # the one code of table 0x10: an end-of-band run of 2^15 - 1 blocks
+open(sys.argv[4], "wb").write(
+    b"\xff\xd8" + segment(0xdb, b"\0" + b"\1" * 64) + segment(0xc2, struct.pack(">BHHBBBB", 8, height, width, 1, 1, 0x11, 0))
+    + huffman(0x00, 0) + huffman(0x10, 0xe0) + scan(0, 0, "0" * blocks) + scan(1, 63, end_of_blocks * -(-blocks // 32767)) * count
+    + b"\xff\xd9")
+END
+    }
+    # Images on the GPU are used again; what a script's own shader leaves out must not show their earlier pixels.
+    cat >discard.fl <<'END'
+!window size=100;80
+    if frame < 2
+        !adjust
+            !canvas
+                !rect size=100;80 color=1;0;0 fill=true
+    else
+        !shader fragment="""${HEADER}
+in vec2 coord; out vec4 color;
+void main() { if (coord.x < 2.0) discard; color = vec4(1.0); }
+"""
+END
+    petri render discard.fl -o discard%d.png --frames 4
+    if [ -s discard3.png ] && ! grep -Eq "OpenGL|without" err; then
+        printf '!window size=100;80\n    !canvas\n' >empty.fl
+        petri render empty.fl -o empty.png --frames 1
+        for frame in 2 3; do
+            check "a shader that discards shows transparency in frame $frame" cmp -s discard$frame.png empty.png
+        done
+    fi
+    printf '!window size=20\n    !canvas\n        !image filename="scans.jpg" size=20\n' >scans.fl
+    if scans 64 64 99 scans.jpg 2>/dev/null; then
+        petri render scans.fl -o scans.png --frames 1
+        check "a JPEG file with 100 scans is read" [ "$status" = 0 ] && empty err
+        scans 64 64 100 scans.jpg
+        petri render scans.fl -o scans.png --frames 1
+        check "a JPEG file with too many scans is reported" has err "cannot read 'scans.jpg': has more than 100 scans"
+        scans 8192 8192 2 scans.jpg # 256 MiB of pixels and 128 MiB of coefficients
+        petri render scans.fl -o scans.png --frames 1 --memory 300M
+        check "the decoder's memory is limited" has err "cannot read 'scans.jpg': exceeds the memory limit (--memory)"
+    fi
     # invalid and non-finite attributes are reported once and their elements are omitted
     cat >wrong.fl <<'END'
 let nan=0/0
