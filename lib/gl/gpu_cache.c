@@ -13,12 +13,12 @@ struct CachedModel {
     SceneModel model;
     SceneShape shape;
     uint64_t used;
+    size_t charged;
+    bool refused; // true if the budget had no memory for the mesh
 };
 
-GpuCache *gpu_cache(Gl *gl) {
-    if (gl->cache)
-        return gl->cache;
-    GpuCache *store = gl->cache = heap_calloc(1, sizeof *store);
+static GpuCache *new_cache(void) {
+    GpuCache *store = heap_calloc(1, sizeof *store);
     if (!store)
         return NULL;
     glGenBuffers(1, &store->instances);
@@ -30,7 +30,17 @@ GpuCache *gpu_cache(Gl *gl) {
     return store;
 }
 
-static void free_model(bool lost, CachedModel *model_entry) {
+GpuCache *gpu_cache(Gl *gl) {
+    GpuCache *store = gl->cache;
+    if (!store)
+        store = gl->cache = new_cache();
+    if (store)
+        store->budget = gl->budget;
+    return store;
+}
+
+static void free_model(Budget *budget, bool lost, CachedModel *model_entry) {
+    budget_release(budget, model_entry->charged);
     if (!lost) {
         glDeleteVertexArrays(1, &model_entry->shape.array);
         glDeleteBuffers(1, &model_entry->shape.corners);
@@ -55,7 +65,7 @@ void gpu_cache_close(Gl *gl) {
         return;
     for (CachedModel *model_entry = store->models, *next; model_entry; model_entry = next) {
         next = model_entry->next;
-        free_model(gl->lost, model_entry);
+        free_model(store->budget, gl->lost, model_entry);
     }
     for (int i = 0; i < SCENE_TARGETS; i++)
         free_target(gl, &store->targets[i]);
@@ -73,7 +83,7 @@ static void evict_old_models(GpuCache *store) {
         CachedModel *model_entry = *at;
         if (model_entry->used + MAX_IDLE_SCENES < store->now) {
             *at = model_entry->next;
-            free_model(false, model_entry);
+            free_model(store->budget, false, model_entry);
         } else {
             at = &model_entry->next;
         }
@@ -110,7 +120,7 @@ const SceneShape *gpu_cache_shape(GpuCache *store, const Scene *scene, const Sce
     for (CachedModel *model_entry = store->models; model_entry; model_entry = model_entry->next)
         if (scene_same_model(&model_entry->model, model)) {
             model_entry->used = store->now;
-            if (model_entry->shape.array || model_entry->model.kind != KIND_MODEL)
+            if (model_entry->shape.array || (model_entry->model.kind != KIND_MODEL && !model_entry->refused))
                 return &model_entry->shape;
             break; // create it again, so that its problem is reported in each scene
         }
@@ -123,9 +133,14 @@ const SceneShape *gpu_cache_shape(GpuCache *store, const Scene *scene, const Sce
     store->models = model_entry; // from now on, the cache owns the entry
     evict_old_models(store);
     if (scene_mesh(scene, model, scene->arena, &mesh)) {
-        upload_mesh(&model_entry->shape, &mesh);
-        mesh_bounds(&mesh, model_entry->shape.box.low, model_entry->shape.box.high);
-        model_entry->shape.box.triangles = mesh.index_count / 3;
+        size_t bytes = mesh.vertex_count * sizeof(MeshVertex) + mesh.index_count * sizeof(uint32_t);
+        model_entry->refused = !budget_reserve(store->budget, bytes);
+        if (!model_entry->refused) {
+            model_entry->charged = bytes;
+            upload_mesh(&model_entry->shape, &mesh);
+            mesh_bounds(&mesh, model_entry->shape.box.low, model_entry->shape.box.high);
+            model_entry->shape.box.triangles = mesh.index_count / 3;
+        }
     }
     arena_rewind(scene->arena, mark);
     return &model_entry->shape;

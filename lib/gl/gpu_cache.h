@@ -32,6 +32,7 @@ enum { SCENE_TARGETS = 8 };
 typedef struct CachedModel CachedModel;
 
 struct GpuCache {
+    Budget *budget; // that of Gl; charged for the meshes
     CachedModel *models;
     uint64_t now; // number of scenes drawn so far
     SceneTarget targets[SCENE_TARGETS];

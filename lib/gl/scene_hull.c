@@ -91,12 +91,14 @@ static bool has_edge(const Hull *hull, uint32_t count, uint32_t a, uint32_t b) {
 
 static void add_point(Hull *hull, uint32_t point) {
     uint32_t seen = 0; // number of visible faces, which are moved to the front
+    arena_charge(hull->arena, 1 + hull->count / 4);
     for (uint32_t i = 0; i < hull->count; i++)
         if (plane_distance(&hull->faces[i], hull->points[point]) > hull->thick) {
             Face face = hull->faces[i];
             hull->faces[i] = hull->faces[seen];
             hull->faces[seen++] = face;
         }
+    arena_charge(hull->arena, (uint64_t)seen * seen); // has_edge compares each edge with those of all visible faces
     for (uint32_t i = 0; i < seen; i++)
         for (int k = 0; k < 3; k++) {
             uint32_t a = hull->faces[i].corners[k], b = hull->faces[i].corners[(k + 1) % 3];
