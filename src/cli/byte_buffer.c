@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 enum { READ_BLOCK = 1 << 16 };
@@ -105,15 +106,27 @@ bool byte_buffer_read(ByteBuffer *text, int fd, size_t max_bytes) {
     return true;
 }
 
-bool byte_buffer_read_file(ByteBuffer *text, const char *path) {
-    int fd = open(path, O_RDONLY | O_CLOEXEC);
-    if (fd < 0)
-        return false;
-    bool done = byte_buffer_read(text, fd, SIZE_MAX);
-    int error = errno;
-    close(fd);
-    errno = error;
-    return done;
+const char *byte_buffer_read_regular(ByteBuffer *text, int fd, size_t max_bytes) {
+    struct stat about;
+    const char *problem = NULL;
+    size_t before = text->length;
+    if (fd < 0 || fstat(fd, &about) != 0)
+        problem = strerror(errno);
+    else if (!S_ISREG(about.st_mode))
+        problem = S_ISDIR(about.st_mode) ? strerror(EISDIR) : "it is not a regular file";
+    else if ((uintmax_t)about.st_size > max_bytes)
+        problem = "it is too large";
+    else if (!byte_buffer_read(text, fd, max_bytes == SIZE_MAX ? SIZE_MAX : before + max_bytes))
+        problem = strerror(errno);
+    else if (text->length - before > max_bytes)
+        problem = "it is too large"; // it has grown meanwhile
+    if (fd >= 0)
+        close(fd);
+    return problem;
+}
+
+const char *byte_buffer_read_file(ByteBuffer *text, const char *path, size_t max_bytes) {
+    return byte_buffer_read_regular(text, open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK), max_bytes);
 }
 
 void byte_buffer_add_uri(ByteBuffer *text, const char *path) {

@@ -30,8 +30,12 @@ bool byte_buffer_next_line(const ByteBuffer *text, size_t *at, Str *line);
 // Reads `fd` to its end and adds the data. Stops early once the buffer has more than max_bytes. Returns false and sets
 // errno on failure.
 bool byte_buffer_read(ByteBuffer *text, int fd, size_t max_bytes);
-// Adds a file's contents. Returns false and sets errno on failure.
-bool byte_buffer_read_file(ByteBuffer *text, const char *path);
+// Adds the contents of a regular file of at most max_bytes. Returns NULL, or the reason for the failure: a string that
+// stays valid until the next call of strerror. A pipe or a device is refused without waiting for it.
+const char *byte_buffer_read_file(ByteBuffer *text, const char *path, size_t max_bytes);
+// Like byte_buffer_read_file, for a file that was opened with O_NONBLOCK. Closes `fd`. If `fd` is negative, errno has
+// the reason.
+const char *byte_buffer_read_regular(ByteBuffer *text, int fd, size_t max_bytes);
 // Adds a path as a percent-encoded URI: a `file://` URI if the path is absolute, else a relative reference.
 void byte_buffer_add_uri(ByteBuffer *text, const char *path);
 void byte_buffer_free(ByteBuffer *text);

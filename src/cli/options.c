@@ -314,6 +314,7 @@ int options_open(const Options *options, const CommandContext *host,
     wanted.read_user_data = options->unsaved_host;
     wanted.on_diagnostic = diagnostic;
     wanted.user_data = context;
+    wanted.should_interrupt = options->should_interrupt;
     wanted.cpu = host->cpu;
     wanted.ranks = host->ranks;
     *session = petri_open(&wanted);

@@ -29,6 +29,7 @@ typedef struct Options {
     const char *(*read)(void *host, const char *path, size_t *length);    // PetriOptions.read_file; NULL: none
     const char *(*unsaved)(void *host, const char *path, size_t *length); // PetriOptions.read_unsaved; NULL: none
     void *unsaved_host;                                                   // first argument of both functions
+    bool (*should_interrupt)(void *context);                              // PetriOptions.should_interrupt; NULL: none
     bool prompt; // true if the session must keep forces for display and roll back interrupted frames
     int argc;    // arguments after the command's name
     char **argv;

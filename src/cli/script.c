@@ -14,7 +14,6 @@
 #include <unistd.h>
 
 // Maximum size of a script. The library has the same limit for files.
-static const size_t MAX_BYTES = (size_t)256 << 20;
 
 bool script_is_stdin(const char *name) {
     return strcmp(name, "-") == 0;
@@ -45,13 +44,21 @@ void script_report_second(const char *first, const char *second) {
         message("too many scripts: '%s' and '%s'; give one", first, second);
 }
 
-static bool read_stdin(ByteBuffer *text) {
+static const char *read_stdin(ByteBuffer *text, size_t max_bytes) {
     if (isatty(STDIN_FILENO))
         message("reading the script from the terminal; press Ctrl-D to end it");
-    bool read = byte_buffer_read(text, STDIN_FILENO, MAX_BYTES);
-    if (!read || text->length > MAX_BYTES)
-        message("cannot read standard input: %s", read ? "too large" : strerror(errno));
-    return read && text->length <= MAX_BYTES;
+    if (!byte_buffer_read(text, STDIN_FILENO, max_bytes))
+        return strerror(errno);
+    return text->length > max_bytes ? "it is too large" : NULL;
+}
+
+bool script_read(ByteBuffer *text, const char *name, size_t max_bytes) {
+    byte_buffer_add(text, "", 0);
+    bool is_stdin = script_is_stdin(name);
+    const char *problem = is_stdin ? read_stdin(text, max_bytes) : byte_buffer_read_file(text, name, max_bytes);
+    if (problem)
+        message("cannot read %s: %s", is_stdin ? "standard input" : name, problem);
+    return !problem;
 }
 
 typedef PetriStatus LoadFile(PetriSession *session, const char *file);
@@ -66,9 +73,8 @@ static PetriStatus load_from(PetriSession *session, const char *name, LoadFile *
         return status;
     }
     SCOPED_BYTE_BUFFER text = {0};
-    byte_buffer_add(&text, "", 0);
-    PetriStatus status = read_stdin(&text) ? load_text(session, SCRIPT_STDIN, text.data, text.length) : PETRI_INVALID;
-    return status;
+    return script_read(&text, name, SCRIPT_MAX_BYTES) ? load_text(session, SCRIPT_STDIN, text.data, text.length)
+                                                      : PETRI_INVALID;
 }
 
 PetriStatus script_load(PetriSession *session, const char *name) {

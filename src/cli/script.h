@@ -9,10 +9,13 @@
 // Name of standard input in messages. Relative paths in a script from standard input start at the current
 // folder.
 #define SCRIPT_STDIN "<stdin>"
+#define SCRIPT_MAX_BYTES ((size_t)256 << 20) // maximum size of a script, as in petri_load
 
 bool script_is_stdin(const char *name);
 // Returns the name, or SCRIPT_STDIN for `-`.
 const char *script_display_name(const char *name);
+// Reads standard input, or a regular file of at most max_bytes. On failure prints a message and returns false.
+bool script_read(ByteBuffer *text, const char *name, size_t max_bytes);
 // Like petri_load and petri_check, but the name `-` means standard input. If the file does not exist, a message can
 // suggest another file.
 PetriStatus script_load(PetriSession *session, const char *name);

@@ -13,8 +13,6 @@
 #include <string.h>
 #include <unistd.h>
 
-static const size_t MAX_BYTES = (size_t)256 << 20;
-
 typedef struct Formatting {
     PetriSession *session;
     bool only_checks;
@@ -26,15 +24,6 @@ static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     (void)host;
     if (diagnostic->level == PETRI_ERROR)
         fputs(diagnostic->rendered, stderr);
-}
-
-static bool read_script(const char *name, ByteBuffer *text) {
-    byte_buffer_add(text, "", 0);
-    bool read =
-        script_is_stdin(name) ? byte_buffer_read(text, STDIN_FILENO, MAX_BYTES) : byte_buffer_read_file(text, name);
-    if (!read || text->length > MAX_BYTES)
-        message("cannot read %s: %s", script_display_name(name), read ? "too large" : strerror(errno));
-    return read && text->length <= MAX_BYTES;
 }
 
 // Returns the text with LF line endings and without a byte-order mark. Modifies the buffer.
@@ -79,7 +68,7 @@ static int write_stdout(const ByteBuffer *out) {
 static void format_script(Formatting *formatting, const char *name) {
     SCOPED_BYTE_BUFFER text = {0};
     SCOPED_BYTE_BUFFER out = {0};
-    if (!read_script(name, &text) || !format_text(formatting, name, &text, &out)) {
+    if (!script_read(&text, name, SCRIPT_MAX_BYTES) || !format_text(formatting, name, &text, &out)) {
         formatting->failed++;
         if (script_is_stdin(name) && !formatting->only_checks)
             write_stdout(&text); // unchanged, because an editor can replace the script with the output

@@ -117,8 +117,9 @@ static bool read_head_line(Golden *golden, const char *line, size_t length, Byte
 
 bool golden_read(Golden *golden, const char *path, ByteBuffer *error_text) {
     *golden = (Golden){.horizon = INT64_MAX, .strict = INT64_MAX, .body_line = 1};
-    if (!byte_buffer_read_file(&golden->text, path)) {
-        byte_buffer_format(error_text, "cannot read %s: %s", path, strerror(errno));
+    const char *problem = byte_buffer_read_file(&golden->text, path, SIZE_MAX);
+    if (problem) {
+        byte_buffer_format(error_text, "cannot read %s: %s", path, problem);
         return false;
     }
     const char *data = golden->text.data;

@@ -15,8 +15,9 @@ static long read_line_number(const char *path, ByteBuffer *error_text) {
     SCOPED_BYTE_BUFFER text = {0};
     long line = NO_LINE;
     char rest = '\0';
-    if (!byte_buffer_read_file(&text, path)) {
-        byte_buffer_format(error_text, "cannot read %s: %s", path, strerror(errno));
+    const char *problem = byte_buffer_read_file(&text, path, SIZE_MAX);
+    if (problem) {
+        byte_buffer_format(error_text, "cannot read %s: %s", path, problem);
         return NO_LINE;
     }
     if (strncmp(text.data, "line *", 6) == 0 && sscanf(text.data + 6, " %c", &rest) != 1) {

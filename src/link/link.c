@@ -15,20 +15,17 @@ static void read_definitions(Linked *linked, const TextList *definitions) {
         const char *name = definitions->items[i], *equals = strchr(name, '=');
         if (equals) {
             linked->changes[linked->change_count++] =
-                (LinkedChange){-1, memory_strndup(name, (size_t)(equals - name)), memory_strdup(equals + 1)};
+                (LinkedChange){-1, i, memory_strndup(name, (size_t)(equals - name)), memory_strdup(equals + 1)};
         }
     }
 }
 
 static bool read_script(ByteBuffer *text, const char *name) {
     static const size_t max_bytes = (size_t)4 << 20;
-    byte_buffer_add(text, "", 0);
-    bool is_stdin = script_is_stdin(name);
-    if (is_stdin ? byte_buffer_read(text, STDIN_FILENO, max_bytes) : byte_buffer_read_file(text, name))
-        return true;
-    message("cannot read '%s': %s", script_display_name(name), strerror(errno));
-    script_suggest(name);
-    return false;
+    bool read = script_read(text, name, max_bytes);
+    if (!read && !script_is_stdin(name))
+        script_suggest(name);
+    return read;
 }
 
 static int print_link(const Linked *linked, const char *page) {

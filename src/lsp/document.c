@@ -37,6 +37,7 @@ static void text_changed(Document *document) {
     document->text.length = source_unify_lines(document->text.data, document->text.length);
     document->text.data[document->text.length] = '\0';
     document->unread = document->unchecked = true;
+    document->exceeded = false;
     json_object_put(document->values);
     document->values = NULL;
     count_lines(document);
@@ -62,13 +63,13 @@ Document *document_new(const char *uri, Str text, int64_t version) {
     return document;
 }
 
-void document_clear_diagnostics(Document *document) {
-    for (size_t i = 0; i < document->diagnostic_count; i++) {
-        free(document->diagnostics[i].text);
-        free(document->diagnostics[i].hint);
-        free(document->diagnostics[i].code);
+void document_free_diagnostics(DocumentDiagnostic *diagnostics, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        free(diagnostics[i].text);
+        free(diagnostics[i].hint);
+        free(diagnostics[i].code);
     }
-    document->diagnostic_count = 0;
+    free(diagnostics);
 }
 
 static void forget_links(Document *document) {
@@ -80,10 +81,9 @@ static void forget_links(Document *document) {
 }
 
 void document_free(Document *document) {
-    document_clear_diagnostics(document);
+    document_free_diagnostics(document->diagnostics, document->diagnostic_count);
     forget_links(document);
     texts_free(&document->used);
-    free(document->diagnostics);
     free(document->uri);
     free(document->path);
     free(document->canonical);

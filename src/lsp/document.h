@@ -34,6 +34,7 @@ typedef struct Document {
     bool is_file;       // true if the URI is a file URI
     bool unread;        // true if tokens and names are outdated: the text has changed
     bool unchecked;     // true if diagnostics are outdated
+    bool exceeded;      // true if the first check of this text exceeded its small work limit
     PetriToken *tokens; // without NEWLINE, INDENT and DEDENT
     size_t token_count;
     size_t *levels;      // indentation level of each token; SIZE_MAX - level if the token begins a statement
@@ -55,7 +56,7 @@ void document_set_text(Document *document, Str text);
 void document_change(Document *document, const Json *change, bool utf8);
 // Updates tokens and names if they are outdated.
 void document_read(Document *document, PetriSession *session);
-void document_clear_diagnostics(Document *document);
+void document_free_diagnostics(DocumentDiagnostic *diagnostics, size_t count);
 
 // Positions. A position after the end of the text is moved to the end.
 size_t document_offset(const Document *document, const Json *position, bool utf8);

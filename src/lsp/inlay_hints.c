@@ -223,9 +223,10 @@ Json *answer_actions(const RequestContext *request, const char **problem) {
     Document *document = request->document;
     size_t from = position_offset(request, "range.start"), to = position_offset(request, "range.end");
     Json *list = json_object_new_array();
-    if (document->unchecked)
+    if (document->unchecked && !document->exceeded)
         diagnostics_publish(request->server, document);
-    for (size_t i = 0; i < document->diagnostic_count; i++)
+    // While a full check is pending, the positions of the last diagnostics may be wrong.
+    for (size_t i = 0; !document->unchecked && i < document->diagnostic_count; i++)
         if (document->diagnostics[i].start <= to && document->diagnostics[i].end >= from)
             add_action(request, list, &document->diagnostics[i]);
     return list;

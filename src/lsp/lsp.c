@@ -3,13 +3,16 @@
 // The server has one thread. It reads and answers messages, and checks changed documents when no message is waiting.
 #include "lsp/lsp.h"
 
+#include "base/file.h"
+#include "base/source.h"
 #include "lsp/server.h"
 
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-enum { MAX_READ = 4 << 20 };
+enum { MAX_READ = 4 << 20, MAX_FILE_BYTES = 16 << 20 };
 
 Document *server_document(const Server *server, const char *uri) {
     for (size_t i = 0; uri && i < server->document_count; i++)
@@ -25,14 +28,43 @@ static Document *find_open_document(const Server *server, const char *canonical)
     return NULL;
 }
 
-Document *server_file(Server *server, const char *path, bool *read) {
+// Allows reading below the current folder and the folders of --allow-read, as a session does.
+static void init_access(Server *server) {
+    const TextList *names = &server->options->read_folders;
+    Str *folders = memory_calloc((names->count + 1) * sizeof *folders);
+    uint32_t count = 0;
+    for (size_t i = 0; i <= names->count; i++) {
+        char resolved[PATH_MAX];
+        if (file_resolve(i == 0 ? "." : names->items[i - 1], resolved))
+            folders[count++] = str_from(memory_strdup(resolved));
+    }
+    server->access.no_files = server->options->no_files;
+    server->access.folders[FILE_ACCESS_READ] = folders;
+    server->access.counts[FILE_ACCESS_READ] = count;
+}
+
+static void free_access(Server *server) {
+    for (uint32_t i = 0; i < server->access.counts[FILE_ACCESS_READ]; i++)
+        free((char *)server->access.folders[FILE_ACCESS_READ][i].bytes);
+    free((Str *)server->access.folders[FILE_ACCESS_READ]);
+}
+
+Document *server_file(Server *server, const char *path, const Document *main, bool *read) {
     SCOPED_TEXT canonical = path_canonical(path);
     Document *document = find_open_document(server, canonical);
+    *read = false;
+    if (document)
+        return document;
     SCOPED_BYTE_BUFFER text = {0};
     byte_buffer_add(&text, "", 0);
-    *read = !document && byte_buffer_read_file(&text, canonical);
+    Str folder = path_directory(str_from(main->canonical));
+    SCOPED_TEXT own = memory_strndup(folder.bytes, folder.len > 1 ? folder.len - 1 : folder.len);
+    FileAccess access = server->access;
+    access.script_folder = main->is_file ? str_from(own) : (Str){0};
+    *read =
+        !byte_buffer_read_regular(&text, file_access_open(&access, canonical, O_RDONLY | O_NONBLOCK), MAX_FILE_BYTES);
     if (!*read)
-        return document;
+        return NULL;
     SCOPED_TEXT uri = uri_of(canonical);
     return document_new(uri, (Str){text.data, text.length}, -1);
 }
@@ -46,13 +78,27 @@ const char *server_unsaved(void *host, const char *path, size_t *length) {
     return !document ? NULL : document->text.data;
 }
 
+// Interrupts a full check when a message arrives, because a check of a heavy script takes many seconds.
+static bool should_interrupt(void *user_data) {
+    const Server *server = user_data;
+    return server->checking && rpc_has_input(&server->input);
+}
+
 bool server_open_session(Server *server) {
+    static const uint64_t quick_work = 1 << 24; // about 0.2 s
     petri_close(&server->session);
-    server->options->threads = 1;
-    server->options->unsaved = server_unsaved;
-    server->options->unsaved_host = server;
+    petri_close(&server->quick);
+    Options options = *server->options;
+    options.threads = 1;
+    options.unsaved = server_unsaved;
+    options.unsaved_host = server;
+    options.should_interrupt = should_interrupt;
     server->read = 0;
-    return options_open(server->options, server->host, diagnostics_collect, server, &server->session) == OPTIONS_READ;
+    if (options_open(&options, server->host, diagnostics_collect, server, &server->session) != OPTIONS_READ)
+        return false;
+    options.work = options.work > 0 && options.work < quick_work ? options.work : quick_work;
+    options.should_interrupt = NULL;
+    return options_open(&options, server->host, diagnostics_collect, server, &server->quick) == OPTIONS_READ;
 }
 
 // Updates tokens and names of a document. Opens a new session after every 4 MiB of text, because a session never frees
@@ -264,20 +310,21 @@ static bool handle_message(Server *server, const Json *message) {
     return true;
 }
 
-static void check_changed_documents(Server *server, const ByteBuffer *input) {
-    for (size_t i = 0; i < server->document_count && !rpc_has_input(input); i++)
-        if (server->documents[i]->unchecked)
-            diagnostics_publish(server, server->documents[i]);
+static void check_changed_documents(Server *server) {
+    for (int pass = 0; pass < 2; pass++) // the first checks of all documents, then full checks of heavy ones
+        for (size_t i = 0; i < server->document_count && !rpc_has_input(&server->input); i++)
+            if (server->documents[i]->unchecked)
+                diagnostics_publish(server, server->documents[i]);
 }
 
 int lsp_serve(const CommandContext *host, Options *options) {
     Server server = {.host = host, .options = options};
-    SCOPED_BYTE_BUFFER input = {0};
     int status = STATUS_FAILED;
+    init_access(&server);
     bool reading = server_open_session(&server);
     while (reading) {
         Json *message;
-        RpcRead came = rpc_read(&input, &message);
+        RpcRead came = rpc_read(&server.input, &message);
         const char *method = json_text(message, "method");
         if (came == RPC_END || (method && strcmp(method, "exit") == 0)) {
             status = server.shutting_down ? STATUS_DONE : STATUS_FAILED;
@@ -289,12 +336,15 @@ int lsp_serve(const CommandContext *host, Options *options) {
         }
         json_object_put(message);
         if (reading)
-            check_changed_documents(&server, &input);
+            check_changed_documents(&server);
     }
     for (size_t i = 0; i < server.document_count; i++)
         document_free(server.documents[i]);
     free(server.documents);
     texts_free(&server.roots);
+    free_access(&server);
+    byte_buffer_free(&server.input);
     petri_close(&server.session);
+    petri_close(&server.quick);
     return status;
 }

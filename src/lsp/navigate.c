@@ -30,7 +30,7 @@ static Json *location(const Server *server, const Document *document, size_t sta
 static Json *file_location(const RequestContext *request) {
     const Link *link = document_link(request->document, request->offset);
     bool own = false;
-    Document *file = !link ? NULL : server_file(request->server, link->path, &own);
+    Document *file = !link ? NULL : server_file(request->server, link->path, request->document, &own);
     Json *result = !file ? NULL : location(request->server, file, 0, 0);
     if (own)
         document_free(file);

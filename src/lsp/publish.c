@@ -51,7 +51,7 @@ void diagnostics_collect(void *user_data, const PetriDiagnostic *diagnostic) {
     if (!server->checking)
         return;
     bool own = !diagnostic->file || strcmp(diagnostic->file, document->path) == 0, read = false;
-    Document *other = own ? document : server_file(server, diagnostic->file, &read);
+    Document *other = own ? document : server_file(server, diagnostic->file, document, &read);
     if (!other)
         return;
     size_t start = document_offset_at(other, diagnostic->line, diagnostic->column);
@@ -104,18 +104,37 @@ static void publish_changes(Server *server, const Json *now, Json *before) {
     json_object_put(before);
 }
 
-void diagnostics_publish(Server *server, Document *document) {
-    document->unchecked = false;
-    document_clear_diagnostics(document);
+// Collects diagnostics in server->found and in the document.
+static PetriStatus check_document(Server *server, Document *document, PetriSession *session) {
+    document->diagnostics = NULL;
+    document->diagnostic_count = 0;
     texts_free(&document->used);
     document->used = (TextList){0};
     server->checking = true;
     server->checked = document;
     server->found = json_object_new_object();
     list_for(server->found, document->uri);
-    if (server->session)
-        petri_check_text(server->session, document->path, document->text.data, document->text.length);
+    PetriStatus status =
+        !session ? PETRI_OK : petri_check_text(session, document->path, document->text.data, document->text.length);
     server->checking = false;
+    return status;
+}
+
+void diagnostics_publish(Server *server, Document *document) {
+    bool full = document->exceeded;
+    Document last = *document;
+    PetriStatus status = check_document(server, document, full ? server->session : server->quick);
+    bool complete = status != PETRI_INTERRUPTED && (status != PETRI_LIMIT_EXCEEDED || full);
+    DocumentDiagnostic *dropped = complete ? last.diagnostics : document->diagnostics;
+    document_free_diagnostics(dropped, complete ? last.diagnostic_count : document->diagnostic_count);
+    if (!complete) { // the last diagnostics stay
+        document->diagnostics = last.diagnostics;
+        document->diagnostic_count = last.diagnostic_count;
+        document->exceeded = true;
+        json_object_put(server->found);
+        return;
+    }
+    document->unchecked = false;
     Json *before = document->published;
     document->published = server->found;
     publish_changes(server, document->published, before);

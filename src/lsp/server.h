@@ -2,6 +2,7 @@
 #ifndef PETRI_SRC_LSP_SERVER_H
 #define PETRI_SRC_LSP_SERVER_H
 
+#include "base/file_access.h"
 #include "cli/options.h"
 #include "lsp/document.h"
 
@@ -9,7 +10,10 @@ typedef struct Server {
     const CommandContext *host;
     Options *options;
     PetriSession *session; // session in which documents are tokenised and checked
-    size_t read;           // number of bytes that the session has tokenised
+    PetriSession *quick;   // session for first checks, with a small work limit
+    FileAccess access;     // files that scripts may read, apart from their own folders
+    ByteBuffer input;      // received bytes of messages that have not been handled
+    size_t read;           // number of bytes that the sessions have tokenised
     TextList roots;        // workspace folders of the editor
     Document **documents;
     size_t document_count;
@@ -24,8 +28,9 @@ typedef struct Server {
 // Returns an open document, or NULL.
 Document *server_document(const Server *server, const char *uri);
 // Returns the open document of a file. If the file is not open, reads it and sets *read to true, which means that the
-// caller must free the document. Returns NULL if there is no such file.
-Document *server_file(Server *server, const char *path, bool *read);
+// caller must free the document. Returns NULL if the file cannot be read, or if petri would not let the script `main`
+// read it.
+Document *server_file(Server *server, const char *path, const Document *main, bool *read);
 // For PetriOptions.read_unsaved: returns the text of the file if it is open in the editor, else NULL. During a check,
 // adds the path to `used` of the document that is being checked.
 const char *server_unsaved(void *server, const char *path, size_t *length);
@@ -34,7 +39,8 @@ void server_read(Server *server, Document *document);
 bool server_open_session(Server *server);
 
 // Diagnostics (publish.c).
-// Checks a document and sends the diagnostics to the editor.
+// Checks a document and sends the diagnostics to the editor. The first check has a small work limit. If the script
+// exceeds it, the document stays unchecked and the next call makes a full check, which the next message interrupts.
 void diagnostics_publish(Server *server, Document *document);
 // Stores a diagnostic of the current check. For PetriOptions.on_diagnostic.
 void diagnostics_collect(void *server, const PetriDiagnostic *diagnostic);

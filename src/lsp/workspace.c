@@ -24,12 +24,15 @@ static size_t find_document(const Workspace *workspace, const char *path) {
     return SIZE_MAX;
 }
 
-static void add_document(Workspace *workspace, Document *document, bool own) {
+// `main` is the index of the script whose links led to the document; SIZE_MAX: none.
+static void add_document(Workspace *workspace, Document *document, bool own, size_t main) {
     size_t count = workspace->count++;
     workspace->documents = memory_realloc(workspace->documents, workspace->count * sizeof(Document *));
     workspace->own = memory_realloc(workspace->own, workspace->count * sizeof *workspace->own);
+    workspace->main = memory_realloc(workspace->main, workspace->count * sizeof *workspace->main);
     workspace->documents[count] = document;
     workspace->own[count] = own;
+    workspace->main[count] = main == SIZE_MAX ? count : main;
     server_read(workspace->server, document);
 }
 
@@ -39,11 +42,12 @@ static void follow_links(Workspace *workspace) {
         for (size_t k = 0; k < workspace->documents[i]->link_count; k++) {
             const char *path = workspace->documents[i]->links[k].path;
             bool own = false;
-            Document *document = find_document(workspace, path) == SIZE_MAX && workspace->count < MAX_FILES
-                                     ? server_file(workspace->server, path, &own)
-                                     : NULL;
+            Document *document =
+                find_document(workspace, path) == SIZE_MAX && workspace->count < MAX_FILES
+                    ? server_file(workspace->server, path, workspace->documents[workspace->main[i]], &own)
+                    : NULL;
             if (document)
-                add_document(workspace, document, own);
+                add_document(workspace, document, own, workspace->main[i]);
             workspace->documents[i]->links[k].target = find_document(workspace, path);
         }
     }
@@ -92,14 +96,13 @@ static void find_targets(Workspace *workspace) {
 
 // Adds a script if it may contain imports or includes.
 static void add_candidate(Workspace *workspace, const char *path) {
+    static const size_t max_bytes = (size_t)16 << 20;
     SCOPED_BYTE_BUFFER text = {0};
-    bool own = false;
-    if (find_document(workspace, path) != SIZE_MAX || !byte_buffer_read_file(&text, path) || text.length == 0 ||
-        (!strstr(text.data, "import") && !strstr(text.data, "%include")))
+    if (find_document(workspace, path) != SIZE_MAX || byte_buffer_read_file(&text, path, max_bytes) ||
+        text.length == 0 || (!strstr(text.data, "import") && !strstr(text.data, "%include")))
         return;
-    Document *document = server_file(workspace->server, path, &own);
-    if (document)
-        add_document(workspace, document, own);
+    SCOPED_TEXT uri = uri_of(path);
+    add_document(workspace, document_new(uri, (Str){text.data, text.length}, -1), true, SIZE_MAX);
 }
 
 static void search_folder(Workspace *workspace, const char *folder, unsigned depth) {
@@ -134,11 +137,11 @@ static void search_workspace(Workspace *workspace, const Document *document) {
 
 void workspace_open(Workspace *workspace, Server *server, Document *document, bool whole) {
     *workspace = (Workspace){.server = server};
-    add_document(workspace, document, false);
+    add_document(workspace, document, false, SIZE_MAX);
     for (size_t i = 0; i < server->document_count; i++)
         if (server->documents[i] != document)
-            add_document(workspace, server->documents[i], false);
-    if (whole)
+            add_document(workspace, server->documents[i], false, SIZE_MAX);
+    if (whole && !server->access.no_files)
         search_workspace(workspace, document);
     follow_links(workspace);
     drop_unconnected(workspace);
@@ -151,6 +154,7 @@ void workspace_close(Workspace *workspace) {
             document_free(workspace->documents[i]);
     free(workspace->documents);
     free(workspace->own);
+    free(workspace->main);
     free(workspace->included);
 }
 

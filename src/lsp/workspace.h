@@ -23,6 +23,7 @@ typedef struct Workspace {
     Server *server;
     Document **documents; // the requested document is the first
     bool *own;            // for each document: true if the workspace frees it
+    size_t *main;         // for each document: index of the script whose chain of links led to it; itself if none did
     bool *included;       // for each document: true if another document includes it
     size_t count;
     size_t files_left; // number of directory entries that the search may still visit before it stops

@@ -59,7 +59,7 @@ static bool write_list(Output *output, Str between) {
 
 bool template_fill(Output *output, const char *path) {
     SCOPED_BYTE_BUFFER text = {0};
-    if (!byte_buffer_read_file(&text, path))
+    if (byte_buffer_read_file(&text, path, SIZE_MAX))
         return false;
     for (const char *at = text.data; at && *at != '\0';) {
         const char *open = strchr(at, '@'), *close = !open ? NULL : strchr(open + 1, '@');

@@ -10,6 +10,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+static const size_t MAX_HISTORY_BYTES = (size_t)16 << 20;
+
 enum { BLOCK = 1 << 16, MAX_ECHOED = 4000 };
 
 struct LineReader {
@@ -170,7 +172,7 @@ static bool file_path(ByteBuffer *path) {
 void saved_read(ByteBuffer *lines) {
     SCOPED_BYTE_BUFFER path = {0};
     if (file_path(&path))
-        byte_buffer_read_file(lines, path.data);
+        byte_buffer_read_file(lines, path.data, MAX_HISTORY_BYTES);
     if (lines->length > 0 && lines->data[lines->length - 1] != '\n')
         byte_buffer_add_text(lines, "\n");
 }

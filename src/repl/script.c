@@ -147,7 +147,7 @@ void repl_watch_files(Repl *repl) {
 static void store_script_text(Repl *repl) {
     byte_buffer_free(&repl->script_text);
     if (repl->script)
-        byte_buffer_read_file(&repl->script_text, repl->script);
+        byte_buffer_read_file(&repl->script_text, repl->script, SCRIPT_MAX_BYTES);
 }
 
 static bool finish_load(Repl *repl, PetriStatus status) {
@@ -200,7 +200,7 @@ bool repl_report_changes(Repl *repl, bool at_prompt) {
     if (!file_watch_changed(repl->files))
         return false;
     SCOPED_BYTE_BUFFER now = {0}, what = {0};
-    bool changed = repl->script && byte_buffer_read_file(&now, repl->script);
+    bool changed = repl->script && !byte_buffer_read_file(&now, repl->script, SCRIPT_MAX_BYTES);
     if (changed) {
         repl->changed = true;
         describe_changes(&repl->script_text, &now, &what);

@@ -91,9 +91,9 @@ int journal_open(Journal *journal, Sweep *sweep, const char *output) {
         byte_buffer_format(&path, "-%zu-of-%zu", sweep->shard + 1, sweep->shards);
     journal->output = output;
     journal->path = memory_strdup(path.data);
-    journal->file = open(journal->path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    journal->file = open(journal->path, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (journal->file < 0) {
-        message("cannot write %s: %s", journal->path, strerror(errno));
+        message("cannot write %s: %s", journal->path, errno == ELOOP ? "it is a symbolic link" : strerror(errno));
         return STATUS_FAILED;
     }
     if (lock_journal(journal) != 0) {
@@ -147,7 +147,7 @@ static void visit_journals(const Journal *journal, Sweep *sweep, Visit *call) {
         byte_buffer_format(&path, "%.*s%s", (int)name, journal->output, entry->d_name);
         if (strncmp(entry->d_name, prefix.data, prefix.length) == 0 && strcmp(path.data, journal->path) != 0) {
             byte_buffer_add(&text, "", 0);
-            byte_buffer_read_file(&text, path.data);
+            byte_buffer_read_file(&text, path.data, SIZE_MAX);
             call(sweep, path.data, &text);
         }
     }

@@ -165,7 +165,7 @@ void measure_hash_sources(Measure *measure, Sha256 *hash) {
     for (size_t i = 0; (path = petri_source_file(measure->session, i)); i++) {
         SCOPED_BYTE_BUFFER text = {0};
         byte_buffer_add(&text, "", 0);
-        byte_buffer_read_file(&text, path);
+        byte_buffer_read_file(&text, path, SIZE_MAX);
         sha256_add(hash, (const char *)&text.length, sizeof text.length);
         sha256_add(hash, text.data, text.length);
     }

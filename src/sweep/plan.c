@@ -116,12 +116,31 @@ static bool add_entries(const Plan *plan) {
     return true;
 }
 
+// libyaml takes quadratic time for nested brackets: 17 s for 100 KB of them. Brackets in strings and comments count,
+// too, because they are rare.
+static bool check_depth(const char *path, const ByteBuffer *text) {
+    enum { MAX_DEPTH = 64 };
+    int depth = 0;
+    for (size_t i = 0; i < text->length && depth <= MAX_DEPTH; i++)
+        if (text->data[i] == '[' || text->data[i] == '{')
+            depth++;
+        else if ((text->data[i] == ']' || text->data[i] == '}') && depth > 0)
+            depth--;
+    if (depth > MAX_DEPTH)
+        message("%s: more than %d nested brackets", path, (int)MAX_DEPTH);
+    return depth <= MAX_DEPTH;
+}
+
 bool plan_read(const char *path, TextList *words) {
     SCOPED_BYTE_BUFFER text = {0};
-    if (!byte_buffer_read_file(&text, path)) {
-        message("cannot read %s: %s", path, strerror(errno));
+    static const size_t max_bytes = 64 << 10;
+    const char *problem = byte_buffer_read_file(&text, path, max_bytes);
+    if (problem) {
+        message("cannot read %s: %s", path, problem);
         return false;
     }
+    if (!check_depth(path, &text))
+        return false;
     yaml_parser_t parser;
     yaml_document_t document;
     if (!yaml_parser_initialize(&parser)) {

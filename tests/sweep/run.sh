@@ -199,6 +199,10 @@ check "two processes cannot use one journal" status_is 1
 check "a journal in use is reported" has err 'slow.csv.part is in use by another petri process'
 kill -9 $child
 wait $child 2>/dev/null
+ln -s target.csv linked.csv.part
+sweep slow.fl -D N=1 --frames 1 --metric x=BIG -o linked.csv
+check "a journal is not written through a symbolic link" [ ! -e target.csv ]
+check "a symbolic link as journal is reported" has err 'cannot write linked.csv.part: it is a symbolic link'
 
 # A worker is killed from outside, as the system does when memory is short. Its run is executed again.
 worker() { pgrep -P "$1" | head -n 1; }
@@ -277,6 +281,10 @@ END
     refused "an invalid value in a plan is rejected" "option '--frames' expects an integer" --plan wrong.yaml
     printf 'a: [1\n' >wrong.yaml
     refused "a plan that is not YAML is rejected" 'wrong.yaml:2:1: not valid YAML' --plan wrong.yaml
+    head -c 100000 /dev/zero | tr '\0' ' ' >large.yaml
+    refused "a plan of more than 64 KiB is rejected" 'cannot read large.yaml: it is too large' --plan large.yaml
+    head -c 60000 /dev/zero | tr '\0' '[' >deep.yaml
+    refused "deeply nested brackets are rejected" 'deep.yaml: more than 64 nested brackets' --plan deep.yaml
     refused "a missing plan is rejected" 'cannot read nope.yaml: No such file' --plan nope.yaml
     sweep --plan "$root/samples/dish.yaml" --frames 2 -D DROPS=5 --summary means.csv
     check "the sample plan runs" [ "$(cut -d, -f1-4 out | tail -n 1)" = '3,5,0.5,1' ]
