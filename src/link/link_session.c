@@ -31,10 +31,12 @@ static void draw_last_frame(PetriSession *session) {
     petri_painter_close(&painter);
 }
 
-static bool set_parameters(const LinkSession *link_session, int64_t frame) {
-    for (size_t i = 0; i < link_session->linked.change_count; i++) {
-        const LinkedChange *change = &link_session->linked.changes[i];
-        if (change->frame == frame && frame >= 0 &&
+static bool set_parameters(LinkSession *link_session, int64_t frame) {
+    const Linked *linked = &link_session->linked;
+    while (link_session->next_change < linked->change_count &&
+           linked->changes[link_session->next_change].frame <= frame) {
+        const LinkedChange *change = &linked->changes[link_session->next_change++];
+        if (change->frame == frame &&
             petri_set_parameter(link_session->frames.session, change->name, change->value) != PETRI_OK) {
             message("the link sets %s to %s after frame %d, but the script does not accept it", change->name,
                     change->value, (int)frame);

@@ -9,6 +9,7 @@
 typedef struct LinkSession {
     Linked linked;
     Frames frames;
+    size_t next_change;       // index of the first change of a later frame
     TextList requested_files; // files that the script tried to read
     PetriPainter *painter;    // has rendered earlier frames on which later pictures depend; NULL: none
 } LinkSession;

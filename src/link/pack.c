@@ -24,7 +24,14 @@ void link_free(Linked *linked) {
 #include <json-c/json.h>
 #include <zlib.h>
 
-enum { VERSION = 1, MAX_LENGTH = 100000, MAX_TEXT = 4 << 20, MAX_FRAME = 1000000, RAW = -MAX_WBITS };
+enum {
+    VERSION = 1,
+    MAX_LENGTH = 100000,
+    MAX_TEXT = 4 << 20,
+    MAX_FRAME = 1000000,
+    MAX_CHANGES = 10000,
+    RAW = -MAX_WBITS
+};
 
 static const char DIGITS[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
 
@@ -140,41 +147,68 @@ static const char *string_value(json_object *value) {
     return good ? json_object_get_string(value) : NULL;
 }
 
+// Returns true if a name has no control characters. With a line break, a name could forge a message about the link.
+static bool is_printable(const char *name) {
+    bool good = true;
+    for (const char *c = name; *c != '\0'; c++)
+        good = good && (unsigned char)*c >= ' ' && *c != 0x7f;
+    return good;
+}
+
+// Orders changes by frame. Changes of the same frame keep their order, because they are elements of one array.
+static int by_frame(const void *a, const void *b) {
+    const LinkedChange *first = a, *second = b;
+    if (first->frame != second->frame)
+        return first->frame < second->frame ? -1 : 1;
+    return first->number < second->number ? -1 : 1;
+}
+
 static bool integer_value(json_object *value, int64_t *number) {
     *number = json_object_get_int64(value);
     return json_object_is_type(value, json_type_int) && *number >= -1 && *number <= MAX_FRAME;
 }
 
-static bool parse_changes(Linked *linked, json_object *changes) {
-    if (!changes)
-        return true;
-    if (!json_object_is_type(changes, json_type_array))
+static const char NOT_A_LINK[] = "not a petri link";
+
+static bool parse_change(LinkedChange *change, json_object *items) {
+    if (!json_object_is_type(items, json_type_array) || json_object_array_length(items) != 3 ||
+        !integer_value(json_object_array_get_idx(items, 0), &change->frame))
         return false;
-    size_t count = json_object_array_length(changes);
-    linked->changes = memory_calloc((count + 1) * sizeof *linked->changes);
-    for (size_t i = 0; i < count; i++) {
-        json_object *change = json_object_array_get_idx(changes, i);
-        if (!json_object_is_type(change, json_type_array) || json_object_array_length(change) != 3)
-            return false;
-        const char *name = string_value(json_object_array_get_idx(change, 1));
-        const char *value = string_value(json_object_array_get_idx(change, 2));
-        LinkedChange *taken = &linked->changes[i];
-        if (!name || !value || !integer_value(json_object_array_get_idx(change, 0), &taken->frame))
-            return false;
-        taken->name = memory_strdup(name);
-        taken->value = memory_strdup(value);
-        linked->change_count++;
-    }
+    const char *name = string_value(json_object_array_get_idx(items, 1));
+    const char *value = string_value(json_object_array_get_idx(items, 2));
+    if (!name || !value)
+        return false;
+    change->name = memory_strdup(name);
+    change->value = memory_strdup(value);
     return true;
 }
 
-static bool parse_link(Linked *linked, json_object *all) {
+// Returns NULL, or the reason why the changes are invalid.
+static const char *parse_changes(Linked *linked, json_object *changes) {
+    if (!changes)
+        return NULL;
+    size_t count = json_object_is_type(changes, json_type_array) ? json_object_array_length(changes) : SIZE_MAX;
+    if (count > MAX_CHANGES)
+        return count == SIZE_MAX ? NOT_A_LINK : "the link has more than 10000 changes of parameters";
+    linked->changes = memory_calloc((count + 1) * sizeof *linked->changes);
+    for (size_t i = 0; i < count; i++) {
+        linked->changes[i].number = i;
+        if (!parse_change(&linked->changes[i], json_object_array_get_idx(changes, i)))
+            return NOT_A_LINK;
+        linked->change_count++;
+    }
+    qsort(linked->changes, count, sizeof *linked->changes, by_frame);
+    return NULL;
+}
+
+// Returns NULL, or the reason why the link is invalid.
+static const char *parse_link(Linked *linked, json_object *all) {
     json_object *frame = json_object_object_get(all, "f"), *name = json_object_object_get(all, "n");
     json_object *hash = json_object_object_get(all, "h");
     const char *text = string_value(json_object_object_get(all, "t"));
-    if (!text || (name && !string_value(name)) || (hash && !string_value(hash)) ||
-        (frame && !integer_value(frame, &linked->frame)))
-        return false;
+    if (!text || (name && (!string_value(name) || !is_printable(string_value(name)))) ||
+        (hash && !string_value(hash)) || (frame && !integer_value(frame, &linked->frame)))
+        return NOT_A_LINK;
     byte_buffer_add_text(&linked->text, text);
     linked->name = memory_strdup(!name || string_value(name)[0] == '\0' ? "script.fl" : string_value(name));
     linked->hash = !hash ? NULL : memory_strdup(string_value(hash));
@@ -190,10 +224,12 @@ static bool read_json(Linked *linked, const ByteBuffer *text) {
     bool parsed = json_object_is_type(all, json_type_object) && json_tokener_get_parse_end(tokener) == text->length;
     json_object *version = parsed ? json_object_object_get(all, "v") : NULL;
     bool newer = json_object_is_type(version, json_type_int) && json_object_get_int64(version) > VERSION;
-    bool good = parsed && !newer && parse_link(linked, all);
+    const char *problem = newer     ? "the link is from a newer petri; update petri to open it"
+                          : !parsed ? NOT_A_LINK
+                                    : parse_link(linked, all);
     json_object_put(all);
     json_tokener_free(tokener);
-    return good || report_error(newer ? "the link is from a newer petri; update petri to open it" : "not a petri link");
+    return !problem || report_error(problem);
 }
 
 bool link_read(Linked *linked, const ByteBuffer *link) {

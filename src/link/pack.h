@@ -10,6 +10,7 @@
 
 typedef struct LinkedChange {
     int64_t frame; // frame after which the change is made; -1: before the first frame
+    size_t number; // index in the link
     char *name;
     char *value; // in the syntax of scripts
 } LinkedChange;
@@ -17,7 +18,7 @@ typedef struct LinkedChange {
 typedef struct Linked {
     ByteBuffer text;
     char *name;
-    LinkedChange *changes;
+    LinkedChange *changes; // ordered by frame
     size_t change_count;
     int64_t frame; // -1: no frame was computed
     char *hash;    // SHA-256 of the state in hexadecimal; NULL: not in the link

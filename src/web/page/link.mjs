@@ -4,6 +4,7 @@
 const VERSION = 1;
 const MAX_LENGTH = 100000; // characters; longer links are truncated by some browsers and mail programs
 const MAX_TEXT = 4 << 20; // maximum length of the uncompressed text
+const MAX_CHANGES = 10000;
 
 async function through(stream, bytes, most = Infinity) {
     const reader = new Blob([bytes]).stream().pipeThrough(stream).getReader(), parts = [];
@@ -23,6 +24,8 @@ async function through(stream, bytes, most = Infinity) {
 }
 
 export async function packLink({ text, name, changes = [], frame, hash }) {
+    if (changes.length > MAX_CHANGES)
+        throw new Error(`too many changes of parameters for a link: ${changes.length}, at most ${MAX_CHANGES}; restart the script to forget them`);
     const json = JSON.stringify({ v: VERSION, t: text, n: name, c: changes, f: frame, h: hash });
     const packed = await through(new CompressionStream('deflate-raw'), new TextEncoder().encode(json));
     let binary = '';
@@ -33,6 +36,9 @@ export async function packLink({ text, name, changes = [], frame, hash }) {
         throw new Error(`the script is too long for a link: ${link.length} characters, at most ${MAX_LENGTH}; save it as a file`);
     return link;
 }
+
+// With a line break in its name, a link could forge messages.
+const isFileName = name => typeof name === 'string' && !/[\0-\x1f\x7f]/.test(name);
 
 const isChange = change => Array.isArray(change) && change.length === 3 && Number.isInteger(change[0])
     && typeof change[1] === 'string' && typeof change[2] === 'string';
@@ -54,7 +60,9 @@ export async function readLink(link) {
     if (json?.v > VERSION)
         throw new Error('the link is from a newer petri; reload the page to update it');
     const { t: text, n: name = 'script.fl', c: changes = [], f: frame = 0, h: hash = null } = json ?? {};
-    if (typeof text !== 'string' || typeof name !== 'string' || !Array.isArray(changes) || !changes.every(isChange)
+    if (Array.isArray(changes) && changes.length > MAX_CHANGES)
+        throw new Error('the link has more than 10000 changes of parameters');
+    if (typeof text !== 'string' || !isFileName(name) || !Array.isArray(changes) || !changes.every(isChange)
         || !Number.isInteger(frame) || frame < -1 || frame > 1e6 || !(hash === null || typeof hash === 'string'))
         throw new Error('not a petri link');
     return { text, name, changes, frame, hash };

@@ -28,7 +28,19 @@ export class Player {
         }
         this.forget(-2);
         this.session?.close();
-        Object.assign(this, { session, text, name, changes, keyframes: [], every: EVERY, frame: -1, lastFrame: -1, torn: false });
+        Object.assign(this, { session, text, name, keyframes: [], every: EVERY, frame: -1, lastFrame: -1, torn: false });
+        this.setChanges(changes);
+    }
+
+    // Stores the changes, also by frame, because a link may have thousands of changes and a million frames.
+    setChanges(changes) {
+        this.changes = changes;
+        this.changesAt = new Map();
+        for (const change of changes) {
+            if (!this.changesAt.has(change[0]))
+                this.changesAt.set(change[0], []);
+            this.changesAt.get(change[0]).push(change);
+        }
     }
 
     // Frees the keyframes of all frames after `frame`.
@@ -46,7 +58,7 @@ export class Player {
         this.frame++;
         this.lastFrame = Math.max(this.lastFrame, this.frame);
         this.watches.see(this);
-        const later = this.changes.filter(([frame]) => frame === this.frame);
+        const later = this.changesAt.get(this.frame) ?? [];
         for (const [, name, value] of later)
             this.session.setParameter(name, value);
         if (later.length || this.frame % this.every === 0)
@@ -68,6 +80,10 @@ export class Player {
 
     thin() {
         const bytes = this.keyframes.reduce((sum, key) => sum + key.snapshot.bytes, 0);
+        const changed = this.keyframes.filter(key => key.changed);
+        // Keyframes after changes save work but are not needed, because stepping from an earlier keyframe repeats the changes.
+        if (changed.length > MAX_KEYFRAMES || (changed.length > 0 && bytes > MAX_BYTES))
+            changed.forEach(key => { key.changed = false; });
         const usual = this.keyframes.filter(key => !key.changed);
         if (usual.length < 2 || (usual.length <= MAX_KEYFRAMES && bytes <= MAX_BYTES))
             return;
@@ -103,8 +119,8 @@ export class Player {
     // Changes a parameter for the next and all later frames. Frees later keyframes.
     set(name, value) {
         this.session.setParameter(name, value);
-        this.changes = this.changes.filter(([frame, other]) => frame < this.frame || (frame === this.frame && other !== name));
-        this.changes.push([this.frame, name, value]);
+        const before = this.changes.filter(([frame, other]) => frame < this.frame || (frame === this.frame && other !== name));
+        this.setChanges([...before, [this.frame, name, value]]);
         this.forget(this.frame);
         this.lastFrame = this.frame;
         this.watches.forget(this.frame);
