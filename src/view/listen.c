@@ -3,10 +3,12 @@
 
 #include "base/file.h"
 #include "cli/json.h"
+#include "cli/progress.h"
 
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
+#include <poll.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,6 +19,7 @@
 #include <unistd.h>
 
 static const size_t MAX_BYTES = (size_t)1 << 20;
+static const double MAX_SILENCE = 2; // seconds after which a silent client is disconnected if another one waits
 
 // Removes a socket that no process listens on: a view that crashed has left it behind.
 static void remove_dead(const struct sockaddr_un *address) {
@@ -165,6 +168,11 @@ static void disconnect_client(Listener *listener) {
     listener->text.length = 0;
 }
 
+static bool has_waiting_client(const Listener *listener) {
+    struct pollfd ready = {.fd = listener->socket, .events = POLLIN};
+    return poll(&ready, 1, 0) > 0;
+}
+
 ListenerResult listener_serve(Listener *listener, LiveScript *live) {
     if (!listener->path)
         return LISTENER_NOTHING;
@@ -173,18 +181,21 @@ ListenerResult listener_serve(Listener *listener, LiveScript *live) {
         if (listener->client < 0)
             return LISTENER_NOTHING;
         set_flags(listener->client);
+        listener->heard = clock_seconds();
     }
     char part[4096];
     ssize_t count;
     while ((count = read(listener->client, part, sizeof part)) > 0) {
         byte_buffer_add(&listener->text, part, (size_t)count);
+        listener->heard = clock_seconds();
         if (listener->text.length > MAX_BYTES) {
             disconnect_client(listener);
             return LISTENER_NOTHING;
         }
     }
     if (count < 0) {
-        if (errno != EAGAIN && errno != EINTR)
+        bool failed = errno != EAGAIN && errno != EINTR;
+        if (failed || (clock_seconds() - listener->heard > MAX_SILENCE && has_waiting_client(listener)))
             disconnect_client(listener);
         return LISTENER_NOTHING;
     }

@@ -14,6 +14,7 @@ typedef struct Listener {
     char *path;      // NULL: not listening
     int socket;      // accepts connections
     int client;      // connection to the current client; -1: none
+    double heard;    // clock_seconds() when the client connected or last sent something
     ByteBuffer text; // what the client has sent so far
 } Listener;
 

@@ -86,6 +86,18 @@ check "- reads standard input" has out '{"text": "6"}'
 "$petri" view --terminal --quiet --listen sock script.fl >out 2>err </dev/null
 status=$?
 check "a second view does not take over the socket" has err "cannot listen on sock: "
+# A client that connects and sends nothing.
+python3 -c '
+import socket, time
+idle = socket.socket(socket.AF_UNIX)
+idle.connect("sock")
+open("connected", "w").close()
+time.sleep(100)' &
+idle=$!
+soon test -e connected
+timeout 60 "$petri" send sock '2*SIZE' >out
+check "a silent client does not keep others out" has out '{"text": "6"}'
+kill $idle
 type_keys q
 check "the view ends" soon shows "status 0"
 check "the view removes its socket" [ ! -e sock ]
