@@ -18,16 +18,29 @@ const HEADERS = {
     'X-Content-Type-Options': 'nosniff', 'Cache-Control': 'no-cache',
 };
 
+// Returns the file for a request, or null if there is none. Throws an error if the URL is invalid.
+function requestedFile(folder, url) {
+    const path = normalize(decodeURIComponent(new URL(url, 'http://x').pathname));
+    const file = join(folder, path.endsWith('/') ? `${path}index.html` : path);
+    return statSync(file, { throwIfNoEntry: false })?.isFile() ? file : null;
+}
+
 export function serve(folder, port = 0) {
     const server = createServer((request, response) => {
-        const path = normalize(decodeURIComponent(new URL(request.url, 'http://x').pathname));
-        const file = join(folder, path.endsWith('/') ? `${path}index.html` : path);
-        if (!statSync(file, { throwIfNoEntry: false })?.isFile()) {
-            response.writeHead(404, { 'Content-Type': 'text/plain' }).end('no such file\n');
+        const refuse = (status, text) => response.writeHead(status, { 'Content-Type': 'text/plain' }).end(text);
+        let file;
+        try {
+            file = requestedFile(folder, request.url);
+        } catch { // an invalid %-sequence, host or NUL, or a name that is too long for the file system
+            refuse(400, 'bad request\n');
+            return;
+        }
+        if (!file) {
+            refuse(404, 'no such file\n');
             return;
         }
         response.writeHead(200, { ...HEADERS, 'Content-Type': TYPES[extname(file)] ?? 'application/octet-stream' });
-        createReadStream(file).pipe(response);
+        createReadStream(file).on('error', () => response.destroy()).pipe(response);
     });
     return new Promise(resolve => server.listen(port, '127.0.0.1', () =>
         resolve({ url: `http://127.0.0.1:${server.address().port}/`, close: () => server.close() })));
