@@ -17,7 +17,8 @@ enum { DEFAULT_SIZE = 512, AUTO_SIDE = 1080, MAX_DIAGNOSTICS = 100 };
 
 void petri_picture_options_init(PetriPictureOptions *options, size_t size) {
     const PetriPictureOptions defaults = {.size = size, .scale = 1, .window = -1, .detail = 1};
-    memcpy(options, &defaults, size < sizeof defaults ? size : sizeof defaults);
+    if (options)
+        memcpy(options, &defaults, size < sizeof defaults ? size : sizeof defaults);
 }
 
 // Copies the options of a host. A host that was compiled with an earlier petri-draw.h passes a shorter struct. Returns

@@ -23,7 +23,8 @@ void petri_options_init(PetriOptions *options, size_t size) {
                                 .stack_limit = (size_t)4 << 20,
                                 .memory_limit = (size_t)2 << 30,
                                 .work_limit = UINT64_C(1) << 30};
-    memcpy(options, &usual, size < sizeof usual ? size : sizeof usual);
+    if (options)
+        memcpy(options, &usual, size < sizeof usual ? size : sizeof usual);
 }
 
 // Reads the options of a host, which may have been compiled with an older petri.h and a shorter struct. Returns false

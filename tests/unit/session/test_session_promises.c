@@ -175,6 +175,7 @@ static void test_null_arguments_are_accepted(void **state) {
     assert_null(petri_open(NULL));
     petri_close(&none);
     petri_close(NULL);
+    petri_options_init(NULL, sizeof(PetriOptions));
     petri_reset(NULL);
     petri_resync_clock(NULL);
     petri_interrupt(NULL);
