@@ -19,10 +19,10 @@ bool option_takes(const OptionSpec *option, const char *value) {
 }
 
 const PageRow PAGE_VARIABLES[] = {
-    {"NO_COLOR", "disables colours in messages and in terminal pictures if it is not empty"},
-    {"PETRI_CPU", "limits the vector instructions to scalar, avx2 or avx512; does not change results"},
+    {"NO_COLOR", "if not empty, messages and terminal pictures have no colours"},
+    {"PETRI_CPU", "highest level of vector instructions to use: scalar, avx2 or avx512; results do not change"},
     {"TMPDIR", "folder for temporary files of '-o -' (default: /tmp)"},
-    {"XDG_STATE_HOME", "folder for petri/history, the history of the prompt (default: ~/.local/state)"},
+    {"XDG_STATE_HOME", "folder that contains petri/history, the history of the prompt (default: ~/.local/state)"},
     {0},
 };
 const PageRow PAGE_STATUSES[] = {

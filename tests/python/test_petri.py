@@ -300,7 +300,7 @@ class Functions(unittest.TestCase):
 
         session = petri.Session("!a b=use(frame)\n", functions={"use": use})
         for _ in range(2):
-            with self.assertRaisesRegex(RuntimeError, "cannot use its session"):
+            with self.assertRaisesRegex(RuntimeError, "cannot use the session"):
                 session.step()
 
     def test_ctrl_c_before_the_function_is_raised(self):

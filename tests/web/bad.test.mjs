@@ -106,7 +106,7 @@ test('without shared memory, stop ends the engine, and another one starts', opti
     },
 }));
 
-const LOST = [['petri/engine.wasm', /cannot load the engine: .* returned 404/], ['worker.js', /cannot start the engine/]];
+const LOST = [['petri/engine.wasm', /cannot load the engine: .* returned status 404/], ['worker.js', /cannot start the engine/]];
 for (const [file, message] of LOST)
     test(`a page that cannot load ${file} reports it and shows the text`, options, () => visited(world.server.url, {
         prepare: page => page.route(`**/${file}`, route => route.fulfill({ status: 404 })),

@@ -141,7 +141,7 @@ test('warnings are only shown to readers who can edit the script', options, () =
 
 test('nodes that need WebGL 2 are reported below the picture', options, () => embedded(
     '<petri-dish><pre>!window size=64;32\n    !bloom radius=2\n        !canvas\n</pre></petri-dish>', async page => {
-        assert.equal(await page.textContent(within('#message')), 'Not supported in this browser (no WebGL 2): bloom.');
+        assert.equal(await page.textContent(within('#message')), 'Not drawn: bloom. This browser does not support WebGL 2.');
     }, {
         prepare: page => page.route('**/worker.js', async route => {
             const response = await route.fetch();

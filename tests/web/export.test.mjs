@@ -96,7 +96,7 @@ test('without WebCodecs, exporting a video is an error, and the page continues',
         await page.fill('#saving-to', '9');
         await page.click('#saving-go');
         await page.waitForFunction(() => document.getElementById('export-status').textContent);
-        assert.match(await page.textContent('#message'), /cannot make videos: this browser has no WebCodecs/);
+        assert.match(await page.textContent('#message'), /cannot make videos: this browser has no encoder/);
         await page.keyboard.press('Escape');
         await atFrame(page, 2);
         await page.click('#step');

@@ -144,7 +144,7 @@ test('without WebGL 2 the page reports it and draws the rest', options, () => op
             + '            !rect size=64;32 color=1;0.5;0 fill=true\n');
         await page.keyboard.press('Control+Enter');
         await page.waitForFunction(() => document.getElementById('picture').width === 64);
-        assert.equal(await page.textContent('#message'), 'Not supported in this browser (no WebGL 2): bloom.');
+        assert.equal(await page.textContent('#message'), 'Not drawn: bloom. This browser does not support WebGL 2.');
         const at = await page.evaluate(() => [...document.getElementById('picture').getContext('2d').getImageData(30, 10, 1, 1).data]);
         assert.deepEqual(at, [255, 128, 0, 255]);
     },
@@ -157,7 +157,7 @@ test('without WebGL 2, a 3-D script shows its particles in two dimensions', opti
             + '!window size=64;32\n    !canvas3d\n        !sphere position=$(:world;0);0\n');
         await page.keyboard.press('Control+Enter');
         await page.waitForFunction(() => document.getElementById('message').textContent.includes('canvas3d'));
-        assert.equal(await page.textContent('#message'), 'Not supported in this browser (no WebGL 2): canvas3d, sphere.');
+        assert.equal(await page.textContent('#message'), 'Not drawn: canvas3d, sphere. This browser does not support WebGL 2.');
         await page.click('#step');
         await page.waitForFunction(() => {
             const { width, height } = document.getElementById('picture');

@@ -34,7 +34,7 @@ async function startServer() {
 async function script() {
     const document = vscode.window.activeTextEditor?.document;
     if (document?.languageId !== "flitter" || document.uri.scheme !== "file") {
-        vscode.window.showErrorMessage("The active editor has no Flitter script.");
+        vscode.window.showErrorMessage("The active editor has no Flitter script that is saved as a file.");
         return undefined;
     }
     await document.save();

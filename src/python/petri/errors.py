@@ -62,7 +62,7 @@ class PetriWarning(_ScriptMessage, UserWarning):
 
 
 _ERRORS = {
-    lib.PETRI_INVALID: (ScriptError, "no such script, or invalid argument"),
+    lib.PETRI_INVALID: (ScriptError, "the script does not exist, or an argument is invalid"),
     lib.PETRI_LIMIT_EXCEEDED: (LimitError, "limit exceeded"),
     lib.PETRI_OUT_OF_MEMORY: (OutOfMemoryError, "out of memory"),
     lib.PETRI_UNSUPPORTED: (MissingLibraryError, "this build cannot draw"),

@@ -37,7 +37,8 @@ class Functions:
             "size": ffi.sizeof("PetriFunction"), "name": texts[0], "parameters": texts[1], "help": texts[2],
             "call": ffi.addressof(lib, "petri_python_call"), "user_data": handle})
         self._keep.append(handle)
-        self._session._call(lib.petri_add_function, made, message=f"not a valid name, or already in use: {name}")
+        self._session._call(lib.petri_add_function, made,
+                            message=f"cannot add the function {name!r}: the name is invalid or already in use")
 
     def _parameters(self, function: Callable) -> str:
         words = []
@@ -45,7 +46,7 @@ class Functions:
             if parameter.kind is parameter.VAR_POSITIONAL:
                 words.append("...")
             elif parameter.kind not in (parameter.POSITIONAL_ONLY, parameter.POSITIONAL_OR_KEYWORD):
-                raise TypeError(f"scripts pass arguments by position only: {parameter}")
+                raise TypeError(f"cannot use the parameter {parameter}: scripts pass arguments by position only")
             elif parameter.default is parameter.empty:
                 words.append(parameter.name)
             else:
@@ -57,7 +58,7 @@ class Functions:
 def _result(given: Any) -> tuple:
     for part in values.elements(given):
         if isinstance(part, str) and not isinstance(part, values.Text):
-            raise TypeError(f"cannot return {part!r}: functions for scripts return numbers and petri.Text, not symbols")
+            raise TypeError(f"cannot return the str {part!r} to a script; use petri.Text for strings")
     return values.encode(None, given)
 
 

@@ -98,7 +98,8 @@ class Session:
         self.systems = Systems(self)
         for name, value in defines.items():
             text = value if isinstance(value, str) else self._printed(value)
-            self._call(lib.petri_define, f"{name}={text}".encode(), message=f"not a name that can be defined: {name}")
+            self._call(lib.petri_define, f"{name}={text}".encode(),
+                       message=f"cannot define {name!r}: the name or the value is invalid")
         if functions:
             self._functions = Functions(self, functions)
             self._stop = self._functions.stop
@@ -149,7 +150,7 @@ class Session:
     def _finish(self, status: int, message: Optional[str] = None) -> None:
         """Raises the error of a call, or the exception that a Python function raised during the call."""
         if self._functions and self._functions.calling:
-            raise RuntimeError("a function that a script calls cannot use its session")
+            raise RuntimeError("a Python function cannot use the session that is calling it")
         if self._functions and self._functions.raised:
             error = self._functions.raised[0]
             self._functions.raised.clear()
@@ -223,12 +224,13 @@ class Session:
     def set_parameter(self, name: str, value: Any) -> None:
         """Sets a parameter (`let SIZE=SIZE or 20`) from the next frame on. None restores its default."""
         text = ffi.NULL if value is None else (value if isinstance(value, str) else self._printed(value)).encode()
-        self._call(lib.petri_set_parameter, name.encode(), text, message=f"the script has no parameter {name}")
+        self._call(lib.petri_set_parameter, name.encode(), text,
+                   message=f"cannot set {name!r}: the script has no such parameter, or the value is invalid")
 
     def set_global(self, name: str, value: Any) -> None:
         """Sets a global that was in `given` to another value, from the next frame on."""
         if name not in self._given:
-            raise KeyError(f"unknown global {name!r}; use petri.Session(..., given={{{name!r}: ...}})")
+            raise KeyError(f"unknown global {name!r}; pass it to petri.Session(..., given={{{name!r}: ...}})")
         with self._lock:
             encoded, keep = values.encode(self._c, value)
         self._call(lib.petri_set_global, name.encode(), encoded, message=f"cannot set {name!r} to {value!r}")
@@ -249,7 +251,7 @@ class Session:
         if automatic is not None:
             options.automatic = lib.PETRI_AUTO_ALWAYS if automatic else lib.PETRI_AUTO_NEVER
         pointer = ffi.new("PetriPicture **")
-        self._call(lib.petri_picture, options, pointer, message="there is nothing to draw")
+        self._call(lib.petri_picture, options, pointer, message="cannot draw the last frame")
         return Picture(self, pointer[0])
 
     def _open_painter(self) -> Any:

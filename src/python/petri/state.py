@@ -55,7 +55,7 @@ class State(MutableMapping):
             encoded_key, keep_key = values.encode(self._session, key)
             encoded, keep = values.encode(self._session, value)
             if lib.petri_state_set(self._session, encoded_key, encoded) != lib.PETRI_OK:
-                raise ValueError(f"cannot store {value!r} as {key!r}: not finite numbers, symbols and strings")
+                raise ValueError(f"cannot store {value!r} as {key!r}: only finite numbers, symbols and strings")
 
     def __delitem__(self, key: Any) -> None:
         self[key]  # raises KeyError if the key is missing

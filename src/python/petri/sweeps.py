@@ -28,7 +28,7 @@ def sweep(source: Union[str, os.PathLike], defines: Mapping[str, Iterable[Any]],
     taken = [*axes, "frame", "error"]
     double = [name for name in metrics if name in taken]
     if double:
-        raise ValueError(f"duplicate column {double[0]!r}")
+        raise ValueError(f"the metric {double[0]!r} has the name of another column")
     runs = [dict(zip(axes, chosen)) for chosen in itertools.product(*axes.values())]
 
     def run(chosen: Mapping[str, Any]) -> dict:

@@ -44,7 +44,7 @@ def symbol(session: Any, name: str) -> float:
     """Returns the number that represents a symbol."""
     number = lib.petri_symbol(session, name.removeprefix(":").encode())
     if number != number:
-        raise ValueError(f"not a symbol: {name!r}; use petri.Text for strings")
+        raise ValueError(f"{name!r} is not a valid symbol; use petri.Text for strings")
     return number
 
 

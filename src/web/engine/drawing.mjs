@@ -318,7 +318,7 @@ class Painter {
         if (image)
             this.drawImage(image, ...box);
         else
-            this.unsupported.add(`the image ${name}`);
+            this.unsupported.add(`the image ${name} (not loaded)`);
     }
 
     // Reads an image whose pixels are in the display list.
@@ -367,7 +367,7 @@ class Painter {
             const name = this.text();
             image = this.image(name);
             if (!image) {
-                this.unsupported.add(`the image ${name}`);
+                this.unsupported.add(`the image ${name} (not loaded)`);
                 return 'transparent';
             }
         }

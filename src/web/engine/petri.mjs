@@ -5,6 +5,9 @@ import { pixelContext, readPixels } from './pixels.mjs';
 import { compile, instantiate } from './wasm.mjs';
 
 export const STATUS = ['ok', 'invalid', 'limit', 'memory', 'missing', 'interrupted'];
+const REASONS = {
+    invalid: 'invalid argument', limit: 'limit exceeded', memory: 'out of memory', missing: 'not supported', interrupted: 'interrupted',
+};
 const LEVELS = ['error', 'warning', 'note'];
 const TOKENS = ['name', 'keyword', 'number', 'string', 'symbol', 'node', 'tag', 'operator', 'comment', 'invalid', 'newline',
     'indent', 'dedent'];
@@ -15,11 +18,11 @@ const STACK = 1536 << 10;
 const MEMORY = 1 << 30;
 const CALL_WORK = 2 ** 28; // one or two seconds
 
-// Thrown when a call fails; `diagnostics` are the messages of that call.
+// Thrown when a call fails; `diagnostics` are the messages of that call. what: the task of the call, to follow `cannot`.
 export class PetriError extends Error {
     constructor(status, diagnostics, what) {
         const first = diagnostics.find(told => told.level === 'error') ?? diagnostics[0];
-        super(`${what}: ${first ? first.rendered.trimEnd() : status}`);
+        super(`cannot ${what}: ${first ? first.rendered.trimEnd() : REASONS[status]}`);
         this.name = 'PetriError';
         this.status = status;
         this.diagnostics = diagnostics;
@@ -167,14 +170,14 @@ export class Session {
         this.closePainter();
         const encoded = typeof text === 'string' ? new TextEncoder().encode(text) : text;
         this.setFile(name, encoded);
-        return this.check('load', this.with(name, (wasm, called) =>
+        return this.check('load the script', this.with(name, (wasm, called) =>
             this.memory.withText(encoded, (at, length) => wasm.petri_load_text(this.handle, called, at, length))));
     }
 
     // Replaces the script; frame numbers, time and state continue.
     reload(text, name = 'script.fl') {
         this.setFile(name, text);
-        return this.check('reload', this.with(name, (wasm, called) => wasm.petri_reload(this.handle, called)));
+        return this.check('reload the script', this.with(name, (wasm, called) => wasm.petri_reload(this.handle, called)));
     }
 
     // Returns the diagnostics of a script without changing anything.
@@ -182,21 +185,21 @@ export class Session {
         const status = STATUS[this.run(this.with(name, (wasm, called) =>
             this.memory.withText(text, (at, length) => wasm.petri_check_text(this.handle, called, at, length))), true)];
         if (status === 'interrupted')
-            throw new PetriError(status, this.told, 'diagnose');
+            throw new PetriError(status, this.told, 'check the script');
         return this.told;
     }
 
     // Defines a name, as in 'SIZE=20', for scripts loaded from now on.
     define(definition) {
-        return this.check('define', this.with(definition, (wasm, at) => wasm.petri_define(this.handle, at)));
+        return this.check(`define ${definition}`, this.with(definition, (wasm, at) => wasm.petri_define(this.handle, at)));
     }
 
     step() {
-        return this.check('step', wasm => wasm.petri_step(this.handle));
+        return this.check('compute the frame', wasm => wasm.petri_step(this.handle));
     }
 
     stepAt(time, beat) {
-        return this.check('step', wasm => wasm.petri_step_at(this.handle, time, beat));
+        return this.check('compute the frame', wasm => wasm.petri_step_at(this.handle, time, beat));
     }
 
     clear() {
@@ -211,7 +214,7 @@ export class Session {
     // Returns the text of the last frame, with sections as in `petri run --print`.
     print(...sections) {
         const bits = sections.reduce((sum, name) => sum | SECTIONS[name], 0);
-        this.check('print', wasm => wasm.web_print(this.handle, bits));
+        this.check('print the frame', wasm => wasm.web_print(this.handle, bits));
         return this.written.join('');
     }
 
@@ -225,7 +228,7 @@ export class Session {
     table(dimensions = 0) {
         const has = this.run(wasm => wasm.web_particles(this.handle, dimensions), true);
         if (has <= 0)
-            throw new PetriError(has ? 'interrupted' : 'memory', this.told, 'table');
+            throw new PetriError(has ? 'interrupted' : 'memory', this.told, 'write the particles');
         return { text: this.written.join(''), dimensions: has };
     }
 
@@ -244,7 +247,7 @@ export class Session {
         const set = (wasm, at) => value === null
             ? wasm.petri_set_parameter(this.handle, at, 0)
             : this.memory.withText(String(value), text => wasm.petri_set_parameter(this.handle, at, text));
-        return this.check(`the parameter ${name}`, this.with(name, set));
+        return this.check(`set the parameter ${name}`, this.with(name, set));
     }
 
     // The systems of the last frame. Columns are views of the engine's memory, valid until the next call that changes the session. The
@@ -270,22 +273,22 @@ export class Session {
     // Sets a global, one or more numbers, for scripts that are loaded later. Its value can be changed at any time.
     setGlobal(name, value) {
         const numbers = Float64Array.from(typeof value === 'number' ? [value] : value);
-        return this.check(`the name ${name}`, this.with(name, (wasm, called) =>
+        return this.check(`set the global ${name}`, this.with(name, (wasm, called) =>
             this.memory.withText(new Uint8Array(numbers.buffer), at =>
                 wasm.web_set_global(this.handle, called, numbers.length ? at : 0, numbers.length))));
     }
 
     // Evaluates an expression in the last frame.
     evaluate(expression) {
-        this.check('evaluate', this.with(expression, (wasm, at, length) => wasm.web_evaluate(this.handle, at, length)));
+        this.check('evaluate the expression', this.with(expression, (wasm, at, length) => wasm.web_evaluate(this.handle, at, length)));
         if (this.told.some(told => told.level === 'error'))
-            throw new PetriError('invalid', this.told, 'evaluate');
+            throw new PetriError('invalid', this.told, 'evaluate the expression');
         return { text: this.written.join(''), number: this.taken[0].value[0] };
     }
 
     // Evaluates a line typed at the prompt and returns its output.
     prompt(text) {
-        this.check('prompt', this.with(text, (wasm, at, length) => wasm.web_prompt(this.handle, at, length)));
+        this.check('evaluate the line', this.with(text, (wasm, at, length) => wasm.web_prompt(this.handle, at, length)));
         return this.written.join('');
     }
 
@@ -389,11 +392,11 @@ export class Session {
     }
 
     pointer(inside, x = 0, y = 0, buttons = 0) {
-        return this.check('pointer', wasm => wasm.web_pointer(this.handle, inside ? 1 : 0, x, y, buttons));
+        return this.check('report the pointer', wasm => wasm.web_pointer(this.handle, inside ? 1 : 0, x, y, buttons));
     }
 
     key(name, pressed) {
-        return this.check(`the key ${name}`, this.with(name, (wasm, at) =>
+        return this.check(`report the key ${name}`, this.with(name, (wasm, at) =>
             wasm.petri_report_key(this.handle, at, pressed ? 1 : 0)));
     }
 
@@ -401,14 +404,14 @@ export class Session {
     snapshot() {
         const at = this.run(wasm => wasm.petri_snapshot(this.handle));
         if (!at)
-            throw new PetriError('memory', this.told, 'snapshot');
+            throw new PetriError('memory', this.told, 'take a snapshot');
         return new Snapshot(this, at);
     }
 
     // Restores a snapshot. Pictures that depend on earlier pictures start again.
     rewind(snapshot) {
         this.closePainter();
-        return this.check('rewind', wasm => wasm.petri_rewind(this.handle, snapshot.at));
+        return this.check('restore the snapshot', wasm => wasm.petri_rewind(this.handle, snapshot.at));
     }
 
     tell(diagnostic) {

@@ -24,7 +24,7 @@ export async function compile(source = new URL('./engine.wasm', import.meta.url)
     }
     if (typeof Response !== 'undefined' && source instanceof Response) {
         if (!source.ok)
-            throw new Error(`cannot load the engine: ${source.url} returned ${source.status}`);
+            throw new Error(`cannot load the engine: ${source.url} returned status ${source.status}`);
         source = await source.arrayBuffer();
     }
     return WebAssembly.compile(source);
@@ -61,7 +61,7 @@ export function instantiate(module, host) {
             throw LEFT;
         },
         proc_exit: code => {
-            throw new Error(`the engine exited with ${code}`);
+            throw new Error(`it exited with status ${code}`);
         },
         clock_time_get: (...args) => {
             const now = BigInt(Math.round(performance.now() * 1e6));

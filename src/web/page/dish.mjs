@@ -246,4 +246,4 @@ export const errorText = error => error.type === 'stopped' ? 'Stopped. The previ
 
 // Returns the message for the user about unsupported parts of a picture.
 export const unsupportedText = ({ picture }, left) =>
-    `Not supported in this browser${picture.screen ? '' : ' (no WebGL 2)'}: ${left.join(', ')}.`;
+    `Not drawn: ${left.join(', ')}.${picture.screen ? '' : ' This browser does not support WebGL 2.'}`;

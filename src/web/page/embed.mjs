@@ -116,7 +116,7 @@ class PetriDish extends HTMLElement {
         const fetched = async (name, place = new URL(name, url)) => {
             const answer = await fetch(place);
             if (!answer.ok)
-                throw new Error(`cannot read ${name}: the server returned ${answer.status}`);
+                throw new Error(`cannot read ${name}: the server returned status ${answer.status}`);
             return new Uint8Array(await answer.arrayBuffer());
         };
         for (const name of (this.getAttribute('files') ?? '').split(/\s+/).filter(Boolean))

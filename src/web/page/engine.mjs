@@ -15,7 +15,7 @@ function makeWorker(url) {
 export function startWorker() {
     const worker = makeWorker(new URL('./worker.js', import.meta.url));
     worker.broken = new Promise(resolve => {
-        worker.onerror = event => resolve(event.message || 'cannot start the engine');
+        worker.onerror = event => resolve(event.message || 'cannot start the engine: worker.js cannot be loaded');
     });
     return worker;
 }

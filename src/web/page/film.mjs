@@ -12,7 +12,7 @@ async function chooseCodec(settings) {
         if (supported)
             return [codec, name];
     }
-    throw new Error('cannot make videos: this browser has no WebCodecs with VP9 or VP8');
+    throw new Error('cannot make videos: this browser has no encoder for VP9 or VP8 (WebCodecs); use another browser');
 }
 
 export class Film {

@@ -16,7 +16,7 @@ async function through(stream, bytes, most = Infinity) {
         length += value.length;
         if (length > most) {
             reader.cancel().catch(() => {});
-            throw new Error('the link unpacks to more than 4 MiB');
+            throw new Error('the link contains more than 4 MiB of data, so it is not opened');
         }
         parts.push(value);
     }
@@ -25,7 +25,7 @@ async function through(stream, bytes, most = Infinity) {
 
 export async function packLink({ text, name, changes = [], frame, hash }) {
     if (changes.length > MAX_CHANGES)
-        throw new Error(`too many changes of parameters for a link: ${changes.length}, at most ${MAX_CHANGES}; restart the script to forget them`);
+        throw new Error(`too many parameter changes for a link: ${changes.length}, at most ${MAX_CHANGES}; press Reset to discard them`);
     const json = JSON.stringify({ v: VERSION, t: text, n: name, c: changes, f: frame, h: hash });
     const packed = await through(new CompressionStream('deflate-raw'), new TextEncoder().encode(json));
     let binary = '';
@@ -48,7 +48,7 @@ export async function readLink(link) {
     const packed = link.replace(/^#/, '').replaceAll('-', '+').replaceAll('_', '/');
     let json;
     if (packed.length > MAX_LENGTH)
-        throw new Error('the link is too long');
+        throw new Error(`the link is too long: ${packed.length} characters, at most ${MAX_LENGTH}`);
     try {
         const bytes = Uint8Array.from(atob(packed), character => character.charCodeAt(0));
         const text = await through(new DecompressionStream('deflate-raw'), bytes, MAX_TEXT);
@@ -58,10 +58,10 @@ export async function readLink(link) {
             : 'the link is damaged; check that it was copied completely', { cause: error });
     }
     if (json?.v > VERSION)
-        throw new Error('the link is from a newer petri; reload the page to update it');
+        throw new Error('the link is from a newer petri; reload the page to get the latest version');
     const { t: text, n: name = 'script.fl', c: changes = [], f: frame = 0, h: hash = null } = json ?? {};
     if (Array.isArray(changes) && changes.length > MAX_CHANGES)
-        throw new Error('the link has more than 10000 changes of parameters');
+        throw new Error('the link contains more than 10000 parameter changes, so it is not opened');
     if (typeof text !== 'string' || !isFileName(name) || !Array.isArray(changes) || !changes.every(isChange)
         || !Number.isInteger(frame) || frame < -1 || frame > 1e6 || !(hash === null || typeof hash === 'string'))
         throw new Error('not a petri link');

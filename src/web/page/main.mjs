@@ -102,7 +102,7 @@ async function openText(text, called, wanted = {}) {
     const opened = await dish.open(text, name, wanted);
     if (opened && wanted.hash)
         say(opened === true ? `Frame ${wanted.frame}: the state matches the link exactly.`
-            : `Frame ${wanted.frame}: the state differs from the link. The link may be from another version of petri.`,
+            : `Frame ${wanted.frame}: the state differs from the link, probably because another version of petri made the link.`,
         opened !== true);
 }
 

@@ -55,7 +55,7 @@ export class SaveDialog {
         }
         const at = dish.frame, [from, to] = [Number($('saving-from').value), Number($('saving-to').value)];
         if (to < from) {
-            $('export-status').textContent = `Frames ${from} to ${to} do not exist.`;
+            $('export-status').textContent = `The first frame, ${from}, must not be after the last, ${to}.`;
             return;
         }
         const progress = $('saving-progress');
@@ -73,6 +73,6 @@ export class SaveDialog {
         if (dish.loaded !== null)
             await dish.seek(at);
         if (!answer)
-            $('export-status').textContent = 'Export failed; see the message under the picture.';
+            $('export-status').textContent = 'The export failed. The message under the picture shows the reason.';
     }
 }

@@ -58,8 +58,8 @@ export class Table {
             return row;
         }));
         const to = this.from + rows.length;
-        this.count.textContent = (matching ? `${this.from + 1} to ${to} of ${matching}` : 'nothing')
-            + (matching < total ? `, ${total} in all` : '');
+        this.count.textContent = (matching ? `${this.from + 1} to ${to} of ${matching}` : 'no rows')
+            + (matching < total ? ` (${total} without the filter)` : '');
         this.moves[0].disabled = this.from === 0;
         this.moves[1].disabled = to >= matching;
     }

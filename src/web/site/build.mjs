@@ -60,7 +60,7 @@ const html = (page, title, body, sections) => `<!doctype html>
 ${nav(page)}</details></nav>
 <main id="text">
 <p id="served" hidden>This page was opened from a file, so the browser does not allow it to run the examples.
-To run them, start <code>./dev web --serve</code> and open its address.</p>
+To run them, start <code>./dev web --serve</code> and open the address that it prints.</p>
 ${body}</main>
 <nav id="sections" aria-label="On this page">${contents(sections)}</nav>
 </div>

@@ -30,8 +30,8 @@ export const GENERATED = {
         });
         const told = words.filter(({ form }, i) => i === 0 || form !== words[i - 1].form);
         return `${section(env, 2, 'all-functions', 'Functions')}${table(['function', ''], rows)}`
-            + section(env, 2, 'all-words', 'Words of the language', told.map(({ form, help }) => `${form} ${help}`).join(' '))
-            + table(['word', ''], told.map(({ form, help }) => [code(form), escape(help)]));
+            + section(env, 2, 'all-words', 'Values, keywords and operators', told.map(({ form, help }) => `${form} ${help}`).join(' '))
+            + table(['form', ''], told.map(({ form, help }) => [code(form), escape(help)]));
     },
 
     nodes({ tables: { nodes, letters } }, env) {

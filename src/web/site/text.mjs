@@ -93,7 +93,7 @@ export class Text {
     image(src, alt, env) {
         const file = normalize(join(dirname(env.file), src)), name = file.replaceAll('/', '-');
         if (!existsSync(join(this.site.root, file)))
-            throw new Error(`${env.file}: no picture ${src}`);
+            throw new Error(`${env.file}: the picture ${src} does not exist`);
         mkdirSync(join(this.site.output, 'pictures'), { recursive: true });
         copyFileSync(join(this.site.root, file), join(this.site.output, 'pictures', name));
         const [width, height] = sizeOf(readFileSync(join(this.site.root, file)));
