@@ -252,8 +252,8 @@ double noise_point_3(const uint8_t *permutation, const double *c) {
 // --- four dimensions (B10.9)
 
 // Returns the two winning candidates of region C. For each of the three ways to split the coordinates into two pairs,
-// the pair with the greater sum is a candidate and "big". Each single coordinate is a candidate that is not "big".
-// Region D (`far`) mirrors C.
+// the pair with the greater sum is a candidate, with its flag set ("big" in B10.9). Each single coordinate is a
+// candidate with the flag clear. Region D (`far`) mirrors C.
 static inline Candidates candidates_4cd(const double *f, double sum, bool far) {
     double sign = far ? -1 : 1;
     unsigned flip = far ? 15 : 0;

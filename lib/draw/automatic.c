@@ -35,8 +35,8 @@ static Colour mix_colours(Colour a, Colour b, double part) {
     return (Colour){a.r + (b.r - a.r) * part, a.g + (b.g - a.g) * part, a.b + (b.b - a.b) * part};
 }
 
-// Returns the colour of a shade. Charges range from blue through white to orange, speeds from deep blue through
-// turquoise to pale yellow.
+// Returns the colour for `shade`, which is a charge (blue through white to orange) or a speed (deep blue through
+// turquoise to pale yellow).
 static Colour shade_colour(const AutoSystem *system, double shade) {
     static const Colour negative = {0.25, 0.55, 1}, neutral = {0.85, 0.87, 0.9}, positive = {1, 0.5, 0.15};
     static const Colour slow = {0.2, 0.35, 0.75}, middle = {0.2, 0.75, 0.7}, fast = {1, 0.95, 0.6};

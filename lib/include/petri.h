@@ -93,11 +93,12 @@ typedef struct PetriDiagnostic {
     uint32_t line;    // from 1; 0 without a position
     uint32_t column;  // in characters, from 1
     const char *text;
-    const char *code;     // short name of the kind, such as "unbound-name"; may be NULL
-    const char *rendered; // `FILE:LINE:COLUMN: level: text [code]`, source line and carets; ends in a newline
-    const char *hint;     // advice, such as "did you mean 'cos'?"; "": none
-    uint32_t end_line;    // line of the first character after the marked range
-    uint32_t end_column;  // column of that character
+    const char *code; // short name of the kind, such as "unbound-name"; may be NULL
+    // `FILE:LINE:COLUMN: level: text [code]`, source line, carets and hint, as far as they exist; ends in a newline.
+    const char *rendered;
+    const char *hint;    // advice, such as "did you mean 'cos'?"; "": none
+    uint32_t end_line;   // line of the first character after the marked range
+    uint32_t end_column; // column of that character
 } PetriDiagnostic;
 
 // When physics uses neighbour lists instead of testing all pairs of particles. Does not affect results.

@@ -149,7 +149,8 @@ typedef struct Vector {
 
 Vector vector_new(Arena *arena);
 void vector_add(Vector *vector, Value part);
-// Like vector_add, but inline for the most common case: one number or item, and spare capacity.
+// Like vector_add, but inline for the most common case: one number or item, after at least two parts that are not null,
+// and spare capacity.
 static inline void vector_add_part(Vector *vector, const Value *part) {
     if (vector->parts > 1 && part->len == 1 && vector->len < vector->capacity) {
         if (part->kind == VALUE_NUMBERS && !vector->mixed) {

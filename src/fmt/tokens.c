@@ -87,7 +87,8 @@ static bool opens_function(const Word *before) {
     return before && before->kind == PETRI_TOKEN_KEYWORD && word_is(before, "func");
 }
 
-// Tracks the segments of expressions, which are separated by brackets and operators.
+// Updates the current segment (see Segment) with a word. A statement, an opening bracket, a comma, and a keyword or
+// operator that binds more weakly than + and - start a new segment. A closing bracket returns to the enclosing one.
 static void split_segment(Reader *reader, Word *word, const Word *before) {
     if (word->begins) {
         reader->depth = 0;

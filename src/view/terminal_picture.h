@@ -39,9 +39,9 @@ bool terminal_picture_is_graphics(const TerminalPicture *renderer);
 // Returns the largest size, within columns x rows, of a picture with the aspect ratio width : height (above 0). Queries
 // the terminal for the size of its cells.
 TerminalCells terminal_picture_fit(const TerminalPicture *renderer, int columns, int rows, int width, int height);
-// Returns the text for cells->width x cells->height pixels, row by row: 32 bits each, alpha in the highest byte, then
-// premultiplied red, green and blue. Lines are separated by newlines. The caller frees it with free. Returns NULL if
-// out of memory.
+// Returns a picture as text, with lines separated by newlines. The caller frees it with free. Returns NULL if out of
+// memory. `pixels` has cells->width x cells->height pixels, row by row. Each has 32 bits: alpha in the highest byte,
+// then premultiplied red, green and blue.
 char *terminal_picture_text(TerminalPicture *renderer, const uint32_t *pixels, const TerminalCells *cells,
                             size_t *length);
 

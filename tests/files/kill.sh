@@ -1,6 +1,6 @@
 # kill.sh: tests that kill -9 at any moment leaves either the old or the new file. Part of ../cli/run.sh.
 #
-# The number of killed processes is PETRI_KILLS (default: 20); `./dev crash-test` kills 500.
+# Each command is killed PETRI_KILLS / 5 times (default of PETRI_KILLS: 20; `./dev crash-test`: 500).
 
 kills=${PETRI_KILLS:-20}
 cat >w.fl <<'END'

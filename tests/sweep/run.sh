@@ -204,8 +204,9 @@ sweep slow.fl -D N=1 --frames 1 --metric x=BIG -o linked.csv
 check "a journal is not written through a symbolic link" [ ! -e target.csv ]
 check "a symbolic link as journal is reported" has err 'cannot write linked.csv.part: it is a symbolic link'
 
-# A worker is killed from outside, as the system does when memory is short. Its run is executed again.
 worker() { pgrep -P "$1" | head -n 1; }
+# Kills a worker. SIGKILL is what the kernel sends when memory is short, so the run is executed again. After any other
+# signal, the run counts as crashed.
 kill_one() {
     for try in 1 2 3 4 5 6 7 8 9; do
         rm -f slow.csv*

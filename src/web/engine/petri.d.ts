@@ -22,7 +22,7 @@ export interface Diagnostic {
     code: string | null;
     /** How to fix the problem; "": no hint. */
     hint: string;
-    /** The message with position, source line and carets, as printed by the petri command. */
+    /** The message with position, source line, carets and hint, as far as they exist, as printed by the petri command. */
     rendered: string;
 }
 

@@ -35,7 +35,8 @@ function element(id, ...parts) {
     return join([whole(id), Uint8Array.of(1), whole(inside.length, 7), inside]);
 }
 
-// Returns the index of the key frames. Positions are relative to the start of the segment.
+// Returns the Cues element, a table of the times and positions of the clusters, each of which begins with a key frame. `before` is the
+// length of the elements before the first cluster. Positions count from the start of the segment's data.
 const cues = (clusters, before) => {
     let at = before;
     return element(0x1C53BB6B, ...clusters.map(({ time, bytes }) => {

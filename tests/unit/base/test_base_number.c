@@ -107,7 +107,8 @@ static void test_random_numbers_read_back(void **state) {
     assert_true(hash == UINT64_C(0x1fb3382a90909f4a));
 }
 
-// Fractions such as coordinates, from 2^-20 to 2^53. Many have few digits or are halfway between two decimals.
+// Fractions such as coordinates, up to 2^43; only those of 1e-4 or more are compared. Many have few digits, or lie
+// halfway between two decimal numbers.
 static void test_fractions_are_shortest(void **state) {
     (void)state;
     uint64_t seed = 2;

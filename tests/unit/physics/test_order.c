@@ -51,7 +51,8 @@ static void test_large_group(void **state) {
     compare_random(7, &shape, 3);
 }
 
-// With three particles in a row, the bits depend on the order of the additions.
+// The sum of three forces differs in the last bit if they are added in reverse order. The test checks that they are
+// added in the order of the bodies.
 static void test_order_is_visible(void **state) {
     (void)state;
     double forward = (0.1 + 0.2) + 0.3, backward = (0.3 + 0.2) + 0.1;
