@@ -228,7 +228,7 @@ class Session:
                    message=f"cannot set {name!r}: the script has no such parameter, or the value is invalid")
 
     def set_global(self, name: str, value: Any) -> None:
-        """Sets a global that was in `given` to another value, from the next frame on."""
+        """Changes the value of a global that was passed in `given`, from the next frame on."""
         if name not in self._given:
             raise KeyError(f"unknown global {name!r}; pass it to petri.Session(..., given={{{name!r}: ...}})")
         with self._lock:
@@ -244,7 +244,7 @@ class Session:
 
     def picture(self, width: int = 0, height: int = 0, *, scale: float = 1, window: int = -1,
                 automatic: Optional[bool] = None) -> Picture:
-        """Returns the picture of the last frame: its window, or the particles if there is none or if `automatic`."""
+        """Returns the picture of the last frame: its window, or its particles if it has no window or if `automatic`."""
         options = ffi.new("PetriPictureOptions *")
         lib.petri_python_picture_options(options)
         options.width, options.height, options.scale, options.window = width, height, scale, window

@@ -93,9 +93,9 @@ class System:
     velocity = _column("v", "Velocities of the particles: float64, N×d, read-only.")
     force = _column("f", "Total force on each particle in the frame's last step: float64, N×d, read-only; 0 for "
                          "anchors. NaN if there was no step or without Options.keep_forces.")
-    radius = _column("r", "float64, N, read-only.")
-    mass = _column("m", "float64, N, read-only.")
-    charge = _column("c", "float64, N, read-only.")
+    radius = _column("r", "Radii of the particles: float64, N, read-only.")
+    mass = _column("m", "Masses of the particles: float64, N, read-only.")
+    charge = _column("c", "Charges of the particles: float64, N, read-only.")
 
     @property
     def anchor(self) -> numpy.ndarray:
@@ -109,7 +109,7 @@ class System:
 
     @property
     def name(self) -> str:
-        """Its state key: "cells" for `state=:cells`. Keys other than symbols are in printed form."""
+        """The state key of the system: "cells" for `state=:cells`. Keys other than symbols are in printed form."""
         return _plain(self._printed)
 
     @property
@@ -152,7 +152,7 @@ class System:
         return pandas.DataFrame(columns)
 
     def to_ase(self) -> Any:
-        """Returns an ase.Atoms of element X with positions, velocities, masses, charges; at most three dimensions."""
+        """Returns an ase.Atoms of element X with positions and velocities (at most 3 dimensions), masses, charges."""
         ase = _optional("ase", "to_ase")
         position, velocity = numpy.zeros((len(self), 3)), numpy.zeros((len(self), 3))
         width = min(3, self.dimensions)
