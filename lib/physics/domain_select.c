@@ -103,7 +103,8 @@ static bool select_for_large(PhysSystem *system, Domain *domain, uint32_t column
     return true;
 }
 
-// Exchanges the positions of large particles, and returns those of all of them. Returns NULL if out of memory.
+// Exchanges the positions of the large particles between the ranks. Returns the positions of all large particles, or
+// NULL if out of memory.
 static const double *large_positions(PhysSystem *system, Domain *domain) {
     const Columns *columns = &system->columns;
     size_t n = columns->dimensions;

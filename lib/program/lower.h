@@ -29,7 +29,7 @@ typedef struct Lowering {
     int32_t *operands;
     uint32_t operand_count;
     uint32_t operand_capacity;
-    Value *constants; // operand -1 refers to the first constant (last in Code)
+    Value *constants; // operand -1 refers to the first element; Code.constants has them in reverse order
     uint32_t constant_count;
     uint32_t constant_capacity;
     int32_t next_register;    // first unused register

@@ -70,7 +70,8 @@ void vm_batch_store_numbers(LoopBatch *batch, int32_t d, const double *numbers);
 const double *vm_batch_numbers(const LoopBatch *batch, int32_t operand, double buffer[BATCH_SIZE]);
 // Executes an operator on numbers for all selected iterations at once. Returns false if that is not possible.
 bool vm_batch_try_operator(LoopBatch *batch, const Instr *instr);
-// Like vm_batch_try_operator, but also accepts calls, compositions, lookups, slices and nodes (batch_ops.c).
+// Like vm_batch_try_operator, but also accepts calls of built-ins, compositions, lookups, slices and nodes
+// (batch_ops.c).
 bool vm_batch_try_op(LoopBatch *batch, const Instr *instr);
 // Executes any instruction except jumps and yields for all selected iterations, one by one if necessary.
 void vm_batch_run_instr(LoopBatch *batch, const Instr *instr);

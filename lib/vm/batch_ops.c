@@ -1,4 +1,4 @@
-// batch_ops.c: batched versions of calls, compositions, lookups and nodes; see batch_columns.h.
+// batch_ops.c: batched versions of calls of built-ins, compositions, lookups and nodes; see batch_columns.h.
 #include "builtin/noise.h"
 #include "vm/batch_columns.h"
 

@@ -55,7 +55,7 @@ static int check_run(const CommandContext *host, Options *options) {
 const Command CHECK_COMMAND = {
     .name = "check",
     .operands = "PATH...",
-    .summary = "check scripts for errors without running them",
+    .summary = "check scripts for errors; evaluates only the first frame",
     .details = "Checks scripts, or all *.fl files below a folder: unbound or unused names, wrong argument counts,\n"
                "unknown pragmas, unreachable branches, misspelled nodes and attributes. Evaluates the first frame\n"
                "without drawing, printing or storing anything. Exits with 1 if there are errors.",

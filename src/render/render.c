@@ -27,8 +27,9 @@ typedef struct Render {
     const char *display_name; // name of the output in messages
 } Render;
 
-// Finds the placeholder for the frame number in a file name, `%d` or `%05d`, and sets *end to its end. Returns NULL if
-// there is none.
+// Finds the placeholder for the frame number in a file name: the first `%`, if at most two digits and a `d` follow, as
+// in
+// `%d` or `%05d`. Sets *end to its end. Returns NULL if there is none.
 static const char *find_number(const char *name, const char **end) {
     const char *at = strchr(name, '%');
     if (!at)

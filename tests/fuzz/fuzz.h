@@ -22,7 +22,7 @@ PetriOptions fuzz_options(void);
 // Opens a session with these options (NULL: fuzz_options) and starts a watch on it. fuzz_close ends the watch.
 PetriSession *fuzz_open(const PetriOptions *options);
 // Starts a watch. After two seconds of processor time, the session is interrupted repeatedly. If `session` is NULL,
-// SIGINT is raised instead. No effect within fuzz_interrupt_limit is a finding.
+// SIGINT is raised instead. If this has no effect within fuzz_interrupt_limit, that is a finding.
 void fuzz_watch(PetriSession *session);
 // Ends the watch. Returns true if the watch has interrupted the session.
 bool fuzz_end_watch(void);

@@ -147,7 +147,8 @@ typedef struct ScriptRow {
     const char *wanted;
 } ScriptRow;
 
-// Runs each script for `frames` frames, with and without the simplifier, and compares the tree of the last frame.
+// Runs each script for `frames` frames, once with and once without the simplifier. Checks each time that the tree of
+// the last frame is the row's.
 static inline void check_trees(Player *player, const ScriptRow *rows, size_t count, int frames) {
     for (int simplify = 1; simplify >= 0; simplify--) {
         PetriOptions options = player_options(player);

@@ -154,7 +154,8 @@ static void test_unused_definitions_are_reported(void **state) {
         player_run(player, rows[i].script, 1);
         assert_text(rows[i].script, player_diagnostics(player), rows[i].reported);
     }
-    Player *player = *state; // if a definition is repeated, only the last one is used and reported
+    // If a definition is repeated, only the last one counts: N=77, which is out of range, causes no warning.
+    Player *player = *state;
     assert_int_equal(petri_define(player->session, "N=77"), PETRI_OK);
     assert_int_equal(petri_define(player->session, "N=3"), PETRI_OK);
     player_run(player, "let N=N or 2 -- 1..9\n!a v=N;sin\n", 1);
