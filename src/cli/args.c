@@ -55,7 +55,7 @@ static int accept_option(Args *args, const OptionSpec *spec, const char *word, c
     }
     if (spec->value && !value) {
         if (args->next == args->argc) {
-            message("option '%s' needs a value: %s, %s", word, spec->value, spec->help);
+            message("option '%s' needs a value; '%s %s' means: %s", word, word, spec->value, spec->help);
             return ARG_INVALID;
         }
         args->value = args->argv[args->next++];

@@ -11,7 +11,7 @@
 #include <sys/types.h>
 
 // Error text for an existing trajectory file that a run cannot continue.
-#define TRAJECTORY_FILE_UNKNOWN "not a file that --trajectory writes; remove it or choose another name"
+#define TRAJECTORY_FILE_UNKNOWN "it was not written by '--trajectory'; remove it or choose another name"
 
 // A running petri-hdf5.
 typedef struct Hdf5 {

@@ -27,10 +27,10 @@ int help_end(Output *output) {
 
 const char HELP_TITLE[] = "runs Flitter scripts with particle physics";
 const char HELP_BEGINNING[] =
-    "To start, run petri new dish, then petri view dish.fl, and edit dish.fl.\n\n"
-    "'petri help COMMAND' lists a command's options, 'petri help builtins' all functions and 'petri help nodes'\n"
-    "all nodes. 'petri help WORD' explains a word of scripts, such as sin, particle or tempo. SCRIPT.fl can be -\n"
-    "for standard input. 'petri --version' prints the version.";
+    "To start, run 'petri new dish', then 'petri view dish.fl', and edit dish.fl.\n\n"
+    "'petri help COMMAND' lists a command's options, 'petri help builtins' lists all functions, and 'petri help\n"
+    "nodes' lists all nodes. 'petri help WORD' explains a word in scripts, such as sin, particle or tempo. To read\n"
+    "a script from standard input, write - instead of SCRIPT.fl. 'petri --version' prints the version.";
 
 // Writes text that starts in `column`, wrapped at spaces. Continuation lines start in column `hang`.
 static void write_words(Output *output, Str line, size_t column, size_t hang, size_t width) {

@@ -37,7 +37,7 @@ static int start_script(const CommandContext *context, const char *name) {
                        str_ends_with(str_from(name), STR(".fl")) ? "" : ".fl");
     int status = write_dish(path.data);
     if (status == STATUS_DONE) {
-        message("created %s, a dish of drops; run petri view and edit it: each saved change is shown at once",
+        message("created %s, a dish of drops; while 'petri view' shows it, each saved change appears at once",
                 path.data);
         hint_pictures(context, path.data);
     }

@@ -96,7 +96,7 @@ static bool read_time(const Args *args, void *field) {
     double seconds = 0;
     bool good = petri_parse_number(args->value, &seconds) && isfinite(seconds) && seconds >= 0;
     *(double *)field = seconds;
-    return good || report_invalid_value(args, "seconds or a time code");
+    return good || report_invalid_value(args, "seconds or a time code such as 1:30");
 }
 
 // Returns the index of a word in a list that ends with NULL, or -1 if it is not in the list.
@@ -128,7 +128,7 @@ static bool read_sections(const Args *args, void *field) {
     for (char *rest = list; rest;) {
         int section = find_word(args->option->words, strsep(&rest, ","));
         if (section < 0)
-            return report_invalid_value(args, "a list of tree, state, log, error, hash");
+            return report_invalid_value(args, "one or more of tree, state, log, error and hash, separated by commas");
         *sections |= (unsigned)PETRI_PRINT_TREE << section;
     }
     return true;

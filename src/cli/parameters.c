@@ -67,8 +67,8 @@ size_t parameters_list(PetriSession *session, Output *output) {
             text_table_write(&table, output);
             text_table_free(&table);
             table = text_table_new(COLUMNS);
-            output_format(output, "%s%s, a module: definitions do not apply, defaults are used\n", i == 0 ? "" : "\n",
-                          parameter.file);
+            output_format(output, "%s%s, a module: -D does not affect it, its parameters have their defaults\n",
+                          i == 0 ? "" : "\n", parameter.file);
             byte_buffer_free(&file);
             byte_buffer_add_text(&file, parameter.file);
         }

@@ -41,7 +41,7 @@ void script_report_second(const char *first, const char *second) {
     else if (strchr(other, '='))
         message("'%s' is not a script; did you mean '-D %s'?", other, other);
     else
-        message("too many scripts: '%s' and '%s'; give one", first, second);
+        message("too many scripts: '%s' and '%s'; give only one", first, second);
 }
 
 static const char *read_stdin(ByteBuffer *text, size_t max_bytes) {
@@ -104,7 +104,7 @@ static void list_scripts(const char *folder) {
     for (size_t i = 0; i < scripts.gl_pathc && i < MAX_SUGGESTIONS; i++)
         byte_buffer_format(&list, "%s%s", i == 0 ? "" : ", ", scripts.gl_pathv[i]);
     if (scripts.gl_pathc > 0)
-        message("choose a script in it: %s%s", list.data, scripts.gl_pathc > MAX_SUGGESTIONS ? " ..." : "");
+        message("choose a script in the folder: %s%s", list.data, scripts.gl_pathc > MAX_SUGGESTIONS ? " ..." : "");
     globfree(&scripts);
 }
 
@@ -185,6 +185,6 @@ void hint_pictures(const CommandContext *context, const char *script) {
     SCOPED_BYTE_BUFFER operand = {0};
     shell_add_program(&program, context->invoked_as);
     shell_add_word(&operand, script);
-    message("to see it: %s view %s", program.data, operand.data);
-    message("to save a picture of it: %s render %s -o OUT.png (or OUT.mp4)", program.data, operand.data);
+    message("to watch the script: %s view %s", program.data, operand.data);
+    message("to save a picture: %s render %s -o OUT.png (or OUT.mp4)", program.data, operand.data);
 }

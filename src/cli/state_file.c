@@ -14,7 +14,7 @@ bool state_file_restore(StateFile *file, PetriSession *session, const char *name
     file->unreadable = status != PETRI_OK;
     file->last_attempt = clock_seconds();
     if (file->unreadable) {
-        message("%sstarting without it; '%s' is unchanged, nothing is saved",
+        message("%sstarting without the saved state; '%s' is not changed, and no state is saved",
                 status == PETRI_OUT_OF_MEMORY ? "out of memory: " : "", name);
     }
     return !file->unreadable;
@@ -33,7 +33,7 @@ const char *state_file_save(StateFile *file, PetriSession *session, bool at_once
     file->last_attempt = clock_seconds();
     if (file->outdated == before)
         return NULL;
-    return !file->outdated                 ? "the state is saved again"
+    return !file->outdated                 ? "saving the state works again"
            : status == PETRI_OUT_OF_MEMORY ? "out of memory: cannot save the state; retrying every few seconds"
                                            : "cannot save the state; retrying every few seconds";
 }

@@ -45,7 +45,7 @@ static bool format_text(Formatting *formatting, const char *name, const ByteBuff
     bool done = layout_text(formatting->session, text, out);
     Str formatted = {out->data, out->length};
     if (!done || (!str_equal(formatted, text) && !layout_same(formatting->session, shown, text, formatted))) {
-        message("cannot format %s: its compiled code would change; please report this bug of petri", shown);
+        message("cannot format %s: its compiled code would change; please report this bug in petri", shown);
         return false;
     }
     return true;
@@ -104,7 +104,7 @@ static int fmt_run(const CommandContext *host, Options *options) {
     size_t count = options->scripts.count;
     if (count > 1 || !script_is_stdin(options->scripts.items[0].path)) {
         message("%zu file%s: %zu %s, %zu unchanged", count, count == 1 ? "" : "s", formatting.changed,
-                formatting.only_checks ? "to format" : "formatted", count - formatting.changed);
+                formatting.only_checks ? "unformatted" : "formatted", count - formatting.changed);
     }
     bool good = formatting.failed == 0 && !options->unreadable && !(formatting.only_checks && formatting.changed > 0);
     return good ? STATUS_DONE : STATUS_FAILED;

@@ -115,7 +115,7 @@ static bool report_difference(const Comparison *comparison, const Line *expected
         byte_buffer_format(error_text, "nothing more");
     else
         add_excerpt(error_text, expected->text, where.expected_at);
-    byte_buffer_format(error_text, " got ");
+    byte_buffer_format(error_text, ", got ");
     if (!got)
         byte_buffer_format(error_text, "nothing");
     else

@@ -55,7 +55,7 @@ bool rejection_check(const char *path, const char *name, int status, const ByteB
     char place[32] = "any line";
     if (wanted != ANY_LINE)
         snprintf(place, sizeof place, "line %ld", wanted);
-    byte_buffer_format(error_text, "expected an error in %s got ", place);
+    byte_buffer_format(error_text, "expected an error in %s, got ", place);
     if (WEXITSTATUS(status) == 0) {
         byte_buffer_format(error_text, "none");
         return false;

@@ -35,7 +35,7 @@ static int print_link(const Linked *linked, const char *page) {
         return STATUS_FAILED;
     byte_buffer_add_text(&link, "\n");
     if (!page && isatty(STDERR_FILENO))
-        message("append this to the URL of the playground (--page URL), or run 'petri open' with it");
+        message("append this text to the playground's URL, as --page does, or open it with 'petri open'");
     return output_text(link.data, link.length, STATUS_DONE);
 }
 

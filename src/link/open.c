@@ -68,7 +68,7 @@ static int write_script(const CommandContext *context, const Linked *linked, con
             byte_buffer_format(&changes, " after frame %" PRId64, change->frame);
     }
     if (changes.length > 0)
-        message("the link also sets%s, which is not in %s", changes.data, file);
+        message("the link also sets%s; these settings are not in %s", changes.data, file);
     hint_pictures(context, file);
     return STATUS_DONE;
 }
@@ -93,12 +93,13 @@ static int compare_state(const LinkSession *link_session, const Options *options
     int status = !options->output ? output_text(text.data, text.length, STATUS_DONE) : STATUS_DONE;
     SCOPED_TEXT hash = link_session_hash(link_session);
     if (!linked->hash) {
-        message("%s: no state to compare: the link has no hash", linked->name);
+        message("%s: no state to compare: the link has no hash; 'petri link --frame N' adds one", linked->name);
         return status;
     }
     bool same = strcmp(hash, linked->hash) == 0;
     message(same ? "%s: frame %" PRId64 ": state matches the link exactly"
-                 : "%s: frame %" PRId64 ": state differs from the link; it may be from another version of petri",
+                 : "%s: frame %" PRId64
+                   ": state differs from the link, probably because another version of petri made the link",
             linked->name, linked->frame);
     return same ? status : STATUS_FAILED;
 }
@@ -147,7 +148,7 @@ const Command OPEN_COMMAND = {
                 "  petri open '#q1bKU...' -o dish.fl               also save the script\n"
                 "  petri open '#q1bKU...' -o dish.png              also save the picture\n"
                 "  petri link dish.fl --frame 99 | petri open -    make a link and open it\n",
-    .missing_operand = "no link given (a link needs quotes)",
+    .missing_operand = "no link given (put it in quotes)",
     .second_operand_error = "too many arguments: '%s'; petri open takes one link, in quotes",
     .options = FOR_OPEN,
     .run = open_run,

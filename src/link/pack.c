@@ -117,8 +117,8 @@ bool link_pack(ByteBuffer *out, const Linked *linked) {
     add_base64(out, packed, bound - stream.avail_out);
     free(packed);
     if (out->length - start > MAX_LENGTH) {
-        message("the script is too long for a link: %zu characters, at most %d; share the file", out->length - start,
-                MAX_LENGTH);
+        message("the script is too long for a link: %zu characters when compressed, at most %d; share the file instead",
+                out->length - start, MAX_LENGTH);
         return false;
     }
     return true;

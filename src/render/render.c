@@ -59,7 +59,7 @@ static bool read_output(Render *render) {
     Options *options = render->frames.options;
     const char *end = NULL;
     if (!options->output) {
-        message("option '--output' is missing: petri render %s -o OUT.png", options->script);
+        message("option '--output' is missing; try: petri render %s -o OUT.png", options->script);
         return false;
     }
     if (options->format && !stdout_file_is_requested(options->output)) {
@@ -141,7 +141,7 @@ static void output_picture(Render *render) {
     const Options *options = render->frames.options;
     int64_t number = petri_frame(render->frames.session).number;
     if (options->frame >= 0 && number != options->frame) {
-        message("nothing to draw: the run ended with frame %" PRId64 ", not %" PRId64, number, options->frame);
+        message("nothing to draw: the run ended with frame %" PRId64 ", before frame %" PRId64, number, options->frame);
         render->failed = true;
     } else {
         draw_frame(render, false, options->output);

@@ -160,7 +160,7 @@ bool frames_step(Frames *frames) {
         progress_erase(&frames->progress);
         message("stopped in frame %" PRId64 "%s", number,
                 status == PETRI_OUT_OF_MEMORY    ? ": out of memory"
-                : status == PETRI_LIMIT_EXCEEDED ? "; set other limits with --work and --memory"
+                : status == PETRI_LIMIT_EXCEEDED ? "; to raise the limits, use --work and --memory"
                                                  : "");
         return false;
     }

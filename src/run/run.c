@@ -130,7 +130,7 @@ static bool open_trajectory(Run *run) {
     if (!options->trajectory)
         return true;
     if (frames->state.unreadable && access(options->trajectory, F_OK) == 0) {
-        message("'%s' is unchanged as well", options->trajectory);
+        message("'%s' is not changed either, and no trajectory is written", options->trajectory);
         return true;
     }
     frames->state.before = trajectory_sync;
@@ -303,7 +303,7 @@ const Command RUN_COMMAND = {
         "A top-level line such as `let CELLS=CELLS or 200 -- 1..500 how many` declares a parameter. 'petri run\n"
         "--parameters SCRIPT.fl' lists parameters, '-D CELLS=50' sets one. The range is optional; a value outside it\n"
         "and an unknown name cause warnings. Numbers may have suffixes (1k, 20m), vectors are 1;2;3, symbols are\n"
-        ":name. A value of 0 selects the default, because 0 is false. Modules do not see definitions.",
+        ":name. A value of 0 selects the default, because 0 is false. -D does not affect modules.",
     .examples = "  petri run dish.fl --stats                       print speed and final energy\n"
                 "  petri run dish.fl --print state --every 60      print the state once a second\n"
                 "  petri run dish.fl -D DROPS=50 --frames 100      set a parameter\n"

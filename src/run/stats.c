@@ -19,8 +19,9 @@ void stats_count(Stats *stats, PetriSession *session) {
 
 // Prints communication statistics of a system. Each value is the maximum over all ranks.
 static void print_traffic(PetriSession *session, size_t number, const PetriRanks *ranks) {
-    static const char *const how[] = {"replicated: small, one step per frame, or forces that cannot be distributed",
-                                      "by pairs", "by region"};
+    static const char *const how[] = {
+        "replicated: the system is small, has one step per frame or has forces that cannot be distributed", "by pairs",
+        "by region"};
     enum { OWN, HALO, BYTES, MESSAGES, FRAME_BYTES, REDUCTIONS, NUMBERS };
     PetriRankStats traffic;
     if (!ranks || !petri_rank_stats(session, number, &traffic))

@@ -18,7 +18,7 @@ static int connect_to(const char *path) {
     if (descriptor >= 0)
         strcpy(address.sun_path, path);
     if (descriptor < 0 || connect(descriptor, (const struct sockaddr *)&address, sizeof address) != 0) {
-        message("cannot reach a view at %s: %s; start one with petri view SCRIPT.fl --listen %s", path,
+        message("cannot reach a view at %s: %s; to start one, run 'petri view SCRIPT.fl --listen %s'", path,
                 descriptor < 0 ? "name too long" : strerror(errno), path);
         return -1;
     }
@@ -49,7 +49,8 @@ static int send_run(const CommandContext *context, Options *options) {
     if (options->argc == 1 && (strcmp(options->argv[0], "--help") == 0 || strcmp(options->argv[0], "-h") == 0))
         return help_for(&SEND_COMMAND);
     if (options->argc != 2) {
-        message("expected a socket and code: petri send /tmp/dish 'let SPEED=2', or - for standard input");
+        message("expected a socket and code, as in: petri send /tmp/dish 'let SPEED=2'; '-' reads the code from "
+                "standard input");
         return STATUS_USAGE;
     }
     SCOPED_BYTE_BUFFER text = {0};
@@ -70,9 +71,10 @@ const Command SEND_COMMAND = {
     .details =
         "Sends TEXT (-: standard input) to a view that was started with --listen SOCKET, and prints its answer as\n"
         "lines of JSON: {\"text\": ...} for values and debug(), diagnostics, and finally {\"done\": true}. TEXT is\n"
-        "evaluated as in petri repl: expressions once, bindings and nodes in every frame, after the\n"
-        "script. '.set NAME VALUE' sets a parameter ('.set NAME' its default), '.back N' goes back N frames, '.drop'\n"
-        "removes what was sent before, '.reset' restarts the script. Exits with 1 if the text was rejected.",
+        "evaluated as in petri repl: expressions are evaluated once, bindings and nodes in every frame, after the\n"
+        "script. '.set NAME VALUE' sets a parameter, '.set NAME' resets it to its default, '.back N' goes back N "
+        "frames,\n"
+        "'.drop' removes what was sent before, '.reset' restarts the script. Exits with 1 if the text was rejected.",
     .examples = "  petri view dish.fl --listen /tmp/dish &\n"
                 "  petri send /tmp/dish 'len($)'\n"
                 "  petri send /tmp/dish '.set SPEED 0.5'\n",

@@ -225,7 +225,7 @@ static bool filter_runs(Design *design, const char *where, const CommandContext 
     petri_close(&session);
     design->run_count = left;
     if (!good || left == 0)
-        message(good ? "no runs: '%s' is never true" : "option '--where' expects an expression, not '%s'", where);
+        message(good ? "no runs: '%s' is never true" : "cannot evaluate the condition of '--where': '%s'", where);
     return good && left > 0;
 }
 

@@ -72,7 +72,7 @@ static int resume_journal(Journal *journal, Sweep *sweep) {
     size_t good = read_runs(sweep, &text);
     bool fresh = good == 0 && is_prefix(&text, &head);
     if (good == 0 && !fresh) {
-        message("%s belongs to another sweep: script, values or options have changed; remove it to start over",
+        message("%s belongs to another sweep: script, values or options have changed; to start over, remove that file",
                 journal->path);
         return STATUS_USAGE;
     }

@@ -144,7 +144,7 @@ static bool try_expression(Measure *measure, const char *option, const char *exp
     bool aborted = status == PETRI_OUT_OF_MEMORY || status == PETRI_LIMIT_EXCEEDED || status == PETRI_INTERRUPTED;
     if (aborted || (status != PETRI_INVALID && petri_diagnostic_count(measure->session, PETRI_ERROR) == errors))
         return true;
-    message("option '--%s' expects an expression, not '%s'", option, expression);
+    message("cannot evaluate the expression of '--%s': '%s'", option, expression);
     return false;
 }
 

@@ -46,7 +46,7 @@ static bool add_values(const Plan *plan, ByteBuffer *word, const yaml_node_t *va
 // Adds the options of `define:` or `metric:`, which contain lines `NAME: VALUE`.
 static bool add_names(const Plan *plan, const char *option, const yaml_node_t *names) {
     if (names->type != YAML_MAPPING_NODE)
-        return report_error(plan, names->start_mark, "expected lines `NAME: VALUE` below: ", option);
+        return report_error(plan, names->start_mark, "expected indented lines `NAME: VALUE` below ", option);
     for (yaml_node_pair_t *pair = names->data.mapping.pairs.start; pair < names->data.mapping.pairs.top; pair++) {
         const yaml_node_t *key = yaml_document_get_node(plan->document, pair->key);
         SCOPED_BYTE_BUFFER word = {0};
@@ -71,11 +71,11 @@ static bool add_option(const Plan *plan, const OptionSpec *spec, const yaml_node
     if (strcmp(spec->name, "define") == 0 || strcmp(spec->name, "metric") == 0)
         return add_names(plan, spec->name, value);
     if (!text)
-        return report_error(plan, value->start_mark, "expected one value: ", spec->name);
+        return report_error(plan, value->start_mark, "expected one value for ", spec->name);
     if (!spec->value && strcmp(text, "false") == 0)
         return true;
     if (!spec->value && strcmp(text, "true") != 0)
-        return report_error(plan, value->start_mark, "expected true or false: ", spec->name);
+        return report_error(plan, value->start_mark, "expected true or false for ", spec->name);
     SCOPED_BYTE_BUFFER word = {0};
     byte_buffer_format(&word, !spec->value ? "--%s" : "--%s=%s", spec->name, text);
     texts_add(plan->words, word.data);

@@ -103,7 +103,7 @@ static bool read_shard(Sweep *sweep) {
     sweep->shard = (size_t)shard - 1;
     sweep->shards = (size_t)shards;
     if (shards > 1 && !sweep->options->output) {
-        message("option '--shard' needs a table; add -o FILE.csv");
+        message("option '--shard' needs a file for the table; add -o FILE.csv");
         return false;
     }
     return true;

@@ -81,8 +81,8 @@ static ParameterResult step_value(ParameterKeys *keys, LiveScript *live, int ste
     if (isnan(to) || to == parameter.number) {
         describe_parameter(live, keys->chosen, text);
         byte_buffer_format(text, "%s",
-                           isnan(parameter.number) ? ": keys change numbers only"
-                           : isnan(to)             ? ": cannot be 0, which selects the default"
+                           isnan(parameter.number) ? ": the keys change only numbers"
+                           : isnan(to)             ? ": the keys do not set 0, because 0 selects the default"
                                                    : "");
         return PARAMETER_MESSAGE;
     }
@@ -98,7 +98,7 @@ ParameterResult parameter_key(ParameterKeys *keys, LiveScript *live, const char 
         return PARAMETER_NOT_A_KEY;
     size_t count = count_parameters(live->session);
     if (count == 0) {
-        byte_buffer_format(text, "the script has no parameters, such as let SIZE=SIZE or 20");
+        byte_buffer_format(text, "the script has no parameters; 'let SIZE=SIZE or 20' declares one");
         return PARAMETER_MESSAGE;
     }
     bool first = !keys->used || keys->chosen >= count; // the number of parameters may have changed

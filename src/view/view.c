@@ -286,7 +286,7 @@ static void check_display(View *view) {
     if (!view->kind->gone || !view->kind->gone(view->display))
         return;
     view->broken = !has_purpose(view);
-    message(view->broken ? "display lost" : "display lost; continuing without it");
+    message(view->broken ? "display lost; the run ends" : "display lost; continuing without it");
     view->kind = null_display();
     view->display = NULL;
     view->paused = false; // there is no longer a keyboard with which to resume
@@ -434,8 +434,8 @@ const Command VIEW_COMMAND = {
     .details =
         "Runs a script and shows its pictures, or its particles, in a window or, without a display, in the terminal.\n"
         "When the script is saved, it is reloaded and keeps its state. If the script has errors, they are shown and\n"
-        "the last good version keeps running. If the display is lost, a run with a limited length, a state file, a\n"
-        "socket or pictures to record continues without a display.\n"
+        "the last good version keeps running. If the display is lost, the run ends, unless its length is limited or\n"
+        "it saves a state, listens on a socket or records pictures.\n"
         "\n"
         "Keys: space pauses, . takes one step, r restarts, f toggles full screen, s saves the picture, h shows frame\n"
         "rate and clocks, w lists warnings (a corner shows their number), q or Escape quits. Tab or ] and [ select a\n"
@@ -444,7 +444,7 @@ const Command VIEW_COMMAND = {
         "Control is held.",
     .examples = "  petri view dish.fl                              shows changes whenever dish.fl is saved\n"
                 "  petri view dish.fl --terminal -D DROPS=50       in the terminal\n",
-    .missing_operand = "no script was given",
+    .missing_operand = "no script given",
     .no_stdin = "'petri view' watches the script file and cannot read the script from standard input; "
                 "'petri render -' can",
     .options = FOR_VIEW,

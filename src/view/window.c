@@ -129,7 +129,7 @@ static SDL_Renderer *new_renderer(SDL_Window *window) {
 
 static bool start_on(const DisplayProbe *screen) {
     if (!display_probe_answers(screen)) {
-        SDL_SetError("nothing answers at %s=%s", screen->variable, display_probe_name(screen));
+        SDL_SetError("no display server answers at %s=%s", screen->variable, display_probe_name(screen));
         return false;
     }
     SDL_SetHint(SDL_HINT_VIDEODRIVER, screen->driver);
@@ -140,7 +140,7 @@ static bool start_on(const DisplayProbe *screen) {
 static bool start_video(void) {
     const char *driver = chosen_driver();
     bool started = false, tried = false;
-    SDL_SetError("no screen is named");
+    SDL_SetError("neither DISPLAY nor WAYLAND_DISPLAY is set");
     for (size_t i = 0; display_probe_kind(i) && !started; i++) {
         const DisplayProbe *screen = display_probe_kind(i);
         if (display_probe_name(screen) && (!driver || strcmp(driver, screen->driver) == 0)) {

@@ -81,4 +81,4 @@ petri fmt corpus
 check "fmt formats scripts of the corpora" grep -Eq 'petri: [0-9]{3,} files: [0-9]{2,} formatted' err
 check "formatted corpora have the same code" lacks err "its compiled code would change"
 petri fmt --check corpus
-check "formatted corpora need no more changes" grep -Eq ': 0 to format' err
+check "formatted corpora need no more changes" grep -Eq ': 0 unformatted' err

@@ -44,7 +44,7 @@ case_is digit <digit
 verdict digit
 check "a different last digit fails" fails
 check "a failure shows frame, line, expected and got" \
-    has out "FAIL g/digit.fl frame 1 line 7: expected !n a=0.3333333333333334 b=1;2;3 c='it' d=:sym got !n a=0.3333333333333333 b"
+    has out "FAIL g/digit.fl frame 1 line 7: expected !n a=0.3333333333333334 b=1;2;3 c='it' d=:sym, got !n a=0.3333333333333333 b"
 sed 's/^# run.*/&\n# tolerance 1e-9/' digit >tolerance
 case_is tolerance <tolerance
 verdict tolerance
@@ -151,7 +151,7 @@ check "'line *' accepts any line" passes
 echo 'line 1' >g/wrong.err
 verdict wrong
 check "a rejection in another line fails" fails
-check "a rejection in another line is reported" has out "expected an error in line 1 got one in line 2"
+check "a rejection in another line is reported" has out "expected an error in line 1, got one in line 2"
 echo 'row 2' >g/wrong.err
 verdict wrong
 check "an unreadable .err fails" fails
@@ -174,7 +174,7 @@ printf '# run --frames 1 --print tree\n@0 time=0 beat=0\n!n a=1\n' >g/below/d.go
 petri test --jobs 3 g
 check "results come in the order of the paths" out_is "ok g/a.fl
 ok g/b.fl
-FAIL g/below/d.fl frame 0 line 3: expected !n a=1 got !n a=0
+FAIL g/below/d.fl frame 0 line 3: expected !n a=1, got !n a=0
 ok g/c.fl
 3 passed, 1 failed"
 check "one failure makes the suite fail" status_is 1

@@ -37,7 +37,7 @@ check "--parameters lists name, default, range and comment" out_is "CELLS  200  
 SPEED  1.5
 TITLE  'a dish'
 
-cells_module.fl, a module: definitions do not apply, defaults are used
+cells_module.fl, a module: -D does not affect it, its parameters have their defaults
 WIDE  3  1..9  metres"
 check "--parameters succeeds" status_is 0
 check "--parameters does not run the script" lacks out "@0"

@@ -39,7 +39,7 @@ petri run dish2
 check "an unknown name without a similar one gives one message" lines_are err 1
 petri run shelf
 check "a folder is reported as a directory" has err "'shelf': it is a directory"
-check "a folder's scripts are suggested" has err "choose a script in it: shelf/book.fl, shelf/lamp.fl"
+check "a folder's scripts are suggested" has err "choose a script in the folder: shelf/book.fl, shelf/lamp.fl"
 petri run ''
 check "an empty name is a wrong command line" status_is 2
 check "an empty script name is reported" [ "$(cat err)" = "petri: the script name is empty" ]
@@ -95,7 +95,7 @@ check "a picture before the script suggests -o" has err "to write it, run: petri
 petri run dish.fl shelf/book.fl
 check "a second script is reported" has err "too many scripts: 'dish.fl' and 'shelf/book.fl'"
 petri run dish.fl --frames
-check "an option without its value shows its help" has err "option '--frames' needs a value: N, stop after N frames"
+check "an option without its value shows its help" has err "option '--frames' needs a value; '--frames N' means: stop after N frames"
 petri nodes
 check "the name of a help list as a command suggests petri help" has err "did you mean 'petri help nodes'?"
 petri list

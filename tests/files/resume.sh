@@ -71,7 +71,7 @@ for format in $formats; do
     echo something else >other.$format
     petri run w.fl --frames 2 --state s --trajectory other.$format
     check "$format: a file of another kind is rejected" status_is 1
-    check "$format: a file of another kind is reported" has err "cannot continue other.$format: not a file that --trajectory writes"
+    check "$format: a file of another kind is reported" has err "cannot continue other.$format: it was not written by '--trajectory'"
     check "$format: a file of another kind is not modified" [ "$(cat other.$format)" = "something else" ]
     echo bad >bad.state
     petri run w.fl --frames 2 --state bad.state --trajectory $way.copy.$format

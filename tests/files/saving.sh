@@ -16,7 +16,7 @@ check "the message says that saving is retried" has err "cannot save the state; 
 mkdir later
 wait $job
 status=$?
-check "the first success after a failure is reported once" count_is err "the state is saved again" 1
+check "the first success after a failure is reported once" count_is err "saving the state works again" 1
 check "the run succeeds if the last state was saved" eval 'status_is 0 && good_state later/w.state'
 "$petri" run w.fl --realtime --runtime 100 --state never/w.state >out 2>err </dev/null &
 job=$!
@@ -40,7 +40,7 @@ if [ "$(id -u)" -eq 0 ] && mkdir small && mount -t tmpfs -o size=256k tmpfs smal
     rm small/full
     wait $job
     status=$?
-    check "the state is saved when there is space again" eval 'status_is 0 && has err "the state is saved again" && good_state small/w.state'
+    check "the state is saved when there is space again" eval 'status_is 0 && has err "saving the state works again" && good_state small/w.state'
     petri run w.fl --frames 1 --print state --state small/w.state
     check "the saved state is the last one" [ "$(sed -n 's/^@\([0-9]*\).*/\1/p' out)" -gt 700 ]
     head -c 1000000 /dev/zero >small/full 2>/dev/null

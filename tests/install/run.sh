@@ -38,7 +38,7 @@ check "the message is one line" [ "$(wc -l <out)" -eq 1 ]
 # a terminal.
 hint() {
     env ${2:+"$2"} TERM=dumb script -qec "'$1' run --frames 2 dish.fl" /dev/null 2>/dev/null </dev/null |
-        tr -d '\r' | tee out | sed -n 's/.*to save a picture of it: \(.*\) (or OUT.mp4)/\1/p'
+        tr -d '\r' | tee out | sed -n 's/.*to save a picture: \(.*\) (or OUT.mp4)/\1/p'
 }
 sh_works() { rm -f OUT.png && sh -c "$1" >out 2>&1 && [ -s OUT.png ]; }
 # Minimal containers have no pseudo-terminals.

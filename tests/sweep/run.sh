@@ -303,7 +303,7 @@ refused "a range without an end is rejected" "not a range: '1..'" sum.fl -D A=1.
 refused "NetCDF is rejected" 'ends in .csv or .h5' sum.fl -D A=1..3 --metric a=A -o table.nc
 refused "an empty value is rejected" 'empty value' sum.fl -D 'A=1;;2' --metric a=A
 refused "a metric named like a column is rejected" 'already has a column with this name' sum.fl -D A=1 --metric A=1
-refused "a metric that is not an expression is rejected" "option '--metric' expects an expression, not '1+'" sum.fl --metric 'a=1+'
+refused "a metric that is not an expression is rejected" "cannot evaluate the expression of '--metric': '1+'" sum.fl --metric 'a=1+'
 refused "a condition with an unbound name is rejected" "option '--where' expects" sum.fl -D A=1 --where 'X > 1' --metric a=A
 check "the diagnostic shows the condition as written" has err '    X > 1'
 refused "a condition that is never true is rejected" "no runs: 'A > 5' is never true" sum.fl -D A=1 --where 'A > 5' --metric a=A

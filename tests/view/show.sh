@@ -34,14 +34,14 @@ check "a fast script ends by itself" soon shows 'status 0'
 check "the last picture stays on the screen" eval 'screen | grep -q "[▀▄█▌▐]"'
 check "the graphics card is not mentioned" hides 'graphics card'
 check "a summary is printed" soon shows 'petri: 30 frames in '
-check "a hint explains how to view the script" soon shows 'petri: to see it: '
-check "a hint explains how to save a picture" soon shows 'petri: to save a picture of it: '
+check "a hint explains how to view the script" soon shows 'petri: to watch the script: '
+check "a hint explains how to save a picture" soon shows 'petri: to save a picture: '
 mkdir -p build/src
 cp "$petri" "$(dirname "$petri")/petri-pictures" build/src
 ln -s src/petri build/petri
 typed "$work/build/petri run --show --frames 2 -D X=7 dish.fl"
-check "in the project folder the hint is short" soon shows 'petri: to see it: build/petri view dish.fl'
-hint=$(screen | sed -n 's/^petri: to see it: //p')
+check "in the project folder the hint is short" soon shows 'petri: to watch the script: build/petri view dish.fl'
+hint=$(screen | sed -n 's/^petri: to watch the script: //p')
 typed "$hint --frames 3"
 check "the command of the hint works" soon shows 'petri: 3 frames in '
 

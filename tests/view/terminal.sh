@@ -165,7 +165,7 @@ check "the range's step is used" soon shows 'HIGH = 0.4'
 type_keys NPage
 check "page down takes ten steps, within the range" soon shows 'HIGH = 0.1 '
 type_keys ']' Up
-check "a parameter that is not a number is not changed" soon shows "NAME = 'dots': keys change numbers only"
+check "a parameter that is not a number is not changed" soon shows "NAME = 'dots': the keys change only numbers"
 type_keys '[' '['
 check "[ selects the previous parameter" soon shows 'DOTS = 2'
 type_keys PPage

@@ -473,13 +473,13 @@ check "no display and no terminal fails" [ $? -eq 1 ]
 check "the message names the display" has err "no display"
 DISPLAY=:9999 "$petri" view still.fl >out 2>err </dev/null
 check "a display that does not answer fails" [ $? -eq 1 ]
-check "the message names the display that does not answer" has err "cannot open a window: nothing answers at DISPLAY=:9999"
+check "the message names the display that does not answer" has err "cannot open a window: no display server answers at DISPLAY=:9999"
 # If no driver is selected, SDL opens an invisible window.
 unset SDL_VIDEODRIVER
 for place in DISPLAY=:9999 DISPLAY=localhost:99.0 DISPLAY=nonsense WAYLAND_DISPLAY=wayland-none; do
     env -u DISPLAY XDG_RUNTIME_DIR=. "$place" timeout 60 "$petri" view still.fl >out 2>err </dev/null
     check "$place fails" [ $? -eq 1 ]
-    check "the message names $place" has err "nothing answers at $place"
+    check "the message names $place" has err "no display server answers at $place"
 done
 view still still.fl
 press q
@@ -488,7 +488,7 @@ kill -STOP "$server"
 timeout 60 "$petri" view still.fl >out 2>err </dev/null
 check "a display that accepts connections but never answers fails" [ $? -eq 1 ]
 kill -CONT "$server"
-check "the message names the silent display" has err "nothing answers at DISPLAY="
+check "the message names the silent display" has err "no display server answers at DISPLAY="
 
 # If the display is lost, a view that records continues, in this test at a higher frame rate.
 cat >slow.fl <<'END'
