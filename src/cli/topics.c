@@ -59,8 +59,9 @@ static void print_attributes(ByteBuffer *text, size_t kind) {
 }
 
 const char FORMULA_LETTERS[] =
-    "of a particle, or of both particles of a pair: r radius, m mass, q charge, v velocity; l distance of a pair, "
-    "s distance from a wall; n dimensions, δ time step; F > 0 is repulsive, in your units of mass·length/time²";
+    "r radius, m mass, q charge, v velocity of a particle or of both particles of a pair; l distance of a pair; "
+    "s distance from a wall; n number of dimensions; δ time step; F > 0 is repulsive; the unit of F is "
+    "mass·length/time²";
 
 void help_formula(ByteBuffer *text, const PetriNodeKind *kind) {
     for (const char *line = kind->formula; *line != '\0'; line += line[0] == '\n') {

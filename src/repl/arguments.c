@@ -180,7 +180,7 @@ static bool execute_alias(Repl *repl, const char *word, size_t length, const cha
     if (!command || !(alone || (topic && strcmp(command, ".help") == 0)))
         return false;
     if (is_bound(repl, word, length)) {
-        byte_buffer_format(remark, "%.*s is a name here; the command is %s", (int)length, word, command);
+        byte_buffer_format(remark, "'%.*s' is a name here; the command is %s", (int)length, word, command);
         return false;
     }
     SCOPED_BYTE_BUFFER line = {0};

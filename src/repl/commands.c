@@ -41,10 +41,10 @@ static void list_commands(ByteBuffer *text) {
     }
     table_text(&table, text);
     byte_buffer_add_text(
-        text, "Numbers may be expressions: .resolution 1/240. All other input is code: the value of an "
-              "expression is printed; let, func, import and nodes are kept. Indented lines belong to the first "
-              "line; Up returns to them, and an empty line ends the block. Ctrl-C interrupts. "
-              "Try .help builtins, .help nodes, .help !particle, .help polar, .help tempo.\n");
+        text, "A number can be given as an expression, as in '.resolution 1/240'. Input that is not a command is "
+              "code: the value of an expression is printed; let, func, import and nodes are kept. Indented lines "
+              "belong to the line above them; Up returns to earlier lines, and an empty line ends the block. Ctrl-C "
+              "interrupts. Try '.help builtins', '.help nodes', '.help !particle', '.help polar' or '.help tempo'.\n");
 }
 
 static void list_builtins(ByteBuffer *text) {
@@ -135,7 +135,7 @@ static bool time_expression(Repl *repl, const char *expression) {
     }
     repl_idle(repl);
     if (repl_status(repl, status))
-        note_seconds(repl, best, ", the best of several evaluations");
+        note_seconds(repl, best, ", the fastest of several evaluations");
     return status == PETRI_OK;
 }
 
@@ -156,8 +156,10 @@ static bool run_quit(Repl *repl, const char *rest) {
 }
 
 const ReplCommand OTHER_COMMANDS[] = {
-    {".time", "EXPR", "an expression, or a command", "time an expression or a command", run_time, COMPLETE_LANGUAGE},
-    {".help", "[TOPIC]", NULL, "show help for a topic; `builtins` and `nodes` list all", run_help, COMPLETE_TOPICS},
+    {".time", "EXPR", "an expression, or a command", "measure the time of an expression or a command", run_time,
+     COMPLETE_LANGUAGE},
+    {".help", "[TOPIC]", NULL, "show help for a topic; `builtins` lists all functions, `nodes` all nodes", run_help,
+     COMPLETE_TOPICS},
     {".quit", "", NULL, "quit", run_quit, COMPLETE_LANGUAGE},
     {0},
 };

@@ -187,7 +187,7 @@ static bool run_show(Repl *repl, const char *rest) {
 }
 
 const ReplCommand PLOT_COMMANDS[] = {
-    {".plot", "EXPR [N]", "an expression", "plot a number over the last N frames (default: 60)", run_plot,
+    {".plot", "EXPR [N]", "an expression", "plot the number EXPR over the last N frames (default: 60)", run_plot,
      COMPLETE_LANGUAGE},
     {".show", "", NULL, "show the frame's picture in the terminal", run_show, COMPLETE_LANGUAGE},
     {0},

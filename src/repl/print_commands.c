@@ -51,8 +51,8 @@ static void write_line(Filter *filter, const char *line, size_t length) {
 // lines.
 static void note_remaining(const Filter *filter, const char *command, const char *asked) {
     if (filter->lines > filter->max_lines) {
-        repl_note(filter->repl, "%zu more lines; %s%s%s all shows all", filter->lines - filter->max_lines, command,
-                  asked[0] == '\0' ? "" : " ", asked);
+        repl_note(filter->repl, "%zu more lines; '%s%s%s all' shows all lines", filter->lines - filter->max_lines,
+                  command, asked[0] == '\0' ? "" : " ", asked);
     }
 }
 
@@ -83,7 +83,7 @@ static bool run_state(Repl *repl, const char *rest) {
     SCOPED_TEXT wanted = memory_strndup(prefix + enclosed, length);
     Filter filter = {.wanted = wanted, .repl = repl, .handle_line = filter_entry, .max_lines = max_lines};
     if (print_filtered(repl, PETRI_PRINT_STATE, &filter) == 0)
-        repl_note(repl, wanted[0] == '\0' ? "the state is empty" : "nothing in the state is under %s", wanted);
+        repl_note(repl, wanted[0] == '\0' ? "the state is empty" : "the state has no entry under %s", wanted);
     note_remaining(&filter, ".state", asked);
     return true;
 }
@@ -197,8 +197,8 @@ static void print_particles(Repl *repl, size_t number, const PetriSystem *system
     }
     text_table_write(&table, &repl->output);
     if (system->particle_count > request->max_lines) {
-        repl_note(repl, "%zu more; .particles%s%s all shows all", system->particle_count - request->max_lines,
-                  request->system[0] == '\0' ? "" : " ", request->system);
+        repl_note(repl, "%zu more particles; '.particles%s%s all' shows all",
+                  system->particle_count - request->max_lines, request->system[0] == '\0' ? "" : " ", request->system);
     }
 }
 
@@ -267,7 +267,7 @@ static bool run_unwatch(Repl *repl, const char *rest) {
 const ReplCommand PRINT_COMMANDS[] = {
     {".state", "[KEY] [N|all]", NULL, "print the state, or its entries under KEY, such as :cells; at most N lines",
      run_state, COMPLETE_KEYS},
-    {".tree", "[KIND] [N|all]", NULL, "print the frame's nodes, or those of a kind; at most N lines", run_tree,
+    {".tree", "[KIND] [N|all]", NULL, "print the frame's nodes, or only those of KIND; at most N lines", run_tree,
      COMPLETE_KINDS},
     {".particles", "[SYSTEM] [N|all]", NULL, "print particles as a table: id, position, velocity, speed, force",
      run_particles, COMPLETE_SYSTEMS},

@@ -44,11 +44,14 @@ static bool can_record(Repl *repl, const char *script) {
     if (history->epochs[0].config != petri_config_revision(repl->session))
         return repl_fail(repl, "cannot record: settings changed after these frames; run .reset and step again");
     if (repl->rates_changed)
-        return repl_fail(repl, "cannot record .tempo and .fps; load the script again with .load");
+        return repl_fail(repl, "cannot record frames after .tempo or .fps; to start again, run .load FILE");
     if (petri_resolution(repl->session) > 0)
-        return repl_fail(repl, "cannot record .resolution; run .resolution off and .reset, and step again");
+        return repl_fail(repl,
+                         "cannot record frames with .resolution; run '.resolution off' and .reset, and step again");
     if (repl->loaded && !same_folder(repl->script, script))
-        return repl_fail(repl, "the golden must be in the folder of '%s': file names in it are relative", repl->script);
+        return repl_fail(repl,
+                         "the golden must be in the folder of '%s', because its file names are relative to that folder",
+                         repl->script);
     return true;
 }
 
@@ -59,7 +62,7 @@ static bool write_script(Repl *repl, const char *path) {
     if (!kept && repl->loaded && same_path(repl->script, path))
         return true;
     if (access(path, F_OK) == 0)
-        return repl_fail(repl, "'%s' already exists and is another script", path);
+        return repl_fail(repl, "'%s' already exists and is another script; choose another name", path);
     SCOPED_BYTE_BUFFER text = {0};
     byte_buffer_add(&text, repl->script_text.length == 0 ? "" : repl->script_text.data,
                     repl->loaded ? repl->script_text.length : 0);

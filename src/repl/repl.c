@@ -106,7 +106,7 @@ static void execute_statement(Repl *repl, const char *text, size_t length) {
         repl_warn_shadowed(repl, name);
     }
     if (done.nodes > 0)
-        repl_note(repl, "added to the scene at the next step; .drop removes it");
+        repl_note(repl, "nodes are added to the scene at the next step; .drop removes them");
     repl_status(repl, status);
 }
 

@@ -217,7 +217,8 @@ bool repl_report_changes(Repl *repl, bool at_prompt) {
 
 static bool run_drop(Repl *repl, const char *rest) {
     if (rest[0] != '\0' && strcmp(rest, "all") != 0)
-        return repl_fail(repl, "invalid argument: '%s'; .drop removes nodes, .drop all also names", rest);
+        return repl_fail(repl, "invalid argument: '%s'; .drop removes nodes, and .drop all removes nodes and names",
+                         rest);
     uint32_t count = petri_prompt_clear(repl->session, rest[0] != '\0');
     repl_note(repl, "%" PRIu32 " statement%s removed", count, count == 1 ? "" : "s");
     return true;
@@ -250,7 +251,7 @@ static bool run_restore(Repl *repl, const char *rest) {
 }
 
 const ReplCommand SCRIPT_COMMANDS[] = {
-    {".drop", "[all]", NULL, "remove nodes added at the prompt; `all`: names too", run_drop, COMPLETE_LANGUAGE},
+    {".drop", "[all]", NULL, "remove nodes added at the prompt; with `all`, also names", run_drop, COMPLETE_LANGUAGE},
     {".load", "FILE", "a file", "load another script and start with an empty state", run_load, COMPLETE_FILES},
     {".reload", "", NULL, "reload the script; keep state and frame number", run_reload, COMPLETE_LANGUAGE},
     {".save", "FILE", "a file", "write the state to a file", run_save, COMPLETE_FILES},

@@ -46,7 +46,7 @@ static bool set_parameter(Repl *repl, const char *name, const char *definition) 
         return repl_status(repl, PETRI_OUT_OF_MEMORY);
     uint64_t warnings = petri_diagnostic_count(repl->session, PETRI_WARNING);
     bool good = petri_define(repl->session, definition) == PETRI_OK ||
-                repl_fail(repl, ".set expects NAME VALUE, such as .set COUNT 50");
+                repl_fail(repl, ".set expects NAME VALUE, such as '.set COUNT 50'");
     if (good && !repl_status(repl, petri_reload(repl->session, NULL))) {
         petri_config_apply(repl->session, before);
         good = false;
@@ -63,7 +63,7 @@ static bool note_named_parameter(Repl *repl, const char *name) {
     PetriParameter parameter;
     if (!parameter_find(repl->session, name, &parameter)) {
         return repl_fail(
-            repl, ".set expects NAME VALUE, such as .set COUNT 50; '%.40s' is not a parameter of the script", name);
+            repl, "'%.40s' is not a parameter of the script; .set expects NAME VALUE, such as '.set COUNT 50'", name);
     }
     note_parameter(repl, &parameter);
     return true;
@@ -151,7 +151,7 @@ const ReplCommand SET_COMMANDS[] = {
      COMPLETE_PARAMETERS},
     {".tempo", "[T]", NULL, "show or set the beats per minute", run_tempo, COMPLETE_LANGUAGE},
     {".fps", "[F]", NULL, "show or set the frames per second", run_fps, COMPLETE_LANGUAGE},
-    {".resolution", "[R | off]", NULL, "show or set the longest simulation step of all systems", run_resolution,
+    {".resolution", "[R | off]", NULL, "show or set the maximum time step of all systems", run_resolution,
      COMPLETE_LANGUAGE},
     {0},
 };

@@ -38,7 +38,7 @@ static bool format_frame(Repl *repl, ByteBuffer *text) {
 void repl_show_frame(Repl *repl) {
     SCOPED_BYTE_BUFFER text = {0};
     if (petri_frame(repl->session).number < 0) {
-        repl_note(repl, "before the first frame");
+        repl_note(repl, "this is before the first frame");
         return;
     }
     petri_preview(repl->session); // recomputes the log if a change of settings has discarded it
@@ -78,9 +78,10 @@ static void report_outcome(Repl *repl, const StepRequest *request, int64_t made,
     if (repl_interrupted())
         repl_fail(repl, "interrupted after %" PRId64 " frame%s", made, made == 1 ? "" : "s");
     else if (outcome == RUNNING && request->until)
-        repl_fail(repl, "not true within %" PRId64 " frame%s (--limit)", made, made == 1 ? "" : "s");
+        repl_fail(repl, "the condition was not true within %" PRId64 " frame%s; --limit sets this maximum", made,
+                  made == 1 ? "" : "s");
     else if (outcome == RUNNING && request->limited)
-        repl_note(repl, "stopped after %" PRId64 " frames (--limit)", made);
+        repl_note(repl, "stopped after %" PRId64 " frames; --limit sets this maximum", made);
 }
 
 static bool step_frames(Repl *repl, const StepRequest *request) {
@@ -194,7 +195,7 @@ static bool run_back(Repl *repl, const char *rest) {
     const char *why = repl->history.why;
     byte_buffer_format(&start, !why ? "this is the start" : "the history starts here (%s)", why);
     if (ago > 0)
-        repl_note(repl, "only %" PRId64 " frames in the history: %s", ago, start.data);
+        repl_note(repl, "went back only %" PRId64 " frame%s: %s", ago, ago == 1 ? "" : "s", start.data);
     else
         repl_fail(repl, "cannot go back: %s", start.data);
     return ago > 0 && go_to(repl, repl->history.first);
@@ -223,7 +224,7 @@ const ReplCommand STEP_COMMANDS[] = {
     {".until", "EXPR [--limit N]", "an expression", "compute frames until EXPR is true, at most N", run_until,
      COMPLETE_LANGUAGE},
     {".back", "[N]", NULL, "go back N frames (default: 1), at most to the start", run_back, COMPLETE_LANGUAGE},
-    {".goto", "FRAME", "the number of a frame", "go to a frame, back or forward; -1 is before the first", run_go,
+    {".goto", "FRAME", "the number of a frame", "go to a frame, back or forward; -1: before frame 0", run_go,
      COMPLETE_LANGUAGE},
     {".reset", "", NULL, "go back to the start of the session", run_reset, COMPLETE_LANGUAGE},
     {0},

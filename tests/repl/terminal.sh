@@ -143,10 +143,10 @@ start --color never heavy.fl
 type_keys '.step 3' Enter
 expect ".step 3 makes three frames" '^@2 time='
 type_keys C-l '.particles' Enter
-expect "a long table is cut to the screen" '^-- 3[0-9][0-9] more; \.particles all shows all'
+expect "a long table is cut to the screen" '^-- 3[0-9][0-9] more particles; .\.particles all. shows all'
 expect "the first line of a long table is still visible" '^:many: 400 particles'
 type_keys C-l '.state' Enter
-expect "a long state is cut to the screen" '^-- 7[0-9][0-9] more lines; \.state all shows all'
+expect "a long state is cut to the screen" '^-- 7[0-9][0-9] more lines; .\.state all. shows all lines'
 type_keys C-l '.particles 7' Enter
 expect ".particles 7 notes how many rows were omitted" '^-- 393 more; '
 expect ".particles 7 prints the seventh row" '^6 '
