@@ -46,7 +46,8 @@ static void exec_writer(int stream, char **words) {
     if (nothing >= 0 && dup2(stream, STDIN_FILENO) >= 0 && dup2(nothing, STDOUT_FILENO) >= 0)
         cause = helper_exec(words[0], words);
     message("cannot write %s: cannot start petri-hdf5: %s%s", words[2], strerror(cause),
-            cause == ENOENT ? "; petri was built without HDF5 (Debian: libhdf5-dev)" : "");
+            cause == ENOENT ? "; petri was built without HDF5; on Debian, install libhdf5-dev and build petri again"
+                            : "");
     _exit(STATUS_FAILED);
 }
 

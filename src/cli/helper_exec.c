@@ -81,7 +81,8 @@ int helper_exec_lsp(char **argv) {
     char path[PATH_MAX + 64];
     int cause = exec_helper("petri-lsp", argv, path);
     message("cannot start petri-lsp: %s%s", strerror(cause),
-            cause == ENOENT ? "; petri was built without json-c (Debian: libjson-c-dev)" : "");
+            cause == ENOENT ? "; petri was built without json-c; on Debian, install libjson-c-dev and build petri again"
+                            : "");
     return STATUS_FAILED;
 #endif
 }
@@ -96,7 +97,9 @@ int helper_exec_ranks(char **argv, bool needed) {
         return -1;
     if (rank == 0) {
         message("cannot start petri-ranks: %s%s", strerror(cause),
-                cause == ENOENT ? "; petri was built without MPI (Debian: libopenmpi-dev)" : "");
+                cause == ENOENT
+                    ? "; petri was built without MPI; on Debian, install libopenmpi-dev and build petri again"
+                    : "");
     }
     return STATUS_FAILED;
 }

@@ -252,7 +252,8 @@ bool link_read(Linked *linked, const ByteBuffer *link) {
 #else
 
 bool link_possible(void) {
-    message("cannot use links: petri was built without zlib or json-c (Debian: zlib1g-dev, libjson-c-dev)");
+    message("cannot use links: petri was built without zlib or json-c; on Debian, install zlib1g-dev and "
+            "libjson-c-dev, and build petri again");
     return false;
 }
 

@@ -168,7 +168,7 @@ bool video_open(Video *video, const char *file, int width, int height, double fp
     close(ends[0]);
     if (pid < 0) {
         set_error_text(video, "cannot write '%s': cannot start ffmpeg: %s%s", file, strerror(error),
-                       error == ENOENT ? " (Debian: apt install ffmpeg)" : "");
+                       error == ENOENT ? "; on Debian, run: apt install ffmpeg" : "");
         reset_video(video);
         return false;
     }

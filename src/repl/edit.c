@@ -353,7 +353,7 @@ LineStatus editor_read(Editor *editor, const char *prompt, ByteBuffer *lines) {
 #include <stddef.h>
 
 Editor *editor_new(Repl *repl) {
-    repl_note(repl, "built without libedit: lines cannot be edited, completed or recalled");
+    repl_note(repl, "petri was built without libedit: lines cannot be edited, completed or recalled");
     return NULL;
 }
 

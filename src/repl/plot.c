@@ -176,7 +176,8 @@ enum { LINES_BELOW = 2 }; // terminal rows kept free for the prompt, below the p
 static bool run_show(Repl *repl, const char *rest) {
     (void)rest;
     if (!terminal_picture_possible())
-        return repl_fail(repl, "cannot show pictures in the terminal: petri was built without libchafa");
+        return repl_fail(repl, "cannot show pictures in the terminal: petri was built without libchafa; on Debian, "
+                               "install libchafa-dev and build petri again");
     repl_complete_frame(repl);
     repl_busy(repl);
     PetriStatus status = petri_preview(repl->session);

@@ -34,7 +34,7 @@ static int send_text(const char *path, const ByteBuffer *text) {
                 byte_buffer_read(&reply, view, SIZE_MAX / 2);
     close(view);
     if (!sent || reply.length == 0) {
-        message("no answer from the view");
+        message("the view closed the connection without an answer");
         return STATUS_FAILED;
     }
     int status = output_text(reply.data, reply.length, STATUS_DONE);

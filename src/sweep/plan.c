@@ -164,7 +164,8 @@ bool plan_read(const char *path, TextList *words) {
 
 bool plan_read(const char *path, TextList *words) {
     (void)words;
-    message("cannot read %s: petri was built without libyaml", path);
+    message("cannot read %s: petri was built without libyaml; on Debian, install libyaml-dev and build petri again",
+            path);
     return false;
 }
 

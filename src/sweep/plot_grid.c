@@ -226,6 +226,6 @@ bool plot_grid_draw(const Sweep *sweep, const char *path) {
     petri_painter_close(&painter);
     petri_close(&session);
     if (status != PETRI_OK)
-        message("cannot draw %s", path);
+        message("cannot draw the plot %s", path);
     return status == PETRI_OK;
 }

@@ -379,7 +379,7 @@ const Command SWEEP_COMMAND = {
         "\n"
         "-D NAME=1..10 means 1, 2 ... 10; 0..1|0.05 is a range with a step; 1;5;20 is a list. Mix them: 1;5..20|5.\n"
         "Write a vector in parentheses, (1;2), and a list of vectors as (1;2);(3;4). The first name changes most\n"
-        "slowly; SEED, which --seeds counts from 1, most quickly.\n"
+        "slowly. SEED, which --seeds counts from 1, changes most quickly.\n"
         "\n"
         "A failed run is a row with an error message. With -o FILE, finished runs are stored in FILE.part: after\n"
         "Ctrl-C or kill -9, run the same command to resume; the table is then the same to the last byte. FILE.runs\n"

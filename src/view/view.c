@@ -326,8 +326,9 @@ static bool open_display(View *view) {
     bool window = !options->terminal && window_display() && window_has_screen();
     if (!window && !terminal_display()) {
         message(options->terminal || window_display()
-                    ? "cannot show pictures in a terminal: petri was built without libchafa"
-                    : "cannot show pictures: petri was built without SDL and libchafa");
+                    ? "cannot show pictures in a terminal: petri was built without libchafa; on Debian, install "
+                      "libchafa-dev and build petri again"
+                    : "cannot show pictures: petri was built without SDL and libchafa; './dev build' adds both");
         return false;
     }
     view->kind = window ? window_display() : terminal_display();
@@ -372,7 +373,7 @@ static void report_summary(const View *view) {
     if (is_show(view))
         hint_pictures(view->host, view->live.options->script);
     else if (window_has_screen() && !window_display() && verbosity >= LOG_NORMAL)
-        message("shown in the terminal, because petri was built without SDL; './dev build' adds windows");
+        message("petri used the terminal, because it was built without SDL; './dev build' adds windows");
 }
 
 static int run_view(View *view) {

@@ -20,7 +20,7 @@ END
 "$work/bare/petri" run pair.fl --frames 2 --trajectory run.h5 >out 2>err </dev/null
 status=$?
 check "petri without petri-hdf5 cannot write H5MD" status_is 1
-check "petri without petri-hdf5 names the missing library" has err "built without HDF5 (Debian: libhdf5-dev)"
+check "petri without petri-hdf5 names the missing library" has err "built without HDF5; on Debian, install libhdf5-dev"
 if [ -x "$(dirname "$petri")/petri-hdf5" ]; then
     petri run pair.fl --trajectory absent/run.h5
     check "an H5MD file in a missing folder is an error" status_is 1
