@@ -17,7 +17,7 @@
 #define UNPOISON(address, size) ((void)(address), (void)(size))
 #endif
 
-// The stress build uses tiny blocks, so that every path crosses a block boundary.
+// The stress build uses tiny blocks, so that all code that allocates crosses block boundaries.
 #ifdef PETRI_STRESS
 enum { MIN_BLOCK_SIZE = 64, MAX_BLOCK_SIZE = 1024 };
 #else
@@ -139,7 +139,7 @@ ArenaOutcome arena_protect(Arena *const arenas[], size_t count, void (*call)(voi
             arenas[i]->escape = &escape;
         }
     ArenaOutcome end = call_with(&escape, call, context);
-    for (size_t i = count; i-- > 0;) // in reverse, because an arena may be listed twice
+    for (size_t i = count; i-- > 0;) // in reverse order, which also restores an arena that is listed twice
         if (arenas[i])
             arenas[i]->escape = outer[i];
     return end;

@@ -1,10 +1,10 @@
 // arena.h: a bump allocator, whose allocations all have the same lifetime.
 //
-// Each frame, program and session has an arena, and everything allocated from it is freed together. Single values are
-// never freed. arena_alloc never returns NULL. If the arena's limit, the budget or the machine's memory is exhausted,
-// it escapes: it jumps (longjmp) to the enclosing arena_protect, which returns the reason. Public functions, such as
-// those that load a script or compute a frame, convert the reason to a status. If no arena_protect encloses the call,
-// which is a bug in petri, the process is aborted.
+// Each frame, program and session has an arena, and everything allocated from it is freed together. Individual
+// allocations are never freed. arena_alloc never returns NULL. If the arena's limit, the budget or the machine's memory
+// is exhausted, it escapes: it jumps (longjmp) to the enclosing arena_protect, which returns the reason. Public
+// functions, such as those that load a script or compute a frame, convert the reason to a status. If no arena_protect
+// encloses the call, which is a bug in petri, the process is aborted.
 #ifndef PETRI_BASE_ARENA_H
 #define PETRI_BASE_ARENA_H
 
@@ -32,8 +32,8 @@ enum { ARENA_ALIGNMENT = 16 };
 typedef struct ArenaBlock ArenaBlock;
 struct ArenaBlock {
     ArenaBlock *next;
-    size_t capacity; // bytes; a multiple of the alignment
-    size_t fill;     // bytes allocated; a multiple of the alignment
+    size_t capacity; // size of `bytes`; a multiple of ARENA_ALIGNMENT
+    size_t fill;     // number of bytes allocated so far; a multiple of ARENA_ALIGNMENT
     size_t padding;  // keeps `bytes` aligned
     unsigned char bytes[];
 };
@@ -43,12 +43,12 @@ _Static_assert(offsetof(ArenaBlock, bytes) % ARENA_ALIGNMENT == 0, "block payloa
 typedef struct Arena {
     ArenaBlock *first;   // linked list of blocks, oldest first; a reset does not free them
     ArenaBlock *current; // the block that is being filled
-    size_t used;         // bytes allocated since the last reset, with padding
-    size_t high_water;   // largest value of `used` at a rewind or reset
+    size_t used;         // bytes allocated since the last reset, including alignment padding
+    size_t high_water;   // largest value that `used` had when a rewind or reset began
     size_t limit;        // maximum of `used`, in bytes
-    jmp_buf *escape;     // where to jump on failure: the innermost arena_protect; NULL: abort the process
-    Budget *budget;      // charged for blocks and work; NULL: none
-    const char *name;    // for messages
+    jmp_buf *escape;     // jump target on failure, in the innermost arena_protect; NULL: a failure aborts the process
+    Budget *budget;      // budget that is charged for blocks and work; NULL: nothing is charged
+    const char *name;    // name of the arena in error messages
 } Arena;
 
 // A point in the sequence of allocations, to which arena_rewind returns.
@@ -70,7 +70,8 @@ typedef enum ArenaOutcome {
 enum { ARENA_MAX_PROTECTED = 8 };
 // Calls `call`. If an allocation or charge of one of the arenas fails, `call` is aborted and the reason is returned.
 // NULL arenas are ignored. If calls of arena_protect are nested, a failure ends the innermost one that lists the arena.
-// Heap blocks that `call` allocates must be reachable from `context`, so that the caller can free them.
+// Heap blocks that `call` allocates must be reachable from `context`, so that the caller can free them if
+// `call` is aborted.
 ArenaOutcome arena_protect(Arena *const arenas[], size_t count, void (*call)(void *context), void *context);
 // Like arena_alloc, but returns NULL on failure.
 void *arena_try_alloc(Arena *arena, size_t size);
@@ -81,8 +82,8 @@ void arena_init(Arena *arena, const char *name, size_t limit);
 // Frees all blocks.
 void arena_free(Arena *arena);
 
-// Like arena_free, but while budget->retains is true the blocks move to budget->retained. They stay unchanged and
-// charged, because the host may still read them.
+// Like arena_free, but if budget->retains is true, the blocks are moved to budget->retained instead of being freed.
+// Their bytes stay unchanged and charged to the budget, because the host may still read them.
 void arena_retire(Arena *arena);
 // Frees the blocks that arena_retire has retained.
 void arena_free_retained(Budget *budget);
@@ -119,26 +120,26 @@ static inline void arena_charge(Arena *arena, uint64_t units) {
         arena_check(arena, outcome);
 }
 
-// Charges the work of a long loop in chunks. The loop calls it for each index i, starting at 0. Each time BUDGET_CHUNK
-// elements are complete, they are charged. An incomplete last chunk is not charged.
+// Charges the work of a long loop, `units_each` for each element. The loop calls this function for each index i,
+// starting at 0. Work is charged after every BUDGET_CHUNK elements, so an incomplete last chunk is not charged.
 static inline void arena_charge_chunk(Arena *arena, size_t i, unsigned units_each) {
     if (i % BUDGET_CHUNK == BUDGET_CHUNK - 1)
         arena_charge(arena, (uint64_t)BUDGET_CHUNK * units_each);
 }
 
-// Allocates `count` elements of `size` bytes each and charges the work of filling them. If the product overflows, it
-// escapes with ARENA_MEMORY_LIMIT.
+// Allocates `count` elements of `size` bytes each and charges the work of filling them. Escapes with
+// ARENA_MEMORY_LIMIT if count * size overflows.
 void *arena_alloc_array(Arena *arena, size_t count, size_t size);
 
-// Returns a copy of `size` bytes.
+// Copies `size` bytes to the arena. Returns the copy.
 void *arena_copy(Arena *arena, const void *bytes, size_t size);
 
-// Enlarges the allocation `bytes`: in place if it is the most recent one and its block has space. Otherwise returns a
-// larger copy.
+// Enlarges the allocation `bytes` from old_size to new_size bytes. If it is the most recent allocation and its block
+// has space, it is enlarged in place. Otherwise returns a larger copy.
 void *arena_grow(Arena *arena, void *bytes, size_t old_size, size_t new_size);
 
-// Ensures that an array of `count` elements of `size` bytes has capacity for one more. If necessary, doubles the
-// capacity. Returns `items` or its larger copy.
+// Ensures that the array `items` of `count` elements, each of `size` bytes, has capacity for one more element. If it is
+// full, doubles *capacity. Returns `items` or a larger copy of it.
 void *arena_grow_array(Arena *arena, void *items, uint32_t count, uint32_t *capacity, size_t size);
 
 // Escapes with ARENA_OUT_OF_MEMORY. Called if a heap allocation fails while the arena is in use.

@@ -1,9 +1,9 @@
 // budget.h: the work and memory budget of a session.
 //
-// Work is counted in units of about 10 ns: a loop iteration, a call, a node or the addition of sixteen numbers. It is
-// charged before it is done, through the arena that an operation allocates from (arena.h). Large operations charge in
-// chunks, because an interrupt is noticed only when work is charged. A block of memory is charged from its
-// allocation until it is freed, even while none of it is in use.
+// Work is counted in units of about 10 ns. One unit is, for example, a loop iteration, a call, a node or the addition
+// of sixteen numbers. An operation charges its work before doing it, through the arena from which it allocates
+// (arena.h). Large operations charge in chunks, because an interrupt is noticed only when work is charged. A block of
+// memory is charged from its allocation until it is freed, even while none of it is in use.
 #ifndef PETRI_BASE_BUDGET_H
 #define PETRI_BASE_BUDGET_H
 
@@ -14,26 +14,28 @@
 
 typedef struct Budget {
     uint64_t work;                             // units charged since budget_begin; work_limit + 1: limit exceeded
-    uint64_t next_check;                       // value of `work` above which budget_check is called
-    uint64_t work_limit;                       // units
-    size_t memory;                             // bytes charged
-    size_t memory_limit;                       // bytes
+    uint64_t next_check;                       // budget_check is called once `work` exceeds this value
+    uint64_t work_limit;                       // maximum of `work`
+    size_t memory;                             // bytes currently charged
+    size_t memory_limit;                       // maximum of `memory`
     bool memory_refused;                       // true if budget_reserve has failed since budget_begin
-    atomic_bool *interrupt;                    // set by the host to interrupt; NULL: cannot be interrupted
-    bool (*should_interrupt)(void *user_data); // polled by the charging thread; true: interrupt; NULL: not polled
+    atomic_bool *interrupt;                    // set by the host to interrupt the work; NULL: cannot be interrupted
+    bool (*should_interrupt)(void *user_data); // called repeatedly during work; true: interrupt; NULL: not called
     void *user_data;                           // passed to should_interrupt
     bool retains;   // true: arena_retire keeps blocks in `retained`, because the host may still read them
-    void *retained; // linked list of ArenaBlock
+    void *retained; // linked list of the ArenaBlocks that arena_retire has kept
 } Budget;
 
-// How many bytes or numbers of an array a simple loop reads or fills for one unit of work.
+// Number of bytes, or of doubles, that a simple loop over an array reads or fills for one unit of work.
 enum { BUDGET_BYTES = 128, BUDGET_NUMBERS = BUDGET_BYTES / sizeof(double) };
-// Elements per chunk: few enough for a prompt interrupt, enough to make the cost of charging negligible.
+// Number of elements that a long loop processes between two charges: small enough that an interrupt is noticed
+// promptly, and large enough that the cost of charging is negligible.
 enum { BUDGET_CHUNK = 1 << 14 };
 
 typedef enum BudgetOutcome { BUDGET_OK, BUDGET_EXCEEDED, BUDGET_INTERRUPTED } BudgetOutcome;
 
-// Resets the charged work and memory_refused at the start of a call. Memory stays charged. `interrupt` may be NULL.
+// Starts to count the work of an operation, such as loading a script: resets `work` and memory_refused. Memory stays
+// charged. `interrupt` may be NULL.
 void budget_begin(Budget *budget, uint64_t work_limit, atomic_bool *interrupt);
 // Returns BUDGET_OK if work may continue, else the reason to stop. Sets next_check. Called if `work` exceeds
 // next_check.

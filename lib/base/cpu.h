@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-// Each level includes the previous ones. Results do not depend on the level.
+// Levels of vector instructions. Each level includes the previous ones. Computed results do not depend on the level.
 typedef enum CpuLevel { CPU_SCALAR, CPU_AVX2, CPU_AVX512, CPU_LEVELS } CpuLevel;
 
 // The instructions that the processor and the operating system support, limited by the environment variable PETRI_CPU.
@@ -16,7 +16,7 @@ typedef struct Cpu {
 extern Cpu cpu_detected;
 
 // Sets *level to the lower of `requested` ("scalar", "avx2" or "avx512", as in PETRI_CPU) and cpu_detected.level. If
-// `requested` is NULL, empty or unknown, sets *level to cpu_detected.level. Returns false if it is unknown.
+// `requested` is NULL, empty or unknown, sets *level to cpu_detected.level. Returns false only if it is unknown.
 bool cpu_choose(const char *requested, CpuLevel *level);
 const char *cpu_name(CpuLevel level);
 

@@ -38,7 +38,7 @@ bool diag_report(DiagSink *sink, const Diag *diag) {
 static const char *const level_names[] = {"error", "warning", "note"};
 static const char *const level_colours[] = {"\033[1;31m", "\033[1;35m", "\033[1;36m"};
 
-// Returns the part of a line around the column, at most MAX_WIDTH characters, and makes *column relative to it.
+// Returns the part of a line around *column, at most MAX_WIDTH characters, and makes *column relative to its start.
 static Str excerpt(Str line, uint32_t *column) {
     enum { MAX_WIDTH = 160, CONTEXT_WIDTH = 60 };
     if (utf8_length(line) <= MAX_WIDTH)

@@ -37,7 +37,7 @@ void diag_sink_free(DiagSink *sink);
 // Stores a copy of `diag` and returns true. Returns false if the same text at the same location is already stored, or
 // if the sink is full. The source must outlive the sink.
 bool diag_report(DiagSink *sink, const Diag *diag);
-// Returns the text, truncated to 400 bytes.
+// Returns the text of a diagnostic, truncated to 400 bytes.
 Str diag_text(const Diag *diag);
 // Appends `FILE:LINE:COLUMN: level: text`, the source line, a caret line and the hint (spec cli.md 3.5). Every line
 // ends with a newline.

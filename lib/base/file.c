@@ -125,7 +125,7 @@ bool file_read(Arena *arena, const FileAccess *file_access, const char *path, bo
         outcome = arena_protect(&arena, 1, read_all, &reading);
     close(file);
     if (outcome != ARENA_OK)
-        arena_escape(arena, outcome); // does not return, so the file is closed first
+        arena_escape(arena, outcome); // does not return, so the file was closed before
     if (version && !reading.problem)
         *version = version_of(arena, &info);
     *bytes = reading.bytes;

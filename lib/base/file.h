@@ -6,18 +6,21 @@
 
 #include <sys/types.h>
 
-// Reads a file of at most `limit` bytes into the arena, followed by a NUL byte. If `regular` is true, only regular
-// files are accepted. If it is false, pipes and devices are accepted too. On failure returns false and sets *problem to
-// the reason, a constant string or one in the arena. If `version` is not NULL, sets *version to a string that changes
-// when the file changes. file_access restricts which files can be read; NULL: no restriction.
+// Reads a file of at most `limit` bytes into the arena. Sets *bytes to its contents, which are followed by a NUL byte.
+// If `regular` is true, only regular files are accepted. If it is false, pipes and devices are accepted too. On failure
+// returns false and sets *problem to the reason, a constant string or one in the arena. If `version` is not NULL, sets
+// *version to a string that changes when the file changes. file_access restricts which files can be read; NULL: no
+// restriction.
 bool file_read(Arena *arena, const FileAccess *file_access, const char *path, bool regular, size_t limit, Str *bytes,
                Str *version, const char **problem);
 bool file_exists(const char *path);
-// Gets the version that file_read would return. Returns false if the file does not exist or cannot be accessed.
+// Sets *version to the same string as file_read would. Returns false if the file does not exist or cannot be accessed.
 bool file_version(Arena *arena, const FileAccess *file_access, const char *path, Str *version);
-// Replaces a file atomically. `flags` are ReplaceFlags. Returns NULL on success, else the reason for the failure.
+// Replaces the contents of a file by `bytes` atomically. `flags` are ReplaceFlags. Returns NULL on success, else the
+// reason for the failure.
 const char *file_replace(const char *path, Str bytes, unsigned flags);
-// Writes `bytes` to a replacement and commits it. On failure aborts the replacement and returns the reason, else NULL.
+// Writes `bytes` to a replacement and commits it. Returns NULL on success. On failure aborts the replacement and
+// returns the reason.
 const char *file_finish(Replacement *replacement, Str bytes);
 // Calls openat with O_CLOEXEC and O_NOCTTY, and retries if interrupted by a signal. `folder` may be AT_FDCWD.
 int file_open_at(int folder, const char *name, int flags, mode_t mode);
@@ -25,8 +28,8 @@ int file_open_at(int folder, const char *name, int flags, mode_t mode);
 bool file_write(int file, const char *bytes, size_t len);
 // Truncates a file to `len` bytes. On failure returns false with errno set.
 bool file_truncate(int file, size_t len);
-// Resolves symbolic links, "." and ".." in a path. The file itself need not exist, but its folder must. On failure
-// returns false with errno set.
+// Sets `resolved` to the path with symbolic links, "." and ".." resolved. The file itself need not exist, but its
+// folder must. On failure returns false with errno set.
 bool file_resolve(const char *path, char resolved[PATH_MAX]);
 // Returns a NUL-terminated path with symbolic links, "." and ".." resolved. A path that does not exist is copied
 // unchanged. If the host provides the files (FileAccess.read_file), the path is only normalised.

@@ -12,16 +12,17 @@
 typedef enum FileAccessKind { FILE_ACCESS_READ, FILE_ACCESS_WRITE, FILE_ACCESS_KIND_COUNT } FileAccessKind;
 
 typedef struct FileAccess {
-    const Str *folders[FILE_ACCESS_KIND_COUNT]; // by kind: canonical paths, NUL-terminated
-    uint32_t counts[FILE_ACCESS_KIND_COUNT];
-    Str script_folder; // canonical folder of the script, readable and writable; empty: none
-    Str directory;     // folder in which relative names in scripts are resolved, as the user gave it
-    bool no_files;     // true: all files on disk are denied
+    const Str *folders[FILE_ACCESS_KIND_COUNT]; // allowed folders by kind: canonical, NUL-terminated
+    uint32_t counts[FILE_ACCESS_KIND_COUNT];    // number of allowed folders by kind
+    Str script_folder;                          // canonical folder of the script, readable and writable; empty: none
+    Str directory; // path, as the user gave it, of the folder that relative paths in scripts start from
+    bool no_files; // true: all files on disk are denied
     // If not NULL, the host provides all files for reading, and the folders do not restrict reading. Returns the bytes
-    // of a file, or NULL if it does not exist. Bytes must not change as long as the same pointer is returned.
+    // of a file, or NULL if it does not exist. If the bytes of a file change, the returned pointer must change too.
     const char *(*read_file)(void *user_data, const char *name, size_t *length);
     void *read_user_data; // passed to read_file and read_unsaved
-    // If not NULL, returns the unsaved text of an existing file, or NULL if it has none. `name` is its canonical path.
+    // If not NULL, returns the unsaved text of an existing file, or NULL if it has none. `name` is the canonical path
+    // of the file.
     const char *(*read_unsaved)(void *user_data, const char *name, size_t *length);
 } FileAccess;
 
@@ -36,8 +37,8 @@ FileAccess file_access_copy(Arena *arena, const FileAccess *file_access);
 
 // Returns true if access to a canonical path is allowed. If file_access is NULL, all paths are allowed.
 bool file_access_allows(const FileAccess *file_access, FileAccessKind kind, const char *path);
-// Sets `resolved` to the canonical path and checks access. On failure returns false with errno set; EXDEV means that
-// access is not allowed.
+// Sets `resolved` to the canonical form of `path` and checks access to it. On failure returns false with errno set;
+// EXDEV means that access is not allowed.
 bool file_access_resolve(const FileAccess *file_access, FileAccessKind kind, const char *path, char resolved[PATH_MAX]);
 // Sets *bytes to the result of the read_file callback for the normalised path. On failure returns false with errno set.
 bool file_access_read(const FileAccess *file_access, const char *path, Str *bytes);
@@ -52,7 +53,7 @@ int file_access_open(const FileAccess *file_access, const char *path, int flags)
 // Like replace_begin, but only for a regular or new file, and only if writing it is allowed. On failure returns false
 // with errno set (EXDEV: not allowed).
 bool file_access_replace(const FileAccess *file_access, const char *path, Replacement *replacement);
-// Creates the missing folders of a file's path. Returns false if writing the file is not allowed.
+// Creates the missing folders that will contain the file `path`. Returns false if writing the file is not allowed.
 bool file_access_make_folders(const FileAccess *file_access, const char *path);
 // Returns why access to a path is denied and which option would allow it, as a constant string or one in the arena.
 const char *file_access_reason(Arena *arena, const FileAccess *file_access, FileAccessKind kind, const char *path);

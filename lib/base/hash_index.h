@@ -11,17 +11,17 @@
 
 typedef struct HashIndexSlot {
     uint32_t hash;  // upper half of the 64-bit hash
-    uint32_t entry; // position + 1; 0: empty slot; INDEX_DELETED: removed entry
+    uint32_t entry; // position of the entry + 1; 0: empty slot; INDEX_DELETED: the entry was removed
 } HashIndexSlot;
 
 typedef struct HashIndex {
     HashIndexSlot *slots; // on the heap; NULL: not allocated yet
     uint32_t mask;        // number of slots - 1
-    uint32_t used;        // number of slots in use, including removed entries
+    uint32_t used;        // number of slots that are not empty, including those of removed entries
     uint32_t live;        // number of entries
 } HashIndex;
 
-#define HASH_INDEX_NONE UINT32_C(0xfffffff0) // not found; no entry has this position
+#define HASH_INDEX_NONE UINT32_C(0xfffffff0) // result if no entry is found; not a valid position
 
 // Returns true if the owner's entry at position `entry` has this key.
 typedef bool HashIndexMatch(const void *owner, uint32_t entry, const void *key);

@@ -5,9 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The only mutable global state outside sessions. Some callers have no session, such as painters that share a shader.
-static HeapAllocator current_allocator; // `allocate` NULL: the C library is used
-static atomic_size_t block_count;       // allocated blocks
+// The only mutable global state outside sessions. It is global because some callers have no session, such as painters
+// that share a shader.
+static HeapAllocator current_allocator; // if `allocate` is NULL, the C library is used
+static atomic_size_t block_count;       // number of allocated blocks
 
 static void *count_block(void *block) {
     if (block)

@@ -31,8 +31,8 @@ void *heap_resize(void *block, size_t size);
 void heap_free(void *block);
 // Returns a copy of `length` bytes, followed by a NUL byte.
 char *heap_strndup(const char *bytes, size_t length);
-// Grows a heap array of `size`-byte elements if it cannot hold more than `count` elements. Returns false, with nothing
-// changed, if out of memory.
+// Ensures that the heap array *array can hold at least count + 1 elements of `size` bytes each. Updates *capacity if
+// the array grows. Returns false, with nothing changed, if out of memory.
 bool heap_reserve(void **array, uint32_t *capacity, uint32_t count, size_t size);
 
 #endif

@@ -44,7 +44,8 @@ static size_t format_special(double x, char *text) {
     return strlen(word);
 }
 
-// A positive decimal number d.ddd * 10^exponent, where d.ddd are the digits.
+// A positive decimal number in the form d.ddd * 10^exponent. `digits` holds `count` digits, and the decimal point is
+// after the first.
 typedef struct Decimal {
     char digits[20];
     int count;
@@ -59,14 +60,15 @@ static void drop_zeros(Decimal *decimal) {
 __extension__ typedef unsigned __int128 Product;
 
 enum { MAX_DIGITS = 17 };
-#define MIN_FRACTION 1e-5                // its scale is 21; 5^21 has 49 bits
+// Smallest x for which integer arithmetic is used. Its scale (see Scaled) is 21, and 5^21 has 49 bits.
+#define MIN_FRACTION 1e-5
 #define MIN_17_DIGITS 10000000000000000u // smallest integer with 17 digits
 
-// The exact value of x = significand * 2^exponent in units of 10^-scale, as product * 2^-shift. For x from MIN_FRACTION
-// to 2^53 the product is below 2^53 * 5^21 < 2^102.
+// A double x = significand * 2^exponent, represented exactly as product * 2^-shift in units of 10^-scale. For x from
+// MIN_FRACTION to 2^53 the product is below 2^53 * 5^21 < 2^102.
 typedef struct Scaled {
     Product product;
-    Product power; // 5^scale; in the unit of `product`, the distance of x to the next double
+    Product power; // 5^scale; also the distance between x and the next double, in the unit of `product`
     int shift;
 } Scaled;
 
@@ -79,15 +81,16 @@ static bool scale_by(Scaled *scaled, uint64_t significand, int exponent, int sca
     return scale > 0 && scaled->shift > 0;
 }
 
-// Returns true if the decimal whole * 10^-scale parses as x: its distance to x is less than half the distance to the
-// next double.
+// Returns true if the decimal whole * 10^-scale parses as x. It does if its distance to x is less than half the
+// distance between x and the next double.
 static bool reads_back(const Scaled *scaled, uint64_t whole) {
     Product there = (Product)whole << scaled->shift;
     Product distance = there > scaled->product ? there - scaled->product : scaled->product - there;
     return 2 * distance < scaled->power; // never equal: a power of five is odd
 }
 
-// Returns x in units, rounded to a multiple of `unit`, a power of ten. Ties are rounded to the even multiple.
+// Returns x in units of 10^-scale, rounded to a multiple of `unit`, which is a power of ten. Ties are rounded to the
+// even multiple.
 static uint64_t round_units(const Scaled *scaled, uint64_t unit) {
     Product rest = scaled->product & (((Product)1 << scaled->shift) - 1);
     uint64_t units = (uint64_t)(scaled->product >> scaled->shift), whole = units / unit;
@@ -102,10 +105,10 @@ static bool shortest_of_fraction(double x, Decimal *decimal) {
     int exponent;
     uint64_t significand = (uint64_t)ldexp(frexp(x, &exponent), 53);
     exponent -= 53;
-    // Excludes powers of two, because the next double below is nearer than the one above.
+    // Powers of two are excluded, because the next lower double is nearer to x than the next higher one.
     if (!(x >= MIN_FRACTION && x < 9007199254740992.0) || significand == UINT64_C(1) << 52)
         return false;
-    // 78913 / 2^18 approximates log10(2). The estimate is exact or too low by one.
+    // `first` estimates the decimal exponent of x, and is exact or too low by one. 78913 / 2^18 approximates log10(2).
     int first = (int)floor((exponent + 52) * (78913.0 / 262144));
     Scaled scaled;
     if (!scale_by(&scaled, significand, exponent, MAX_DIGITS - 1 - first))
@@ -135,14 +138,15 @@ static bool shortest_of_fraction(double x, Decimal *decimal) {
 static void shortest_by_trial(double x, Decimal *decimal) {
     char text[NUMBER_TEXT];
     char point = decimal_point();
-    // 17 digits suffice for every normal double, 15 for most. Trailing zeros of a 15-digit result are dropped below.
+    // 17 digits suffice for every normal double. 15 suffice for most, so the trial starts with 15 digits. Trailing
+    // zeros are dropped below.
     int precision = fabs(x) >= 2.2250738585072014e-308 ? 15 : 1;
     for (;; precision++) {
         snprintf(text, sizeof text, "%.*e", precision - 1, x);
         if (precision >= 17 || strtod(text, NULL) == x)
             break;
         // At a power of two, the interval of decimals that parse as x is half as wide below x as above. So the nearest
-        // decimal may be outside while the next higher decimal of the same length is inside.
+        // decimal may be outside that interval while the next higher decimal of the same length is inside.
         int binary_exponent;
         if (fabs(frexp(x, &binary_exponent)) == 0.5) {
             char *last = strchr(text, 'e') - 1;

@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-enum { NUMBER_TEXT = 40 }; // size of a buffer for any formatted number
+enum { NUMBER_TEXT = 40 }; // size in bytes of a buffer for any formatted number
 
 // Writes the shortest decimal that parses as the same double (spec language.md L18.1). Returns its length.
 size_t number_format(double x, char text[NUMBER_TEXT]);
@@ -18,7 +18,7 @@ size_t number_format_short(double x, char text[NUMBER_TEXT]);
 // correctly rounded; NaN if out of memory.
 double number_parse(Str digits);
 
-// Returns floor(x); for -0, it is -0. Faster than the C library's floor, which is a function call if the compiler
+// Returns floor(x), which is -0 for x = -0. Faster than the C library's floor, which is a function call if the compiler
 // cannot use SSE4.1.
 static inline double number_floor(double x) {
     if (!(x > -4503599627370496.0 && x < 4503599627370496.0))

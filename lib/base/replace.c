@@ -180,7 +180,8 @@ bool replace_begin(Replacement *r, const char *path, unsigned flags) {
     return replace_begin_in(r, folder, name, flags);
 }
 
-// EINVAL and EBADF mean that the file system or the descriptor (O_PATH) does not support fsync.
+// The errors EINVAL and EBADF count as success, because they mean that the file system, or a descriptor opened with
+// O_PATH, does not support fsync.
 bool replace_sync(int file) {
     int result;
     do
@@ -190,7 +191,8 @@ bool replace_sync(int file) {
 }
 
 // Gives the new file the target's name. If the file is unnamed and the target does not exist, linkat does this.
-// Otherwise the file is first given a temporary name, unless it has one. Then it is renamed or, with only_new, linked.
+// Otherwise the file is first given a temporary name, unless it already has one. Then it is renamed to the target or,
+// with only_new, linked as the target.
 static bool link_or_rename(Replacement *r, bool exists) {
     bool named = r->temporary_name[0] != '\0';
     if (!named && (r->only_new || !exists)) {

@@ -1,7 +1,7 @@
 // replace.h: atomic replacement of files.
 //
 // The bytes are written to an unnamed file in the target's folder (O_TMPFILE). If the system does not support that, the
-// file has a random temporary name. Once the bytes are on disk, the new file is renamed to the target. Readers see
+// new file has a random temporary name. Once the bytes are on disk, the new file is renamed to the target. Readers see
 // either the complete old file or the complete new one, even after a crash or kill -9. Owner and permissions are kept.
 // A symbolic link is kept and its target is replaced. A target is written to directly if it is not a regular file (a
 // device, a pipe) or if it is the file to which stdout or stderr is connected.
@@ -17,12 +17,12 @@ typedef enum ReplaceFlags {
 } ReplaceFlags;
 
 typedef struct Replacement {
-    int file;                          // descriptor to write to; -1: not begun
+    int file;                          // descriptor to which the new bytes are written; -1: not begun
     int folder;                        // descriptor of the target's folder
-    bool direct;                       // `file` is the target itself, written to directly
-    bool only_new;                     // REPLACE_CREATE_ONLY
+    bool direct;                       // true if `file` is the target itself, not a new file
+    bool only_new;                     // true if the target must not exist (REPLACE_CREATE_ONLY)
     char name[NAME_MAX + 1];           // name of the target in its folder
-    char temporary_name[NAME_MAX + 1]; // name of the new file until it is renamed; "": unnamed
+    char temporary_name[NAME_MAX + 1]; // name of the new file until it is renamed; "": it has no name
 } Replacement;
 
 // Unless stated otherwise, the functions return false with errno set on failure. All functions except replace_begin and

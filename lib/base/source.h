@@ -33,10 +33,10 @@ typedef struct SourcePosition {
     Str text;        // the line without its LF
 } SourcePosition;
 
-// Copies everything into the arena. Removes a byte-order mark, converts CR LF and CR to LF and ends the last line with
-// LF. The text must be smaller than 4 GiB.
+// Creates a source and copies all strings into the arena. Removes a byte-order mark, converts CR LF and CR to LF and
+// ends the last line with LF. The text must be smaller than 4 GiB.
 const Source *source_new(Arena *arena, Str name, Str path, Str text);
-// Converts CR LF and CR to LF in place. Returns the new length.
+// Converts CR LF and CR to LF in the array `bytes` itself. Returns the new length.
 size_t source_unify_lines(char *bytes, size_t len);
 // Returns the position of a byte offset. Offsets at or beyond the end return the end of the last line.
 SourcePosition source_locate(const Source *source, uint32_t offset);

@@ -76,7 +76,7 @@ int str_edit_distance(Str a, Str b) {
     enum { MAX_LENGTH = 64 };
     if (a.len > MAX_LENGTH || b.len > MAX_LENGTH)
         return MAX_LENGTH;
-    // Optimal string alignment: three rows of the classic table.
+    // Optimal string alignment. Of its dynamic-programming table, three rows suffice.
     int rows[3][MAX_LENGTH + 1];
     int *before = rows[0], *above = rows[1], *row = rows[2];
     for (size_t j = 0; j <= b.len; j++)

@@ -20,7 +20,8 @@ typedef struct Str {
 
 Str str_from(const char *text);
 bool str_equal(Str a, Str b);
-// Returns -1, 0 or 1. Compares bytes, which for UTF-8 is the order of code points. A prefix sorts first.
+// Returns -1, 0 or 1. Compares bytes, which for UTF-8 is the order of code points. A prefix sorts before
+// the longer string.
 int str_compare(Str a, Str b);
 // str_copy and str_to_c return a copy that is followed by a NUL byte.
 Str str_copy(Arena *arena, Str text);
@@ -29,7 +30,7 @@ bool str_starts_with(Str text, Str prefix);
 bool str_ends_with(Str text, Str suffix);
 // Returns the longest prefix of at most max_bytes bytes that does not end within a character.
 Str str_truncate(Str text, size_t max_bytes);
-// Returns the index of a word in a space-separated list, or -1.
+// Returns the index of a word in a space-separated list, or -1 if the list does not contain it.
 int str_word_number(Str word, const char *list);
 // Returns the text without white space (space, tab, CR, LF, VT, FF) at both ends.
 Str str_trim(Str text);
@@ -41,7 +42,7 @@ int str_edit_distance(Str a, Str b);
 // A search for the existing name that is most similar to an unknown name.
 typedef struct StrNearest {
     Str wanted; // the unknown name
-    int limit;  // only smaller edit distances are accepted; after a match, the distance of `found`
+    int limit;  // a name must have a smaller edit distance to be accepted; after a match, the distance of `found`
     Str found;  // nearest name; empty: none within the limit
 } StrNearest;
 // Considers one existing name. Returns true if it is the nearest so far.

@@ -68,7 +68,8 @@ static bool equal_items(Comparison *comparison, Item a, Item b) {
     }
 }
 
-// Returns the number of leading elements that are equal, at most `len`.
+// Compares the elements of a from index a_start with those of b from index b_start. Returns how many pairs are equal
+// before the first difference, at most `len`.
 static uint32_t equal_prefix_length(Comparison *comparison, Value a, uint32_t a_start, Value b, uint32_t b_start,
                                     uint32_t len) {
     for (uint32_t i = 0; i < len; i++) {

@@ -41,7 +41,7 @@ struct Node {
     bool program_lifetime : 1;
     bool program_lifetime_children : 1;
     bool is_batch : 1;    // represents several children of its parent (value/node_batch.h)
-    bool has_batches : 1; // a descendant or a node in an attribute is a batch
+    bool has_batches : 1; // this node, a descendant or a node in an attribute is a batch
 };
 
 _Static_assert(sizeof(Node) <= 56, "scripts create thousands of nodes per frame");
@@ -50,7 +50,7 @@ enum { NODE_MAX_HEIGHT = 12000 }; // taller trees are rejected, so that recursio
 
 // A function value. The virtual machine extends the struct for closures, which are identified by address.
 struct Function {
-    Str name;            // for printing; "<anon>": anonymous
+    Str name;            // name that is printed; "<anon>": anonymous
     const void *builtin; // table row of a built-in function; NULL: defined by a script
 };
 
@@ -61,13 +61,13 @@ Node *node_add_tag(Arena *arena, const Node *node, const Symbol *tag);
 // Returns a copy of a node with attributes set, in the order of the array. A null or stream value removes the attribute
 // (L7.2). Returns NULL if the tree would exceed NODE_MAX_HEIGHT.
 Node *node_set_attrs(Arena *arena, const Node *node, const Attr *attrs, uint32_t count);
-// Nodes that will be appended to another node as children. If that node has no children yet, its copy shares the array
-// `nodes`.
+// Nodes that node_append_list will append to another node as children. If that node has no children yet, its extended
+// copy uses the array `nodes` itself.
 typedef struct NodeList {
     const Node *const *nodes;
     uint32_t count;
     uint16_t height;       // maximum height of the nodes
-    bool program_lifetime; // as in Node
+    bool program_lifetime; // as in Node, for all nodes and the array `nodes`
     bool has_batches;      // one of the nodes is a batch or contains one
 } NodeList;
 // Returns the nodes of a vector. Other elements are ignored.
@@ -85,14 +85,15 @@ Node *node_append_list(Arena *arena, const Node *node, const NodeList *list);
 void value_mark_program_lifetime(Value v);
 // Returns the attribute's value, or null.
 Value node_get(const Node *node, const Symbol *name);
-// Returns the location of an attribute. If that is unknown, returns the location of the node; its source may be NULL.
+// Returns the location of an attribute. If that is unknown, returns the location of the node. If that is
+// unknown too, the source of the result is NULL.
 Origin node_origin(const Node *node, const Symbol *attr);
 // Returns true if the nodes are structurally equal (L7.5). The arena has the same purpose as in value_equal.
 bool node_equal(Arena *arena, const Node *a, const Node *b);
 // Returns a deep copy.
 const Node *node_copy(Arena *arena, const Node *node);
 
-// Each of these functions applies the similar node_ function above to every node of a vector. Other elements are kept.
+// Each of these functions applies the corresponding node_ function above to every node of v. Other elements are kept.
 Value value_add_tag(Arena *arena, Value v, const Symbol *tag);
 // If a node would exceed NODE_MAX_HEIGHT, the next two functions keep it unchanged and set *too_high.
 Value value_set_attrs(Arena *arena, Value v, const Attr *attrs, uint32_t count, bool *too_high);

@@ -8,6 +8,7 @@
 
 enum { NODE_WORK = 2 }; // work units per created node
 
+// Returns true if each row contains numbers of an attribute whose entry in NodeBatch.numbers is `numbers`.
 static bool in_row(uint32_t numbers) {
     return numbers != NODE_BATCH_UNIFORM && numbers != NODE_BATCH_COUNTING;
 }

@@ -12,22 +12,24 @@
 #include "value/node.h"
 
 enum {
-    NODE_BATCH_MAX_ATTRS = 12,         // attributes of a node
-    NODE_BATCH_MAX_ROWS = 1 << 16,     // nodes in a batch
-    NODE_BATCH_MAX_BYTES = 1000 << 10, // bytes of the rows; an arena block is slightly larger than four times this
-    NODE_BATCH_MAX_NUMBERS = 16,       // numbers that one attribute has in a row
-    NODE_BATCH_UNIFORM = 0,            // value of `numbers`: the attribute is the same in all nodes
-    NODE_BATCH_COUNTING = NODE_BATCH_MAX_ROWS, // value of `numbers`: the attribute increases by 1 per node
+    NODE_BATCH_MAX_ATTRS = 12,         // maximum number of attributes of a node
+    NODE_BATCH_MAX_ROWS = 1 << 16,     // maximum number of nodes in a batch
+    NODE_BATCH_MAX_BYTES = 1000 << 10, // maximum size of the rows; less than a quarter of the largest arena block
+    NODE_BATCH_MAX_NUMBERS = 16,       // maximum count of numbers in a row that belong to one attribute
+    NODE_BATCH_UNIFORM = 0,            // in `numbers`: the attribute has the same value in all nodes
+    NODE_BATCH_COUNTING = NODE_BATCH_MAX_ROWS, // in `numbers`: the attribute increases by 1 from node to node
 };
 
 typedef struct NodeBatch {
-    Node node;         // first member, so that a Node * with is_batch can be cast
-    uint32_t count;    // nodes
-    uint32_t capacity; // rows allocated
-    uint32_t stride;   // doubles per row; at least 1, so that each row has a distinct address
+    Node node;         // first member, so that a pointer to it can be cast to NodeBatch * if is_batch is set
+    uint32_t count;    // number of nodes
+    uint32_t capacity; // number of rows allocated
+    uint32_t stride;   // number of doubles per row; at least 1, so that each row has a distinct address
     double *rows;
-    uint32_t numbers[NODE_BATCH_MAX_ATTRS]; // by attribute: numbers in a row, NODE_BATCH_UNIFORM or NODE_BATCH_COUNTING
-    int32_t from[NODE_BATCH_MAX_ATTRS];     // by attribute: index of its value in `values` of node_batch_add
+    // For each attribute: how many numbers of a row belong to it, or NODE_BATCH_UNIFORM or NODE_BATCH_COUNTING.
+    uint32_t numbers[NODE_BATCH_MAX_ATTRS];
+    // For each attribute: the index of its value in the parameter `values` of node_batch_add.
+    int32_t from[NODE_BATCH_MAX_ATTRS];
 } NodeBatch;
 
 static inline const NodeBatch *node_batch(const Node *node) {
@@ -35,7 +37,8 @@ static inline const NodeBatch *node_batch(const Node *node) {
 }
 
 // Returns a batch of one node: `first` with the given attributes. Its capacity is `capacity` nodes, or fewer if that
-// exceeds the limits. Attributes whose `numbers` is not NODE_BATCH_UNIFORM must be numeric. The caller sets `from`.
+// exceeds the limits. Attributes whose `numbers` is not NODE_BATCH_UNIFORM must be numeric. The caller must then set
+// `from`.
 NodeBatch *node_batch_new(Arena *arena, const Node *first, const Attr *attrs, const uint32_t *numbers,
                           uint32_t attr_count, uint32_t capacity);
 // Adds a node whose attribute i is values[from[i]]. The batch must not be full. Returns false if a value does not fit
@@ -48,7 +51,7 @@ typedef struct NodeRow {
     Node node;
     Attr attrs[NODE_BATCH_MAX_ATTRS];
 } NodeRow;
-// Initialises `row` for a batch.
+// Initialises `row` for reading a batch with node_batch_row.
 void node_batch_open(const NodeBatch *batch, NodeRow *row);
 // Sets `row` to node `number` of the batch.
 void node_batch_row(const NodeBatch *batch, uint32_t number, NodeRow *row);

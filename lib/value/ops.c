@@ -70,7 +70,8 @@ static bool array_powers(const double *x, uint32_t x_len, const double *y, uint3
     return true;
 }
 
-// Computes operators that have array functions, one chunk at a time. Returns false for other operators.
+// Computes result = x op y with array functions, one chunk at a time. Returns false if there is none for the operator
+// and these operands.
 static bool arith_in_chunks(Arena *arena, ArithOp op, const double *x, uint32_t x_len, const double *y, uint32_t y_len,
                             double *result, uint32_t len) {
     for (uint32_t at = 0; at < len; at += BUDGET_CHUNK) {
@@ -122,7 +123,8 @@ Value op_plus(Value v) {
     return value_is_numeric(v) ? v : VALUE_NULL;
 }
 
-// Gets a parameter of a range, which is a number, or null for the default. Returns false for other values.
+// Reads one bound of a range. Sets *x to the value of v if it is a number, or to `fallback` if v is null. Returns false
+// for other values.
 static bool range_bound(Value v, double fallback, double *x) {
     *x = v.len == 0 ? fallback : v.as.number;
     return v.len == 0 || (v.len == 1 && v.kind == VALUE_NUMBERS);

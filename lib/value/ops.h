@@ -14,7 +14,7 @@ Value op_arith(Arena *arena, ArithOp op, Value a, Value b);
 Value op_negate(Arena *arena, Value v);
 // Returns v if it is numeric, else null.
 Value op_plus(Value v);
-// Returns start..stop|step (L5.3). Sets *too_long if the count exceeds VALUE_MAX_LEN.
+// Returns start..stop|step (L5.3). Sets *too_long and returns null if the range has more than VALUE_MAX_LEN numbers.
 Value op_range(Arena *arena, Value start, Value stop, Value step, bool *too_long);
 // A range that is not stored as a vector.
 typedef struct OpRange {

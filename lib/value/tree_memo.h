@@ -1,7 +1,7 @@
 // tree_memo.h: memoisation for traversals of trees with shared nodes, which may visit a node many times.
 //
 // A traversal charges for each visited node. After many visits it caches the results for recently visited nodes in the
-// arena. A zero-initialised TreeMemo starts a traversal.
+// arena. Each traversal starts with a zero-initialised TreeMemo.
 #ifndef PETRI_VALUE_TREE_MEMO_H
 #define PETRI_VALUE_TREE_MEMO_H
 
@@ -14,8 +14,8 @@ typedef struct TreeMemoEntry {
 } TreeMemoEntry;
 
 typedef struct TreeMemo {
-    TreeMemoEntry *entries; // by hash; a new entry replaces the old one in its place; NULL: few visits so far
-    uint32_t visits;        // counted until `entries` is allocated
+    TreeMemoEntry *entries; // cache indexed by hash, where a new entry overwrites an old one; NULL: few visits so far
+    uint32_t visits;        // number of visits; counted only until `entries` is allocated
 } TreeMemo;
 
 // Charges the visit of a node, or of a pair of nodes (b may be NULL). If the result is cached, stores it in *value and

@@ -42,20 +42,20 @@ typedef enum ValueKind { VALUE_NUMBERS, VALUE_MIXED, VALUE_STREAM, VALUE_ABSENT 
 typedef enum StreamKind { STREAM_UNIFORM, STREAM_BETA, STREAM_NORMAL } StreamKind;
 
 typedef struct Value {
-    uint32_t len;
+    uint32_t len;   // number of elements; 0 for null and for streams
     uint8_t kind;   // ValueKind
     uint8_t stream; // StreamKind of a VALUE_STREAM
     union {
         double number;         // VALUE_NUMBERS, len 1
         const double *numbers; // VALUE_NUMBERS, len > 1
         const Item *items;     // VALUE_MIXED
-        uint64_t key;          // VALUE_STREAM
+        uint64_t key;          // VALUE_STREAM: the key from which its items are computed
     } as;
 } Value;
 
 _Static_assert(sizeof(Value) == 16, "a Value must fit into two registers");
 
-enum { VALUE_MAX_LEN = 1 << 27 }; // elements (L5.3, D4)
+enum { VALUE_MAX_LEN = 1 << 27 }; // maximum number of elements (L5.3, D4)
 
 #define VALUE_NULL ((Value){0})
 
@@ -72,7 +72,8 @@ static inline bool value_is_numeric(Value v) {
     return v.kind == VALUE_NUMBERS && v.len > 0;
 }
 
-// Returns the elements of a numeric vector. Valid as long as *v, because a single number is stored inline.
+// Returns the elements of a numeric vector. The pointer is valid as long as *v, because a single number is stored
+// inline in *v.
 static inline const double *value_numbers(const Value *v) {
     return v->len == 1 ? &v->as.number : v->as.numbers;
 }
@@ -100,8 +101,8 @@ static inline Item value_at(const Value *v, uint32_t i) {
 
 // Returns true if v is true as a condition (L4.6).
 bool value_true(Value v);
-// Comparisons (compare.c) charge their work to the arena and leave no allocations in it. It may be NULL only if the
-// values contain no nodes and the caller has charged the work.
+// Comparisons (compare.c) charge their work to the arena and leave no allocations in it. The arena may be NULL
+// only if the values contain no nodes and the caller has charged the work.
 //
 // Returns true if the vectors are equal (L5.4, operator ==).
 bool value_equal(Arena *arena, Value a, Value b);
@@ -114,12 +115,13 @@ bool value_contains(Arena *arena, Value x, Value y);
 
 // Returns v[index] (L5.7). v must not be a stream.
 Value value_index(Arena *arena, Value v, Value index);
-// Returns element k modulo the length of v, as a vector of one element. Returns null if v is null. Used for unpacking.
-// v must not be a stream.
+// Returns a vector of one element: the element of v whose index is k modulo the length of v. Returns null if v is null.
+// v must not be a stream. Used for unpacking.
 Value value_element(Arena *arena, Value v, uint32_t k);
-// Returns elements start to start + count - 1, which must exist.
+// Returns a vector of the elements of v with indices `start` to start + count - 1, which must exist.
 Value value_slice(Arena *arena, Value v, uint32_t start, uint32_t count);
-// Converts an index x to the index of an element in a vector of length n (L5.7, D8).
+// Returns the index of the element that index x selects in a vector of length n: x rounded down, modulo n. An x that is
+// infinite or NaN counts as -2^31 (L5.7, D8).
 uint32_t value_wrap_index(double x, uint32_t n);
 
 // Returns a deep copy. Only functions and symbols are not copied.
@@ -139,7 +141,7 @@ typedef struct Vector {
     } as;
     uint32_t len;
     uint32_t capacity;
-    bool mixed;
+    bool mixed;     // true if the elements are in as.items, false if they are in as.numbers
     bool overflow;  // more than VALUE_MAX_LEN elements were added; the result is null and the caller reports it
     uint32_t parts; // number of parts that are not null
     bool several;   // more than one part was added, null or not
@@ -149,8 +151,8 @@ typedef struct Vector {
 
 Vector vector_new(Arena *arena);
 void vector_add(Vector *vector, Value part);
-// Like vector_add, but inline for the most common case: one number or item, after at least two parts that are not null,
-// and spare capacity.
+// Like vector_add, but handles the most common case inline: the part is one number or item, at least two parts that are
+// not null were added before, and the vector has spare capacity.
 static inline void vector_add_part(Vector *vector, const Value *part) {
     if (vector->parts > 1 && part->len == 1 && vector->len < vector->capacity) {
         if (part->kind == VALUE_NUMBERS && !vector->mixed) {

@@ -60,7 +60,7 @@ static uint64_t hash_item(Hashing *hashing, Item item, bool floored) {
     case ITEM_NODE:
         return hash_node(hashing, item.as.node);
     default:
-        return symbol_hash(item.as.function->name); // not specified; hashing the name keeps runs reproducible
+        return symbol_hash(item.as.function->name); // hashes of functions are not specified; the name is reproducible
     }
 }
 

@@ -1,4 +1,5 @@
-// value_hash.h: hashes of seeds (spec builtins.md B9.2), which are the keys of streams and noise; items of streams.
+// value_hash.h: hashes of seeds (spec builtins.md B9.2), which are used as keys of streams and noise, and the items of
+// streams.
 #ifndef PETRI_VALUE_VALUE_HASH_H
 #define PETRI_VALUE_VALUE_HASH_H
 
@@ -10,7 +11,7 @@ uint64_t value_seed_hash(Arena *arena, Value seed);
 uint64_t value_exact_hash(Arena *arena, Value seed);
 // Returns item i of a stream value, as `stream[i]` does.
 double value_stream_item(Value stream, uint64_t i);
-// Stores the items of a stream at the `count` indices `at` in `to`. Runs of consecutive indices are faster.
+// Sets to[i] to the item of a stream at index at[i] for each i below `count`. Consecutive indices are computed faster.
 void value_stream_items(Value stream, const double *at, uint32_t count, double *to);
 // Returns the position in a stream for an index x: x rounded down to a signed 64-bit integer, converted to unsigned
 // (B9.3).
