@@ -5,10 +5,10 @@
 
 enum {
     MIN_BATCH = 8,    // minimum number of remaining iterations for which batches are used
-    MAX_FAILURES = 4, // after more failed batches, a loop is executed iteration by iteration
+    MAX_FAILURES = 4, // after more failed batches than this, the rest of a loop is executed iteration by iteration
 };
 
-// Binds the loop's names in all iterations of the batch.
+// Binds the loop's names to their values in each iteration of the batch.
 static void bind_iterations(LoopBatch *batch, const Instr *start, const Loop *loop) {
     Value values[BATCH_SIZE];
     if (start->count == 1 && loop->source.kind == VALUE_ABSENT) {
@@ -27,8 +27,8 @@ static void bind_iterations(LoopBatch *batch, const Instr *start, const Loop *lo
 
 // --- branches
 
-// Removes iterations from the selection until execution reaches instruction `target`. Selected iteration number k stays
-// if continues[k] is true. If `continues` is NULL, none stays.
+// Removes iterations from the selection until execution reaches instruction `target`. Iteration selection[k] remains
+// selected if continues[k] is true. If `continues` is NULL, no iteration remains selected.
 static void deselect_iterations(LoopBatch *batch, uint32_t target, const bool *continues) {
     uint32_t remaining = 0;
     for (uint32_t k = 0; k < batch->selected_count; k++) {

@@ -121,7 +121,7 @@ static bool apply_operator(uint16_t op, uint32_t count, const double *x, const d
     return true;
 }
 
-// Computes all powers with one vector operation, which is faster than separate ones.
+// Computes the powers of all selected iterations with one vector operation, which is faster than one operation each.
 static bool run_powers(LoopBatch *batch, const Instr *instr) {
     double left[BATCH_SIZE], right[BATCH_SIZE];
     const double *x = vm_batch_numbers(batch, instr->a, left);
@@ -136,7 +136,8 @@ static bool run_powers(LoopBatch *batch, const Instr *instr) {
     return true;
 }
 
-// Indexes a vector of numbers, or a stream, that is the same in all iterations.
+// Executes an INDEX whose vector is the same in all iterations. Returns false if the vector differs or is neither a
+// stream nor numeric, or if an index is not a single number.
 static bool run_index(LoopBatch *batch, const Instr *instr) {
     double buffer[BATCH_SIZE], to[BATCH_SIZE];
     const double *at = vm_batch_numbers(batch, instr->b, buffer);
@@ -173,7 +174,7 @@ bool vm_batch_try_operator(LoopBatch *batch, const Instr *instr) {
 
 // --- other instructions
 
-// Executes a single instruction with vm_eval.
+// Executes one instruction with vm_eval and returns its result.
 static Value run_alone(LoopBatch *batch, const Instr *instr) {
     const Code *code = batch->code;
     const Instr instrs[2] = {*instr, {.op = OP_RETURN, .a = instr->d, .at = instr->at}};

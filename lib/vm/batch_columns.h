@@ -1,9 +1,10 @@
 // batch_columns.h: columnar (SIMD-style) execution of a batch of up to 64 loop iterations; see vm_run_batches.
 //
-// The registers that the body writes become columns. Each instruction is executed for all selected iterations before
-// the next instruction. At first, all iterations are selected. If iterations take different branches, those that skip
-// the next instructions leave the selection, and join it again where their execution continues. Arithmetic and other
-// frequent instructions process arrays; the rest are executed as in vm_eval, once per selected iteration.
+// A register that the loop's body writes becomes a column, which holds the register's values in all iterations. Each
+// instruction is executed for all selected iterations before the next instruction. At first, all iterations are
+// selected. When iterations take different branches, those that skip the next instructions are removed from the
+// selection. They are selected again at the instruction at which they continue. Arithmetic and other frequent
+// instructions process arrays. Other instructions are executed as in vm_eval, once per selected iteration.
 #ifndef PETRI_VM_BATCH_COLUMNS_H
 #define PETRI_VM_BATCH_COLUMNS_H
 
@@ -32,16 +33,18 @@ typedef struct LoopBatch {
     const Code *code;
     const BatchPlan *plan;
     Column *columns;
-    uint32_t count;                    // number of iterations
-    uint32_t selected_count;           // number of elements of `selection`
-    uint8_t selection[BATCH_SIZE];     // selected iterations, ascending
-    uint32_t resume_at[BATCH_SIZE];    // by iteration: instruction at which the iteration joins the selection
-    uint32_t reconverge_at;            // next instruction at which iterations join the selection
+    uint32_t count;                // number of iterations
+    uint32_t selected_count;       // number of elements of `selection`
+    uint8_t selection[BATCH_SIZE]; // numbers of the selected iterations, ascending
+    // By iteration: index of the instruction at which the iteration is selected again.
+    uint32_t resume_at[BATCH_SIZE];
+    // Lowest element of `resume_at` at which iterations will be selected again; UINT32_MAX: none.
+    uint32_t reconverge_at;
     uint32_t yield_counts[BATCH_SIZE]; // by iteration: number of yielded values
-    Value *yields;                     // yielded values: room for plan->yield_count per iteration
+    Value *yields;                     // yielded values; each iteration has plan->yield_count elements
 } LoopBatch;
 
-// Returns the column of an operand, or NULL if its value is the same in all iterations.
+// Returns the column of an operand, or NULL if the operand has the same value in all iterations.
 static inline Column *column_of(const LoopBatch *batch, int32_t operand) {
     uint32_t at = (uint32_t)(operand - batch->plan->first_register);
     if (operand < batch->plan->first_register || at >= batch->plan->register_count || !batch->plan->columns[at])
@@ -61,12 +64,12 @@ static inline Value column_read(const LoopBatch *batch, int32_t operand, uint32_
     return column ? column_value(column, iteration) : batch->frame->slots[operand];
 }
 
-// Writes values[k] to register d of the selected iteration number k, for all k.
+// For each k, sets register d of iteration selection[k] to values[k].
 void vm_batch_store(LoopBatch *batch, int32_t d, const Value *values);
 // Like vm_batch_store, for numbers.
 void vm_batch_store_numbers(LoopBatch *batch, int32_t d, const double *numbers);
-// Returns the numbers of an operand, one per selected iteration, or NULL if they are not stored as single numbers. The
-// numbers are copied to `buffer` if necessary.
+// Returns an array with the operand's number in each selected iteration, or NULL if its values are not stored as single
+// numbers. The array is `buffer` if the numbers are not already stored in this form.
 const double *vm_batch_numbers(const LoopBatch *batch, int32_t operand, double buffer[BATCH_SIZE]);
 // Executes an operator on numbers for all selected iterations at once. Returns false if that is not possible.
 bool vm_batch_try_operator(LoopBatch *batch, const Instr *instr);

@@ -4,10 +4,11 @@
 enum {
     MIN_BATCH = 16,        // minimum number of remaining iterations for which a batch is started
     MIN_ROWS = 8,          // a batch with fewer rows is short
-    MAX_SHORT_BATCHES = 4, // number of short batches after which a loop creates single nodes
+    MAX_SHORT_BATCHES = 4, // after this number of short batches, a loop creates only single nodes
 };
 
-// Selects how a batch stores an attribute. Returns false if the attribute cannot be stored in a batch.
+// Sets *numbers to the way in which a batch stores an attribute with this value (NodeBatch.numbers). Returns false if a
+// batch cannot store the attribute.
 static bool choose_column(const Loop *loop, const Instr *instr, int32_t operand, const Value *value,
                           uint32_t *numbers) {
     if (operand < 0) {
@@ -18,7 +19,8 @@ static bool choose_column(const Loop *loop, const Instr *instr, int32_t operand,
     return value->kind == VALUE_NUMBERS && value->len > 0 && value->len <= NODE_BATCH_MAX_NUMBERS;
 }
 
-// Starts a batch with this node. Returns NULL if the node should be created alone.
+// Starts a batch whose first node is the node of the current iteration. Returns NULL if this node should be created
+// alone.
 static NodeBatch *begin_batch(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, const Loop *loop) {
     uint32_t iterations = loop->source.len - loop->at, numbers[NODE_BATCH_MAX_ATTRS] = {0}, count = 0;
     int32_t from[NODE_BATCH_MAX_ATTRS];
@@ -41,13 +43,14 @@ static NodeBatch *begin_batch(Vm *vm, const int32_t *list, const Value *slots, c
     return batch;
 }
 
-// Ends a batch to which the next node could not be added.
+// Called when the next node cannot be added to the current batch, or when there is no batch. If the batch is not full,
+// notes in the loop why the next batches may also end early.
 static void end_batch(Loop *loop) {
     NodeBatch *batch = loop->batch;
     if (!batch || batch->count == batch->capacity)
         return;
     if (batch->count == 1 && !loop->not_counting)
-        loop->not_counting = true; // probably why the second node could not be added
+        loop->not_counting = true; // this is probably why the second node could not be added
     else
         loop->short_batches += batch->count < MIN_ROWS;
 }

@@ -9,7 +9,8 @@ enum { MAX_SLICE_LENGTH = 16 }; // maximum length of slices that run_slice copie
 
 // --- built-ins
 
-// Calls an element-wise built-in only once. Each argument is a vector of the values in all selected iterations.
+// Calls an element-wise built-in once for all selected iterations. An argument is a vector with one number per
+// iteration, or a single number if it is the same in all iterations.
 static bool run_each(LoopBatch *batch, const Instr *instr) {
     enum { MAX_OPERANDS = 4 };
     const Builtin *builtin = instr->as.builtin;
@@ -33,7 +34,8 @@ static bool run_each(LoopBatch *batch, const Instr *instr) {
     return true;
 }
 
-// Calls a built-in that is not element-wise for each selected iteration.
+// Calls a built-in once per selected iteration, with the arguments of this iteration. Returns false if the arguments
+// are the same in all iterations, because one call may then be sufficient.
 static bool run_calls(LoopBatch *batch, const Instr *instr) {
     enum { MAX_OPERANDS = 8 };
     const int32_t *list = batch->code->operands + instr->list;
@@ -75,7 +77,7 @@ static bool run_noise(LoopBatch *batch, const Instr *instr) {
     return true;
 }
 
-// Composes one vector of numbers per iteration. The vectors are rows of one array.
+// Composes one vector of numbers per selected iteration. All vectors have the same length and are rows of one array.
 static bool run_compose(LoopBatch *batch, const Instr *instr) {
     enum { MAX_OPERANDS = 8 };
     const int32_t *list = batch->code->operands + instr->list;
@@ -127,7 +129,8 @@ static bool run_slice(LoopBatch *batch, const Instr *instr) {
     return true;
 }
 
-// Looks up keys of numbers. Like vm_lookup, copies the values, but to one array.
+// Looks up one key per selected iteration. The keys must consist of numbers. Like vm_lookup, copies the values that it
+// finds. All numeric vectors are copied to one array.
 static bool run_lookups(LoopBatch *batch, const Instr *instr) {
     enum { MAX_OPERANDS = 4 };
     Vm *vm = batch->vm;
@@ -166,8 +169,9 @@ static bool run_lookups(LoopBatch *batch, const Instr *instr) {
 
 // --- nodes
 
-// Collects the attributes of the nodes: a value for each uniform attribute and a column for each other attribute.
-// Returns false if some iterations lack an attribute, or if an attribute may contain nodes.
+// Collects the attributes of the nodes that `instr` creates. attrs[i].value is the value of attribute i if it is the
+// same in all iterations. Otherwise columns[i] holds its values. Returns false if some iterations lack an attribute, or
+// if an attribute may contain nodes.
 static bool plan_attributes(const LoopBatch *batch, const Instr *instr, Attr *attrs, const Column **columns,
                             uint32_t *count) {
     const int32_t *list = batch->code->operands + instr->list;

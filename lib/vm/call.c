@@ -10,7 +10,7 @@ bool vm_stack_left(const Vm *vm) {
     return used < vm->stack_bytes / 2;
 }
 
-// Returns a value that a new closure captures. `frame` is the frame of the enclosing function.
+// Returns the value to which `capture` refers, for a new closure. `frame` is the frame of the enclosing function.
 static Value outer_value(const Frame *frame, const Capture *capture) {
     switch (capture->kind) {
     case CAPTURE_SLOT:
@@ -36,12 +36,12 @@ Value vm_make_closure(Vm *vm, const Frame *frame, const FunctionCode *code, cons
     return closure->self;
 }
 
-// The evaluated arguments of one call.
+// The argument values of one call.
 typedef struct Arguments {
     const Value *positional;
     uint32_t count;
-    const Symbol *const *names;
-    const Value *named;
+    const Symbol *const *names; // names of the named arguments
+    const Value *named;         // values of the named arguments
     uint32_t named_count;
 } Arguments;
 
@@ -60,7 +60,7 @@ static uint64_t cost_of(const Code *code) {
 }
 
 static bool can_enter(Vm *vm, const Closure *closure, const Origin *at) {
-    enum { CALL_WORK = 1 }; // frame and arguments
+    enum { CALL_WORK = 1 }; // work units of preparing the frame and the arguments
     vm_charge(vm, at, CALL_WORK + cost_of(closure->code->code));
     const char *limit = closure->active_calls >= VM_CLOSURE_DEPTH ? "limit of 500 calls of one function"
                         : vm->depth >= VM_CALL_DEPTH              ? "limit of 8192 nested calls"
@@ -74,7 +74,8 @@ static bool can_enter(Vm *vm, const Closure *closure, const Origin *at) {
 
 static Value call_closure(Vm *vm, Closure *closure, const Arguments *args, const Origin *at) {
     const FunctionCode *code = closure->code;
-    if (closure->evaluation_id != vm->evaluation_id) { // folded, or last called in an aborted evaluation
+    // First call in this evaluation; an earlier, aborted evaluation may have left active_calls > 0.
+    if (closure->evaluation_id != vm->evaluation_id) {
         closure->evaluation_id = vm->evaluation_id;
         closure->active_calls = 0;
     }
@@ -113,7 +114,7 @@ static Value call_item(Vm *vm, Item item, const Arguments *args, const Origin *a
 
 Value vm_call(Vm *vm, const Instr *instr, Value callee, const Value *values) {
     const CallCode *code = instr->as.call;
-    if (callee.kind != VALUE_MIXED) // null, streams and numbers: null without an error (L9.3)
+    if (callee.kind != VALUE_MIXED) // calling null, a stream or numbers results in null without an error (L9.3)
         return VALUE_NULL;
     Arguments args = {values, code->arg_count, code->names, values + code->arg_count, code->named_count};
     if (callee.len == 1)

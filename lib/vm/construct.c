@@ -73,7 +73,7 @@ Value vm_decorate(Vm *vm, const int32_t *list, const Value *slots, const Instr *
     return subject;
 }
 
-// Sets the attributes of a new node. All names differ, so nothing is replaced. Attributes that are null or
+// Sets the attributes of a new node. All names differ, so no attribute replaces another. Attributes that are null or
 // streams are omitted (L7.2).
 static void set_attributes(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, Node *node,
                            Attr *attrs) {
@@ -220,7 +220,7 @@ void vm_inline_cache_free(Vm *vm) {
     vm->inline_cache_count = 0;
 }
 
-// Maximum number of entries in an inline cache. Further executions of the lookup are not cached.
+// Maximum number of entries in an inline cache. If a lookup is executed more often in a frame, the rest is not cached.
 enum { MAX_CACHED = 1 << 22 };
 
 // Returns the cache entry for the next execution of a lookup, or NULL.
@@ -253,8 +253,8 @@ static Value copy_of(Vm *vm, Value v) {
     return value_copy(vm->arena, v);
 }
 
-// Most keys are a few numbers, for which no vector needs to be built. The value is copied, because systems
-// may overwrite it in place after the evaluation.
+// Most keys are a few numbers, for which no key vector needs to be built. The value found is copied, because physics
+// and other systems may overwrite it in the state after the evaluation.
 Value vm_lookup(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr) {
     vm->met_dynamic = true;
     vm->at = instr->at;

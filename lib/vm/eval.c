@@ -62,7 +62,8 @@ Value vm_loop_element(Vm *vm, const Loop *loop, uint32_t i) {
                                                : value_element(vm->arena, loop->source, i);
 }
 
-// Binds the elements of one iteration (L10.1). Elements that are missing at the end are null.
+// Binds the loop's names, in slots[0] to slots[count - 1], to the elements of one iteration (L10.1). Names for which no
+// element is left are null.
 NOINLINE static void bind_elements(Vm *vm, const Loop *loop, Value *slots, uint32_t count) {
     for (uint32_t i = 0; i < count; i++)
         slots[i] = vm_loop_element(vm, loop, loop->at + i);
@@ -89,7 +90,7 @@ NOINLINE static Value arithmetic(Vm *vm, const Instr *instr, ArithOp op, Value a
 
 enum { MAX_STACK_ARGUMENTS = 8 };
 
-// Returns the values of a list of operands as an array, which is `buffer` if they fit.
+// Returns the values of a list of operands as an array. The array is `buffer` if they fit in it.
 static const Value *gather_operands(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr,
                                     Value *buffer) {
     Value *values =
@@ -131,7 +132,7 @@ NOINLINE static void eval_import(Vm *vm, Frame *frame, const Instr *instr, Value
     vm->met_dynamic = true;
     if (!vm->is_static)
         vm_import(vm, frame, instr, file);
-    else // continue with null; the result is discarded
+    else // while folding: continue with null, because the result will be discarded
         for (uint32_t i = 0; i < instr->count; i++)
             frame->slots[(uint32_t)instr->d + i] = VALUE_NULL;
 }
@@ -141,7 +142,7 @@ NOINLINE static void eval_import(Vm *vm, Frame *frame, const Instr *instr, Value
 #define C slots[instr->c]
 #define D slots[instr->d]
 
-// An operation on two numbers is executed inline. Other operands are passed to the general function.
+// An operation on two numbers is executed inline. Other operands are passed to the function `arithmetic`.
 #define ARITHMETIC(opcode, arith, operator)                                                                            \
     case opcode: {                                                                                                     \
         const Value *a = &A, *b = &B;                                                                                  \
@@ -152,7 +153,7 @@ NOINLINE static void eval_import(Vm *vm, Frame *frame, const Instr *instr, Value
         break;                                                                                                         \
     }
 
-// `claim` is the comparison of two numbers x and y. If one is NaN, > and >= are true (L5.5).
+// `claim` is an expression that compares the numbers x and y. If one of them is NaN, > and >= are true (L5.5).
 #define COMPARISON(opcode, claim)                                                                                      \
     case opcode: {                                                                                                     \
         const Value *a = &A, *b = &B;                                                                                  \
@@ -165,7 +166,8 @@ NOINLINE static void eval_import(Vm *vm, Frame *frame, const Instr *instr, Value
         break;                                                                                                         \
     }
 
-// The instruction loop, compiled with and without profiling, so that profiling costs nothing when it is off.
+// The instruction loop. It is compiled twice, with and without profiling, so that profiling costs nothing when it is
+// off.
 static inline __attribute__((always_inline)) Value eval_code(Vm *vm, Frame *frame, const Code *code,
                                                              const bool profiled) {
     Value *const slots = frame->slots;
@@ -235,7 +237,7 @@ static inline __attribute__((always_inline)) Value eval_code(Vm *vm, Frame *fram
             loop->at += instr->count;
             if (loop->at == loop->retry_at)
                 vm_run_batches(vm, frame, code, code->instrs + instr->target - 1, loop);
-            // Work of executing the body once.
+            // Work units of executing the body once.
             uint64_t cost = 1 + (uint64_t)(instr - code->instrs - instr->target) / VM_INSTRS_A_UNIT;
             if (!loop->result.overflow && next_iteration(vm, instr, loop, slots, cost))
                 instr = code->instrs + instr->target - 1;

@@ -4,8 +4,8 @@
 #include <stdarg.h>
 
 // Returns true if an error must be reported, and records the error. Returns false if the same error was already
-// reported at this position in this frame, or if too many errors were reported. If execution is speculative, sets
-// speculation_failed instead and returns false.
+// reported at this position in this frame, or if too many errors were reported. If execution is speculative, does not
+// record the error, sets speculation_failed and returns false.
 static bool first_fault(Vm *vm, const Origin *at, uint64_t what) {
     if (vm->reported_count >= VM_REPORTED / 2)
         return false;

@@ -65,8 +65,8 @@ static ProfileFile *add_file(Profile *profile, const Source *source) {
     return &profile->files[profile->file_count++];
 }
 
-// Returns the profile of a source, and adds it if necessary. The complete text is compared once per frame, because the
-// source may have been reloaded.
+// Returns the profile of a source. Adds a profile if there is none. The complete text is compared once per frame,
+// because the source may have been reloaded.
 static ProfileFile *find_file(Profile *profile, const Source *source) {
     for (uint32_t i = 0; i < profile->file_count; i++)
         if (profile->files[i].frame_source == source)

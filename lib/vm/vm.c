@@ -107,7 +107,8 @@ static bool is_importing(const Vm *vm, const Source *source) {
 
 enum { IMPORT_WORK = 100 }; // work units of checking the file of a module
 
-// Evaluates a module in a separate frame. The module sees only built-ins and no state (L13.2).
+// Evaluates a module in a separate frame and stores the imported values in registers of `frame`. The module sees only
+// built-ins and no state (L13.2).
 static void run_module(Vm *vm, Frame *frame, const Program *module, const Instr *instr) {
     ImportLink link = {vm->imports, module->source, vm->imports->depth + 1};
     vm_charge(vm, instr->at, IMPORT_WORK + module->code->count / VM_INSTRS_A_UNIT + link.depth / 8);

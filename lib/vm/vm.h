@@ -2,8 +2,8 @@
 //
 // Evaluation never fails. An expression with an error has a value, nearly always null, and the error is reported
 // through the host (spec language.md L15). Exceeded limits of depth are such errors, too. Results are allocated in the
-// frame's arena, which is charged for work and memory. If the arena's budget is exceeded, control leaves through the
-// arena's escape, and Vm.at is the position that exceeded the budget.
+// frame's arena, which is charged for work and memory. If the arena's budget is exceeded, the arena escapes with a
+// longjmp (base/arena.h). Vm.at is then the position of the operation that exceeded the budget.
 #ifndef PETRI_VM_VM_H
 #define PETRI_VM_VM_H
 
@@ -14,12 +14,13 @@
 #include "vm/profile.h"
 
 enum {
-    VM_CLOSURE_DEPTH = 500, // active calls of one closure object (L9.4)
-    VM_CALL_DEPTH = 8192,   // nested calls of user functions
-    VM_IMPORT_DEPTH = 500,  // nested imports
-    VM_REPORTED = 1024,     // size of the hash set of reported errors; a power of two
+    VM_CLOSURE_DEPTH = 500, // maximum number of active calls of one closure object (L9.4)
+    VM_CALL_DEPTH = 8192,   // maximum depth of nested calls of user functions
+    VM_IMPORT_DEPTH = 500,  // maximum depth of nested imports
+    VM_REPORTED = 1024,     // number of places in the hash set Vm.reported; a power of two
 };
 
+// Functions of the host that the VM calls.
 typedef struct VmHost {
     void *user_data;
     void (*report)(void *host, const Diag *diag);
@@ -36,37 +37,40 @@ typedef struct Reported {
     uint64_t what; // identifies the error: address of the format or hash of the text
 } Reported;
 
-// Inline cache of one LOOKUP instruction: slots[i] is the slot of the state that execution i in the last frame found.
-// Most scripts look up the same keys in the same order in every frame. Each slot is verified before use.
+// Inline cache of one LOOKUP instruction. The LOOKUP may be executed several times per frame; slots[i] is the slot of
+// the state that its execution i last found. Most scripts look up the same keys in the same order in every frame.
+// Before a cached slot is used, its key is compared with the wanted key.
 typedef struct InlineCache {
-    StateSlot *slots; // heap
+    StateSlot *slots; // on the heap
     uint32_t count;
     uint32_t capacity;
-    uint32_t next; // index of the slot for the next execution
+    uint32_t next; // index in `slots` for the next execution
 } InlineCache;
 
 typedef struct Vm {
-    Arena *arena; // arena of the frame: results and temporary values
-    Arena slots;  // stack of call frames
+    Arena *arena; // the frame's arena, with results and temporary values
+    Arena slots;  // memory of the call frames (Frame), used as a stack
     SymbolTable *symbols;
-    const State *state; // NULL: lookups result in null (modules, folding)
+    const State *state; // state that LOOKUP reads; NULL in modules and while folding: lookups result in null
     Value globals[ENGINE_NAME_COUNT];
-    BuiltinContext builtins; // arena, files, and the directory of the current program
+    BuiltinContext builtins; // context in which built-ins are called, with the directory of the current program
     VmHost host;
-    const Origin *at;               // current position, for errors of built-ins and for limits; NULL: none yet
-    uint32_t depth;                 // number of active calls of user functions
-    uint64_t evaluation_id;         // number of the evaluation; differs between the VMs of a session, because closures
-                                    // can live longer than a frame
-    bool is_static;                 // for folding expressions; dynamic values are not available
-    bool met_dynamic;               // something dynamic was evaluated
+    // Position at which errors of built-ins and exceeded limits are reported; NULL: none yet.
+    const Origin *at;
+    uint32_t depth; // number of active calls of user functions
+    // Number of the current evaluation; two VMs of a session never use the same number, because closures can live
+    // longer than a frame.
+    uint64_t evaluation_id;
+    bool is_static;                 // the VM is used only for folding expressions; dynamic values are not available
+    bool met_dynamic;               // something dynamic was evaluated (L17.2)
     size_t stack_bytes;             // bytes of C stack that evaluation may use
     const char *stack_base;         // address in the C stack at which the evaluation started
-    const ImportLink *imports;      // modules being evaluated, innermost first
+    const ImportLink *imports;      // programs being evaluated: the innermost module first, the main program last
     Reported reported[VM_REPORTED]; // hash set of the errors of this frame
     uint32_t reported_count;
     // If true, an error is not reported but sets speculation_failed. The caller then executes the instructions again.
     bool speculative;
-    bool speculation_failed;     // an error would have been reported
+    bool speculation_failed;     // while `speculative` was true, an error would have been reported
     uint64_t batched_iterations; // total number of iterations executed in batches
     InlineCache *inline_caches;  // one per lookup of the main program, on the heap
     uint32_t inline_cache_count;
@@ -79,10 +83,11 @@ void vm_init(Vm *vm, Arena *arena, SymbolTable *symbols, VmHost host, size_t sta
 void vm_free(Vm *vm);
 
 // Evaluates a main program and returns the composition of its statements. `arguments` are the values of
-// CompileOptions.params, or NULL if there are none. Stores the values of its exports in `exports`, unless that is NULL.
+// CompileOptions.params, or NULL if there are none. Stores the values of the program's exports in `exports`, unless
+// `exports` is NULL.
 Value vm_run(Vm *vm, const Program *program, const Value *arguments, Value *exports);
-// Evaluates the code of an expression at load time. The value is allocated in `arena`. Returns false, with *value null,
-// if the code is dynamic (L17.2) or reports an error. Only for VMs initialised with `is_static`.
+// Evaluates the code of an expression at load time. The value is allocated in `arena`. Returns false and sets *value to
+// null if the code is dynamic (L17.2) or reports an error. Only for VMs initialised with `is_static`.
 bool vm_run_static(Vm *vm, Arena *arena, const Code *code, Value *value);
 
 #endif
