@@ -44,8 +44,8 @@ static int unknown_option(const Args *args, const char *word, const char *name) 
     return ARG_INVALID;
 }
 
-// Sets args->option and, if the option takes a value, args->value. `value` is the value if it is in the same argument;
-// if NULL, the next argument is the value.
+// Sets args->option and, if the option takes a value, args->value. `value` is the value if it is part of the same
+// argument. If `value` is NULL, the next argument is the value.
 static int accept_option(Args *args, const OptionSpec *spec, const char *word, const char *value) {
     args->option = spec;
     args->value = value;

@@ -1,8 +1,7 @@
 // args.h: a reader for a command line, one option or operand at a time.
 //
-// Options and operands can be in any order. After `--`, all arguments are operands. A value can be written as `--name
-// value`,
-// `--name=value`, `-x value` or `-xvalue`.
+// Options and operands can be in any order. After `--`, all arguments are operands. The value of an option can be
+// written as `--name value`, `--name=value`, `-x value` or `-xvalue`.
 #ifndef PETRI_SRC_ARGS_H
 #define PETRI_SRC_ARGS_H
 

@@ -13,7 +13,7 @@ char *memory_strndup(const char *text, size_t length); // copies `length` bytes 
 char *memory_strdup(const char *text);
 
 typedef struct ByteBuffer {
-    char *data;    // NUL-terminated; NULL until text is added, even empty text
+    char *data;    // NUL-terminated; NULL until the first text is added, which may be empty
     size_t length; // bytes, without the NUL
     size_t capacity;
 } ByteBuffer;
@@ -27,14 +27,15 @@ bool byte_buffer_collect(void *bytes, const char *text, size_t length);
 // Sets *line to the line at offset *at, without its newline, and moves *at to the next line. Returns false at the end
 // of the text.
 bool byte_buffer_next_line(const ByteBuffer *text, size_t *at, Str *line);
-// Reads `fd` to its end and adds the data. Stops early once the buffer has more than max_bytes. Returns false and sets
-// errno on failure.
+// Reads `fd` to its end and adds the data to `text`. Stops early once text->length exceeds max_bytes. Returns false and
+// sets errno on failure.
 bool byte_buffer_read(ByteBuffer *text, int fd, size_t max_bytes);
-// Adds the contents of a regular file of at most max_bytes. Returns NULL, or the reason for the failure: a string that
-// stays valid until the next call of strerror. A pipe or a device is refused without waiting for it.
+// Adds the contents of a regular file of at most max_bytes. Returns NULL on success. On failure, returns the reason: a
+// string that stays valid until the next call of strerror. For a pipe or a device, fails at once instead of waiting for
+// data.
 const char *byte_buffer_read_file(ByteBuffer *text, const char *path, size_t max_bytes);
-// Like byte_buffer_read_file, for a file that was opened with O_NONBLOCK. Closes `fd`. If `fd` is negative, errno has
-// the reason.
+// Like byte_buffer_read_file, for a file that was opened with O_NONBLOCK. Closes `fd`. `fd` may be the negative result
+// of a failed open: this function then returns the reason that errno gives.
 const char *byte_buffer_read_regular(ByteBuffer *text, int fd, size_t max_bytes);
 // Adds a path as a percent-encoded URI: a `file://` URI if the path is absolute, else a relative reference.
 void byte_buffer_add_uri(ByteBuffer *text, const char *path);

@@ -17,7 +17,8 @@ struct PlotSupport;
 // Exit codes. After a signal, the exit code is STATUS_SIGNAL plus the number of the signal.
 enum { STATUS_DONE = 0, STATUS_FAILED = 1, STATUS_USAGE = 2, STATUS_SIGNAL = 128 };
 
-// Bits for the commands that accept an option. FOR_GOLDEN: the option is allowed in a golden file.
+// Bits of OptionSpec.commands: one for each command that accepts the option. FOR_GOLDEN: the option is also allowed in
+// a golden file of petri test.
 // clang-format off
 enum { FOR_RUN = 1, FOR_RENDER = 2, FOR_VIEW = 4, FOR_REPL = 8, FOR_TEST = 16, FOR_CHECK = 32, FOR_GOLDEN = 64,
        FOR_SWEEP = 128, FOR_FMT = 256, FOR_LSP = 512, FOR_LINK = 1024, FOR_OPEN = 2048 };
@@ -27,12 +28,13 @@ typedef struct OptionSpec {
     unsigned commands; // FOR_... bits
     const char *name;  // without the dashes
     char letter;       // short form; 0: none
-    const char *value; // name of the value in help; NULL: a flag
+    const char *value; // name of the value in help; NULL: the option takes no value
     const char *help;
-    size_t field;                                       // offset in Options
-    bool (*read)(const struct Args *args, void *field); // stores args->value; returns false after a message
-    int64_t min;                                        // range of an integer
-    int64_t max;
+    size_t field; // offset of the option's field in Options
+    // Parses args->value and stores it in `field`. Returns false after a message.
+    bool (*read)(const struct Args *args, void *field);
+    int64_t min; // smallest value of an integer; for --quiet, --verbose, --debug and --trace: the level
+    int64_t max; // largest value of an integer
     // Allowed values, then a null pointer; NULL: any value. If `value` is "LIST", the argument is a list of these
     // words, separated by commas.
     const char *const *words;
@@ -48,9 +50,10 @@ struct CommandContext {
     const char *program;                    // path of this program, valid in any working directory
     const char *invoked_as;                 // argv[0], for hints that show commands
     const char *cpu;                        // PetriOptions.cpu
-    const struct PlotSupport *plot_support; // plans and plots of petri sweep; NULL: not in this program
-    int (*run_lsp)(const CommandContext *context, struct Options *options); // petri lsp; NULL except in petri-lsp
-    const struct PetriRanks *ranks;   // the processes (ranks) that mpirun has started; NULL: only one
+    const struct PlotSupport *plot_support; // plans and plots of petri sweep; NULL: this program has none
+    // Runs petri lsp. NULL in all programs except petri-lsp.
+    int (*run_lsp)(const CommandContext *context, struct Options *options);
+    const struct PetriRanks *ranks;   // the processes (ranks) that mpirun has started; NULL: a single process
     const struct MpiChannel *channel; // messages between the ranks; NULL: a single process
     void (*leave_ranks)(void);        // stops waiting for the other ranks; can be called by a signal handler
 };
@@ -65,9 +68,9 @@ typedef struct Command {
     const char *missing_operand;      // message if no operand is given; NULL: not checked before `run`
     const char *no_stdin;             // message if the operand is `-`; NULL: `-` means standard input
     const char *second_operand_error; // message format for a second operand; NULL: reported as a second script
-    bool accepts_many;                // accepts several scripts and folders
-    bool live;                        // by default: follows the wall clock and runs until it is stopped
-    bool parses_arguments;            // `run` parses argv itself
+    bool accepts_many;                // true if the command accepts several scripts and folders
+    bool live;             // true if the command, by default, follows the wall clock and runs until it is stopped
+    bool parses_arguments; // true if `run` parses argv itself
     int (*run)(const CommandContext *context, struct Options *options); // returns the exit status
 } Command;
 

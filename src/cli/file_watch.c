@@ -43,12 +43,13 @@ typedef struct File {
     Stamp reported; // stamp at the last reported change
     Stamp found;    // stamp at the last poll
     double since;   // time when `found` was first seen
-    bool pending;   // `found` differs from `reported` and is not reported yet
-    bool written;   // a process has written to the file and not closed it yet
-    // inotify watches of the folders of `path` and of `target`, in this order (often the same watch); -1: none.
+    bool pending;   // true if `found` differs from `reported` and this change is not reported yet
+    bool written;   // true while a process has written to the file and not closed it yet
+    // Numbers of inotify watches: [0] of the folder of `path`, [1] of the folder of `target` (often the same watch);
+    // -1: none.
     int folders[2];
     const char *names[2]; // file names in these folders; they point into `path` and `target`
-    char *target;         // path with symbolic links resolved; NULL: does not exist
+    char *target;         // `path` with symbolic links resolved; NULL: the file does not exist
 } File;
 
 struct FileWatch {
@@ -62,7 +63,8 @@ struct FileWatch {
 
 static Stamp stamp_of(const char *path) {
     struct stat info;
-    if (stat(path, &info) != 0 || !S_ISREG(info.st_mode)) // pipes count as missing: reading one again could block
+    // A pipe counts as missing, because reading it again could block.
+    if (stat(path, &info) != 0 || !S_ISREG(info.st_mode))
         return (Stamp){0};
     return (Stamp){true,
                    (int64_t)info.st_dev,
@@ -91,7 +93,8 @@ static bool add_wake_source(const FileWatch *watch, int descriptor) {
     return descriptor >= 0 && epoll_ctl(watch->wake, EPOLL_CTL_ADD, descriptor, &event) == 0;
 }
 
-// If this fails, for example because no descriptor is free, files are only polled.
+// Opens inotify and the descriptors for waiting. If this fails, for example because no descriptor is free, files are
+// only polled.
 static void open_wake(FileWatch *watch) {
     watch->wake = epoll_create1(EPOLL_CLOEXEC);
     watch->events = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
@@ -202,8 +205,8 @@ void file_watch_free(FileWatch *watch) {
     free(watch);
 }
 
-// Returns true if a change of this file must be reported now. Otherwise, if a change is pending, lowers *wait to the
-// seconds until it can be reported.
+// Returns true if a change of this file must be reported now. Otherwise, if a change is pending, limits *wait to the
+// seconds until that change can be reported.
 static bool check_file(const FileWatch *watch, File *file, double time, double *wait) {
     Stamp stamp = stamp_of(file->path);
     if (!is_same_stamp(&stamp, &file->found)) {
@@ -254,7 +257,7 @@ void file_watch_add(FileWatch *watch, const char *path) {
     watch->files = memory_realloc(watch->files, (watch->count + 1) * sizeof *watch->files);
     File *file = &watch->files[watch->count++];
     *file = (File){.path = memory_strdup(path)};
-    watch_folders(watch, file); // before stamp_of, so that no change between both calls is missed
+    watch_folders(watch, file); // before stamp_of, so that no change between the two calls is missed
     file->reported = file->found = stamp_of(path);
     schedule_wake(watch, QUIET_SECONDS);
 }

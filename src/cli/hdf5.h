@@ -21,12 +21,13 @@ typedef struct Hdf5 {
 } Hdf5;
 
 // Starts petri-hdf5. Returns false after a message. `kind` selects what the caller writes to the stream. "trajectory":
-// any number of Hdf5Head, each followed by its data. "table": one HDF5_ADD with CSV, then HDF5_COMMIT. If `after` is
-// not NULL, the trajectory survives a crash of petri and petri-hdf5 and can be resumed. `after` is then "FRAME LAST":
-// the frame to resume after (-1: none), and the last frame that an existing file should contain.
+// any number of Hdf5Head, each followed by its data. "table": one HDF5_ADD with CSV, then HDF5_COMMIT.
+// If `after` is not NULL, the trajectory survives a crash of petri and petri-hdf5 and can be resumed. `after` then has
+// the form "FRAME LAST". FRAME is the frame after which the run resumes (-1: none). LAST is the last frame that an
+// existing file should contain.
 bool hdf5_start(Hdf5 *writer, const char *kind, const char *path, const char *after);
-// Waits until petri-hdf5 answers an HDF5_SYNC: all data sent before it is on disk. On failure, returns false after a
-// message from petri-hdf5.
+// Waits until petri-hdf5 answers an HDF5_SYNC. All data that was sent before the HDF5_SYNC is then on disk. On failure,
+// returns false after a message from petri-hdf5.
 bool hdf5_wait(Hdf5 *writer);
 // Writes a whole table. Returns false after a message.
 bool hdf5_table(const char *path, const char *csv, size_t length);
@@ -51,9 +52,9 @@ typedef struct Hdf5Head {
     uint64_t bytes;
 } Hdf5Head;
 
-// Header of a frame. It is followed by NUL-terminated strings, and then by the systems. The strings are the ids that
-// are not integers >= 0 and did not occur in an earlier frame of the run. NULs pad all strings together to a multiple
-// of eight bytes.
+// Header of a frame. It is followed by NUL-terminated strings, and then by the systems. The strings are the particle
+// ids that are not integers >= 0 and did not occur in an earlier frame of the run. After the last string, NULs pad the
+// strings to a multiple of eight bytes.
 typedef struct Hdf5Frame {
     int64_t number;
     double time;
@@ -63,8 +64,8 @@ typedef struct Hdf5Frame {
 } Hdf5Frame;
 
 // Header of a system. It is followed by the name of the system, padded like the strings of a frame, and by one array
-// for each quantity. Positions, velocities, radii, masses and charges are double; ids and anchor flags are int64_t. The
-// id -2-K means string K, counted from 0 over all frames of the run.
+// for each quantity. Positions, velocities, radii, masses and charges are double; ids and anchor flags are int64_t. An
+// id of -2-K means string K. Strings are numbered from 0 over all frames of the run.
 typedef struct Hdf5System {
     uint64_t particles;
     uint64_t dimensions;

@@ -11,12 +11,13 @@
 Output *help_begin(void);
 // Flushes and frees the output. Returns the exit status.
 int help_end(Output *output);
-// Writes text, wrapped at spaces to the width of the terminal (COLUMNS overrides it; default: 80). Columns of a line
-// are separated by at least two spaces. A wrapped line continues below its last column.
+// Writes text, wrapped at spaces to the width of the terminal. The environment variable COLUMNS overrides this width;
+// without either, it is 80. Two or more spaces within a line separate columns. A wrapped line continues below the start
+// of its last column.
 void help_write(Output *output, const ByteBuffer *text);
 // Writes text like help_write, to standard output. Returns the exit status.
 int help_print(const ByteBuffer *text);
-// Adds paragraphs and a newline. Joins the lines of a paragraph. Keeps empty lines and lines that begin with a space.
+// Adds paragraphs and a newline. Joins the lines of a paragraph, but not empty lines or lines that begin with a space.
 void help_prose(ByteBuffer *text, const char *prose);
 // Adds a line with an option and its help.
 void help_option(ByteBuffer *text, const OptionSpec *spec);

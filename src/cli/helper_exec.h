@@ -1,14 +1,15 @@
 // helper_exec.h: execution of helper programs such as petri-pictures and petri-ranks.
 //
-// petri itself links few libraries. For commands that need others, a helper program replaces the process (exec).
+// petri itself links few libraries. If a command needs other libraries, a helper program replaces the process (exec).
 #ifndef PETRI_SRC_HELPER_EXEC_H
 #define PETRI_SRC_HELPER_EXEC_H
 
 #include <stdbool.h>
 
-// Returns true if only petri-pictures handles this command. Always false in petri-pictures.
+// Returns true if `first`, the first argument, is a command that only petri-pictures executes. In petri-pictures
+// itself, always returns false.
 bool helper_exec_is_pictures_command(const char *first);
-// Returns true if unknown commands must be forwarded to petri-pictures. False in petri-pictures.
+// Returns true if unknown commands must be forwarded to petri-pictures. In petri-pictures itself, returns false.
 bool helper_exec_forwards_unknown(void);
 // Executes petri-pictures with the same arguments. Returns only on failure: the exit status, after a message.
 int helper_exec_pictures(char **argv);

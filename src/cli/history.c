@@ -32,7 +32,8 @@ static bool is_pinned(const FrameHistory *history, size_t at) {
     return at == 0 || history->keyframes[at - 1].epoch != history->keyframes[at].epoch;
 }
 
-// Returns the cost of dropping a keyframe: the distance of its neighbours relative to their age.
+// Returns the cost of dropping a keyframe: the number of frames between its neighbours, divided by the age of the
+// earlier neighbour plus a constant.
 static double keyframe_cost(const FrameHistory *history, size_t at) {
     const Keyframe *before = &history->keyframes[at - 1], *after = &history->keyframes[at + 1];
     return (double)(after->frame - before->frame) / (double)(history->last - before->frame + 8 * HISTORY_INTERVAL);
@@ -77,7 +78,7 @@ static bool add_keyframe(FrameHistory *history, PetriSession *session) {
 }
 
 // Starts an epoch with a keyframe at the current frame. If `restart` is true, drops all earlier keyframes and epochs.
-// If out of memory, returns false and changes nothing, so every epoch has its first keyframe.
+// If out of memory, returns false and does not start an epoch. Every epoch therefore has a keyframe at its start.
 static bool begin_epoch(FrameHistory *history, PetriSession *session, bool restart) {
     PetriSnapshot *snapshot = petri_snapshot(session);
     if (!snapshot)
@@ -181,7 +182,8 @@ PetriStatus history_step(FrameHistory *history, PetriSession *session) {
     return status;
 }
 
-// Returns the last keyframe before `frame` in its epoch, or NULL. `frame` must be after the first frame.
+// Returns the last keyframe that is before `frame` and in the same epoch as `frame`, or NULL. `frame` must be after the
+// first frame of the timeline.
 static const Keyframe *keyframe_before(const FrameHistory *history, int64_t frame) {
     uint32_t epoch = epoch_of(history, frame)->number;
     for (size_t i = history->keyframe_count; i > 0; i--) {

@@ -2,36 +2,36 @@
 //
 // The timeline covers the frames `first` to `last`. Some of them, the keyframes, are stored as snapshots. Other frames
 // are recomputed from the keyframe before them, with bit-identical results. HISTORY_BYTES and HISTORY_MAX limit the
-// keyframes. If a limit is exceeded, the keyframe that saves the fewest steps relative to its age is dropped. Recent
-// keyframes are therefore denser.
+// keyframes. If a limit is exceeded, a keyframe is dropped: the one that saves the fewest steps of recomputation
+// relative to its age. Recent keyframes are therefore closer together than old ones.
 //
 // A change of the configuration (script, definitions, clock rates, prompt statements) starts a new epoch with its own
 // keyframe. A frame is always recomputed with the configuration of its epoch. Stepping from a past frame under a
-// changed configuration discards the frames after it. If the session follows the wall clock, a frame is recomputed at
-// its recorded time. In this case, a step from a past frame computes a frame at the current time and discards all later
-// frames.
+// changed configuration discards the frames after that past frame.
+// If the session follows the wall clock, a frame is recomputed at its recorded time. In this case, a step from a past
+// frame computes the next frame at the current time, and discards the old frames after the past frame.
 #ifndef PETRI_SRC_CLI_HISTORY_H
 #define PETRI_SRC_CLI_HISTORY_H
 
 #include "cli/byte_buffer.h"
 #include "petri.h"
 
-// HISTORY_MAX: maximum number of keyframes. HISTORY_INTERVAL: frames after which the next keyframe is stored.
-// HISTORY_BYTES: maximum size of all keyframes together. Two keyframes are kept even if they are larger.
+// HISTORY_MAX: maximum number of keyframes. HISTORY_INTERVAL: number of frames from one stored keyframe to the next.
+// HISTORY_BYTES: maximum size of all keyframes together. Two keyframes are kept even if together they are larger.
 enum { HISTORY_MAX = 512, HISTORY_INTERVAL = 8 };
 #define HISTORY_BYTES ((size_t)64 << 20)
 
 typedef struct Keyframe {
     int64_t frame;
-    uint32_t epoch;
+    uint32_t epoch; // Epoch.number
     PetriSnapshot *snapshot;
 } Keyframe;
 
-// Frames with the same configuration: from start + 1 to the start of the next epoch.
+// A series of frames with the same configuration: from frame start + 1 to the `start` of the next epoch.
 typedef struct Epoch {
     uint32_t number; // unique in the history
     int64_t start;
-    uint64_t config; // petri_config_revision
+    uint64_t config; // petri_config_revision of these frames
 } Epoch;
 
 // Time of a frame.
@@ -51,15 +51,15 @@ typedef struct FrameHistory {
     int64_t last;
     PetriSnapshot *origin; // state that history_reset returns to
     bool live;             // true if the session follows the wall clock; set before history_start
-    FrameTime *times;      // if live: times of the frames from times_start + 1
+    FrameTime *times;      // if `live`: times of the frames times_start + 1, times_start + 2 and so on
     size_t time_count;
     size_t time_capacity;
     int64_t times_start;
-    const char *why; // reason why earlier frames are missing, a literal; NULL: none are missing
+    const char *why; // reason why frames before `first` are missing, a string literal; NULL: none are missing
 } FrameHistory;
 
 // Starts a new timeline at the current frame and drops the old one. `why` becomes history->why. Returns false if out of
-// memory; the other functions then try again to start it.
+// memory. history_step, history_goto and history_reset then try again to start the timeline.
 bool history_start(FrameHistory *history, PetriSession *session, const char *why);
 void history_free(FrameHistory *history);
 // Like petri_step, but records the frame.

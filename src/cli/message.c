@@ -47,7 +47,7 @@ void message(const char *format, ...) {
     length = without_controls(line, length);
     line[length] = '\n';
     length++;
-    // Not stdio, which would lose output if a signal such as Ctrl-C interrupted the write.
+    // stdio is not used, because it would lose output if a signal such as Ctrl-C interrupted the write.
     file_write(STDERR_FILENO, line, length);
 }
 

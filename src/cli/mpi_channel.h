@@ -10,10 +10,10 @@
 typedef struct MpiChannel {
     int rank;  // number of this process, from 0
     int count; // number of processes
-    // Sends a message. Sending a long message can block until it is received.
+    // Sends a message to rank `to`. Can block until that rank has received the message, if the message is long.
     void (*send)(int to, const void *bytes, size_t length);
-    // Appends a received message to `message` and sets *from to its sender. Returns false, without
-    // waiting, if no message has arrived.
+    // Appends a received message to `message` and sets *from to the rank of its sender. Returns false, without waiting,
+    // if no message has arrived.
     bool (*receive)(int *from, ByteBuffer *message);
 } MpiChannel;
 

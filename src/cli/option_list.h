@@ -2,7 +2,7 @@
 //
 // FIELD(type, name, default): a field of Options (options.h).
 // OPTION(commands, "name", 'letter' or 0, "VALUE" or NULL, reader, field, "help"): an option. The readers are in
-// options.c. FOR_GOLDEN marks options that are allowed in a golden, because they write no files.
+// options.c. FOR_GOLDEN marks options that are allowed in a golden file, because they write no files.
 // clang-format off
 FIELD(const char *, output,       NULL)           // render, open, sweep: output file
 FIELD(const char *, format,       NULL)           // render: format for `-o -`; NULL: not given
@@ -18,7 +18,7 @@ FIELD(int64_t,      seeds,        0)
 FIELD(const char *, where,        NULL)
 FIELD(const char *, until,        NULL)
 FIELD(TextList,     metrics,      {0})            // sweep: each "NAME=EXPR"
-FIELD(int64_t,      row_every,    0)              // sweep: frames between rows; 0: only the last
+FIELD(int64_t,      row_every,    0)              // sweep: number of frames from one row to the next; 0: a row for the last frame only
 FIELD(const char *, summary,      NULL)
 FIELD(const char *, plot,         NULL)
 FIELD(const char *, plan,         NULL)
@@ -61,7 +61,7 @@ FIELD(bool,         stdio,        false)
 FIELD(int,          report,       0)              // check: ReportForm
 FIELD(bool,         only_checks,  false)          // fmt: write nothing
 FIELD(bool,         parameters,   false)          // list the parameters instead of running
-FIELD(int,          dump,         -1)             // PetriDump, or -1
+FIELD(int,          dump,         -1)             // PetriDump; -1: not given
 
 OPTION(FOR_RENDER, "output", 'o', "FILE", read_text, output, "write to OUT.png, OUT%05d.png (one per frame), OUT.svg, OUT.pdf, OUT.mp4, OUT.webm or OUT.gif; - for standard output")
 OPTION(FOR_RENDER, "format", 0, "F", read_text, format, "select the format for '-o -': png, svg, pdf, mp4, webm or gif (default: png)")

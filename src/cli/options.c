@@ -189,7 +189,7 @@ static bool read_size(const Args *args, void *field) {
     return true;
 }
 
-// Readers with their parameters, for option_list.h.
+// Values for the argument `reader` of OPTION in option_list.h: a reader with its parameters.
 #define WHOLE(from, to) read_integer, .min = from, .max = to
 #define VERBOSITY(level) read_verbosity, .min = level
 #define ONE_OF(reader, ...)                                                                                            \

@@ -35,7 +35,7 @@ typedef struct Options {
     char **argv;
 } Options;
 
-enum { OPTIONS_READ = -1 }; // success; other values are exit statuses
+enum { OPTIONS_READ = -1 }; // success, from functions that otherwise return an exit status
 
 // Returns true if another frame must be computed according to --frames and --runtime. `frames` frames have been
 // computed since `start`, a time of the monotonic clock in seconds.

@@ -15,7 +15,7 @@ bool parameter_find(PetriSession *session, const char *name, PetriParameter *par
 void parameter_range(ByteBuffer *out, const PetriParameter *parameter);
 // Adds a description such as `NAME = VALUE  (1..500, default 200)`.
 void parameter_describe(ByteBuffer *out, const PetriParameter *parameter);
-// Returns true if a diagnostic reports a definition (-D) that the script does not accept.
+// Returns true if the diagnostic reports that the script does not accept a definition (-D).
 bool is_invalid_definition(const PetriDiagnostic *diagnostic);
 
 #endif

@@ -7,7 +7,7 @@
 
 typedef struct Progress {
     bool enabled;
-    bool drawn;         // the line is on the screen
+    bool drawn;         // true if the line is on the screen
     int64_t total;      // number of frames or other items
     const char *things; // plural noun for the items, such as "frames"
     double start;       // seconds of the monotonic clock
@@ -16,7 +16,7 @@ typedef struct Progress {
 
 // Returns the time of the monotonic clock in seconds.
 double clock_seconds(void);
-// Gets the size of the terminal `fd`. Does not modify *columns and *rows if `fd` is not a terminal.
+// Sets *columns and *rows to the size of the terminal `fd`. Does not modify them if `fd` is not a terminal.
 void terminal_extent(int fd, int *columns, int *rows);
 // Returns true if standard error is a terminal that can erase a line.
 bool progress_possible(void);

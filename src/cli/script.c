@@ -13,8 +13,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-// Maximum size of a script. The library has the same limit for files.
-
 bool script_is_stdin(const char *name) {
     return strcmp(name, "-") == 0;
 }

@@ -31,7 +31,8 @@ int script_suffix(const char *name, const char *words);
 char *script_folder(const char *name);
 // Adds a word, quoted for a shell if necessary.
 void shell_add_word(ByteBuffer *text, const char *word);
-// Adds the path of the program. The path is relative if the program is below the current folder.
+// Adds `called`, the path of this program, quoted for a shell if necessary. The path is made relative if the program is
+// below the current folder.
 void shell_add_program(ByteBuffer *text, const char *called);
 // Prints two commands: one shows the script, the other saves a picture of it.
 void hint_pictures(const CommandContext *context, const char *script);

@@ -6,8 +6,8 @@
 typedef void SignalCleanup(void *context);
 
 // Registers the action for a file that is being written. Returns the number of the action, or -1 if too many are
-// registered. Any thread may call this function. After signal_cleanup_run has started, it waits
-// for the end of the process and never returns.
+// registered. Any thread may call this function. Once signal_cleanup_run has started, signal_cleanup_begin waits until
+// the process ends and never returns.
 int signal_cleanup_begin(SignalCleanup *act, void *context);
 // Removes an action, because the file is complete or deleted. -1 is ignored.
 void signal_cleanup_end(int number);

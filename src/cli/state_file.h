@@ -11,8 +11,8 @@
 
 typedef struct StateFile {
     const char *name;    // NULL: no state file
-    bool unreadable;     // the file could not be read, so it is not written
-    bool outdated;       // the last state could not be written
+    bool unreadable;     // true if the file could not be read, so it is not written
+    bool outdated;       // true if the last attempt to save the state failed
     double last_attempt; // time of the last attempt, in seconds of the monotonic clock
     // Writes data that must be on disk before the state is saved. Returns false after a message; the state is then not
     // saved. NULL: there is no such data.
@@ -25,7 +25,7 @@ bool state_file_restore(StateFile *file, PetriSession *session, const char *name
 // Saves the state, unless it was saved in the last few seconds and `at_once` is false. Returns a message for the user
 // if saving has started to fail or works again, else NULL.
 const char *state_file_save(StateFile *file, PetriSession *session, bool at_once);
-// Returns true if the file does not contain the last state, which makes the command fail.
+// Returns true if the file does not contain the last state. In this case, the command fails.
 static inline bool state_file_failed(const StateFile *file) {
     return file->unreadable || file->outdated;
 }

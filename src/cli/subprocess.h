@@ -9,8 +9,8 @@
 
 typedef struct Subprocess {
     pid_t pid;
-    int output; // descriptor of an unnamed file with its standard output
-    int errors; // descriptor of an unnamed file with its standard error
+    int output; // descriptor of an unnamed file with the standard output of the child
+    int errors; // descriptor of an unnamed file with the standard error of the child
 } Subprocess;
 
 enum { SUBPROCESS_MAX_SECONDS = 120 };

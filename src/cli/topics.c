@@ -71,7 +71,7 @@ void help_formula(ByteBuffer *text, const PetriNodeKind *kind) {
     }
 }
 
-// Adds the help for a kind of node. Some, such as `!group`, belong to several areas.
+// Adds the help for all kinds of nodes with this name. Some names, such as `!group`, occur in several areas.
 static bool print_node(ByteBuffer *text, const char *name) {
     PetriNodeKind kind;
     bool found = false;

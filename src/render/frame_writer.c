@@ -23,7 +23,7 @@
 #include <unistd.h>
 
 enum { QUEUE = 4, MAX_WORKERS = 16, MAX_READY = 32 };
-static const double GRACE_SECONDS = 0.05; // time that running jobs have after a signal
+static const double GRACE_SECONDS = 0.05; // after a signal, jobs that are not finished within this time are abandoned
 
 typedef struct Job Job;
 struct Job {
@@ -35,7 +35,7 @@ struct Job {
     Replacement target;
     bool target_open; // true if `target` is in use
     bool failed;
-    int error;       // errno of renaming the file; 0: none
+    int error;       // errno of the failure to rename the file; 0: none
     uint64_t number; // from 0, in the order of frame_writer_add
 };
 
@@ -43,13 +43,13 @@ struct FrameWriter {
     pthread_mutex_t lock; // protects the fields up to `seconds`
     pthread_cond_t changed;
     Job *waiting; // queue, oldest first
-    Job **last;   // where the next job is linked
+    Job **last;   // points to the pointer to which the next job is assigned
     int waiting_count;
     int running; // number of jobs taken from the queue and not finished
     Job *ready;  // written jobs that wait for earlier jobs, in any order
     int ready_count;
     uint64_t added;
-    uint64_t next_committed; // first job that is not committed: its file is not renamed yet
+    uint64_t next_committed; // number of the first job that is not committed: its file is not renamed yet
     Job *done;               // jobs to be reported and freed
     bool begun;              // true if the first worker has started
     bool ending;             // true if no more jobs will be added
@@ -59,7 +59,7 @@ struct FrameWriter {
     bool film_abandoned; // true if the video ends without the frame that is being drawn
     bool has_frame;      // true if the video has a frame
     int unfinished;      // number of abandoned jobs
-    double seconds;      // spent by all threads
+    double seconds;      // time that all threads together spent on jobs
     const char *film;    // `film` to `recording` are used by the first worker only
     double fps;
     Video video;
@@ -343,8 +343,8 @@ void frame_writer_report(FrameWriter *writer, PetriSession *session) {
     }
 }
 
-// Waits until all jobs are finished. After a signal, waits only GRACE_SECONDS, or longer until a frame is completely
-// written to the video. Returns the number of abandoned jobs.
+// Waits until all jobs are finished. After a signal, waits only GRACE_SECONDS, but does not stop while a frame is
+// partly written to the video. Returns the number of abandoned jobs.
 static int wait_for_end(FrameWriter *writer) {
     double signalled = 0;
     for (;;) {
@@ -354,7 +354,7 @@ static int wait_for_end(FrameWriter *writer) {
             signalled = signalled == 0 ? clock_seconds() : signalled;
             bool patient = clock_seconds() - signalled <= GRACE_SECONDS;
             if (!patient && (!writer->film || writer->drawing)) {
-                writer->failed = writer->failed || !writer->film; // queued jobs are not started
+                writer->failed = writer->failed || !writer->film; // so that queued jobs are not started
                 writer->abandoned = true;
                 writer->film_abandoned = writer->film;
                 return (int)(writer->added - writer->next_committed);
@@ -376,7 +376,7 @@ bool frame_writer_finish(FrameWriter *writer, PetriSession *session, bool abando
         pthread_join(writer->workers[--writer->worker_count], NULL);
     for (Job *job = writer->unfinished == 0 ? writer->ready : NULL; job; job = job->next)
         if (job->target_open)
-            replace_abort(&job->target); // an earlier job has failed
+            replace_abort(&job->target); // the file is not renamed, because an earlier job has failed
     if (writer->unfinished == 0) {
         add_done(writer, writer->ready);
         writer->ready = NULL;

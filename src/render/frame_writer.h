@@ -11,20 +11,20 @@
 
 typedef struct FrameWriter FrameWriter;
 
-// Starts the threads. `film`: file name of the video, with `film_fps` frames per second; NULL: none. Videos of
-// `!record` nodes have `fps`. Returns NULL after a message.
+// Starts the threads. `film` is the file name of the video, which has `film_fps` frames per second; NULL: no video.
+// Videos of `!record` nodes have `fps` frames per second. Returns NULL after a message.
 FrameWriter *frame_writer_start(const char *film, double film_fps, double fps);
-// Adds a picture and takes ownership of it. The picture is added to the video if `for_film` is true, and written to
-// `file` if that is not NULL. The name is copied. The files of the picture's `!record` nodes are written as well.
-// Pictures that need history must be added for every frame. Waits while the queue is full, unless a signal arrives.
-// Returns false if writing has failed before.
+// Adds a picture to the queue and takes ownership of it. A thread adds the picture to the video if `for_film` is true,
+// and writes it to `file` if that is not NULL. The thread also writes the files of the picture's `!record` nodes. The
+// file name is copied. Pictures that need history (petri_picture_needs_history) must be added for every frame. Waits
+// while the queue is full, unless a signal arrives. Returns false if writing has failed before.
 bool frame_writer_add(FrameWriter *writer, PetriPicture *picture, bool for_film, const char *file);
 // Reports the diagnostics of finished pictures to the session's callback and frees the pictures.
 void frame_writer_report(FrameWriter *writer, PetriSession *session);
-// Waits for all pictures and completes the video. With `abandon`, discards unfinished pictures. After a signal, waits
-// only briefly, or longer until a frame is completely written to the video. Returns false if writing has failed.
-// *error_text is then the reason, or NULL if a picture's diagnostics contain it. The text is valid until
-// frame_writer_free.
+// Waits for all pictures and completes the video. If `abandon` is true, discards unfinished pictures. After a signal,
+// waits only briefly, but does not stop while a frame is partly written to the video. Returns false if writing has
+// failed. *error_text is then the reason, or NULL if a picture's diagnostics contain the reason. The text is valid
+// until frame_writer_free.
 bool frame_writer_finish(FrameWriter *writer, PetriSession *session, bool abandon, const char **error_text);
 // Returns the number of pictures that frame_writer_finish has abandoned. If it is not 0, threads may still be drawing.
 // They stop only when the process ends.

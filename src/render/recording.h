@@ -12,7 +12,7 @@ typedef struct RecordedFile RecordedFile;
 typedef struct Recording {
     double fps;
     RecordedFile *files;
-    const char *error_text; // reason for a failure, if no picture's diagnostics contain it; else NULL
+    const char *error_text; // reason for a failure; NULL: no failure, or a picture's diagnostics contain it
 } Recording;
 
 // Renders a picture, if it is not rendered yet, and writes the files of its `!record` nodes. Returns false on failure.

@@ -28,8 +28,7 @@ typedef struct Render {
 } Render;
 
 // Finds the placeholder for the frame number in a file name: the first `%`, if at most two digits and a `d` follow, as
-// in
-// `%d` or `%05d`. Sets *end to its end. Returns NULL if there is none.
+// in `%d` or `%05d`. Returns the start of the placeholder and sets *end to its end. Returns NULL if there is none.
 static const char *find_number(const char *name, const char **end) {
     const char *at = strchr(name, '%');
     if (!at)
@@ -98,7 +97,8 @@ static bool check_folder(const char *file) {
     return good;
 }
 
-// Draws the frame that was computed last: for the video, for a file, or only for its `!record` nodes.
+// Draws the last computed frame. Adds it to the video if `for_film` is true, writes it to `file` if that is not NULL,
+// and writes the files of its `!record` nodes.
 static void draw_frame(Render *render, bool for_film, const char *file) {
     PetriPicture *picture = NULL;
     frames_set_interruptible(&render->frames, true);

@@ -17,7 +17,7 @@ typedef struct Video {
     Replacement film;
     int width;
     int height;
-    _Atomic pid_t pid;    // 0: none
+    _Atomic pid_t pid;    // process id of ffmpeg; 0: it is not running
     int frames;           // pipe to ffmpeg
     int errors;           // unnamed file with the messages of ffmpeg
     int cleanup_id;       // from signal_cleanup_begin

@@ -60,7 +60,7 @@ static void catch_signals(void) {
 }
 
 static bool should_print_diagnostic(Frames *frames, PetriLevel level) {
-    // Notes belong to the diagnostic before them.
+    // A note belongs to the diagnostic before it, and is shown only if that diagnostic was shown.
     if (level != PETRI_NOTE)
         frames->shown_last = level == PETRI_ERROR || frames->options->verbosity > LOG_QUIET;
     return frames->shown_last;
@@ -144,12 +144,12 @@ bool frames_due(const Frames *frames) {
 void frames_set_interruptible(Frames *frames, bool begins) {
     working = begins ? frames->session : NULL;
     if (!begins)
-        petri_clear_interrupt(frames->session); // a late interrupt must not stop the next call
+        petri_clear_interrupt(frames->session); // an interrupt that arrived after the frame must not stop the next one
 }
 
 bool frames_step(Frames *frames) {
     progress_update(&frames->progress, frames->done - frames->before_first_picture);
-    int64_t number = petri_frame(frames->session).number + 1; // read before the step, which can fail
+    int64_t number = petri_frame(frames->session).number + 1; // read before the step, because the step can fail
     frames_set_interruptible(frames, true);
     PetriStatus status = interrupted ? PETRI_INTERRUPTED : petri_step(frames->session);
     frames_set_interruptible(frames, false);

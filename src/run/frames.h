@@ -38,7 +38,8 @@ bool frames_due(const Frames *frames);
 bool frames_step(Frames *frames);
 // Saves the state if the time of the next save has come. Must be called after the frame's output is written.
 void frames_save_state(Frames *frames);
-// If `begins` is true, a signal from now on interrupts the session. If false, it only requests the end of the run.
+// If `begins` is true, a signal interrupts the session from now on. If `begins` is false, a signal only requests the
+// end of the run.
 void frames_set_interruptible(Frames *frames, bool begins);
 // Erases the progress line and, if the run succeeded (`going`), saves the state.
 void frames_end(Frames *frames, bool going);

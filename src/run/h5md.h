@@ -14,11 +14,11 @@ typedef struct H5md {
     TextList texts;  // ids that are not integers >= 0, as strings
     HashIndex index; // index of `texts`
     size_t sent;     // number of `texts` that were sent to petri-hdf5
-    ByteBuffer ids;  // int64_t ids of the frame's particles
+    ByteBuffer ids;  // ids of the particles of the current frame, as int64_t values
 } H5md;
 
-// Starts petri-hdf5. `resume`: the state from which the run continues; NULL: the file is not resumable. Returns false
-// after a message.
+// Starts petri-hdf5 and makes `output` write to it. `resume` describes the state from which the run continues; if it is
+// NULL, later runs cannot continue the file. Returns false after a message.
 bool h5md_open(H5md *file, const char *path, const Resume *resume, Output *output);
 // Adds the last frame of a session. Returns false if out of memory. Write errors are stored in `output`.
 bool h5md_add(H5md *file, PetriSession *session, Output *output);

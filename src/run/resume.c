@@ -43,8 +43,8 @@ static bool read_integer(const char *text, const char *ends, int64_t *number) {
     return errno == 0 && end > text && text[0] >= '0' && text[0] <= '9' && strchr(ends, *end) && *end != '\0';
 }
 
-// read_xyz and read_csv find the end of the last complete frame that is not later than `after`. They return false if
-// the file is not a trajectory written by petri.
+// read_xyz and read_csv find the last complete frame that is not later than frame `after`. They set file->last to its
+// number and file->end to the offset of its end. They return false if the file is not a trajectory written by petri.
 
 static bool read_xyz(Lines *lines, int64_t after, ResumeFile *file) {
     int64_t count = 0, frame = 0;

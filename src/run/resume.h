@@ -13,12 +13,12 @@
 typedef struct Resume {
     bool wanted;      // true if `--state` was given
     int64_t after;    // frame of the state; -1: the run starts from the beginning
-    int64_t expected; // last frame up to `after` that a trajectory should have; -1: none
+    int64_t expected; // last frame up to `after` that a trajectory should contain; -1: none
 } Resume;
 
 typedef struct ResumeFile {
-    int fd;              // locked, positioned at `end`; -1: the file does not exist
-    size_t end;          // length in bytes after truncation
+    int fd;              // descriptor of the locked file, positioned at `end`; -1: the file does not exist
+    size_t end;          // length of the file in bytes, after later frames were removed
     int64_t last;        // last frame in the file; -1: none
     uint32_t dimensions; // number of dimensions in a CSV header; 0: no header yet
 } ResumeFile;
@@ -26,7 +26,8 @@ typedef struct ResumeFile {
 // Opens an XYZ file, or a CSV file if `csv` is true, and removes the frames after frame `after`. Returns false after a
 // message. Does not modify a file that was not written by petri.
 bool resume_open(ResumeFile *file, const char *path, bool csv, int64_t after);
-// Reports frames that are missing between `last`, the last frame in the file, and the state.
+// Reports the frames that are missing in the file: those from last + 1 up to the state. `last` is the last frame in the
+// file.
 void resume_report_gap(const char *path, int64_t last, const Resume *resume);
 
 #endif

@@ -170,7 +170,7 @@ static int list_parameters(Run *run) {
         message("%s has no parameters; to add one, write `let SIZE=SIZE or 20 -- 1..100 how large`",
                 script_display_name(run->frames.options->script));
     }
-    // Fails if the memory limit truncated the list.
+    // If the memory limit truncated the list, an error was reported, and the command fails.
     return petri_diagnostic_count(run->frames.session, PETRI_ERROR) == errors ? STATUS_DONE : STATUS_FAILED;
 }
 
@@ -192,7 +192,8 @@ static bool is_named(const char *word, const char *name) {
     return strncmp(word, "--", 2) == 0 && strncmp(word + 2, name, length) == 0 && strchr("=", word[2 + length]);
 }
 
-// Returns true if `petri view` accepts the option. The options that it does not accept request text or files.
+// Returns true for an option that `petri view` accepts, for --show, and for a word that is not an option. All other
+// options request text or files.
 static bool is_view_option(const char *word) {
     for (const OptionSpec *spec = OPTIONS; spec->name; spec++)
         if (spec->commands & FOR_VIEW && is_named(word, spec->name))

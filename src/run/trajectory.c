@@ -26,7 +26,8 @@
 enum { XYZ_DIMENSIONS = 3 };
 
 static bool report_error(Trajectory *trajectory, int error) {
-    // These errors mean that petri-hdf5 has reported its own error and exited. ECONNRESET: it had not read all data.
+    // These errors mean that petri-hdf5 has reported its own error and exited. The error is ECONNRESET if petri-hdf5
+    // had not read all data before it exited.
     bool reported = trajectory->format == TRAJECTORY_H5MD && (error == EPIPE || error == ECONNRESET);
     if (!trajectory->failed && !reported)
         message("cannot write %s: %s", trajectory->path, strerror(error));
@@ -34,7 +35,8 @@ static bool report_error(Trajectory *trajectory, int error) {
     return false;
 }
 
-// A SignalCleanup, which can run at any point of the program. Keeps the complete frames.
+// Saves the complete frames before a signal ends the process. This is a SignalCleanup, so it can run at any point of
+// the program.
 static void commit_on_signal(void *context) {
     Trajectory *trajectory = context;
     Output *output = &trajectory->output;
@@ -194,7 +196,7 @@ bool trajectory_sync(void *context) {
     return replace_sync(trajectory->output.fd) || report_error(trajectory, errno);
 }
 
-// Closes a file that is extended in place, after truncating an incomplete frame.
+// Removes an incomplete frame from the end of a file that is extended in place, then closes the file.
 static bool end_named(Trajectory *trajectory, bool flushed) {
     int fd = trajectory->output.fd;
     bool good = file_truncate(fd, flushed ? trajectory->complete_bytes : trajectory->flushed_bytes) && replace_sync(fd);

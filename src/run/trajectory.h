@@ -22,8 +22,8 @@ typedef struct Trajectory {
     bool named;     // true if the file has its final name and is extended in place
     Replacement file;
     int cleanup_id;        // from signal_cleanup_begin
-    size_t complete_bytes; // length up to the end of the last complete frame
-    size_t flushed_bytes;  // length up to the last complete frame at the last flush
+    size_t complete_bytes; // length of the file up to the end of the last complete frame
+    size_t flushed_bytes;  // value of complete_bytes at the last flush
     uint32_t dimensions;   // CSV: largest number of dimensions of a system in the first frame; 0: no header yet
     bool failed;           // true after an error, which has been reported
     H5md h5md;             // used instead of `file` for H5MD
