@@ -33,7 +33,7 @@ typedef enum Opcode {
 typedef struct NodeCode {
     const Node *base;                  // prototype of the node, with its kind and tags
     const Symbol *const *names;        // names of the attributes, without duplicates
-    const Origin *decorated;           // position of the node with its tags and attributes; NULL: it has neither
+    const Origin *decorated;           // position of the node's tags and attributes; NULL: it has neither
     const NodeList *constant_children; // NULL: no children, or they are computed at run time
 } NodeCode;
 
@@ -75,9 +75,11 @@ typedef struct DecorateCode {
 // register that the body writes becomes a column, which has a value for each iteration.
 typedef struct BatchPlan {
     uint32_t end;            // index of the loop's NEXT instruction
-    int32_t first_register;  // register of the first element of `columns`
+    int32_t first_register;  // register to which columns[0] belongs
     uint32_t register_count; // number of elements of `columns`
-    const uint8_t *columns;  // by register: number of its column, from 1; 0: same value in all iterations
+    // By register: number of its column, from 1; 0: no column, because the register has the same value in all
+    // iterations.
+    const uint8_t *columns;
     uint32_t column_count;
     uint32_t yield_count; // number of YIELD instructions in the body
 } BatchPlan;
@@ -88,8 +90,8 @@ enum { CODE_MAX_COLUMNS = 64, CODE_MAX_YIELDS = 8, CODE_MAX_READ = 32 };
 typedef struct Instr {
     uint16_t op;
     uint16_t loop; // instructions of loops: nesting depth of the loop, from 0
-    // Register written, or first register bound. YIELD_NODE: 1 if the other data that an iteration allocates can be
-    // freed, else 0.
+    // Register written, or first of the registers bound. YIELD_NODE: 1 if all data that the iteration allocated can be
+    // freed after the node was added to a node batch; otherwise 0.
     int32_t d;
     union {
         int32_t a;
@@ -101,7 +103,7 @@ typedef struct Instr {
         uint32_t count; // number of operands in the list, or of registers bound
     };
     // Depends on the instruction: index of the instruction to jump to, or number of a capture, engine name or lookup.
-    // YIELD_NODE: register of the loop's name.
+    // YIELD_NODE: register of the loop variable.
     uint32_t target;
     const Origin *at; // position in the source
     union {
@@ -119,11 +121,12 @@ typedef struct Instr {
 } Instr;
 
 struct Code {
-    const Source *source; // source of the compiled expression; instructions of included files have others
+    // Source of the compiled expression; instructions from included files have other sources (Instr.at).
+    const Source *source;
     const Instr *instrs;
     uint32_t count;
     uint32_t register_count;
-    uint32_t slot_count; // number of slots, which are initially null in the main program and in modules
+    uint32_t slot_count; // number of slots; in the main program and in modules, they are initially null
     uint32_t loop_count; // maximum nesting depth of loops
     const int32_t *operands;
     const Value *constants; // operand -1 refers to the last constant
@@ -131,8 +134,8 @@ struct Code {
     const uint32_t *lines; // source line of each instruction, from 1; NULL: not recorded
 };
 
-// Returns the number of operands that an instruction reads, and stores them in `reads`. In the body of a loop with a
-// BatchPlan, there are at most CODE_MAX_READ. `operands` is the array Code.operands that contains the lists.
+// Stores the operands that `instr` reads in `reads`, and returns their number. An instruction in the body of a loop
+// with a BatchPlan has at most CODE_MAX_READ operands. `operands` is Code.operands of the code that contains `instr`.
 uint32_t program_operands_read(const int32_t *operands, const Instr *instr, int32_t *reads);
 
 #endif

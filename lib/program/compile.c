@@ -64,8 +64,8 @@ static const Expr *compile_arith(Compiler *compiler, const Ast *ast) {
     return expr;
 }
 
-// Sets `slot` to 1 if a name is compared with itself. Then both operands are the same object, so even NaN equals itself
-// (L5.5).
+// Compiles <, >, <= or >=. Sets `slot` to 1 if a name is compared with itself: both operands are then the same object,
+// so even NaN equals itself (L5.5).
 static const Expr *compile_order(Compiler *compiler, const Ast *ast) {
     const Ast *left = ast->children[0], *right = ast->children[1];
     Expr *expr = compile_same(compiler, ast, false);
@@ -179,7 +179,7 @@ static const Expr *compile_decorate(Compiler *compiler, const Ast *ast) {
     return expr;
 }
 
-// Compiles a CALL or TEMPLATE: callee, positional and named arguments.
+// Compiles a CALL or TEMPLATE. Its first child is the callee. `args` are the positional and named arguments.
 static const Expr *compile_call(Compiler *compiler, const Ast *ast, const Ast *const *args, uint32_t count) {
     CallCode *code = arena_alloc(compiler->scratch, sizeof *code);
     const Symbol **names = arena_alloc_array(compiler->scratch, count, sizeof *names);
@@ -212,8 +212,8 @@ static const Expr *compile_template(Compiler *compiler, const Ast *ast) {
     return compile_call(compiler, ast, args, count);
 }
 
-// Adds the dependencies of a closure on its captures. Those on its defaults are already set, because the defaults are
-// its children. What the body reads during a call is not a dependency.
+// Adds the dependencies of a new closure on the values that it captures. Its dependencies on the defaults are already
+// set, because the defaults are its children. Values that the body reads during a call are not dependencies.
 static void describe_closure(Expr *expr) {
     const FunctionCode *code = expr->as.function;
     for (uint32_t i = 0; i < code->capture_count; i++) {

@@ -18,7 +18,8 @@ struct Binding {
     bool used;        // a use of the name was resolved to this binding
     bool is_constant; // the value is always `constant`
     Value constant;
-    const Ast *value; // syntax tree of the value; NULL: unpacked to several names, or no `let` or `func`
+    // Syntax tree of the value; NULL: the name is one of several of a `let`, or is not bound by `let` or `func`.
+    const Ast *value;
 };
 
 // The function whose body is being compiled.
@@ -30,7 +31,7 @@ struct FunctionScope {
     uint32_t next_slot;  // first free slot
     uint32_t frame_size; // maximum of next_slot
     Capture *captures;
-    const Symbol **capture_names; // name of each capture
+    const Symbol **capture_names; // names of the elements of `captures`
     uint32_t capture_count;
     uint32_t capture_capacity;
 };
@@ -52,10 +53,12 @@ struct Compiler {
     const CompileOptions *options;
     DiagSink *diags;
     FunctionScope *function;
-    bool in_include_path;  // compiling the path of an %include; lints are off
-    uint32_t repeats;      // enclosing loops and functions, plus 1 in a module; > 0: code may run repeatedly in a frame
+    bool in_include_path; // compiling the path of an %include; lints are off
+    // Number of enclosing loops and functions, plus 1 in a module; if > 0, the code may be executed repeatedly in a
+    // frame.
+    uint32_t repeats;
     uint32_t lookup_count; // number of state lookups so far
-    bool in_children;      // the value of the next expression becomes all or some of a node's children
+    bool in_children;      // the value of the expression compiled next becomes all or some of a node's children
     bool is_module;        // the file only binds names; other files import them, so none is reported as unused
     uint32_t depth;        // nesting depth of the current expression; 1: a top-level statement
     DefineUse *define_uses;
@@ -64,13 +67,14 @@ struct Compiler {
     uint32_t parameter_capacity;
     Str *imports;
     uint32_t import_count;
-    const Ast *subject;       // expression to which attributes or children are being added
-    const Ast *key;           // key of the state that is being looked up
+    const Ast *subject;       // latest expression to which attributes or children are added; used for a hint
+    const Ast *key;           // key of the latest state lookup; used for a hint
     const Ast *parameter_use; // second NAME of the last parameter `let NAME=NAME or DEFAULT`; not reported if unbound
     const Ast *parameter_default; // DEFAULT of the last parameter; NULL: the right side has several `or`
     Include *includes;            // in order of the %include directives
     uint32_t include_count;
-    // If the simplifier is off: an earlier compilation with the simplifier, which provides include paths and defaults.
+    // If the simplifier is off, the program is first compiled with it. This is the compiler of that first compilation,
+    // from which the included files and the defaults of parameters are taken. Otherwise NULL.
     const Compiler *folding_pass;
 };
 
@@ -91,15 +95,17 @@ void compile_report(Compiler *compiler, Span span, DiagLevel level, const char *
 
 ScopeMark compile_scope_open(Compiler *compiler);
 void compile_scope_close(Compiler *compiler, ScopeMark mark);
-// Binds one name and returns its slot. `value` is the syntax tree of its value, or NULL.
+// Binds one name and returns its slot. `value` is the syntax tree of the name's value, or NULL (Binding.value).
 uint32_t compile_bind(Compiler *compiler, BindingKind kind, const Symbol *name, Span span, const Ast *value);
 // Binds the names of a NAMES node in consecutive slots and returns the first slot.
 uint32_t compile_bind_names(Compiler *compiler, BindingKind kind, const Ast *names, const Ast *value);
 // Returns the value of the name at index `element` if `value` is unpacked to `count` names (L8.3).
 Value compile_unpack(Compiler *compiler, Value value, uint32_t element, uint32_t count);
-// Marks the last `count` bindings as constant. If there are several, the value is unpacked to them.
+// Marks the last `count` bindings as constant, with this value. If `count` is greater than 1, the value is unpacked to
+// them.
 void compile_set_constant(Compiler *compiler, uint32_t count, Value value);
-// Returns the visible binding of a name, in this function or an enclosing one, or NULL. Does not mark it as used.
+// Returns the visible binding of a name in the current or an enclosing function, or NULL. Does not mark the binding as
+// used.
 const Binding *compile_find_binding(const Compiler *compiler, const Symbol *name);
 const Expr *compile_name(Compiler *compiler, const Ast *ast);
 void compile_function_open(Compiler *compiler, FunctionScope *function, const Symbol *self);
@@ -111,18 +117,20 @@ const struct Builtin *compile_find_builtin(const Compiler *compiler, Str name);
 bool compile_is_free(const Compiler *compiler, const Symbol *name);
 
 // Parameters (parameters.c).
-// Records a `let` that declares a parameter. Called before its value is compiled.
+// Records `binding` as a parameter if it declares one (Parameter). Called for each binding of a `let` before the value
+// of the binding is compiled.
 void compile_note_parameter(Compiler *compiler, const Ast *binding);
 // Records the compiled default of the last parameter.
 void compile_note_default(Compiler *compiler, const Expr *default_expr);
-// Records the position at which a program binds a name that -D defines.
+// If -D defines the name of `binding`, records where the program first binds it.
 void compile_note_define(Compiler *compiler, const Binding *binding);
 
 // The simplifier (fold.c).
-// Folds constant parts of an expression and returns the result. `mark` is FunctionScope.next_slot before the expression
-// was compiled, so the names that the expression binds have slots >= mark.
+// Replaces an expression with a constant, or with a simpler expression, if possible. Otherwise returns the expression
+// itself. `mark` is FunctionScope.next_slot before the expression was compiled, so the names that the expression binds
+// have slots >= mark.
 const Expr *fold_expr(Compiler *compiler, Expr *expr, uint32_t mark);
-// Sets the dependencies of a new expression from its kind and children.
+// Sets the dependencies of a new expression, which follow from its kind and its children.
 void fold_set_dependencies(Expr *expr);
 // Adds the dependencies of `child` to an expression.
 void fold_add_dependency(Expr *expr, const Expr *child);

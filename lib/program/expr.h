@@ -27,9 +27,10 @@ struct Expr {
     uint32_t slot;  // see expr_list.h
     uint32_t slot_count;
     // Dependencies of the value, for the simplifier (fold.c)
-    bool dynamic;         // may change from frame to frame
-    bool uses_closure;    // depends on the running closure: its captures or itself
-    bool can_batch;       // FOR: its nodes become children of a node, so they can be stored in batches
+    bool dynamic;      // the value may change from frame to frame
+    bool uses_closure; // the value depends on the running closure itself or on its captures
+    // FOR: the nodes that the loop creates become children of a node, so they can be stored in batches.
+    bool can_batch;
     uint32_t lowest_slot; // lowest slot that the expression reads; UINT32_MAX: none
     Origin origin;
     union {

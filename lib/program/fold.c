@@ -12,7 +12,7 @@
 #include "program/lower.h"
 #include "value/value_hash.h"
 
-// Longer vectors are not folded: evaluating them again costs less than keeping them in memory.
+// Vectors with more elements are not folded: evaluating them again costs less than keeping them in memory.
 enum { MAX_ELEMENTS = 1 << 22 };
 
 void fold_add_dependency(Expr *expr, const Expr *child) {
@@ -44,7 +44,7 @@ void fold_set_dependencies(Expr *expr) {
         fold_add_dependency(expr, expr->children[i]);
 }
 
-// Returns false for kinds that bind names, are constant already, or are as fast to evaluate as a constant.
+// Returns false for expressions of a kind that binds names, is already constant, or is evaluated as fast as a constant.
 static bool is_candidate(const Compiler *compiler, const Expr *expr) {
     switch (expr->kind) {
     case EXPR_CONST:
@@ -107,8 +107,8 @@ static const Expr *replace_with_constant(Compiler *compiler, const Expr *expr, V
     return folded;
 }
 
-// If the children of an APPEND are constant, stores them in one array. All nodes that the APPEND creates share it, in
-// all frames.
+// If the children of an APPEND are constant, stores them in one array. All nodes that the APPEND creates, in all
+// frames, share this array.
 static void share_constant_children(Compiler *compiler, Expr *expr) {
     if (expr->kind != EXPR_APPEND || expr->children[1]->kind != EXPR_CONST)
         return;

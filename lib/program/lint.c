@@ -48,8 +48,8 @@ void lint_unused(Compiler *compiler, const Binding *scope, const Binding *end) {
                 str_format(compiler->arena, "unused %s '%.*s'", kinds[binding->kind], STR_ARGS(binding->name->name)));
 }
 
-// Reports a wrong number of arguments. The text is that of lib/builtin, which reports the same error if the first frame
-// executes the call. So the diagnostic sink drops the second report as a duplicate.
+// Reports a wrong number of arguments. If the first frame executes the call, lib/builtin reports the same error with
+// the same text. The diagnostic sink then drops this second report as a duplicate.
 static void lint_builtin_call(Compiler *compiler, const Ast *ast, const Builtin *builtin, const CallCode *code) {
     uint32_t count = code->arg_count + code->named_count;
     bool few = count < builtin->required;

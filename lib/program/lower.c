@@ -2,8 +2,8 @@
 //
 // Temporaries are allocated like a stack above the slots, so a pending operand is never overwritten. A name used as an
 // operand is not copied: the instruction reads its slot, still within the scope of the name. In `let x=VALUE`, the
-// value is written directly to the slot of x. Names that VALUE binds may use the same slot, because x is not visible
-// there. So the destination of a value is written only after all of its operands have been read.
+// value is written directly to the slot of x. Names that VALUE binds may use the same slot, because x is not visible in
+// VALUE. So the slot of x must not be written before all operands of VALUE have been read.
 #include "program/lower.h"
 
 #include "base/source.h"
@@ -68,7 +68,7 @@ int32_t lower_operand(Lowering *lowering, const Expr *expr) {
     return temporary;
 }
 
-// Called after all operands have been lowered, because nested expressions also append lists.
+// Must be called after all operands have been lowered, because lowering nested expressions also appends lists.
 uint32_t lower_list(Lowering *lowering, const int32_t *operands, uint32_t count) {
     uint32_t start = lowering->operand_count;
     for (uint32_t i = 0; i < count; i++) {
@@ -100,7 +100,7 @@ static void emit_move(Lowering *lowering, int32_t d, int32_t a, const Expr *at) 
         lower_emit(lowering, at, (Instr){.op = OP_MOVE, .d = d, .a = a});
 }
 
-// Emits an instruction whose operands are the values of one or two children.
+// Emits the instruction `op`, whose operands are the values of the one or two children of `expr`.
 static void emit_operator(Lowering *lowering, uint16_t op, const Expr *expr, int32_t d) {
     int32_t a = lower_operand(lowering, expr->children[0]);
     int32_t b = expr->count > 1 ? lower_operand(lowering, expr->children[1]) : 0;
@@ -176,7 +176,7 @@ static void lower_compose(Lowering *lowering, const Expr *expr, int32_t d) {
     lower_emit(lowering, expr, (Instr){.op = OP_COMPOSE, .d = d, .list = list, .count = count});
 }
 
-// Emits `or` or `and`: the right side is evaluated only if the left value is not the result.
+// Emits `or` or `and`: the right side is evaluated only if the result is not the left value.
 static void lower_short_circuit(Lowering *lowering, const Expr *expr, int32_t d) {
     int32_t left = lower_operand(lowering, expr->children[0]);
     int32_t result = lower_temporary(lowering);
@@ -265,7 +265,7 @@ static void lower_lookup(Lowering *lowering, const Expr *expr, int32_t d) {
     lower_emit(lowering, expr, instr);
 }
 
-// Emits an index operation, or for `vector[start..stop]` a slice, which does not build the range.
+// Emits an INDEX. For `vector[start..stop]`, emits a SLICE, so that the range need not be built.
 static void lower_subscript(Lowering *lowering, const Expr *expr, int32_t d) {
     const Expr *range = expr->children[1];
     bool slice = range->kind == EXPR_RANGE && range->children[2]->kind == EXPR_CONST &&

@@ -7,11 +7,12 @@
 #include "program/expr.h"
 
 typedef struct LowerOptions {
-    Arena *arena;           // memory of the code
-    Arena *values;          // memory of values that the code refers to; they may live longer than the code
-    Arena *scratch;         // temporary data
-    uint32_t *lookup_count; // number of the program's state lookups so far, increased; NULL: they are not numbered
-    bool lines;             // record the source line of each instruction
+    Arena *arena;   // memory of the code
+    Arena *values;  // memory of values that the code refers to; they may live longer than the code
+    Arena *scratch; // temporary data
+    // Number of the program's next state lookup, increased for each lookup; NULL: lookups are not numbered.
+    uint32_t *lookup_count;
+    bool lines; // record the source line of each instruction
 } LowerOptions;
 
 // Returns the code of an expression that uses `slot_count` slots.
@@ -20,8 +21,8 @@ const Code *program_lower(const LowerOptions *options, const Expr *expr, uint32_
 // The code under construction.
 typedef struct Lowering {
     const LowerOptions *options;
-    const Expr *origin_expr; // expression whose position was stored last
-    const Origin *origin;    // that position
+    const Expr *origin_expr; // expression whose position was stored last in the code's arena
+    const Origin *origin;    // stored position of origin_expr
     Instr *instrs;
     uint32_t *lines; // line of each instruction, if LowerOptions.lines is set
     uint32_t instr_count;
@@ -32,12 +33,13 @@ typedef struct Lowering {
     Value *constants; // operand -1 refers to the first element; Code.constants has them in reverse order
     uint32_t constant_count;
     uint32_t constant_capacity;
-    int32_t next_register;    // first unused register
-    int32_t register_count;   // maximum of next_register
-    uint32_t loop_depth;      // number of enclosing loops
-    uint32_t loop_count;      // maximum of loop_depth
-    const Expr *yielded_node; // only node that an iteration of this loop creates, if it can be batched; else NULL
-    uint32_t yielded_loop;    // index of the instruction that starts this loop
+    int32_t next_register;  // first unused register
+    int32_t register_count; // maximum of next_register
+    uint32_t loop_depth;    // number of enclosing loops
+    uint32_t loop_count;    // maximum of loop_depth
+    // Expression of the only node that an iteration of the innermost loop creates; NULL: none, or it cannot be batched.
+    const Expr *yielded_node;
+    uint32_t yielded_loop; // index of the instruction that starts the innermost loop
 } Lowering;
 
 // Destination of the value of an expression.
@@ -49,13 +51,13 @@ typedef struct Target {
 
 // Appends an instruction with the position of `at`.
 void lower_emit(Lowering *lowering, const Expr *at, Instr instr);
-// Returns the position of an expression, stored in the code's arena.
+// Stores the position of an expression in the code's arena and returns it.
 const Origin *lower_origin(Lowering *lowering, const Expr *expr);
 // Returns a copy of names, in the code's arena.
 const Symbol *const *lower_names(const Lowering *lowering, const Symbol *const *names, uint32_t count);
 // Allocates a register, which stays in use until next_register is reset.
 int32_t lower_temporary(Lowering *lowering);
-// Adds a constant and returns its operand.
+// Adds a constant and returns the operand that refers to it.
 int32_t lower_constant(Lowering *lowering, Value value);
 // Emits the instructions, if any, that compute an expression. Returns the operand that contains its value.
 int32_t lower_operand(Lowering *lowering, const Expr *expr);
@@ -75,8 +77,8 @@ void lower_for(Lowering *lowering, const Expr *expr, int32_t d);
 // Emits a loop's body, or a part of it, and instructions that yield its values.
 void lower_yields(Lowering *lowering, const Expr *expr, uint16_t loop);
 void lower_yield(Lowering *lowering, int32_t a, uint16_t loop, const Expr *at);
-// Returns the batch plan of the loop that starts at instruction `start`; all later instructions are its body. Returns
-// NULL if the loop must be executed iteration by iteration.
+// Returns the batch plan of the loop that starts at instruction `start`. All instructions emitted after `start` must be
+// the loop's body. Returns NULL if the loop must be executed iteration by iteration.
 const BatchPlan *lower_batch(const Lowering *lowering, uint32_t start);
 // Emits a NODE, DECORATE or APPEND.
 void lower_node(Lowering *lowering, const Expr *expr, int32_t d);

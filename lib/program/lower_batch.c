@@ -20,7 +20,7 @@ uint32_t program_operands_read(const int32_t *operands, const Instr *instr, int3
     return count;
 }
 
-// Returns how many registers an instruction writes, starting with `d`.
+// Returns the number of registers that an instruction writes. The first one is `d`.
 static uint32_t count_written(const Instr *instr) {
     return strchr(operand_formats[instr->op], 's') ? instr->count : strchr(operand_formats[instr->op], 'd') != NULL;
 }

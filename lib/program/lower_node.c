@@ -31,8 +31,8 @@ static bool names_differ(const Decoration *code) {
     return true;
 }
 
-// Returns a copy of a node that stores the positions of its attributes, for messages. Returns the node itself if it is
-// not from the same file as the attributes.
+// Returns a copy of `node` with the positions of the attributes that `decorate` adds, for messages. If the node and the
+// attributes are from different files, returns `node` itself.
 static const Node *with_attr_origins(Arena *arena, const Node *node, const Expr *decorate) {
     const Decoration *code = decorate->as.decorate;
     if (!node->origin || node->origin->origin.source != decorate->origin.source)
@@ -47,10 +47,10 @@ static const Node *with_attr_origins(Arena *arena, const Node *node, const Expr 
     return placed;
 }
 
-enum { MAX_DISTINCT = 64 }; // maximum number of attributes that are checked for duplicates
+enum { MAX_DISTINCT = 64 }; // maximum number of attributes of a node that build_node can create
 
-// Sets *instr to an instruction that creates a node with its attributes and children. Returns false if one instruction
-// is not enough.
+// Sets *instr to a NODE that creates the node of an expression with its attributes and children. Returns false if one
+// instruction is not enough.
 static bool build_node(Lowering *lowering, const Expr *expr, Instr *instr) {
     Arena *values = lowering->options->values;
     const Expr *append = expr->kind == EXPR_APPEND ? expr : NULL;
@@ -124,7 +124,8 @@ static bool retains_nothing(const Instr *instrs, uint32_t count) {
     return true;
 }
 
-// Emits the node of an iteration as a row of a node batch. Returns false if that is not possible.
+// Emits a YIELD_NODE for the node of an iteration, so that it can be stored as a row of a node batch. Returns false if
+// that is not possible.
 static bool lower_yield_node(Lowering *lowering, const Expr *expr, uint16_t loop) {
     Instr row;
     if (expr != lowering->yielded_node || !build_node(lowering, expr, &row))
@@ -138,7 +139,8 @@ static bool lower_yield_node(Lowering *lowering, const Expr *expr, uint16_t loop
     return true;
 }
 
-// Returns the expression of the only node that a loop's body creates, if nodes of its kind can be batched; else NULL.
+// Returns the expression of the only node that a loop's body creates. Returns NULL if there is no such node, or if
+// nodes of its kind cannot be batched.
 static const Expr *sole_node(const Expr *expr) {
     while (expr->kind == EXPR_COMPOSE && expr->slot == 1)
         for (uint32_t i = 0, count = expr->count; i < count; i++)
@@ -180,7 +182,7 @@ void lower_for(Lowering *lowering, const Expr *expr, int32_t d) {
     uint16_t loop = (uint16_t)lowering->loop_depth++; // fits in 16 bits, because the nesting of expressions is limited
     if (lowering->loop_depth > lowering->loop_count)
         lowering->loop_count = lowering->loop_depth;
-    if (spans) // the loop counts, without building the range
+    if (spans) // the loop counts through the range without building it
         lower_emit(lowering, over,
                    (Instr){.op = OP_RANGE_INIT, .loop = loop, .a = source[0], .b = source[1], .c = source[2]});
     Instr loop_instr = {

@@ -22,7 +22,7 @@ static bool is_blank(char c) {
     return c == ' ' || c == '\t';
 }
 
-// Returns the text between two offsets, trimmed.
+// Returns the source text between two offsets, without white space at its ends.
 static Str text_between(const Source *source, uint32_t start, uint32_t end) {
     return str_trim((Str){source->text.bytes + start, end > start ? end - start : 0});
 }
@@ -35,8 +35,8 @@ static Str default_text(const Source *source, const Ast *use, const Ast *value) 
     return str_trim(rest);
 }
 
-// Returns the comment that follows a binding on its last line, or an empty string. Only blanks and closing parentheses
-// may precede the comment.
+// Returns the comment that follows a binding on its last line, or an empty string. `at` is the offset at which the
+// binding ends. Only blanks and closing parentheses may be between the binding and the comment.
 static Str trailing_comment(const Source *source, uint32_t at) {
     const char *text = source->text.bytes;
     while (is_blank(text[at]) || text[at] == ')')
@@ -49,14 +49,15 @@ static Str trailing_comment(const Source *source, uint32_t at) {
     return text_between(source, at, (uint32_t)(end - text));
 }
 
-// Parses one end of a range; `if_absent` is its value if the text is empty. Returns false if the text is not
-// a number.
+// Parses one end of a range. Sets *x to the number or, if the text is empty, to `if_absent`. Returns false if the text
+// is neither empty nor a number.
 static bool parse_bound(Str text, double if_absent, double *x) {
     *x = if_absent;
     return text.len == 0 || (literal_parse_number(text, x) && !isnan(*x));
 }
 
-// Parses `MIN..MAX` or `MIN..MAX|STEP`, where either MIN or MAX can be omitted. Returns false for other text.
+// Parses `MIN..MAX` or `MIN..MAX|STEP`, where either MIN or MAX can be omitted, and sets the range of the parameter.
+// Returns false for other text.
 static bool parse_range(Str word, Parameter *parameter) {
     double min, max, step = 0;
     const char *dots = NULL, *bar = memchr(word.bytes, '|', word.len);
@@ -77,7 +78,7 @@ static bool parse_range(Str word, Parameter *parameter) {
     return true;
 }
 
-// Splits a comment into the range at its start, if there is one, and the rest.
+// Sets the range of the parameter from the start of its comment, if there is one, and parameter->comment to the rest.
 static void parse_comment(Str comment, Parameter *parameter) {
     size_t len = 0;
     while (len < comment.len && !is_blank(comment.bytes[len]))
@@ -92,7 +93,7 @@ static void parse_comment(Str comment, Parameter *parameter) {
         parameter->comment = str_trim((Str){comment.bytes + len, comment.len - len});
 }
 
-// Warns about a default outside its range.
+// Warns about a default that is outside the parameter's range.
 static void lint_default(Compiler *compiler, const Parameter *parameter) {
     Value v = parameter->value;
     bool within = true;

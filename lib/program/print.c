@@ -42,7 +42,7 @@ static void print_list(Text *out, const SymbolTable *symbols, const Code *code, 
     text_add_char(out, ')');
 }
 
-// Prints the operand 'x': the name or names in Instr.as or Instr.target.
+// Prints an operand of the kind 'x' (opcode_list.h): the name or names to which Instr.as or Instr.target refers.
 static void print_extra(Text *out, const Instr *instr) {
     Str name = {0};
     switch ((Opcode)instr->op) {

@@ -48,7 +48,7 @@ typedef struct Parameter {
 
 // How a program uses a name that -D defines.
 typedef struct DefineUse {
-    bool read;    // the program reads the definition's value
+    bool read;    // the program reads the value that -D defines
     Origin bound; // position at which the program first binds the same name; source NULL: nowhere
     bool by_let;  // the binding at `bound` is a top-level `let`
 } DefineUse;
@@ -57,7 +57,7 @@ typedef struct Program {
     const Source *source;
     const Code *code;
     uint32_t lookup_count; // number of state lookups; the VM has an inline cache for each
-    uint32_t param_count;  // number of values that the host sets, which are in the first slots
+    uint32_t param_count;  // number of values that the host passes to each run; they are in the first slots
     const Export *exports; // top-level bindings, in source order; if a name is repeated, the last one is used
     uint32_t export_count;
     const Pragma *pragmas;
@@ -75,9 +75,9 @@ typedef struct CompileHost {
     // Parses a file for %include. On failure, returns NULL and sets *reason, which belongs to the host. The source must
     // live as long as the program, and the tree until the end of the compilation.
     const Ast *(*include)(void *host, Str path, const Source **source, Str *reason);
-    // Executes code with new slots. Returns false and sets *value to null if the code is dynamic (L17.2), fails or
-    // exceeds a limit. The value is allocated in the program's arena, which the simplifier rewinds if it does not use
-    // the value.
+    // Executes `code` in a new frame and sets *value to its result. Returns false and sets *value to null if the code
+    // is dynamic (L17.2), fails or exceeds a limit. The value is allocated in the program's arena. If the simplifier
+    // does not use the value, it rewinds the arena.
     bool (*evaluate)(void *host, const Code *code, Value *value);
 } CompileHost;
 
@@ -88,7 +88,7 @@ typedef struct Define {
 } Define;
 
 typedef struct CompileOptions {
-    bool module;   // compile a module: engine and -D names are not visible, unbound names are reported at run time
+    bool module;   // compile a module: engine and -D names are not visible, and unbound names are reported at run time
     bool lint;     // also report code that is unlikely to be intended
     bool simplify; // fold constant expressions (L17.1)
     bool lines;    // record the source line of each instruction
@@ -96,9 +96,9 @@ typedef struct CompileOptions {
     uint32_t define_count;
     const Symbol *const *params; // names of values that each run receives; if a name is repeated, the last one is used
     uint32_t param_count;
-    const struct Builtin *const *functions; // host functions; none has the name of a built-in
+    const struct Builtin *const *functions; // host functions; none may have the name of a built-in
     uint32_t function_count;
-    const struct FileAccess *files; // provides the files of modules; NULL: the disk
+    const struct FileAccess *files; // access to the files of modules; NULL: they are read from the disk
     CompileHost host;
 } CompileOptions;
 

@@ -6,7 +6,7 @@ ScopeMark compile_scope_open(Compiler *compiler) {
     return (ScopeMark){compiler->function->scope, compiler->function->next_slot};
 }
 
-// Slots of a closed scope are reused, because closures have copied the values they need.
+// The slots of a closed scope can be reused, because closures have copied the values that they need.
 void compile_scope_close(Compiler *compiler, ScopeMark mark) {
     lint_unused(compiler, compiler->function->scope, mark.scope);
     compiler->function->scope = mark.scope;
@@ -73,8 +73,8 @@ const Binding *compile_find_binding(const Compiler *compiler, const Symbol *name
     return NULL;
 }
 
-// Makes `function` capture a name, unless it already does, and returns the CAPTURE. `outer` is the expression of the
-// name in the enclosing function.
+// Makes `function` capture a name, unless it already does, and returns a CAPTURE expression. `outer` is the expression
+// to which the name is resolved in the enclosing function.
 static const Expr *add_capture(Compiler *compiler, FunctionScope *function, const Ast *ast, const Expr *outer) {
     Capture wanted = {outer->kind == EXPR_SLOT      ? CAPTURE_SLOT
                       : outer->kind == EXPR_CAPTURE ? CAPTURE_OUTER
@@ -93,7 +93,7 @@ static const Expr *add_capture(Compiler *compiler, FunctionScope *function, cons
     return slot_expr(compiler, EXPR_CAPTURE, ast, function->capture_count++);
 }
 
-// Resolves a name inside `function`. Returns NULL if the program does not bind it.
+// Resolves a name that is used in `function`. Returns NULL if the program does not bind the name.
 static const Expr *find_in_program(Compiler *compiler, FunctionScope *function, const Ast *ast) {
     if (!function)
         return NULL;
