@@ -84,7 +84,7 @@ static Ast *new_function_ast(ParseContext *context, Span span, const Ast *name, 
     return check_height(context, ast_new(context->arena, AST_FUNC, span, name ? name->name : NULL, children, 2));
 }
 
-// Returns the item of a list with one item. Otherwise, returns a node whose children are the items.
+// If the list has one item, returns that item. Otherwise returns a node whose children are the items.
 static Ast *one_or_list(ParseContext *context, AstKind kind, Span span, AstList *list) {
     return list->count == 1 ? list->items[0] : NODE_OF(kind, span, NULL, list);
 }
@@ -203,7 +203,7 @@ statement:
   | "%include" comp NEWLINE { $$ = UNARY(AST_INCLUDE, @comp, $comp); }
   ;
 
-// The start `parent <<` of a statement. The rest of the statement is on the same line or on the next.
+// The beginning of a statement: `parent <<`. The rest of the statement is on the same line or on the next.
 lead:
     decorated "<<"
   | decorated "<<" NEWLINE
@@ -215,7 +215,8 @@ attrs:
   | attrs attr { $$ = ast_list_add($1, $2); }
   ;
 
-// Several clauses form nested loops; the first clause is the outermost loop. The list alternates names and sources.
+// Several clauses form nested loops; the first clause is the outermost loop. In the list `for_clauses`, each
+// names item is followed by its source.
 for_statement: "for" for_clauses suite {
         $$ = $suite;
         for (uint32_t i = $for_clauses->count; i > 0; i -= 2)

@@ -1,8 +1,8 @@
 // ast_list.h: the kinds of syntax tree nodes, one row each.
 //
-// AST(KIND, "name in --dump=ast"). The comment of a row lists the children. `names` is a child of kind NAMES. `?`: the
-// child can be NULL. `…`: zero or more. `[ ]`: optional. `name` and `value` alone or before a semicolon are not
-// children but the fields Ast.name and Ast.value.
+// AST(KIND, "name in --dump=ast"). The comment of a row lists the children. `names` is a child of kind NAMES. `?`
+// marks a child that can be NULL, `…` zero or more children of a kind, and `[ ]` children that can be absent. `name` and
+// `value`, if they are alone or before a semicolon, are not children but the fields Ast.name and Ast.value.
 // clang-format off
 AST(LITERAL,    "literal")      // value; a number, string or symbol
 AST(NODE,       "node")         // name; the kind of the new node

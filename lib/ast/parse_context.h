@@ -7,14 +7,14 @@
 #include "ast/token.h"
 #include "base/diag.h"
 
-enum { PARSE_ALTERNATIVES = 4 };
+enum { PARSE_ALTERNATIVES = 4 }; // maximum number of expected tokens that are recorded
 
 // A token that is not allowed where it occurs.
 typedef struct Unexpected {
     const char *found; // name of the token; NULL: no error
     Span span;
     const char *expected[PARSE_ALTERNATIVES]; // names of tokens that could follow
-    int expected_count;                       // 0: more than PARSE_ALTERNATIVES
+    int expected_count;                       // number of names in `expected`; 0: there are too many
     bool value_expected;                      // a value is allowed at this place
 } Unexpected;
 
@@ -22,7 +22,7 @@ typedef struct Unexpected {
 typedef void ParseTokenCallback(void *user_data, const Token *token);
 
 typedef struct ParseContext {
-    Arena *arena; // holds the program
+    Arena *arena; // arena in which the program is allocated
     SymbolTable *symbols;
     const Source *source;
     DiagSink *diags;
@@ -36,7 +36,7 @@ typedef struct ParseContext {
     bool overflow;                // the tree is too high, or the parser's stack is full
     Span overflow_at;             // location of the overflow
     bool error_tolerant;          // for editors: parse as much as possible despite errors
-    ParseTokenCallback *on_token; // NULL: not called
+    ParseTokenCallback *on_token; // called with each token; NULL: none
     void *user_data;              // passed to on_token
 } ParseContext;
 

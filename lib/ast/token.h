@@ -7,7 +7,7 @@
 
 typedef struct Token {
     int kind;    // token number from grammar/parser.y, such as NAME
-    int keyword; // NAME: token number of the keyword with this spelling; 0: none
+    int keyword; // for a NAME: token number of the keyword with this spelling; 0: none
     Span span;
     const char *error; // error in the indentation or nesting (layout.h); NULL: none
     bool fatal;        // a limit was exceeded, so parsing stops

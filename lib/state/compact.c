@@ -1,4 +1,4 @@
-// compact.c: copies of keys, and removal of unused slots (state_compact).
+// compact.c: copying of keys, and removal of unused slots (state_compact).
 #include "base/heap.h"
 #include "state/internal.h"
 
@@ -28,14 +28,14 @@ bool state_copy_key(Arena *keys, Value *copy, Value key) {
 typedef struct Compaction {
     HashIndex index;
     Arena keys;
-    Value *copies;                       // by new entry number: copy of its key
-    Value heads[MAX_KEY_RANGES];         // by range: copy of its head
-    bool range_retained[MAX_KEY_RANGES]; // by range: true if the range is kept with all its slots
-    uint32_t count;                      // number of slots
-    uint32_t entry_count;
+    Value *copies;                       // copies[i]: copy of the key of the entry that will have number i
+    Value heads[MAX_KEY_RANGES];         // heads[k]: copy of the head of range k
+    bool range_retained[MAX_KEY_RANGES]; // range_retained[k]: true if range k is kept, with all its slots
+    uint32_t count;                      // number of slots that are kept
+    uint32_t entry_count;                // number of entries that are kept
 } Compaction;
 
-// Determines which slots are kept, and assigns new numbers to them.
+// Determines which slots are kept. Sets moved[slot] to the new number of each slot, or to STATE_NO_SLOT.
 static void number_slots(const State *state, const uint8_t *used, StateSlot *moved, Compaction *compaction) {
     for (uint32_t k = 0; k < state->range_count; k++) {
         const KeyRange *range = &state->ranges[k];

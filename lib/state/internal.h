@@ -7,35 +7,36 @@
 #include "state/key_range.h"
 
 typedef struct StateEntry {
-    Value key;   // data in the arena `keys`, or inline
-    Value value; // in a heap block, or inline; with an owner, the owner's numbers; null: empty slot
-    uint32_t hash;
-    StateOwner owner;
+    Value key;     // data is inline or in the arena State.keys
+    Value value;   // data is inline, in a heap block or, if there is an owner, in the owner's array; null: empty slot
+    uint32_t hash; // upper half of the 64-bit hash of the key
+    StateOwner owner; // owner of the numbers of `value`; 0: none
 } StateEntry;
 
-// Bytes charged per slot in addition to key and value: the entry and its share of the index, with spare capacity.
+// Bytes charged for each entry in addition to the data of its key and value. They cover the entry and its share of the
+// index, both with spare capacity.
 #define SLOT_BYTES (2 * (sizeof(StateEntry) + sizeof(HashIndexSlot)))
 
 enum {
-    MAX_KEY_RANGES = 8,      // every look-up checks all ranges
-    MAX_SEPARATE_PAIRS = 64, // consecutive slot pairs (key_range.h) stored as entries before they become a range
+    MAX_KEY_RANGES = 8,      // small, because every look-up checks all ranges
+    MAX_SEPARATE_PAIRS = 64, // when this many consecutive slot pairs (key_range.h) have entries, they become a range
 };
 
 struct State {
-    StateEntry *entries; // of all slots that are not in a range, in slot order
+    StateEntry *entries; // entries of all slots that are not in a range, in slot order
     uint32_t entry_count;
-    uint32_t capacity;               // of `entries`
+    uint32_t capacity;               // capacity of `entries`
     uint32_t count;                  // number of slots, including empty ones
     uint32_t live;                   // number of slots with a value
-    KeyRange ranges[MAX_KEY_RANGES]; // in slot order
+    KeyRange ranges[MAX_KEY_RANGES]; // all ranges, in slot order
     uint32_t range_count;
     uint32_t candidate_pairs; // slot pairs at the end of `entries` that could form a range
-    HashIndex index;          // slots that have entries
+    HashIndex index;          // maps keys to slots, for slots that have entries
     Arena keys;               // data of the keys
-    bool *modified;           // by owner - 1: see state_clear_modified
+    bool *modified;           // modified[owner - 1]: result of the next state_clear_modified
     uint32_t owner_count;
-    bool exhausted; // see state_clear_exhausted
-    Budget *budget; // charged for memory; NULL: none
+    bool exhausted; // true if memory ran out since the last state_clear_exhausted
+    Budget *budget; // budget that is charged for memory; NULL: none
 };
 
 // Returns the range that contains a slot, or NULL.
@@ -56,7 +57,7 @@ static inline StateEntry *state_entry(const State *state, StateSlot slot) {
 
 // Initialises an arena for keys (compact.c).
 void state_start_keys(Arena *keys, Budget *budget);
-// Copies a key to the arena. Returns false if out of memory.
+// Sets *copy to a copy of a key in the arena. Returns false if out of memory.
 bool state_copy_key(Arena *keys, Value *copy, Value key);
 
 #endif

@@ -1,9 +1,9 @@
 // key_range.h: compact storage for the state keys of consecutive particle ids.
 //
 // A particle has a pair of slots, with the keys prefix;id and prefix;id;symbol. For consecutive ids, all keys can be
-// computed from the first one. The addresses of the values are computed from that of the first value in the owner's
-// array (state.h). A range of any length therefore uses constant memory. Other keys are stored as separate entries
-// (state.c). A write that does not fit this pattern converts the range to entries.
+// computed from the first one. The owner of the values (state.h) stores them in one array, so the addresses of all
+// values can be computed from that of the first. A range of any length therefore uses constant memory. Other keys are
+// stored as separate entries (state.c). A write that does not fit this pattern converts the range to entries.
 #ifndef PETRI_STATE_KEY_RANGE_H
 #define PETRI_STATE_KEY_RANGE_H
 
@@ -12,15 +12,15 @@
 typedef struct KeyRange {
     StateSlot first;
     uint32_t count;      // number of slots; odd while the last pair is incomplete
-    uint32_t prefix_len; // numbers in the prefix, at least 1
+    uint32_t prefix_len; // length of the prefix in numbers, at least 1
     const double *head;  // key of the first particle's second slot: prefix;id;symbol
-    const double *keys;  // keys of all particles' second slots; NULL until one is requested
-    uint32_t keys_count; // number of pairs in `keys`
+    const double *keys;  // array of the keys of all second slots; NULL until a key of the range is requested
+    uint32_t keys_count; // number of pairs whose keys are in `keys`
     // Each value is either a reference to numbers of the owner or null.
     StateOwner owner;
-    uint32_t len;           // numbers per value
-    uint32_t stored;        // number of slots, from the first, whose values are in `numbers`
-    uint32_t referenced;    // number of slots, from the first, with values; those from `stored` on are in `previous`
+    uint32_t len;        // number of numbers in each value
+    uint32_t stored;     // number of slots, from the first, whose values are in `numbers`
+    uint32_t referenced; // number of slots, from the first, with values; from slot `stored` on, they are in `previous`
     const double *numbers;  // current array of the owner
     const double *previous; // array that the owner used before
 } KeyRange;
@@ -42,8 +42,8 @@ void key_range_write_key(const KeyRange *range, uint32_t pair, double *to);
 
 // Returns the value of a slot, or null.
 Value key_range_value(const KeyRange *range, StateSlot slot);
-// Makes a slot reference the owner's numbers. Returns false if they do not directly follow the numbers of the previous
-// slot.
+// Makes a slot reference `len` numbers of the owner. Returns false if these numbers are not directly after those of the
+// previous slot.
 bool key_range_reference(KeyRange *range, StateSlot slot, StateOwner owner, const double *numbers, uint32_t len);
 // Returns true if a slot references numbers of the owner.
 static inline bool key_range_references(const KeyRange *range, StateSlot slot, StateOwner owner) {

@@ -22,7 +22,7 @@ void state_clear(State *state);
 // Returns true if a vector can be a key: it contains only strings and numbers other than NaN (L11.2), or is null.
 bool state_key_valid(Value key);
 
-// Returns the value of a key, or null. Valid until the key is written or removed.
+// Returns the value of a key, or null. The value is valid until the key is written or removed.
 Value state_get(const State *state, Value key);
 // Stores a copy of the value; null removes the key. An invalid key is ignored. Storing a value that equals the stored
 // value changes nothing, so -0 does not replace 0. Returns false if out of memory.
@@ -33,10 +33,10 @@ bool state_set(State *state, Value key, Value value);
 StateSlot state_slot(State *state, Value key);
 // Returns the slot of a key, or STATE_NO_SLOT if it has none.
 StateSlot state_find(const State *state, Value key);
-// Returns the value of a slot, or null. Valid until the slot is written.
+// Returns the value of a slot, or null. The value is valid until the slot is written.
 Value state_slot_get(const State *state, StateSlot slot);
-// Returns the key of a slot. Valid until state_clear or state_compact. The keys of a range (key_range.h) are all
-// created when the first is requested; returns null if that runs out of memory.
+// Returns the key of a slot. The key is valid until state_clear or state_compact. When the first key of a range
+// (key_range.h) is requested, all keys of the range are created. If that runs out of memory, returns null.
 Value state_slot_key(const State *state, StateSlot slot);
 // Like state_slot_key, but allocates nothing: the result can point into `buffer`.
 enum { STATE_KEY_BUFFER = 16 };
@@ -46,7 +46,8 @@ bool state_slot_has_key(const State *state, StateSlot slot, Value key);
 // NaN, which no key contains.
 double state_slot_last_number(const State *state, StateSlot slot, uint32_t len);
 // Return the address of the key or the value of an existing slot. For a slot of a range, this is the address of
-// `buffer`. Valid until a slot is created, state_clear or state_compact. The value is also invalid once it is written.
+// `buffer`. The address is valid until a slot is created or until state_clear or state_compact. The address of a value
+// also becomes invalid when the value is written.
 const Value *state_slot_key_at(const State *state, StateSlot slot, Value *buffer);
 const Value *state_slot_at(const State *state, StateSlot slot, Value *buffer);
 // Like state_set. Numbers are overwritten in place if their count does not change.
@@ -54,13 +55,13 @@ bool state_slot_set(State *state, StateSlot slot, Value value);
 
 // Owners. A physics system that keeps numbers across frames need not copy them to the dictionary. It registers as an
 // owner, and entries reference its numbers. If another function writes or removes such an entry, the entry gets its own
-// value and the owner is marked as modified. The reason is explained in scene/mirror.h.
-typedef uint32_t StateOwner; // 0: none
+// value. The owner is then marked as modified, because its numbers are out of date (see scene/mirror.h).
+typedef uint32_t StateOwner; // number of an owner, from 1; 0: no owner
 // Registers an owner. Returns 0 if out of memory.
 StateOwner state_add_owner(State *state);
 // Returns true if an entry of the owner was modified since the last call, even by the owner itself with state_slot_set.
 bool state_clear_modified(State *state, StateOwner owner);
-// Makes an entry reference `len` > 1 numbers. They must not move until the entry is written or detached.
+// Makes an entry reference `len` > 1 numbers. The numbers must not move until the entry is written or detached.
 void state_slot_reference(State *state, StateSlot slot, StateOwner owner, const double *numbers, uint32_t len);
 bool state_slot_references(const State *state, StateSlot slot, StateOwner owner);
 // If the entry references numbers of the owner, copies them to the dictionary. If out of memory, removes the entry, or

@@ -4,7 +4,8 @@
 
 #include "base/diag.h"
 
-// Returns the name of the source's encoding, such as "UTF-16", if it is not UTF-8; else NULL.
+// If the source has another encoding than UTF-8, returns the name of the encoding, such as "UTF-16". Otherwise returns
+// NULL.
 const char *content_sniff_encoding(const Source *source);
 // Called if a source failed to parse. If the source is not a script, replaces its diagnostics with a single error. A
 // binary file is not a script. Nor is a text in which at least three lines and at least half of all lines are

@@ -12,7 +12,7 @@
 enum { LAYOUT_MAX_DEPTH = 1000 }; // maximum nesting of indentations, and of parentheses
 
 typedef struct LayoutLevel {
-    uint32_t indent; // columns
+    uint32_t indent; // indentation in columns
     bool rejected;   // the parser rejected the INDENT, so its DEDENT is omitted
 } LayoutLevel;
 
@@ -20,12 +20,12 @@ typedef struct Layout {
     Lexer lexer;
     uint32_t level_count;                     // number of levels, including the first with indentation 0
     LayoutLevel levels[LAYOUT_MAX_DEPTH + 1]; // stack of indentations
-    uint32_t paren_count;
-    uint32_t parens[LAYOUT_MAX_DEPTH]; // offsets of the open parentheses
-    Span line;                         // newline token after which an INDENT or DEDENTs are inserted
-    uint32_t indent;                   // indentation of the line after `line`
-    bool indent_pending;               // the INDENT or DEDENTs of `line` have not all been returned yet
-    bool indent_mismatch;              // the indentation matches no line above; the next token gets an error
+    uint32_t paren_count;                     // number of open parentheses
+    uint32_t parens[LAYOUT_MAX_DEPTH];        // offsets of the open parentheses
+    Span line;                                // span of the newline token after which an INDENT or DEDENTs are inserted
+    uint32_t indent;                          // indentation of the line after `line`
+    bool indent_pending;                      // the INDENT or DEDENTs of `line` have not all been returned yet
+    bool indent_mismatch;                     // the indentation matches no line above; the next token gets an error
 } Layout;
 
 void layout_init(Layout *layout, const Source *source);

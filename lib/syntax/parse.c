@@ -10,7 +10,7 @@
 
 #include <string.h>
 
-enum { MAX_EXPECTED = 3 }; // if more tokens are expected, messages list none of them
+enum { MAX_EXPECTED = 3 }; // maximum number of expected tokens in a message; if there are more, it lists none
 
 // Reports an error, unless the previous error is on the same line. Always sets context->failed.
 static void report_error(ParseContext *context, Span span, const char *code, Str text, Str hint) {
@@ -72,8 +72,9 @@ static Str syntax_hint(const char *found, bool needs_block) {
     return (Str){0};
 }
 
-// After a list of names, `expected` has the tokens that can follow one in any statement, such as `=`, `in` and `from`.
-// Returns the one that fits the first word of the line. Returns NULL if there is none.
+// After a list of names, `expected` holds the tokens that can follow such a list in any kind of statement, among them
+// `=`, `in` and `from`. Returns the token that fits this statement, whose kind is known from the first word of the
+// line. Returns NULL if there is none.
 static const char *after_names(const ParseContext *context, Span span, const char *const *expected, int count) {
     static const struct {
         const char *word;
@@ -352,7 +353,8 @@ static void run_with_parser(Parsing *parsing, void (*call)(void *parsing)) {
 }
 
 // In error-tolerant mode, ends an incomplete statement at the end of its line, so that the next statement and the
-// enclosing block are not lost. Returns the result of push_token, or YYPUSH_MORE if there was nothing to do.
+// enclosing block are not lost. `before` is the kind of the token before `token`. Returns the result of push_token, or
+// YYPUSH_MORE if there was nothing to do.
 static int close_statement(const Parsing *parsing, int before, const Token *token) {
     bool begins = before == NEWLINE || before == DEDENT || token->kind == DEDENT || token->kind == END;
     if (!parsing->context->error_tolerant || !begins || token->kind == INDENT || token->kind == NEWLINE ||

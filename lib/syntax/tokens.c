@@ -45,7 +45,7 @@ static TokenKind token_kind(int kind) {
         return TOKEN_DEDENT;
     case GR_UNDEF:
         return TOKEN_INVALID;
-    default: // bison numbers the kinds in the order of parser.y
+    default: // bison numbers the kinds in the order in which parser.y declares them
         return kind >= PRAGMA && kind <= NOT ? TOKEN_KEYWORD : TOKEN_OPERATOR;
     }
 }
