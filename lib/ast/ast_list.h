@@ -1,8 +1,8 @@
 // ast_list.h: the kinds of syntax tree nodes, one row each.
 //
 // AST(KIND, "name in --dump=ast"). The comment of a row lists the children. `names` is a child of kind NAMES. `?`
-// marks a child that can be NULL, `…` zero or more children of a kind, and `[ ]` children that can be absent. `name` and
-// `value`, if they are alone or before a semicolon, are not children but the fields Ast.name and Ast.value.
+// marks a child that can be NULL, `…` zero or more children of a kind, and `[ ]` children that can be absent. If `name`
+// or `value` is alone or before a semicolon, it is not a child but the field Ast.name or Ast.value.
 // clang-format off
 AST(LITERAL,    "literal")      // value; a number, string or symbol
 AST(NODE,       "node")         // name; the kind of the new node

@@ -28,7 +28,7 @@ KERNEL void store(double *to, size_t count, Real r) {
     memcpy(to, &r, count >= LANES ? sizeof r : count * sizeof *to);
 }
 
-// Returns the lanes below `count` that are not in `good`, the set of lanes with a final result.
+// Returns the lanes below `count` that must still be computed. `good` is the set of lanes with a final result.
 KERNEL Lanes lanes_left(Lanes good, size_t count) {
     return ~good & (count >= LANES ? ALL_LANES : (1u << count) - 1);
 }

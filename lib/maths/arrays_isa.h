@@ -12,7 +12,7 @@ typedef struct ArraysIsa {
     void (*log)(const double *x, size_t count, double *to);
     void (*sin_cos)(const double *x, size_t count, double *sines, double *cosines);
     void (*pow)(const double *x, const double *y, size_t step, size_t count,
-                double *to); // x[i]^y[step * i]; step is 0 or 1
+                double *to); // computes x[i]^y[step * i]; `step` is 0 or 1
     void (*turns_sin)(const double *t, size_t count, double *to);
     void (*uniform)(uint64_t key, uint64_t first, size_t count, double *to); // random_uniform(key, first + i)
     void (*plane_noise)(const PlaneNoise *noise, const uint8_t *permutation, const double *x, const double *y,

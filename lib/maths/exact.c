@@ -15,8 +15,8 @@
 #include "maths/fixed.h"
 #include "maths/maths_tables.h"
 
-#define SLACK 20
-#define FIRST_SIZE 3
+#define SLACK 20     // binary logarithm of the error bound in ulps
+#define FIRST_SIZE 3 // number of limbs (fixed.h) of the fraction in the first attempt
 
 // --- sine, cosine, tangent
 
@@ -336,7 +336,7 @@ static double exact_positive_pow(double x, double y) {
     bool done = false;
     for (int size = FIRST_SIZE; !done && size <= FIXED_MAX_LIMBS; size *= 2) {
         Fixed t = fixed_log_of(x, size);
-        double near = fixed_to_double(&t) * y; // relative error 2^-48
+        double near = fixed_to_double(&t) * y; // y ln x with a relative error of 2^-48
         if (near > 720 || near < -760)
             return near < 0 ? 0 : DOUBLE_INFINITY;
         if (double_absolute(near) < 0x1p-55)

@@ -37,7 +37,8 @@ MATHS_FUNCTIONS(DECLARE_ONE, DECLARE_TWO)
 // Returns the sign of x^y for a negative x: -1 for odd integers y, 1 for even integers y, else 0 (the result is NaN).
 double exact_pow_sign(double x, double y);
 
-// Return approximations: fast_log_near of ln m for m in [1/2, 2), and fast_atan_near of atan q for q in [0, 1].
+// Return approximations. fast_log_near approximates ln m for m in [1/2, 2), and fast_atan_near approximates atan q for
+// q in [0, 1].
 double fast_log_near(double m);
 double fast_atan_near(double q);
 

@@ -1,12 +1,14 @@
 // fast_arc.h: fast paths of asin, acos, atan2 and tan. They need branches, so there are no vector variants.
 //
 // Each function f uses a Taylor series around the nearest c = i/128: f(c + d) = a0 + a1 d + a2 d^2 + … up to d^8, with
-// |d| ≤ 2^-8. Only asin uses other points c and up to d^9 for x ≥ 1/16. The coefficients a0 and a1 are stored as two
-// doubles each. Sources of error, with f for f(c + d) and u = 2^-53 (rounding x changes it by at most u |x|):
-//   d          exact for the high part of a two-part argument. The low part is used in a1 d + a2 d^2 only; its other
-//              contributions are below 3 |a3| d^2 u < 2^-68 f for atan, 2^-69 f in row 0
+// |d| ≤ 2^-8. Only asin for x ≥ 1/16 uses other points c, and terms up to d^9. The coefficients a0 and a1 are stored as
+// two doubles each. Sources of error, where f means f(c + d), and u = 2^-53 (rounding x changes it by at most u
+// |x|):
+//   d          exact for the high part of a two-part argument. The low part is used in a1 d + a2 d^2 only. In the other
+//              terms it would contribute less than 3 |a3| d^2 u, which is below 2^-68 f for atan, or 2^-69 f in row 0
 //   a0, a1 d   exact up to 2^-104
-//   a2 d^2 …   called s below. A square, two sums, a product, and three sums with slightly larger terms: 8 u s
+//   a2 d^2 …   the sum of these terms is called s below. The roundings of a square, two sums, a product, and three sums
+//              with slightly larger terms change it by at most 8 u s
 // atan (c ≤ 1): s ≤ 2^-15 f. In row 0, s is d^3/3; elsewhere |a2| ≤ c and f ≥ c - d, and c = 1/128 is the worst case.
 // With |a9| ≤ 1/9 the truncated terms are below 2^-75. The total is below 2^-64.8 f.
 // asin (c ≤ 1/16): |a2| ≤ 0.51 c, s ≤ 2^-16 f, and the argument has no low part. With |a9| ≤ 0.2 the truncated terms
@@ -29,10 +31,11 @@
 #include "maths/double_bits.h"
 #include "maths/fast_sincos.h"
 
+// Error bounds of the high and low part together. They are relative, except HALF_PI_ERROR.
 #define ARC_ERROR 0x1.2p-66
 #define ATAN_ERROR 0x1.4p-65
 #define ACOS_ERROR 0x1.8p-70
-#define HALF_PI_ERROR 0x1p-102 // of the two parts of pi/2 and of sums with them
+#define HALF_PI_ERROR 0x1p-102 // absolute error of pi/2 in two parts, and of sums with it
 #define TAN_ERROR 0x1.3p-66
 
 // Computes a + b + lower as high + low. Requires |a| ≥ |b| or a = 0.
@@ -41,7 +44,7 @@ KERNEL void arc_sum(double a, double b, double lower, double *high, double *low)
     *low = real_fast_two_sum_error(a, b, *high) + lower;
 }
 
-#define ARC_COLUMNS 11
+#define ARC_COLUMNS 11 // numbers in each row of asin_table, acos_table and atan_table
 
 // Returns the table row for i, where x = i/128 + d and i/128 is nearest to x. Sets *d exactly. The table starts with
 // the row for i = first.

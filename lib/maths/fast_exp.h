@@ -20,8 +20,8 @@
 #include "maths/lanes.h"
 #include "maths/maths_tables.h"
 
-#define EXP_ERROR 0x1p-67
-#define EXP_MAX 708.0 // for smaller |x| the result neither overflows nor is subnormal
+#define EXP_ERROR 0x1p-67 // bound of the error relative to 2^(k/128)
+#define EXP_MAX 708.0     // for smaller |x| the result neither overflows nor is subnormal
 
 // Computes e^(x + tail) = 2^(exponent / 2^52) (high + low) for |x| < EXP_MAX. high is in [0.99, 2), |low| < 2^-16.
 KERNEL void exp_parts(Real x, Real tail, Bits *exponent, Real *high, Real *low) {

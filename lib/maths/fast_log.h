@@ -12,8 +12,8 @@
 //                  the nearest parabola in z^2 (Chebyshev), which differs by 2^-48 / 288 < 2^-54.5 / 3 for |z| ≤ 2^-8.
 //                  The roundings are those of the square, its product with z, a sum of six terms (less than 2 u), and
 //                  the final product: in all less than 5.1 u |c|
-//   low            a sum of c and rounding errors below u |high|: two roundings of c, 2 u |c|, and four of terms below
-//                  1.1 u |high| + 2^-34: 2^-104 |high|
+//   low            the sum of c and of rounding errors below u |high|. Two roundings of c cost 2 u |c|, and four
+//                  roundings of terms below 1.1 u |high| + 2^-34 cost 2^-104 |high|
 // The total is below 7.5 u |c| + 2^-96 |high|. The generator asserts |z|^3 ≤ 2^-15.9 |ln x| in each row, and |c| is at
 // most 0.34 |z|^3. So the error is below 2^-67.6 |ln x|. LOG_ERROR covers this and the 2^-104 that log2 and log10 add.
 #ifndef PETRI_MATHS_FAST_LOG_H
@@ -21,7 +21,7 @@
 
 #include "maths/fast_exp.h"
 
-#define LOG_ERROR 0x1.4p-67
+#define LOG_ERROR 0x1.4p-67    // bound of the relative error
 #define LOG_CUBE_ERROR 0x1p-50 // factor of |c| in the total above; at least 7.5 u
 
 #define LOG_REACH 0x1p-16 // maximum of z^2

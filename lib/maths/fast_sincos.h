@@ -21,9 +21,9 @@
 #include "maths/lanes.h"
 #include "maths/maths_tables.h"
 
-#define SINCOS_ERROR 0x1.2p-67
-#define SINCOS_REDUCTION_ERROR 0x1p-94
-#define SINCOS_MAX 65536.0 // |n| < 2^24
+#define SINCOS_ERROR 0x1.2p-67         // bound of the error relative to the result
+#define SINCOS_REDUCTION_ERROR 0x1p-94 // bound of the absolute error, which is added to that
+#define SINCOS_MAX 65536.0             // for smaller |x|, |n| is below 2^24
 
 // An argument reduced to x = n pi/512 + high + low.
 typedef struct ReducedArgument {
@@ -42,7 +42,7 @@ KERNEL ReducedArgument sincos_reduce(Real x) {
     return turn;
 }
 
-// Terms that depend on the reduced argument r only.
+// Terms that depend only on the reduced argument r.
 typedef struct Arc {
     Real high;   // high part of r
     Real versed; // cos r - 1, the negated versine
@@ -60,9 +60,9 @@ KERNEL Arc sincos_arc(const ReducedArgument *turn) {
     return (Arc){r, versed, bent};
 }
 
-// Sine and cosine of n pi/512.
+// Sine sh + sl and cosine ch + cl of n pi/512.
 typedef struct Row {
-    Real sh, sl, ch, cl; // high and low parts
+    Real sh, sl, ch, cl; // high and low part of each
 } Row;
 
 KERNEL Real real_flip(Real a, Bits sign) {

@@ -12,7 +12,7 @@
 #define FIXED_MAX_LIMBS 12
 
 typedef struct Fixed {
-    int size; // limbs of the fraction: 1 to FIXED_MAX_LIMBS, one more inside fixed_reduce
+    int size; // number of limbs of the fraction: 1 to FIXED_MAX_LIMBS, or one more inside fixed_reduce
     uint64_t limb[FIXED_MAX_LIMBS + 2];
 } Fixed;
 
@@ -29,8 +29,8 @@ Fixed fixed_add(const Fixed *a, const Fixed *b);
 Fixed fixed_sub(const Fixed *a, const Fixed *b);
 // Returns a * 2^shift, truncated if the shift is negative. Requires |shift| < 64 size.
 Fixed fixed_scale(const Fixed *a, int shift);
-// fixed_mul returns the product, too small by less than an ulp. fixed_div_small returns the quotient, truncated towards
-// zero.
+// fixed_mul returns the product a * b. Truncation makes it too small by less than an ulp. fixed_div_small returns the
+// quotient a / by, truncated towards zero.
 Fixed fixed_mul(const Fixed *a, const Fixed *b);
 Fixed fixed_div_small(const Fixed *a, uint32_t by);
 // Returns a * by for by < 2^63. The result is exact, except that the integer part is reduced modulo 2^64.

@@ -161,7 +161,8 @@ for i in range(256):
     bits = 0x3fe6000000000000 + (i << 44)
     mantissa, below = 2**52 + (bits & (2**52 - 1)), bits >> 52 == 0x3fe
     low, width = Fraction(mantissa, 2**(53 if below else 52)), Fraction(1, 2**(9 if below else 8))
-    # The rows on both sides of 1 use r = 1, for relative accuracy. A shorter r below 1 keeps r m - 1 within 53 bits.
+    # The rows on both sides of 1 use r = 1, for relative accuracy. For m below 1, a shorter r keeps r m - 1 within 53
+    # bits.
     unit = 8 if below else 9
     r = Fraction(round(2**unit / (low + width / 2)), 2**unit)
     if low == 1 or low + width == 1:
@@ -171,7 +172,7 @@ for i in range(256):
     assert largest <= Fraction(2**53, 2**((53 if below else 52) + unit)), i  # r m - 1 is a double
     log = -logarithm(r)
     assert r == 1 or abs(log) > fixed(largest)  # fast_two_sum of log + z needs this order
-    # |z|^3 relative to the smallest |ln x| of the row, which has k = 0
+    # bounds |z|^3 relative to the smallest |ln x| of the row, which has k = 0
     ends = [low, low + width]
     least = min(abs(1 - m) for m in ends if m != 1) if r != 1 else 0
     assert r == 1 or largest**3 <= least * Fraction(1, 2**16), i
@@ -235,7 +236,8 @@ for i in range(9):
 rows[0] = parts(0) + parts(ONE) + [nearest(fixed(v)) for v in taylor_asin(Fraction(0), 8)[2:]]
 show('double', 'asin_table', '[9][11]', rows, 'Taylor coefficients of asin at i/128: two as high + low, seven more')
 
-# For larger x the rows become narrower, in proportion to 1 - x. Its exponent and upper 6 mantissa bits select the row.
+# For larger x the rows become narrower, in proportion to 1 - x. The exponent and the upper 6 mantissa bits
+# of 1 - x select the row.
 # Row 0 starts at 1 - x = 1/16.
 rows = []
 for i in range(256):

@@ -19,7 +19,7 @@
 #define LANES 1
 #endif
 
-// Hook for tests, called with the arguments of every lanes_decide.
+// Hook for tests. Every call of lanes_decide passes its arguments to this macro.
 #ifndef LANES_WATCH
 #define LANES_WATCH(high, low, error) (void)0
 #endif
@@ -145,7 +145,7 @@ KERNEL Real real_two_sum_error(Real a, Real b, Real s) {
     return (a - (s - t)) + (b - t);
 }
 
-// Looks up `table` in each lane: the lane of `index` selects the element.
+// Returns table[index] for each lane of `index`.
 KERNEL Real real_gather_table(const double *table, Bits index) {
 #if LANES == 1
     return table[index];
@@ -280,7 +280,7 @@ KERNEL Lanes lanes_decide(Real high, Real low, Real error, Real *result) {
     return lanes_equal(*result, high + (low - error));
 }
 
-// Returns x times `step`, rounded to the nearest integer, and sets *number to its value as an integer. Requires
+// Returns x times `step`, rounded to the nearest integer. Sets *number to the same number in integer format. Requires
 // |x step| < 2^51.
 #define REAL_ROUNDER 6755399441055744.0 // 1.5 2^52
 KERNEL Real real_steps(Real x, double step, Bits *number) {
