@@ -73,7 +73,7 @@ static Value bad_name(BuiltinContext *context, const Builtin *builtin, const cha
                          name.bytes, builtin->name, builtin->parameters);
 }
 
-// Calls a built-in with named or missing arguments.
+// Calls a built-in with named or missing arguments: first stores the arguments in the order of the parameters.
 static Value call_matched(BuiltinContext *context, const Builtin *builtin, const Value *args, uint32_t count,
                           const Symbol *const *names, const Value *named, uint32_t named_count) {
     Value all[MAX_FIXED];

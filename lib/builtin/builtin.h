@@ -19,9 +19,9 @@ typedef struct BuiltinContext {
     const struct Builtin *called;                    // the built-in that is called
     Arena *arena;                                    // owns results and temporaries
     const SymbolTable *symbols;                      // for converting symbols to text
-    FileCache *files;                                // NULL: file functions find no file
-    NoiseCache *noise;                               // NULL: permutations are computed in each call
-    const FileAccess *file_access;                   // NULL: unrestricted
+    FileCache *files;                                // cache of file contents; NULL: file functions find no file
+    NoiseCache *noise;                               // cache of permutations; NULL: they are computed in each call
+    const FileAccess *file_access;                   // rules for file access; NULL: unrestricted
     Str directory;                                   // base of relative file names (L13.3); "": the working directory
     void (*report_error)(void *user_data, Str text); // called with a diagnostic for the call
     void (*log)(void *user_data, Str text);          // called with a line from debug()
@@ -39,10 +39,11 @@ typedef struct Builtin {
     bool variadic;
     bool named; // accepts parameters by name (B0.3)
     bool pure;  // the result depends only on the arguments, so constant calls can be folded (B0.5)
-    // With at least this many arguments, the function is element-wise (B0.4); 0: never. If all arguments are numbers or
-    // vectors of equal length, each element of the result then depends only on the elements at the same index.
+    // The function is element-wise (B0.4) if it is called with at least this many arguments; 0: never. An element of
+    // the result then depends only on the elements of the arguments at the same index. This is true only if each
+    // argument is a number or a vector, and if all vectors have the same length.
     uint8_t each;
-#define BUILTIN_EACH_POINT UINT8_MAX // for noise; see builtin_noise_points
+#define BUILTIN_EACH_POINT UINT8_MAX // value of `each` for noise; see builtin_noise_points
     const char *help;
 } Builtin;
 

@@ -16,7 +16,8 @@ static double clamp_unit(double x) {
     return 1 < x ? 1 : x;
 }
 
-// Returns exactly fmod(v, 6). Most hues are between -6 and 12, where at most one subtraction is needed, which is exact.
+// Returns exactly fmod(v, 6). Most hues are between -6 and 12. There, at most one subtraction is needed, and its result
+// is exact.
 static double modulo_6(double v) {
     return v > -6 && v < 6 ? v : v >= 6 && v < 12 ? v - 6 : fmod(v, 6);
 }
@@ -62,8 +63,8 @@ Value builtin_hsv(BuiltinContext *context, const Value *args, uint32_t count) {
     return rgb_of_hsl(context->arena, x[0], saturation, l);
 }
 
-// Computes the colour of a black body (B11.3): the chromaticity x, y on the Planckian locus, then X, Y, Z, then linear
-// sRGB.
+// Computes the colour of a black body at t kelvin (B11.3): first the chromaticity x, y on the Planckian locus, then X,
+// Y, Z, then linear sRGB. If `normalize` is true, Y is 1.
 static void black_body(double t, bool normalize, double *rgb) {
     double T = t > 1667 ? t : 1667;
     T = T < 25000 ? T : 25000;

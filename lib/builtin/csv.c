@@ -18,9 +18,9 @@ typedef struct CsvFile {
 
 // --- fields
 
-// Scans the field at *at and moves *at past the separator after it. Copies the field's text, without its quotes, to
-// `out` unless `out` is NULL. Sets *last if the separator was a line end or the end of the file. Returns the length of
-// the text, which is at most the length of the field.
+// Scans the field at *at and moves *at past the separator that ends the field. Copies the field's text, without its
+// quotes, to `out` unless `out` is NULL. Sets *last if the separator was a line end or the end of the file. Returns the
+// length of the text, which is at most the length of the field.
 static size_t scan_field(Str in, size_t *at, char *out, bool *last) {
     size_t i = *at, len = 0;
     if (i < in.len && in.bytes[i] == '"') {
@@ -29,7 +29,7 @@ static size_t scan_field(Str in, size_t *at, char *out, bool *last) {
             char c = in.bytes[i++];
             if (c == '"' && (i == in.len || in.bytes[i] != '"'))
                 break;
-            i += c == '"'; // skips the second of two quotes, which mean one
+            i += c == '"'; // skips the second of two quotes, which represent one quote
             if (out)
                 out[len] = c;
             len++;
@@ -124,7 +124,7 @@ static const void *parse_csv(Arena *arena, char *bytes, size_t len, const char *
     uint32_t *starts = arena_alloc_array(arena, file->row_count, sizeof *starts);
     uint32_t row = 0;
     for (size_t at = 0; at < len; row++) {
-        starts[row] = (uint32_t)at; // a file has at most 2^30 bytes
+        starts[row] = (uint32_t)at; // fits in 32 bits, because a file has at most 2^30 bytes
         scan_row(file->contents, at, &at);
     }
     file->row_starts = starts;
@@ -161,8 +161,8 @@ static Value row_value(BuiltinContext *context, const CsvFile *file, uint32_t ro
     return value_numbers_view(numbers, (uint32_t)fields);
 }
 
-// Reads a row number: a number, rounded down, or a string that is an integer. Symbols are negative numbers and so match
-// no row.
+// Reads a row number. It is either a number, which is rounded down, or a string that contains an integer. Returns false
+// if it is invalid or negative. Symbols are negative numbers, so they match no row.
 static bool read_row_number(Value v, double *row) {
     if (is_scalar(v))
         *row = floor(v.as.number);

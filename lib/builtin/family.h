@@ -34,7 +34,7 @@ static inline Value value_or(Value v, Value fallback) {
 // Reports "NAME: result is too long" and returns null.
 Value builtin_too_long(BuiltinContext *context, const char *name);
 
-// Returns a vector of `count` strings, at least one. The bytes are borrowed.
+// Returns a vector of `count` strings. `count` must be at least 1. The bytes of the strings are not copied.
 Value builtin_texts(Arena *arena, const Str *texts, uint32_t count);
 
 // Returns a vector that contains a copy of `len` numbers.
@@ -48,17 +48,17 @@ Value builtin_each(Arena *arena, Value x, double (*f)(double));
         return builtin_each(context->arena, args[0], function);                                                        \
     }
 
-// Like builtin_each, but calls `array_call` for long vectors. The results of `array_call` must be bit-identical to
-// those of f (maths/arrays.h).
+// builtin_each_array is like builtin_each, but calls `array_call` for long vectors. The results of `array_call` must be
+// bit-identical to those of f (maths/arrays.h).
 typedef void BuiltinArrayCall(CpuLevel level, const double *x, size_t count, double *to);
 Value builtin_each_array(Arena *arena, Value x, double (*f)(double), BuiltinArrayCall *array_call);
 
-// Applies f to the elements at each index of `count` vectors, repeating shorter vectors (B0.4). Returns null if there
-// are no vectors or any is not numeric.
+// Returns a vector whose element i is f applied to the elements i of `count` vectors. Shorter vectors are repeated
+// (B0.4). Returns null if there are no vectors, or if any of them is not numeric.
 Value builtin_repeat(Arena *arena, const Value *args, uint32_t count, double (*f)(const double *x, uint32_t count));
 
-// Sort stably in ascending order (B3.3). Return the sorted array, which is the argument or another array in the arena.
-// The order is unspecified if there is a NaN.
+// These functions sort stably in ascending order (B3.3). They return the sorted array, which is either the argument or
+// another array in the arena. If there is a NaN, the order is unspecified.
 double *builtin_sort_numbers(Arena *arena, double *numbers, uint32_t len);
 Str *builtin_sort_texts(Arena *arena, Str *texts, uint32_t len);
 

@@ -13,12 +13,12 @@
 
 enum {
     MAX_NAME_LENGTH = 4096,
-    MAX_FILE_SIZE = 1 << 30,
-    MAX_ENTRIES = 16384, // limited because a script can generate any number of file names
+    MAX_FILE_SIZE = 1 << 30, // bytes
+    MAX_ENTRIES = 16384,     // limited, because a script can generate any number of file names
 };
-static const size_t MAX_BYTES = (size_t)2 << 30; // limit of the total size of all entries
+static const size_t MAX_BYTES = (size_t)2 << 30; // limit of the total size of all entries, in bytes
 
-// File attributes from which changes are detected.
+// File attributes that are compared to detect whether a file has changed.
 typedef struct Stamp {
     int error; // errno of stat, or 0
     dev_t device;
@@ -38,8 +38,8 @@ typedef struct FileEntry {
 } FileEntry;
 
 struct FileCache {
-    Arena arena; // owns the entries, the paths and the cache itself
-    ArenaMark empty;
+    Arena arena;     // owns the entries, the paths and the cache itself
+    ArenaMark empty; // position in `arena` after the cache itself
     FileEntry **entries;
     uint32_t count;
     uint32_t capacity;
@@ -115,7 +115,8 @@ static const char *describe_error(int error) {
     }
 }
 
-// Reads up to `size` bytes. If the file has grown since its stamp was taken, the next file_cache_get reads it again.
+// Reads up to `size` bytes, which is the size in the file's stamp. If the file has grown since then, the next
+// file_cache_get reads it again.
 static bool read_bytes(const BuiltinContext *context, const char *path, char *bytes, size_t size, size_t *len,
                        const char **problem) {
     Str host_bytes;
@@ -126,7 +127,7 @@ static bool read_bytes(const BuiltinContext *context, const char *path, char *by
             memcpy(bytes, host_bytes.bytes, *len);
         return !*problem;
     }
-    // O_NONBLOCK: does not block if the file was replaced by a pipe.
+    // Because of O_NONBLOCK, opening the file does not block even if it was replaced by a pipe.
     int file = file_access_open(context->file_access, path, O_RDONLY | O_NONBLOCK);
     struct stat info;
     if (file < 0 || fstat(file, &info) != 0) {
@@ -155,7 +156,8 @@ static bool read_bytes(const BuiltinContext *context, const char *path, char *by
     return good;
 }
 
-// Allocates memory before opening the file: a failed allocation does not return (base/arena.h) and would leave it open.
+// Reads and parses the file of an entry. Allocates memory before opening the file, because a failed allocation does not
+// return (base/arena.h) and would leave the file open.
 static const void *load_entry(const BuiltinContext *context, FileEntry *entry, const char *path, const char **problem) {
     if (entry->stamp.error) {
         *problem = describe_error(entry->stamp.error);
@@ -206,8 +208,8 @@ static FileEntry *entry_get(FileCache *cache, Str path, FileParse *parse) {
     return found != HASH_INDEX_NONE ? cache->entries[found] : entry_add(cache, &key, hash);
 }
 
-// Frees the contents of all entries except `kept` if their total size is too large. Freed contents are read again when
-// needed.
+// Makes room for the file of the entry `kept`, which is about to be read. If the cache would exceed MAX_BYTES, frees
+// the contents of all other entries. They are read again when needed.
 static void evict_entries(FileCache *cache, const FileEntry *kept) {
     size_t used = 0;
     for (uint32_t i = 0; i < cache->count; i++)
@@ -236,7 +238,7 @@ const void *file_cache_get(BuiltinContext *context, const char *function, FilePa
         report_unreadable(context, function, text, cache ? "not a file name" : "files are not available here");
         return NULL;
     }
-    // Handle a failed allocation in the cache's arena like one in the call's arena.
+    // A failed allocation in the cache's arena must be handled like one in the call's arena.
     cache->arena.escape = context->arena->escape;
     Str path = path_join(context->arena, context->directory, text);
     const char *c_path = str_to_c(context->arena, path);

@@ -1,7 +1,7 @@
 // files.h: a cache of file contents for built-ins, which reads a file again when it changes (spec builtins.md B13.1).
 //
 // Each combination of a path and a parser has one entry with its own arena. Failures are also cached: a missing file is
-// reported only once, and is read when it appears. Built-ins copy what they return from the cache, so that any call can
+// reported only once, and is read when it appears. Built-ins return copies of cached data, because any later call can
 // evict entries.
 #ifndef PETRI_BUILTIN_FILES_H
 #define PETRI_BUILTIN_FILES_H

@@ -53,7 +53,7 @@ static bool match_one(Str pattern, size_t *at, Str name, size_t *from) {
 }
 
 // Returns true if the name matches the pattern: `*` matches any characters, `?` one character, and `[…]` one from a
-// set. Backtracking to the last star is sufficient.
+// set. If a character does not match, going back to the last star is sufficient.
 static bool match_name(Str pattern, Str name) {
     size_t at = 0, from = 0, star = SIZE_MAX, star_from = 0;
     while (from < name.len || at < pattern.len) {
@@ -75,6 +75,7 @@ static bool match_name(Str pattern, Str name) {
 
 // --- directory traversal
 
+// Maximum numbers of directories listed and paths found by one call, and work units per directory and per path.
 enum { MAX_LISTINGS = 1 << 18, MAX_FOUND = 1 << 20, LISTING_WORK = 1000, PATH_WORK = 100 };
 
 typedef struct Glob {
@@ -88,7 +89,7 @@ typedef struct Glob {
     uint32_t found_capacity;
     uint32_t listings;
     bool limit_exceeded;
-    const char *denied; // a path to which access is denied, or NULL
+    const char *denied; // a path to which access was denied, or NULL
 } Glob;
 
 static bool is_deep(Str part) {
@@ -119,7 +120,7 @@ static void glob_found(Glob *glob, Str path) {
     glob->found[glob->found_count++] = path;
 }
 
-// Gets the names in a folder, one per line, from the host (PetriOptions.read_file).
+// Gets the names in a folder from the host (PetriOptions.read_file), which returns one name per line.
 static bool host_names(const FileAccess *file_access, const char *path, Str *names) {
     char folder[PATH_MAX + 2];
     if (!file_access_normalise(path, folder))
@@ -149,10 +150,10 @@ static size_t list_hosted(Glob *glob, const char *path, Str **names) {
     return count;
 }
 
-// Sets *count and *size to the number of entries of a directory with valid names and the total length of these names.
-// If `names` is not NULL, also copies the names. *count and *size must then initially be the capacities of `names` and
-// `bytes`; names that do not fit are dropped. Allocates nothing while the directory is open, because a failed
-// allocation would leave it open.
+// Sets *count to the number of entries of a directory that have valid names, and *size to the total length of these
+// names. If `names` is not NULL, also copies the names. *count and *size must then initially be the capacities of
+// `names` and `bytes`; names that do not fit are dropped. Allocates nothing while the directory is open, because a
+// failed allocation would leave it open.
 static void scan_directory(Arena *arena, const char *path, Str *names, char *bytes, size_t *count, size_t *size) {
     size_t most_count = *count, most_size = *size;
     *count = *size = 0;
@@ -216,8 +217,8 @@ static bool path_exists(const FileAccess *file_access, const char *path) {
 
 static void visit_parts(Glob *glob, Str path, uint32_t k);
 
-// Handles a path that matches the parts 0 to k. Adds it to the results if k is the last part, else continues in this
-// directory.
+// Handles a path that matches the parts 0 to k of the pattern. If k is the last part, adds the path to the results.
+// Otherwise continues in the directory `path` with the next part.
 static void visit_path(Glob *glob, Str path, uint32_t k) {
     const char *c_path = str_to_c(glob->arena, path);
     arena_charge(glob->arena, PATH_WORK);

@@ -12,7 +12,7 @@ static double fract(double x) {
     return x - number_floor(x);
 }
 
-// Unlike turns_sin and turns_cos, does not first reduce the angle to one turn (B1.1).
+// Unlike turns_sin and turns_cos, this function does not first reduce the angle to one turn (B1.1).
 static double turns_tan(double x) {
     return maths_tan(x * BUILTIN_TAU);
 }
@@ -67,7 +67,7 @@ Value builtin_tan(BuiltinContext *context, const Value *args, uint32_t count) {
     (void)count;
 }
 
-// Computes roundhalfaway(x * s) / s with s = 10^d, or s = 0 for d < 0 (B1.4).
+// Computes roundhalfaway(x * s) / s (B1.4), where d is the number of decimals and s = 10^d, or s = 0 if d < 0.
 Value builtin_round(BuiltinContext *context, const Value *args, uint32_t count) {
     Value xs = args[0], ys = value_or(args[1], value_number(0));
     if (!value_is_numeric(xs) || !is_scalar(ys))
@@ -110,7 +110,8 @@ static double pair_length(const double *xy, uint32_t count) {
     return sqrt(xy[0] * xy[0] + xy[1] * xy[1]);
 }
 
-// Applies f to the consecutive pairs of one vector, or to pairs of one element from each of two vectors (B2.2).
+// Applies f to pairs of numbers (B2.2). If there is one argument, the pairs are its elements 0 and 1, 2 and 3, and so
+// on. If there are two, each pair has one element of each argument.
 static Value each_pair(Arena *arena, const Value *args, double (*f)(const double *xy, uint32_t count)) {
     if (!is_absent(args[1]))
         return builtin_repeat(arena, args, 2, f);

@@ -14,8 +14,8 @@ static void inverse_3x3(const double *m, double *result) {
 }
 
 // One element of the inverse: (m[a]*P - m[b]*Q + m[c]*R)*k, or (-m[a]*P + m[b]*Q - m[c]*R)*k if row plus column is odd
-// (`minus`). The 2x2 determinants P, Q and R are d[p], d[q] and d[r]. Of these indices, 0 to 5 are s0 to s5 of the
-// spec, and 6 to 11 are c0 to c5.
+// (`minus`). P, Q and R are the 2x2 determinants d[p], d[q] and d[r]. In the spec, d[0] to d[5] are called s0 to s5,
+// and d[6] to d[11] are called c0 to c5.
 typedef struct Cofactor {
     uint8_t a, p, b, q, c, r;
     bool minus;

@@ -15,7 +15,7 @@ enum { MAX_DIMS = 4 };
 
 // --- permutations (B10.3)
 
-enum { CACHE_SLOTS = 64 }; // 17 KiB; an evicted permutation is computed again
+enum { CACHE_SLOTS = 64 }; // the slots need 17 KiB; a permutation that was evicted is computed again
 
 typedef struct Permutation {
     uint64_t key;
@@ -46,7 +46,7 @@ void noise_cache_free(NoiseCache *cache) {
     arena_free(&arena);
 }
 
-// Computes the numbers 0 to 255 shuffled by the uniform stream of this key.
+// Sets `values` to the numbers 0 to 255, shuffled by the uniform stream of this key.
 static void permutation_make(uint64_t key, uint8_t values[256]) {
     for (unsigned i = 0; i < 256; i++)
         values[i] = (uint8_t)i;
@@ -76,17 +76,17 @@ static const uint8_t *permutation_get(NoiseCache *cache, uint64_t key, uint8_t l
 
 // --- the functions
 
-// The coordinates of a call, and the number of their combinations.
+// The coordinates of a call. Noise is computed at each combination of one element per axis.
 typedef struct Grid {
     const double *axes[MAX_DIMS];
     uint32_t lens[MAX_DIMS];
     int dims;
-    uint32_t len;
+    uint32_t len; // number of combinations
 } Grid;
 
 typedef enum GridOutcome { GRID_OK, GRID_BAD, GRID_TOO_LONG } GridOutcome;
 
-// Reads one to four numeric vectors. A single vector is combined with a second coordinate of 0 (B10.2).
+// Reads one to four numeric vectors, which are the axes. If there is only one, the second coordinate is 0 (B10.2).
 static GridOutcome grid_read(Grid *grid, const Value *args, uint32_t count) {
     static const double zero[1] = {0};
     if (count < 1 || count > MAX_DIMS)
@@ -97,7 +97,7 @@ static GridOutcome grid_read(Grid *grid, const Value *args, uint32_t count) {
             return GRID_BAD;
         grid->axes[i] = value_numbers(&args[i]);
         grid->lens[i] = args[i].len;
-        len = len > VALUE_MAX_LEN ? len : len * args[i].len; // cannot overflow
+        len = len > VALUE_MAX_LEN ? len : len * args[i].len; // cannot overflow 64 bits
     }
     if (count == 1) {
         grid->axes[1] = zero;
@@ -137,8 +137,8 @@ static void grid_noise(Arena *arena, const Grid *grid, const uint8_t *permutatio
     }
 }
 
-// Multiplies every coordinate by 2. If `own`, the arrays belong to the grid and are changed; otherwise the grid gets
-// new arrays.
+// Multiplies every coordinate by 2. If `own` is true, the arrays belong to the grid and are changed. Otherwise the grid
+// gets new arrays.
 static void grid_double(Arena *arena, Grid *grid, bool own) {
     for (int i = 0; i < grid->dims; i++) {
         double *axis = own ? (double *)grid->axes[i] : arena_alloc_array(arena, grid->lens[i], sizeof *axis);
@@ -167,8 +167,8 @@ Value builtin_noise(BuiltinContext *context, const Value *args, uint32_t count) 
 
 void builtin_noise_points(BuiltinContext *context, Value seed, const double *x, const double *y, uint32_t count,
                           double *to) {
-    enum { MIN_POINTS = 16 };             // minimum for which maths_plane_noise_array is faster
-    const double MAX_COORDINATE = 0x1p45; // limit of maths_plane_noise_array
+    enum { MIN_POINTS = 16 };             // minimum number of points for which maths_plane_noise_array is faster
+    const double MAX_COORDINATE = 0x1p45; // maths_plane_noise_array requires smaller coordinates
     uint8_t local[256];
     const uint8_t *permutation = permutation_get(context->noise, value_seed_hash(context->arena, seed), local);
     if (count < MIN_POINTS) {

@@ -17,13 +17,14 @@ enum { MAX_DIMS = 4, MAX_EXTRA = 3 };
 
 typedef struct NoisePoint {
     const uint8_t *permutation;
-    uint64_t base[MAX_DIMS]; // in two's complement; only sums and the low eight bits are used
+    uint64_t base[MAX_DIMS]; // base corner of the cell, in two's complement; only sums and the low eight bits are used
     double frac[MAX_DIMS];   // fx, fy, … of B10.4
-    double d0[MAX_DIMS];
-    double sum; // sum of frac
+    double d0[MAX_DIMS];     // offset of the point from the base corner, in the coordinates of c
+    double sum;              // sum of frac
 } NoisePoint;
 
-// Finds the cell and the position of the point in it (B10.4). Returns false if a coordinate is too large or NaN.
+// Finds the cell that contains the point c, and the point's position in the cell (B10.4). Returns false if a coordinate
+// is too large or NaN.
 static inline bool point_locate(NoisePoint *point, const double *c, int dims) {
     double t = c[0], whole[MAX_DIMS];
     for (int i = 1; i < dims; i++)
@@ -118,7 +119,7 @@ typedef struct Candidates {
     bool flag_a, flag_b;
 } Candidates;
 
-// Replaces the candidate with the lower score if this score is greater.
+// Replaces the candidate that has the lower score if `score` is greater than that score.
 static void replace_lesser(Candidates *c, double score, unsigned mask, bool flag) {
     if (c->a >= c->b && score > c->b) {
         c->b = score;
@@ -131,8 +132,8 @@ static void replace_lesser(Candidates *c, double score, unsigned mask, bool flag
     }
 }
 
-// The choice of extra vertices for regions A and B in three and four dimensions: `row` is the row of a table in
-// noise_tables.h.
+// The choice of extra vertices for regions A and B in three and four dimensions. `corner_is_nearer` selects a table in
+// noise_tables.h, and `row` is the row of this table.
 typedef struct Choice {
     bool corner_is_nearer; // true if the corner of the cell is nearer than one of the candidates
     unsigned row;

@@ -6,7 +6,8 @@
 
 #include <stdint.h>
 
-// Return the noise at the point c with two, three or four coordinates, for a permutation of 0 to 255.
+// These functions return the noise at the point c, which has two, three or four coordinates. `permutation` contains the
+// numbers 0 to 255.
 double noise_point_2(const uint8_t *permutation, const double *c);
 double noise_point_3(const uint8_t *permutation, const double *c);
 double noise_point_4(const uint8_t *permutation, const double *c);

@@ -6,7 +6,7 @@
 
 #include <stdint.h>
 
-// S, Q and N of B10.4 and B10.6 by number of dimensions.
+// The constants S, Q and N of B10.4 and B10.6, indexed by the number of dimensions.
 static const double NOISE_S[5] = {0, 0, -0.211324865405187, -0.16666666666666666, -0.138196601125011};
 static const double NOISE_Q[5] = {0, 0, 0.366025403784439, 0.3333333333333333, 0.309016994374947};
 static const double NOISE_N[5] = {0, 0, 47, 103, 30};
@@ -78,7 +78,7 @@ static const NoiseVertex NOISE_CORE4_D[10] = {
     {{0, 1, 0, 1}, {0}, 2}, {{0, 0, 1, 1}, {0}, 2},
 };
 
-// Extra vertices by the bit mask of coordinates (x 1, y 2, z 4, w 8); masks without a row do not occur.
+// Extra vertices, indexed by a bit mask of coordinates (x = 1, y = 2, z = 4, w = 8). Masks without a row do not occur.
 static const NoiseVertex NOISE_EXT3_ORIGIN1[8][2] = {
     [1] = {{{1, -1, 0}, {0}, 0}, {{1, 0, -1}, {0}, 0}},
     [2] = {{{-1, 1, 0}, {0}, 0}, {{0, 1, -1}, {0}, 0}},

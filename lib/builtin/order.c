@@ -34,7 +34,8 @@ static uint32_t extreme_item(const Item *items, uint32_t len, int sign) {
     return best;
 }
 
-// Returns the index of the extreme argument in the order of L5.5, or NO_POSITION if two are incomparable.
+// Returns the index of the smallest (sign -1) or largest (sign 1) argument in the order of L5.5. Returns NO_POSITION if
+// two arguments are incomparable.
 static uint32_t extreme_argument(Arena *arena, const Value *args, uint32_t count, int sign) {
     uint32_t best = 0;
     for (uint32_t i = 1; i < count; i++) {
@@ -108,7 +109,8 @@ static void merge_texts(Arena *arena, void *to, const void *from, uint32_t low, 
     }
 }
 
-// Sorts bottom-up by merging. Returns `items` or `other`, whichever holds the result.
+// Sorts `items` by merging runs of increasing length. `other` is an array of the same size for temporary data. Returns
+// the one of these two arrays that holds the result.
 static void *merge_sort(Arena *arena, void *items, void *other, uint32_t len, Merge *merge) {
     for (uint64_t width = 1; width < len; width *= 2) {
         arena_charge(arena, 1 + len / 2);
@@ -159,7 +161,8 @@ Value builtin_sort(BuiltinContext *context, const Value *args, uint32_t count) {
 
 // --- counting (B3.4)
 
-// The elements of ys by type, sorted, so that counting in long vectors takes O(n log n) time.
+// The elements of ys, separated by type. Numbers and texts are sorted, because counting in long vectors then takes only
+// O(n log n) time.
 typedef struct Census {
     double *numbers; // ascending, without NaN, which equals nothing
     Str *texts;      // ascending

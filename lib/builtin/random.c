@@ -11,7 +11,8 @@ STREAM(builtin_uniform, STREAM_UNIFORM)
 STREAM(builtin_beta, STREAM_BETA)
 STREAM(builtin_normal, STREAM_NORMAL)
 
-// Returns the index with which element i of `len` is exchanged: i + floor(item_i * (len - i)), at most len - 1.
+// Returns the index of the element with which element i of `len` is exchanged. It is i + floor(s * (len - i)), at most
+// len - 1, where s is item i of the source.
 static uint32_t shuffle_partner(Value source, uint32_t i, uint32_t len) {
     uint32_t step = (uint32_t)(value_stream_item(source, i) * (len - i));
     return step < len - i ? i + step : len - 1;

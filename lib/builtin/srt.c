@@ -17,8 +17,8 @@ typedef struct SrtFile {
     uint32_t count;
 } SrtFile;
 
-// Moves the part before the first separator from *text to *part and removes the separator. If there is no separator,
-// sets *part to the whole text and returns false.
+// Sets *part to the text before the first separator, and *text to the text after that separator. If there is no
+// separator, sets *part to the whole text and *text to an empty string, and returns false.
 static bool split_part(Str *text, Str separator, Str *part) {
     size_t at = 0;
     while (at + separator.len <= text->len && memcmp(text->bytes + at, separator.bytes, separator.len) != 0)

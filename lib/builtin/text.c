@@ -49,7 +49,7 @@ static size_t find_separator(Str text, Str separator, size_t at) {
     return text.len;
 }
 
-// Returns the number of parts, not counting empty parts at the end.
+// Returns the number of parts between separators, not counting empty parts at the end.
 static size_t count_pieces(Str text, Str separator) {
     size_t pieces = 0, kept = 0;
     for (size_t at = 0; at <= text.len; pieces++) {
@@ -61,8 +61,8 @@ static size_t count_pieces(Str text, Str separator) {
     return kept;
 }
 
-// Returns the first `len` parts of the text. Their bytes are not copied, so they live as long as the value from which
-// the text comes.
+// Returns the first `len` parts of the text. The bytes of the parts are not copied, so the parts live only as long as
+// the bytes of `text`.
 static Value split_text(Arena *arena, Str text, Str separator, uint32_t len) {
     Str *pieces = arena_alloc_array(arena, len, sizeof *pieces);
     size_t at = 0;

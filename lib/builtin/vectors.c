@@ -29,7 +29,7 @@ static Value zip_items(Arena *arena, const Value *parts, uint32_t count, uint32_
     return (Value){.len = len * count, .kind = VALUE_MIXED, .as.items = result};
 }
 
-// The result is mixed if any vector is mixed, because every element of every vector is used (B3.5).
+// The result is mixed if any argument is mixed, because the result contains every element of every argument (B3.5).
 Value builtin_zip(BuiltinContext *context, const Value *args, uint32_t count) {
     Value *parts = arena_alloc_array(context->arena, count, sizeof *parts);
     uint32_t kept = 0, len = 0;
@@ -48,8 +48,8 @@ Value builtin_zip(BuiltinContext *context, const Value *args, uint32_t count) {
     return mixed ? zip_items(context->arena, parts, kept, len) : zip_numbers(context->arena, parts, kept, len);
 }
 
-// Checks the two arguments of B3.6: numbers or null, and a width of at least 1. Sets *width to the truncated width,
-// which may be infinite. Returns false if an argument is invalid.
+// Checks the two arguments of the functions of B3.6: the first must be numbers or null, and the second a width of at
+// least 1. Sets *width to the truncated width, which may be infinite. Returns false if an argument is invalid.
 static bool sum_arguments(const Value *args, double *width) {
     Value w = value_or(args[1], value_number(1));
     if (args[0].kind == VALUE_MIXED || !is_scalar(w))
@@ -60,7 +60,8 @@ static bool sum_arguments(const Value *args, double *width) {
 
 typedef enum Fold { FOLD_SUM, FOLD_PRODUCT, FOLD_MEAN } Fold;
 
-// Computes k results, where k is the width; x[i] contributes to result i mod k.
+// Computes k results, where k is the width (the second argument). Element i of the first argument contributes to result
+// i mod k.
 static Value fold_vector(BuiltinContext *context, const char *name, const Value *args, Fold kind) {
     double width;
     if (!sum_arguments(args, &width))

@@ -35,7 +35,8 @@ static double linear(double x) {
     return x < 0 ? 0 : x > 1 ? 1 : x;
 }
 
-// Applies f to the lower half of the range, and mirrors it for the upper half. NaN is handled as in the upper half.
+// Applies f in the lower half of the range from 0 to 1, and mirrors the curve in the upper half. NaN is handled like
+// the upper half.
 static double ease(double x, double (*f)(double)) {
     if (x < 0)
         return 0;
