@@ -21,7 +21,7 @@ struct Ast {
     uint32_t height; // 1 + maximum height of the children
     Span span;
     const Symbol *name; // NULL for kinds without a name
-    Value value;        // LITERAL: the value
+    Value value;        // value of a LITERAL
     Ast *const *children;
 };
 

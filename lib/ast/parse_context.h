@@ -15,7 +15,7 @@ typedef struct Unexpected {
     Span span;
     const char *expected[PARSE_ALTERNATIVES]; // names of tokens that could follow
     int expected_count;                       // number of names in `expected`; 0: there are too many
-    bool value_expected;                      // a value is allowed at this place
+    bool value_expected;                      // true if a value is allowed at this place
 } Unexpected;
 
 // Called with each token that is passed to the grammar. A word that is a keyword in its context has the keyword's kind.
@@ -26,7 +26,7 @@ typedef struct ParseContext {
     SymbolTable *symbols;
     const Source *source;
     DiagSink *diags;
-    Ast *program;        // the result
+    Ast *program;        // the resulting syntax tree
     bool failed;         // an error was reported
     uint32_t error_line; // line of the last error
     bool too_deep;       // a nesting limit was exceeded and reported, so parsing stops

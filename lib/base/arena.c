@@ -139,7 +139,7 @@ ArenaOutcome arena_protect(Arena *const arenas[], size_t count, void (*call)(voi
             arenas[i]->escape = &escape;
         }
     ArenaOutcome end = call_with(&escape, call, context);
-    for (size_t i = count; i-- > 0;) // in reverse order, which also restores an arena that is listed twice
+    for (size_t i = count; i-- > 0;) // in reverse order, so that an arena that is listed twice is restored
         if (arenas[i])
             arenas[i]->escape = outer[i];
     return end;

@@ -12,7 +12,7 @@ typedef enum DiagLevel { DIAG_ERROR, DIAG_WARNING, DIAG_NOTE } DiagLevel;
 
 typedef struct Diag {
     DiagLevel level;
-    const Source *source; // NULL: no location
+    const Source *source; // source that contains the location; NULL: the diagnostic has no location
     Span span;
     Str text;
     Str hint;         // advice for fixing the problem; empty: none
@@ -26,7 +26,7 @@ typedef struct DiagSink {
     uint32_t count;
     uint32_t capacity;
     uint32_t error_count;
-    HashIndex index;  // finds duplicates
+    HashIndex index;  // index of `items`, used to find duplicates
     uint32_t limit;   // maximum of `count`; further diagnostics only increment `dropped`
     uint32_t dropped; // number of diagnostics beyond `limit`
 } DiagSink;

@@ -12,7 +12,7 @@
 typedef enum FileAccessKind { FILE_ACCESS_READ, FILE_ACCESS_WRITE, FILE_ACCESS_KIND_COUNT } FileAccessKind;
 
 typedef struct FileAccess {
-    const Str *folders[FILE_ACCESS_KIND_COUNT]; // allowed folders by kind: canonical, NUL-terminated
+    const Str *folders[FILE_ACCESS_KIND_COUNT]; // by kind: canonical, NUL-terminated paths of the allowed folders
     uint32_t counts[FILE_ACCESS_KIND_COUNT];    // number of allowed folders by kind
     Str script_folder;                          // canonical folder of the script, readable and writable; empty: none
     Str directory; // path, as the user gave it, of the folder that relative paths in scripts start from

@@ -86,7 +86,7 @@ static bool scale_by(Scaled *scaled, uint64_t significand, int exponent, int sca
 static bool reads_back(const Scaled *scaled, uint64_t whole) {
     Product there = (Product)whole << scaled->shift;
     Product distance = there > scaled->product ? there - scaled->product : scaled->product - there;
-    return 2 * distance < scaled->power; // never equal: a power of five is odd
+    return 2 * distance < scaled->power; // never equal, because a power of five is odd
 }
 
 // Returns x in units of 10^-scale, rounded to a multiple of `unit`, which is a power of ten. Ties are rounded to the

@@ -9,7 +9,7 @@
 
 typedef struct Sha256 {
     uint32_t state[8];
-    uint64_t length; // bytes added
+    uint64_t length; // number of bytes added
     unsigned char block[64];
 } Sha256;
 

@@ -28,8 +28,8 @@ typedef struct Origin {
 } Origin;
 
 typedef struct SourcePosition {
-    uint32_t line;   // from 1
-    uint32_t column; // in characters, from 1
+    uint32_t line;   // line number, from 1
+    uint32_t column; // column in characters, from 1
     Str text;        // the line without its LF
 } SourcePosition;
 

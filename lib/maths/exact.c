@@ -153,7 +153,7 @@ static double tiny_ratio(uint64_t b, uint64_t a, int scale) {
     Fixed ulp = {.size = 2, .limb = {1}};
     if (exact)
         q = fixed_sub(&q, &ulp);
-    q.limb[0] |= 1; // never exactly halfway
+    q.limb[0] |= 1; // so that q is never exactly halfway between two doubles
     return fixed_round(&q, scale);
 }
 
@@ -319,7 +319,7 @@ static bool pow_is_exact(double x, double y, double *result) {
             if (__builtin_mul_overflow(power, m, &power))
                 return false;
     Fixed whole = fixed_from_int(0, 1);
-    whole.limb[0] = power; // in units of 2^-64
+    whole.limb[0] = power; // `whole` is power * 2^-64
     *result = fixed_round(&whole, 64 + (y < 0 ? -e * n : e * n));
     return true;
 }

@@ -2,8 +2,8 @@
 //
 // Each function f uses a Taylor series around the nearest c = i/128: f(c + d) = a0 + a1 d + a2 d^2 + … up to d^8, with
 // |d| ≤ 2^-8. Only asin for x ≥ 1/16 uses other points c, and terms up to d^9. The coefficients a0 and a1 are stored as
-// two doubles each. Sources of error, where f means f(c + d), and u = 2^-53 (rounding x changes it by at most u
-// |x|):
+// two doubles each. Below, f means f(c + d), and u is 2^-53. Rounding a number x changes it by at most u |x|. Sources
+// of error:
 //   d          exact for the high part of a two-part argument. The low part is used in a1 d + a2 d^2 only. In the other
 //              terms it would contribute less than 3 |a3| d^2 u, which is below 2^-68 f for atan, or 2^-69 f in row 0
 //   a0, a1 d   exact up to 2^-104

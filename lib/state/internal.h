@@ -30,9 +30,9 @@ struct State {
     uint32_t live;                   // number of slots with a value
     KeyRange ranges[MAX_KEY_RANGES]; // all ranges, in slot order
     uint32_t range_count;
-    uint32_t candidate_pairs; // slot pairs at the end of `entries` that could form a range
+    uint32_t candidate_pairs; // number of slot pairs at the end of `entries` that could form a range
     HashIndex index;          // maps keys to slots, for slots that have entries
-    Arena keys;               // data of the keys
+    Arena keys;               // arena that holds the data of all keys
     bool *modified;           // modified[owner - 1]: result of the next state_clear_modified
     uint32_t owner_count;
     bool exhausted; // true if memory ran out since the last state_clear_exhausted

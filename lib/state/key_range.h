@@ -18,11 +18,11 @@ typedef struct KeyRange {
     uint32_t keys_count; // number of pairs whose keys are in `keys`
     // Each value is either a reference to numbers of the owner or null.
     StateOwner owner;
-    uint32_t len;        // number of numbers in each value
+    uint32_t len;        // length of each value
     uint32_t stored;     // number of slots, from the first, whose values are in `numbers`
     uint32_t referenced; // number of slots, from the first, with values; from slot `stored` on, they are in `previous`
     const double *numbers;  // current array of the owner
-    const double *previous; // array that the owner used before
+    const double *previous; // array of the owner before `numbers`
 } KeyRange;
 
 static inline bool key_range_has_slot(const KeyRange *range, StateSlot slot) {

@@ -18,7 +18,7 @@ typedef struct Walker {
     void *user_data;
     ScopeEntry *scope;
     uint32_t end;   // end of the current scope in the text
-    uint32_t depth; // BindingInfo.depth
+    uint32_t depth; // current value of BindingInfo.depth
 } Walker;
 
 static void walk_ast(Walker *walker, const Ast *ast);

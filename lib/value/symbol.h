@@ -18,12 +18,12 @@ typedef struct Symbol {
 } Symbol;
 
 typedef struct SymbolTable {
-    Arena *arena; // session lifetime
+    Arena *arena; // arena of the session
     Symbol **items;
     uint32_t count;
     uint32_t capacity;
     HashIndex by_name;
-    HashIndex by_number; // registered symbols only
+    HashIndex by_number; // contains only registered symbols
 } SymbolTable;
 
 // Returns the 64-bit FNV-1a hash of the code points of a string (L4.3).

@@ -46,10 +46,10 @@ typedef struct Value {
     uint8_t kind;   // ValueKind
     uint8_t stream; // StreamKind of a VALUE_STREAM
     union {
-        double number;         // VALUE_NUMBERS, len 1
-        const double *numbers; // VALUE_NUMBERS, len > 1
-        const Item *items;     // VALUE_MIXED
-        uint64_t key;          // VALUE_STREAM: the key from which its items are computed
+        double number;         // the element of a VALUE_NUMBERS with len 1
+        const double *numbers; // the elements of a VALUE_NUMBERS with len > 1
+        const Item *items;     // the elements of a VALUE_MIXED
+        uint64_t key;          // the key of a VALUE_STREAM, from which its items are computed
     } as;
 } Value;
 
@@ -146,7 +146,7 @@ typedef struct Vector {
     uint32_t parts; // number of parts that are not null
     bool several;   // more than one part was added, null or not
     bool any;       // at least one part was added, null or not
-    Value first;    // the first part that is not null; the result if there is no other
+    Value first;    // the first part that is not null; it is the result if all other parts are null
 } Vector;
 
 Vector vector_new(Arena *arena);
