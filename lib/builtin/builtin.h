@@ -23,8 +23,8 @@ typedef struct BuiltinContext {
     NoiseCache *noise;                               // cache of permutations; NULL: they are computed in each call
     const FileAccess *file_access;                   // rules for file access; NULL: unrestricted
     Str directory;                                   // base of relative file names (L13.3); "": the working directory
-    void (*report_error)(void *user_data, Str text); // called with a diagnostic for the call
-    void (*log)(void *user_data, Str text);          // called with a line from debug()
+    void (*report_error)(void *user_data, Str text); // receives the text of an error in the call
+    void (*log)(void *user_data, Str text);          // receives a line from debug()
     void *user_data;
 } BuiltinContext;
 

@@ -139,7 +139,7 @@ static Value row_value(BuiltinContext *context, const CsvFile *file, uint32_t ro
         return builtin_too_long(context, "csv");
     if (fields == 0)
         return VALUE_NULL;
-    char *text = arena_alloc(arena, end - at); // bytes of all fields of the row
+    char *text = arena_alloc(arena, end - at); // room for the text of all fields of the row
     String *strings = arena_alloc_array(arena, fields, sizeof *strings);
     Item *items = arena_alloc_array(arena, fields, sizeof *items);
     bool mixed = false, last = false;

@@ -71,7 +71,7 @@ void file_cache_free(FileCache *cache) {
         return;
     file_cache_clear(cache);
     hash_index_free(&cache->index);
-    Arena arena = cache->arena; // the arena owns the cache
+    Arena arena = cache->arena; // copied, because freeing the arena frees the cache
     arena_free(&arena);
 }
 

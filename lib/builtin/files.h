@@ -18,8 +18,8 @@ void file_cache_clear(FileCache *cache);
 // be in `arena`. Returns NULL and sets *problem if the bytes are invalid.
 typedef const void *FileParse(Arena *arena, char *bytes, size_t len, const char **problem);
 
-// Returns the result of `parse` for the file `name`, valid until the next call with this cache. Returns NULL if the
-// file cannot be read; the first failure is reported as an error of `function`.
+// Returns the result of `parse` for the file `name`. The result is valid until the next call of file_cache_get with the
+// same cache. Returns NULL if the file cannot be read; the first failure is reported as an error of `function`.
 const void *file_cache_get(BuiltinContext *context, const char *function, FileParse *parse, Value name);
 
 // For parsers: returns true if the bytes are UTF-8, else sets *problem.

@@ -15,9 +15,9 @@
 
 // --- matching one path component
 
-// Matches a character with the set whose "[" is directly before *at. Returns 1 if the set contains it, else 0, and
-// moves *at past the "]" of the set. Returns -1 if there is no "]"; the "[" is then literal. A "]" directly after "["
-// or "[!" is a member of the set.
+// Tests whether a set, such as [a-z], contains the character c. The "[" of the set is directly before *at. Returns 1 if
+// the set contains c, else 0, and moves *at past the "]" of the set. Returns -1 if there is no "]"; the "[" is then an
+// ordinary character. A "]" directly after "[" or "[!" is a member of the set.
 static int match_set(Str pattern, size_t *at, int32_t c) {
     size_t i = *at;
     bool negated = i < pattern.len && pattern.bytes[i] == '!', found = false;

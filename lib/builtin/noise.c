@@ -42,7 +42,7 @@ NoiseCache *noise_cache_new(void) {
 void noise_cache_free(NoiseCache *cache) {
     if (!cache)
         return;
-    Arena arena = cache->arena; // the arena owns the cache
+    Arena arena = cache->arena; // copied, because freeing the arena frees the cache
     arena_free(&arena);
 }
 
@@ -108,8 +108,8 @@ static GridOutcome grid_read(Grid *grid, const Value *args, uint32_t count) {
     return len > VALUE_MAX_LEN ? GRID_TOO_LONG : GRID_OK;
 }
 
-// For each combination j of the coordinates, sets result[j] to the noise or, if `add`, adds noise*weight to it. The
-// last coordinate varies fastest.
+// For each combination j of the coordinates, sets result[j] to the noise. If `add` is true, instead adds noise*weight
+// to result[j]. The last coordinate varies fastest.
 static void grid_noise(Arena *arena, const Grid *grid, const uint8_t *permutation, double *result, bool add,
                        double weight) {
     enum { CHARGE_INTERVAL = 1024 };

@@ -11,7 +11,7 @@
 NoiseCache *noise_cache_new(void);
 void noise_cache_free(NoiseCache *cache);
 
-// Computes noise for each of `count` points of the plane.
+// Sets to[i] to the noise at the point (x[i], y[i]) of the plane, for each i below `count`.
 void builtin_noise_points(BuiltinContext *context, Value seed, const double *x, const double *y, uint32_t count,
                           double *to);
 

@@ -2,8 +2,8 @@
 //
 // A point is in a cell of the skewed lattice. Each cell is divided into regions: A at the base corner, B at the far
 // corner, C and D between. Which vertices influence the point depends on its region. Each region has a fixed set of
-// core vertices. A few extra vertices outside the cell also depend on the position in the region. The noise is the sum
-// of the contributions of all these vertices, in the order of the spec.
+// core vertices. The position of the point in the region determines a few extra vertices outside the cell. The noise is
+// the sum of the contributions of all these vertices, in the order of the spec.
 #include "builtin/noise_point.h"
 
 #include "base/number.h"
@@ -57,7 +57,7 @@ static inline const double *gradient(const NoisePoint *point, const NoiseVertex 
 }
 
 // Adds the contribution of a vertex (B10.5): A^4 * (g·d) if A > 0, else nothing. Here d = ((d0 - a) - m*Q) - b for each
-// coordinate, A = 2 - d·d, and g is the gradient.
+// coordinate, where a, b and m are v->early, v->late and v->units. A = 2 - d·d, and g is the gradient.
 static inline double add_vertex(const NoisePoint *point, double value, const NoiseVertex *v, int dims) {
     double d[MAX_DIMS], reach = 2, units = v->units * NOISE_Q[dims];
     for (int i = 0; i < dims; i++) {

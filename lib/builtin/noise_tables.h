@@ -19,7 +19,7 @@ typedef struct NoiseVertex {
     uint8_t units;
 } NoiseVertex;
 
-// Gradients, selected by P mod 8, P mod 24 and P div 4 in two, three and four dimensions.
+// Gradients in two, three and four dimensions, which are indexed by P mod 8, P mod 24 and P div 4 (B10.5).
 static const double NOISE_GRAD2[8][2] = {
     {5, 2}, {2, 5}, {-5, 2}, {-2, 5}, {5, -2}, {2, -5}, {-5, -2}, {-2, -5},
 };

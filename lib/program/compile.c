@@ -200,7 +200,7 @@ static const Expr *compile_call(Compiler *compiler, const Ast *ast, const Ast *c
     return expr;
 }
 
-// The suite below a template call is its first positional argument.
+// Compiles a TEMPLATE. If there is a suite below it, the suite is the first positional argument.
 static const Expr *compile_template(Compiler *compiler, const Ast *ast) {
     uint32_t count = ast->count - 1;
     const Ast **args = arena_alloc_array(compiler->scratch, ast->count, sizeof *args);
@@ -266,7 +266,8 @@ const Expr *compile_closure(Compiler *compiler, const Ast *ast) {
     return fold_expr(compiler, expr, compiler->function->next_slot);
 }
 
-// `func name(…)` as a statement binds the name. Without a name, the closure is the value of the statement.
+// Compiles a `func` statement. `func name(…)` binds the name. Without a name, the closure is the value of the
+// statement.
 static const Expr *compile_func_statement(Compiler *compiler, const Ast *ast) {
     const Expr *closure = compile_closure(compiler, ast);
     if (!ast->name)

@@ -49,17 +49,17 @@ struct Compiler {
     Arena *arena;   // data of the program
     Arena *scratch; // temporary data of the compilation
     SymbolTable *symbols;
-    const Source *source; // current file: the program's, or an included one
+    const Source *source; // file that is being compiled: the program's source, or an included file
     const CompileOptions *options;
     DiagSink *diags;
     FunctionScope *function;
-    bool in_include_path; // compiling the path of an %include; lints are off
+    bool in_include_path; // the path of an %include is being compiled; lints are off
     // Number of enclosing loops and functions, plus 1 in a module; if > 0, the code may be executed repeatedly in a
     // frame.
     uint32_t repeats;
     uint32_t lookup_count; // number of state lookups so far
     bool in_children;      // the value of the expression compiled next becomes all or some of a node's children
-    bool is_module;        // the file only binds names; other files import them, so none is reported as unused
+    bool is_module;        // the file only binds names, for other files to import, so no name is reported as unused
     uint32_t depth;        // nesting depth of the current expression; 1: a top-level statement
     DefineUse *define_uses;
     Parameter *parameters;

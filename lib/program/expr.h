@@ -1,7 +1,7 @@
 // expr.h: expressions, the intermediate representation between syntax tree and code. Names are resolved to slots.
 //
-// The compiler creates expressions, the simplifier (fold.c) replaces some, and lowering (lower.c) translates them to
-// code. Then they are freed.
+// The compiler creates expressions, the simplifier (fold.c) replaces some of them, and lowering (lower.c) translates
+// them to code. After that, the expressions are freed.
 #ifndef PETRI_PROGRAM_EXPR_H
 #define PETRI_PROGRAM_EXPR_H
 

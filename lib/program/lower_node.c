@@ -11,7 +11,7 @@ static const Node *constant_node(const Expr *expr) {
     return is_node ? expr->as.value.as.items[0].as.node : NULL;
 }
 
-// Returns the node if the value of an expression is a node without attributes and children, else NULL.
+// If the value of an expression is a node without attributes and children, returns that node. Otherwise returns NULL.
 static const Node *bare_node(const Expr *expr, Arena *arena) {
     if (expr->kind == EXPR_NODE) {
         NodeOrigin origin = {.origin = expr->origin};

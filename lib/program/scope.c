@@ -144,8 +144,8 @@ bool compile_is_free(const Compiler *compiler, const Symbol *name) {
            !builtin_constant(name->name, &value) && (compiler->options->module || !engine_name_exists(name->name));
 }
 
-// Resolves a name of the engine, of a definition (-D) or of a built-in, in this order (L8.1). Returns NULL if there is
-// none.
+// Resolves a name of the engine, of a definition (-D) or of a built-in, in this order (L8.1). Returns NULL if the name
+// is none of these.
 static const Expr *find_predefined(Compiler *compiler, const Ast *ast) {
     Str name = ast->name->name;
     const CompileOptions *options = compiler->options;

@@ -38,7 +38,7 @@ typedef struct LoopBatch {
     uint8_t selection[BATCH_SIZE]; // numbers of the selected iterations, ascending
     // By iteration: index of the instruction at which the iteration is selected again.
     uint32_t resume_at[BATCH_SIZE];
-    // Lowest element of `resume_at` at which iterations will be selected again; UINT32_MAX: none.
+    // Index of the next instruction at which iterations will be selected again; UINT32_MAX: none.
     uint32_t reconverge_at;
     uint32_t yield_counts[BATCH_SIZE]; // by iteration: number of yielded values
     Value *yields;                     // yielded values; each iteration has plan->yield_count elements

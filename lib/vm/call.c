@@ -54,7 +54,7 @@ static Value argument(const Closure *closure, const Arguments *args, uint32_t i)
     return closure->defaults[i];
 }
 
-// Returns the work units of executing a code once, except those that its instructions charge themselves.
+// Returns the work units that one execution of `code` costs, except those that its instructions charge themselves.
 static uint64_t cost_of(const Code *code) {
     return 1 + (code->count + code->constant_count) / VM_INSTRS_A_UNIT;
 }

@@ -223,7 +223,7 @@ void vm_inline_cache_free(Vm *vm) {
 // Maximum number of entries in an inline cache. If a lookup is executed more often in a frame, the rest is not cached.
 enum { MAX_CACHED = 1 << 22 };
 
-// Returns the cache entry for the next execution of a lookup, or NULL.
+// Returns the cache entry for the next execution of a lookup, or NULL if this execution is not cached.
 static StateSlot *next_guess(Vm *vm, uint32_t lookup) {
     if (lookup >= vm->inline_cache_count)
         return NULL;

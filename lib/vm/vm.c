@@ -49,7 +49,7 @@ static Frame new_frame(Vm *vm, const Code *code) {
     return frame;
 }
 
-// Prepares an evaluation. Discards the data of an aborted evaluation.
+// Prepares the VM for an evaluation. Discards the data that an earlier, aborted evaluation has left.
 static void reset_evaluation(Vm *vm, const char *stack_base) {
     arena_reset(&vm->slots);
     vm->slots.escape = vm->arena->escape;

@@ -1,7 +1,7 @@
 // vm.h: the virtual machine (VM), which evaluates compiled programs.
 //
 // Evaluation never fails. An expression with an error has a value, nearly always null, and the error is reported
-// through the host (spec language.md L15). Exceeded limits of depth are such errors, too. Results are allocated in the
+// through the host (spec language.md L15). An exceeded depth limit is such an error, too. Results are allocated in the
 // frame's arena, which is charged for work and memory. If the arena's budget is exceeded, the arena escapes with a
 // longjmp (base/arena.h). Vm.at is then the position of the operation that exceeded the budget.
 #ifndef PETRI_VM_VM_H
