@@ -67,7 +67,7 @@ Value builtin_tan(BuiltinContext *context, const Value *args, uint32_t count) {
     (void)count;
 }
 
-// Computes roundhalfaway(x * s) / s (B1.4), where d is the number of decimals and s = 10^d, or s = 0 if d < 0.
+// Computes roundhalfaway(x * s) / s (B1.4). For d decimals, s is 10^d, or 0 if d < 0.
 Value builtin_round(BuiltinContext *context, const Value *args, uint32_t count) {
     Value xs = args[0], ys = value_or(args[1], value_number(0));
     if (!value_is_numeric(xs) || !is_scalar(ys))

@@ -252,9 +252,9 @@ double noise_point_3(const uint8_t *permutation, const double *c) {
 
 // --- four dimensions (B10.9)
 
-// Returns the two winning candidates of region C. For each of the three ways to split the coordinates into two pairs,
-// the pair with the greater sum is a candidate, with its flag set ("big" in B10.9). Each single coordinate is a
-// candidate with the flag clear. Region D (`far`) mirrors C.
+// Returns the two winning candidates of region C. There are three ways to split the coordinates into two pairs. For
+// each way, the pair with the greater sum is a candidate whose flag is set ("big" in B10.9). Each single coordinate is
+// a candidate whose flag is clear. Region D (`far`) mirrors C.
 static inline Candidates candidates_4cd(const double *f, double sum, bool far) {
     double sign = far ? -1 : 1;
     unsigned flip = far ? 15 : 0;

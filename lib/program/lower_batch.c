@@ -49,8 +49,9 @@ static bool can_batch_instr(const Lowering *lowering, uint32_t i, uint32_t end) 
            (!strchr(operand_formats[instr->op], 'l') || instr->count <= CODE_MAX_READ - 2);
 }
 
-// Assigns column numbers to the registers that a body writes. Returns false if there are too many columns, if a
-// register below plan->first_register is written, or if the body reads a register first and writes it later.
+// Assigns column numbers to the registers that a body writes. Returns false if there are too many columns, or if the
+// body writes a register below plan->first_register. Also returns false if the body reads a register first and writes
+// it later.
 static bool number_columns(const Lowering *lowering, uint32_t start, BatchPlan *plan, uint8_t *columns) {
     for (uint32_t i = start; i < plan->end; i++) {
         const Instr *instr = &lowering->instrs[i];
