@@ -118,7 +118,8 @@ size_t argument_lines(const Repl *repl, char *text, size_t around) {
     while (before > text && is_blank(before[-1]))
         before--;
     int64_t count = 0;
-    bool all = strcmp(last, "all") == 0, open = before > text && before[-1] == ';'; // part of a key: `:p; 2`
+    // After a semicolon, a number is part of a key, as in `:p; 2`.
+    bool all = strcmp(last, "all") == 0, open = before > text && before[-1] == ';';
     if (open || (!all && !(read_count(last, &count) && count > 0)))
         return screen_lines(repl, around);
     *before = '\0';

@@ -21,7 +21,7 @@ struct Editor {
     EditLine *line;
     History *history;
     char prompt[64];
-    unsigned back; // which history entry is shown; 1: the newest; 0: none, but the line being typed
+    unsigned back; // number of the shown history entry, counted from 1, the newest; 0: the block being typed
 };
 
 // Terminal settings before editing. Global, because the signal handler needs them.
@@ -121,7 +121,7 @@ static unsigned char handle_enter(EditLine *line, wint_t character) {
     byte_buffer_add(&text, info->buffer, (size_t)(info->lastchar - info->buffer));
     byte_buffer_add_text(&text, "\n");
     bool more = line_needs_more(editor->repl, text.data, text.length, &consumed);
-    el_cursor(line, (int)text.length); // moves to the end, at which libedit stops
+    el_cursor(line, (int)text.length); // moves the cursor to the end, because libedit stops there
     if (!more)
         return push_keys(line, KEY_ACCEPT);
     return el_insertstr(line, "\n") == 0 ? CC_REFRESH : CC_ERROR;

@@ -17,7 +17,7 @@ enum { BLOCK = 1 << 16, MAX_ECHOED = 4000 };
 struct LineReader {
     Repl *repl;
     Editor *editor;  // NULL: lines are not edited
-    ByteBuffer text; // input; the bytes at and after `at` have not been returned yet
+    ByteBuffer text; // input; the bytes from offset `at` on have not been returned yet
     size_t at;
     size_t searched; // number of bytes from `at` that are known to contain no line feed
     bool ended;      // true if the input has ended
@@ -40,7 +40,7 @@ void line_reader_free(LineReader *reader) {
 LineWait line_wait(Repl *repl) {
     for (;;) {
         if (repl_interrupted())
-            return WAIT_INTERRUPTED; // checked first, because an earlier signal does not interrupt poll
+            return WAIT_INTERRUPTED; // checked first, because a signal before the call does not interrupt poll
         struct pollfd files[2] = {{STDIN_FILENO, POLLIN, 0}, {file_watch_descriptor(repl->files), POLLIN, 0}};
         int ready = poll(files, 2, files[1].fd < 0 ? 200 : -1);
         if ((ready < 0 && errno == EINTR) || repl_interrupted())
@@ -79,7 +79,8 @@ static void echo_line(Repl *repl, const ByteBuffer *line) {
     }
 }
 
-// Waits for input and appends some of it to reader->text. If the script's files change first, reports this instead.
+// Waits for input and appends a block of it to reader->text. If the script's files change before input arrives, reports
+// the change and writes the prompt again instead.
 static LineStatus read_block(LineReader *reader, const char *prompt) {
     Output *output = &reader->repl->output;
     if (reader->ended) {

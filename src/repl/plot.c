@@ -15,10 +15,10 @@
 enum { MAX_WIDTH = 60, HEIGHT = 8, DEFAULT_FRAMES = 60, MAX_FRAMES = 1000000 };
 
 typedef struct Canvas {
-    int across; // dots per cell, horizontally
-    int down;   // dots per cell, vertically
-    int columns;
-    int rows;
+    int across;          // dots per cell, horizontally
+    int down;            // dots per cell, vertically
+    int columns;         // width in dots
+    int rows;            // height in dots
     unsigned char *dots; // rows * columns values, each 0 or 1; row 0 is the top
 } Canvas;
 

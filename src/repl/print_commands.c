@@ -56,9 +56,8 @@ static void note_remaining(const Filter *filter, const char *command, const char
     }
 }
 
-// Selects the entries whose key is the wanted key or begins with it. For `:cells` or `cells`, these are `$:cells = …`
-// and
-// `$(:cells;0) = …`.
+// Selects the entries whose key is the wanted key or begins with the wanted key. For example, `:cells` and `cells`
+// select both `$:cells = …` and `$(:cells;0) = …`.
 static void filter_entry(Filter *filter, const char *line, size_t length) {
     const char *key = line + 1 + (line[1] == '(');
     key += key[0] == ':' && filter->wanted[0] != ':';
@@ -73,7 +72,7 @@ static void filter_entry(Filter *filter, const char *line, size_t length) {
 
 static bool run_state(Repl *repl, const char *rest) {
     SCOPED_TEXT asked = memory_strdup(rest);
-    // A number without a key is itself a key, not a number of lines.
+    // If the operand is only a number, the number is the wanted key, not the number of lines.
     bool counted = strpbrk(asked, " \t") || strcmp(asked, "all") == 0;
     size_t max_lines = argument_lines(repl, counted ? asked : (char[]){""}, RESERVED_LINES);
     const char *prefix = asked + (asked[0] == '$');

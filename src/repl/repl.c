@@ -88,7 +88,7 @@ bool repl_write(void *host, const char *text, size_t length) {
 static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     Repl *repl = host;
     if (diagnostic->code && strcmp(diagnostic->code, "unread-definition") == 0)
-        return; // an expression typed later can still read the definition
+        return; // not shown, because an expression that is typed later can still read the definition
     repl->invalid_definition = repl->invalid_definition || is_invalid_definition(diagnostic);
     if (diagnostic->code && strcmp(diagnostic->code, "memory-limit") == 0)
         repl->failed = repl->any_failed = true;

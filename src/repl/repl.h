@@ -52,10 +52,11 @@ bool repl_interrupted(void);
 
 // Loads a script (script.c). Returns true if this script is now running.
 bool repl_load(Repl *repl, const char *file);
-// If the script's files have changed, writes a note and returns true. `at_prompt`: the current line contains a prompt,
-// so the note must start on a new line.
+// If the script's files have changed, writes a note and returns true. If `at_prompt` is true, the current line contains
+// a prompt, so the note starts on a new line.
 bool repl_report_changes(Repl *repl, bool at_prompt);
-// Reloads the script if its files have changed; called before a step. If the new script has errors, the old one stays.
+// Must be called before a step. Reloads the script if its files have changed. If the new version of the script has
+// errors, the old version keeps running.
 void repl_refresh(Repl *repl);
 // Watches the script and all files that it uses.
 void repl_watch_files(Repl *repl);
@@ -89,10 +90,11 @@ const ReplCommand *repl_find_command(const char *name, size_t length);
 void repl_command(Repl *repl, const char *line);
 
 // Commands without a dot (arguments.c).
-// Executes the words `help`, `?`, `h`, `quit`, `exit` and `q`. If the text begins with the name of another command,
-// writes a message. Returns true in both cases, and false if the text is code. It is code if the script, the prompt or
-// petri binds its first word. If the word is nevertheless a command, this can set *remark. The caller prints the remark
-// if the code fails, or if the word is one of the six above.
+// Executes the text if its first word is `help`, `?`, `h`, `quit`, `exit` or `q`. If the first word is the name of
+// another command, writes a message. Returns true in both cases.
+// Returns false if the text is code, for example because the script, the prompt or petri binds the first word. If the
+// first word is also the name of a command, this function can set *remark to a hint. The caller prints the hint if the
+// code fails, or if the word is one of the six above.
 bool bare_execute(Repl *repl, const char *text, ByteBuffer *remark);
 // Returns the command that one of these six words executes, such as ".quit" for "q". Returns NULL for other words.
 const char *bare_alias(const char *name, size_t length);
@@ -108,8 +110,9 @@ bool argument_count(Repl *repl, const char *text, int64_t min, int64_t *count);
 bool argument_limit(Repl *repl, char *text, int64_t *limit);
 // If the text ends with a positive integer that follows other text and a blank, removes the integer and sets *count.
 void argument_last_count(char *text, int64_t *count);
-// If the text ends with a positive integer or `all`, removes it and returns this number of lines, SIZE_MAX for `all`.
-// If not, returns the number of screen lines minus `around` on a terminal, and SIZE_MAX elsewhere.
+// Returns the maximum number of lines to print. If the text ends with a positive integer or `all`, removes it and
+// returns the integer, or SIZE_MAX for `all`. Otherwise returns the number of screen lines minus `around` on a
+// terminal, and SIZE_MAX elsewhere.
 size_t argument_lines(const Repl *repl, char *text, size_t around);
 
 // Writes a note that the script still uses its own binding of a name that was just bound at the prompt

@@ -63,7 +63,8 @@ static void add_name(Names *names, const Str *line) {
         names->items[names->count++] = name;
 }
 
-// Returns a table: lengths[i][j] is the length of the longest common subsequence of a from line i and b from line j.
+// Returns a table of (rows + 1) x (columns + 1) lengths. The entry in row i and column j is the length of the longest
+// common subsequence of two texts: the lines of `a` from line i on, and the lines of `b` from line j on.
 static uint32_t *common_lengths(const Str *a, size_t rows, const Str *b, size_t columns) {
     uint32_t *lengths = memory_calloc((rows + 1) * (columns + 1) * sizeof *lengths);
     for (size_t i = rows; i-- > 0;) {

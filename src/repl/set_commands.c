@@ -30,7 +30,8 @@ static void note_parameter(Repl *repl, const PetriParameter *parameter) {
     repl_note(repl, "%s%s%s", text.data, parameter->comment[0] == '\0' ? "" : "  ", parameter->comment);
 }
 
-// Reports the effect of setting a name. `warned`: true if a diagnostic has already reported that it has no effect.
+// Reports the effect of setting a name. `warned` is true if a diagnostic has already reported that the setting has no
+// effect.
 static void report_set(Repl *repl, const char *name, bool warned) {
     PetriParameter parameter;
     if (parameter_find(repl->session, name, &parameter))
@@ -108,7 +109,7 @@ static bool read_rate(Repl *repl, const char *rest, double *value) {
     return argument_number(repl, rest, value) && (*value > 0 || repl_fail(repl, "not a positive number: '%s'", rest));
 }
 
-// Shows a rate of the clock: tempo or fps. If `rest` is not empty, first changes the rate.
+// Shows a rate of the clock: tempo or fps. If `rest` is not empty, first sets the rate to the number in `rest`.
 static bool show_rate(Repl *repl, const char *rest, const char *name, PetriStatus change(PetriSession *, double)) {
     double rate = 0;
     if (rest[0] != '\0') {

@@ -11,7 +11,7 @@
 typedef struct StepRequest {
     int64_t count;
     const char *until; // expression; NULL: none
-    bool limited;      // true if `count` comes from --limit. If it is reached, this is reported
+    bool limited;      // true if `count` is the limit that --limit sets; a note then reports that the limit was reached
 } StepRequest;
 
 // Appends `EXPR = value` for each watched expression.
@@ -89,7 +89,7 @@ static bool step_frames(Repl *repl, const StepRequest *request) {
     Outcome outcome = RUNNING;
     int64_t made = 0;
     repl_refresh(repl);
-    repl->failed = false; // a failed reload is not a failure of the step: the old script continues
+    repl->failed = false; // a failed reload is not a failure of the step, because the old script continues
     progress_start(&progress, repl->terminal && progress_possible(), request->count);
     repl_busy(repl);
     bool shown = true;

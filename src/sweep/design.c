@@ -33,7 +33,8 @@ void design_free(Design *design) {
     free(design->value_indices);
 }
 
-// Reads an axis. A later definition of a name replaces an earlier one, so the command line overrides a plan.
+// Adds the axis that `text` defines. A later definition of a name replaces an earlier one, so the command line
+// overrides a plan.
 static bool read_axis(Design *design, const char *text) {
     Axis axis;
     bool good = axis_read(&axis, text);
@@ -74,7 +75,7 @@ static bool alloc_runs(Design *design, double runs) {
     return true;
 }
 
-// Creates a run for every combination of values. The first name changes most slowly.
+// Creates a run for every combination of values. From run to run, the value of the first name changes least often.
 static bool make_grid(Design *design) {
     double runs = 1;
     for (size_t i = 0; i < design->axis_count; i++)

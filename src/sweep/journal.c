@@ -38,7 +38,7 @@ static bool read_run(Sweep *sweep, const ByteBuffer *text, size_t *at) {
     return true;
 }
 
-// Reads the results of a journal. Returns the length of its valid part; 0 if it belongs to another sweep.
+// Reads the results of a journal. Returns the length of its valid part, or 0 if the journal belongs to another sweep.
 static size_t read_runs(Sweep *sweep, const ByteBuffer *text) {
     SCOPED_BYTE_BUFFER head = {0};
     add_head(sweep, &head);
@@ -134,8 +134,8 @@ static void remove_journal(Sweep *sweep, const char *path, const ByteBuffer *tex
         unlink(path);
 }
 
-// Calls `call` for the journals of other shards. Skips this shard's journal, because closing any of its descriptors
-// would release its lock.
+// Calls `call` for the journals of other shards. Skips this shard's journal, because this process holds a lock on it,
+// and closing any descriptor of the file would release the lock.
 static void visit_journals(const Journal *journal, Sweep *sweep, Visit *call) {
     SCOPED_BYTE_BUFFER folder = {0}, prefix = {0};
     size_t name = path_directory(str_from(journal->output)).len;

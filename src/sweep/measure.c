@@ -27,7 +27,7 @@ bool measure_open(Measure *measure, const Sweep *sweep,
     *measure = (Measure){.sweep = sweep, .on_diagnostic = report, .context = context, .silent = true};
     if (options_open(sweep->options, sweep->host, on_diagnostic, measure, &measure->session) != OPTIONS_READ)
         return false;
-    // May fail, for example if the script needs definitions. Each run then loads the script and reports errors.
+    // This may fail, for example if the script needs definitions. Each run then loads the script and reports errors.
     petri_load(measure->session, sweep->options->script);
     measure->base = petri_config_get(measure->session);
     if (!measure->base)

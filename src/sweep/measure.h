@@ -1,6 +1,5 @@
-// measure.h: execution of runs, one after the other in the same session. If the script can be
-// loaded without definitions, its file is read only once. It is compiled again for each run, with the definitions of
-// that run.
+// measure.h: execution of runs, one after the other in the same session. If the script can be loaded without
+// definitions, its file is read only once. The script is compiled again for each run, with the definitions of that run.
 #ifndef PETRI_SRC_MEASURE_H
 #define PETRI_SRC_MEASURE_H
 
@@ -11,7 +10,7 @@ typedef struct Measure {
     const Sweep *sweep;
     PetriSession *session;
     PetriConfig *base;       // configuration without definitions
-    bool silent;             // true: diagnostics are not reported
+    bool silent;             // true if diagnostics are not reported
     bool invalid_definition; // true if the script rejected a value
     int64_t frames;          // number of frames of the last run
     ByteBuffer rows;         // measurements of the last run, in the format of Result.rows

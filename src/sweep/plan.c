@@ -116,8 +116,9 @@ static bool add_entries(const Plan *plan) {
     return true;
 }
 
-// libyaml takes quadratic time for nested brackets: 17 s for 100 KB of them. Brackets in strings and comments count,
-// too, because they are rare.
+// Checks that brackets are not nested too deeply, because libyaml takes quadratic time for nested brackets: 17 s for
+// 100 KB of them. Brackets in strings and comments are rare, so they are counted like all others. Returns false after a
+// message.
 static bool check_depth(const char *path, const ByteBuffer *text) {
     enum { MAX_DEPTH = 64 };
     int depth = 0;

@@ -27,7 +27,7 @@ typedef struct Plot {
     Scale y;
 } Plot;
 
-static const size_t FRAMES = SIZE_MAX; // used instead of an axis index: the x axis is the frame
+static const size_t FRAMES = SIZE_MAX; // used as an axis index, this means that the x axis shows the frame
 
 static void extend_scale(Scale *scale, double x) {
     scale->min = x < scale->min ? x : scale->min;
@@ -40,7 +40,7 @@ static void pad_scale(Scale *scale) {
     scale->max += margin;
 }
 
-// Returns a value of an axis as a number. If some values of the axis are not numbers, returns `index`.
+// Returns the value with this index as a number. If some values of the axis are not numbers, returns `index` itself.
 static double axis_number(const Axis *axis, uint32_t index) {
     double x = 0;
     for (size_t i = 0; i < axis->values.count; i++)
@@ -113,7 +113,7 @@ static void add_ticks(ByteBuffer *out, const Scale *scale, bool across) {
     for (double k = ceil(scale->min / step - 1e-9); k * step <= scale->max + 1e-9 * step; k++) {
         double at = scale_position(scale, k * step, across ? WIDTH : HEIGHT);
         char label[32];
-        snprintf(label, sizeof label, "%.6g", k * step + 0.0); // no -0
+        snprintf(label, sizeof label, "%.6g", k * step + 0.0); // adding 0 changes -0 to 0
         if (across) {
             byte_buffer_format(out, "                    !line points=%.1f;%d;%.1f;%d stroke=true\n", at, HEIGHT, at,
                                HEIGHT + 4);

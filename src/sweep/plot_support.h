@@ -10,7 +10,7 @@ typedef struct PlotSupport {
     bool (*plan_read)(const char *path, TextList *words);
     // Returns true if a plot can be written to a file with this suffix.
     bool (*plot_fits)(const char *path);
-    // Draws a grid of plots of the metrics over the swept names. Returns false after a message.
+    // Writes a grid of plots to the file `path`: each metric against each swept name. Returns false after a message.
     bool (*plot_grid_draw)(const Sweep *sweep, const char *path);
 } PlotSupport;
 

@@ -7,7 +7,7 @@
 #include <string.h>
 
 typedef struct Number {
-    int64_t frame; // -1 without --every: each run has one row
+    int64_t frame; // frame of the row; -1 without --every, because each run then has one row
     double x;
 } Number;
 

@@ -240,7 +240,7 @@ static void print_report(const Sweep *sweep, double seconds, size_t made) {
     }
 }
 
-// Writes the table if all runs of all shards are done. Hence the last shard to finish writes it.
+// Writes the table if all runs of all shards are done. The shard that finishes last therefore writes the table.
 static int finish_sweep(Sweep *sweep, Journal *journal, double start, size_t made) {
     size_t done = count_done(sweep, false);
     if (done < sweep->design.run_count && journal->path) {

@@ -34,7 +34,7 @@ typedef struct Metric {
 typedef struct Result {
     char *rows;     // lines of tab-separated cells: frame, value of each metric, error; NULL: not done yet
     int64_t frames; // number of computed frames
-    bool killed;    // true if its process was killed by SIGKILL; the run is then repeated once
+    bool killed;    // true if the process of the run was killed by SIGKILL; the run is then repeated once
 } Result;
 
 typedef struct Sweep {

@@ -22,7 +22,9 @@
 #include "cli/mpi_channel.h"
 #include "sweep/measure.h"
 
-enum { RUNS_PER_WORKER = 2, REDRAW = 200, MESSAGE_POLL_MS = 2 }; // REDRAW: milliseconds between progress updates
+// RUNS_PER_WORKER: maximum number of runs assigned to a worker. REDRAW: milliseconds between progress updates.
+// MESSAGE_POLL_MS: milliseconds between checks for MPI messages.
+enum { RUNS_PER_WORKER = 2, REDRAW = 200, MESSAGE_POLL_MS = 2 };
 
 typedef struct PoolWorker {
     pid_t pid;
@@ -36,8 +38,8 @@ typedef struct PoolWorker {
 typedef struct ResultHeader {
     int64_t run;
     int64_t frames;
-    uint64_t rows;        // bytes
-    uint64_t diagnostics; // bytes
+    uint64_t rows;        // length in bytes
+    uint64_t diagnostics; // length in bytes
 } ResultHeader;
 
 typedef struct WorkerPool {
@@ -46,7 +48,7 @@ typedef struct WorkerPool {
     PoolWorker *workers;
     int64_t jobs;      // number of workers
     size_t next;       // first run that has not been assigned yet, apart from those in `returned`
-    int64_t *returned; // runs to assign before `next`: of workers that have ended, or received from rank 0
+    int64_t *returned; // runs to assign before `next`: left by workers that have ended, or sent by rank 0
     size_t returned_count;
     const MpiChannel *channel; // NULL: no other ranks
     bool ended;                // true if rank 0 has announced the end
@@ -107,8 +109,8 @@ static int worker_loop(const Sweep *sweep, int requests, int results) {
     return STATUS_DONE;
 }
 
-// Turns a forked process into a worker. It ignores signals from the terminal, which the parent handles, and exits when
-// the parent does.
+// Turns a forked process into a worker. The worker ignores signals from the terminal, because the parent handles them.
+// It exits when the parent exits.
 static void become_worker(const WorkerPool *pool, int requests, int results, pid_t parent) {
     static const int ignored[] = {SIGINT, SIGTERM, SIGHUP};
     for (size_t i = 0; i < sizeof ignored / sizeof ignored[0]; i++)
@@ -216,7 +218,7 @@ static bool read_result(WorkerPool *pool, PoolWorker *worker, bool *gone) {
     return store_result(pool, &head, bytes);
 }
 
-// Receives MPI messages: on rank 0 requests and results, on other ranks assigned runs.
+// Receives MPI messages. Rank 0 receives requests and results; other ranks receive the runs that are assigned to them.
 static bool receive_messages(WorkerPool *pool) {
     SCOPED_BYTE_BUFFER packet = {0};
     bool good = true;

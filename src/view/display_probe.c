@@ -90,8 +90,8 @@ static bool connect_wayland(const char *name, int *connection) {
 static bool send_probe(const DisplayProbe *screen) {
     const uint16_t one = 1;
     unsigned char x11[REQUEST_BYTES] = {*(const unsigned char *)&one == 1 ? 'l' : 'B'}, answer;
-    const uint32_t wayland[REQUEST_BYTES / 4] = {1, REQUEST_BYTES << 16,
-                                                 2}; // object 1, request 0 (sync): creates object 2
+    // Request 0 (sync) of object 1, which creates object 2.
+    const uint32_t wayland[REQUEST_BYTES / 4] = {1, REQUEST_BYTES << 16, 2};
     int connection = -1;
     memcpy(x11 + 2, &(uint16_t){11}, 2);
     bool is_x11 = screen == &PROBES[X11];

@@ -20,8 +20,8 @@ typedef struct Listener {
 
 // Opens the socket, accessible only to its owner. Returns false after a message.
 bool listener_open(Listener *listener, const char *path);
-// The effect of a command: none, a change that the next frame shows, or a move to another frame, whose picture has been
-// made.
+// The effect of what a client sent. LISTENER_NOTHING: none. LISTENER_ACCEPTED: a change that the next frame shows.
+// LISTENER_MOVED: a move to another frame, whose picture has already been made.
 typedef enum ListenerResult { LISTENER_NOTHING, LISTENER_ACCEPTED, LISTENER_MOVED } ListenerResult;
 // Handles a pending connection, if there is one. Does not wait for clients.
 ListenerResult listener_serve(Listener *listener, LiveScript *live);

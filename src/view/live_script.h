@@ -27,23 +27,26 @@ typedef struct LiveScript {
     Recording recording;
     FileWatch *watch;
     int64_t frames; // number of frames since the view was opened, not counting those before the first picture
-    bool before_first_picture; // the particles of the last frame are not at their positions yet (petri_picture_ready)
-    double detail;             // detail of future pictures (PetriPictureOptions)
-    bool awaits_display; // the display is not open yet: nothing is drawn, because it determines how the painter draws
-    bool
-        picture_hidden; // `picture` is not shown, only its size is used: it was made when before_first_picture was true
-    bool halted;        // a frame failed; the next load or reset resumes the run
-    bool broken;        // the script on disk cannot be loaded; an earlier version keeps running
-    bool failed;        // an error occurred while reading, writing or recording
-    bool memory_reported; // a failure to allocate memory for a picture was reported
+    // True if the particles of the last frame are not at their positions yet (petri_picture_ready).
+    bool before_first_picture;
+    double detail; // detail of future pictures (PetriPictureOptions)
+    // True while the display is not open yet. Nothing is drawn, because the display determines how the painter draws.
+    bool awaits_display;
+    // True if `picture` was made when before_first_picture was true. It is not shown; only its size is used.
+    bool picture_hidden;
+    bool halted;          // true after a frame has failed; the next load or reset resumes the run
+    bool broken;          // true if the script on disk cannot be loaded; an earlier version keeps running
+    bool failed;          // true if an error occurred while reading, writing or recording
+    bool memory_reported; // true if a failure to allocate memory for a picture was reported
     StateFile state;
-    bool keeps_history; // frames are stored in `history`, so that the user can go back
+    bool keeps_history; // true if frames are stored in `history`, so that the user can go back
     FrameHistory history;
-    bool invalid_definition; // a value of -D is invalid for the script
+    bool invalid_definition; // true if a value of -D is invalid for the script
     // Messages
-    bool hold_messages;    // the display occupies standard error: messages are collected in `log` until the display is
-                           // closed
-    bool shown;            // the last diagnostic that is not a note was shown, so its notes are shown too
+    // True if messages are collected in `log` until the display is closed, because the display uses the terminal to
+    // which standard error writes.
+    bool hold_messages;
+    bool shown;            // true if the last error or warning was shown; its notes are then shown too
     ByteBuffer log;        // collected messages; limited in size
     ByteBuffer error_text; // current errors, for the overlay
     Warnings warnings;     // warnings since the current program was loaded
@@ -62,8 +65,8 @@ void live_script_set_detail(LiveScript *live, double detail);
 bool live_script_step(LiveScript *live);
 // Returns true for PETRI_OK. Reports PETRI_OUT_OF_MEMORY once.
 bool live_script_check_drawn(LiveScript *live, PetriStatus status);
-// If one of the script's files has changed, reloads the script, keeps its state and clock, and returns true, even if
-// the reload fails. If it succeeds, live_script_error_text is empty afterwards.
+// If one of the script's files has changed, reloads the script and returns true, even if the reload fails. The script's
+// state and clock are kept. If the reload succeeds, live_script_error_text is empty afterwards.
 bool live_script_reload(LiveScript *live);
 // Sets a parameter of the script, or resets it to its default if `value` is NULL. Returns false if this fails.
 bool live_script_set_parameter(LiveScript *live, const char *name, const char *value);
@@ -76,7 +79,7 @@ bool live_script_go_back(LiveScript *live, int64_t count, ByteBuffer *why);
 void live_script_reset(LiveScript *live);
 // Returns the current errors, or "". Valid until the next call.
 const char *live_script_error_text(const LiveScript *live);
-// Saves the state if the last save was some seconds ago, or always if `at_once`.
+// Saves the state if the last save was some seconds ago or if `at_once` is true.
 void live_script_save(LiveScript *live, bool at_once);
 // Writes the last frame's picture to a new PNG file in the current folder. The file name consists of the script's name
 // and the frame number. Sets `name` to the file name. Returns false if the file cannot be written.
@@ -84,8 +87,8 @@ bool live_script_screenshot(LiveScript *live, char *name, size_t size);
 // Writes the collected messages to standard error. Later messages are written there directly.
 void live_script_release_messages(LiveScript *live);
 
-// Sets `text` to the text in a corner of the picture: the number of warnings and the key that lists them, or "" if
-// there are no warnings.
+// Sets `text` to the mark that is shown in a corner of the picture: the number of warnings and the key that lists them.
+// If there are no warnings, sets `text` to "".
 void warnings_mark(const Warnings *warnings, char *text, size_t size);
 // Sets `text` to a line with the number of warnings, followed by the list of warnings.
 void warnings_list(const Warnings *warnings, char *text, size_t size);

@@ -1,8 +1,8 @@
 // overlay.c: implementation of overlay.h.
 #include "view/overlay.h"
 
-// Sizes in units of text (see overlay_draw). CHARACTER_WIDTH is the width of a fixed-width character relative to
-// TEXT_SIZE.
+// Sizes in units of text, which the argument `scale` of overlay_draw converts to pixels. CHARACTER_WIDTH is the width
+// of a fixed-width character relative to TEXT_SIZE.
 enum { TEXT_SIZE = 13, LINE = 19, MARGIN = 12, PADDING = 10, MAX_LABELS = 4 };
 static const double CHARACTER_WIDTH = 0.602;
 
@@ -16,7 +16,7 @@ static const PetriLabel ERROR_STYLE = {.background = {0.16, 0.03, 0.04, 0.92},
                         NOTICE_STYLE = {.background = {0.05, 0.07, 0.1, 0.82}, .foreground = {0.7, 0.88, 1, 1}};
 
 typedef struct Layout {
-    double room; // available width
+    double room; // width available for labels, in units of text
     PetriLabel labels[MAX_LABELS];
     char texts[MAX_LABELS][sizeof(Overlay)]; // wrapped texts
     size_t count;

@@ -14,11 +14,12 @@ typedef struct Overlay {
     bool is_warning;       // `error_text` is a list of warnings, which do not stop the script
 } Overlay;
 
-// Sets one of the texts. Removes escape sequences and invalid UTF-8, replaces tabs by blanks, and truncates what does
-// not fit. Returns true if the text has changed.
+// Sets `text`, one of the texts of an overlay, to `from`. Removes escape sequences and control characters except
+// newlines. Replaces tabs by blanks and invalid UTF-8 by `?`. Truncates what does not fit. Returns true if the text has
+// changed.
 bool overlay_set(char *text, size_t size, const char *from);
 
-// Return the number of lines, and the number of characters of the longest line.
+// overlay_lines returns the number of lines. overlay_columns returns the number of characters in the longest line.
 int overlay_lines(const char *text);
 int overlay_columns(const char *text);
 // Wraps text to at most `columns` characters per line (at least 2), at blanks where possible. Lines that begin with a

@@ -4,10 +4,11 @@
 
 #include "petri.h"
 
-// Returns the value that is `steps` steps away. The range in the parameter's comment can give the step size. If it does
-// not, the step is a round number: about 1/50 of the range or, without a range, 1/20 of the default. The result is
-// within the range, and an integer if the value, the default and the range are integers. Returns NaN if the value is
-// not a number, or if the result would be 0, which `or` would replace by the default.
+// Returns the parameter's value plus `steps` steps; `steps` can be negative. The range in the parameter's comment can
+// give the step size. If it does not, the step is a round number: about 1/50 of the range or, without a range, 1/20 of
+// the default. The result is within the range, and an integer if the value, the default and the range are integers.
+// Returns NaN if the value is not a number. Also returns NaN if the result would be 0, because the operator `or` in the
+// parameter's declaration would replace 0 by the default.
 double parameter_stepped(const PetriParameter *parameter, int steps);
 
 #endif

@@ -11,7 +11,7 @@
 
 typedef struct ParameterKeys {
     size_t chosen; // index of the selected parameter
-    bool used;     // a parameter key was pressed, so the user has seen which parameter is selected
+    bool used;     // true if a parameter key was pressed, so that the user has seen which parameter is selected
 } ParameterKeys;
 
 typedef enum ParameterResult {

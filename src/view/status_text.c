@@ -8,8 +8,8 @@
 #include <stdio.h>
 #include <string.h>
 
-// Durations of a notice and of the hint about keys, and the interval between measurements of the frame rate, in
-// seconds.
+// In seconds: how long a notice is shown (NOTICE), how long the hint about keys is shown (HINT), and the interval
+// between measurements of the frame rate (MEASURE).
 static const double NOTICE = 4, HINT = 3, MEASURE = 0.5;
 static const char KEYS[] = "h: keys";
 

@@ -10,7 +10,7 @@
 PetriStatus still_show(PetriSession *session, PetriPainter *painter, bool colour, int below, PetriWriteCallback *write,
                        void *user_data);
 
-// Writes opaque pixels as a picture to standard output, which must be a terminal. Leaves `below` rows of it free.
+// Writes opaque pixels as a picture to standard output, which must be a terminal. Leaves `below` rows free.
 // Returns false if out of memory or if petri was built without libchafa.
 bool still_show_pixels(const uint32_t *pixels, int width, int height, bool colour, int below);
 

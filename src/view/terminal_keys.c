@@ -159,7 +159,7 @@ static Event next_escape(TerminalInput *input) {
 static Event next_character(TerminalInput *input) {
     unsigned char byte = input->bytes[0];
     drop_bytes(input, 1);
-    if (byte >= 128) // not a key with a name
+    if (byte >= 128) // part of a character for which no key has a name
         return (Event){.kind = EVENT_NONE};
     const char *key = key_of_character((char)byte);
     if (!key && byte > 0 && byte <= 26) {

@@ -1,13 +1,12 @@
 // terminal_picture.h: converts a picture to text for a terminal: Kitty or Sixel graphics if the terminal supports them,
-// else cells of Unicode characters (ASCII if the locale is not UTF-8) in its colours.
+// else cells of Unicode characters (ASCII if the locale is not UTF-8) in the terminal's colours.
 //
 // To show one picture, as in still.h:
 //     TerminalPicture *way = terminal_picture_new(STDOUT_FILENO, true);
 //     TerminalCells cells = terminal_picture_fit(way, columns, rows, width, height);   // the size of the script
 //     ... draw it with cells.width x cells.height pixels ...
 //     char *text = terminal_picture_text(way, pixels, &cells, &length);
-// and write the text and a newline. If petri was built without libchafa, terminal_picture_new
-// returns NULL.
+// and write the text and a newline. If petri was built without libchafa, terminal_picture_new returns NULL.
 #ifndef PETRI_SRC_TERMINAL_PICTURE_H
 #define PETRI_SRC_TERMINAL_PICTURE_H
 

@@ -40,7 +40,7 @@ struct Display {
     Overlay shown;
     char title[200];
     bool colour;
-    bool clear; // the whole screen must be drawn again
+    bool clear; // true if the whole screen must be drawn again
 };
 
 // Global, because signal handlers and atexit functions have no other access.
@@ -274,10 +274,9 @@ static bool terminal_show(Display *display, uint32_t *pixels, int width, int hei
     }
     SCOPED_BYTE_BUFFER out = {0};
     byte_buffer_add_text(&out, BEGIN_UPDATE);
+    // Fills the space around the picture with black, as in a window.
     if (display->clear || !same_lines(overlay, &display->shown))
-        byte_buffer_format(&out, "\033[0%sm\033[2J",
-                           display->colour ? ";40"
-                                           : ""); // fill the space around the picture with black, as in a window
+        byte_buffer_format(&out, "\033[0%sm\033[2J", display->colour ? ";40" : "");
     if (terminal_picture_is_graphics(display->renderer))
         byte_buffer_add_text(&out, DELETE_IMAGES);
     add_picture(&out, display, text, length);

@@ -289,7 +289,7 @@ static void check_display(View *view) {
     message(view->broken ? "display lost; the run ends" : "display lost; continuing without it");
     view->kind = null_display();
     view->display = NULL;
-    view->paused = false; // there is no longer a keyboard with which to resume
+    view->paused = false; // because there is no longer a keyboard with which to resume
     petri_report_pointer(view->live.session, NULL);
     petri_resync_clock(view->live.session);
 }
@@ -422,7 +422,7 @@ static int view_run(const CommandContext *context, Options *options) {
     free(view.pixels);
     if (view.kind == null_display()) {
         fflush(NULL);
-        _exit(status); // libraries would wait for the lost screen forever
+        _exit(status); // exit is not used, because libraries would then wait forever for the lost screen
     }
     return status;
 }

@@ -15,12 +15,12 @@ typedef struct View {
     Display *display;        // NULL: the null display
     Overlay overlay;
     bool paused;
-    bool step_once; // compute one frame although the view is paused
+    bool step_once; // true if one frame must be computed although the view is paused
     bool shows_status;
     bool shows_warnings;
-    bool redraw;        // the picture must be drawn again
-    bool closing;       // the user has closed the view
-    bool broken;        // the view must end: the display was lost, or memory is exhausted
+    bool redraw;        // true if the picture must be drawn again
+    bool closing;       // true if the user has closed the view
+    bool broken;        // true if the view must end, because the display was lost or memory is exhausted
     double start;       // time at which the view was opened
     double drawn;       // time at which drawing of the last picture began
     double notice_ends; // time at which the notice disappears; INFINITY: never

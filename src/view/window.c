@@ -38,8 +38,8 @@ struct Display {
     int texture_width;
     int texture_height;
     PetriPainter *painter; // borrowed
-    bool gone;             // the screen was lost
-    bool filled;           // petri made the window as large as the screen, without a window manager
+    bool gone;             // true if the screen was lost
+    bool filled;           // true if petri made the window as large as the screen, because no window manager can
     SDL_Rect windowed;     // position and size of the window before it filled the screen
 };
 
@@ -207,7 +207,8 @@ static void output_size(const Display *display, int *width, int *height) {
         *width = *height = MIN_SIZE;
 }
 
-// Sets the number of pixels per unit of the window size, which is more than 1 on high-density screens.
+// Sets *across and *down to the number of pixels per unit of the window's width and height. They are more than 1 on
+// high-density screens.
 static void density(const Display *display, double *across, double *down) {
     int width = 1, height = 1, pixels_across = 1, pixels_down = 1;
     SDL_GetWindowSize(display->window, &width, &height);
@@ -256,7 +257,7 @@ static Event window_event(const SDL_WindowEvent *event) {
     }
 }
 
-// On Wayland, a quit event means that the server was lost: if the user closes the window, a window event comes first.
+// On Wayland, a quit event means that the server was lost. If the user closes the window, a window event arrives first.
 static Event quit_event(Display *display) {
     const char *driver = SDL_GetCurrentVideoDriver();
     display->gone = driver && strcmp(driver, "wayland") == 0;
@@ -291,7 +292,7 @@ static Event translate_event(Display *display, const SDL_Event *event) {
     }
 }
 
-// Events that are ignored do not extend the waiting time.
+// Waits only for the first event. If that event is ignored, returns the next one only if it has already arrived.
 static Event window_next_event(Display *display, double seconds) {
     SDL_Event found;
     int wait = (int)(seconds * 1000);
