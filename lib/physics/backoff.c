@@ -1,8 +1,8 @@
 // backoff.c: decides from earlier jobs whether to use helper threads (backoff.h).
 #include "physics/backoff.h"
 
-static const int64_t max_saved = 4000000; // limit of PhysBackoff.saved; about a time slice of another process
-static const uint64_t max_pause = 1000000000;
+static const int64_t max_saved = 4000000; // ns: upper limit of PhysBackoff.saved; about a time slice of another process
+static const uint64_t max_pause = 1000000000; // ns: maximum length of a pause
 
 bool phys_backoff_pauses(const PhysBackoff *backoff, uint64_t now) {
     return now < backoff->pause_end;

@@ -11,9 +11,11 @@
 #include <stdint.h>
 
 enum {
-    PHYS_MAX_UNANSWERED = 16, // consecutive jobs without a helper before a pause
-    PHYS_LOSS_DIVISOR = 20,   // length of a pause divided by the lost time, before doublings
-    PHYS_MAX_DOUBLINGS = 4,   // maximum number of doublings of the pause while the machine stays busy
+    PHYS_MAX_UNANSWERED = 16, // number of consecutive jobs without a helper that cause a pause
+    // The first pause lasts this many times the time that was lost. If time is lost again soon after a pause, the next
+    // pause is doubled.
+    PHYS_LOSS_DIVISOR = 20,
+    PHYS_MAX_DOUBLINGS = 4, // maximum number of times that a pause is doubled if the machine stays busy
 };
 
 // All times in nanoseconds.
@@ -23,12 +25,12 @@ typedef struct PhysBackoff {
     uint64_t pause_end;        // end of the last pause, or of the present one
     int doublings;             // number of times that the last pause was doubled
     int unanswered;            // consecutive jobs without a helper
-    uint64_t unanswered_since; // beginning of the first of these jobs
+    uint64_t unanswered_since; // time at which the first of these jobs began
 } PhysBackoff;
 
 typedef struct PhysJobTimes {
     uint64_t begin, end;
-    uint64_t waited; // time that the caller waited
+    uint64_t waited; // length of the time that the caller waited
     bool answered;   // a helper has done part of the job
 } PhysJobTimes;
 
@@ -36,15 +38,17 @@ typedef struct PhysJobTimes {
 // way is used. The result can change, because threads move between cores, and helpers on cores without a common cache
 // pay off only for longer jobs.
 typedef struct PhysTuner {
-    uint32_t jobs;        // in the current period
+    uint32_t jobs;        // number of jobs so far in the current period
     bool alone_is_faster; // result of the last period
-    double alone, helped; // nanoseconds per unit of work, smoothed; 0: unknown
+    double alone, helped; // smoothed time per unit of work without and with helpers, in nanoseconds; 0: unknown
 } PhysTuner;
 
 enum {
-    PHYS_TUNER_PERIOD = 1024, // jobs in a period
-    PHYS_TUNER_PROBES = 24,   // jobs timed in each way at the start of a period: first the slower way, then the faster
-    PHYS_TUNER_WARMUP = 8,    // number of first probes of each way that are ignored, because caches are cold
+    PHYS_TUNER_PERIOD = 1024, // number of jobs in a period
+    // At the start of a period, this many jobs are timed the slower way, and then as many the faster way.
+    PHYS_TUNER_PROBES = 24,
+    // Of these jobs, this many of each way come first and are ignored, because caches are cold.
+    PHYS_TUNER_WARMUP = 8,
 };
 
 // Returns true if the next job should use helpers.
@@ -52,7 +56,7 @@ bool phys_tuner_should_help(const PhysTuner *tuner);
 // Call this for a job that is done alone because that is faster. If the job need not be timed, counts it and returns
 // true. Otherwise returns false, and the job's time must be passed to phys_tuner_learn.
 bool phys_tuner_skip(PhysTuner *tuner);
-// Records the time of a job per unit of work.
+// Records the time of a job, in nanoseconds per unit of work. `helped`: the job used helpers.
 void phys_tuner_learn(PhysTuner *tuner, bool helped, double nanoseconds);
 
 // Returns true during a pause.

@@ -1,5 +1,5 @@
-// barrier.c: reflections at hard boundaries (spec physics.md 4.4). Soft boundaries, and the formulas used here, are in
-// single_formulas.h.
+// barrier.c: reflections at hard boundaries (spec physics.md 4.4). single_formulas.h has the formulas of soft
+// boundaries, and those that are shared by both kinds.
 #define LANES 1
 #include "physics/single_formulas.h"
 
@@ -51,7 +51,7 @@ static double acceleration_along(const Columns *columns, const PhysForce *barrie
     return sum;
 }
 
-// Moves the particle again and sets a_k = (v_k after − v_k before) / delta.
+// Moves particle i for the time `delta` and sets a_k = (v_k after − v_k before) / delta.
 static void move_again(const Columns *columns, size_t i, double delta, double speed_of_light) {
     size_t n = columns->dimensions;
     Block block = block_at(columns, i);
@@ -65,9 +65,9 @@ static void move_again(const Columns *columns, size_t i, double delta, double sp
 
 // Symbols are those of single_formulas.h, and a is the acceleration in the move:
 //
-//   x = Σ (p_k − position_k)·normal_k accumulated from −r;   w = Σ v_k·normal_k;   b = Σ a_k·normal_k
+//   x = −r + Σ (p_k − position_k)·normal_k, added in this order;   w = Σ v_k·normal_k;   b = Σ a_k·normal_k
 //   if x ≥ 0: done
-//   if not w < 0: put on the surface; done                     already moving away
+//   if not w < 0: put on the surface; done                     because it is already moving away
 //   τ = x / w;  outside = τ > delta;  if outside: τ = delta    time since contact, at most the whole step
 //   move back to the contact
 //   w' = Σ v_k·normal_k

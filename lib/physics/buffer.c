@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-enum { GROWTH_DIVISOR = 16 }; // without `retained`, capacity grows by at least 1/16
+enum { GROWTH_DIVISOR = 16 }; // if nothing is retained, the capacity grows by at least 1/16
 
 bool phys_buffer_reserve(PhysSystem *system, Buffer *buffer, uint64_t retained, uint64_t count, uint64_t size) {
     if (system->failed)
@@ -16,8 +16,8 @@ bool phys_buffer_reserve(PhysSystem *system, Buffer *buffer, uint64_t retained, 
         system->failed = true;
         return false;
     }
-    // Doubling keeps the cost of adding single elements linear. Buffers that are refilled from scratch grow rarely and
-    // by little.
+    // A buffer that retains its contents doubles, so that n single elements are added in a time proportional to n. A
+    // buffer that is refilled from scratch grows only rarely, and then by little.
     uint64_t more = retained ? buffer->capacity : buffer->capacity / GROWTH_DIVISOR;
     uint64_t capacity = buffer->capacity + more > needed ? buffer->capacity + more : needed;
     if (!retained) // free the old block first, so that the old and the new block need not fit into memory together

@@ -1,10 +1,11 @@
 // domain.h: domain decomposition of one system over MPI ranks.
 //
-// Space is divided into patches. Contiguous ranges of patches along a Hilbert curve are assigned to ranks. A rank owns
-// the particles in its patches. Its halo consists of the particles of other ranks that can interact with them. Before
-// each step the rank receives the positions of its halo. Owned and halo particles form the local system of the rank.
-// Forces are summed in the order of global columns, those of the whole system. So sums match a single process bit for
-// bit, and no forces are sent. The range of all pair forces must be bounded.
+// Space is divided into patches. Each rank is assigned a contiguous range of patches along a Hilbert curve, and owns
+// the particles in these patches. Its halo consists of the particles of other ranks that can interact with owned
+// particles. Before each step the rank receives the positions of its halo. Owned and halo particles form the local
+// system of the rank. A rank computes all forces on its owned particles, so no forces are sent. Forces are summed in
+// the order of global columns, which are the columns of the whole system. So the sums match those of a single process
+// bit for bit. The range of all pair forces must be bounded.
 //
 // The halo is valid until a particle has moved by half the skin (neighbour_list.h). Then particles migrate, and halos
 // and lists are rebuilt on all ranks together. At the end of a frame all ranks receive all rows. The columns of the
@@ -38,50 +39,50 @@ typedef struct Domain {
     Buffer spare;             // memory for the next columns of `local`, which are copied from the current ones
     uint64_t columns_version; // PhysSystem.columns_version for which `local` was built
     // interaction ranges
-    bool contact;                   // some force acts on contact
-    double bound;                   // largest max_distance of the other pair forces; 0: no such force
-    double max_radius;              // largest radius of the particles that are not in `large`
-    NeighbourList survey;           // `cell`: patch of each particle; `skin`: skin of all lists; lists no neighbours
+    bool contact;         // some pair force needs contact
+    double bound;         // largest max_distance of the pair forces that need no contact; 0: no such force
+    double max_radius;    // largest radius of the particles that are not in `large`
+    NeighbourList survey; // holds no lists; `cell` is the patch of each particle, and `skin` is the skin of all lists
     uint32_t large[PHYS_MAX_LARGE]; // columns of particles much larger than the others
     uint32_t large_count;
     // ownership
     Grid patches;
-    Buffer patch_owners; // uint32_t by patch: rank
+    Buffer patch_owners; // uint32_t by patch: rank that owns it
     Buffer interior;     // uint32_t by patch: 1 if no other rank can need its particles, else 0
-    Buffer owners;       // uint32_t by column: rank
-    Buffer counts;       // uint32_t by rank: number of owned particles
-    // uint32_t: the local system's `order`, its previous `order`, and its `column_of`. The handles of the local system
-    // are global columns.
+    Buffer owners;       // uint32_t by column: rank that owns the particle
+    Buffer counts;       // uint32_t by rank: number of particles that it owns
+    // uint32_t: memory of the local system's `order`, of its previous `order`, and of its `column_of`. The handles of
+    // the local system are global columns.
     Buffer orders, last_orders, column_of;
     bool can_reorder;     // result of phys_can_reorder; the same on all ranks
     Buffer remote;        // bool by local column: the particle is in the halo or has moved to another rank
     Buffer built;         // double: positions and radii of owned particles at the last rebuild, in column order
     bool built_valid;     // true if `built` was recorded
     Buffer movers;        // uint32_t by column: number of earlier particles of the same group that are not anchors
-    Buffer random_offset; // uint32_t by local column: `movers` of the particle
-    Transfers to, from;   // halo particles by rank; in phys_domain_move: migrating particles
-    // Used during a rebuild. Then the system's columns are up to date for particles to send and received particles.
+    Buffer random_offset; // uint32_t by local column: element of `movers` for the particle
+    Transfers to, from;   // particles of halos; in phys_domain_move: migrating particles
+    // Used during a rebuild. The system's columns are then up to date for all particles that are sent or received.
     ColumnList boundary; // columns of owned particles that other ranks possibly need
     ColumnList arrivals; // columns of received particles, which are now owned or in the halo
-    Buffer sources;      // uint32_t by local column: source column, in the last local system or the system
+    Buffer sources; // uint32_t by local column: column to copy it from, in the last local system or in the whole system
     // communication
     Buffer transfers; // Transfer
     uint32_t transfer_count;
     Buffer transfer_counts; // double[ranks][ranks]: number of particles sent from one rank to another
     Buffer message;         // scratch memory, for example for one message
     Buffer gathered;        // double: one section per rank with its particles (domain_collect.c)
-    Buffer starts;          // size_t by rank: first element in an allgatherv
+    Buffer starts;          // size_t by rank: argument of PhysRanks.allgatherv
     // rebuilding and load balancing
-    uint32_t age;                // steps since the last rebuild
-    uint64_t padded;             // upper bound of the list entries on all ranks, including dummies
+    uint32_t age;                // number of steps since the last rebuild
+    uint64_t padded;             // upper bound of the number of list entries on all ranks, including dummies
     double seconds;              // CPU time of this rank since the last balancing
-    uint64_t steps;              // since the last balancing
-    uint64_t rebalance_interval; // steps after a balancing before uneven load causes another
+    uint64_t steps;              // number of steps since the last balancing
+    uint64_t rebalance_interval; // minimum of `steps` before uneven load causes another balancing
     Buffer rank_seconds;         // double by rank: `seconds` of that rank
 } Domain;
 
-// domain.c: returns true if this frame uses domain decomposition, which is then prepared. The result is the same on all
-// ranks. Returns false and sets system->failed if out of memory.
+// domain.c: decides whether this frame uses domain decomposition, with the same result on all ranks. If so, prepares it
+// and returns true. Returns false and sets system->failed if out of memory.
 bool phys_domain_begin(PhysSystem *system, const PhysTime *time);
 // Updates or rebuilds the halo and takes one step. Returns false if the step was aborted.
 bool phys_domain_step(PhysSystem *system, double clock, double delta, double speed_of_light);
@@ -99,17 +100,20 @@ bool phys_domain_balance(PhysSystem *system, Domain *domain);
 // Returns the index of a cell along a Hilbert curve through a cube with n = 1 to 3 axes and 2^levels cells along each.
 uint64_t phys_hilbert_index(const uint32_t *cell, uint32_t n, uint32_t levels);
 
-// domain_select.c: finds the interior patches: owned patches that no particle of another rank can reach with this skin.
+// domain_select.c: finds the interior patches: owned patches that no particle of another rank can reach with the
+// current skin. Returns false if out of memory.
 bool phys_domain_find_interior(PhysSystem *system, Domain *domain);
-// Adds a transfer of each boundary particle to each rank that needs it. The columns of boundary particles must be
-// up to date.
+// Adds a transfer of each boundary particle to each rank that needs it in its halo. The system's columns must be up to
+// date for boundary particles. Returns false if out of memory.
 bool phys_domain_select(PhysSystem *system, Domain *domain);
 
 // domain_halo.c. These functions return false if out of memory or if the frame is interrupted.
 //
-// Migrates particles to the owners of their patches.
+// Sends the owned particles that have left this rank's patches to their new owners, and receives those that have
+// entered.
 bool phys_domain_move(PhysSystem *system, Domain *domain);
-// Determines the new halos and receives their positions into the system's columns.
+// Determines the new halos. Sends the positions that other ranks need, and receives those of this rank's halo into the
+// system's columns.
 bool phys_domain_find_halo(PhysSystem *system, Domain *domain);
 // Exchanges the positions of halo particles before a step.
 bool phys_domain_exchange(PhysSystem *system, Domain *domain);
@@ -119,19 +123,20 @@ bool phys_add_transfer(PhysSystem *system, Domain *domain, uint32_t rank, uint32
 // Sets each number to its maximum over all ranks.
 void phys_domain_reduce(PhysSystem *system, double *numbers, size_t count);
 
-// domain_local.c: builds the local system of owned and halo particles. `arrivals` come from the system's columns. The
-// other particles come from the previous local system, or from the system's columns if there is none
-// (!domain->is_valid).
+// domain_local.c: builds the local system of owned and halo particles. Particles in `arrivals` are copied from the
+// system's columns. The other particles are copied from the previous local system, or from the system's columns if
+// there is none (!domain->is_valid).
 bool phys_domain_build_local(PhysSystem *system, Domain *domain);
-// Updates the forces of the local system.
+// Copies the system's forces to the local system.
 bool phys_domain_update_forces(PhysSystem *system, Domain *domain);
-// Copies the positions in the random streams (Force.item) back to the system. They are the same on all ranks.
+// Copies Force.item, the position in a random stream, of all single-particle forces from `local` to `system`. The
+// positions are the same on all ranks.
 void phys_domain_return_items(PhysSystem *system, const PhysSystem *local);
 // After attributes have changed between frames, copies attributes and rows to the local system. All rows must be up to
 // date.
 void phys_domain_reload(const PhysSystem *system, Domain *domain);
 
-// Returns the local column of a particle by its global column.
+// Returns the local column of the particle with the global column `column`.
 static inline uint32_t phys_local_column(const Domain *domain, uint32_t column) {
     return domain->local->column_of[column];
 }

@@ -3,9 +3,9 @@
 // a `default:`. Numbers in parentheses are sections of spec physics.md.
 //
 //   PAIR(KIND, name, sign, source, reach)   between every two particles that interact (4.1)
-//       sign     of K in the formula: +1 where a positive strength pulls two particles together, -1 where it pushes
-//       source   what both particles must have: RADIUS, MASS, CHARGE or NOTHING
-//       reach    CONTACT: only where their distance is below the sum of their radii (source is RADIUS then);
+//       sign     of K in the formula: +1 if a positive strength attracts, -1 if it repels
+//       source   quantity that must not be 0 in either particle: RADIUS, MASS, CHARGE or NOTHING
+//       reach    CONTACT: only if the distance is below the sum of the radii (`source` is then RADIUS);
 //                FAR: at any distance up to `max_distance`, if it is set
 //   LINK(KIND, name)                        between two given particles (4.1)
 //   SINGLE(KIND, name, vectors, need)       on each particle (4.2)

@@ -1,4 +1,4 @@
-// forces.h: the rows of force_list.h as structs. If the compiler knows the kind, it also knows all fields of the row.
+// forces.h: the rows of force_list.h as structs. If the kind is a compile-time constant, so are all fields of its row.
 #ifndef PETRI_PHYSICS_FORCES_H
 #define PETRI_PHYSICS_FORCES_H
 

@@ -1,4 +1,4 @@
-// grid.h: the grid of cells that particles are sorted into for neighbour lists.
+// grid.h: the grid into whose cells particles are sorted when neighbour lists are built.
 #ifndef PETRI_PHYSICS_GRID_H
 #define PETRI_PHYSICS_GRID_H
 
@@ -11,7 +11,7 @@ enum {
 
 typedef struct Grid {
     size_t dimensions;
-    double low[PHYS_VECTOR_DIMENSIONS];     // lower bound of the first cell
+    double low[PHYS_VECTOR_DIMENSIONS];     // lower bound of the first cell along each axis
     double scale[PHYS_VECTOR_DIMENSIONS];   // cells per unit of length
     uint32_t cells[PHYS_VECTOR_DIMENSIONS]; // number of cells along each axis
     uint32_t *start;                        // particles of cell c: sorted indices start[c] to start[c + 1] - 1
@@ -33,16 +33,17 @@ static inline uint32_t phys_cell_of(const Grid *grid, const double *position, si
     return cell;
 }
 
-// Special values of NeighbourList.cell.
-#define PHYS_CELL_IDLE UINT32_MAX // particle without a list: not finite, or with radius 0 where all forces need contact
-#define PHYS_CELL_LARGE (UINT32_MAX - 1) // particle much larger than the others
+// Special values of NeighbourList.cell. An idle particle gets no list, because its position is not finite, or because
+// its radius is 0 and all forces need contact. A large particle is much larger than the others.
+#define PHYS_CELL_IDLE UINT32_MAX
+#define PHYS_CELL_LARGE (UINT32_MAX - 1)
 
 // A search for the lists of all regular particles. Kernels perform it chunk by chunk.
 typedef struct ListSearch {
     const NeighbourList *list;
     const Grid *grid;
     const bool *remote;  // by column: true for particles that need no list; NULL: all particles need one
-    uint32_t own;        // particles with a key below this belong to the pass's own group
+    uint32_t own;        // particles whose NeighbourList.key is below this belong to the pass's own group
     uint32_t dummy;      // sorted index of the dummy particle that pads lists
     uint64_t scan_limit; // maximum number of candidates (particles tested as neighbours) per chunk
 } ListSearch;
@@ -51,7 +52,8 @@ typedef struct ListChunk {
     uint32_t block, block_end; // range of blocks; a block is LANES consecutive sorted indices
     uint64_t begin, used, end; // range in ListView.entries; `used` is its first unused entry
     uint64_t scanned;          // number of candidates tested
-    bool crowded, full;        // why the search stopped early: too many neighbours or candidates; no entries left
+    bool crowded, full; // reasons why the search stopped early: too many neighbours or candidates (`crowded`), or
+                        // no entries left (`full`)
 } ListChunk;
 
 // grid.c: chooses a grid of at most `max` cells. Sets list->contact_distance, list->skin and *max_radius, the largest

@@ -13,9 +13,9 @@ typedef struct IntegratePass {
     const Force *const *forces; // single-particle forces, then barriers; each from the group outwards to the top
     uint32_t force_count;       // length of `forces`, with barriers
     uint32_t barrier_count;     // number of barriers, which are the last elements of `forces`
-    bool keep_force;            // true: store the sums for PhysColumns.force; false: set them to 0 for the next step
-    const atomic_bool *stop;    // set when the frame is aborted, so that the remaining rows are skipped; NULL: never
-    uint64_t draw_count;        // random numbers that each random force has drawn for the group so far in this step
+    bool keep_force; // true: store the sums of forces for PhysColumns.force; false: set them to 0 for the next step
+    const atomic_bool *stop; // set when the frame is aborted, so that the remaining particles are skipped; NULL: never
+    uint64_t draw_count; // number of random numbers that each random force has drawn for the group so far in this step
 } IntegratePass;
 
 static inline bool phys_integrate_stopped(const IntegratePass *pass) {
@@ -36,7 +36,7 @@ typedef struct Integrator {
     bool random; // one of the forces is random
 } Integrator;
 
-// integrate.c: runs the three functions below, with phys_integrate_rows for all particles of the group.
+// integrate.c: takes the second half of a step for one group, by calling the three functions below.
 void phys_integrate(PhysSystem *system, uint32_t group, double delta, double speed_of_light);
 // Prepares `integrator`. Returns false if the budget is exceeded or the frame is interrupted.
 bool phys_integrate_begin(PhysSystem *system, uint32_t group, double delta, double speed_of_light,

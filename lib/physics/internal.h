@@ -4,8 +4,9 @@
 // calls that added them. The number of a particle in this order is its handle. The description also has a row for each
 // particle: its position and velocity, 2 n doubles in n dimensions. Results are read from the rows. The second form is
 // arranged for simulation: particles are copied into columns, where component k of particle i is at [k * stride + i].
-// The index i is called the column of the particle. Particles are in pre-order of their groups, so those of a group
-// itself come before those of its sub-groups. Forces are sorted by group and by the stage in which they act. Therefore:
+// The index i is called the column of the particle. Particles are sorted by group, in pre-order: the particles of a
+// group itself come before those of its sub-groups. Forces are sorted by group and by the stage in which they act.
+// Therefore:
 //
 //   - the particles of a group are one contiguous range, with or without its sub-groups;
 //   - in a pass over pairs, the partners of a particle are in the range of its group and one range per enclosing group;
@@ -26,25 +27,25 @@ typedef struct Buffer {
     Arena arena;
     void *bytes;
     uint64_t capacity; // in bytes
-    bool shown;        // the host can still be reading the memory, so it is retired instead of freed
+    bool shown;        // the host may still be reading the memory, so phys_buffer_free retires it (arena_retire)
 } Buffer;
 
 #define NO_GROUP UINT32_MAX
 #define NO_COLUMN UINT32_MAX
 
 enum {
-    PHYS_MAX_LISTS = 8,          // maximum number of neighbour lists, one per pass
+    PHYS_MAX_LISTS = 8,          // maximum number of neighbour lists; a pass has at most one
     PHYS_MAX_RANGES = 8,         // maximum number of groups in a pass with a neighbour list
-    PHYS_MIN_FOR_THREADS = 1500, // particles; with fewer, most work is done on one thread
+    PHYS_MIN_FOR_THREADS = 1500, // with fewer particles, most work is done on one thread
 };
 
 typedef struct Group {
-    uint32_t parent; // the top is its own parent
-    uint32_t first;  // particles of the group itself: columns first … first + count - 1
-    uint32_t count;
-    uint32_t movers;               // number of particles that are not anchors; valid if Columns.random_offset is set
-    uint32_t populated;            // this group or the nearest enclosing one with particles; NO_GROUP: none
-    uint32_t nearest[STAGE_COUNT]; // by stage: this group or the nearest enclosing one with forces; NO_GROUP: none
+    uint32_t parent;    // number of the enclosing group; the top group, 0, is its own parent
+    uint32_t first;     // first of the columns that hold the particles of the group itself
+    uint32_t count;     // number of these particles
+    uint32_t movers;    // number of particles that are not anchors; valid only if Columns.random_offset is set
+    uint32_t populated; // this group if it has particles, else the nearest enclosing group that has; NO_GROUP: none
+    uint32_t nearest[STAGE_COUNT]; // by stage: like `populated`, for groups with forces
 } Group;
 
 typedef struct ParticleRecord {
@@ -59,41 +60,41 @@ typedef struct ParticleRecord {
 
 typedef struct ForceRecord {
     PhysForce given;  // its vectors are the caller's pointers and must not be used
-    uint64_t vector;  // index of the copy in the vector buffer, plus 1; 0: all zeros
+    uint64_t vector;  // index of the copy in PhysSystem.vectors, plus 1; 0: all zeros
     uint64_t vector2; // like `vector`
     uint32_t group;
-    uint32_t arranged; // index among the arranged forces
+    uint32_t arranged; // index of the force in PhysSystem.forces
 } ForceRecord;
 
 // A force as the kernels see it. In `given`, the vectors point to the copies, and `from` and `to` are columns instead
 // of handles.
 typedef struct Force {
     PhysForce given;
-    double strength; // in this step, after easing
-    uint64_t item;   // of a random force: number of stream items used so far in this frame
+    double strength; // strength in this step, after easing
+    uint64_t item;   // random forces only: number of items of the random stream that were used so far in this frame
 } Force;
 
 typedef struct Columns {
     size_t dimensions;
     uint32_t count;
-    size_t stride; // >= count
+    size_t stride; // distance between two components of a particle; at least `count`
     double *position;
     double *velocity;
-    double *own_force; // PhysParticle.force; like `ease`, valid only if system->has_own_forces
+    double *own_force; // PhysParticle.force; `own_force` and `ease` are valid only if system->has_own_forces
     double *force;     // sum of all forces of the step
-    bool forces_clear; // the previous step has left all elements of `force` 0
+    bool forces_clear; // the previous step has set all elements of `force` to 0
     double *ease;      // ramp time of own_force
     double *radius;
     double *mass;
     bool uniform_mass; // all particles have the radius and mass of column 0
     bool no_anchors;   // no particle is an anchor
     double *charge;
-    double *section; // radius^(n-1); valid if a force needs it
-    double *volume;  // radius^n; valid if a force needs it
-    // By column: number of earlier particles of the same group that are not anchors, and so use random numbers. NULL:
-    // integrate.c counts them.
+    double *section; // radius^(n-1); valid only if a force needs it
+    double *volume;  // radius^n; valid only if a force needs it
+    // By column: number of earlier particles of the same group that use random numbers, which all particles except
+    // anchors do. NULL: integrate.c counts them.
     const uint32_t *random_offset;
-    double *scratch; // 3 n doubles for the running kernel
+    double *scratch; // 3 n doubles of working memory for the running kernel
     bool *anchor;
 } Columns;
 
@@ -114,33 +115,34 @@ struct PhysSystem {
     uint32_t group_count;
     uint32_t particle_count;
     uint32_t force_count;
-    bool has_forces;         // a step was taken since the last phys_begin or phys_skip_frame
+    bool has_forces;         // a step was taken since the last phys_begin or phys_skip_frame, so it has forces to show
     bool has_own_forces;     // some particle has a `force` attribute
     bool has_eased_forces;   // some particle's `force` attribute is eased in; implies has_own_forces
     uint64_t vector_doubles; // doubles in use in `vectors`
     Buffer groups;           // Group
-    uint32_t record_stride;  // 0: all particles share the first record; else 1
+    uint32_t record_stride;  // 1: every particle has a record; 0: all particles share the first one
     Buffer particles;        // ParticleRecord; index: handle * record_stride
     Buffer rows;             // 2 n doubles by handle
     Buffer own_forces;       // n doubles by handle: the `force` attributes; valid if has_own_forces
     Buffer last_rows;        // rows of the previous description, which the host can still read
     Buffer force_rows;       // n doubles by handle: the forces of the last step; used if PhysOptions.keep_forces
-    // uint8_t by handle: PHYS_POSITION and PHYS_VELOCITY are set if that vector came from an attribute. Valid if
-    // any_from_attribute.
+    // uint8_t by handle: PHYS_POSITION is set if the position came from an attribute (PhysTime.keep_last_finite), and
+    // PHYS_VELOCITY if the velocity did. Valid only if any_from_attribute.
     Buffer from_attribute;
-    Buffer not_finite;    // uint8_t by handle: like from_attribute, for vectors that were not finite in the last frame
+    Buffer not_finite;    // uint8_t by handle: the same bits, set for vectors that were not finite in the last frame
     Buffer force_records; // ForceRecord in the order of the calls
     Buffer vectors;       // double: copies of the forces' vectors
     // arranged for simulation
     Buffer indices;        // uint32_t: memory of `order`, `column_of` and `starts`
     Buffer forces;         // Force, by group, then stage, then declaration
-    Buffer terms;          // PairTerm of the running pass
+    Buffer terms;          // PairTerm: forces of the running pass
     Buffer chain;          // Force *: single-particle forces and barriers that act on the current group
     Buffer column_data;    // memory of `columns`
     uint32_t *order;       // column -> handle
     uint32_t *column_of;   // handle -> column
     uint32_t handle_count; // length of `column_of`; a handle without a particle has NO_COLUMN
-    // Element g * STAGE_COUNT + s: first force of group g in stage s. The next element is the end of these forces.
+    // Element g * STAGE_COUNT + s: index of the first force of group g in stage s. These forces end before the index in
+    // the next element.
     uint32_t *starts;
     Columns columns;
     // retained between steps and frames
@@ -157,9 +159,9 @@ struct PhysSystem {
     bool columns_stale;       // positions and velocities in the columns are out of date; those in the rows are current
     Buffer domain;            // Domain
     PhysRankStats rank_stats;
-    bool *remote;  // of a local system: by column, true for particles of other ranks; else NULL
-    double skin;   // of a local system: skin of all lists
-    bool unlisted; // of a local system: a pass has run without a list since the halo was rebuilt
+    bool *remote;  // in a local system: by column, true for particles of other ranks; in other systems NULL
+    double skin;   // in a local system: skin of all lists
+    bool unlisted; // in a local system: a pass has run without a list since the halo was rebuilt
 };
 
 // A range of forces.
@@ -196,8 +198,8 @@ static inline const atomic_bool *phys_stop(const PhysSystem *system) {
 bool phys_buffer_reserve(PhysSystem *system, Buffer *buffer, uint64_t retained, uint64_t count, uint64_t size);
 void phys_buffer_free(Buffer *buffer);
 
-// groups.c: phys_arrange sorts the particles by group. phys_arrange_forces sorts the forces and must be called after
-// it. Both return false if out of memory.
+// groups.c: phys_arrange sorts the particles by group. Then phys_arrange_forces must be called, which sorts the forces.
+// Both return false if out of memory.
 bool phys_arrange(PhysSystem *system);
 bool phys_arrange_forces(PhysSystem *system);
 
@@ -216,9 +218,10 @@ void phys_fill_motion(PhysSystem *system);
 void phys_update_radius_powers(PhysSystem *system);
 // Writes all rows from this system's columns.
 void phys_write_rows(PhysSystem *system, bool keep_last_finite);
-// Writes the rows of the particles in `columns`. `order` holds their handles. `columns->anchor` may be NULL if the
-// forces of anchors are 0. Values that PhysTime.keep_last_finite restores are also written to the columns of `home`,
-// unless it is NULL. `home` is this system or its local system (domain.h), whose handles are this system's columns.
+// Copies the particles from `columns` to the rows of `system`. order[i] is the handle of the particle in column i.
+// `columns->anchor` may be NULL if the forces of anchors are 0. If a row keeps its old value because of
+// PhysTime.keep_last_finite, that value is also copied to the columns of `home`, unless `home` is NULL. `home` is
+// `system` itself or its local system (domain.h), whose handles are columns of `system`.
 void phys_write_column_rows(PhysSystem *system, const Columns *columns, const uint32_t *order, bool keep_last_finite,
                             const PhysSystem *home);
 
@@ -248,8 +251,9 @@ typedef struct Move {
     double speed_of_light;
     bool done;
 } Move;
-// Applies all pair forces for which one particle is in `group` and the other is in `group` or an enclosing one. A pass
-// computes the forces that one of these groups declares. `move`: NULL: passes must not move particles.
+// Applies all pair forces for which one particle is in `group` and the other is in `group` or an enclosing group. Each
+// of these groups that declares pair forces has a pass for its forces. `move` is the motion that a pass may carry out;
+// NULL: passes must not move particles.
 void phys_apply_pairs(PhysSystem *system, const Group *group, Move *move);
 // barrier.c: reflects particle i at one barrier after a move of `delta` (spec physics.md 4.4).
 void phys_reflect(const Columns *columns, size_t i, const Force *barrier, double delta, double speed_of_light);
@@ -258,7 +262,7 @@ static inline double *phys_acceleration(const Columns *columns) {
     return columns->scratch;
 }
 
-// Returns the index of particle i's radius and mass in their columns.
+// Returns the index of particle i in the columns `radius` and `mass`.
 static inline size_t phys_numbers_at(const Columns *columns, size_t i) {
     return columns->uniform_mass ? 0 : i;
 }
@@ -267,7 +271,7 @@ static inline double phys_at(PhysVector vector, size_t k) {
     return vector ? vector[k] : 0.0;
 }
 
-// Returns the easing factor at `clock` for a strength or a particle's `force` attribute.
+// Returns the factor at time `clock` for a strength or a particle's `force` attribute whose ramp time is `ease`.
 static inline double phys_ramp(double ease, double clock) {
     return ease > 0 && clock < ease ? clock / ease : 1.0;
 }

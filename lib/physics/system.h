@@ -30,8 +30,9 @@ typedef struct PhysParticle {
     double mass;         // >= 0; a particle with mass 0 is never accelerated
     double charge;
     bool anchor;
-    bool position_from_attribute; // not from an earlier frame (PhysTime.keep_last_finite)
-    bool velocity_from_attribute; // like position_from_attribute
+    bool position_from_attribute; // true: `position` is an attribute; false: it was kept from an earlier frame (see
+                                  // PhysTime.keep_last_finite)
+    bool velocity_from_attribute; // the same for `velocity`
 } PhysParticle;
 
 typedef enum PhysForceKind {
@@ -41,17 +42,17 @@ typedef enum PhysForceKind {
         PHYS_FORCE_KINDS,
 } PhysForceKind;
 
-// One force applier or barrier. A field whose note begins with kinds of forces is ignored by other kinds.
+// One force applier or barrier. If the comment on a field begins with kinds of forces, other kinds ignore the field.
 // phys_add_force copies the vectors.
 typedef struct PhysForce {
     PhysForceKind kind;
     double strength;
     double ease;         // ramp time of `strength`, in units of the simulation clock; <= 0: none
-    double power;        // distance, collision, barrier; a negative value counts as 0
-    double max_distance; // pair forces; <= 0: no limit
-    double overlap;      // adhesion; lib/scene clamps it to 0…1
-    double density;      // buoyancy
-    double restitution;  // barrier; lib/scene clamps it to 0…1
+    double power;        // distance, collision, barrier: exponent of the displacement; a negative value counts as 0
+    double max_distance; // pair forces: distance below which the force acts; <= 0: no limit
+    double overlap;      // adhesion: overlap of two particles at rest; lib/scene clamps it to 0…1
+    double density;      // buoyancy: density of the medium
+    double restitution;  // barrier: factor of the velocity in a reflection; lib/scene clamps it to 0…1
     bool has_minimum;    // distance and barrier: `minimum` is set
     bool has_maximum;    // distance and barrier: `maximum` is set
     double minimum;
@@ -79,15 +80,15 @@ typedef struct PhysThreads PhysThreads;
 PhysThreads *phys_threads_new(int count);
 void phys_threads_free(PhysThreads *threads);
 
-// Ranks (processes) that simulate the same systems together. All of them make the same calls. Large passes over pairs
-// are divided among them, and results are exchanged as `count` blocks of `block_length` doubles. Blocks begin `stride`
-// doubles apart. If the script is interrupted (Budget.interrupt), all callbacks return without waiting for other ranks,
-// and received numbers are zeros.
+// Ranks (processes) that simulate the same systems together. All ranks make the same calls. Large passes over pairs are
+// divided among the ranks. `send`, `receive` and `broadcast` transfer `count` blocks of `block_length` doubles,
+// which begin `stride` doubles apart in memory. If the script is interrupted (Budget.interrupt), all callbacks return
+// without waiting for other ranks, and received numbers are zeros.
 typedef struct PhysRanks {
-    int rank; // of this process, counted from 0
+    int rank; // number of this process, counted from 0
     int rank_count;
-    // A pass with fewer pairs is not divided; 0: the engine's default. If set, the domain decomposition has no minimum
-    // number of particles or steps.
+    // Minimum number of pairs in a pass that is divided; 0: the engine's default. If this is not 0, domain
+    // decomposition has no minimum number of particles or steps.
     uint64_t min_pairs;
     void *user_data;
     void (*send)(void *user_data, int to, const double *numbers, size_t count, size_t block_length,
@@ -95,7 +96,7 @@ typedef struct PhysRanks {
     void (*receive)(void *user_data, int from, double *numbers, size_t count, size_t block_length, size_t stride);
     // Copies the numbers of rank `from` to all ranks.
     void (*broadcast)(void *user_data, int from, double *numbers, size_t count, size_t block_length, size_t stride);
-    // Copies the numbers of every rank r, elements starts[r] to starts[r + 1] - 1, to all ranks.
+    // Each rank r has filled elements starts[r] to starts[r + 1] - 1. Copies these elements to all other ranks.
     void (*allgatherv)(void *user_data, double *numbers, const size_t *starts);
     // Sets each number to its maximum over all ranks. No number is NaN.
     void (*allreduce_max)(void *user_data, double *numbers, size_t count);
@@ -115,22 +116,22 @@ typedef struct PhysRankStats {
     PhysDecomposition decomposition; // in the last frame
     uint64_t frames;
     uint64_t steps;
-    uint64_t step_bytes; // sent in steps: halos, migrating particles, sums of pair forces
-    uint64_t step_messages;
-    uint64_t reductions;  // number of collective operations
-    uint64_t frame_bytes; // sent at the end of frames to collect all particles
-    uint64_t own;         // particles of this rank's region, summed over steps
-    uint64_t halo;        // particles received from other regions, summed over steps
+    uint64_t step_bytes;    // bytes sent in steps: halos, migrating particles, sums of pair forces
+    uint64_t step_messages; // number of messages sent in steps
+    uint64_t reductions;    // number of collective operations
+    uint64_t frame_bytes;   // bytes sent at the end of frames to collect all particles
+    uint64_t own;           // number of particles in this rank's region, summed over steps
+    uint64_t halo;          // number of particles in this rank's halo (domain.h), summed over steps
 } PhysRankStats;
 
 // How a system is computed. Results are bit-identical with all options.
 typedef struct PhysOptions {
-    int threads;  // maximum number, including the caller; <= 0: one per processor
+    int threads;  // maximum number of threads, including the caller; <= 0: one per processor
     CpuLevel cpu; // instruction set; limited to cpu_detected.level
     PhysNeighbours neighbours;
     PhysThreads *pool; // shared pool, which must outlive the system; NULL: the system creates its own
     Budget *budget;    // charged for work and memory; must outlive the system; NULL: none
-    bool keep_forces;  // fill PhysColumns.force; costs one store per particle and step
+    bool keep_forces;  // fill PhysColumns.force, which costs one store per particle and step
     PhysRanks ranks;   // rank_count 0: one process
 } PhysOptions;
 
@@ -162,7 +163,8 @@ typedef struct PhysPreserve {
     bool position;
     bool velocity;
 } PhysPreserve;
-// Replaces the attributes of a particle, except its group, its `anchor` flag, and the parts set in `preserve`.
+// Replaces the attributes of a particle by `numbers`. Its group, its `anchor` flag and the parts set in `preserve` stay
+// as they are.
 void phys_update_particle(PhysSystem *system, uint32_t particle, const PhysParticle *numbers, PhysPreserve preserve);
 uint32_t phys_particle_group(const PhysSystem *system, uint32_t particle);
 bool phys_is_anchor(const PhysSystem *system, uint32_t particle);
@@ -182,8 +184,8 @@ typedef struct PhysTime {
     double performance;    // speed of the host; without lockstep, a value above 1.5 allows a second step per frame
     double speed_of_light; // <= 0: no limit
     bool keep_last_finite; // a position or velocity that is not finite after the frame is reset to its value before the
-                           // frame. Unless the old value came from an attribute, a result equal to it is not stored,
-                           // so 0 does not become -0
+                           // frame. A result equal to that value replaces it only if the value came from an
+                           // attribute. So 0 does not become -0 from frame to frame
 } PhysTime;
 
 typedef enum PhysStatus {
@@ -209,9 +211,10 @@ PhysResult phys_simulate(PhysSystem *system, const PhysTime *time);
 bool phys_skip_frame(PhysSystem *system);
 
 uint32_t phys_particle_count(const PhysSystem *system);
-// Return the position or velocity of the particle with this handle: n doubles. Its velocity follows its position in
-// memory. The pointer does not change until the next phys_begin, and its memory stays readable until the phys_begin
-// after that. Values can be non-finite. Before phys_simulate they are the values passed to phys_add_particle.
+// Return the position or velocity of the particle with this handle: n doubles. The velocity of a particle follows its
+// position in memory. The pointer does not change until the next phys_begin, and its memory stays readable until the
+// phys_begin after that. Values can be non-finite. Before phys_simulate they are the values passed to
+// phys_add_particle.
 const double *phys_position(const PhysSystem *system, uint32_t particle);
 const double *phys_velocity(const PhysSystem *system, uint32_t particle);
 // Return true if the vector that the last phys_simulate computed was finite. Always true without keep_last_finite.
@@ -233,7 +236,7 @@ typedef struct PhysColumns {
     PhysColumn radius;
     PhysColumn mass;
     PhysColumn charge;
-    const bool *anchor; // by handle, `anchor_stride` bytes apart
+    const bool *anchor; // true for anchors; the values of two handles are `anchor_stride` bytes apart
     size_t anchor_stride;
 } PhysColumns;
 PhysColumns phys_columns(const PhysSystem *system);

@@ -11,7 +11,7 @@
 enum {
     PHYS_MAX_THREADS = 64,
     PHYS_MAX_CHUNKS = 64,
-    PHYS_CHUNKS_PER_THREAD = 4, // chunks per thread, if the work can be divided freely
+    PHYS_CHUNKS_PER_THREAD = 4, // number of chunks per thread, if the work can be divided freely
 };
 
 typedef void PhysTask(void *context, int chunk, int chunks);
@@ -20,11 +20,11 @@ typedef void PhysTask(void *context, int chunk, int chunks);
 // runs on the caller's thread.
 void phys_parallel(const PhysSystem *system, int chunks, PhysTask *work, void *context);
 
-// Returns how many threads to use for a job of 10 to 50 µs, which is too short to wake a sleeping thread. 0: do the
-// work without phys_parallel_short. 1: call phys_parallel_short with one chunk, which runs on the caller's thread and
-// is timed. If such jobs arrive in quick succession, wakes sleeping threads for later jobs.
+// Returns how many threads to use for a job of `units` of work that takes 10 to 50 µs, which is too short to wake a
+// sleeping thread. 0: do the work without phys_parallel_short. 1: call phys_parallel_short with one chunk, which runs
+// on the caller's thread and is timed. If such jobs arrive in quick succession, wakes sleeping threads for later jobs.
 int phys_short_job_threads(const PhysSystem *system, uint64_t units);
-// Like phys_parallel, for a job of `units` of work for which phys_short_job_threads did not return 0.
+// Like phys_parallel, but for a short job. phys_short_job_threads must have returned at least 1 for these `units`.
 void phys_parallel_short(const PhysSystem *system, int chunks, uint64_t units, PhysTask *work, void *context);
 
 // State of a wait inside a chunk for work that another thread has claimed. Initialise it with {0}, then call
