@@ -119,7 +119,7 @@ const char *byte_buffer_read_regular(ByteBuffer *text, int fd, size_t max_bytes)
     else if (!byte_buffer_read(text, fd, max_bytes == SIZE_MAX ? SIZE_MAX : before + max_bytes))
         problem = strerror(errno);
     else if (text->length - before > max_bytes)
-        problem = "it is too large"; // it has grown meanwhile
+        problem = "it is too large"; // the file has grown since fstat
     if (fd >= 0)
         close(fd);
     return problem;

@@ -27,7 +27,7 @@ enum { FOR_RUN = 1, FOR_RENDER = 2, FOR_VIEW = 4, FOR_REPL = 8, FOR_TEST = 16, F
 typedef struct OptionSpec {
     unsigned commands; // FOR_... bits
     const char *name;  // without the dashes
-    char letter;       // short form; 0: none
+    char letter;       // letter of the short form, such as o for -o; 0: none
     const char *value; // name of the value in help; NULL: the option takes no value
     const char *help;
     size_t field; // offset of the option's field in Options
@@ -46,7 +46,7 @@ extern const OptionSpec OPTIONS[];
 // The environment of a command, set up by main.
 typedef struct CommandContext CommandContext;
 struct CommandContext {
-    size_t stack_bytes;                     // C stack available for evaluation
+    size_t stack_bytes;                     // size of the C stack that evaluation can use, in bytes
     const char *program;                    // path of this program, valid in any working directory
     const char *invoked_as;                 // argv[0], for hints that show commands
     const char *cpu;                        // PetriOptions.cpu
@@ -67,7 +67,7 @@ typedef struct Command {
     unsigned options;                 // FOR_... bit of the command; 0: no options
     const char *missing_operand;      // message if no operand is given; NULL: not checked before `run`
     const char *no_stdin;             // message if the operand is `-`; NULL: `-` means standard input
-    const char *second_operand_error; // message format for a second operand; NULL: reported as a second script
+    const char *second_operand_error; // message format for a second operand; NULL: it is reported as a second script
     bool accepts_many;                // true if the command accepts several scripts and folders
     bool live;             // true if the command, by default, follows the wall clock and runs until it is stopped
     bool parses_arguments; // true if `run` parses argv itself

@@ -32,8 +32,8 @@ static bool is_pinned(const FrameHistory *history, size_t at) {
     return at == 0 || history->keyframes[at - 1].epoch != history->keyframes[at].epoch;
 }
 
-// Returns the cost of dropping a keyframe: the number of frames between its neighbours, divided by the age of the
-// earlier neighbour plus a constant.
+// Returns the cost of dropping a keyframe: the number of frames from the previous keyframe to the next one, divided by
+// the age of the previous keyframe plus a constant.
 static double keyframe_cost(const FrameHistory *history, size_t at) {
     const Keyframe *before = &history->keyframes[at - 1], *after = &history->keyframes[at + 1];
     return (double)(after->frame - before->frame) / (double)(history->last - before->frame + 8 * HISTORY_INTERVAL);

@@ -15,7 +15,8 @@ typedef struct Subprocess {
 
 enum { SUBPROCESS_MAX_SECONDS = 120 };
 
-// Returns the descriptor of a file that is deleted when it is closed, or -1. Unlike a pipe, it never blocks its writer.
+// Returns the descriptor of a file that is deleted when it is closed, or -1. Unlike a pipe, the file never blocks a
+// process that writes to it.
 int subprocess_temporary_file(void);
 // Starts a program with `folder` as its working directory. `argv` is as for execv. Returns false and sets errno on
 // failure. The program is killed after SUBPROCESS_MAX_SECONDS.

@@ -31,7 +31,7 @@ struct Job {
     PetriPicture *picture;
     bool for_film;
     bool needs_history;
-    char *file; // owned, or NULL
+    char *file; // name of the image file, owned by the job; NULL: none
     Replacement target;
     bool target_open; // true if `target` is in use
     bool failed;

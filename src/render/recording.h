@@ -8,7 +8,7 @@
 
 typedef struct RecordedFile RecordedFile;
 
-// Initialise with `fps` set and all other fields zero.
+// Before the first call of recording_add, `fps` must be set and all other fields must be zero.
 typedef struct Recording {
     double fps;
     RecordedFile *files;

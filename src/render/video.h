@@ -1,7 +1,7 @@
 // video.h: videos, encoded by an ffmpeg process that receives frames through a pipe.
 //
-// The video gets its name when it is complete (base/replace.h); otherwise no file remains. On failure, error_text has
-// the reason, because the calling thread does not write messages.
+// The video gets its final name when it is complete (base/replace.h). If it is never completed, no file remains. On
+// failure, error_text has the reason, because the calling thread does not write messages.
 #ifndef PETRI_SRC_VIDEO_H
 #define PETRI_SRC_VIDEO_H
 
@@ -18,8 +18,8 @@ typedef struct Video {
     int width;
     int height;
     _Atomic pid_t pid;    // process id of ffmpeg; 0: it is not running
-    int frames;           // pipe to ffmpeg
-    int errors;           // unnamed file with the messages of ffmpeg
+    int frames;           // descriptor of the pipe to ffmpeg
+    int errors;           // descriptor of an unnamed file with the messages of ffmpeg
     int cleanup_id;       // from signal_cleanup_begin
     char error_text[512]; // reason of the last failure
 } Video;

@@ -1,9 +1,9 @@
 // record.c: `.record`, which writes the frames as a golden (expected output) for `petri test` (spec cli.md 3.4).
 //
-// NAME.golden needs a script NAME.fl beside it. If NAME.fl is not the loaded script, it is written as a copy of the
-// loaded script with the statements typed at the prompt appended. NAME.fl must be in the folder of the loaded script,
-// because file names in a script are relative to its folder. Frames are recorded only if a run from frame 0 with one
-// script and fixed settings reproduces them.
+// NAME.golden needs a script NAME.fl beside it. If NAME.fl is not the loaded script, `.record` creates it: a copy of
+// the loaded script, followed by the statements typed at the prompt. NAME.fl must be in the folder of the loaded
+// script, because file names in a script are relative to the script's folder. Frames are recorded only if a run from
+// frame 0 with one script and fixed settings reproduces them.
 #include "base/file.h"
 #include "cli/script.h"
 #include "repl/repl.h"

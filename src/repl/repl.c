@@ -110,7 +110,8 @@ static void execute_statement(Repl *repl, const char *text, size_t length) {
     repl_status(repl, status);
 }
 
-// Executes a command if the text begins with a dot and is not a number such as .5; else tries bare commands, then code.
+// If the text begins with a dot and is not a number such as .5, executes it as a command. Otherwise tries to execute it
+// as a command without its dot (bare_execute), and then as code.
 static void execute_text(Repl *repl, const char *text, size_t length) {
     SCOPED_BYTE_BUFFER remark = {0};
     size_t start = strspn(text, " \t");

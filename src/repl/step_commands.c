@@ -121,7 +121,8 @@ void repl_complete_frame(Repl *repl) {
     repl_status(repl, status);
 }
 
-// Goes to a frame: directly within the history, else step by step with a progress line.
+// Goes to a frame. Within the history, goes there directly. Beyond its end, computes frame by frame and shows a
+// progress line.
 static PetriStatus seek_frame(Repl *repl, int64_t frame, ByteBuffer *why) {
     int64_t last = repl->history.last, made = 0;
     Progress progress;

@@ -12,7 +12,7 @@
 typedef struct H5md {
     Hdf5 writer;
     TextList texts;  // ids that are not integers >= 0, as strings
-    HashIndex index; // index of `texts`
+    HashIndex index; // finds the position of a string in `texts`
     size_t sent;     // number of `texts` that were sent to petri-hdf5
     ByteBuffer ids;  // ids of the particles of the current frame, as int64_t values
 } H5md;

@@ -242,7 +242,7 @@ static bool is_drawable(const Options *options, const CommandContext *host) {
 }
 
 // Replaces the process with `petri view --terminal` and passes the same options. The view lasts ten seconds unless the
-// options set its duration. Returns if the script has no picture or petri-pictures cannot be started.
+// options set its duration. Returns only if the script has no picture or petri-pictures cannot be started.
 static void exec_view(const Options *options, const CommandContext *host) {
     if (!is_drawable(options, host))
         return;

@@ -12,8 +12,8 @@
 
 typedef enum TrajectoryFormat { TRAJECTORY_XYZ, TRAJECTORY_CSV, TRAJECTORY_H5MD } TrajectoryFormat;
 
-// The file gets its name when it is complete (base/replace.h). With `--state`, it gets its name when the first state is
-// saved, and is then extended in place (resume.h).
+// The file gets its final name when it is complete (base/replace.h). With `--state`, it gets its final name when the
+// first state is saved, and is then extended in place (resume.h).
 typedef struct Trajectory {
     const char *path;
     TrajectoryFormat format;

@@ -27,7 +27,7 @@ typedef struct Plot {
     Scale y;
 } Plot;
 
-static const size_t FRAMES = SIZE_MAX; // used as an axis index, this means that the x axis shows the frame
+static const size_t FRAMES = SIZE_MAX; // axis index that means that the x axis shows the frame
 
 static void extend_scale(Scale *scale, double x) {
     scale->min = x < scale->min ? x : scale->min;
