@@ -4,13 +4,14 @@
 #include <time.h>
 
 enum {
-    MIN_PARTICLES = 8000, // with fewer, communication costs more than it saves
-    FIRST_INTERVAL = 32,  // steps before the first rebalancing; doubled after each rebalancing
+    MIN_PARTICLES = 8000, // with fewer particles, communication costs more than it saves
+    FIRST_INTERVAL = 32,  // minimum number of steps before the first rebalancing; each rebalancing doubles it
 };
-#define MAX_IMBALANCE 1.15 // largest time of a rank divided by the mean; above it, patches are rebalanced
+// If the largest time of a rank is more than this many times the mean time of all ranks, patches are rebalanced.
+#define MAX_IMBALANCE 1.15
 
-// Returns true if a pair force has unlimited range, or if there is no pair force. Sets the interaction ranges in
-// `reach`.
+// Returns true if a pair force has unlimited range, or if there is no pair force. Otherwise sets reach->contact and
+// reach->bound.
 static bool has_unbounded_force(const PhysSystem *system, Domain *reach) {
     const Force *forces = system->forces.bytes;
     bool any = false;
@@ -151,7 +152,7 @@ bool phys_domain_begin(PhysSystem *system, const PhysTime *time) {
     Domain reach, *domain = system->domain.bytes;
     bool shared = pays_off(system, time) && !has_unbounded_force(system, &reach) && begin_frame(system, &reach);
     if (!shared && domain)
-        domain->is_valid = false; // the local system misses the motion of this frame
+        domain->is_valid = false; // because the local system does not take part in this frame
     if (!shared && system->columns_stale && !system->failed)
         phys_fill_motion(system);
     system->edited = false;
@@ -159,8 +160,8 @@ bool phys_domain_begin(PhysSystem *system, const PhysTime *time) {
     return shared;
 }
 
-// Returns true if an owned particle has moved by half the skin or has grown. Needed only if a pass has no list: lists
-// detect this themselves.
+// Returns true if an owned particle has moved by half the skin, or has grown, since the halo was built. Needed only if
+// a pass has no list, because lists detect this themselves.
 static bool left_skin(const PhysSystem *system, const Domain *domain) {
     const Columns *columns = &domain->local->columns;
     const double *built = domain->built.bytes;

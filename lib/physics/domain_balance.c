@@ -4,7 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PATCHES_PER_RANK = 8192 }; // many: with smaller patches, fewer particles must be tested one by one
+// There are many patches for each rank, because smaller patches leave fewer particles to be tested one by one.
+enum { PATCHES_PER_RANK = 8192 };
 
 static uint32_t rotate_right(uint32_t word, uint32_t by, uint32_t bits) {
     by %= bits;
@@ -23,8 +24,8 @@ static uint32_t trailing_ones(uint32_t word) {
     return (uint32_t)__builtin_ctz(~word);
 }
 
-// At each level, the curve enters a cube at a corner and leaves it along an axis. It visits the parts of the cube in
-// the order of a Gray code, which is reflected and rotated accordingly.
+// At each level, the curve enters a cube at `corner` and leaves it along `axis`. It visits the parts of the cube in the
+// order of a Gray code, which is reflected according to the corner and rotated according to the axis.
 uint64_t phys_hilbert_index(const uint32_t *cell, uint32_t n, uint32_t levels) {
     uint64_t index = 0;
     uint32_t corner = 0, axis = 0;
@@ -80,7 +81,7 @@ static void assign_patches(Patch *patches, uint32_t count, uint32_t ranks, uint3
     }
 }
 
-// Sets `prices` to the measured cost per particle on each rank, or to 1 if no cost has been measured.
+// Sets prices[r] to the measured cost per particle on rank r, or to 1 if no cost has been measured on any rank.
 static void price_particles(const PhysSystem *system, const Domain *domain, double *prices) {
     const uint32_t *counts = domain->counts.bytes;
     const double *rank_seconds = domain->rank_seconds.bytes;
@@ -90,7 +91,7 @@ static void price_particles(const PhysSystem *system, const Domain *domain, doub
         prices[r] = domain->steps && counts[r] && rank_seconds[r] > 0 ? rank_seconds[r] / counts[r] : 0;
         highest = prices[r] > highest ? prices[r] : highest;
     }
-    for (int r = 0; r < ranks; r++) // a rank without particles has no measured cost
+    for (int r = 0; r < ranks; r++) // a rank without particles has no measured cost and gets the highest one
         prices[r] = prices[r] > 0 ? prices[r] : highest > 0 ? highest : 1;
 }
 

@@ -1,12 +1,13 @@
 // domain_collect.c: collects the results of all ranks in the rows of every rank at the end of a frame.
 //
-// Each rank fills one section of a common array: columns of its particles in local order, their handles, and a tail.
+// Each rank fills one section of a common array. A section has three parts: columns of the rank's own particles in
+// local order, the handles of these particles, and a tail.
 #include "physics/domain.h"
 #include "physics/threads.h"
 
 enum {
-    LINE = 8, // doubles in a cache line; the parts of a section are padded to whole lines
-    TAIL = LINE,
+    LINE = 8,    // doubles in a cache line; the parts of a section are padded to whole lines
+    TAIL = LINE, // doubles in a tail, of which one is used
 };
 
 typedef struct RankSection {
@@ -37,7 +38,7 @@ typedef struct Packing {
     const PhysSystem *system;
     const PhysSystem *local;
     RankSection section;
-    size_t vectors;                  // vectors per particle: 2: position and velocity; 3: also force
+    size_t vectors;                  // number of vectors per particle: 2 (position and velocity) or 3 (also force)
     uint32_t start[PHYS_MAX_CHUNKS]; // by chunk: number of owned particles in earlier chunks
 } Packing;
 
@@ -106,7 +107,7 @@ bool phys_domain_collect(PhysSystem *system, bool keep_last_finite) {
     pack_section(system, domain, section_at(gathered + starts[ranks->rank], counts[ranks->rank], vectors, n), vectors);
     double nothing = 0;
     if (shared)
-        ranks->allreduce_max(ranks->user_data, &nothing, 1); // a barrier: all ranks have written when it returns
+        ranks->allreduce_max(ranks->user_data, &nothing, 1); // used as a barrier: waits until all ranks have written
     else
         ranks->allgatherv(ranks->user_data, gathered, starts);
     system->rank_stats.frame_bytes += shared ? 0 : (starts[ranks->rank + 1] - starts[ranks->rank]) * sizeof(double);

@@ -1,6 +1,6 @@
 // domain_halo.c: transfers of particles between ranks: migration and halos.
 //
-// Ranks exchange the numbers of particles first, so each rank knows which messages it will receive.
+// Before a transfer, ranks exchange the numbers of particles. So each rank knows which messages it will receive.
 #include "physics/domain.h"
 
 #include <string.h>
@@ -30,7 +30,7 @@ static bool reserve_transfers(PhysSystem *system, Transfers *transfers, uint64_t
     return true;
 }
 
-// Sorts the transfers by rank into `to`. The sort is stable.
+// Copies domain->transfers to `to`, sorted by rank. The sort is stable.
 static bool sort_transfers(PhysSystem *system, const Domain *domain, Transfers *to) {
     const Transfer *transfers = domain->transfers.bytes;
     uint32_t ranks = (uint32_t)system->options.ranks.rank_count;
@@ -89,7 +89,8 @@ static double *reserve_numbers(PhysSystem *system, Domain *domain, uint64_t coun
     return phys_buffer_reserve(system, &domain->message, 0, count, sizeof(double)) ? domain->message.bytes : NULL;
 }
 
-// Packs the vectors of some particles, component by component. `column_of` maps `columns` to indices; NULL: no mapping.
+// Copies one vector of each of the `count` particles in `columns` to `to`, component by component. column_of[c] is the
+// index of column c in `vectors`; NULL: the index is c. `at` describes the layout of `vectors`.
 static void pack_vectors(const double *vectors, const Columns *at, const uint32_t *column_of, const uint32_t *columns,
                          size_t count, double *to) {
     for (size_t k = 0; k < at->dimensions; k++)
@@ -116,8 +117,8 @@ static void change_owner(const Domain *domain, uint32_t from, uint32_t to, uint3
     phys_owners(domain)[column] = to;
 }
 
-// Sends positions and velocities of migrating particles to their new owners. Sends the column numbers of all migrating
-// particles to every rank.
+// Sends positions and velocities of migrating particles to their new owners. Sends the columns of all particles that
+// leave this rank to every rank, so that all ranks know the new owners.
 static bool send_movers(PhysSystem *system, Domain *domain, const Transfers *to) {
     const Columns *columns = &system->columns;
     uint32_t ranks = (uint32_t)system->options.ranks.rank_count, all = to->start[ranks];
@@ -174,7 +175,7 @@ static void copy_back(const PhysSystem *system, const Domain *domain, uint32_t h
     }
 }
 
-// Copies owned particles that are ends of links back to the system's columns. They are sent even if they are not on the
+// Copies owned particles with links back to the system's columns, because they can be sent even if they are not on the
 // boundary.
 static void copy_link_ends_back(const PhysSystem *system, const Domain *domain) {
     const Force *forces = system->forces.bytes;

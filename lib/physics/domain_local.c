@@ -1,23 +1,23 @@
 // domain_local.c: the local system of a rank: its owned particles and its halo.
 //
-// Its handles are the columns of the whole system, with gaps. Its columns are in ascending order of handles, or in the
-// sorted order of a list (reorder.c). In sorted order, a rebuild of the halo leaves nearly all owned particles in their
-// columns. Arrivals fill the columns that have become free.
+// The handles of the local system are columns of the whole system, with gaps. The columns of the local system are in
+// ascending order of handles, or in the sorted order of a list (reorder.c). In sorted order, a rebuild of the halo
+// leaves nearly all owned particles in their columns. Arrivals fill the columns that have become free.
 #include "physics/domain.h"
 #include "physics/threads.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-enum { LINE = 8 }; // particles in a cache line; the capacity of the columns is a multiple of this
+enum { LINE = 8 }; // number of particles in a cache line; the capacity of the columns is a multiple of this
 
 static int compare_columns(const void *left, const void *right) {
     uint32_t a = *(const uint32_t *)left, b = *(const uint32_t *)right;
     return (a > b) - (a < b);
 }
 
-// Assigns local column `here` to the particle in global column `column`. Its values will be copied from column
-// `source`.
+// Assigns local column `here` to the particle in global column `column`. The values of the particle will be copied from
+// column `source` (Domain.sources).
 static void set_column(const Domain *domain, uint32_t here, uint32_t column, uint32_t source) {
     domain->local->order[here] = column;
     domain->local->column_of[column] = here;
@@ -40,8 +40,8 @@ static bool reserve_orders(PhysSystem *system, Domain *domain, uint64_t count) {
     return true;
 }
 
-// Assigns the local columns from scratch. Without an earlier local system, owned particles come from the system's
-// columns.
+// Assigns local columns to all particles from scratch. Particles that stay are found in the previous local system. If
+// there is none, owned particles are found in the system's columns.
 static bool order_columns(PhysSystem *system, Domain *domain, uint32_t spare) {
     PhysSystem *local = domain->local;
     uint32_t self = (uint32_t)system->options.ranks.rank, arrivals = domain->arrivals.count, next = 0, here = 0;
@@ -90,8 +90,8 @@ static bool build_groups(const PhysSystem *system, const Domain *domain) {
     return true;
 }
 
-// For each particle, counts the earlier particles of its group that are not anchors. This is its position in the random
-// streams.
+// For each particle, counts the earlier particles of its group that are not anchors. This number determines the
+// position of the particle in the random streams.
 static bool count_movers(PhysSystem *system, Domain *domain) {
     const Columns *columns = &system->columns;
     Group *groups = system->groups.bytes;
@@ -148,7 +148,7 @@ typedef struct ColumnCopy {
     const PhysSystem *system;
     const Domain *domain;
     Columns from;
-    const uint32_t *sources; // by local column: column of `from`
+    const uint32_t *sources; // by local column: column of `from` to copy
 } ColumnCopy;
 
 static void copy_attributes(const ColumnCopy *copy, size_t first, size_t end) {
@@ -235,7 +235,7 @@ static void copy_arrivals(const PhysSystem *system, const Domain *domain) {
     }
 }
 
-// Copies all particles to new columns, which have some spare capacity.
+// Copies all particles to new columns that have spare capacity, so that later arrivals fit into them.
 static bool copy_all(PhysSystem *system, Domain *domain) {
     PhysSystem *local = domain->local;
     uint32_t spare = phys_own_count(system, domain) / 32 + 256;
@@ -303,7 +303,7 @@ static bool build_particles(PhysSystem *system, Domain *domain) {
     return true;
 }
 
-// Records positions and radii of the owned particles for left_skin, if a pass has run without a list.
+// If a pass has run without a list, records positions and radii of the owned particles for left_skin.
 static bool record_built(PhysSystem *system, Domain *domain) {
     const Columns *columns = &domain->local->columns;
     size_t n = columns->dimensions;
@@ -338,8 +338,8 @@ bool phys_domain_build_local(PhysSystem *system, Domain *domain) {
     return true;
 }
 
-// Replaces the column numbers of a link by local ones. Returns false for a link that acts on no owned particle. If a
-// link acts on an owned particle, both ends are in the local system.
+// Replaces the global columns in a link by local columns. Returns false if the link acts on no owned particle. If it
+// acts on one, both of its particles are in the local system.
 static bool localise_force(const PhysSystem *system, const Domain *domain, Force *force) {
     if (phys_force_row(force->given.kind).stage != STAGE_LINK)
         return true;

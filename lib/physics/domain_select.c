@@ -8,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Returns the distance up to which particles with these radii interact until the next rebuild.
+// Returns the distance up to which two particles can interact before the next rebuild, if their radii are `radius` and
+// `partner`.
 static double interaction_range(const Domain *domain, double radius, double partner) {
     double touch = domain->contact ? radius + partner : 0;
     return (fmax(touch, domain->bound) + domain->survey.skin) * (1 + 1e-9);
@@ -48,7 +49,7 @@ bool phys_domain_find_interior(PhysSystem *system, Domain *domain) {
         return false;
     uint32_t *interior = domain->interior.bytes;
     const uint32_t *owners = domain->patch_owners.bytes;
-    bool near = !domain->large_count; // large particles may reach any patch
+    bool near = !domain->large_count; // large particles may reach any patch, so that no patch is interior
     for (uint32_t i = 0; i < count; i++)
         interior[i] = near && owners[i] == (uint32_t)system->options.ranks.rank;
     for (size_t k = 0; k < grid->dimensions; stride *= grid->cells[k], k++)
@@ -128,7 +129,8 @@ static int compare_transfers(const void *left, const void *right) {
     return (a->column > b->column) - (a->column < b->column);
 }
 
-// Adds transfers for links whose ends are on different ranks, however far apart, and removes duplicates.
+// Adds transfers for links between particles of different ranks, whatever their distance is. Then removes duplicate
+// transfers.
 static bool select_for_links(PhysSystem *system, Domain *domain) {
     const Force *forces = system->forces.bytes;
     const uint32_t *owners = phys_owners(domain);

@@ -27,7 +27,7 @@ static bool link_coefficient(const Force *force, double length, double *coeffici
     case PHYS_FORCE_KINDS:
         break;
     }
-    __builtin_unreachable(); // the stage has only links
+    __builtin_unreachable(); // STAGE_LINK has only links
 }
 
 static void apply_link(const Columns *columns, const Force *force) {

@@ -5,7 +5,8 @@
 #include "physics/neighbour_list.h"
 #include "physics/pair_wavefront.h"
 
-// A pass: the pairs of one group, for the forces that this group or one enclosing group declares.
+// A pass computes the pair forces that one group declares, for all pairs with a particle of that group or of one group
+// inside it.
 typedef struct Pass {
     PhysSystem *system;
     const Kernels *kernels;   // NULL: the pass is computed row by row
@@ -38,7 +39,7 @@ PairPass phys_columns_pass(const Columns *columns) {
 }
 
 static Pass prepare_pass(PhysSystem *system, ForceRange forces) {
-    enum { MIN_FOR_LANES = 4 }; // particles; with fewer, vectors do not pay off
+    enum { MIN_FOR_LANES = 4 }; // with fewer particles, vectors do not pay off
     const Columns *columns = &system->columns;
     Pass pass = {.system = system};
     fill_terms(system->terms.bytes, forces);
@@ -99,7 +100,8 @@ static size_t vector_count(const Pass *pass, size_t rows, size_t columns) {
     return (rows + lanes - 1) / lanes * columns;
 }
 
-// Computes all pairs between two ranges. Every K is symmetric, so either range may be the rows.
+// Computes all pairs between two ranges. Either range may be the rows, because the factor K of every force is symmetric
+// (pair_formulas.h).
 static void pass_rectangle(const Pass *pass, size_t first, size_t end, size_t other, size_t other_end) {
     size_t rows = end - first, columns = other_end - other;
     if (!pass->kernel || rows + columns <= 4) {
@@ -121,8 +123,8 @@ static void pass_rectangle(const Pass *pass, size_t first, size_t end, size_t ot
         pass->kernel->tiles(&pass->pairs, region.row, region.row_end, region.column, region.column_end);
 }
 
-// Charges for `pairs` pairs. Returns false if the step must be aborted. A single force has a special kernel, which
-// needs 0.5 ns per pair.
+// Charges the work for `pairs` pairs. Returns false if the step must be aborted. A pass with a single force has a
+// special kernel, which needs 0.5 ns per pair.
 static bool charge_pairs(const Pass *pass, uint64_t pairs) {
     enum { GROUP_WORK = 3, SINGLE_A_UNIT = 20, TERMS_A_UNIT = 8, ROWS_A_UNIT = 4 };
     size_t n = pass->pairs.dimensions, terms = pass->pairs.term_count;
@@ -132,8 +134,9 @@ static bool charge_pairs(const Pass *pass, uint64_t pairs) {
     return phys_charge(pass->system, GROUP_WORK + units);
 }
 
-// Computes the pair forces that `level`, the group itself or an enclosing one, declares. The partners of a particle are
-// the later particles of its group, then the particles of the enclosing groups up to `level`.
+// Computes the pair forces that group `level` declares, on the particles of `group`. `level` is `group` itself or a
+// group that encloses it. The partners of a particle are the later particles of `group`, then the particles of the
+// enclosing groups up to `level`.
 static void pair_pass(PhysSystem *system, const Group *group, uint32_t level, Move *move) {
     const Group *groups = system->groups.bytes;
     uint32_t number = (uint32_t)(group - groups);
@@ -148,8 +151,8 @@ static void pair_pass(PhysSystem *system, const Group *group, uint32_t level, Mo
     if (!charge_pairs(&pass, (uint64_t)group->count * group->count / 2))
         return;
     pass_triangle(&pass, first, end);
-    // Group numbers ascend from parent to child, so an enclosing group with a smaller number than `level` is outside
-    // it.
+    // Group numbers ascend from parent to child, so an enclosing group with a smaller number than `level` is outside of
+    // `level`.
     for (uint32_t g = number ? groups[group->parent].populated : NO_GROUP; g != NO_GROUP && g >= level;) {
         if (!charge_pairs(&pass, (uint64_t)group->count * groups[g].count))
             return;

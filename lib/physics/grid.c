@@ -14,13 +14,14 @@
 
 enum { SAMPLES = 256 }; // number of particles from which the grid is chosen
 
-// Positions and radii of some particles.
+// Positions and radii of some particles: of[k] is component k of the positions, and the last element is the radii.
 typedef struct Samples {
     double of[PHYS_VECTOR_DIMENSIONS + 1][SAMPLES];
     size_t count;
 } Samples;
 
-// Extent and range of radii of the regular particles, and counts, found before particles are sorted.
+// Facts that must be known before particles are sorted: extent and radii of the regular particles, and the numbers of
+// regular and large particles.
 typedef struct Survey {
     double low[PHYS_VECTOR_DIMENSIONS], high[PHYS_VECTOR_DIMENSIONS];
     double max_radius, min_radius;
@@ -53,7 +54,8 @@ static bool is_idle(const PairPass *pass, const NeighbourList *list, size_t colu
     return lost;
 }
 
-// Takes samples of the particles and sorts each component. The grid follows the samples and not the outliers.
+// Takes samples of the particles and sorts each component. The grid is chosen from the samples, so that it covers most
+// particles but not the outliers.
 static void sample_particles(const PairPass *pass, const NeighbourList *list, Samples *samples) {
     uint64_t every = list->total / SAMPLES + 1, i = 0;
     samples->count = 0;
@@ -74,7 +76,7 @@ static void sample_particles(const PairPass *pass, const NeighbourList *list, Sa
 
 // Context of the jobs that sort the particles of a pass.
 typedef struct Sorting {
-    const PhysSystem *system; // NULL: use one thread
+    const PhysSystem *system; // NULL: the jobs use one thread
     const PairPass *pass;
     NeighbourList *list;
     const Grid *grid;
@@ -108,7 +110,8 @@ static uint32_t chunk_start(const NeighbourList *list, int chunk, int chunks) {
 static void survey_particle(const PairPass *pass, Survey *survey, size_t column) {
     survey->regular++;
     double radius = pass->radius[column];
-    survey->max_radius = radius > survey->max_radius ? radius : survey->max_radius; // fmax may be a function call
+    // fmax and fmin are not used, because they may be function calls.
+    survey->max_radius = radius > survey->max_radius ? radius : survey->max_radius;
     survey->min_radius = radius < survey->min_radius ? radius : survey->min_radius;
     for (size_t k = 0; k < pass->dimensions; k++) {
         double x = pass->position[k * pass->stride + column];
@@ -143,7 +146,8 @@ static bool find_extremes(const double *numbers, size_t count, double *low, doub
     return lost == 0;
 }
 
-// Surveys a chunk quickly if all of its particles are regular, which is the common case. If not, returns false.
+// Surveys a chunk quickly if all of its particles are regular, which is the common case. Otherwise returns false, and
+// `survey` must not be used.
 static bool survey_regular(const Sorting *sorting, size_t first, size_t count, Survey *survey) {
     const PairPass *pass = sorting->pass;
     bool regular = find_extremes(pass->radius + first, count, &survey->min_radius, &survey->max_radius);
@@ -245,7 +249,8 @@ static void find_cells_chunk(void *context, int chunk, int chunks) {
             list->cell[i] = phys_cell_of(sorting->grid, pass->position + column_of(list, i), pass->stride);
 }
 
-// Replaces the cell of each particle by its sorted index, with a counting sort.
+// Replaces the cell of each particle in list->cell by its sorted index, with a counting sort. During the sort,
+// grid->start[c + 1] is the next index in cell c.
 static void number_sorted(NeighbourList *list, const Survey *survey, const Grid *grid) {
     uint32_t cells = 1, large = survey->regular, rest = survey->regular + survey->large_count;
     for (size_t k = 0; k < grid->dimensions; k++)
@@ -271,7 +276,7 @@ static void store_chunk(void *context, int chunk, int chunks) {
         store_at_index(sorting->pass, list, list->cell[i], i, column_of(list, i));
 }
 
-// Sorts stably: within a cell, particles are in the order of the pass.
+// Sorts the particles by cell. The sort is stable: within a cell, particles are in the order of the pass.
 static void sort_by_cell(Sorting *sorting, const Survey *survey) {
     int chunks = chunk_count_of(sorting);
     run_chunks(sorting, find_cells_chunk, chunks);

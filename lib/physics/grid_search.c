@@ -3,16 +3,16 @@
 #include "physics/threads.h"
 
 enum {
-    FIRST_ENTRIES = 12, // initial capacity, in entries per particle
-    MAX_ENTRIES = 160,  // maximum capacity, in entries per particle
-    ENTRIES_SPARE = PHYS_MAX_NEIGHBOURS * PHYS_MAX_LANES,
+    FIRST_ENTRIES = 12,                                   // initial capacity, in entries per particle
+    MAX_ENTRIES = 160,                                    // maximum capacity, in entries per particle
+    ENTRIES_SPARE = PHYS_MAX_NEIGHBOURS * PHYS_MAX_LANES, // added to both: entries of a block with the longest lists
 };
 
 // A search for the lists of all blocks. Each chunk searches some of the blocks and fills its part of the entries.
 typedef struct SearchJob {
     const Kernels *kernels;
     const ListSearch *search;
-    uint64_t capacity; // total number of entries
+    uint64_t capacity; // number of entries for all chunks together
     ListChunk chunks[PHYS_MAX_CHUNKS];
 } SearchJob;
 

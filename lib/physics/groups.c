@@ -7,7 +7,7 @@ static size_t slot_of(const ForceRecord *record) {
 }
 
 // Sorts particles by group with a stable counting sort. Group numbers ascend in pre-order, so sorted particles are in
-// pre-order. `first` counts down from the end of each range to its start.
+// pre-order. During the sort, the field `first` of a group counts down from the end of its range to the start.
 static void arrange_particles(PhysSystem *system) {
     Group *groups = system->groups.bytes;
     if (system->group_count == 1) { // the columns are already in order, or in the sorted order of a list

@@ -3,8 +3,8 @@
 
 #include "physics/threads.h"
 
-// Appends to the chain all forces of a stage that act on a group: first those of the group itself, then those of the
-// enclosing groups. Returns their number. `already` is the number of forces that the chain holds before the call.
+// Appends to system->chain all forces of a stage that act on a group: first those of the group itself, then those of
+// the enclosing groups. Returns the number of these forces. `already` is the length of the chain before the call.
 static uint32_t collect_forces(const PhysSystem *system, uint32_t group, Stage stage, uint32_t already) {
     const Group *groups = system->groups.bytes;
     const Force **chain = system->chain.bytes;
@@ -74,7 +74,7 @@ static void advance_streams(const IntegratePass *pass, const Group *group) {
 
 bool phys_integrate_begin(PhysSystem *system, uint32_t number, double delta, double speed_of_light,
                           Integrator *integrator) {
-    enum { MIN_FOR_LANES = 4 }; // particles; with fewer, vectors do not pay off
+    enum { MIN_FOR_LANES = 4 }; // with fewer particles, vectors do not pay off
     enum { NUMBERS_A_UNIT = 16, DRAWN_A_UNIT = 2 };
     const Group *group = (const Group *)system->groups.bytes + number;
     const Columns *columns = &system->columns;
