@@ -235,6 +235,21 @@ static bool needs_gpu(const DrawNode *node, Texture *const *inputs, uint32_t cou
     return !render_graph_is_plain(node);
 }
 
+// Charges the work of an effect. If that would exceed the limit, reports it and returns false.
+static bool charge_effect(Walk *walk, const GlEffect *effect) {
+    static const double unit = 10; // nanoseconds per unit (budget.h)
+    Budget *budget = &walk->painter->budget;
+    double work = gl_effect_cost(effect) / unit;
+    if (work <= (double)(budget->work_limit - budget->work)) {
+        budget->work += (uint64_t)work;
+        return true;
+    }
+    draw_report(walk->faults, &effect->node->origin, DIAG_WARNING, "drawing-limit",
+                "!%s: drawing exceeded the work limit: the effect is left out; --work %.0f would allow it",
+                schema_kinds[effect->node->kind].name, 4 * ceil(((double)budget->work + work) / 3 + 1));
+    return false;
+}
+
 // Runs an effect on the GPU. Without a GPU, the children are composited without the effect.
 static Texture *run_effect(Walk *walk, const DrawNode *node, const GraphNode *past, Texture *const *inputs,
                            uint32_t count, int width, int height) {
@@ -262,6 +277,8 @@ static Texture *run_effect(Walk *walk, const DrawNode *node, const GraphNode *pa
                        .detail = picture->detail,
                        .format = node->kind == KIND_RECORD ? GL_FORMAT_SRGB8 : gl_format(gl, bits_of(node, walk->bits)),
                        .frame = &frame};
+    if (!charge_effect(walk, &effect))
+        return NULL;
     GlImage image = gl_effect(gl, &walk->frame->arena, &effect, walk->faults);
     if (!image.texture && walk->painter->budget.memory_refused)
         return report_no_memory(walk, node, width, height);

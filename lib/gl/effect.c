@@ -9,6 +9,8 @@
 #include "gl/shader_sources.h"
 #include "gl/uniforms.h"
 
+#include <math.h>
+
 enum { MAX_PASSES = 8 };
 
 typedef struct Effect {
@@ -77,6 +79,35 @@ void gl_report(DiagSink *faults, const DrawNode *node, const char *code, Str pro
                                 .span = node->origin.span,
                                 .text = text_str(&text),
                                 .code = code});
+}
+
+// Returns nanoseconds per pixel, measured with llvmpipe on two processors. A GPU is faster, but the limit must not
+// depend on the machine.
+static double pixel_cost(const DrawNode *node, double detail) {
+    const AttrValue *radius = draw_attr(node, ATTR_RADIUS);
+    if (draw_attr(node, ATTR_FRAGMENT) || draw_attr(node, ATTR_VERTEX))
+        return 50 * fmax(1, fmin(draw_number(node, ATTR_PASSES), GL_MAX_PASSES));
+    double reach = !radius ? 10 : detail * (fabs(radius->as.numbers[0]) + fabs(radius->as.numbers[1])) / 2;
+    switch (node->kind) {
+    case KIND_BLUR:
+        return 50 + 7 * reach;
+    case KIND_BLOOM:
+    case KIND_EDGES:
+    case KIND_CHROMAKEY:
+        return 50 + reach;
+    case KIND_NOISE:
+        return 150 + 20 * fmax(1, draw_number(node, ATTR_OCTAVES));
+    case KIND_FLARE:
+        return 1500;
+    case KIND_WINDOW:
+        return 0; // the picture itself is always drawn
+    default:
+        return 25;
+    }
+}
+
+double gl_effect_cost(const GlEffect *effect) {
+    return (double)effect->width * effect->height * pixel_cost(effect->node, effect->detail);
 }
 
 int gl_downsample(const DrawNode *node) {

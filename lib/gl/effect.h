@@ -25,6 +25,8 @@ typedef struct GlEffect {
     const GlFrame *frame;
 } GlEffect;
 
+// Returns an estimate of the time that gl_effect takes, in nanoseconds.
+double gl_effect_cost(const GlEffect *effect);
 // Runs the shader of a node. Returns its picture, which the caller owns. On failure, reports the problem and returns an
 // image with texture 0.
 GlImage gl_effect(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults);

@@ -116,33 +116,69 @@ static void upload_mesh(SceneShape *shape, const Mesh *mesh) {
     shape->index_count = (GLsizei)mesh->index_count;
 }
 
+// Arguments of build_mesh, which is called through arena_protect.
+typedef struct MeshBuild {
+    const Scene *scene;
+    const SceneModel *model;
+    Arena arena; // holds the mesh until it is uploaded; charged to the painter's budget
+    Mesh mesh;
+    bool done;
+} MeshBuild;
+
+static void build_mesh(void *context) {
+    MeshBuild *build = context;
+    build->done = scene_mesh(build->scene, build->model, &build->arena, &build->mesh);
+}
+
+// Stores the mesh of an entry on the GPU.
+static void store_mesh(GpuCache *store, CachedModel *model_entry, const Mesh *mesh) {
+    size_t bytes = mesh->vertex_count * sizeof(MeshVertex) + mesh->index_count * sizeof(uint32_t);
+    model_entry->refused = !budget_reserve(store->budget, bytes);
+    if (model_entry->refused)
+        return;
+    model_entry->charged = bytes;
+    upload_mesh(&model_entry->shape, mesh);
+    mesh_bounds(mesh, model_entry->shape.box.low, model_entry->shape.box.high);
+    model_entry->shape.box.triangles = mesh->index_count / 3;
+}
+
+// Builds the mesh of an entry. If that exceeds a limit, marks the entry as refused.
+static void make_shape(GpuCache *store, CachedModel *model_entry, const Scene *scene) {
+    MeshBuild build = {.scene = scene, .model = &model_entry->model};
+    arena_init(&build.arena, "mesh", SIZE_MAX);
+    build.arena.budget = store->budget;
+    Arena *arenas[] = {&build.arena, scene->arena, scene->faults->arena};
+    ArenaOutcome end = arena_protect(arenas, 3, build_mesh, &build);
+    if (end == ARENA_OK && build.done)
+        store_mesh(store, model_entry, &build.mesh);
+    arena_free(&build.arena);
+    if (end == ARENA_OUT_OF_MEMORY)
+        arena_exhausted(scene->arena);
+    model_entry->refused = model_entry->refused || end != ARENA_OK;
+    if (end == ARENA_WORK_LIMIT) {
+        store->budget->work = store->budget->work_limit; // it was set to a value above the limit
+        scene_report(scene, "drawing-limit", model_entry->model.node,
+                     "drawing exceeded the work limit (--work): the model is left out");
+    }
+}
+
 const SceneShape *gpu_cache_shape(GpuCache *store, const Scene *scene, const SceneModel *model) {
     for (CachedModel *model_entry = store->models; model_entry; model_entry = model_entry->next)
         if (scene_same_model(&model_entry->model, model)) {
+            bool is_tried = model_entry->used == store->now;
             model_entry->used = store->now;
-            if (model_entry->shape.array || (model_entry->model.kind != KIND_MODEL && !model_entry->refused))
+            if (model_entry->shape.array || is_tried ||
+                (model_entry->model.kind != KIND_MODEL && !model_entry->refused))
                 return &model_entry->shape;
             break; // create it again, so that its problem is reported in each scene
         }
-    ArenaMark mark = arena_mark(scene->arena);
-    Mesh mesh;
     CachedModel *model_entry = heap_calloc(1, sizeof *model_entry);
     if (!model_entry)
         arena_exhausted(scene->arena);
     *model_entry = (CachedModel){.next = store->models, .model = *model, .used = store->now};
     store->models = model_entry; // from now on, the cache owns the entry
     evict_old_models(store);
-    if (scene_mesh(scene, model, scene->arena, &mesh)) {
-        size_t bytes = mesh.vertex_count * sizeof(MeshVertex) + mesh.index_count * sizeof(uint32_t);
-        model_entry->refused = !budget_reserve(store->budget, bytes);
-        if (!model_entry->refused) {
-            model_entry->charged = bytes;
-            upload_mesh(&model_entry->shape, &mesh);
-            mesh_bounds(&mesh, model_entry->shape.box.low, model_entry->shape.box.high);
-            model_entry->shape.box.triangles = mesh.index_count / 3;
-        }
-    }
-    arena_rewind(scene->arena, mark);
+    make_shape(store, model_entry, scene);
     return &model_entry->shape;
 }
 

@@ -82,6 +82,11 @@ bool gl_present_pixels(Gl *gl, Arena *arena, const uint32_t *pixels, int x, int 
     return false;
 }
 
+double gl_effect_cost(const GlEffect *effect) {
+    (void)effect;
+    return 0;
+}
+
 GlImage gl_effect(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults) {
     (void)gl, (void)arena, (void)effect, (void)faults;
     return (GlImage){0};

@@ -397,8 +397,10 @@ GlImage gl_scene(Gl *gl, const Scene *scene, const SceneCamera *camera, const Sc
     drawing.view = matrix_view(&drawing.eye);
     drawing.projection = matrix_projection(&drawing.eye);
     SceneBox *boxes = arena_alloc_array(scene->arena, scene->model_count, sizeof *boxes);
-    for (uint32_t i = 0; i < scene->model_count; i++)
+    for (uint32_t i = 0; i < scene->model_count && !gl_is_refused(gl); i++)
         boxes[i] = gpu_cache_shape(drawing.store, scene, &scene->models[i])->box;
+    if (gl_is_refused(gl))
+        return none; // make_view reports it
     drawing.order = draw_order(scene, &drawing.eye, &drawing.view, &drawing.projection, width, boxes);
     if (drawing.order.cut)
         scene_report(scene, "too-many-triangles", scene->node,

@@ -160,6 +160,7 @@ static double angle_at(const Mesh *mesh, uint32_t corner) {
 
 void mesh_snap(Arena *arena, Mesh *mesh, double turns) {
     uint32_t count = mesh->index_count, made = 0;
+    arena_charge(arena, (uint64_t)count * 40); // measured: about 0.3 µs per corner on an idle machine
     uint32_t *joined = join_positions(arena, mesh), *points = arena_alloc_array(arena, count, sizeof *points);
     double(*normals)[3] = arena_alloc_array(arena, count / 3, sizeof *normals);
     double(*sums)[3] = arena_alloc_array(arena, count > mesh->vertex_count ? count : mesh->vertex_count, sizeof *sums);

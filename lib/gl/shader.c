@@ -5,8 +5,6 @@
 #include "gl/internal.h"
 #include "gl/shader_errors.h"
 
-enum { MAX_PASSES = 64 };
-
 // Replaces ${HEADER} or a line `#version 330` by gl_header. #line directives keep the line numbers of compiler messages
 // right. Returns false if the text contains other templates.
 static bool expand_template(Text *out, Str text) {
@@ -65,8 +63,8 @@ GlImage gl_shader(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults
         return (GlImage){0};
     }
     double wanted = draw_number(node, ATTR_PASSES);
-    uint32_t count = wanted >= 2 ? wanted < MAX_PASSES ? (uint32_t)wanted : MAX_PASSES : 1;
-    GlPass passes[MAX_PASSES];
+    uint32_t count = wanted >= 2 ? wanted < GL_MAX_PASSES ? (uint32_t)wanted : GL_MAX_PASSES : 1;
+    GlPass passes[GL_MAX_PASSES];
     for (uint32_t i = 0; i < count; i++)
         passes[i] = (GlPass){program, is_reduced(node, i)};
     GlImage out;

@@ -6,6 +6,8 @@
 
 #include <string.h>
 
+enum { GL_MAX_PASSES = 64 }; // of a shader
+
 // Runs the shaders in the attributes `fragment` and `vertex`.
 GlImage gl_shader(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults);
 

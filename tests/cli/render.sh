@@ -89,7 +89,7 @@ END
     check "rendering zero frames is an error" status_is 1
     petri render disc.fl -o none.png --frame 5 --runtime 0.01
     check "a frame that is not reached is an error" status_is 1
-    check "a frame that is not reached is named" has err "not 5"
+    check "a frame that is not reached is named" has err "before frame 5"
 
     printf '!x\n' >nothing.fl
     petri render nothing.fl -o none.png --frames 1
@@ -223,6 +223,7 @@ in vec2 coord; out vec4 color;
 void main() { if (coord.x < 2.0) discard; color = vec4(1.0); }
 """
 END
+    printf '!window size=4000\n    !blur radius=1000\n        !adjust\n' >heavy.fl
     petri render discard.fl -o discard%d.png --frames 4
     if [ -s discard3.png ] && ! grep -Eq "OpenGL|without" err; then
         printf '!window size=100;80\n    !canvas\n' >empty.fl
@@ -230,6 +231,28 @@ END
         for frame in 2 3; do
             check "a shader that discards shows transparency in frame $frame" cmp -s discard$frame.png empty.png
         done
+        petri render heavy.fl -o heavy.png --frames 1
+        check "an effect above the work limit is left out" has err "!blur: drawing exceeded the work limit: the effect is left out"
+        printf '!window size=400\n    !blur radius=100\n        !adjust\n' >heavy.fl
+        petri render heavy.fl -o heavy.png --frames 1 --work 1000000
+        petri render heavy.fl -o heavy.png --frames 1 --work "$(sed -n 's/.*--work \([0-9]*\) would allow it.*/\1/p' err)"
+        check "the message names a sufficient limit" empty err
+        # Apexes that go outwards see all side faces of the hull before.
+        cat >hull.fl <<'END'
+let n=650
+let base=(cos(i/n);sin(i/n);0.001*cos(2*i/n)) for i in ..n
+let apex=(0.0001*cos(i/7);0.0001*sin(i/7);1+i*i/100) for i in ..1349
+!window size=60;40
+    !canvas3d
+        !light color=1 direction=0;0;-1
+        for k in ..40
+            !model vertices=base;apex;(0;0;-1-k) size=10
+END
+        petri render hull.fl -o hull.png --frames 1
+        check "hulls above the work limit are left out" count_is err "!model: drawing exceeded the work limit (--work): the model is left out" 1
+        printf '!window size=30\n    !canvas3d\n        !light color=1\n        for i in ..20\n            !sphere segments=256 snap_edges=0.1+i/2000\n' >meshes.fl
+        petri render meshes.fl -o meshes.png --frames 1 --memory 60M
+        check "meshes are charged to the memory limit" has err "exceeds the memory limit (--memory)"
     fi
     printf '!window size=20\n    !canvas\n        !image filename="scans.jpg" size=20\n' >scans.fl
     if scans 64 64 99 scans.jpg 2>/dev/null; then
