@@ -2,7 +2,7 @@
 // clang-format off
 
 #define TRANSFORM3D_ROWS(kind) \
-    ATTR(kind, TRANSLATE, TRIPLE, NOWHERE, DESCRIBED(0, "0"), "", "move the origin; these attributes are applied in the order written") \
+    ATTR(kind, TRANSLATE, TRIPLE, NOWHERE, DESCRIBED(0, "0"), "", "move the origin; all transform attributes apply in the order in which they are written") \
     ATTR(kind, SCALE, TRIPLE, NOWHERE, DESCRIBED(1, "1"), "", "scale factors along x, y and z") \
     ATTR(kind, ROTATE, LIST, NOWHERE, DESCRIBED(0, "0"), "turns", "rotate about z, then y, then x: three angles, or one for all axes; four numbers are a quaternion w;x;y;z") \
     ATTR(kind, ROTATE_X, AMOUNT, NOWHERE, IS(0), "turns", "rotate about the x axis") \
@@ -18,43 +18,43 @@
     ATTR(kind, METAL, AMOUNT, TO_GRAPHICS3D(metal), INHERITED(0, "0"), "", "from 0 (not a metal) to 1 (metal)") \
     ATTR(kind, IOR, AMOUNT, TO_GRAPHICS3D(ior), INHERITED(1.5, "1.5"), "", "index of refraction; larger values make the surface shinier") \
     ATTR(kind, AO, AMOUNT, TO_GRAPHICS3D(ao), INHERITED(1, "1"), "", "fraction of ambient light that reaches the surface") \
-    ATTR(kind, EMISSIVE, TRIPLE, TO_GRAPHICS3D(emissive), INHERITED(0, "0"), "", "emitted light") \
+    ATTR(kind, EMISSIVE, TRIPLE, TO_GRAPHICS3D(emissive), INHERITED(0, "0"), "", "colour of the light that the surface emits") \
     ATTR(kind, TRANSPARENCY, AMOUNT, TO_GRAPHICS3D(transparency), INHERITED(0, "0"), "", "from 0 (opaque) to 1 (only specular highlights are visible)") \
     ATTR(kind, TRANSLUCENCY, AMOUNT, TO_GRAPHICS3D(translucency), INHERITED(0, "0"), "", "distance that light penetrates into the body") \
-    ATTR(kind, COLOR_ID, TEXT, TO_GRAPHICS3D(ids[0]), INHERITED_TEXT(""), "", "id of a node or camera whose picture is the texture") \
+    ATTR(kind, COLOR_ID, TEXT, TO_GRAPHICS3D(ids[0]), INHERITED_TEXT(""), "", "id of a node or camera whose picture is the texture for color") \
     ALIAS(kind, TEXTURE_ID, COLOR_ID, "color_id", TEXT, TO_GRAPHICS3D(ids[0]), "") \
-    ATTR(kind, METAL_ID, TEXT, TO_GRAPHICS3D(ids[1]), INHERITED_TEXT(""), "", "like color_id, for metal") \
+    ATTR(kind, METAL_ID, TEXT, TO_GRAPHICS3D(ids[1]), INHERITED_TEXT(""), "", "id of a node or camera whose picture is the texture for metal") \
     ALIAS(kind, METAL_TEXTURE_ID, METAL_ID, "metal_id", TEXT, TO_GRAPHICS3D(ids[1]), "") \
-    ATTR(kind, ROUGHNESS_ID, TEXT, TO_GRAPHICS3D(ids[2]), INHERITED_TEXT(""), "", "like color_id, for roughness") \
+    ATTR(kind, ROUGHNESS_ID, TEXT, TO_GRAPHICS3D(ids[2]), INHERITED_TEXT(""), "", "id of a node or camera whose picture is the texture for roughness") \
     ALIAS(kind, ROUGHNESS_TEXTURE_ID, ROUGHNESS_ID, "roughness_id", TEXT, TO_GRAPHICS3D(ids[2]), "") \
-    ATTR(kind, AO_ID, TEXT, TO_GRAPHICS3D(ids[3]), INHERITED_TEXT(""), "", "like color_id, for ao") \
+    ATTR(kind, AO_ID, TEXT, TO_GRAPHICS3D(ids[3]), INHERITED_TEXT(""), "", "id of a node or camera whose picture is the texture for ao") \
     ALIAS(kind, AO_TEXTURE_ID, AO_ID, "ao_id", TEXT, TO_GRAPHICS3D(ids[3]), "") \
-    ATTR(kind, EMISSIVE_ID, TEXT, TO_GRAPHICS3D(ids[4]), INHERITED_TEXT(""), "", "like color_id, for emissive") \
+    ATTR(kind, EMISSIVE_ID, TEXT, TO_GRAPHICS3D(ids[4]), INHERITED_TEXT(""), "", "id of a node or camera whose picture is the texture for emissive") \
     ALIAS(kind, EMISSIVE_TEXTURE_ID, EMISSIVE_ID, "emissive_id", TEXT, TO_GRAPHICS3D(ids[4]), "") \
-    ATTR(kind, TRANSPARENCY_ID, TEXT, TO_GRAPHICS3D(ids[5]), INHERITED_TEXT(""), "", "like color_id, for transparency") \
+    ATTR(kind, TRANSPARENCY_ID, TEXT, TO_GRAPHICS3D(ids[5]), INHERITED_TEXT(""), "", "id of a node or camera whose picture is the texture for transparency") \
     ALIAS(kind, TRANSPARENCY_TEXTURE_ID, TRANSPARENCY_ID, "transparency_id", TEXT, TO_GRAPHICS3D(ids[5]), "") \
-    ATTR(kind, BORDER, LIST, NOWHERE, INHERITED(0, "clamped to the edge"), "", "colour of textures beyond their edges: r;g;b, r;g;b;a or one number; takes precedence over repeat") \
-    ATTR(kind, REPEAT, AMOUNTS, NOWHERE, INHERITED(0, "clamped to the edge"), "", "whether textures repeat, along u and v")
+    ATTR(kind, BORDER, LIST, NOWHERE, INHERITED(0, "the colour of the edge"), "", "colour of textures beyond their edges: r;g;b, r;g;b;a or one number; takes precedence over repeat") \
+    ATTR(kind, REPEAT, AMOUNTS, NOWHERE, INHERITED(0, "0"), "", "whether textures repeat beyond their edges, along u and v")
 #define GROUP3D_ROWS(kind) \
     ATTR(kind, MAX_LIGHTS, FINITE_INTEGER, TO_GRAPHICS3D(max_lights), INHERITED(50, "50"), "", "maximum number of lights in the group; lights of enclosing groups are dropped first") \
     ATTR(kind, DEPTH_SORT, FLAG, TO_GRAPHICS3D(depth_sort), INHERITED(true, "true"), "", "transparent surfaces are drawn last, from back to front") \
     ATTR(kind, DEPTH_TEST, FLAG, TO_GRAPHICS3D(depth_test), INHERITED(true, "true"), "", "near surfaces hide far ones") \
-    ATTR(kind, FACE_CULL, FLAG, TO_GRAPHICS3D(face_cull), INHERITED(true, "true"), "", "do not draw one side of each surface") \
-    ATTR(kind, CULL_FACE, FACE, TO_GRAPHICS3D(cull_face), INHERITED(FACE_BACK, ":back"), "", "the side that is not drawn") \
+    ATTR(kind, FACE_CULL, FLAG, TO_GRAPHICS3D(face_cull), INHERITED(true, "true"), "", "draw only one side of each surface") \
+    ATTR(kind, CULL_FACE, FACE, TO_GRAPHICS3D(cull_face), INHERITED(FACE_BACK, ":back"), "", "the side that face_cull does not draw") \
     ATTR(kind, COMPOSITE, MIX3D, TO_GRAPHICS3D(composite), INHERITED(MIX3D_OVER, ":over"), "", "how colours are combined with those already drawn")
 #define CAMERA_ROWS(kind) \
-    ATTR(kind, POSITION, TRIPLE, NOWHERE, DESCRIBED(0, "0;0;half the width"), "", "position of the camera") \
+    ATTR(kind, POSITION, TRIPLE, NOWHERE, DESCRIBED(0, "0;0;half the width of the picture"), "", "position of the camera") \
     ALIAS(kind, VIEWPOINT, POSITION, "position", TRIPLE, NOWHERE, "") \
     ATTR(kind, FOCUS, TRIPLE, NOWHERE, DESCRIBED(0, "0"), "", "point that the camera looks at") \
     ATTR(kind, UP, TRIPLE, NOWHERE, DESCRIBED(0, "0;1;0"), "", "direction that points up in the picture") \
     ATTR(kind, FOV, AMOUNT, TO_GRAPHICS3D(fov), IS(0.25), "turns", "angle of view") \
     ATTR(kind, FOV_REF, FOV_REF, TO_GRAPHICS3D(fov_ref), DESCRIBED(FOV_HORIZONTAL, ":horizontal"), "", "direction in which fov is measured") \
-    ATTR(kind, NEAR, AMOUNT, TO_GRAPHICS3D(near), IS(1), "", "nearer surfaces are clipped") \
-    ATTR(kind, FAR, AMOUNT, TO_GRAPHICS3D(far), DESCRIBED(NAN, "the width"), "", "farther surfaces are clipped") \
+    ATTR(kind, NEAR, AMOUNT, TO_GRAPHICS3D(near), IS(1), "", "distance below which surfaces are clipped") \
+    ATTR(kind, FAR, AMOUNT, TO_GRAPHICS3D(far), DESCRIBED(NAN, "the width of the picture"), "", "distance beyond which surfaces are clipped") \
     ATTR(kind, ORTHOGRAPHIC, FLAG, TO_GRAPHICS3D(orthographic), IS(false), "", "project without perspective") \
     ATTR(kind, WIDTH, AMOUNT, TO_GRAPHICS3D(width), DESCRIBED(NAN, "the width of the picture"), "", "width of the view, if orthographic") \
     ATTR(kind, SAMPLES, FINITE_INTEGER, TO_GRAPHICS3D(samples), IS(0), "", "samples per pixel, for smooth edges: 2, 4 or 8") \
-    ATTR(kind, COLORBITS, FINITE_INTEGER, TO_GRAPHICS3D(colorbits), DESCRIBED(0, "the window's"), "", "bits per channel: 8, 16 or 32") \
+    ATTR(kind, COLORBITS, FINITE_INTEGER, TO_GRAPHICS3D(colorbits), DESCRIBED(0, "the colorbits of the window"), "", "bits per channel: 8, 16 or 32") \
     ATTR(kind, FOG_MIN, AMOUNT, TO_GRAPHICS3D(fog_min), IS(0), "", "distance at which fog begins") \
     ATTR(kind, FOG_MAX, AMOUNT, TO_GRAPHICS3D(fog_max), IS(0), "", "distance beyond which there is only fog") \
     ATTR(kind, FOG_COLOR, TRIPLE, TO_GRAPHICS3D(fog_color), IS(0), "", "colour of the fog") \
@@ -63,9 +63,9 @@
     ATTR(kind, TINT, TRIPLE, TO_GRAPHICS3D(tint), IS(1), "", "factor for all colours")
 #define SURFACE_ROWS(kind) \
     ATTR(kind, FLAT, FLAG, NOWHERE, IS(false), "", "flat shading: each triangle has its own normal") \
-    ATTR(kind, SNAP_EDGES, AMOUNT, NOWHERE, DESCRIBED(0.5, "0.5"), "turns", "edges at which faces meet at a larger angle stay sharp") \
-    ATTR(kind, INVERT, FLAG, NOWHERE, IS(false), "", "turn inside out, so that the inside is visible") \
-    ATTR(kind, UV_REMAP, UV_REMAP, NOWHERE, DESCRIBED(REMAP_NONE, "not at all"), "", "how textures are mapped onto the model")
+    ATTR(kind, SNAP_EDGES, AMOUNT, NOWHERE, DESCRIBED(0.5, "0.5"), "turns", "edges stay sharp where the normals of their faces differ by more than this; with 0.5, no edge is sharp") \
+    ATTR(kind, INVERT, FLAG, NOWHERE, IS(false), "", "turn the model inside out, so that its inside is visible") \
+    ATTR(kind, UV_REMAP, UV_REMAP, NOWHERE, DESCRIBED(REMAP_NONE, "no remapping"), "", "how textures are mapped onto the model")
 #define MODEL_ROWS(kind) \
     ATTR(kind, POSITION, TRIPLE, NOWHERE, DESCRIBED(0, "0"), "", "centre of the model") \
     ATTR(kind, ROTATION, TRIPLE, NOWHERE, DESCRIBED(0, "0"), "turns", "rotation about z, then y, then x") \
@@ -96,19 +96,19 @@ NODE(MATERIAL, "material", SCENE3D, SCENE3D, "material of the surfaces inside")
 MATERIAL_ROWS(MATERIAL)
 
 NODE(LIGHT, "light", SCENE3D, NOTHING, "a light: ambient, or point (position), directional (direction), spot (position and direction) or line (start and end)")
-ATTR(LIGHT, COLOR, TRIPLE, NOWHERE, NONE, "", "can be brighter than white or negative")
+ATTR(LIGHT, COLOR, TRIPLE, NOWHERE, NONE, "", "colour of the light; it can be brighter than white, or negative")
 ATTR(LIGHT, POSITION, TRIPLE, NOWHERE, NONE, "", "position of a point or spot light")
 ATTR(LIGHT, DIRECTION, TRIPLE, NOWHERE, NONE, "", "direction in which the light shines")
-ATTR(LIGHT, FOCUS, TRIPLE, NOWHERE, NONE, "", "the point at which a spot light shines")
+ATTR(LIGHT, FOCUS, TRIPLE, NOWHERE, NONE, "", "the point that a spot light is directed at")
 ATTR(LIGHT, START, TRIPLE, NOWHERE, NONE, "", "start of a line light")
 ATTR(LIGHT, END, TRIPLE, NOWHERE, NONE, "", "end of a line light")
 ATTR(LIGHT, RADIUS, AMOUNT, NOWHERE, IS(0), "", "radius of a point or line light")
-ATTR(LIGHT, OUTER, AMOUNT, NOWHERE, IS(0.25), "turns", "angle of a spot light's whole cone")
+ATTR(LIGHT, OUTER, AMOUNT, NOWHERE, IS(0.25), "turns", "angle of the whole cone that a spot light illuminates")
 ATTR(LIGHT, INNER, AMOUNT, NOWHERE, IS(0), "turns", "angle of the cone in which a spot light has its full strength")
 ATTR(LIGHT, FALLOFF, QUAD, NOWHERE, DESCRIBED(0, "0;0;1;0"), "", "a;b;c;d: the strength at a distance x is 1/(a + b*x + c*x^2 + d*x^3)")
 
 NODE(CAMERA, "camera", SCENE3D, NOTHING, "a camera; missing attributes are taken from the canvas3d")
-ATTR(CAMERA, ID, TEXT, NOWHERE, NONE, "", "name for camera_id, and for textures that show the view of this camera")
+ATTR(CAMERA, ID, TEXT, NOWHERE, NONE, "", "name by which camera_id and textures refer to this camera")
 ATTR(CAMERA, SECONDARY, FLAG, NOWHERE, IS(false), "", "render the view of this camera for use as a texture")
 ATTR(CAMERA, SIZE, AMOUNTS, NOWHERE, DESCRIBED(0, "the size of the canvas3d"), "pixels", "size of the camera's picture")
 CAMERA_ROWS(CAMERA)

@@ -13,21 +13,21 @@
     ATTR(kind, COMPOSITE, MIX, NOWHERE, DESCRIBED(MIX_OVER, ":over"), "", "how each picture inside is combined with the previous ones") \
     ALIAS(kind, BLEND, COMPOSITE, "composite", MIX, NOWHERE, "") \
     ATTR(kind, ALPHA, AMOUNT, NOWHERE, IS(1), "", "factor for all four channels of the result") \
-    ATTR(kind, COLORBITS, FINITE_INTEGER, NOWHERE, DESCRIBED(0, "the window's"), "", "bits per channel: 8, 16 or 32") \
+    ATTR(kind, COLORBITS, FINITE_INTEGER, NOWHERE, DESCRIBED(0, "the colorbits of the window"), "", "bits per channel: 8, 16 or 32") \
     ATTR(kind, PASSES, FINITE_INTEGER, NOWHERE, DESCRIBED(0, ""), "", "number of times that the shader runs, each time on its previous result") \
     ATTR(kind, DOWNSAMPLE, FINITE_INTEGER, NOWHERE, IS(2), "", "divisor for the width and height of the passes in downsample_passes") \
-    ATTR(kind, DOWNSAMPLE_PASSES, LIST, NOWHERE, NONE, "", "numbers of the passes that are rendered at a smaller size; the first pass is 0") \
+    ATTR(kind, DOWNSAMPLE_PASSES, LIST, NOWHERE, NONE, "", "numbers of the passes that are rendered at a smaller size; the first pass has number 0") \
     ATTR(kind, BORDER, QUAD, NOWHERE, DESCRIBED(0, "0;0;0;0"), "", "colour beyond the edges of the pictures inside") \
     ATTR(kind, REPEAT, AMOUNTS, NOWHERE, NONE, "", "whether the pictures inside repeat beyond their edges, along x and y") \
-    ATTR(kind, NEAREST, FLAG, NOWHERE, IS(false), "", "nearest-neighbour sampling of pictures of a different size, instead of bilinear") \
+    ATTR(kind, NEAREST, FLAG, NOWHERE, IS(false), "", "do not interpolate between pixels where a picture of a different size is scaled") \
     ATTR(kind, VERTEX, TEXT, NOWHERE, NONE, "", "GLSL source that replaces the default vertex shader") \
     ATTR(kind, FRAGMENT, TEXT, NOWHERE, NONE, "", "GLSL source that replaces the default fragment shader")
 #define BLUR_ROWS(kind) \
     ATTR(kind, RADIUS, AMOUNTS, NOWHERE, IS(0), "pixels", "radius along x and y, in whole pixels") \
-    ATTR(kind, SIGMA, AMOUNTS, NOWHERE, IS(0.3), "radii", "standard deviation")
+    ATTR(kind, SIGMA, AMOUNTS, NOWHERE, IS(0.3), "radii", "standard deviation of the blur")
 #define ADJUST_ROWS(kind, usual) \
     ATTR(kind, EXPOSURE, AMOUNT, NOWHERE, IS(usual), "stops", "1 doubles the brightness") \
-    ATTR(kind, CONTRAST, AMOUNT, NOWHERE, IS(1), "", "factor for the difference from 0.5") \
+    ATTR(kind, CONTRAST, AMOUNT, NOWHERE, IS(1), "", "factor for the difference of each channel from 0.5") \
     ATTR(kind, BRIGHTNESS, AMOUNT, NOWHERE, IS(0), "", "added to each channel") \
     ATTR(kind, SHADOWS, AMOUNT, NOWHERE, IS(0), "stops", "exposure of dark areas") \
     ATTR(kind, HIGHLIGHTS, AMOUNT, NOWHERE, IS(0), "stops", "exposure of bright areas")
@@ -36,7 +36,7 @@ NODE(WINDOW, "window", TOP, WINDOW, "a window on the screen, or the rendered pic
 PROGRAM_ROWS(WINDOW)
 ATTR(WINDOW, TITLE, TEXT, NOWHERE, DESCRIBED(0, "Flitter"), "", "")
 ATTR(WINDOW, SCREEN, AMOUNT, NOWHERE, NONE, "", "ignored")
-ATTR(WINDOW, FULLSCREEN, FLAG, NOWHERE, IS(false), "", "ignored; use `petri view --fullscreen`")
+ATTR(WINDOW, FULLSCREEN, FLAG, NOWHERE, IS(false), "", "ignored; use 'petri view --fullscreen'")
 ATTR(WINDOW, VSYNC, FLAG, NOWHERE, IS(false), "", "ignored")
 ATTR(WINDOW, CURSOR, FLAG, NOWHERE, IS(true), "", "ignored")
 ATTR(WINDOW, RESIZABLE, FLAG, NOWHERE, IS(true), "", "ignored")
@@ -46,7 +46,7 @@ PROGRAM_ROWS(OFFSCREEN)
 
 NODE(RECORD, "record", PICTURE, PICTURES, "write the pictures inside to a file when rendering or viewing")
 PROGRAM_ROWS(RECORD)
-ATTR(RECORD, FILENAME, TEXT, NOWHERE, NONE, "", "an image file, written once per name, or a video file; null: nothing is written")
+ATTR(RECORD, FILENAME, TEXT, NOWHERE, NONE, "", "an image file, which is written once per name, or a video file; with null, nothing is written")
 ATTR(RECORD, QUALITY, FINITE_INTEGER, NOWHERE, IS(75), "", "JPEG quality, at most 100")
 ATTR(RECORD, KEEP_ALPHA, FLAG, NOWHERE, IS(false), "", "also write alpha; colours stay premultiplied")
 ATTR(RECORD, CODEC, TEXT, NOWHERE, DESCRIBED(0, "h264"), "", "codec of videos")
@@ -54,16 +54,16 @@ ATTR(RECORD, PIXFMT, TEXT, NOWHERE, DESCRIBED(0, "yuv420p"), "", "pixel format o
 ATTR(RECORD, LIMIT, AMOUNT, NOWHERE, NONE, "seconds", "maximum length of a video")
 
 NODE(POINTER, "pointer", INPUT, NOTHING, "when viewing, write the position of the pointer to the state")
-ATTR(POINTER, STATE, ANY, TO_INPUT(state), NONE, "", "state key that is written")
+ATTR(POINTER, STATE, ANY, TO_INPUT(state), NONE, "", "state key to which the position is written")
 
 NODE(KEY, "key", INPUT, NOTHING, "when viewing, write to the state whether a key is pressed")
 ATTR(KEY, NAME, ANY, TO_INPUT(name), NONE, "", "name of the key")
-ATTR(KEY, STATE, ANY, TO_INPUT(state), NONE, "", "state key that is written")
+ATTR(KEY, STATE, ANY, TO_INPUT(state), NONE, "", "state key to which the result is written")
 
 NODE(PICTURE_IMAGE, "image", PICTURE, NOTHING, "an image from a PNG or JPEG file")
 ATTR(PICTURE_IMAGE, FILENAME, TEXT, NOWHERE, NONE, "", "")
-ATTR(PICTURE_IMAGE, SIZE, SIZE, NOWHERE, DESCRIBED(0, "the size of the file"), "pixels", "")
-ATTR(PICTURE_IMAGE, FLIP, FLIP, NOWHERE, DESCRIBED(0, "not at all"), "", "")
+ATTR(PICTURE_IMAGE, SIZE, SIZE, NOWHERE, DESCRIBED(0, "the size of the image file"), "pixels", "")
+ATTR(PICTURE_IMAGE, FLIP, FLIP, NOWHERE, DESCRIBED(0, "not flipped"), "", "")
 ATTR(PICTURE_IMAGE, ID, TEXT, NOWHERE, NONE, "", "name by which !reference and images refer to this picture")
 ATTR(PICTURE_IMAGE, HIDDEN, FLAG, NOWHERE, IS(false), "", "create the picture, but do not pass it to the enclosing node")
 
@@ -77,13 +77,13 @@ NODE(ADJUST, "adjust", PICTURE, PICTURES, "change colours")
 PROGRAM_ROWS(ADJUST)
 ATTR(ADJUST, COLOR_MATRIX, LIST, NOWHERE, DESCRIBED(1, "1;0;0;0;1;0;0;0;1"), "", "nine numbers in column-major order: a 3 by 3 matrix for red, green and blue")
 ATTR(ADJUST, HUE, AMOUNT, NOWHERE, IS(0), "turns", "added to the hue")
-ATTR(ADJUST, SATURATION, AMOUNT, NOWHERE, IS(1), "", "factor; 0 is grey")
+ATTR(ADJUST, SATURATION, AMOUNT, NOWHERE, IS(1), "", "factor for the saturation; 0 is grey")
 ADJUST_ROWS(ADJUST, 0)
-ATTR(ADJUST, GAMMA, AMOUNT, NOWHERE, IS(1), "", "exponent")
+ATTR(ADJUST, GAMMA, AMOUNT, NOWHERE, IS(1), "", "exponent applied to each channel")
 ATTR(ADJUST, TONEMAP, TONEMAP, NOWHERE, DESCRIBED(0, "none"), "", "map colours brighter than white into the displayable range")
-ATTR(ADJUST, WHITEPOINT, AMOUNT, NOWHERE, IS(0), "", "brightness that :reinhard maps to white, if above 1")
+ATTR(ADJUST, WHITEPOINT, AMOUNT, NOWHERE, IS(0), "", "brightness that :reinhard maps to white; ignored unless above 1")
 
-NODE(BLUR, "blur", PICTURE, PICTURES, "blur")
+NODE(BLUR, "blur", PICTURE, PICTURES, "blur the pictures inside")
 PROGRAM_ROWS(BLUR)
 BLUR_ROWS(BLUR)
 
@@ -100,11 +100,11 @@ ATTR(EDGES, MIXER, AMOUNT, NOWHERE, IS(0), "", "fraction of the original picture
 NODE(CHROMAKEY, "chromakey", PICTURE, PICTURES, "make one hue transparent")
 PROGRAM_ROWS(CHROMAKEY)
 ATTR(CHROMAKEY, HUE, AMOUNT, NOWHERE, DESCRIBED(1.0 / 3, "1/3"), "turns", "centre of the range of hues that become transparent")
-ATTR(CHROMAKEY, RANGE, AMOUNT, NOWHERE, IS(0.1), "turns", "width of this range")
-ATTR(CHROMAKEY, SATURATION, AMOUNT, NOWHERE, IS(0.75), "", "minimum saturation")
-ATTR(CHROMAKEY, BRIGHTNESS, AMOUNT, NOWHERE, IS(0.1), "", "minimum brightness")
+ATTR(CHROMAKEY, RANGE, AMOUNT, NOWHERE, IS(0.1), "turns", "width of the range of hues that become transparent")
+ATTR(CHROMAKEY, SATURATION, AMOUNT, NOWHERE, IS(0.75), "", "minimum saturation of pixels that become transparent")
+ATTR(CHROMAKEY, BRIGHTNESS, AMOUNT, NOWHERE, IS(0.1), "", "minimum brightness of pixels that become transparent")
 ATTR(CHROMAKEY, RADIUS, AMOUNTS, NOWHERE, IS(10), "pixels", "blur radius of the mask")
-ATTR(CHROMAKEY, SIGMA, AMOUNTS, NOWHERE, IS(0.3), "radii", "standard deviation")
+ATTR(CHROMAKEY, SIGMA, AMOUNTS, NOWHERE, IS(0.3), "radii", "standard deviation of the blur")
 ATTR(CHROMAKEY, HARD, AMOUNT, NOWHERE, IS(4), "", "sharpness of the mask after the blur")
 
 NODE(FEEDBACK, "feedback", PICTURE, PICTURES, "mix with the picture of the previous frame, to draw trails")
@@ -126,28 +126,28 @@ ATTR(PICTURE_TRANSFORM, KEYSTONE, AMOUNTS, NOWHERE, IS(0), "", "perspective dist
 NODE(VIGNETTE, "vignette", PICTURE, PICTURES, "fade towards the edges")
 PROGRAM_ROWS(VIGNETTE)
 ATTR(VIGNETTE, INSET, AMOUNT, NOWHERE, IS(0.25), "widths", "distance from the edge over which the picture fades")
-ATTR(VIGNETTE, FADE, FADE, NOWHERE, DESCRIBED(FADE_LINEAR, ":linear"), "", "")
+ATTR(VIGNETTE, FADE, FADE, NOWHERE, DESCRIBED(FADE_LINEAR, ":linear"), "", "shape of the fade")
 
 NODE(NOISE, "noise", PICTURE, PICTURES, "animated noise")
 PROGRAM_ROWS(NOISE)
-ATTR(NOISE, SEED, SEED, NOWHERE, DESCRIBED((double)(int64_t)RANDOM_HASH_START / 281474976710656.0, "null"), "", "selects the noise")
+ATTR(NOISE, SEED, SEED, NOWHERE, DESCRIBED((double)(int64_t)RANDOM_HASH_START / 281474976710656.0, "null"), "", "each seed gives different noise")
 ATTR(NOISE, COMPONENTS, FINITE_INTEGER, NOWHERE, IS(1), "", "number of channels filled with noise")
 ATTR(NOISE, OCTAVES, FINITE_INTEGER, NOWHERE, IS(1), "", "number of octaves")
 ATTR(NOISE, ROUGHNESS, AMOUNT, NOWHERE, IS(0.5), "", "amplitude of each octave relative to the previous one")
-ATTR(NOISE, ORIGIN, AMOUNTS, NOWHERE, IS(0), "", "x;y, added to the point")
-ATTR(NOISE, Z, AMOUNT, NOWHERE, IS(0), "", "third coordinate of the point")
-ATTR(NOISE, SCALE, TRIPLE, NOWHERE, IS(1), "", "factors for coordinates")
-ATTR(NOISE, TSCALE, TRIPLE, NOWHERE, IS(1), "", "factor for the colours of pictures inside, which move the point")
+ATTR(NOISE, ORIGIN, AMOUNTS, NOWHERE, IS(0), "", "x;y, added to the point at which the noise is evaluated")
+ATTR(NOISE, Z, AMOUNT, NOWHERE, IS(0), "", "third coordinate of the point at which the noise is evaluated")
+ATTR(NOISE, SCALE, TRIPLE, NOWHERE, IS(1), "", "factors for the coordinates of the point")
+ATTR(NOISE, TSCALE, TRIPLE, NOWHERE, IS(1), "", "factors for the colours of the pictures inside, which are added to the point")
 ATTR(NOISE, MULTIPLIER, AMOUNT, NOWHERE, IS(0.5), "", "factor for the noise")
 ATTR(NOISE, OFFSET, AMOUNT, NOWHERE, IS(0.5), "", "added to the noise")
 ATTR(NOISE, DEFAULT, QUAD, NOWHERE, IS(1), "", "value of the channels without noise")
-ATTR(NOISE, SHAPE, NOISE_SHAPE, NOWHERE, DESCRIBED(NOISE_PLANE, ":plane"), "", "surface on which noise is evaluated")
+ATTR(NOISE, SHAPE, NOISE_SHAPE, NOWHERE, DESCRIBED(NOISE_PLANE, ":plane"), "", "surface on which the noise is evaluated")
 
 NODE(FLARE, "flare", PICTURE, PICTURES, "lens flare of bright areas")
 PROGRAM_ROWS(FLARE)
 ATTR(FLARE, THRESHOLD, AMOUNT, NOWHERE, IS(1), "", "luminance above which areas flare")
 ATTR(FLARE, ATTENUATION, AMOUNT, NOWHERE, IS(2), "stops", "attenuation of the flares")
-ATTR(FLARE, UPRIGHT_LENGTH, AMOUNT, NOWHERE, IS(0.25), "", "length of streaks along x and y")
+ATTR(FLARE, UPRIGHT_LENGTH, AMOUNT, NOWHERE, IS(0.25), "", "length of horizontal and vertical streaks")
 ATTR(FLARE, DIAGONAL_LENGTH, AMOUNT, NOWHERE, IS(0.125), "", "length of diagonal streaks")
 ATTR(FLARE, HALO_RADIUS, AMOUNT, NOWHERE, IS(0.0625), "", "radius of the halo, as a fraction of half the width or height, whichever is smaller")
 ATTR(FLARE, HALO_ATTENUATION, AMOUNT, NOWHERE, IS(0), "stops", "additional attenuation of the halo")

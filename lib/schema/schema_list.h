@@ -36,7 +36,7 @@
 #endif
 
 // Types of systems. Infinities are valid numbers, NaN is not.
-TYPE(ANY, VALUE, 0, 0, false, "any")
+TYPE(ANY, VALUE, 0, 0, false, "any value")
 TYPE(ID, VALUE, 0, 0, false, "id of a particle")
 TYPE(NUMBERS, NUMBERS, 0, 0, false, "any numbers")
 TYPE(NUMBER, NUMBER, -INFINITY, INFINITY, false, "number")
@@ -77,7 +77,7 @@ TYPE(FIVE, LIST, 5, 5, false, "five numbers")
 TYPE(NINE, LIST, 9, 9, false, "nine numbers")
 TYPE(TWENTY, LIST, 20, 20, false, "twenty numbers")
 TYPE(NOISE_TYPE, WORD, 0, 0, false, ":fractal, :turbulence or :improved")
-TYPE(SEED, SEED, 0, 0, false, "any")
+TYPE(SEED, SEED, 0, 0, false, "any value")
 TYPE(MIX, WORD, 0, 0, false, ":over, :dest_over, :lighten, :darken, :add, :difference or :multiply")
 TYPE(TONEMAP, WORD, 0, 0, false, ":reinhard, :aces, :agx or :agx_punchy")
 TYPE(FADE, WORD, 0, 0, false, ":linear, :quad or :cubic")
@@ -306,49 +306,49 @@ NAME(MODE, "mode")
 #define STRENGTH_ROW(kind) \
     ATTR(kind, STRENGTH, NUMBER, TO_FORCE(force.strength), IS(1), "", "factor for the force")
 #define EASE_ROW(kind) \
-    ATTR(kind, EASE, NUMBER, TO_FORCE(force.ease), IS(0), "", "time from the system's start in which the strength grows from 0 to its full value")
+    ATTR(kind, EASE, NUMBER, TO_FORCE(force.ease), IS(0), "", "time that the strength takes to grow from 0 to its full value after the system starts")
 #define POWER_ROW(kind) \
-    ATTR(kind, POWER, FROM_ZERO, TO_FORCE(force.power), IS(1), "", "exponent of the displacement; 1 is a linear spring")
+    ATTR(kind, POWER, FROM_ZERO, TO_FORCE(force.power), IS(1), "", "exponent in the formula; 1 gives a linear spring")
 #define REACH_ROW(kind) \
     ATTR(kind, MAX_DISTANCE, ABOVE_ZERO, TO_FORCE(force.max_distance), DESCRIBED(0, ""), "", "distance beyond which the force is 0")
 #define BOUND_ROWS(kind) \
     ATTR(kind, FIXED, NUMBER, TO_FORCE(fixed), NONE, "", "sets both minimum and maximum, and takes precedence over them") \
-    ATTR(kind, MINIMUM, NUMBER, TO_FORCE(force.minimum), NONE, "", "distance below which the spring pushes") \
+    ATTR(kind, MINIMUM, NUMBER, TO_FORCE(force.minimum), NONE, "", "distance below which the force pushes") \
     ALIAS(kind, MIN, MINIMUM, "minimum", NUMBER, TO_FORCE(force.minimum), "") \
-    ATTR(kind, MAXIMUM, NUMBER, TO_FORCE(force.maximum), NONE, "", "distance above which the spring pulls") \
+    ATTR(kind, MAXIMUM, NUMBER, TO_FORCE(force.maximum), NONE, "", "distance above which the force pulls") \
     ALIAS(kind, MAX, MAXIMUM, "maximum", NUMBER, TO_FORCE(force.maximum), "")
 
 NODE(PHYSICS, "physics", SCENE, PHYSICS, "a particle system")
-ATTR(PHYSICS, STATE, ANY, TO_SYSTEM(state), NONE, "", "the key under which particles are written: $(key;id), $(key;id;:velocity)")
-ATTR(PHYSICS, DIMENSIONS, DIMENSIONS, TO_SYSTEM(dimensions), DESCRIBED(0, ""), "", "number of components of vectors")
-ATTR(PHYSICS, TIME, TIME, TO_SYSTEM(time), DESCRIBED(0, "the frame's, in seconds"), "", "the clock to follow, such as beat")
+ATTR(PHYSICS, STATE, ANY, TO_SYSTEM(state), NONE, "", "state key of the particles: $(key;id) is a position, $(key;id;:velocity) a velocity")
+ATTR(PHYSICS, DIMENSIONS, DIMENSIONS, TO_SYSTEM(dimensions), DESCRIBED(0, ""), "", "number of components of each vector")
+ATTR(PHYSICS, TIME, TIME, TO_SYSTEM(time), DESCRIBED(0, "the frame's time in seconds"), "", "the clock to follow, such as beat")
 ATTR(PHYSICS, RESOLUTION, ABOVE_ZERO, TO_SYSTEM(resolution), DESCRIBED(0, "1/fps"), "units of time", "longest simulation step")
-ATTR(PHYSICS, RUN, INTEGER, TO_SYSTEM(run), IS(0), "", "a new number restarts the system")
-ATTR(PHYSICS, SPEED_OF_LIGHT, NUMBER, TO_SYSTEM(speed_of_light), DESCRIBED(0, ""), "", "highest speed; 0 or less: no limit")
+ATTR(PHYSICS, RUN, INTEGER, TO_SYSTEM(run), IS(0), "", "the system restarts when this number changes")
+ATTR(PHYSICS, SPEED_OF_LIGHT, NUMBER, TO_SYSTEM(speed_of_light), DESCRIBED(0, ""), "", "maximum speed; with 0 or less, there is no limit")
 
-NODE(PARTICLE, "particle", PHYSICS, NOTHING, "a particle; position and velocity are read when it appears, and come from the state afterwards")
+NODE(PARTICLE, "particle", PHYSICS, NOTHING, "a particle; its position and velocity attributes are only initial values")
 ATTR(PARTICLE, ID, ANY, TO_BODY(id), NONE, "", "unique in its system; a particle without an id is ignored")
 ATTR(PARTICLE, POSITION, VECTOR, TO_BODY(numbers.position), IS(0), "", "initial position")
 ATTR(PARTICLE, VELOCITY, VECTOR, TO_BODY(numbers.velocity), IS(0), "length per unit of time", "initial velocity")
 ATTR(PARTICLE, FORCE, VECTOR, TO_BODY(numbers.force), IS(0), "", "a force on this particle alone")
-ATTR(PARTICLE, EASE, NUMBER, TO_BODY(numbers.ease), IS(0), "", "time from the system's start in which its force grows from 0 to its full value")
-ATTR(PARTICLE, RADIUS, FROM_ZERO, TO_BODY(numbers.radius), IS(0), "", "0: no collisions, adhesion, drag or buoyancy")
-ATTR(PARTICLE, MASS, FROM_ZERO, TO_BODY(numbers.mass), IS(1), "", "0: the particle is never accelerated")
-ATTR(PARTICLE, CHARGE, NUMBER, TO_BODY(numbers.charge), IS(0), "", "for !electrostatic and !field")
+ATTR(PARTICLE, EASE, NUMBER, TO_BODY(numbers.ease), IS(0), "", "time that the force takes to grow from 0 to its full value after the system starts")
+ATTR(PARTICLE, RADIUS, FROM_ZERO, TO_BODY(numbers.radius), IS(0), "", "if 0, there are no collisions, adhesion, drag or buoyancy")
+ATTR(PARTICLE, MASS, FROM_ZERO, TO_BODY(numbers.mass), IS(1), "", "if 0, the particle is never accelerated")
+ATTR(PARTICLE, CHARGE, NUMBER, TO_BODY(numbers.charge), IS(0), "", "electric charge, which !electrostatic and !field use")
 
-NODE(ANCHOR, "anchor", PHYSICS, NOTHING, "a particle fixed at its attribute position")
+NODE(ANCHOR, "anchor", PHYSICS, NOTHING, "a particle that no force moves; it stays at its position attribute")
 ATTR(ANCHOR, ID, ANY, TO_BODY(id), NONE, "", "unique in its system; an anchor without an id is ignored")
 ATTR(ANCHOR, POSITION, VECTOR, TO_BODY(numbers.position), IS(0), "", "its position in every frame")
-ATTR(ANCHOR, VELOCITY, VECTOR, NOWHERE, IS(0), "", "ignored: anchors are at rest")
-ATTR(ANCHOR, FORCE, VECTOR, NOWHERE, IS(0), "", "ignored: nothing moves an anchor")
-ATTR(ANCHOR, EASE, NUMBER, NOWHERE, IS(0), "", "ignored: nothing moves an anchor")
-ATTR(ANCHOR, RADIUS, FROM_ZERO, TO_BODY(numbers.radius), IS(0), "", "0: no collisions, adhesion, drag or buoyancy")
-ATTR(ANCHOR, MASS, FROM_ZERO, TO_BODY(numbers.mass), IS(1), "", "0: it is never accelerated")
-ATTR(ANCHOR, CHARGE, NUMBER, TO_BODY(numbers.charge), IS(0), "", "for !electrostatic and !field")
+ATTR(ANCHOR, VELOCITY, VECTOR, NOWHERE, IS(0), "", "ignored, because anchors are at rest")
+ATTR(ANCHOR, FORCE, VECTOR, NOWHERE, IS(0), "", "ignored, because no force moves an anchor")
+ATTR(ANCHOR, EASE, NUMBER, NOWHERE, IS(0), "", "ignored, because no force moves an anchor")
+ATTR(ANCHOR, RADIUS, FROM_ZERO, TO_BODY(numbers.radius), IS(0), "", "if 0, there are no collisions, adhesion, drag or buoyancy")
+ATTR(ANCHOR, MASS, FROM_ZERO, TO_BODY(numbers.mass), IS(1), "", "if 0, !gravity ignores the anchor")
+ATTR(ANCHOR, CHARGE, NUMBER, TO_BODY(numbers.charge), IS(0), "", "electric charge, which !electrostatic and !field use")
 
-NODE(GROUP, "group", PHYSICS, PHYSICS, "particles and forces that do not interact with those of other groups")
+NODE(GROUP, "group", PHYSICS, PHYSICS, "a group; its forces act only inside it, and its particles do not interact with sibling groups")
 
-FORCE(CONSTANT, "constant", "the same force, or acceleration, on all particles",
+FORCE(CONSTANT, "constant", "the same force or acceleration for all particles",
     "F = (force + acceleration · m) · strength")
 ATTR(CONSTANT, FORCE, VECTOR, TO_FORCE(force.vector), IS(0), "", "force on each particle")
 ATTR(CONSTANT, ACCELERATION, VECTOR, TO_FORCE(force.vector2), IS(0), "", "acceleration of each particle, added to the force")
@@ -360,7 +360,7 @@ FORCE(RANDOM, "random", "a random force on each particle",
 ATTR(RANDOM, STRENGTH, NUMBER, TO_FORCE(force.strength), IS(1), "", "standard deviation of each component of the force")
 EASE_ROW(RANDOM)
 
-FORCE(FIELD, "field", "a force proportional to the charge",
+FORCE(FIELD, "field", "a force on each particle, proportional to its charge",
     "F = strength · direction · q")
 ATTR(FIELD, DIRECTION, VECTOR, TO_FORCE(force.vector), IS(0), "", "force on a charge of 1")
 STRENGTH_ROW(FIELD)
@@ -396,7 +396,7 @@ REACH_ROW(ELECTROSTATIC)
 
 FORCE(ADHESION, "adhesion", "particles that touch stick together",
     "o = r₁ + r₂ − l\na = |r₁ − r₂|·overlap + (r₁ + r₂)·(1 − overlap)\nF = −strength · o · (l − a) if l < r₁ + r₂\nF = 0")
-ATTR(ADHESION, OVERLAP, PART, TO_FORCE(force.overlap), IS(0.25), "", "overlap at which they start to repel: 0 when they touch, 1 when one is inside the other")
+ATTR(ADHESION, OVERLAP, PART, TO_FORCE(force.overlap), IS(0.25), "", "overlap below which particles attract and above which they repel: 0 if they just touch, 1 if one is inside the other")
 STRENGTH_ROW(ADHESION)
 EASE_ROW(ADHESION)
 REACH_ROW(ADHESION)
@@ -414,21 +414,21 @@ ATTR(BUOYANCY, DENSITY, NUMBER, TO_FORCE(force.density), IS(1), "", "mass of the
 STRENGTH_ROW(BUOYANCY)
 EASE_ROW(BUOYANCY)
 
-FORCE(BARRIER, "barrier", "a wall",
+FORCE(BARRIER, "barrier", "a wall that reflects particles",
     "F = strength · (min − s)^power if 0 ≤ s and s < min\nF = −strength · (s − max)^power if s > max\nF = 0")
 ATTR(BARRIER, POSITION, VECTOR, TO_FORCE(force.vector), IS(0), "", "a point on the wall")
-ATTR(BARRIER, NORMAL, NORMAL, TO_FORCE(force.vector2), IS(0), "", "direction away from the wall, of any length except 0; required")
+ATTR(BARRIER, NORMAL, NORMAL, TO_FORCE(force.vector2), IS(0), "", "vector that points away from the wall, of any length except 0; required")
 ATTR(BARRIER, RESTITUTION, PART, TO_FORCE(force.restitution), IS(1), "", "fraction of the speed that remains after a bounce")
 BOUND_ROWS(BARRIER)
 POWER_ROW(BARRIER)
 STRENGTH_ROW(BARRIER)
 EASE_ROW(BARRIER)
 
-NODE(COUNTER, "counter", SCENE, NOTHING, "a clock with its own rate, written to the state")
-ATTR(COUNTER, STATE, ANY, TO_COUNTER(state), NONE, "", "the key under which the value is written")
+NODE(COUNTER, "counter", SCENE, NOTHING, "a clock with its own rate, whose value is written to the state")
+ATTR(COUNTER, STATE, ANY, TO_COUNTER(state), NONE, "", "state key to which the value is written")
 ATTR(COUNTER, INITIAL, NUMBERS, TO_COUNTER(initial), IS(0), "", "value at the start, and while reset is true")
 ATTR(COUNTER, RATE, NUMBERS, TO_COUNTER(rate), IS(0), "", "growth per unit of time")
-ATTR(COUNTER, TIME, NUMBERS, TO_COUNTER(time), DESCRIBED(0, "the frame's, in seconds"), "", "the clock to follow, such as beat")
+ATTR(COUNTER, TIME, NUMBERS, TO_COUNTER(time), DESCRIBED(0, "the frame's time in seconds"), "", "the clock to follow, such as beat")
 ATTR(COUNTER, MINIMUM, NUMBERS, TO_COUNTER(minimum), NONE, "", "smallest value")
 ALIAS(COUNTER, MIN, MINIMUM, "minimum", NUMBERS, TO_COUNTER(minimum), "")
 ATTR(COUNTER, MAXIMUM, NUMBERS, TO_COUNTER(maximum), NONE, "", "largest value")
@@ -436,39 +436,39 @@ ALIAS(COUNTER, MAX, MAXIMUM, "maximum", NUMBERS, TO_COUNTER(maximum), "")
 ATTR(COUNTER, RESET, NUMBERS, TO_COUNTER(reset), NONE, "", "if true, the value is reset to the initial value")
 
 #define TRANSFORM_ROWS(kind) \
-    ATTR(kind, TRANSLATE, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "move the origin; translate, scale and rotate are applied in the order written") \
+    ATTR(kind, TRANSLATE, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "move the origin; translate, scale and rotate apply in the order in which they are written") \
     ATTR(kind, SCALE, SCALE, NOWHERE, DESCRIBED(1, "1;1"), "", "scale factors along x and y") \
     ATTR(kind, ROTATE, FINITE, NOWHERE, IS(0), "turns", "rotation, clockwise")
 #define PAINT_ROWS(kind) \
-    ATTR(kind, COLOR, COLOR, TO_GRAPHICS(color), INHERITED(0, "0"), "", "replaces an inherited source, such as a gradient") \
-    ATTR(kind, STROKE_WIDTH, WIDTH, TO_GRAPHICS(stroke_width), INHERITED(0, "0"), "", "0: one pixel at any scale") \
+    ATTR(kind, COLOR, COLOR, TO_GRAPHICS(color), INHERITED(0, "0"), "", "colour; it replaces an inherited source, such as a gradient") \
+    ATTR(kind, STROKE_WIDTH, WIDTH, TO_GRAPHICS(stroke_width), INHERITED(0, "0"), "", "width of lines; 0 means one pixel at any scale") \
     ATTR(kind, STROKE_JOIN, JOIN, TO_GRAPHICS(join), INHERITED(JOIN_MITER, ":miter"), "", "shape of line corners") \
     ATTR(kind, STROKE_CAP, CAP, TO_GRAPHICS(cap), INHERITED(CAP_BUTT, ":butt"), "", "shape of line ends") \
     ATTR(kind, COMPOSITE, COMPOSITE, TO_GRAPHICS(composite), INHERITED(COMPOSITE_OVER, ":over"), "", "how colours are combined with those already drawn") \
-    ATTR(kind, ANTIALIAS, FLAG, TO_GRAPHICS(antialias), INHERITED(true, "true"), "", "smooth edges; text is always smooth") \
+    ATTR(kind, ANTIALIAS, FLAG, TO_GRAPHICS(antialias), INHERITED(true, "true"), "", "smooth the edges of shapes; text is always smooth") \
     ATTR(kind, DITHER, FLAG, NOWHERE, IS(false), "", "ignored")
 #define FONT_ROWS(kind) \
-    ATTR(kind, FONT_FAMILY, TEXT, TO_GRAPHICS(family), INHERITED_TEXT("Helvetica"), "", "one or more names, separated by commas; the first available one is used") \
+    ATTR(kind, FONT_FAMILY, TEXT, TO_GRAPHICS(family), INHERITED_TEXT("Helvetica"), "", "one or more font names, separated by commas; the first available font is used") \
     ATTR(kind, FONT_SIZE, WIDTH, TO_GRAPHICS(font_size), INHERITED(20, "20"), "", "") \
     ATTR(kind, FONT_WEIGHT, WEIGHT, TO_GRAPHICS(weight), INHERITED(400, ":normal"), "", "") \
     ATTR(kind, FONT_WIDTH, FONT_WIDTH, TO_GRAPHICS(width), INHERITED(4, ":normal"), "", "") \
     ATTR(kind, FONT_SLANT, SLANT, TO_GRAPHICS(slant), INHERITED(SLANT_UPRIGHT, ":upright"), "", "")
 #define SHAPE_ROWS(kind) \
-    ATTR(kind, FILL, FLAG, NOWHERE, IS(false), "", "fill the shape; the current path does not change") \
-    ATTR(kind, STROKE, FLAG, NOWHERE, IS(false), "", "draw the outline; the current path does not change")
+    ATTR(kind, FILL, FLAG, NOWHERE, IS(false), "", "fill the shape, without changing the current path") \
+    ATTR(kind, STROKE, FLAG, NOWHERE, IS(false), "", "draw the outline, without changing the current path")
 
 #include "schema/pictures_list.h"
 
 NODE(CANVAS, "canvas", PICTURE, DRAWING, "a drawing surface: origin at the top left, y down, angles in turns")
 SOURCE_ROWS(CANVAS)
-ATTR(CANVAS, LINEAR, FLAG, NOWHERE, IS(false), "", "colours are linear, and are combined in linear light")
-ATTR(CANVAS, COLORBITS, FINITE_INTEGER, NOWHERE, IS(8), "", "bits per channel if linear=true: 8, or 16 or 32 for values above 1 (HDR)")
+ATTR(CANVAS, LINEAR, FLAG, NOWHERE, IS(false), "", "colours are given and combined in linear light")
+ATTR(CANVAS, COLORBITS, FINITE_INTEGER, NOWHERE, IS(8), "", "bits per channel if linear=true: 8, 16 or 32; values above 1 (HDR) need 16 or 32")
 TRANSFORM_ROWS(CANVAS)
 PAINT_ROWS(CANVAS)
 FONT_ROWS(CANVAS)
 
-NODE(CANVAS_GROUP, "group", DRAWING, DRAWING, "attributes and clipping that apply to the nodes inside")
-ATTR(CANVAS_GROUP, FILL_TYPE, FILL_TYPE, NOWHERE, DESCRIBED(FILL_WINDING, ":winding"), "", "fill rule of the path that begins here")
+NODE(CANVAS_GROUP, "group", DRAWING, DRAWING, "a group; its attributes and clips apply only to the nodes inside")
+ATTR(CANVAS_GROUP, FILL_TYPE, FILL_TYPE, NOWHERE, DESCRIBED(FILL_WINDING, ":winding"), "", "fill rule of the path that begins with this group")
 TRANSFORM_ROWS(CANVAS_GROUP)
 PAINT_ROWS(CANVAS_GROUP)
 FONT_ROWS(CANVAS_GROUP)
@@ -487,8 +487,8 @@ ALIAS(FONT, WEIGHT, FONT_WEIGHT, "font_weight", WEIGHT, TO_GRAPHICS(weight), "")
 ALIAS(FONT, SLANT, FONT_SLANT, "font_slant", SLANT, TO_GRAPHICS(slant), "")
 
 NODE(LAYER, "layer", DRAWING, DRAWING, "draw the nodes inside separately, then the result as one image")
-ATTR(LAYER, SIZE, SIZE, NOWHERE, NONE, "", "size of the layer; it also clips the rest of the enclosing group; required")
-ATTR(LAYER, ORIGIN, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "top left corner of the layer, before its own transform")
+ATTR(LAYER, SIZE, SIZE, NOWHERE, NONE, "", "size of the layer, to which the rest of the enclosing group is also clipped; required")
+ATTR(LAYER, ORIGIN, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "top left corner of the layer, before its own translate, scale and rotate")
 ATTR(LAYER, ALPHA, FINITE, NOWHERE, IS(1), "", "opacity; 0 is invisible")
 TRANSFORM_ROWS(LAYER)
 PAINT_ROWS(LAYER)
@@ -498,14 +498,14 @@ NODE(PATH, "path", DRAWING, DRAWING, "begin a new path; the nodes inside add to 
 ATTR(PATH, FILL_TYPE, FILL_TYPE, NOWHERE, DESCRIBED(FILL_WINDING, ":winding"), "", "fill rule where the path crosses itself; inverse rules swap inside and outside")
 
 NODE(MOVE_TO, "move_to", DRAWING, NOTHING, "begin another subpath")
-ATTR(MOVE_TO, POINT, POINT, NOWHERE, NONE, "", "")
+ATTR(MOVE_TO, POINT, POINT, NOWHERE, NONE, "", "start of the subpath")
 
-NODE(LINE_TO, "line_to", DRAWING, NOTHING, "a straight line from the end of the path, or from 0;0")
-ATTR(LINE_TO, POINT, POINT, NOWHERE, NONE, "", "")
+NODE(LINE_TO, "line_to", DRAWING, NOTHING, "a straight line from the end of the path, or from 0;0 if the path is empty")
+ATTR(LINE_TO, POINT, POINT, NOWHERE, NONE, "", "end of the line")
 
-NODE(CURVE_TO, "curve_to", DRAWING, NOTHING, "a Bézier curve from the end of the path, or from 0;0")
-ATTR(CURVE_TO, POINT, POINT, NOWHERE, NONE, "", "")
-ATTR(CURVE_TO, C1, POINT, NOWHERE, NONE, "", "control point; the first of two if c2 is given; required")
+NODE(CURVE_TO, "curve_to", DRAWING, NOTHING, "a Bézier curve from the end of the path, or from 0;0 if the path is empty")
+ATTR(CURVE_TO, POINT, POINT, NOWHERE, NONE, "", "end of the curve")
+ATTR(CURVE_TO, C1, POINT, NOWHERE, NONE, "", "control point, or the first of two if c2 is set; required")
 ATTR(CURVE_TO, C2, POINT, NOWHERE, NONE, "", "second control point, for a cubic curve")
 
 NODE(ARC, "arc", DRAWING, NOTHING, "an arc of an ellipse, joined to the path by a line")
@@ -513,19 +513,19 @@ ATTR(ARC, POINT, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "centre")
 ATTR(ARC, RADIUS, SIZE, NOWHERE, NONE, "", "one radius, or the radii along x and y")
 ATTR(ARC, START, FINITE, NOWHERE, IS(0), "turns", "start angle, clockwise from the x axis")
 ATTR(ARC, SWEEP, FINITE, NOWHERE, DESCRIBED(NAN, "end - start"), "turns", "angle of the arc, modulo 1; sweep or end is required")
-ATTR(ARC, END, FINITE, NOWHERE, NONE, "turns", "end angle; sweep takes precedence")
+ATTR(ARC, END, FINITE, NOWHERE, NONE, "turns", "end angle; ignored if sweep is set")
 ATTR(ARC, MOVE_TO, FLAG, NOWHERE, IS(false), "", "begin another subpath instead of drawing a line to the arc")
 
-NODE(ARC_TO, "arc_to", DRAWING, NOTHING, "an arc of an ellipse from the end of the path, or from 0;0")
+NODE(ARC_TO, "arc_to", DRAWING, NOTHING, "an arc of an ellipse from the end of the path, or from 0;0 if the path is empty")
 ATTR(ARC_TO, POINT, POINT, NOWHERE, NONE, "", "end of the arc")
-ATTR(ARC_TO, RADIUS, SIZE, NOWHERE, NONE, "", "one radius, or the radii along x and y; enlarged if too small")
+ATTR(ARC_TO, RADIUS, SIZE, NOWHERE, NONE, "", "one radius, or the radii along x and y; enlarged if the arc cannot reach the point")
 ATTR(ARC_TO, ROTATION, FINITE, NOWHERE, IS(0), "degrees", "rotation of the ellipse, clockwise")
 ATTR(ARC_TO, LARGE, FLAG, NOWHERE, IS(false), "", "take the longer arc")
-ATTR(ARC_TO, CCW, FLAG, NOWHERE, IS(false), "", "counter-clockwise")
+ATTR(ARC_TO, CCW, FLAG, NOWHERE, IS(false), "", "draw the arc counter-clockwise")
 
 NODE(RECT, "rect", DRAWING, NOTHING, "a rectangle")
 ATTR(RECT, POINT, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "a corner: the top left one unless the size is negative")
-ATTR(RECT, SIZE, SCALE, NOWHERE, NONE, "", "width;height, which may be negative")
+ATTR(RECT, SIZE, SCALE, NOWHERE, NONE, "", "width;height; both can be negative")
 ATTR(RECT, RADIUS, SIZE, NOWHERE, IS(0), "", "radius of the corners; reduced if it does not fit")
 SHAPE_ROWS(RECT)
 PAINT_ROWS(RECT)
@@ -538,12 +538,12 @@ PAINT_ROWS(ELLIPSE)
 
 NODE(LINE, "line", DRAWING, NOTHING, "a line through points")
 ATTR(LINE, POINTS, POINTS, NOWHERE, NONE, "", "")
-ATTR(LINE, CURVE, FINITE, NOWHERE, IS(0), "turns", "corners that turn by at most this angle become curves; 0: none; 0.25 or more: all")
+ATTR(LINE, CURVE, FINITE, NOWHERE, IS(0), "turns", "corners that turn by at most this angle become curves: with 0 none, with 0.25 or more all")
 ATTR(LINE, CLOSE, FLAG, NOWHERE, IS(false), "", "join the last point to the first")
 SHAPE_ROWS(LINE)
 PAINT_ROWS(LINE)
 
-NODE(CLOSE, "close", DRAWING, NOTHING, "a straight line to the start of this subpath")
+NODE(CLOSE, "close", DRAWING, NOTHING, "a straight line to the start of the subpath")
 
 NODE(CLIP, "clip", DRAWING, NOTHING, "draw only inside the path until the group, transform or layer ends")
 
@@ -552,24 +552,24 @@ NODE(MASK, "mask", DRAWING, NOTHING, "draw only outside the path until the group
 NODE(FILL, "fill", DRAWING, NOTHING, "fill the path")
 PAINT_ROWS(FILL)
 
-NODE(STROKE, "stroke", DRAWING, NOTHING, "draw along the path")
+NODE(STROKE, "stroke", DRAWING, NOTHING, "draw a line along the path")
 PAINT_ROWS(STROKE)
 
 NODE(TEXT, "text", DRAWING, NOTHING, "one line of text")
 ATTR(TEXT, TEXT, TEXT, NOWHERE, NONE, "", "")
 ATTR(TEXT, POINT, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "centre of the text; if center=false, start of the baseline")
 ATTR(TEXT, CENTER, FLAG, NOWHERE, IS(true), "", "")
-ATTR(TEXT, FILL, FLAG, NOWHERE, DESCRIBED(true, "true unless stroke"), "", "fill the letters")
+ATTR(TEXT, FILL, FLAG, NOWHERE, DESCRIBED(true, "true, unless stroke is true"), "", "fill the letters")
 ATTR(TEXT, STROKE, FLAG, NOWHERE, IS(false), "", "draw the outlines of the letters")
 PAINT_ROWS(TEXT)
 FONT_ROWS(TEXT)
 
 NODE(IMAGE, "image", DRAWING, NOTHING, "an image from a PNG or JPEG file or from another node")
 ATTR(IMAGE, FILENAME, TEXT, NOWHERE, NONE, "", "")
-ATTR(IMAGE, IMAGE_ID, TEXT, NOWHERE, NONE, "", "id of the node whose picture is used")
+ATTR(IMAGE, IMAGE_ID, TEXT, NOWHERE, NONE, "", "id of another node, whose picture is used")
 ALIAS(IMAGE, TEXTURE_ID, IMAGE_ID, "image_id", TEXT, NOWHERE, "")
 ATTR(IMAGE, POINT, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "top left corner")
-ATTR(IMAGE, SIZE, SCALE, NOWHERE, DESCRIBED(0, "that of the picture"), "", "size to which the image is stretched")
+ATTR(IMAGE, SIZE, SCALE, NOWHERE, DESCRIBED(0, "the size of the picture"), "", "size to which the image is stretched")
 ATTR(IMAGE, FIT, SIZE, NOWHERE, NONE, "", "size of a box into which the image is fitted")
 ATTR(IMAGE, FILL, SIZE, NOWHERE, NONE, "", "size of a box that the image fills; the rest of the image is cut off")
 
@@ -581,7 +581,7 @@ ATTR(GRADIENT, POINT, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "centre of a radi
 ATTR(GRADIENT, ROTATE, FINITE, NOWHERE, IS(0), "turns", "rotation of a radial gradient")
 
 NODE(STOP, "stop", STOP, NOTHING, "a colour of a gradient")
-ATTR(STOP, OFFSET, FINITE, NOWHERE, DESCRIBED(NAN, "evenly spread"), "", "position in the gradient, from 0 to 1")
+ATTR(STOP, OFFSET, FINITE, NOWHERE, DESCRIBED(NAN, "stops are spread evenly"), "", "position in the gradient, from 0 to 1")
 ATTR(STOP, COLOR, COLOR, NOWHERE, DESCRIBED(0, "the current colour"), "", "")
 
 NODE(COLOR, "color", SOURCE, NOTHING, "one colour for nodes drawn after it")
@@ -589,28 +589,28 @@ ATTR(COLOR, COLOR, COLOR, NOWHERE, DESCRIBED(0, "the current colour"), "", "")
 
 NODE(PATTERN, "pattern", SOURCE, NOTHING, "an image repeated in both directions, for nodes drawn after it")
 ATTR(PATTERN, FILENAME, TEXT, NOWHERE, NONE, "", "")
-ATTR(PATTERN, IMAGE_ID, TEXT, NOWHERE, NONE, "", "id of the node whose picture is used")
+ATTR(PATTERN, IMAGE_ID, TEXT, NOWHERE, NONE, "", "id of another node, whose picture is used")
 ALIAS(PATTERN, TEXTURE_ID, IMAGE_ID, "image_id", TEXT, NOWHERE, "")
-ATTR(PATTERN, TRANSLATE, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "translate, scale and rotate are applied in the order written")
+ATTR(PATTERN, TRANSLATE, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "displacement; translate, scale and rotate apply in the order in which they are written")
 ATTR(PATTERN, SCALE, SCALE, NOWHERE, DESCRIBED(1, "1;1"), "", "scale factors along x and y")
 ATTR(PATTERN, ROTATE, FINITE, NOWHERE, IS(0), "turns", "rotation, clockwise")
 
 NODE(BLEND, "blend", SOURCE, SOURCE, "a mix of the two sources inside it, for nodes drawn after it")
 ATTR(BLEND, RATIO, FINITE, NOWHERE, NONE, "", "fraction of the second source")
-ATTR(BLEND, MODE, COMPOSITE, NOWHERE, DESCRIBED(COMPOSITE_OVER, ":over"), "", "without a ratio: how the second source is combined with the first")
+ATTR(BLEND, MODE, COMPOSITE, NOWHERE, DESCRIBED(COMPOSITE_OVER, ":over"), "", "how the second source is combined with the first; ignored if ratio is set")
 
 NODE(CANVAS_NOISE, "noise", SOURCE, NOTHING, "noise in all four channels, for nodes drawn after it")
-ATTR(CANVAS_NOISE, FREQUENCY, SCALE, NOWHERE, NONE, "", "waves per unit along x and y; required")
+ATTR(CANVAS_NOISE, FREQUENCY, SCALE, NOWHERE, NONE, "", "number of waves per unit of length, along x and y; required")
 ATTR(CANVAS_NOISE, OCTAVES, FINITE_INTEGER, NOWHERE, IS(8), "", "number of layers of noise, each twice as fine as the one before")
-ATTR(CANVAS_NOISE, SEED, FINITE, NOWHERE, IS(0), "", "selects the noise")
-ATTR(CANVAS_NOISE, SIZE, SIZE, NOWHERE, DESCRIBED(0, "endless"), "", "size of a seamlessly repeating tile, in whole units")
+ATTR(CANVAS_NOISE, SEED, FINITE, NOWHERE, IS(0), "", "any number; each seed gives different noise")
+ATTR(CANVAS_NOISE, SIZE, SIZE, NOWHERE, DESCRIBED(0, "no repetition"), "", "size of a tile that repeats without seams, in whole units")
 ATTR(CANVAS_NOISE, TYPE, NOISE_TYPE, NOWHERE, DESCRIBED(TURBULENCE_FRACTAL, ":fractal"), "", ":turbulence takes the absolute value of each wave")
 
 NODE(CANVAS_BLUR, "blur", FILTER, FILTER, "blur nodes drawn after it")
-ATTR(CANVAS_BLUR, RADIUS, SIZE, NOWHERE, NONE, "", "standard deviation: one number, or two for x and y")
+ATTR(CANVAS_BLUR, RADIUS, SIZE, NOWHERE, NONE, "", "standard deviation of the blur, along x and y")
 
 NODE(SHADOW, "shadow", FILTER, FILTER, "a shadow behind nodes drawn after it")
-ATTR(SHADOW, RADIUS, SIZE, NOWHERE, NONE, "", "standard deviation: one number, or two for x and y")
+ATTR(SHADOW, RADIUS, SIZE, NOWHERE, NONE, "", "standard deviation of the blur, along x and y")
 ATTR(SHADOW, OFFSET, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "displacement of the shadow from the object")
 ATTR(SHADOW, COLOR, COLOR, NOWHERE, IS(0), "", "")
 ATTR(SHADOW, SHADOW_ONLY, FLAG, NOWHERE, IS(false), "", "draw the shadow without the object")
@@ -625,16 +625,16 @@ NODE(ERODE, "erode", FILTER, FILTER, "thin the shapes drawn after it (erosion)")
 ATTR(ERODE, RADIUS, SIZE, NOWHERE, NONE, "", "each channel becomes the smallest value within this distance along x and y")
 
 NODE(FILTER_MATRIX, "color_matrix", FILTER, FILTER, "change the colours of nodes drawn after it")
-ATTR(FILTER_MATRIX, MATRIX, TWENTY, NOWHERE, NONE, "", "rows for red, green, blue and alpha, each with five factors for r;g;b;a;1; takes precedence over all other attributes")
-ATTR(FILTER_MATRIX, RED, FIVE, NOWHERE, DESCRIBED(0, "1;0;0;0;0"), "", "a row of the matrix; rows take precedence over scale and offset, and these over the other attributes")
-ATTR(FILTER_MATRIX, GREEN, FIVE, NOWHERE, DESCRIBED(0, "0;1;0;0;0"), "", "")
-ATTR(FILTER_MATRIX, BLUE, FIVE, NOWHERE, DESCRIBED(0, "0;0;1;0;0"), "", "")
-ATTR(FILTER_MATRIX, ALPHA, FIVE, NOWHERE, DESCRIBED(0, "0;0;0;1;0"), "", "")
-ATTR(FILTER_MATRIX, SCALE, TRIPLE, NOWHERE, IS(1), "", "factors for red, green and blue")
-ATTR(FILTER_MATRIX, OFFSET, TRIPLE, NOWHERE, IS(0), "", "added after scaling")
+ATTR(FILTER_MATRIX, MATRIX, TWENTY, NOWHERE, NONE, "", "four rows, for red, green, blue and alpha; each has five factors, for r;g;b;a;1; if set, all other attributes are ignored")
+ATTR(FILTER_MATRIX, RED, FIVE, NOWHERE, DESCRIBED(0, "1;0;0;0;0"), "", "row of the matrix for red; if any row is set, scale, offset and the attributes after them are ignored")
+ATTR(FILTER_MATRIX, GREEN, FIVE, NOWHERE, DESCRIBED(0, "0;1;0;0;0"), "", "row of the matrix for green")
+ATTR(FILTER_MATRIX, BLUE, FIVE, NOWHERE, DESCRIBED(0, "0;0;1;0;0"), "", "row of the matrix for blue")
+ATTR(FILTER_MATRIX, ALPHA, FIVE, NOWHERE, DESCRIBED(0, "0;0;0;1;0"), "", "row of the matrix for alpha")
+ATTR(FILTER_MATRIX, SCALE, TRIPLE, NOWHERE, IS(1), "", "factors for red, green and blue; if scale or offset is set, the attributes after them are ignored")
+ATTR(FILTER_MATRIX, OFFSET, TRIPLE, NOWHERE, IS(0), "", "added to red, green and blue after scale")
 ATTR(FILTER_MATRIX, BRIGHTNESS, FINITE, NOWHERE, IS(0), "", "added to red, green and blue")
-ATTR(FILTER_MATRIX, CONTRAST, FINITE, NOWHERE, IS(1), "", "factor for the difference from 0.5")
-ATTR(FILTER_MATRIX, SATURATION, FINITE, NOWHERE, IS(1), "", "0 is grey")
+ATTR(FILTER_MATRIX, CONTRAST, FINITE, NOWHERE, IS(1), "", "factor for the difference of red, green and blue from 0.5")
+ATTR(FILTER_MATRIX, SATURATION, FINITE, NOWHERE, IS(1), "", "factor for the saturation; 0 is grey")
 
 NODE(DRAWN, "source", FILTER, NOTHING, "the unfiltered drawing, as input to another filter")
 
@@ -642,12 +642,12 @@ NODE(FILTER_PAINT, "paint", FILTER, NOTHING, "an area filled with a colour or th
 PAINT_ROWS(FILTER_PAINT)
 
 NODE(FILTER_BLEND, "blend", FILTER, FILTER, "apply a mix of the two filters inside it to nodes drawn after it")
-ATTR(FILTER_BLEND, COEFFICIENTS, QUAD, NOWHERE, NONE, "", "k1;k2;k3;k4: k1*first*second + k2*second + k3*first + k4")
-ATTR(FILTER_BLEND, RATIO, FINITE, NOWHERE, NONE, "", "fraction of the first filter")
-ATTR(FILTER_BLEND, MODE, COMPOSITE, NOWHERE, DESCRIBED(COMPOSITE_OVER, ":over"), "", "without coefficients and ratio: how the second filter is combined with the first")
+ATTR(FILTER_BLEND, COEFFICIENTS, QUAD, NOWHERE, NONE, "", "k1;k2;k3;k4: the result is k1*first*second + k2*second + k3*first + k4")
+ATTR(FILTER_BLEND, RATIO, FINITE, NOWHERE, NONE, "", "fraction of the first filter; ignored if coefficients is set")
+ATTR(FILTER_BLEND, MODE, COMPOSITE, NOWHERE, DESCRIBED(COMPOSITE_OVER, ":over"), "", "how the second filter is combined with the first; ignored if coefficients or ratio is set")
 
 NODE(DASH, "dash", EFFECT, EFFECT, "dash lines drawn after it")
-ATTR(DASH, INTERVALS, LIST, NOWHERE, NONE, "", "lengths on;off;on;off…, an even number")
+ATTR(DASH, INTERVALS, LIST, NOWHERE, NONE, "", "lengths dash;gap;dash;gap…; there must be as many gaps as dashes")
 ATTR(DASH, OFFSET, FINITE, NOWHERE, IS(0), "", "position in the intervals at which each line begins")
 
 NODE(ROUND_CORNERS, "round_corners", EFFECT, EFFECT, "round the corners of nodes drawn after it")
@@ -656,15 +656,15 @@ ATTR(ROUND_CORNERS, RADIUS, WIDTH, NOWHERE, NONE, "", "distance from a corner at
 NODE(JITTER, "jitter", EFFECT, EFFECT, "roughen nodes drawn after it")
 ATTR(JITTER, LENGTH, WIDTH, NOWHERE, NONE, "", "length of the segments into which lines are cut")
 ATTR(JITTER, DEVIATION, FINITE, NOWHERE, NONE, "", "maximum sideways displacement of the ends of segments")
-ATTR(JITTER, SEED, FINITE, NOWHERE, IS(0), "", "selects the displacements")
+ATTR(JITTER, SEED, FINITE, NOWHERE, IS(0), "", "any number; each seed gives different displacements")
 
 NODE(PATH_MATRIX, "path_matrix", EFFECT, EFFECT, "transform paths drawn after it, but not their line width")
-ATTR(PATH_MATRIX, MATRIX, NINE, NOWHERE, NONE, "", "three rows of three numbers; takes precedence over all other attributes")
+ATTR(PATH_MATRIX, MATRIX, NINE, NOWHERE, NONE, "", "three rows of three numbers; if set, all other attributes are ignored")
 ATTR(PATH_MATRIX, SCALE, SCALE, NOWHERE, DESCRIBED(1, "1;1"), "", "applied first")
 ATTR(PATH_MATRIX, ROTATE, FINITE, NOWHERE, IS(0), "turns", "applied second, clockwise")
 ATTR(PATH_MATRIX, TRANSLATE, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "applied last")
 
-NODE(SUM, "sum", EFFECT, EFFECT, "the paths of all effects inside, for nodes drawn after it")
+NODE(SUM, "sum", EFFECT, EFFECT, "apply each effect inside to the paths drawn after it, and draw all results")
 #include "schema/canvas3d_list.h"
 // clang-format on
 
