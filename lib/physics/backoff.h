@@ -47,7 +47,7 @@ enum {
     PHYS_TUNER_PERIOD = 1024, // number of jobs in a period
     // At the start of a period, this many jobs are timed the slower way, and then as many the faster way.
     PHYS_TUNER_PROBES = 24,
-    // The first of these jobs in each way, this many, are ignored, because caches are cold.
+    // The times of the first jobs of each way are ignored, because caches are cold. This is the number of these jobs.
     PHYS_TUNER_WARMUP = 8,
 };
 

@@ -41,7 +41,7 @@ void integrate_all_one(IntegratePass *pass, size_t first, size_t end) {
 
 #else
 
-// Returns the lanes that some barrier must reflect, because x ≥ 0 does not hold there (x as in barrier.c).
+// Returns the lanes whose particles must be reflected by some barrier, because x ≥ 0 does not hold (x as in barrier.c).
 KERNEL Mask lanes_behind_barrier(const IntegratePass *pass, size_t n, const Block *block) {
     Mask clear = block->live;
     const Force *const *barriers = phys_barriers(pass);
@@ -61,7 +61,7 @@ KERNEL void reflect_lanes(const IntegratePass *pass, size_t n, const Block *bloc
     double lanes[PHYS_VECTOR_DIMENSIONS][LANES];
     for (size_t k = 0; k < n; k++) {
         real_store(lanes[k], before[k]);
-        // phys_reflect moves particles again with the same force, which it reads from the columns.
+        // phys_reflect moves a particle again with the same force, which it reads from Columns.force.
         real_store_where(block->live, columns->force + k * columns->stride + block->first, block->force[k]);
     }
     for (; bits; bits &= bits - 1) {
@@ -74,7 +74,7 @@ KERNEL void reflect_lanes(const IntegratePass *pass, size_t n, const Block *bloc
 }
 
 KERNEL Mask live_lanes(const Columns *columns, size_t i, size_t count) {
-    unsigned char anchors[8]; // readable beyond the end
+    unsigned char anchors[8]; // always 8, because columns->anchor is readable beyond its end
     uint64_t all;
     memcpy(anchors, columns->anchor + i, sizeof anchors);
     memcpy(&all, anchors, sizeof all);
@@ -152,7 +152,7 @@ KERNEL bool all_finite(const Real *parts, size_t count, Lanes *zeros) {
     return mask_bits(finite) == ALL_LANES;
 }
 
-// Returns true if a part and its number in the row are zeros of different sign.
+// Returns true if, in this lane, a part and the corresponding number in the row are zeros of different sign.
 KERNEL bool has_other_zero(const double *row, const Real *parts, size_t count, size_t lane) {
     for (size_t k = 0; k < count; k++)
         if (row[k] == 0 && parts[k][lane] == 0 && signbit(row[k]) != signbit(parts[k][lane]))
@@ -160,7 +160,7 @@ KERNEL bool has_other_zero(const double *row, const Real *parts, size_t count, s
     return false;
 }
 
-// Writes the rows of LANES particles, each of 2 n numbers.
+// Copies `parts` to the rows of LANES particles. A row has 2 n numbers.
 KERNEL void write_lane_rows(size_t n, const uint32_t *order, double *rows, const Real *parts) {
     double *row[LANES];
     for (size_t lane = 0; lane < LANES; lane++)
@@ -178,8 +178,8 @@ KERNEL void write_lane_rows(size_t n, const uint32_t *order, double *rows, const
         real_store_rows(row, parts + 2);
 }
 
-// With PhysTime.keep_last_finite, finite numbers can simply be copied: equal numbers have the same bits, except for
-// zeros of different sign.
+// With PhysTime.keep_last_finite, a number in a row stays if the result equals it. Equal numbers have the same bits,
+// except for zeros of different sign. So in all other cases finite results can simply be copied.
 KERNEL size_t write_range(const Columns *columns, size_t n, const uint32_t *order, double *rows, size_t first,
                           size_t end) {
     // AHEAD: prefetch distance in rows. MANY: number of rows above which they do not fit into the caches.

@@ -8,7 +8,7 @@ KERNEL size_t radius_component(size_t dimensions) {
     return dimensions < 3 ? 2 : 3;
 }
 
-// Returns true if ListView.packed uses PHYS_PAIR: two dimensions and no separate radii.
+// Returns true if ListView.packed uses PHYS_PAIR: in two dimensions, if all particles have the same radius.
 KERNEL bool uses_pairs(size_t dimensions, bool one_size) {
     return dimensions == 2 && one_size;
 }
@@ -146,7 +146,7 @@ KERNEL bool refresh_range(const PairPass *pass, const ListView *view, size_t dim
             real_store_pairs(view->packed + PHYS_PAIR * s, parts);
         else
             real_store_quads(view->packed + PHYS_QUAD * s, parts);
-        // If the distance is NaN, the particle counts as moved.
+        // If the distance is NaN, the particle counts as moved too far.
         Mask still = real_at_most_where(live, square, real_set(view->max_move_squared));
         still = real_at_most_where(still, radius, built);
         hold &= mask_bits(still) == mask_bits(live);
@@ -183,7 +183,7 @@ KERNEL void apply_range(const PairPass *pass, PairShape shape, const uint32_t *t
     target.mass = real_gather(pass->mass, targets);
     target.charge = real_gather(pass->charge, targets);
     for (size_t j = first; j < end; j++) {
-        // If j is a target itself, their distance is 0, and pair_geometry marks the pair as invalid.
+        // If j is itself a target, the distance in its lane is 0, and pair_geometry marks the pair as invalid.
         PairEnd partner = pair_partner(pass, shape, j);
         PairGeometry pair;
         if (pair_geometry(shape, &target, &partner, live, &pair))

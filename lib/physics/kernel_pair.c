@@ -11,13 +11,13 @@
 typedef struct Rows {
     PairEnd target;
     Mask live;
-    Mask lead; // rows on which the leading force can act
+    Mask lead; // rows on which the leading force (pair_geometry.h) can act
     Real sum[PHYS_VECTOR_DIMENSIONS];
 } Rows;
 
-// Adds all forces between the `live` rows and column j, which is number k in its tile. `lead_applies`: the leading
-// force is known to act on the column; false: this is tested. `tile` receives the terms for the column; NULL: not
-// needed.
+// Adds all forces between the `live` rows and column j, which is number k in its tile. If `lead_applies` is set, the
+// leading force is known to act on the column; otherwise this is tested. `tile` receives the terms to subtract from the
+// sum of the column; NULL: they are not needed.
 KERNEL void add_column(const PairPass *pass, PairShape shape, Rows *rows, Mask live, size_t j, bool lead_applies,
                        Tile *tile, size_t k) {
     const PairEnd *target = &rows->target;
@@ -37,7 +37,8 @@ KERNEL void add_column(const PairPass *pass, PairShape shape, Rows *rows, Mask l
         add_rest(pass, shape, &pair, target, &partner, rows->sum, tile, k);
 }
 
-// Subtracts the terms of all forces from the columns' sums, row by row and in the order of the forces.
+// Subtracts component m of the terms of all forces from the columns' sums in *total. The order is row by row, and
+// within a row the order of the forces.
 static void finish_mixed(const PairPass *pass, Tile *tile, bool lead, size_t m, Real *total) {
     for (size_t t = 0; t < pass->term_count; t++)
         if (tile->hits >> t & 1)
@@ -105,8 +106,8 @@ KERNEL void partial_tile(const PairPass *pass, PairShape shape, Rows *rows, size
     finish_tile(pass, shape, &tile, j, columns);
 }
 
-// Computes the tile on the diagonal: each of its particles is both a row and a column. So each pair is computed twice,
-// and only sums of rows are needed.
+// Computes a tile on the diagonal, in which each particle is both a row and a column. So each pair is computed twice,
+// and only the sums of the rows are needed.
 KERNEL void diagonal_tile(const PairPass *pass, PairShape shape, Rows *rows, size_t i, size_t count) {
     for (size_t k = 0; k < count; k++) {
         Mask self = mask_and(mask_first(k + 1), mask_not(mask_first(k)));
@@ -151,7 +152,7 @@ KERNEL void tile_rows(const PairPass *pass, PairShape shape, size_t row, size_t 
     }
 #define PAIR_ENTRY(n, name, lead, rest) [n - 1][lead][rest] = {triangle_##n##name##rest, tiles_##n##name##rest},
 
-// Every force that can be unbounded has kernels in which it is the lead, in 1, 2 and 3 dimensions.
+// Every force whose range can be unlimited has kernels in which it is the lead, in 1, 2 and 3 dimensions.
 #define LEAD_CONTACT(MAKE, KIND)
 #define LEAD_FAR(MAKE, KIND)                                                                                           \
     MAKE(1, KIND, PHYS_##KIND, REST_NONE)                                                                              \

@@ -1,18 +1,18 @@
 // kernel_search.c: builds neighbour lists from the cells of a grid, LANES candidates at a time.
 //
 // Particles with adjacent sorted indices share most of their candidates. So the candidates of a batch of particles are
-// sorted into the order of the pass only once. Each list is filled from these candidates in that order. In some cases
-// each particle searches separately, and its list is sorted afterwards: if the batch spans two rows of cells or has
-// very many candidates, or if the pass has enclosing groups.
+// sorted into the order of the pass only once. Each list is filled from these candidates in that order. In three cases
+// the neighbours of each particle are searched separately, and its list is sorted afterwards: if the batch spans two
+// rows of cells, if it has very many candidates, or if the pass has enclosing groups.
 #include "physics/grid.h"
 #include "physics/lanes.h"
 
 enum {
-    MAX_ROWS = 9 + 1, // rows of adjacent cells, and one row for the large particles
-    WORDS = LANES < 4 ? 4 : 2 * LANES,
-    BATCH = 8,       // number of particles in a batch
-    MAX_BATCH = 128, // maximum number of candidates of a batch
-    SPARE = 16,      // number of dummies that are first appended to a list
+    MAX_ROWS = 9 + 1,                  // rows of adjacent cells, and one row for the large particles
+    WORDS = LANES < 4 ? 4 : 2 * LANES, // number of keys in a vector
+    BATCH = 8,                         // number of particles in a batch
+    MAX_BATCH = 128,                   // maximum number of candidates of a batch
+    SPARE = 16, // number of dummies that are copied at once to the end of every list; more are appended one by one
 };
 
 typedef int32_t Words __attribute__((vector_size(4 * WORDS)));
@@ -20,22 +20,22 @@ typedef int32_t Words __attribute__((vector_size(4 * WORDS)));
 // The candidates of a batch in the order of the pass, padded with positions that are NaN.
 typedef struct Batch {
     uint32_t end;   // first sorted index after the batch
-    bool ordered;   // false: each particle searches separately
-    uint32_t count; // candidates
+    bool ordered;   // false: the neighbours of each particle are searched separately
+    uint32_t count; // number of candidates
     double built[PHYS_VECTOR_DIMENSIONS][MAX_BATCH + LANES], radius[MAX_BATCH + LANES];
     uint32_t entry[MAX_BATCH + LANES];
 } Batch;
 
 // Working memory of a search.
 typedef struct Finder {
-    uint32_t cell;                                // of the current particle
+    uint32_t cell;                                // cell of the current particle
     uint32_t low, high;                           // range of cells in one row for which `first` and `end` were found
     uint32_t rows;                                // number of elements of `first` and `end`
     uint32_t candidates;                          // number of candidates in all rows
     uint32_t first[MAX_ROWS], end[MAX_ROWS];      // by row: range of sorted indices
     uint32_t near[PHYS_MAX_NEIGHBOURS + LANES];   // sorted indices of candidates or neighbours
-    Words keys[PHYS_MAX_NEIGHBOURS / WORDS + 2];  // of `near`: position in the order of the pass
-    Words ranks[PHYS_MAX_NEIGHBOURS / WORDS + 2]; // of `near`: number of smaller keys
+    Words keys[PHYS_MAX_NEIGHBOURS / WORDS + 2];  // by element of `near`: position in the order of the pass
+    Words ranks[PHYS_MAX_NEIGHBOURS / WORDS + 2]; // by element of `near`: number of smaller keys
     uint32_t dummies[SPARE];
     uint32_t lists[LANES][PHYS_MAX_NEIGHBOURS + LANES + SPARE]; // lists of the current block
     Batch batch;
@@ -48,8 +48,8 @@ static void add_row(Finder *finder, uint32_t first, uint32_t end) {
     finder->candidates += end - first;
 }
 
-// Finds the candidates for particles in cells low_cell to high_cell, which are in one row of cells. Candidates are the
-// particles in these cells and adjacent ones, and the large particles.
+// Finds the candidates for neighbours of the particles in cells low_cell to high_cell, which are in one row of cells.
+// Candidates are the particles in these cells and in adjacent cells, and the large particles.
 static void find_rows(const ListSearch *search, Finder *finder, uint32_t low_cell, uint32_t high_cell) {
     const Grid *grid = search->grid;
     uint32_t low[PHYS_VECTOR_DIMENSIONS], high[PHYS_VECTOR_DIMENSIONS], rest = low_cell;
@@ -70,14 +70,14 @@ static void find_rows(const ListSearch *search, Finder *finder, uint32_t low_cel
     add_row(finder, search->list->view.regular, search->list->view.listed);
 }
 
-// Returns the cell of a sorted index, which is `cell` or a later one.
+// Returns the cell of the particle with this sorted index. It must be `cell` or a later cell.
 static uint32_t cell_from(const Grid *grid, uint32_t cell, uint32_t index) {
     while (index >= grid->start[cell + 1])
         cell++;
     return cell;
 }
 
-// Constants on which the search is specialised.
+// Compile-time constants on which the search is specialised.
 typedef struct Measure {
     size_t dimensions;
     bool one_size; // all particles have the same radius, and all forces need contact
@@ -105,7 +105,8 @@ KERNEL SearchTarget search_target_of(const ListSearch *search, Measure shape, ui
     return target;
 }
 
-// Returns the candidates of `mask` whose distance is at most max(sum of the radii, bound) + skin.
+// Tests LANES candidates, starting at index `s`. Returns those in `mask` whose distance from the target is at most
+// max(sum of the radii, bound) + skin.
 KERNEL Mask is_near(const SearchTarget *target, Measure shape, const double *const *built, const double *radius,
                     size_t s, Mask mask) {
     Real square = real_zero();
@@ -134,8 +135,8 @@ KERNEL size_t find_near(const ListSearch *search, Finder *finder, Measure shape,
 }
 
 // Removes particle `index` itself from finder->near. If it belongs to an enclosing group, also removes other particles
-// of enclosing groups, because their pairs belong to other passes. Sets finder->keys. Returns the number of particles
-// left.
+// of enclosing groups, because pairs of two such particles belong to other passes. Sets finder->keys. Returns the
+// number of particles left.
 KERNEL size_t exclude_self(const ListSearch *search, Finder *finder, uint32_t index, size_t found) {
     const uint32_t *key = search->list->key;
     uint32_t limit = key[index] < search->own ? UINT32_MAX : search->own;
@@ -150,7 +151,7 @@ KERNEL size_t exclude_self(const ListSearch *search, Finder *finder, uint32_t in
     return count;
 }
 
-// Adds 1 to `rank` where `key` is less than `mine`.
+// Adds 1 to the elements of `rank` for which `key` is less than the element of `mine`.
 KERNEL Words count_less(Words rank, int32_t key, Words mine) {
 #if LANES == 8
     __m512i others = _mm512_set1_epi32(key), is = (__m512i)mine;
@@ -161,7 +162,8 @@ KERNEL Words count_less(Words rank, int32_t key, Words mine) {
 #endif
 }
 
-// For each key, counts the smaller keys. This is faster than sorting, because there are few keys.
+// Sets finder->ranks: for each of `count` keys, the number of smaller keys, which is its index in sorted order. This is
+// faster than a sort, because there are few keys.
 KERNEL void rank_keys(Finder *finder, size_t count) {
     const int32_t *keys = (const int32_t *)finder->keys;
     for (size_t v = 0; v * WORDS < count; v += 2) {
@@ -175,7 +177,8 @@ KERNEL void rank_keys(Finder *finder, size_t count) {
     }
 }
 
-// Collects sorted indices and keys of all candidates, and returns their number.
+// Collects the sorted indices of all candidates in finder->near, and their keys in finder->keys. Returns the number of
+// candidates.
 KERNEL uint32_t collect_candidates(const ListSearch *search, Finder *finder) {
     uint32_t count = 0;
     for (uint32_t row = 0; row < finder->rows; row++) {
@@ -232,7 +235,7 @@ KERNEL void next_batch(const ListSearch *search, Finder *finder, Measure shape, 
         order_batch(search, finder, shape);
 }
 
-// Fills the list of a particle of an ordered batch, and returns its length.
+// Fills the neighbour list of particle `index` from its batch, which must be ordered. Returns the length of the list.
 KERNEL size_t list_from_batch(const ListSearch *search, const Batch *batch, Measure shape, uint32_t index,
                               uint32_t *list) {
     const double *built[] = {batch->built[0], batch->built[1], batch->built[2]};
@@ -245,8 +248,8 @@ KERNEL size_t list_from_batch(const ListSearch *search, const Batch *batch, Meas
     return count;
 }
 
-// Fills the list of a particle that searches separately, and returns its length. The list is not filled if the length
-// exceeds PHYS_MAX_NEIGHBOURS.
+// Fills the neighbour list of particle `index` by a separate search. Returns the length of the list. If the length
+// would exceed PHYS_MAX_NEIGHBOURS, the list is not filled.
 KERNEL size_t list_single(const ListSearch *search, Finder *finder, Measure shape, uint32_t index, uint32_t *list) {
     finder->cell = cell_from(search->grid, finder->cell, index);
     if (finder->low != finder->cell || finder->high != finder->cell)

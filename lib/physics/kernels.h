@@ -5,9 +5,9 @@
 // few particles, use the same formulas with one lane (pair_rows.c and kernel_integrate.c). All variants give
 // bit-identical results, because:
 //
-//   - a lane is one target, or one pair whose term is added to both of its particles' sums in the right order;
-//   - a term that does not apply does not change its sum. Adding +0.0 would change a sum of -0.0, so lanes are blended
-//     or use the neutral zero of the operation: x + -0.0 and x - +0.0 are x for all x;
+//   - a lane computes one target, or one pair whose term is added to the sums of both particles in the right order;
+//   - a term that does not apply does not change the sum. Adding +0.0 would change a sum of -0.0. So the old sum is
+//     selected, or the neutral zero of the operation is used: x + -0.0 and x - +0.0 are x for all x;
 //   - nothing is contracted, reassociated or approximated.
 #ifndef PETRI_PHYSICS_KERNELS_H
 #define PETRI_PHYSICS_KERNELS_H
@@ -21,11 +21,11 @@
 enum {
     PHYS_VECTOR_DIMENSIONS = 3, // maximum number of dimensions of the kernels
     PHYS_MAX_TERMS = 8,         // maximum number of pair forces in a pass of the kernels
-    PHYS_QUAD = 4,              // values of ListView.width
+    PHYS_QUAD = 4,              // values of ListView.width: doubles per particle
     PHYS_PAIR = 2,
 };
 
-// One force of a pass. `strength` has a sign such that a positive K (pair_formulas.h) attracts.
+// One force of a pass. The sign of `strength` is such that a positive K (pair_formulas.h) attracts.
 typedef struct PairTerm {
     PhysForceKind kind;
     double strength;
@@ -66,15 +66,15 @@ typedef struct PairKernel {
 typedef struct ListView {
     uint32_t regular;                      // number of regular particles
     uint32_t listed;                       // number of regular and large particles
-    bool direct;                           // columns are in sorted order, so `column` is not needed
-    uint32_t *column;                      // by sorted index; readable for LANES elements beyond the last
+    bool direct;                           // columns are in sorted order, so a column is equal to its sorted index
+    uint32_t *column;                      // by sorted index: column; readable for LANES elements beyond the last
     double *built[PHYS_VECTOR_DIMENSIONS]; // by component and sorted index: positions for which the lists were built
     double *radius;                        // by sorted index: radii for which the lists were built
     bool same_radii;                       // `radius` holds the current radii
-    double one_radius;       // common radius of all listed particles; 0: radii differ, or `sources` is set
-    double *packed;          // current positions and radii, `width` doubles per sorted index, then a dummy particle
-    uint32_t width;          // PHYS_QUAD; in two dimensions with `one_radius` set: PHYS_PAIR, without radii
-    double *sources;         // mass and charge, two doubles per sorted index; NULL: no force needs them
+    double one_radius; // common radius of all listed particles; 0: radii differ, or `sources` is set
+    double *packed;    // by sorted index: current position and radius, `width` doubles; the last is a dummy particle
+    uint32_t width;    // PHYS_QUAD; in two dimensions with `one_radius` set: PHYS_PAIR, without radii
+    double *sources;   // by sorted index: mass and charge, two doubles; NULL: no force needs them
     double max_move_squared; // lists are valid while no squared distance from `built` exceeds this
     // Lists of LANES particles, interleaved as [k][lane] and padded with dummies. An entry is the sorted index of a
     // partner times `width`.
@@ -100,14 +100,14 @@ typedef struct Kernels {
     void (*list_search)(const struct ListSearch *search, struct ListChunk *chunk);
     // Adds the forces on the regular particles of blocks first to end - 1.
     void (*list_forces)(const PairPass *pass, const ListView *view, size_t first, size_t end);
-    // Adds the forces that columns first to end - 1 exert on `count` particles, at most LANES. `targets` holds their
-    // columns and must be readable for LANES elements.
+    // Adds the forces that the particles in columns first to end - 1 exert on those in columns targets[0] to
+    // targets[count - 1]. `count` is at most LANES, and `targets` must be readable for LANES elements.
     void (*range_forces)(const PairPass *pass, const uint32_t *targets, size_t count, size_t first, size_t end);
-    // Applies single-particle forces, barriers and motion to some particles.
+    // Applies single-particle forces, barriers and motion to the particles in columns first to end - 1.
     IntegrateKernel *integrate;
-    // Copies positions and velocities to the rows of their handles, LANES particles at a time. Stops before LANES
-    // particles of which a value is not finite or would replace a zero of the other sign. Returns the first particle
-    // that was not copied.
+    // Copies positions and velocities from columns first to end - 1 to `rows`, LANES particles at a time. order[i] is
+    // the handle of the particle in column i. Stops early if a value of the next LANES particles is not finite or would
+    // replace a zero of the other sign. Returns the first column that was not copied.
     size_t (*write_rows)(const struct Columns *columns, const uint32_t *order, double *rows, size_t first, size_t end);
 } Kernels;
 

@@ -101,7 +101,7 @@ KERNEL Mask real_at_most_where(Mask mask, Real a, Real b) {
     return COMPARE(mask, a, <=, b, _CMP_LE_OQ);
 }
 
-// NaN differs from everything.
+// Returns the lanes of `mask` in which a and b differ. NaN differs from everything.
 KERNEL Mask real_differs_where(Mask mask, Real a, Real b) {
     return COMPARE(mask, a, !=, b, _CMP_NEQ_UQ);
 }
@@ -161,7 +161,7 @@ KERNEL Real real_sub_where(Mask mask, Real sum, Real a) {
 #endif
 }
 
-// The vector extension has no square root.
+// Needs intrinsics, because the vector extension has no square root.
 KERNEL Real real_sqrt(Real a) {
 #if LANES == 8
     return _mm512_sqrt_pd(a);

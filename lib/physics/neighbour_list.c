@@ -8,12 +8,12 @@
 
 enum {
     MIN_FOR_LISTS = 160, // minimum number of particles in a pass
-    FIRST_COOLDOWN = 64, // steps without lists after a list has not paid off; doubled after each further failure
-    MAX_COOLDOWN = 1024,
-    ENTRIES_A_UNIT = 4,
-    FIRST_LIFETIME = 8, // steps that the first list is expected to serve
-    MIN_LIFETIME = 8,   // steps that a list should serve
-    MANY = 250000,      // number of particles that no longer fit into the cache
+    FIRST_COOLDOWN = 64, // number of steps without lists after lists have not paid off; each further failure doubles it
+    MAX_COOLDOWN = 1024, // maximum number of steps without lists
+    ENTRIES_A_UNIT = 4,  // list entries per unit of work
+    FIRST_LIFETIME = 8,  // number of steps that the first lists are expected to serve
+    MIN_LIFETIME = 8,    // if lists serve fewer steps, the skin grows
+    MANY = 250000,       // this many particles no longer fit into the cache
 };
 
 void phys_neighbour_list_free(NeighbourList *list) {
@@ -22,7 +22,7 @@ void phys_neighbour_list_free(NeighbourList *list) {
     phys_buffer_free(&list->entries);
 }
 
-// Finds the interaction range of a pass. Returns false if one of its forces has no bound.
+// Finds `bound` and `contact_only` (NeighbourList) for a pass. Returns false if one of its forces has no bound.
 static bool is_bounded(const PairPass *pass, double *bound, bool *contact_only) {
     *bound = 0;
     *contact_only = true;
@@ -108,8 +108,8 @@ static void force_chunk(void *context, int chunk, int chunks) {
     work->kernels->list_forces(work->pass, view, first, chunk_first_block(work, view->regular, chunk + 1, chunks));
 }
 
-// Computes forces, motion and `packed` of the next step in one pass, in parts that fit into the cache. Motion changes
-// the columns, while the force kernels read only `packed`.
+// Computes forces, motion and the next step's `packed` at once, in parts that fit into the cache. This is possible
+// because motion changes the columns, while the force kernels read only the current `packed`.
 static void step_chunk(void *context, int chunk, int chunks) {
     enum { CHUNK = 16384 }; // particles
     ListPass *work = context;
@@ -146,7 +146,8 @@ static bool run_chunks(const PhysSystem *system, ListPass *work, PhysTask *task)
     return held;
 }
 
-// Refreshes the halo particles, whose positions come from other ranks.
+// Updates the list's copy of the halo particles, whose positions come from other ranks. Returns false if one of them
+// has moved by half the skin.
 static bool refresh_remote(const PhysSystem *system, const ListPass *work) {
     const ListView *view = &work->list->view;
     uint32_t lanes = (uint32_t)work->list->lanes, count = system->remote ? work->list->total : 0, i = 0;
@@ -172,8 +173,9 @@ static bool refresh_list(const PhysSystem *system, ListPass *work) {
     return run_chunks(system, work, refresh_chunk) && still_idle(work->pass, list);
 }
 
-// Takes the whole step if it consists of only this pass and the motion. Returns false if it consists of more or the
-// list does not allow this. Also returns false if the particles fit into the cache, where this is not faster.
+// Takes the whole step if it consists of only this pass and the motion. Returns false if the step consists of more, or
+// if the list does not allow this. Also returns false if the particles fit into the cache, because then it is not
+// faster.
 static bool step_with_list(PhysSystem *system, ListPass *work, Move *move) {
     NeighbourList *list = work->list;
     bool many = list->total >= MANY || system->options.neighbours == PHYS_NEIGHBOURS_ALWAYS;
@@ -191,7 +193,7 @@ static bool step_with_list(PhysSystem *system, ListPass *work, Move *move) {
     return true;
 }
 
-// Adds the forces on the few large particles, which are tested against all others.
+// Adds the forces on the few large particles, each of which is tested against all other particles.
 static void large_forces(const ListPass *work) {
     const NeighbourList *list = work->list;
     const PassRanges *ranges = &list->ranges;
@@ -208,13 +210,13 @@ static void large_forces(const ListPass *work) {
     }
 }
 
-// Costs in units of the cost of a list entry with eight lanes. For contact forces, few pairs need a square root. Wrong
-// values only cost time and do not change results.
+// Costs of parts of a step. The unit is the cost of a list entry with eight lanes. A pair costs less if all forces need
+// contact, because few pairs then need a square root. Wrong values only cost time and do not change results.
 #define PAIR_COST(touch_only) ((touch_only) ? 1.0 / 6 : 1.0)
-#define SCAN_COST (1.0 / 3)  // of a candidate in a build
-#define LARGE_COST (1.0 / 3) // of a pair with a large particle
-#define BUILD_COST 44.0      // of a particle in a build
-#define REFRESH_COST 5.5     // of a particle, in every step
+#define SCAN_COST (1.0 / 3)  // per candidate in a build
+#define LARGE_COST (1.0 / 3) // per pair with a large particle
+#define BUILD_COST 44.0      // per particle in a build
+#define REFRESH_COST 5.5     // per particle in every step
 
 static double all_pairs_cost(const NeighbourList *list) {
     double n = (double)phys_ranges_total(&list->ranges), own = list->ranges.at[0].count;
@@ -260,8 +262,8 @@ void phys_adapt_skin(NeighbourList *list, uint32_t lifetime) {
         list->skin = fmax(list->skin / 1.15, MIN_SKIN * list->contact_distance);
 }
 
-// Sorts the particles and builds the list. If this fails or there are large particles, forces are summed in column
-// order, so the order of the columns is restored.
+// Sorts the particles and builds the list. If this fails, or if there are large particles, forces are summed in the
+// order of columns. So the columns are put back into ascending order of handles.
 static bool sort_particles(PhysSystem *system, const Kernels *kernels, const PairPass *pass, NeighbourList *list) {
     bool sorted = phys_grid_build(system, kernels, pass, list);
     if (!system->in_cell_order || (sorted && list->view.listed == list->view.regular))
@@ -283,7 +285,7 @@ static bool build_list(PhysSystem *system, const Kernels *kernels, const PairPas
         return true;
     }
     list->built = false;
-    if (system->remote) { // no list until the halo is rebuilt
+    if (system->remote) { // this pass gets no list until the halo is rebuilt
         list->cooldown = UINT32_MAX;
         return false;
     }
@@ -293,7 +295,8 @@ static bool build_list(PhysSystem *system, const Kernels *kernels, const PairPas
     return false;
 }
 
-// Returns a list for this pass, which is built only if list->built is set. Returns NULL if lists cannot be used.
+// Returns the list for this pass. Unless list->built is set, the list must be built before use. Returns NULL if lists
+// cannot be used.
 static NeighbourList *prepare_list(PhysSystem *system, const Kernels *kernels, const PairPass *pass, uint32_t group,
                                    uint32_t level) {
     double bound;

@@ -15,7 +15,7 @@
 
 #include <string.h>
 
-// In units of NeighbourList.contact_distance.
+// Limits of NeighbourList.skin, in units of NeighbourList.contact_distance.
 #define MIN_SKIN 0.05
 #define MAX_SKIN 0.6
 
@@ -28,7 +28,7 @@ typedef struct ColumnRange {
     uint32_t count;
 } ColumnRange;
 
-// The particles of a pass: those of the group, of its parent, and so on outwards.
+// The particles of a pass: one range for the group of the pass, one for its parent, and so on outwards.
 typedef struct PassRanges {
     uint32_t count;
     ColumnRange at[PHYS_MAX_RANGES];
@@ -42,7 +42,7 @@ typedef struct NeighbourList {
     uint64_t frame; // frame of the last use; 0: never used
     PassRanges ranges;
     size_t dimensions;
-    size_t lanes;      // of the kernels that use the list
+    size_t lanes;      // number of lanes of the kernels that use the list
     double bound;      // largest max_distance of the forces that need no contact; 0: none
     bool contact_only; // all forces need contact
     // contents
@@ -50,24 +50,24 @@ typedef struct NeighbourList {
     ListView view;
     double *next_packed;          // `view.packed` of the next step, written by the current step; NULL for PHYS_QUAD
     uint64_t next_motion_version; // PhysSystem.motion_version that `next_packed` matches; 0: none
-    bool next_valid;              // in `next_packed`, no particle has moved by half the skin
+    bool next_valid;              // true if no particle in `next_packed` has moved by half the skin
     uint32_t *key;                // by sorted index: position in the order of the pass
-    uint32_t *cell;               // by position in `ranges`: grid cell, later sorted index
+    uint32_t *cell;               // by position in `ranges`: grid cell of the particle; after sorting, its sorted index
     const uint32_t *order;        // by column: position in the order of the pass; NULL: columns are in that order
     uint32_t total;               // number of particles; sorted indices from view.listed on are idle (PHYS_CELL_IDLE)
-    double contact_distance;      // typical distance of interacting particles, the unit of the skin
+    double contact_distance;      // typical distance of interacting particles, the unit of MIN_SKIN and MAX_SKIN
     double skin;                  // margin added to the interaction range of each pair
     uint64_t radius_version;      // PhysSystem.radius_version for which the lists were built
     bool skin_is_fixed;           // `skin` is set by the domain decomposition
-    uint64_t scanned;             // candidates tested in the last build
-    uint64_t padded;              // entries of all lists, including dummies
+    uint64_t scanned;             // number of candidates tested in the last build
+    uint64_t padded;              // number of entries of all lists, including dummies
     // tuning
-    uint32_t age;      // steps since the lists were built
-    uint32_t lifetime; // steps that the previous build served
-    double cost;       // of a step with the previous build; 0: unknown
+    uint32_t age;      // number of steps since the lists were built
+    uint32_t lifetime; // number of steps that the previous lists served
+    double cost;       // cost of a step with the previous lists; 0: unknown
     bool shrinking;    // true: the last adjustment reduced the skin; false: it increased the skin
-    uint32_t cooldown; // remaining steps that compute all pairs instead of using lists
-    uint32_t backoff;  // length of the last `cooldown`; 0: none
+    uint32_t cooldown; // number of further steps that compute all pairs instead of using lists
+    uint32_t backoff;  // number of steps at the start of the last `cooldown`; 0: none
     Buffer arrays;
     Buffer cells;
     Buffer entries;
@@ -76,26 +76,26 @@ typedef struct NeighbourList {
 // force_pair.c: returns a pass that uses these columns and as yet has no forces.
 PairPass phys_columns_pass(const Columns *columns);
 
-// neighbour_list.c: computes a pass with neighbour lists. If lists cannot be used or computing all pairs is faster,
+// neighbour_list.c: computes a pass with neighbour lists. If lists cannot be used, or if computing all pairs is faster,
 // adds no forces and returns false. `move` is as in phys_apply_pairs.
 bool phys_neighbour_list_pass(PhysSystem *system, const Kernels *kernels, const PairPass *pass, uint32_t group,
                               uint32_t level, Move *move);
 void phys_neighbour_list_free(NeighbourList *list);
-// Adapts the skin, given that the last halo has served `lifetime` steps.
+// Adapts list->skin after a halo has served `lifetime` steps.
 void phys_adapt_skin(NeighbourList *list, uint32_t lifetime);
 
 // The two functions below are for local systems (domain.h), whose lists are rebuilt when the halo is.
 //
-// Refreshes all lists. Returns false if one must be rebuilt or has not served exactly `age` steps.
+// Refreshes all lists. Returns false if a list must be rebuilt, or if it has not served exactly `age` steps.
 bool phys_lists_valid(PhysSystem *system, uint32_t age);
-// Drops all lists. New lists use this skin.
+// Drops all lists. Lists that are built later use this skin.
 void phys_lists_drop(PhysSystem *system, double skin);
 
 // grid.c: builds the lists of a pass for the current positions and list->skin. Returns false if out of memory, if
 // contact_distance is too small or too large, or if lists would not pay off.
 bool phys_grid_build(PhysSystem *system, const Kernels *kernels, const PairPass *pass, NeighbourList *list);
 
-// neighbour_list.c: returns the number of entries above which a list costs more than all pairs.
+// neighbour_list.c: returns the number of entries above which a pass with lists costs more than computing all pairs.
 uint64_t phys_max_useful_entries(const NeighbourList *list);
 
 // Returns the first remote column at or after `from`. If there is none, returns the number of columns.

@@ -2,9 +2,11 @@
 //
 //   d_k = to_k − from_k;  l = sqrt(d_0² + d_1² + …);  inv = 1 / l;  u_k = d_k · inv;  f_k = u_k · K
 //
+// K is the signed size of the force: a positive K attracts. Each kind of force has a formula for K below. S is the
+// strength times the sign in the force's row (force_list.h).
+//
 // The target (`from`) receives + f and the partner − f, whichever of the two comes first in the pass. Every K is
-// symmetric, so if the two are exchanged, d, u and f change their signs exactly and K stays the same. S is the
-// strength times the sign in the force's row (force_list.h). A positive K attracts.
+// symmetric: if the two are exchanged, d, u and f change only their signs, and K stays the same.
 #ifndef PETRI_PHYSICS_PAIR_FORMULAS_H
 #define PETRI_PHYSICS_PAIR_FORMULAS_H
 
@@ -72,7 +74,7 @@ KERNEL Real pair_adhesion(const Pairs *pairs) {
     return real_set(pairs->term->strength) * depth * (geometry->length - rest);
 }
 
-// Computes K of a link. Returns false if there is no force.
+// Sets *k to K of a link with this length. Returns false if there is no force.
 //   l < min:       K = − ((min − l)^power · S)
 //   else l > max:  K = (l − max)^power · S
 KERNEL bool link_distance(const PhysForce *link, double strength, Real length, Real *k) {
@@ -96,15 +98,15 @@ KERNEL Mask both_nonzero(Mask mask, Real a, Real b) {
     return real_differs_where(real_differs_where(mask, a, real_zero()), b, real_zero());
 }
 
-// Returns the lanes in which a force applies, not considering `bound`.
+// Returns the lanes in which a force applies if its `bound` is ignored.
 KERNEL Mask pair_where(PairReach reach, ForceNeed need, const Pairs *pairs) {
     if (reach == REACH_CONTACT)
         return pairs->contact;
     return both_nonzero(pairs->geometry->valid, pair_source(need, pairs->target), pair_source(need, pairs->partner));
 }
 
-// Computes K of one force and returns the lanes in which it applies. `contact_only`: all forces of the pass need
-// contact.
+// Sets *k to K of one force and returns the lanes in which the force applies. `contact_only`: all forces of the pass
+// need contact.
 KERNEL Mask pair_apply(const Pairs *pairs, bool contact_only, Real *k) {
     Mask applies = mask_first(0);
     *k = real_zero();

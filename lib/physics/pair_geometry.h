@@ -5,9 +5,9 @@
 
 #include "physics/pair_formulas.h"
 
-// Kernels are specialised on the first force of a pass if it has no bound (the lead), and on the other forces (the
-// rest).
-enum { LEAD_NONE = PHYS_FORCE_KINDS }; // other values are a PhysForceKind
+// The lead of a pass, if there is one, is its first force, whose range is unlimited. The rest is all other forces of
+// the pass. Kernels are specialised on both.
+enum { LEAD_NONE = PHYS_FORCE_KINDS }; // value of PairShape.lead if there is no lead; other values are a PhysForceKind
 typedef enum PairRest {
     REST_NONE,
     REST_SPRING,  // one collision force with power 1; no radius is 0
@@ -27,7 +27,7 @@ KERNEL bool rest_needs_contact(PairShape shape) {
     return shape.rest == REST_SPRING || shape.rest == REST_PLAIN || shape.rest == REST_CONTACT;
 }
 
-// Returns what the leading force needs from both particles.
+// Returns the quantity that the leading force needs from both particles.
 KERNEL ForceNeed lead_need(PairShape shape) {
 #define PAIR(KIND, name, SIGN, SOURCE, REACH)                                                                          \
     if (shape.lead == PHYS_##KIND)                                                                                     \
@@ -84,7 +84,7 @@ KERNEL Mask pair_near(Mask live, Real square, Real reach) {
     return real_less_where(live, square, wide + real_set(DBL_MIN));
 }
 
-// Computes the geometry of the pairs in `live`. Returns false if none of them can have a force.
+// Computes the geometry of the pairs in `live`. Returns false if no force can act on any of them.
 KERNEL bool pair_geometry(PairShape shape, const PairEnd *target, const PairEnd *partner, Mask live,
                           PairGeometry *pair) {
     Real square = real_zero();
@@ -110,8 +110,8 @@ KERNEL bool pair_geometry(PairShape shape, const PairEnd *target, const PairEnd 
     return true;
 }
 
-// Returns the lanes in contact. Lanes with a radius of 0 are excluded only later, by both_nonzero, for the few pairs
-// left.
+// Returns the lanes whose pairs are in contact. Pairs with a radius of 0 are not excluded here but later, by
+// both_nonzero, when few pairs are left.
 KERNEL Mask pair_in_contact(const PairGeometry *pair) {
     return real_less_where(pair->valid, pair->length, pair->reach);
 }

@@ -10,7 +10,7 @@ enum {
     MIN_PAIRS = 200000, // default of PhysRanks.min_pairs
     BLOCKS_PER_COLUMN = 32,
     MIN_BLOCK = 64, // minimum number of rows in a block
-    TEST_BLOCK = 8, // MIN_BLOCK if PhysRanks.min_pairs is set, as in tests
+    TEST_BLOCK = 8, // used instead of MIN_BLOCK if PhysRanks.min_pairs is not 0, as in tests
 };
 
 bool phys_ranks_should_split(const PhysSystem *system, uint64_t pairs) {
@@ -47,7 +47,8 @@ static void compute_row(const Shared *shared, size_t row) {
             ranks->receive(ranks->user_data, row_owner(shared, row - 1), numbers, pass->dimensions, length,
                            pass->stride);
         phys_pair_block(&shared->blocks, row, column);
-        // On the diagonal the columns are the rows, whose sums are complete at the end of the row.
+        // In a block on the diagonal, the columns are the rows. Their sums are complete at the end of the row, so they
+        // are not sent.
         if (row + 1 == shared->blocks.rows || (pairs->triangle && row == column))
             continue;
         ranks->send(ranks->user_data, row_owner(shared, row + 1), numbers, pass->dimensions, length, pass->stride);
@@ -64,8 +65,8 @@ static void broadcast_range(const Shared *shared, int from, double *numbers, siz
     shared->rank_stats->step_bytes += ranks->rank == from ? length * pass->dimensions * sizeof *numbers : 0;
 }
 
-// The sums of the rows in a row of blocks are complete on the rank that computed it. The column sums of a rectangle are
-// complete on the rank of the last row.
+// Broadcasts each sum from the rank on which it is complete. For the particles of a row of blocks, this is the rank
+// that computed the row. For the columns of a rectangle, it is the rank that computed the last row.
 static void broadcast_sums(const Shared *shared) {
     const PairRegion *pairs = shared->blocks.pairs;
     for (size_t row = 0; row < shared->blocks.rows; row++) {

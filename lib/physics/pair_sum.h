@@ -4,16 +4,16 @@
 
 #include "physics/pair_geometry.h"
 
-// The terms that a tile (kernel_pair.c) subtracts from the sums of its columns, by component and column. Lanes are
-// rows.
+// The terms that a tile (kernel_pair.c) subtracts from the sums of its columns, by component and column. Each lane is a
+// row of the tile.
 typedef struct Tile {
     Real lead[PHYS_VECTOR_DIMENSIONS][LANES];
     Real rest[PHYS_MAX_TERMS][PHYS_VECTOR_DIMENSIONS][LANES];
     unsigned hits; // bit set of the forces that have written to `rest`
 } Tile;
 
-// Adds a force to `sum` where it applies. Unless `column` is NULL, also stores the terms in element k of its
-// components, with +0.0 where the force does not apply.
+// Adds a force to `sum` in the lanes where it applies. Unless `column` is NULL, also stores component m of the force in
+// column[m][k], with +0.0 in the lanes where the force does not apply.
 KERNEL void add_term(PairShape shape, const PairGeometry *pair, Mask applies, Real coefficient, Real *sum,
                      Real (*column)[LANES], size_t k) {
     for (size_t m = 0; m < shape.dimensions; m++) {
@@ -36,7 +36,7 @@ KERNEL void add_spring(const PairPass *pass, PairShape shape, const PairGeometry
     add_term(shape, pair, pair_in_contact(pair), pair_collision(&pairs), sum, NULL, 0);
 }
 
-// Adds the forces after the leading one, or all forces if none is leading. `tile` and `k` are as in add_column.
+// Adds the forces after the lead, or all forces if there is no lead. `tile` and `k` are as in add_column.
 KERNEL void add_rest(const PairPass *pass, PairShape shape, const PairGeometry *pair, const PairEnd *target,
                      const PairEnd *partner, Real *sum, Tile *tile, size_t k) {
     Mask contact = pair_in_contact(pair);

@@ -6,8 +6,8 @@
 // thread. When a row of a triangle is done, the positions of its particles are no longer needed. Waiting threads then
 // move them.
 //
-// A thread sees the result of another thread after about 300 ns. In this time it could compute six tiles of pairs. So
-// blocks are small, and different threads write to different cache lines.
+// It takes about 300 ns until a thread sees the result of another thread. In this time it could compute six tiles of
+// pairs. So blocks are small, and different threads write to different cache lines.
 #include "physics/pair_wavefront.h"
 
 #include "physics/threads.h"
@@ -20,14 +20,14 @@ enum {
     MIN_BLOCK = 24,            // minimum number of rows in a block
     BLOCKS_PER_COLUMN = 24,    // number of blocks in a column, unless limited by MIN_BLOCK
     MAX_BLOCKS = BLOCKS_PER_COLUMN + 1,
-    BLOCK_ALIGN = 8, // rows; a multiple of every number of lanes
+    BLOCK_ALIGN = 8, // the number of rows in a block is a multiple of this, which is a multiple of every LANES
     LINE_BYTES = 64, // size of a cache line
 };
 
-// A row of blocks.
+// The state of a row of blocks.
 typedef struct Row {
-    _Alignas(LINE_BYTES) atomic_bool claimed;
-    atomic_size_t done; // blocks 0 to done - 1 of the row are done
+    _Alignas(LINE_BYTES) atomic_bool claimed; // some thread computes the row or has computed it
+    atomic_size_t done;                       // blocks 0 to done - 1 of the row are done
 } Row;
 
 typedef struct Wavefront {
@@ -37,7 +37,7 @@ typedef struct Wavefront {
     PairPass pass;
     PhysThreads *threads;
     const PairMotion *motion;                 // NULL: none
-    _Alignas(LINE_BYTES) atomic_size_t moved; // rows 0 to moved - 1: particles have moved or are being moved
+    _Alignas(LINE_BYTES) atomic_size_t moved; // the particles of rows 0 to moved - 1 have moved or are being moved
     Row rows[MAX_BLOCKS];
 } Wavefront;
 
@@ -72,7 +72,8 @@ static bool is_done_to(const Row *row, size_t column) {
     return atomic_load_explicit(&row->done, memory_order_acquire) >= column;
 }
 
-// Moves the particles of the next row whose forces are complete. Returns false if there is no such row.
+// Moves the particles of the next row that has not been moved. Returns false if there is no such row, or if its forces
+// are not complete yet.
 static bool move_next_row(Wavefront *wavefront) {
     size_t row = atomic_load_explicit(&wavefront->moved, memory_order_relaxed);
     if (!wavefront->motion || row >= wavefront->blocks.rows ||

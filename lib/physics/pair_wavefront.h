@@ -5,7 +5,8 @@
 #include "physics/internal.h"
 #include "physics/kernels.h"
 
-// The pairs within one range (a triangle, whose columns are its rows) or between two ranges (a rectangle).
+// The pairs within one range of particles (a triangle, whose columns are the same particles as its rows), or between
+// two ranges (a rectangle).
 typedef struct PairRegion {
     const PairKernel *kernel;
     const PairPass *pass;
@@ -18,8 +19,8 @@ typedef struct PairRegion {
 typedef struct PairBlocks {
     const PairRegion *pairs;
     size_t block;   // side of a block, in particles
-    size_t rows;    // blocks in a column
-    size_t columns; // blocks in a row
+    size_t rows;    // number of blocks in a column
+    size_t columns; // number of blocks in a row
 } PairBlocks;
 
 // Divides a region into about `blocks_per_column` blocks per column, each with at least `min_rows` rows.

@@ -119,10 +119,10 @@ typedef struct RowWriter {
     bool any_not_finite[PHYS_MAX_CHUNKS]; // by chunk: some value was not finite
 } RowWriter;
 
-// Applies PhysTime.keep_last_finite to one vector. If it is finite, and has changed or came from an attribute, copies
-// it from the columns to the row. Otherwise restores it in the columns of `home` from the row. Returns false if it was
-// not finite. The state references the rows (scene/mirror.h). Only this function, and Kernels.write_rows, keep inf and
-// nan of `!physics` out of the rows.
+// Applies PhysTime.keep_last_finite to one vector. If the result in `column` is finite, and if it differs from `row` or
+// `row` came from an attribute, copies it to `row`. Otherwise copies `row` to `home`, unless `home` is NULL. Returns
+// false if the result was not finite. The state references the rows (scene/mirror.h). Only this function and
+// Kernels.write_rows keep inf and nan of `!physics` out of the rows.
 static inline bool keep_last_finite(const Columns *columns, const double *column, double *row, bool from_attribute,
                                     double *home, size_t home_stride) {
     size_t n = columns->dimensions, stride = columns->stride;
@@ -137,8 +137,8 @@ static inline bool keep_last_finite(const Columns *columns, const double *column
     return finite;
 }
 
-// Applies PhysTime.keep_last_finite to one particle. If a value was not finite, marks it in `not_finite` and returns
-// false.
+// Applies PhysTime.keep_last_finite to one particle. If its position or velocity was not finite, marks that vector in
+// system->not_finite and returns false.
 static bool write_finite_row(const RowWriter *writer, size_t i) {
     const PhysSystem *system = writer->system, *home = writer->home;
     const Columns *columns = writer->columns;
@@ -178,7 +178,7 @@ static void write_chunk(void *context, int chunk, int chunks) {
     size_t n = columns->dimensions, end = phys_chunk_begin(columns->count, chunk + 1, chunks);
     size_t first = phys_chunk_begin(columns->count, chunk, chunks);
     if (writer->keep_last_finite) {
-        // When the kernel stops, the next `lanes` particles are written one at a time, and then it continues.
+        // When the kernel stops, the next `lanes` particles are written one at a time. Then the kernel continues.
         const Kernels *kernels = phys_kernels(system);
         while (first < end) {
             if (n <= PHYS_VECTOR_DIMENSIONS && !system->any_from_attribute)

@@ -5,8 +5,8 @@
 #include "maths/arrays.h"
 #include "physics/lanes.h"
 
-// Computes base^power with a function call. Replaces unused lanes by 1, because they can hold numbers for which pow is
-// slow, such as negative ones.
+// Computes base^power with a function call. In lanes outside the mask, uses 1 instead of the base, because pow is slow
+// for some numbers, such as negative ones.
 static __attribute__((noinline, unused)) Real pow_by_lane(Mask mask, Real base, double power) {
     double lanes[LANES];
     real_store(lanes, real_select(mask, base, real_set(1)));

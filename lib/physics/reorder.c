@@ -37,7 +37,7 @@ static void add_arrays(Reordering *reordering, bool positions) {
         add_vector(reordering, columns->ease, 1);
     }
     if (system->has_own_forces || positions)
-        add_vector(reordering, columns->force, columns->dimensions); // in other cases all forces are still 0
+        add_vector(reordering, columns->force, columns->dimensions); // if neither is true, all forces are still 0
     if (!system->record_stride)
         return;
     double *numbers[] = {columns->radius, columns->mass, columns->charge, columns->section, columns->volume};
@@ -45,8 +45,8 @@ static void add_arrays(Reordering *reordering, bool positions) {
         add_vector(reordering, numbers[i], 1);
 }
 
-// Returns how many of the remaining arrays fit into ListView.packed at once. Until the list is refreshed, only its
-// dummy is in use, and the rest is scratch memory.
+// Returns how many of the remaining arrays fit into ListView.packed at once. Until the list is refreshed, only the
+// dummy in `packed` is in use, and the rest of it is scratch memory.
 static size_t arrays_at_once(const Reordering *reordering) {
     size_t left = reordering->count - reordering->next, room = reordering->list->view.width;
     return left < room ? left : room;
@@ -152,7 +152,7 @@ void phys_forget_order(PhysSystem *system) {
     system->in_cell_order = false;
 }
 
-// Permutes in place by swaps, because there may be no memory left.
+// Permutes the columns in place by swaps, because there may be no memory left.
 void phys_restore_order(PhysSystem *system) {
     Reordering reordering = {.system = system};
     uint32_t *order = system->order, *column_of = system->column_of, next = 0;

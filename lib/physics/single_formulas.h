@@ -56,7 +56,7 @@ KERNEL Real velocity_component(const Block *block, size_t k) {
     return block->velocity[k * block->step];
 }
 
-// Adds component k of a force where it applies.
+// Adds component k of a force in the lanes where the force applies.
 KERNEL void add_force_component(Block *block, size_t k, Mask applies, Real f) {
     Real *sum = &block->force[k * block->step];
     *sum = real_add_where(applies, *sum, f);
@@ -96,8 +96,8 @@ KERNEL void single_drag(const Singles *s) {
     Real c = real_set(s->force->strength) * real_sqrt(square);
     c *= real_load(s->columns->section + s->block->first);
     Real limit = s->block->mass / real_set(s->pass->delta);
-    // With this order of the comparison, a NaN (0 · ∞) stays NaN, and move_particles ignores the sum of forces. With
-    // the opposite order, c would be the limit, which stops the particle.
+    // With this order of the comparison, c stays NaN if it is NaN (0 · ∞), and move_particles ignores the sum of
+    // forces. With the opposite order, c would be the limit, which stops the particle.
     c = real_select(real_less(limit, c), limit, c);
     Mask applies = where_not_zero(s->block->live, real_load(s->columns->radius + s->block->first));
     for (size_t k = 0; k < s->n; k++) {
@@ -137,7 +137,7 @@ KERNEL void single_random(const Singles *s) {
 
 #else
 
-// Returns how many live lanes, starting at `lane`, use consecutive items.
+// Returns how many live lanes, starting at `lane`, use consecutive items of the random stream.
 KERNEL size_t consecutive_draws(const Singles *s, size_t lane, unsigned bits, size_t active) {
     const uint32_t *draws = s->columns->random_offset;
     if (!draws)

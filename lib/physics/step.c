@@ -4,16 +4,16 @@
 
 #include <string.h>
 
-// Computes the strength of every force applier and barrier: `strength`, times clock / ease while ease > 0 and clock <
-// ease.
+// Sets Force.strength of every force applier and barrier: the given strength, multiplied by clock / ease if ease > 0
+// and clock < ease.
 static void ease_strengths(const PhysSystem *system, double clock) {
     Force *forces = system->forces.bytes;
     for (uint32_t i = 0; i < system->force_count; i++)
         forces[i].strength = forces[i].given.strength * phys_ramp(forces[i].given.ease, clock);
 }
 
-// Context of start_chunk, which sets the initial force on each particle in a step. It is the particle's `force`
-// attribute, times clock / ease while this is eased in. A factor of 1 changes no bit.
+// Context of start_chunk, which sets the initial force on each particle in a step: its `force` attribute, multiplied by
+// clock / ease while it is eased in. Without easing, the factor is 1, which changes no bit.
 typedef struct StartForces {
     const PhysSystem *system;
     double clock;

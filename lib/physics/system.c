@@ -143,8 +143,8 @@ static ParticleRecord record_of(const PhysParticle *particle, uint32_t group, bo
                             .anchor = anchor};
 }
 
-// Stores the record of a particle. `count` is the number of particles, including this one. As long as all records are
-// equal, only one is stored. Returns false if out of memory.
+// Stores the record of a particle. `count` is the number of particles, including this one. As long as the records of
+// all particles are equal, only one record is stored. Returns false if out of memory.
 static bool set_record(PhysSystem *system, uint32_t handle, uint32_t count, const ParticleRecord *record) {
     bool single = !system->record_stride && count > 1;
     if (single && memcmp(phys_record(system, 0), record, sizeof *record) == 0)
@@ -254,7 +254,7 @@ uint32_t phys_add_force(PhysSystem *system, uint32_t group, const PhysForce *for
     if (!reserve_one(system, &system->force_records, system->force_count, sizeof(ForceRecord)))
         return 0;
     assert(group < system->group_count);
-    int vectors = phys_force_row(force->kind).vectors; // vectors that the kind does not use can be uninitialised
+    int vectors = phys_force_row(force->kind).vectors; // pointers that the kind does not use can be uninitialised
     ForceRecord record = {.given = *force, .group = group};
     record.vector = vectors > 0 ? store_vector(system, force->vector) : 0;
     record.vector2 = vectors > 1 ? store_vector(system, force->vector2) : 0;
@@ -272,7 +272,7 @@ void phys_begin_forces(PhysSystem *system) {
 
 void phys_set_key(PhysSystem *system, uint32_t force, uint64_t key) {
     if (force >= system->force_count)
-        return; // the number comes from a call that failed
+        return; // `force` comes from a failed call of phys_add_force
     ForceRecord *record = (ForceRecord *)system->force_records.bytes + force;
     record->given.key = key;
     if (system->forces_arranged)
@@ -306,7 +306,7 @@ uint32_t phys_particle_count(const PhysSystem *system) {
 
 const double *phys_position(const PhysSystem *system, uint32_t particle) {
     if (particle >= system->particle_count)
-        return NULL; // the handle comes from a call that failed
+        return NULL; // the handle comes from a failed call of phys_add_particle
     return phys_row(system, particle);
 }
 

@@ -13,9 +13,9 @@
 #include <time.h>
 #include <unistd.h>
 
-// Fields of the ticket, a 64-bit word: the number of the job, its number of chunks, how many of them are claimed from
-// the back, and how many from the front. Half of the threads claim from the back. So a thread processes nearly the same
-// particles in each job and finds them in its cache.
+// The ticket is a 64-bit word with four fields, from the high bits: the number of the job, the number of its chunks,
+// how many of these are claimed from the back, and how many from the front. Half of the threads claim from the back. So
+// a thread processes nearly the same particles in each job and finds them in its cache.
 enum { COUNT_BITS = 8, BACK_SHIFT = COUNT_BITS, CHUNKS_SHIFT = 2 * COUNT_BITS, JOB_SHIFT = 3 * COUNT_BITS };
 _Static_assert(PHYS_MAX_CHUNKS < 1 << COUNT_BITS, "the number of claimed chunks must fit");
 
@@ -39,10 +39,10 @@ struct PhysThreads {
     // used by the caller only
     PhysBackoff backoff;
     PhysTuner tuners[TUNERS]; // by the size of a short job
-    uint64_t last_request;    // time when has_awake_helper last found no thread awake
-    uint64_t waited;          // nanoseconds that the caller waited in this job
+    uint64_t last_request;    // time at which has_awake_helper last found no thread awake
+    uint64_t waited;          // nanoseconds that the caller has waited in the current job
     bool helped;              // a helper took part in the last job
-    // the job, in one cache line, because other threads read it first
+    // the job; its fields are in one cache line, because other threads read them first
     _Alignas(LINE_BYTES) atomic_uint_fast64_t ticket;
     PhysTask *work;
     void *context;
@@ -70,8 +70,8 @@ static bool any_left(uint64_t ticket) {
     return count_at(ticket, 0) + count_at(ticket, BACK_SHIFT) < count_at(ticket, CHUNKS_SHIFT);
 }
 
-// Claims a chunk. Returns false if there is none. The job does not end before the claimed chunk is finished, so its
-// fields stay valid until then.
+// Claims a chunk. Returns false if none is left. A job does not end before all claimed chunks are finished, so the
+// fields of the job stay valid until then.
 static bool claim_chunk(PhysThreads *threads, bool from_back, int *chunk, int *chunks) {
     uint64_t ticket = atomic_load_explicit(&threads->ticket, memory_order_acquire);
     while (any_left(ticket)) {

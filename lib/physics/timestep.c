@@ -31,7 +31,7 @@ static bool arrange_system(PhysSystem *system) {
     system->can_reorder = system->options.ranks.rank_count <= 1 && phys_can_reorder(system);
     if (system->in_cell_order && !system->can_reorder) {
         phys_restore_order(system);
-        if (!phys_arrange_forces(system)) // links contain column numbers, which have changed
+        if (!phys_arrange_forces(system)) // because links contain columns, which have changed
             return false;
     }
     if (!system->radius_powers_valid)
