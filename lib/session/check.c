@@ -113,7 +113,8 @@ static void open_scratch(PetriSession *session, CheckLog *log) {
     log->scratch = petri_open(&options);
     if (log->scratch) {
         log->scratch->budget.user_data = session->options.user_data; // for the host's should_interrupt
-        log->scratch->reach = session->reach;                        // its lists outlive the scratch session
+        // A shallow copy: its lists belong to `session`, which outlives the scratch session.
+        log->scratch->reach = session->reach;
         session_copy_host_globals(session, log->scratch);
         log->scratch->functions = session->functions;
     }
@@ -125,7 +126,8 @@ static void open_scratch(PetriSession *session, CheckLog *log) {
 static PetriStatus run_checks(PetriSession *scratch, const char *file, const char *text, size_t length) {
     scratch->loader.lint = scratch->schema.lint = true;
     PetriStatus status = text ? petri_load_text(scratch, file, text, length) : petri_load(scratch, file);
-    scratch->loader.lint = false; // not for modules that the frame loads: each is checked separately
+    // Modules that the frame imports are not linted, because each is checked separately, as a file.
+    scratch->loader.lint = false;
     if (status == PETRI_OK)
         status = petri_step(scratch);
     if (status == PETRI_OK)

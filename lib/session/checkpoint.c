@@ -269,7 +269,7 @@ PetriSnapshot *petri_snapshot(PetriSession *session) {
         return NULL;
     }
     unsigned char *exact =
-        heap_resize(snapshot->at.bytes, snapshot->at.size); // trim it, because hosts keep many snapshots
+        heap_resize(snapshot->at.bytes, snapshot->at.size); // frees unused capacity, because hosts keep many snapshots
     snapshot->at.bytes = exact ? exact : snapshot->at.bytes;
     return snapshot;
 }

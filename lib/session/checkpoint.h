@@ -1,7 +1,7 @@
 // checkpoint.h: copies of the state, systems, input and clock, which determine how a session continues.
 //
-// Rollback of frames, snapshots and state files share this code. Restoring is atomic: the new data is built completely
-// before it replaces the current data.
+// Snapshots, state files and the rollback of aborted frames share this code. Restoring is atomic: the new data is built
+// completely before it replaces the current data.
 #ifndef PETRI_SESSION_CHECKPOINT_H
 #define PETRI_SESSION_CHECKPOINT_H
 
@@ -19,7 +19,7 @@ typedef struct Checkpoint {
 // New data that will replace the session's data. While it is filled in, the current systems are detached from the
 // scene, and the new systems are restored into the scene.
 typedef struct Incoming {
-    Arena arena; // temporary data used to fill in the rest
+    Arena arena; // temporary data of the function that fills in the other fields
     State *state;
     Clock clock;
     InputState input_state;
@@ -39,7 +39,7 @@ void checkpoint_restore_system(PetriSession *session, Incoming *incoming, const 
 // Copies the session's data into a checkpoint, replacing its contents but reusing its memory. Returns false if out of
 // memory.
 bool checkpoint_save(Checkpoint *checkpoint, PetriSession *session);
-// Adds the state entries of a checkpoint to an empty state. Temporary data is allocated in the arena.
+// Adds the state entries of a checkpoint to `state`, which must be empty. Allocates temporary data in `arena`.
 void checkpoint_read_state(const Checkpoint *checkpoint, Arena *arena, State *state);
 // Restores a checkpoint. On failure nothing changes.
 PetriStatus checkpoint_restore(PetriSession *session, const Checkpoint *checkpoint);

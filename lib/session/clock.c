@@ -42,7 +42,7 @@ static double wall_time(const Clock *clock) {
     return clock_monotonic() - clock->wall.origin;
 }
 
-// Maximum lag in seconds. A session that is further behind skips the time beyond it instead of catching up.
+// Longest delay, in seconds, that a session catches up. If a session is further behind real time, it skips the rest.
 static const double MAX_LAG = 0.1;
 // Maximum argument of nanosleep in seconds, about three years.
 static const double MAX_PAUSE = 1e8;
@@ -61,7 +61,8 @@ static double start_wall_clock(Clock *clock) {
     return time;
 }
 
-// Sleeps until the frame is due and returns the time.
+// Sleeps until the next frame is due, or starts the wall clock if it is not running. Returns the script's `time` of the
+// frame.
 static double wait_for_frame(Clock *clock) {
     WallClock *wall = &clock->wall;
     if (!wall->running)

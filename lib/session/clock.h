@@ -8,7 +8,7 @@
 typedef struct ClockRates {
     double fps;     // frames per second
     double tempo;   // beats per minute
-    double quantum; // the script's `quantum`
+    double quantum; // value of `quantum` in scripts
 } ClockRates;
 
 // The frame from which time and beat are counted: the last one at which the rates changed or the host gave a time.
@@ -22,11 +22,12 @@ typedef struct ClockBase {
 // State of the clock in real time. It measures the script's `time`, which is 0 in frame 0 and excludes time that the
 // host discarded with petri_resync_clock. Units are seconds.
 typedef struct WallClock {
-    bool running;       // false: the next frame starts the wall clock, as the first frame or after a restore
+    // False if the next frame must start the wall clock, because it is the first frame or follows a restore.
+    bool running;
     double origin;      // value of the monotonic clock at time 0
     double due;         // time at which the next frame is due
-    double performance; // the script's `performance`, also used in lockstep
-    bool slow_frame;    // the script's `slow_frame`
+    double performance; // value of `performance` in scripts; also set in lockstep
+    bool slow_frame;    // value of `slow_frame` in scripts
 } WallClock;
 
 typedef struct Clock {
@@ -57,7 +58,7 @@ void clock_advance_to(Clock *clock, double time, double beat);
 void clock_resume(Clock *clock, int64_t number);
 // Makes real time continue from the time of the current frame. Must be called after a clock was replaced by a copy.
 void clock_follow_frame(Clock *clock);
-// Returns the seconds until the next frame is due in real time, else 0.
+// In real time, returns the seconds until the next frame is due. Otherwise returns 0.
 double clock_seconds_until_due(const Clock *clock);
 // Implements petri_resync_clock.
 void clock_resync(Clock *clock);

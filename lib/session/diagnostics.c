@@ -137,7 +137,7 @@ static void report_diagnostic(PetriSession *session, void *context) {
     Str key = pending->key;
     uint64_t hash = hash_bytes(0, key.bytes, key.len);
     if (key.len && is_reported(diagnostics, hash))
-        return; // before rendering, because a diagnostic that recurs in every frame must cost little
+        return; // not rendered, because a diagnostic that recurs in every frame must cost little
     ArenaMark mark = arena_mark(&session->text_arena);
     Text rendered = text_new(&session->text_arena);
     diag_format(&rendered, pending->diag, session->options.colour);

@@ -9,14 +9,15 @@
 enum { MAX_RETAINED = 100 };
 
 typedef struct Diagnostics {
-    PetriDiagnostic *retained[MAX_RETAINED]; // ring buffer of copies, each in one block with its strings
-    uint32_t retained_first;                 // index of the oldest
+    PetriDiagnostic *retained[MAX_RETAINED]; // ring buffer of the last diagnostics; each is one heap block that also
+                                             // holds its strings
+    uint32_t retained_first;                 // index in `retained` of the oldest diagnostic
     uint32_t retained_count;
     uint64_t *reported; // hashes of the diagnostics reported since the last load
     uint32_t reported_count;
     uint32_t reported_capacity;
     HashIndex reported_index;
-    bool repeat;        // report diagnostics even if they were reported before
+    bool repeat;        // true: report diagnostics even if they were reported before
     uint64_t counts[3]; // number of diagnostics of each level, reported since the session was opened
 } Diagnostics;
 
@@ -25,7 +26,8 @@ void diagnostics_free(Diagnostics *diagnostics);
 void diagnostics_begin_load(Diagnostics *diagnostics);
 // Sets whether diagnostics are reported even if they were reported before. Returns the previous setting.
 bool diagnostics_repeat(Diagnostics *diagnostics, bool repeat);
-// Passes a diagnostic to the session's host without checking for repetition, for example one of another session.
+// Passes a diagnostic to the session's host, even if it was reported before. petri_check uses this function to pass on
+// the diagnostics of a temporary session.
 void diagnostics_forward(PetriSession *session, const PetriDiagnostic *diagnostic);
 
 // Reports a diagnostic to the host, unless it was already reported since the last load.

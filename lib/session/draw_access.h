@@ -17,15 +17,16 @@ typedef struct DrawAccess {
     Str directory;           // folder that relative file names start from
     const FileAccess *reach; // file access of the script
     size_t memory_limit;     // maximum bytes of a picture, which is a copy of the frame
-    Budget *budget;          // to be charged for the copy
+    Budget *budget;          // budget that the memory of a picture is charged to
 } DrawAccess;
 
 // Returns access to the last frame.
 DrawAccess session_draw_access(PetriSession *session);
 
-// Gets names with numeric values, for shaders: first the names of the engine, such as `beat`, then the definitions. If
-// a name is defined more than once, its newest definition comes first. Stores at most `capacity` names and numbers, and
-// returns how many it stored. Names of definitions are allocated in the arena.
+// Stores the names that have numeric values in `names`, and these values in `numbers`, for shaders. The names of the
+// engine, such as `beat`, come first, then those of the definitions. If a name is defined more than once, its newest
+// definition comes first. Stores at most `capacity` names and returns how many it stored. Allocates the names of
+// definitions in `arena`.
 uint32_t session_frame_numbers(PetriSession *session, Arena *arena, const char *names[], double numbers[],
                                uint32_t capacity);
 

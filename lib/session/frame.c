@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { TEMPO = 120, QUANTUM = 4 }; // defaults without pragmas
+enum { TEMPO = 120, QUANTUM = 4 }; // values for scripts without these pragmas
 
 // Returns the number that a pragma gives, either directly or in a string (L12). If its value is not valid, warns and
 // returns the default. With `positive`, only finite numbers above 0 are valid.
@@ -177,8 +177,8 @@ void session_set_globals(const PetriSession *session, Vm *vm) {
         isnan(session->options.run_time) ? VALUE_NULL : value_number(session->options.run_time);
 }
 
-// Runs a program whose parameters are all values of the frame so far. Appends its exports to the values of the frame.
-// Returns the program's value.
+// Runs a program with all values in frame->values as parameters, and appends its exports to them. Returns the program's
+// value.
 static Value run_program(PetriSession *session, const Program *program) {
     SessionFrame *frame = &session->frame;
     Value result = vm_run(&session->vm, program, frame->values, frame->values + frame->value_count);
@@ -211,7 +211,8 @@ void session_evaluate(PetriSession *session, const State *state) {
     frame->evaluated = true;
 }
 
-// Evaluates the frame again, with the state from which it was computed if that is known, else with the current state.
+// Evaluates the frame again. Uses the state from which the frame was computed, if `undo` holds it, else the current
+// state.
 static void preview(PetriSession *session, void *context) {
     State **before = context;
     diag_sink_free(&session->frame.log); // empty it, because the evaluation repeats the output of debug()

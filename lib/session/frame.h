@@ -16,10 +16,12 @@ typedef struct SessionFrame {
     // Values of the names in PromptList.names, in the same order. Fewer if the frame was not evaluated completely.
     Value *values;
     uint32_t value_count;
-    bool evaluated;     // `tree` and `values` belong to the current frame and configuration
-    bool names_current; // names bound at the prompt already have their values in the state after the frame
-    bool evaluating;    // evaluation is in progress
-    bool no_frame_yet;  // no frame of the loaded script has been computed
+    bool evaluated; // `tree` and `values` belong to the current frame and configuration
+    // True if the values of names bound at the prompt were computed from the state after the frame
+    // (session_update_names).
+    bool names_current;
+    bool evaluating;   // true while an evaluation is in progress
+    bool no_frame_yet; // no frame of the loaded script has been computed
     uint64_t physics_steps;
     double evaluation_seconds;
     double physics_seconds;

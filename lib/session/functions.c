@@ -12,7 +12,7 @@ typedef struct HostFunction {
 
 struct PetriCall {
     BuiltinContext *context;
-    double *numbers; // last memory from petri_call_alloc_numbers, for the numbers of the result; NULL: none
+    double *numbers; // memory that petri_call_alloc_numbers returned last; NULL: none
     char error[200];
 };
 
@@ -46,7 +46,8 @@ static Value call_host(BuiltinContext *context, const Value *args, uint32_t coun
     return result.numbers && result.numbers == call.numbers ? imported : value_copy(context->arena, imported);
 }
 
-// Parses parameters such as "x, y=0, ..." into a row. Returns false if they are not valid.
+// Parses row->parameters, such as "x, y=0, ...", and sets the other fields of the row that describe them. Returns false
+// if they are not valid.
 static bool parse_parameters(Builtin *row) {
     enum { MAX_PARAMETERS = 8 };
     const char *at = row->parameters;

@@ -239,7 +239,7 @@ Unit *unit_parse(PetriSession *session, Str name, Str text) {
     return unit;
 }
 
-// Allows the script to use its own folder.
+// Gives the script access to its own folder. `name` is the path of the script.
 static void set_script_folder(PetriSession *session, Unit *unit, Str name) {
     unit->folder = file_access_folder(&unit->arena, path_directory(name));
     session->reach.script_folder = unit->folder;
@@ -288,7 +288,7 @@ Unit *unit_reload(PetriSession *session, Unit *unit) {
 
 Unit *unit_load_file(PetriSession *session, const char *file, bool module, bool regular) {
     Unit *unit = unit_new(session);
-    if (module) { // added to the list before loading, so that an escape does not leak it
+    if (module) { // added to the list before it is loaded, so that it is freed even if loading fails with a longjmp
         unit->next = session->loader.modules;
         session->loader.modules = unit;
         unit->retired = true; // reset when loading is complete
@@ -299,7 +299,8 @@ Unit *unit_load_file(PetriSession *session, const char *file, bool module, bool 
     Str text;
     const char *problem;
     unit->path = file_canonical(&unit->arena, &session->reach, file);
-    const FileAccess *reach = module ? &session->reach : host_files(session); // the host can choose any script
+    // The script itself may be anywhere, because the host chose it.
+    const FileAccess *reach = module ? &session->reach : host_files(session);
     if (file_read(&unit->arena, reach, file, regular, MAX_SOURCE_BYTES, &text, &unit->version, &problem))
         load_text(session, unit, str_from(file), text, module);
     else

@@ -146,7 +146,7 @@ static bool check_parameter(const Check *check, const Parameter *parameter) {
 // Returns the parameter with the most similar name, or NULL if none is similar.
 static const Parameter *nearest_parameter(const Program *program, Str name) {
     const Parameter *found = NULL;
-    int limit = name.len < 2 ? 1 : name.len < 4 ? 2 : 3; // a limit of 1 accepts no other one-letter name
+    int limit = name.len < 2 ? 1 : name.len < 4 ? 2 : 3; // with a limit of 1, no other one-letter name is similar
     StrNearest nearest = {name, limit, {0}};
     for (uint32_t i = 0; i < program->parameter_count; i++)
         if (str_try_nearest(&nearest, program->parameters[i].name->name))
@@ -223,7 +223,9 @@ static bool check_definition(const Check *check) {
     const Parameter *parameter = program_find_parameter(check->unit->program, check->define->name);
     if (parameter)
         return check_parameter(check, parameter);
-    if (!check->use->read && !check->session->loader.lint) // petri check defines names for many scripts at once
+    // In petri_check, unused definitions are not reported, because `petri check` defines names for many scripts at
+    // once.
+    if (!check->use->read && !check->session->loader.lint)
         check_unused(check);
     return true;
 }

@@ -89,7 +89,8 @@ static void print_hash(TextSink *out, Sha256 *hash) {
     text_sink_end_line(out);
 }
 
-// Writes each diagnostic on a line that starts with `mark`. If `positions` is true, the line includes its position.
+// Writes each diagnostic on a line that starts with `mark`. If `positions` is true, the line includes the position of
+// the diagnostic.
 static void print_lines(TextSink *out, const DiagSink *sink, const char *mark, bool positions) {
     for (uint32_t i = 0; i < sink->count && !out->stopped; i++) {
         text_add_c(&out->text, mark);
@@ -101,7 +102,7 @@ static void print_lines(TextSink *out, const DiagSink *sink, const char *mark, b
 // Arguments and result of a public output function, such as petri_print.
 typedef struct Printing {
     void (*print)(TextSink *out, PetriSession *session, unsigned what);
-    unsigned selection; // sections, or PetriDump
+    unsigned selection; // sections of petri_print, or the PetriDump of petri_dump
     PetriWriteCallback *write;
     void *user_data;
     PetriStatus status;

@@ -2,8 +2,8 @@
 //
 // Each statement is a separate program whose parameters are the visible names (prompt.h). Names of the script have
 // their values of the last frame, before its systems were updated (session_evaluate). Names bound at the prompt are
-// evaluated in the state after the frame, as if they were typed again (session_update_names). Both are independent of
-// how the session reached the frame. Expressions are evaluated in a separate arena and retain nothing.
+// evaluated in the state after the frame, as if they were typed again (session_update_names). In both cases, the values
+// do not depend on how the session reached the frame. Expressions are evaluated in a separate arena and retain nothing.
 #include "base/heap.h"
 #include "session/session.h"
 #include "syntax/parse.h"
@@ -14,8 +14,8 @@
 
 enum { MAX_LINES = 10000 };
 
-// Execution of one statement. Results that are needed after an escape are stored here, because local variables are
-// lost.
+// The execution of one statement. Results that are needed after a call was aborted are stored here, because the abort
+// (longjmp) loses local variables.
 typedef struct Job {
     Str text;
     Unit *unit;

@@ -11,7 +11,7 @@ typedef struct PromptStatement {
     const char *text;
     const Ast *ast;
     const Program *program;
-    bool adds_nodes; // its value is added to the tree
+    bool adds_nodes; // true if its value is added to the tree
 } PromptStatement;
 
 typedef struct PromptList {
@@ -25,9 +25,9 @@ typedef struct Prompt {
     Arena arena; // temporary data of the current input, such as an expression
 } Prompt;
 
-// Returns a list without statements. Its names are the parameters and exports of the script, which may be NULL. The
-// parameters are the first of the `host_names`, because names that the host set after the load follow. Returns NULL if
-// out of memory.
+// Returns a list without statements. Its names are the parameters and exports of the script, or none if `script` is
+// NULL. The parameters are the first names in `host_names`; those that follow were set after the script was loaded.
+// Returns NULL if out of memory.
 PromptList *prompt_list_new(Names host_names, const Program *script);
 // Returns a copy of a list with one more statement, or NULL if out of memory.
 PromptList *prompt_list_add(const PromptList *list, const PromptStatement *statement);

@@ -48,7 +48,8 @@ static void report_scene(void *host, DiagLevel level, const char *code, const Or
         diag.span = origin->span;
     }
     diag_report(&session->frame.errors, &diag);
-    // A loop can create a thousand nodes from one position in the script. Their common problem is reported once.
+    // A loop can create a thousand nodes from one position in the script. A problem that they share is reported once,
+    // because the key contains their position instead of their names.
     Str where = diag.source ? str_format(arena, "%.*s %u", STR_ARGS(diag.source->path), diag.span.start) : node;
     session_report_keyed(session, &diag, str_format(arena, "%s %.*s %.*s", code, STR_ARGS(where), STR_ARGS(key)));
 }

@@ -19,11 +19,11 @@
 #include "session/unit.h"
 #include "vm/vm.h"
 
-// The current configuration. Every change is followed by a call of session_change_config.
+// The current configuration. After each change, call session_change_config.
 typedef struct Config {
     Unit *program;         // the loaded script, or NULL
     PromptList *prompts;   // never NULL
-    const Define *defines; // immutable, because configurations share it
+    const Define *defines; // array that is never modified in place, because configurations share it
     uint32_t define_count;
     ClockRates pragma_rates;
     double resolution; // maximum time step (petri_set_resolution); 0: each system uses its own
@@ -84,11 +84,13 @@ struct PetriSession {
     Vm vm;
     Vm static_vm; // folds constant expressions at load time
     atomic_bool interrupt;
-    uint64_t spent;            // work units that count as already used when the next protected call begins
+    // Work units that the next outermost protected call starts with. Before the systems are updated, it is the work of
+    // the evaluation, because both share one limit. Otherwise it is 0.
+    uint64_t spent;
     Budget budget;             // work and memory of the script
     uint32_t call_depth;       // nesting depth of protected calls
     bool uninterruptible;      // the current operation must not be interrupted
-    ArenaOutcome last_outcome; // why the last protected call was aborted
+    ArenaOutcome last_outcome; // reason of the most recent abort of a protected call
 
     HostGlobals host_globals;
     HostFunctions functions;
@@ -103,26 +105,27 @@ struct PetriSession {
     SessionFrame frame;
     Prompt prompt;
     Diagnostics diagnostics;
-    Checkpoint undo;       // taken before the current frame was computed; used with PetriOptions.rollback_frames
-    bool undo_of_frame;    // `undo` is the state from which the current frame was computed
-    bool rollback_pending; // an aborted frame could not be rolled back yet, for lack of memory
+    Checkpoint undo;       // taken before the current frame was computed, if PetriOptions.rollback_frames is set
+    bool undo_of_frame;    // true if `undo` is the state from which the current frame was computed
+    bool rollback_pending; // true if an aborted frame could not be rolled back yet, because memory ran out
 };
 
-// Initialises an arena that is charged to the session.
+// Initialises an arena like arena_init. Its memory is charged to the session's budget.
 void session_arena(PetriSession *session, Arena *arena, const char *name, size_t limit);
 
-// Rolls back an aborted frame. Returns false if out of memory; rollback_pending is then set, to try again later.
+// Restores the state before an aborted frame. If out of memory, sets rollback_pending, so that the next call tries
+// again, and returns false.
 bool session_rollback(PetriSession *session);
 
 // Returns true if the text is a valid name (spec language.md L2.4).
 bool session_is_name(Str text);
 // Returns the public form of a value. Valid as long as `v` itself and the data that it points to.
 PetriValue session_export_value(const Value *v);
-// Converts a public value. The items of a mixed value are copied to the arena. Arrays of numbers and the bytes of
-// strings still refer to the host's memory. Returns false if the value is not valid.
+// Converts a public value and stores the result in *value. The items of a mixed value are copied to the arena. Arrays
+// of numbers and the bytes of strings still refer to the host's memory. Returns false if the value is not valid.
 bool session_import_value(Arena *arena, PetriValue host_value, Value *value);
 
-// Copies the names that the host set to another session.
+// Copies the names that the host set, with their values, from `session` to the session `to`.
 void session_copy_host_globals(const PetriSession *session, PetriSession *to);
 // Frees the values of the names that the host set.
 void session_free_host_globals(PetriSession *session);
@@ -133,20 +136,21 @@ PetriStatus session_define(PetriSession *session, Str name, Str value);
 // is an error that must prevent the script from running.
 bool session_check_definitions(PetriSession *session, Unit *unit);
 
-// Records that the configuration has changed. `frame_valid`: the results of the last frame are still valid.
+// Records that the configuration has changed. If `frame_valid` is true, the results of the last frame stay valid.
 void session_change_config(PetriSession *session, bool frame_valid);
-// Replaces the list of prompt statements. Takes over the caller's reference.
+// Replaces the list of prompt statements. Takes over the caller's reference to `list`.
 void session_set_prompts(PetriSession *session, PromptList *list);
 
 // Sets the rates of a new script and rewinds to before frame 0.
 void session_start(PetriSession *session, const ClockRates *rates);
-// Sets those rates whose values in `rates` (from the pragmas) differ from the pragmas of the previous script.
+// Changes rates after a reload. `rates` are those that the pragmas of the new script set. A rate changes only if its
+// pragma differs from that of the previous script.
 void session_apply_rates(PetriSession *session, const ClockRates *rates);
 // Returns the rates that a program's pragmas set; rates without a valid pragma have their defaults. Called within a
 // protected call.
 ClockRates session_pragma_rates(PetriSession *session, const Program *program);
-// Sets the names of the engine, such as `time` and `beat`, for the current frame. Before the first frame, only constant
-// names have valid values.
+// Gives the engine's names, such as `time` and `beat`, their values for the current frame in `vm`. Before the first
+// frame, only constant names have valid values.
 void session_set_globals(const PetriSession *session, Vm *vm);
 // Warns about top-level nodes that have no effect and are probably misspelled: their kind resembles a kind with an
 // effect. Called within a protected call.

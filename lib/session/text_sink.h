@@ -8,10 +8,10 @@
 
 typedef struct TextSink {
     Text text;                 // text not flushed yet
-    PetriWriteCallback *write; // NULL: discard
+    PetriWriteCallback *write; // callback of the host; NULL: the text is discarded
     void *user_data;
-    bool stopped;             // the host stopped the output, or it was truncated
-    const Node *truncated_at; // the tree that was truncated, or NULL
+    bool stopped;             // true if the host stopped the output, or it was truncated
+    const Node *truncated_at; // root of the tree that was truncated, or NULL
     size_t written;           // bytes flushed so far
     Sha256 *hash;             // hash that receives the same text; NULL: none
     bool muted;               // true: only the hash receives the text, not the host

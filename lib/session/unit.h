@@ -6,25 +6,25 @@
 #include "petri.h"
 #include "program/program.h"
 
-// A source file with its compiled program, in one arena. Modules are cached by path until their file changes. A script
-// that is recompiled for changed definitions has a parse cache: another unit, which holds only the syntax trees of the
-// script and its included files.
+// A source file with its compiled program, in one arena. Modules are cached by path until their file changes. When a
+// script is compiled again because definitions changed, it gets a parse cache. This is another unit, which holds only
+// the syntax trees of the script and its included files.
 typedef struct Unit Unit;
 typedef struct Parsed Parsed;
 struct Unit {
     Unit *next;
-    Unit *same_hash; // next module with the same hash of its path
-    Arena arena;     // use it through unit_arena
+    Unit *same_hash; // next module in the same chain of Loader.by_path
+    Arena arena;     // memory of the program; call unit_arena to get it
     Arena scratch;   // temporary data of the compiler: syntax tree, expressions
     Str path;        // canonical; NUL-terminated
-    Str folder;      // of a script: its canonical folder, in which it has permission to read and write
+    Str folder;      // canonical folder of a script, in which it may read and write files; empty for modules
     Str version;     // identifies the contents: modification time, size, inode; empty: not from a file
     const Source *source;
     const Ast *ast;         // syntax tree of prompt input or a parse cache, kept to be compiled again; else NULL
     uint64_t work;          // in a parse cache: work units that parsing the script took
     Parsed *parsed;         // in a parse cache: list of the included files
     Unit *parse_cache;      // counted reference to the script's parse cache, or NULL
-    bool empty;             // contains no statements
+    bool empty;             // true if the file contains no statements
     const Program *program; // NULL: could not be loaded
     Str error;              // why the unit could not be loaded
     uint32_t references;    // reference count
@@ -63,8 +63,8 @@ typedef struct Names {
 
 // Returns the unit's arena, ready for use in the current protected call: a failed allocation aborts that call.
 Arena *unit_arena(const PetriSession *session, Unit *unit);
-// Reads, parses and compiles a file. Returns a unit even on failure, with a NULL program. `regular` rejects pipes,
-// which could block. Called within a protected call.
+// Reads, parses and compiles a file. Returns a unit even on failure; its `program` is then NULL. If `regular` is true,
+// rejects pipes, because reading them could block. Called within a protected call.
 Unit *unit_load_file(PetriSession *session, const char *file, bool module, bool regular);
 // Like unit_load_file, for a script in memory.
 Unit *unit_load_text(PetriSession *session, Str name, Str text);
@@ -77,8 +77,9 @@ Unit *unit_parse(PetriSession *session, Str name, Str text);
 const Program *unit_compile(PetriSession *session, Unit *unit, const Ast *ast, bool module, Names params);
 // Releases a reference. Frees the unit when no reference is left. NULL is ignored.
 void unit_free(Unit *unit);
-// Must be called for each unit that frames begin to use. Changes the generation: data of the unit may have the same
-// addresses as data of a freed unit, and caches that compare addresses must notice this. Returns the unit.
+// Must be called before frames use a unit for the first time. Increments Loader.generation, because data of the unit
+// may have the same addresses as data of a freed unit. Caches that compare addresses also compare the generation.
+// Returns the unit.
 Unit *session_use_unit(PetriSession *session, Unit *unit);
 // Returns the module at a path for the virtual machine. On failure, sets *reason and returns NULL. Called within a
 // protected call.
