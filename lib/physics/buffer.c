@@ -16,8 +16,8 @@ bool phys_buffer_reserve(PhysSystem *system, Buffer *buffer, uint64_t retained, 
         system->failed = true;
         return false;
     }
-    // A buffer that retains its contents doubles, so that n single elements are added in a time proportional to n. A
-    // buffer that is refilled from scratch grows only rarely, and then by little.
+    // If contents are retained, the capacity is doubled, so that adding n single elements takes a time proportional to
+    // n. Buffers that are refilled from scratch grow rarely and by little, so they are not doubled.
     uint64_t more = retained ? buffer->capacity : buffer->capacity / GROWTH_DIVISOR;
     uint64_t capacity = buffer->capacity + more > needed ? buffer->capacity + more : needed;
     if (!retained) // free the old block first, so that the old and the new block need not fit into memory together

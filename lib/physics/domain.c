@@ -1,4 +1,4 @@
-// domain.c: the steps of a frame with domain decomposition (domain.h).
+// domain.c: decides on domain decomposition (domain.h) in each frame, and takes the steps of frames that use it.
 #include "physics/domain.h"
 
 #include <time.h>
@@ -56,7 +56,7 @@ static Domain *get_domain(PhysSystem *system) {
     PhysOptions options = system->options;
     options.neighbours = PHYS_NEIGHBOURS_ALWAYS;
     options.pool = system->threads;
-    options.budget = NULL; // phys_domain_step charges the system's budget, the same amount on all ranks
+    options.budget = NULL; // because phys_domain_step charges the system's budget, by the same amount on all ranks
     options.ranks = (PhysRanks){.rank_count = 0};
     if (!system->threads)
         options.threads = 1;

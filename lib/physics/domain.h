@@ -60,7 +60,7 @@ typedef struct Domain {
     bool built_valid;     // true if `built` was recorded
     Buffer movers;        // uint32_t by column: number of earlier particles of the same group that are not anchors
     Buffer random_offset; // uint32_t by local column: element of `movers` for the particle
-    Transfers to, from;   // particles of halos; in phys_domain_move: migrating particles
+    Transfers to, from;   // particles to send and to receive: those of halos or, in phys_domain_move, migrating ones
     // Used during a rebuild. The system's columns are then up to date for all particles that are sent or received.
     ColumnList boundary; // columns of owned particles that other ranks possibly need
     ColumnList arrivals; // columns of received particles, which are now owned or in the halo

@@ -73,7 +73,7 @@ static void pack_chunk(void *context, int chunk, int chunks) {
 }
 
 static void pack_section(const PhysSystem *system, const Domain *domain, RankSection section, size_t vectors) {
-    enum { MIN_FOR_THREADS = 10000 }; // particles
+    enum { MIN_FOR_THREADS = 10000 }; // with fewer particles, one thread is used
     const PhysSystem *local = domain->local;
     Packing packing = {.system = system, .local = local, .section = section, .vectors = vectors};
     int chunks = phys_chunk_count(local, local->particle_count, MIN_FOR_THREADS);

@@ -1,9 +1,9 @@
 // grid.c: sorts the particles of a pass into the cells of a grid.
 //
-// Cells are at least as wide as the range of a regular particle, so its neighbours are in the same cell or an adjacent
-// one. The grid covers the area of most particles. Particles outside it belong to the cells at its edge, so their
-// neighbours are still in the same or an adjacent cell. A few particles can be much larger than the others. They are in
-// no cell. Instead, each of them is tested against all particles.
+// Cells are at least as wide as the range of a regular particle, so the neighbours of a particle are in the same cell
+// or an adjacent one. The grid covers the area of most particles. Particles outside it belong to the cells at its edge,
+// so their neighbours are still in the same or an adjacent cell. A few particles can be much larger than the others.
+// They are in no cell. Instead, each of them is tested against all particles.
 #include "physics/grid.h"
 
 #include "maths/maths.h"
@@ -180,7 +180,7 @@ static void survey_chunk(void *context, int chunk, int chunks) {
     sorting->surveys[chunk] = survey;
 }
 
-// Surveys all particles, and sets list->cell to PHYS_CELL_IDLE, PHYS_CELL_LARGE or 0.
+// Surveys all particles. Sets list->cell to PHYS_CELL_IDLE, to PHYS_CELL_LARGE or, for regular particles, to 0.
 static Survey survey_all(Sorting *sorting) {
     Survey parts[PHYS_MAX_CHUNKS], all = no_survey();
     int chunks = chunk_count_of(sorting);

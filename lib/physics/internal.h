@@ -35,7 +35,7 @@ typedef struct Buffer {
 
 enum {
     PHYS_MAX_LISTS = 8,          // maximum number of neighbour lists; a pass has at most one
-    PHYS_MAX_RANGES = 8,         // maximum number of groups in a pass with a neighbour list
+    PHYS_MAX_RANGES = 8,         // maximum number of groups with particles in a pass that uses a neighbour list
     PHYS_MIN_FOR_THREADS = 1500, // with fewer particles, most work is done on one thread
 };
 
@@ -115,7 +115,7 @@ struct PhysSystem {
     uint32_t group_count;
     uint32_t particle_count;
     uint32_t force_count;
-    bool has_forces;         // a step was taken since the last phys_begin or phys_skip_frame, so it has forces to show
+    bool has_forces;         // a step was taken since the last phys_begin or phys_skip_frame
     bool has_own_forces;     // some particle has a `force` attribute
     bool has_eased_forces;   // some particle's `force` attribute is eased in; implies has_own_forces
     uint64_t vector_doubles; // doubles in use in `vectors`
@@ -140,7 +140,7 @@ struct PhysSystem {
     Buffer column_data;    // memory of `columns`
     uint32_t *order;       // column -> handle
     uint32_t *column_of;   // handle -> column
-    uint32_t handle_count; // length of `column_of`; a handle without a particle has NO_COLUMN
+    uint32_t handle_count; // length of `column_of`, which is NO_COLUMN for handles without a particle
     // Element g * STAGE_COUNT + s: index of the first force of group g in stage s. These forces end before the index in
     // the next element.
     uint32_t *starts;
@@ -149,8 +149,8 @@ struct PhysSystem {
     uint64_t frame;              // number of the current frame
     struct NeighbourList *lists; // PHYS_MAX_LISTS elements
     // reordering (reorder.c)
-    bool can_reorder;   // all particles are in one group, and only that group's single pass depends on their order
-    bool in_cell_order; // columns are in the sorted order of that pass's neighbour list
+    bool can_reorder;   // all particles are in one group, and only the single pass of this group depends on their order
+    bool in_cell_order; // columns are in the sorted order (neighbour_list.h) of the list of this pass
     // domain decomposition (domain.h)
     uint64_t columns_version; // increases when the columns are filled
     uint64_t radius_version;  // increases when a radius may have changed
@@ -244,8 +244,8 @@ void phys_forget_order(PhysSystem *system);
 
 // Applies links. The two particles of a link can be in any groups.
 void phys_apply_links(const Columns *columns, ForceRange forces);
-// The motion that follows the pair forces. A pass that receives it may move the particles itself, as soon as their
-// forces are complete. In that case the pass sets `done`.
+// The motion that follows the pair forces. A pass that receives a Move may move the particles itself, as soon as their
+// pair forces are complete. In that case the pass sets `done`.
 typedef struct Move {
     double delta;
     double speed_of_light;

@@ -76,8 +76,8 @@ typedef struct ListView {
     uint32_t width;    // PHYS_QUAD; in two dimensions with `one_radius` set: PHYS_PAIR, without radii
     double *sources;   // by sorted index: mass and charge, two doubles; NULL: no force needs them
     double max_move_squared; // lists are valid while no squared distance from `built` exceeds this
-    // Lists of LANES particles, interleaved as [k][lane] and padded with dummies. An entry is the sorted index of a
-    // partner times `width`.
+    // By block of LANES particles: their lists, padded with dummies and interleaved, so that element k of each list is
+    // at [k][lane]. An entry is the sorted index of a partner times `width`.
     uint32_t *entries;
     uint64_t *at;         // by block of LANES sorted indices: index of its first entry
     uint32_t *max_length; // by block: length of its longest list

@@ -81,7 +81,7 @@ typedef struct ListPass {
     const Kernels *kernels;
     const PairPass *pass;
     NeighbourList *list;
-    const Integrator *sweep;     // for step_chunk
+    const Integrator *sweep;     // for step_chunk: second half of the step
     bool reuse;                  // for step_chunk: all parts of a chunk use the same section of the force columns
     bool valid[PHYS_MAX_CHUNKS]; // by chunk: true if no particle has moved by half the skin
 } ListPass;
@@ -111,7 +111,7 @@ static void force_chunk(void *context, int chunk, int chunks) {
 // Computes forces, motion and the next step's `packed` at once, in parts that fit into the cache. This is possible
 // because motion changes the columns, while the force kernels read only the current `packed`.
 static void step_chunk(void *context, int chunk, int chunks) {
-    enum { CHUNK = 16384 }; // particles
+    enum { CHUNK = 16384 }; // number of particles in a part
     ListPass *work = context;
     const ListView *view = &work->list->view;
     ListView next = *view;

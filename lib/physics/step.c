@@ -42,7 +42,7 @@ static void start_chunk(void *context, int chunk, int chunks) {
 }
 
 static void start_forces(PhysSystem *system, double clock) {
-    enum { MIN_FOR_THREADS = 50000 }; // particles
+    enum { MIN_FOR_THREADS = 50000 }; // with fewer particles, one thread is used
     StartForces start = {system, clock};
     bool ready = system->columns.forces_clear && !system->has_own_forces;
     system->columns.forces_clear = false;
