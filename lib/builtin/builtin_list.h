@@ -19,7 +19,7 @@ BUILTIN(chr, "x", 1, 1, false, false, true, 0, "String of the given Unicode code
 BUILTIN(clamp, "xs, ys, zs", 3, 3, false, true, true, 1, "Each x limited to the range from y to z.")
 BUILTIN(colortemp, "t, normalize=0", 1, 2, false, true, true, 0, "Colour red;green;blue of a black body at t kelvin.")
 BUILTIN(concat, "x", 1, 1, false, false, true, 0, "Elements converted to text and joined into one string.")
-BUILTIN(cos, "x", 1, 1, false, false, true, 1, "Cosine of each angle, in turns.")
+BUILTIN(cos, "x", 1, 1, false, false, true, 1, "Cosine of each angle in turns.")
 BUILTIN(count, "xs, ys", 2, 2, false, true, true, 0, "Number of times that each x occurs in ys.")
 BUILTIN(cross, "xs, ys", 2, 2, false, true, true, 0, "Cross product of two 3-vectors.")
 BUILTIN(csv, "filename, row_number", 2, 2, false, true, false, 0, "One row of a CSV file; the first row has number 0.")
@@ -62,7 +62,7 @@ BUILTIN(oklab, "x", 1, 1, false, false, true, 0, "Colour red;green;blue of an OK
 BUILTIN(oklch, "x", 1, 1, false, false, true, 0, "Colour red;green;blue of an OKLCh lightness;chroma;hue.")
 BUILTIN(ord, "x", 1, 1, false, false, true, 0, "Unicode code points of a string.")
 BUILTIN(point_towards, "direction, up", 2, 2, false, true, true, 0, "Matrix that rotates the -z axis to a direction.")
-BUILTIN(polar, "x", 1, 1, false, false, true, 0, "Cosine and sine of each angle, in turns.")
+BUILTIN(polar, "x", 1, 1, false, false, true, 0, "Cosine and sine of each angle in turns.")
 BUILTIN(product, "xs, w=1", 1, 2, false, true, true, 0,
         "Product of xs, or of each of w series that are interleaved in xs.")
 BUILTIN(qbetween, "a, b", 2, 2, false, true, true, 0, "Quaternion that rotates direction a to direction b.")
@@ -79,7 +79,7 @@ BUILTIN(sawtooth, "x", 1, 1, false, false, true, 1, "Wave that rises from 0 to 1
 BUILTIN(sharkfin, "x", 1, 1, false, false, true, 1, "Wave that rises and falls along quarter sines.")
 BUILTIN(shuffle, "source, xs", 2, 2, false, true, true, 0,
         "Elements of xs in a random order that the stream source determines.")
-BUILTIN(sin, "x", 1, 1, false, false, true, 1, "Sine of each angle, in turns.")
+BUILTIN(sin, "x", 1, 1, false, false, true, 1, "Sine of each angle in turns.")
 BUILTIN(sine, "x", 1, 1, false, false, true, 1, "Sine wave from 0 to 1 and back in each cycle.")
 BUILTIN(slerp, "t, a, b", 3, 3, false, true, true, 0,
         "Quaternion interpolated spherically from a to b, at t from 0 to 1.")
@@ -91,7 +91,7 @@ BUILTIN(square, "x", 1, 1, false, false, true, 1,
         "Wave that is 0 in the first half of each cycle and 1 in the second half.")
 BUILTIN(srt, "filename, time", 2, 2, false, true, false, 0, "Lines that a subtitle file shows at a given time.")
 BUILTIN(sum, "xs, w=1", 1, 2, false, true, true, 0, "Sum of xs, or of each of w series that are interleaved in xs.")
-BUILTIN(tan, "x", 1, 1, false, false, true, 1, "Tangent of each angle, in turns.")
+BUILTIN(tan, "x", 1, 1, false, false, true, 1, "Tangent of each angle in turns.")
 BUILTIN(triangle, "x", 1, 1, false, false, true, 1, "Wave that rises linearly to 1 and falls back in each cycle.")
 BUILTIN(uniform, "value=null", 0, 1, false, true, true, 0, "Stream of random numbers from 0 to 1 for a seed.")
 BUILTIN(zip, "...", 0, 0, true, false, true, 0, "Interleaved elements of several vectors.")

@@ -217,9 +217,9 @@ static Str unbound_hint(Compiler *compiler, const Ast *ast) {
     if (compiler->subject == ast)
         return str_format(compiler->arena, "a node is written !%.*s", STR_ARGS(name));
     if (compiler->key == ast)
-        return str_format(compiler->arena, "write $:%.*s to read the state, or the name without $", STR_ARGS(name));
+        return str_format(compiler->arena, "write '$:%.*s' to read the state, or the name without '$'", STR_ARGS(name));
     Str nearest = nearest_name(compiler, name);
-    return nearest.len ? nearest : follows_slashes(compiler, ast->span) ? STR("comments start with --") : (Str){0};
+    return nearest.len ? nearest : follows_slashes(compiler, ast->span) ? STR("comments start with '--'") : (Str){0};
 }
 
 static const Expr *compile_unbound(Compiler *compiler, const Ast *ast) {

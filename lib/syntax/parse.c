@@ -62,13 +62,13 @@ static Str syntax_hint(const char *found, bool needs_block) {
     if (needs_block)
         return STR("add an indented block below the line above");
     if (strcmp(found, "'='") == 0)
-        return STR("write == to compare, or let NAME=… to name a value");
+        return STR("write '==' to compare, or 'let NAME=…' to name a value");
     if (strcmp(found, "indentation") == 0)
         return STR("the statement above cannot have an indented block");
     if (strcmp(found, "'['") == 0)
         return STR("separate vector elements with semicolons: 1;2;3");
     if (strcmp(found, "else") == 0 || strcmp(found, "elif") == 0)
-        return STR("else and elif must follow the block of an if, at the same indentation");
+        return STR("'else' and 'elif' must follow the block of an 'if', at the same indentation");
     return (Str){0};
 }
 

@@ -11,17 +11,18 @@
 #define BLANK "[ \t]*"
 #define GAP "[ \t]+"
 #define WORD "[A-Za-z_][A-Za-z0-9_]*"
-#define COMMENT "comments start with --"
+#define COMMENT "comments start with '--'"
 #define VECTOR "separate vector elements with semicolons: 1;2;3"
 #define TEXT "join strings and values with semicolons: 'x=';x"
 #define NO_BRACES "indent the block instead of using braces"
 #define NO_COLON "remove the colon and indent the block below"
-#define FUNCTION "write func f(x) with its value indented below, or let f=func(x) x*2"
-#define FILES "write import NAME from 'FILE.fl', or %include 'FILE.fl'"
-#define FOR "write a loop as for i in ..10"
+#define FUNCTION "write 'func f(x)' with its value indented below, or 'let f=func(x) x*2'"
+#define FILES "write 'import NAME from \"FILE.fl\"' or '%include \"FILE.fl\"'"
+#define FOR "write a loop as 'for i in ..10'"
 #define NO_TYPES "remove the type: let x=5"
-#define LASTING "names keep their value for one frame only; use the state, $(:name), or a !counter for values that last"
-#define WHILE "use for i in ..10 to repeat, if to test, or a !counter to count from frame to frame"
+#define LASTING \
+    "names keep their values for one frame only; for values that last, use the state, '$(:name)', or a !counter"
+#define WHILE "use 'for i in ..10' to repeat, 'if' to test, or a !counter to count from frame to frame"
 
 // Comments.
 HINT(BEGIN "$", "^#" BLANK "include", FILES)
@@ -30,8 +31,8 @@ HINT("/$", "^[*]", COMMENT)
 HINT("[*]$", "^/", COMMENT)
 HINT(BEGIN "$", "^#", COMMENT)
 HINT("", "^#([ \t#=-]|$)", COMMENT)
-HINT("//" BLANK WORD "(" GAP WORD ")+", "", COMMENT "; // divides and rounds down")
-HINT("//" BLANK WORD "$", "^[:.!?']", COMMENT "; // divides and rounds down")
+HINT("//" BLANK WORD "(" GAP WORD ")+", "", COMMENT "; '//' divides and rounds down")
+HINT("//" BLANK WORD "$", "^[:.!?']", COMMENT "; '//' divides and rounds down")
 
 // Functions.
 HINT("(^|[^A-Za-z0-9_])(lambda|fn)(" GAP "[^:]*)?$", "^:", FUNCTION)
@@ -43,11 +44,11 @@ HINT(BEGIN "(let|const|var)" GAP WORD BLANK "$", "^[(]", FUNCTION)
 HINT(BEGIN "func.*[(,]" BLANK WORD BLANK "$", "^:", "remove the type: func f(x)")
 HINT(BEGIN "func.*[)]" BLANK "$", "^->", "remove the type: func f(x)")
 HINT(BEGIN "func.*[)]" BLANK "$", "^[^:{ \t]", FUNCTION)
-HINT(BEGIN "return" GAP, "", "remove return; the last line of a function is its value")
+HINT(BEGIN "return" GAP, "", "remove 'return'; the last line of a function is its value")
 
 // Conditions and loops.
-HINT(BEGIN "else" GAP "$", "^if", "write elif TEST")
-HINT(BEGIN "(elseif|elsif)" GAP, "", "write elif TEST")
+HINT(BEGIN "else" GAP "$", "^if", "write 'elif TEST'")
+HINT(BEGIN "(elseif|elsif)" GAP, "", "write 'elif TEST'")
 HINT(BEGIN "(if|elif)" GAP ".*$", "^then", "remove 'then' and indent the block below")
 HINT(BEGIN "for" GAP ".*$", "^do([^A-Za-z0-9_]|$)", "remove 'do' and indent the block below")
 HINT(BEGIN "while([ \t(]|$)", "", WHILE)
@@ -56,7 +57,7 @@ HINT(BEGIN "for" GAP WORD BLANK "$", "^(=|:|of)", FOR)
 HINT(BEGIN "for" GAP WORD BLANK "$", "^,", "separate names with semicolons: for x;y in v")
 HINT(BEGIN "(foreach|repeat|loop)" GAP, "", FOR)
 HINT(BEGIN "(if|elif|else|for|func|where)([ \t(].*)?$", "^:([ \t]|$)", NO_COLON)
-HINT("", "^[?]", "write A if TEST else B")
+HINT("", "^[?]", "write 'A if TEST else B'")
 
 // Files.
 HINT(BEGIN "(import|from)" GAP, "", FILES)
@@ -66,37 +67,37 @@ HINT(BEGIN "(include|require|use|using)" GAP, "", FILES)
 HINT(BEGIN "let" GAP "(" WORD "[;, \t]*)+$", "^:", NO_TYPES)
 HINT(BEGIN "let" GAP "(" WORD "[;, \t]*)+$", "^,", "separate names with semicolons: let x;y=1;2")
 HINT(BEGIN "let" GAP "$", "^[(]", "separate names with semicolons: let x;y=1;2")
-HINT(BEGIN "(const|var|local|int|float|double|auto|val|string|bool)" GAP, "", "write let x=5")
+HINT(BEGIN "(const|var|local|int|float|double|auto|val|string|bool)" GAP, "", "write 'let x=5'")
 HINT("[-+*/%|&^]$", "^=", LASTING)
 HINT("[+][+]$", "^$", LASTING)
-HINT(BEGIN WORD BLANK "$", "^:=", "write let x=5 to name a value")
+HINT(BEGIN WORD BLANK "$", "^:=", "write 'let x=5' to name a value")
 
 // Operators.
-HINT("", "^&", "write A and B")
-HINT("", "^[|]", "write A or B")
-HINT("[=!]=$", "^=", "write == or !=")
-HINT("<$", "^>", "write A != B")
-HINT("", "^is([^A-Za-z0-9_]|$)", "write A == B")
-HINT("", "^not" GAP "in([^A-Za-z0-9_]|$)", "write not x in v")
-HINT("[^A-Za-z0-9_]not" GAP "$", "^in([^A-Za-z0-9_]|$)", "write not x in v")
-HINT("", "^\\^", "write x**2 for a power")
+HINT("", "^&", "write 'A and B'")
+HINT("", "^[|]", "write 'A or B'")
+HINT("[=!]=$", "^=", "write '==' or '!='")
+HINT("<$", "^>", "write 'A != B'")
+HINT("", "^is([^A-Za-z0-9_]|$)", "write 'A == B'")
+HINT("", "^not" GAP "in([^A-Za-z0-9_]|$)", "write 'not x in v'")
+HINT("[^A-Za-z0-9_]not" GAP "$", "^in([^A-Za-z0-9_]|$)", "write 'not x in v'")
+HINT("", "^\\^", "write 'x**2' for a power")
 
 // Strings and numbers.
 HINT("(^|[^A-Za-z0-9_])[bfruBFRU]$", "^['\"]", TEXT)
 HINT("['\"]" BLANK "$", "^['\"]", TEXT)
 HINT("['\"]" BLANK "%" BLANK "[(][^)]*$", "^,", TEXT)
 HINT("", "^`", "write strings in quotes: 'one'; " TEXT)
-HINT("[0-9]$", "^[.]([^.]|$)", "write 1.0 or 1")
-HINT("[0-9]%$", "^$", "write 0.5 for 50%; % is the remainder of a division")
-HINT("console$", "^[.]", "write debug(value) to print a value")
+HINT("[0-9]$", "^[.]([^.]|$)", "write '1.0' or '1'")
+HINT("[0-9]%$", "^$", "write 0.5 for 50%; '%' is the remainder of a division")
+HINT("console$", "^[.]", "write 'debug(value)' to print a value")
 HINT(BEGIN "(import|%include)" GAP, "^[.]", FILES)
-HINT("[A-Za-z0-9_)]$", "^[.]([^.]|$)", "write functions as sin(x) and elements as v[0], without a dot")
+HINT("[A-Za-z0-9_)]$", "^[.]([^.]|$)", "write functions as 'sin(x)' and elements as 'v[0]', without a dot")
 
 // Nodes.
 HINT(BEGIN "$", "^<[A-Za-z/]", "a node is written !name a=1 b=2")
 HINT(BEGIN "!.*;" BLANK WORD BLANK "$", "^=[^=]", "separate attributes with spaces: !name a=1 b=2")
 HINT(BEGIN "let" GAP ".*;" BLANK WORD BLANK "$", "^=[^=]", "separate bindings with spaces: let a=1 b=2")
-HINT(BEGIN "!.*" GAP WORD BLANK "$", "^:", "write attributes as name=value")
+HINT(BEGIN "!.*" GAP WORD BLANK "$", "^:", "write attributes as 'name=value'")
 HINT(BEGIN "!" WORD BLANK "$", "^[{].*[=:]", "write attributes after the name: !name a=1 b=2")
 
 // Vectors and blocks.

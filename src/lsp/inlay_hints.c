@@ -47,8 +47,8 @@ Json *answer_hints(const RequestContext *request, const char **problem) {
 
 // --- colours
 
-// Parses at most `max` numbers separated by semicolons and sets *end to the token of the last number. Returns their
-// number, or 0 if there are more than `max` elements or an element is not a number.
+// Parses a list of numbers separated by semicolons, which starts at `token`. Sets *end to the token of the last number
+// and returns the length of the list. Returns 0 if there are more than `max` elements or an element is not a number.
 static size_t read_numbers(const Document *document, size_t token, double *numbers, size_t max, size_t *end) {
     size_t count = 0;
     for (size_t i = token; i < document->token_count && count < max; i += 2) {
@@ -167,8 +167,8 @@ static Str quoted_word(const char *text) {
     return !close ? (Str){0} : (Str){open + 1, (size_t)(close - open - 1)};
 }
 
-// Finds the incorrect word in the range of a diagnostic, which `meant` shall replace. Sets *start and *end to the
-// offsets of the word. Returns false if the word is not found.
+// Finds the incorrect word in the range of a diagnostic: the word that the quick fix replaces by `meant`. Sets *start
+// and *end to the offsets of the word. Returns false if the word is not found.
 static bool find_invalid_word(const Document *document, const DocumentDiagnostic *diagnostic, Str meant, size_t *start,
                               size_t *end) {
     Str part = document_slice(document, diagnostic->start, diagnostic->end), wrong = quoted_word(diagnostic->text);
@@ -190,7 +190,7 @@ static bool find_invalid_word(const Document *document, const DocumentDiagnostic
 
 // Returns the replacement for the whole range of the diagnostic if its hint contains one, else an empty string.
 static Str replacement_of(const char *hint) {
-    static const char node[] = "a node is written ", comparison[] = "write == to compare";
+    static const char node[] = "a node is written ", comparison[] = "write '==' to compare";
     if (strncmp(hint, comparison, strlen(comparison)) == 0)
         return STR("==");
     if (strncmp(hint, node, strlen(node)) != 0)
