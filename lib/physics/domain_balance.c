@@ -25,7 +25,7 @@ static uint32_t trailing_ones(uint32_t word) {
 }
 
 // At each level, the curve enters a cube at `corner` and leaves it along `axis`. It visits the parts of the cube in the
-// order of a Gray code, which is reflected according to the corner and rotated according to the axis.
+// order of a Gray code. The code is reflected according to the corner and rotated according to the axis.
 uint64_t phys_hilbert_index(const uint32_t *cell, uint32_t n, uint32_t levels) {
     uint64_t index = 0;
     uint32_t corner = 0, axis = 0;

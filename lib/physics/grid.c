@@ -1,6 +1,6 @@
 // grid.c: sorts the particles of a pass into the cells of a grid.
 //
-// Cells are at least as wide as the range of a regular particle, so the neighbours of a particle are in the same cell
+// Cells are at least as wide as the range of a regular particle. So the neighbours of a particle are in the same cell
 // or an adjacent one. The grid covers the area of most particles. Particles outside it belong to the cells at its edge,
 // so their neighbours are still in the same or an adjacent cell. A few particles can be much larger than the others.
 // They are in no cell. Instead, each of them is tested against all particles.

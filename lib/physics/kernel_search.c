@@ -1,9 +1,9 @@
 // kernel_search.c: builds neighbour lists from the cells of a grid, LANES candidates at a time.
 //
 // Particles with adjacent sorted indices share most of their candidates. So the candidates of a batch of particles are
-// sorted into the order of the pass only once. Each list is filled from these candidates in that order. In three cases
-// the neighbours of each particle are searched separately, and its list is sorted afterwards: if the batch spans two
-// rows of cells, if it has very many candidates, or if the pass has enclosing groups.
+// sorted into the order of the pass only once. Each list is filled from these candidates in that order. This does
+// not apply if the batch spans two rows of cells, if it has very many candidates, or if the pass has enclosing groups.
+// Then the neighbours of each particle are searched separately, and its list is sorted afterwards.
 #include "physics/grid.h"
 #include "physics/lanes.h"
 

@@ -12,8 +12,9 @@ static void ease_strengths(const PhysSystem *system, double clock) {
         forces[i].strength = forces[i].given.strength * phys_ramp(forces[i].given.ease, clock);
 }
 
-// Context of start_chunk, which sets the initial force on each particle in a step: its `force` attribute, multiplied by
-// clock / ease while it is eased in. Without easing, the factor is 1, which changes no bit.
+// Context of start_chunk, which sets the initial force on each particle in a step. This is the `force` attribute of the
+// particle, multiplied by clock / ease while the attribute is eased in. Without easing, the factor is 1, which changes
+// no bit.
 typedef struct StartForces {
     const PhysSystem *system;
     double clock;

@@ -1,6 +1,6 @@
 // system.h: interface of the particle engine (spec physics.md section 4).
 //
-// The engine works on arrays of doubles and does not know Flitter: lib/scene translates `!physics` trees into calls of
+// The engine works on arrays of doubles and does not know Flitter. lib/scene translates `!physics` trees into calls of
 // these functions and writes the results to the state. The caller describes a system (phys_begin, phys_add_…) and then
 // simulates it frame by frame. Between frames it changes particles and forces with phys_update_particle,
 // phys_begin_forces and phys_set_key, or describes the system again. All arithmetic is IEEE double in the order that

@@ -13,8 +13,8 @@
 #include <time.h>
 #include <unistd.h>
 
-// The ticket is a 64-bit word with four fields, from the high bits: the number of the job, the number of its chunks,
-// how many of these are claimed from the back, and how many from the front. Half of the threads claim from the back. So
+// The ticket is a 64-bit word. Its fields are, from the high bits: the number of the job, the number of its chunks, how
+// many of these are claimed from the back, and how many from the front. Half of the threads claim from the back. So
 // a thread processes nearly the same particles in each job and finds them in its cache.
 enum { COUNT_BITS = 8, BACK_SHIFT = COUNT_BITS, CHUNKS_SHIFT = 2 * COUNT_BITS, JOB_SHIFT = 3 * COUNT_BITS };
 _Static_assert(PHYS_MAX_CHUNKS < 1 << COUNT_BITS, "the number of claimed chunks must fit");
