@@ -20,7 +20,7 @@ enum { LONG_KEYS = INPUT_KEYS - (sizeof short_names - 1) }; // number of long na
 
 static const char *const button_names[INPUT_BUTTONS] = {"left",     "middle",   "right",    "button_4",
                                                         "button_5", "button_6", "button_7", "button_8"};
-enum { USUAL_BUTTONS = 3 }; // buttons that are written even before their first use
+enum { USUAL_BUTTONS = 3 }; // the first buttons, which are written to the state even if they have never been pressed
 
 int input_key_number(Str name) {
     if (name.len == 1) {
@@ -155,7 +155,7 @@ void input_bind(Input *input, Schema *schema, Value tree, Arena *arena) {
     bindings->arena.escape = NULL;
 }
 
-// Updates a switch for the frame at this beat from the reports since the last frame.
+// Updates what the frame at `beat` sees of a switch, from the reports since the previous frame.
 static void advance_switch(InputSwitch *item, double beat) {
     bool down = item->down || item->pushes > 0;
     if (item->pushes > 0)

@@ -13,18 +13,18 @@ enum { INPUT_BUTTONS = 8, INPUT_KEYS = 105, INPUT_KEY_NONE = -1 };
 
 // A key or button.
 typedef struct InputSwitch {
-    bool down;       // as last reported
-    bool frame_down; // as the current frame sees it
+    bool down;       // true if pressed according to the last report
+    bool frame_down; // true if pressed for the current frame
     bool toggled;    // inverted by each press
     uint32_t pushes; // number of presses since the last frame
     double pushed;   // beat of the frame that saw the last press; NaN: none yet
     double released; // beat of the frame that saw the last release; NaN: none yet
 } InputSwitch;
 
-// Where the input for a `!pointer` or `!key` in the last frame's tree is stored.
+// Where the input for one `!pointer` or `!key` of the last frame's tree is stored in the state.
 typedef struct InputBinding {
-    Value state; // state key
-    int key;     // INPUT_KEY_NONE: a pointer
+    Value state; // key in the state dictionary, which is also the prefix of further keys
+    int key;     // number of the key (input_key_number); INPUT_KEY_NONE: a pointer
 } InputBinding;
 
 typedef struct InputBindings {
@@ -39,7 +39,7 @@ typedef struct InputState {
     InputSwitch keys[INPUT_KEYS]; // by input_key_number
     InputSwitch buttons[INPUT_BUTTONS];
     bool has_reports;   // true after the first report
-    bool inside;        // the pointer is in the window
+    bool inside;        // true if the pointer is in the window
     double position[2]; // last position inside the window
 } InputState;
 
@@ -64,7 +64,7 @@ int input_key_number(Str name);
 // Returns true if a `!key` of the last frame's tree uses the key.
 bool input_key_is_bound(const Input *input, int key);
 
-// Report input of the host. Pressing a key that is already pressed changes nothing.
+// The input_report functions record input from the host. Pressing a key that is already pressed changes nothing.
 void input_report_key(Input *input, int key, bool pressed);
 // `position` is NULL outside the window, else two finite numbers; bit i of `buttons` is set if button i is pressed.
 void input_report_pointer(Input *input, const double *position, uint32_t buttons);
@@ -81,9 +81,10 @@ typedef struct InputChange InputChange;
 typedef struct InputUndo {
     const InputChange *last; // last change, in the arena of input_write; NULL: none
     bool has_reports;        // true if `state` is set
-    InputState state;        // as before input_write
+    InputState state;        // value of Input.state before input_write
 } InputUndo;
-// Writes the input to the state before the frame of this beat is evaluated. `arena` is the frame's arena.
+// Writes the reported input to the state. Called before the frame at `beat` is evaluated. `arena` is the frame's arena.
+// Stores the changes in `undo`.
 void input_write(Input *input, State *state, Arena *arena, double beat, InputUndo *undo);
 void input_undo_write(Input *input, State *state, const InputUndo *undo);
 

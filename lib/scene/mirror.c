@@ -98,7 +98,8 @@ void mirror_remove_vanished(const PhysicsTree *tree) {
             state_slot_set(tree->frame->state, mirror->last_slots[i], VALUE_NULL);
 }
 
-// Returns true if the entry is missing. Otherwise clears *in_sync if the entry differs from the row.
+// Returns true if the entry is missing. Otherwise returns false, and sets *in_sync to false if the entry differs from
+// the row.
 static bool is_missing(const PhysicsTree *tree, StateSlot slot, const double *row, bool *in_sync) {
     const State *state = tree->frame->state;
     Value v = state_slot_get(state, slot);
@@ -111,8 +112,8 @@ static bool is_missing(const PhysicsTree *tree, StateSlot slot, const double *ro
     return false;
 }
 
-// Returns true if nothing else has written to missing entries or to entries of a single number. Such writes do not mark
-// the owner as modified.
+// Returns true if nothing else has created a missing entry or changed an entry of a single number. Such writes do not
+// mark the owner as modified.
 static bool unreferenced_in_sync(const PhysicsTree *tree) {
     const Mirror *mirror = &tree->system->mirror;
     if (tree->dimensions > 1 && mirror->missing == 0)
@@ -170,7 +171,7 @@ static void copy_anchors(const PhysicsTree *tree, bool store) {
     }
 }
 
-// Makes an entry reference its row. The row holds a finite result if `result` is set, else the number with which the
+// Makes an entry reference its row. The row holds a finite result if `result` is set, else the vector with which the
 // frame started. Returns false if entry and row are not in sync afterwards.
 static bool lend_entry(const PhysicsTree *tree, StateSlot slot, const double *row, bool result) {
     Mirror *mirror = &tree->system->mirror;
@@ -181,8 +182,8 @@ static bool lend_entry(const PhysicsTree *tree, StateSlot slot, const double *ro
         mirror->missing++;
         return true;
     }
-    bool same_source =
-        stored.len == 0 || tree->from_state; // otherwise the run started with values other than the stored ones
+    // If from_state is false, the run started with the values of attributes instead of the stored values.
+    bool same_source = stored.len == 0 || tree->from_state;
     bool in_sync = same_source && (result || (stored.kind == VALUE_NUMBERS && stored.len == n));
     if (n > 1 && in_sync) {
         state_slot_reference(state, slot, mirror->owner, row, n);
@@ -208,8 +209,8 @@ static bool lend_bodies(PhysicsTree *tree, bool simulated) {
     return in_sync;
 }
 
-// Gives copies to entries that still reference the previous description. If `referenced` is set, the entries of the new
-// tree already reference the new one.
+// Gives copies to entries that still reference rows of the previous description. If `referenced` is true, leaves out
+// the entries of the new tree, because they already reference the new description.
 static void close_last(PhysicsTree *tree, bool referenced) {
     Mirror *mirror = &tree->system->mirror;
     State *state = tree->frame->state;

@@ -10,12 +10,13 @@
 //   - An entry of two or more numbers *references* the engine's row through a pointer (state.h, StateOwner). So a
 //     result is in the state as soon as it is in the row. If anything else writes to such an entry, the entry owns the
 //     new numbers. Its owner is then marked as *modified*, because the row is out of date.
-//   - Every other entry owns a *copy*. Entries of one number do, because the value itself holds the number, and
-//     entries of anchors, which are few. If two particles of a system share a key, all of its entries own copies, and
-//     the later particle wins. The entries of a system that is absent from a frame or removed also own copies.
+//   - Every other entry owns a *copy*. These are entries of one number, because the value itself holds the number, and
+//     entries of anchors, because anchors are few. If two particles of a system share a key, all entries of the system
+//     own copies, and the later particle wins. The entries of a system that is absent from a frame or removed also own
+//     copies.
 // A row keeps its address until phys_begin starts a new description, and stays readable until the phys_begin after
-// that. So before mirror_store returns, each entry that references a row of the previous description is changed. It
-// references a row of the new one or receives a copy.
+// that. So before mirror_store returns, each entry that references a row of the previous description is changed: it
+// references a row of the new description, or receives a copy of its numbers.
 //
 // A result is stored only if it is finite and does not equal the stored value (0 does not become -0). Both rules hold
 // for rows (PhysTime.keep_last_finite) as well as for copies (numbers_finite; state_slot_set). Otherwise a referencing
@@ -59,14 +60,14 @@ typedef struct Mirror {
     StateSlot *last_slots; // while OPEN: slots of the last tree that was read completely
     uint32_t last_count;
     uint32_t last_capacity;
-    uint32_t *anchors; // handles, ascending
+    uint32_t *anchors; // handles of the anchors, ascending
     uint32_t anchor_count;
     uint32_t anchor_capacity;
     uint32_t missing; // number of entries that the state does not have yet
     double *ids;      // ids of all particles, for scene_view_ids
     uint32_t id_capacity;
-    bool ids_cached; // `ids_single` is valid for the current tree, and `ids` if it is true
-    bool ids_single; // every id is a single number; `ids` then holds them
+    bool ids_cached; // true if `ids_single` and `ids` are valid for the current tree
+    bool ids_single; // true if every id is a single number; otherwise `ids` is unspecified
 } Mirror;
 
 typedef struct PhysicsTree PhysicsTree;
@@ -96,7 +97,8 @@ void mirror_remove_vanished(const PhysicsTree *tree);
 
 // Returns true if the description can be updated to this frame's tree. If so, the mirror is STALE until mirror_store.
 bool mirror_reuse(PhysicsTree *tree);
-// Returns which values of a particle the engine keeps from earlier frames.
+// Returns whether the engine keeps the position and the velocity of a particle from earlier frames. It keeps those that
+// have an entry in the state.
 PhysPreserve mirror_preserve(const PhysicsTree *tree, uint32_t body);
 
 // Returns true if rows of this tree can be *lent*: entries can reference them. If not, results are copied.

@@ -28,7 +28,7 @@ static PhysicsSystem *known_system(const Scene *scene, StateSlot start, uint32_t
         expected->last_frame != scene->frame_number)
         return expected;
     for (PhysicsSystem *system = scene->systems; system; system = system->next) {
-        arena_charge(arena, 4); // systems are not contiguous in memory
+        arena_charge(arena, 4); // more than 1 unit, because systems are not contiguous in memory
         if (system->start != start)
             continue;
         if (system->last_frame != scene->frame_number)
@@ -61,7 +61,8 @@ static PhysicsSystem *new_system(Scene *scene, StateSlot start, uint32_t occurre
     return system;
 }
 
-// Drops the last tree of a system that was absent from the last frame. Its state entries remain.
+// Removes all particles from the mirror of a system that was absent from the last frame. The entries of the system
+// remain in the state.
 static void detach_if_absent(const Scene *scene, PhysicsSystem *system, State *state) {
     if (system->last_frame + 1 == scene->frame_number)
         return;

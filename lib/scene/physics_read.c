@@ -43,8 +43,10 @@ static void check_reserved(PhysicsTree *tree, const Reader *reader, Value id) {
 
 void physics_cache_node(const PhysicsTree *tree, uint32_t body, const Node *node, bool has_program_lifetime) {
     PhysicsSystem *system = tree->system;
+    // Not needed if the next frame can recognise the whole tree by its address. Not possible if the node is freed after
+    // this frame.
     if (tree->root->program_lifetime_children || !has_program_lifetime)
-        return; // the whole tree is recognised by its address, or the node is freed after the frame
+        return;
     if (!heap_reserve((void **)&system->nodes, &system->node_capacity, body, sizeof *system->nodes))
         return;
     while (system->node_count <= body)
@@ -55,8 +57,8 @@ void physics_cache_node(const PhysicsTree *tree, uint32_t body, const Node *node
 // Adds a body to the mirror and marks its slots. Returns false if out of memory.
 static bool register_body(PhysicsTree *tree, bool anchor, StateSlot position, StateSlot velocity) {
     uint32_t body = tree->body_count, mark = 2 * (tree->scene->body_base + body);
-    tree->scene->body_count =
-        body + 1; // set before the marks: if reading is aborted, they must still be outdated for the next tree
+    // Set before the marks, so that the next tree finds them outdated even if reading is aborted here.
+    tree->scene->body_count = body + 1;
     if (velocity == STATE_NO_SLOT || !mirror_add(tree, position, velocity, anchor) ||
         !physics_set_mark(tree, position, mark) ||
         (!physics_mark(tree, velocity) && !physics_set_mark(tree, velocity, mark + 1)))
@@ -83,7 +85,8 @@ static bool add_body(PhysicsTree *tree, const Node *node, Value id, bool anchor)
         return false;
     }
     check_reserved(tree, &reader, id);
-    tree->keys_collide |= physics_mark(tree, slot) != 0; // the position's key is the velocity's key of another particle
+    // If the slot is marked, its key is also the key of another particle's velocity.
+    tree->keys_collide |= physics_mark(tree, slot) != 0;
     StateSlot velocity = state_slot(tree->frame->state, physics_key(tree, id, true, numbers));
     if (register_body(tree, anchor, slot, velocity))
         return true;
@@ -148,8 +151,8 @@ static void read_group_bodies(PhysicsTree *tree, const Node *parent, uint32_t gr
 void physics_read_bodies(PhysicsTree *tree) {
     physics_clear_marks(tree);
     tree->system->node_count = 0;
-    phys_expect_particles(tree->engine,
-                          node_child_count(tree->root) - tree->root->child_count); // the particles in batches
+    // The difference is about the number of particles in batches.
+    phys_expect_particles(tree->engine, node_child_count(tree->root) - tree->root->child_count);
     read_group_bodies(tree, tree->root, 0);
     tree->scene->marked_system = tree->system;
     tree->system->mirror.slot_count = 2 * tree->body_count;

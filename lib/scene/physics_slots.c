@@ -30,7 +30,8 @@ bool physics_has_id(const PhysicsTree *tree, uint32_t body, Value id) {
         return false;
     if (id.len > 1 || id.kind != VALUE_NUMBERS)
         return state_slot_has_key(state, slot, physics_key(tree, id, false, numbers));
-    double own = state_slot_last_number(state, slot, tree->prefix.len + 1); // the prefix of a system never changes
+    // The prefix of a system never changes, so only the last number of the key must be compared.
+    double own = state_slot_last_number(state, slot, tree->prefix.len + 1);
     return memcmp(&own, &id.as.number, sizeof own) == 0;
 }
 
@@ -74,7 +75,7 @@ int64_t physics_find_slot(const PhysicsTree *tree, StateSlot slot) {
 }
 
 void physics_free_marks(const PhysicsTree *tree) {
-    enum { MIN_FREED_CAPACITY = 1 << 16 }; // fewer marks are not worth freeing
+    enum { MIN_FREED_CAPACITY = 1 << 16 }; // smaller arrays are not worth freeing
     Scene *scene = tree->scene;
     if (!tree->root->program_lifetime_children || scene->body_capacity < MIN_FREED_CAPACITY)
         return;

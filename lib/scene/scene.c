@@ -97,7 +97,7 @@ Input *scene_input(Scene *scene) {
     return &scene->input;
 }
 
-// Slots of a system other than those of its particles.
+// Number of slots that a system has besides those of its particles: start, run, iteration, clock and last.
 enum { OWN_SLOTS = 5 };
 static void own_slots(PhysicsSystem *system, StateSlot *slots[OWN_SLOTS]) {
     StateSlot *const all[OWN_SLOTS] = {&system->start, &system->run, &system->iteration, &system->clock, &system->last};
@@ -160,7 +160,7 @@ static void free_absent(Scene *scene, const SceneFrame *frame) {
 }
 
 uint64_t scene_update(Scene *scene, Value tree, const SceneFrame *frame) {
-    enum { NODE_WORK = 50 }; // cost of a lookup and some state entries
+    enum { NODE_WORK = 50 }; // work units of a node, for a lookup and some state entries
     uint64_t steps = 0;
     scene->frame_number++;
     scene->stopped = BUDGET_OK;

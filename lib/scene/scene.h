@@ -18,7 +18,7 @@ typedef struct SceneFrame {
     double performance;  // PhysTime.performance
     bool lockstep;       // PhysTime.lockstep
     uint64_t generation; // changes after nodes with program lifetime have been freed
-    double resolution;   // overrides the attribute of all systems; 0: no override
+    double resolution;   // overrides the attribute `resolution` of all systems; 0: no override
 } SceneFrame;
 
 // Returns a new scene. The arena and the schema must outlive it. Systems are also charged to the arena's budget.
@@ -54,7 +54,7 @@ typedef struct SceneView {
     uint32_t dimensions;
     uint32_t particle_count;
     uint64_t steps;         // steps taken in the last update
-    bool had_simulated;     // its clock was above 0 before the last update
+    bool had_simulated;     // true if the clock of the system was above 0 before the last update
     const StateSlot *slots; // by handle: a pair of position and velocity
     PhysicsSystem *system;
 } SceneView;
@@ -71,9 +71,9 @@ bool scene_view_find(Scene *scene, State *state, Arena *arena, const SceneView *
 Input *scene_input(Scene *scene);
 // Updates all systems from the nodes in `tree`. Returns the number of simulation steps taken.
 uint64_t scene_update(Scene *scene, Value tree, const SceneFrame *frame);
-// Returns true if, since the last call, memory ran out in the update of a system.
+// Returns true if the update of a system ran out of memory since the last call of this function.
 bool scene_clear_exhausted(Scene *scene);
-// Returns true and sets *end if the budget has stopped the last update half-way. Clears the flag.
+// If the budget stopped the last update half-way, returns true once and sets *end to the reason.
 bool scene_clear_stopped(Scene *scene, ArenaOutcome *end);
 
 #endif

@@ -8,7 +8,7 @@
 #include "scene/scene.h"
 #include "value/node_batch.h"
 
-// A force whose key changes from frame to frame.
+// A random force. The key of its random stream changes from frame to frame.
 typedef struct RandomForce {
     uint32_t force;   // number of the force in the engine
     uint32_t randoms; // number of random forces before it in its group and the enclosing groups
@@ -32,13 +32,14 @@ struct PhysicsSystem {
     PhysSystem *engine;
     Budget *budget; // charged for this struct and mirror.ids, not for the engine
     Mirror mirror;
-    uint64_t steps;      // steps taken in the last update
-    bool had_simulated;  // its clock was above 0 before the last update, so the script could see its particles
+    uint64_t steps; // steps taken in the last update
+    // True if the clock of the system was above 0 before the last update, so that the script could see the particles.
+    bool had_simulated;
     uint64_t last_frame; // scene->frame_number of the last update
 
     // The last frame's tree, with which the next one is compared.
     uint32_t dimensions;         // in the last update
-    uint64_t generation;         // SceneFrame.generation of `children` and `nodes`
+    uint64_t generation;         // SceneFrame.generation of the frame that stored `children` and `nodes`
     const Node *const *children; // children of the tree if they have program lifetime, else NULL
     uint32_t child_count;
     const Node **nodes; // by handle: node of the particle if it has program lifetime, else NULL
@@ -47,7 +48,7 @@ struct PhysicsSystem {
     RandomForce *randoms;
     uint32_t random_count;
     uint32_t random_capacity;
-    Link *links; // in the order of the tree
+    Link *links; // ends of the distance forces, in the order of the tree
     uint32_t link_count;
     uint32_t link_capacity;
 };
@@ -56,14 +57,14 @@ struct Scene {
     Schema *schema;
     BodyAttrs body_defaults[2]; // defaults of particles [0] and anchors [1]
     ForceAttrs force_defaults[PHYS_FORCE_KINDS];
-    bool exhausted;        // out of memory (scene_clear_exhausted)
+    bool exhausted;        // true if an update ran out of memory (scene_clear_exhausted)
     BudgetOutcome stopped; // why the last update was stopped; BUDGET_OK: it was not
     Budget *budget;
     Input input;
     PhysicsSystem *systems;
     PhysicsSystem **systems_end;  // link where the next system is added
-    PhysicsSystem *next_expected; // system that the next node probably drives; or NULL
-    PhysicsSystem *viewed;        // last result of scene_view; or NULL
+    PhysicsSystem *next_expected; // system that the next node probably drives, or NULL
+    PhysicsSystem *viewed;        // system that scene_view found last, or NULL
     size_t viewed_number;
     uint64_t frame_number;
     PhysOptions physics;
@@ -91,8 +92,8 @@ struct PhysicsTree {
     Value prefix;
     PhysSystem *engine;
     uint32_t body_count; // number of particles and anchors read so far
-    bool from_state;     // positions and velocities are read from the state if it has them
-    bool keys_collide;   // two particles share a key, or one has a key of the system itself
+    bool from_state;     // true if positions and velocities are read from the state where it has them
+    bool keys_collide;   // true if two particles share a key, or a particle has a key that the system itself uses
     bool out_of_memory;
     double run;            // attribute `run`
     double iteration;      // number of this frame in the run, from 0
@@ -112,7 +113,7 @@ void physics_read_particle(const PhysicsTree *tree, const Node *node, bool ancho
 // Read the tree into the engine: first groups and particles, then forces.
 void physics_read_bodies(PhysicsTree *tree);
 void physics_read_forces(PhysicsTree *tree);
-// Returns the key of the stream of a random force in this frame.
+// Returns the key of a random force's stream in this frame. `randoms_before` is RandomForce.randoms.
 uint64_t physics_random_key(PhysicsTree *tree, uint32_t randoms_before);
 // Stores the node of a particle if it has program lifetime, so that the next frame can recognise it.
 void physics_cache_node(const PhysicsTree *tree, uint32_t body, const Node *node, bool has_program_lifetime);

@@ -7,7 +7,7 @@
     ATTR(kind, SIZE, SIZE, NOWHERE, DESCRIBED(0, "the size of the enclosing node"), "pixels", "") \
     ATTR(kind, ID, TEXT, NOWHERE, NONE, "", "name by which !reference and images refer to this picture") \
     ATTR(kind, HIDDEN, FLAG, NOWHERE, IS(false), "", "create the picture, but do not pass it to the enclosing node")
-// Attributes of effect nodes, which create a picture from the pictures inside.
+// Attributes of effect nodes, which create a picture from the pictures of the nodes inside them.
 #define PROGRAM_ROWS(kind) \
     SOURCE_ROWS(kind) \
     ATTR(kind, COMPOSITE, MIX, NOWHERE, DESCRIBED(MIX_OVER, ":over"), "", "how each picture inside is combined with the previous ones") \

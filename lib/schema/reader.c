@@ -179,7 +179,7 @@ static double clamp_to_limits(const Reader *reader, const SchemaRow *row, Value 
     return x < type->low ? type->low : x > type->high ? type->high : x;
 }
 
-// Returns v divided by its length; NULL if the length is 0 or not finite.
+// Returns the vector v divided by its Euclidean length. Returns NULL if the length is 0 or not finite.
 static PhysVector unit_vector(const Reader *reader, PhysVector v) {
     double sum = 0;
     for (uint32_t k = 0; k < reader->dimensions; k++)
@@ -193,7 +193,7 @@ static PhysVector unit_vector(const Reader *reader, PhysVector v) {
     return unit;
 }
 
-// Returns the elements of a vector attribute; NULL if it is malformed.
+// Returns the elements of a vector attribute, or NULL if its value is malformed.
 static PhysVector read_vector(const Reader *reader, const Value *v) {
     uint32_t n = reader->dimensions;
     if (v->kind != VALUE_NUMBERS || (v->len != n && v->len != 1))
@@ -284,8 +284,8 @@ static void fill_vector_defaults(const Reader *reader, char *record) {
     }
 }
 
-// Returns the slot of an attribute, or `end` if there is none. `guess`, the slot after the previous attribute's, is
-// tried first.
+// Returns the slot of an attribute, or `end` if there is none. Searches from `guess`, the slot after that of the
+// previous attribute, and then from `first`.
 static inline const SchemaSlot *find_slot(const SchemaSlot *first, const SchemaSlot *end, const SchemaSlot *guess,
                                           const Symbol *name) {
     for (const SchemaSlot *slot = guess; slot < end; slot++)
@@ -312,7 +312,7 @@ void reader_fill(const Reader *reader, void *record) {
         fill_vector_defaults(reader, record);
 }
 
-// Returns true for a finite number that is not a symbol. Symbols are represented by numbers below -8e307.
+// Returns true for a finite number that does not represent a symbol. All symbols are numbers below -8e307.
 static bool is_finite_number(double x) {
     return isfinite(x) && x > -8e307;
 }
@@ -339,7 +339,7 @@ static bool read_finite_numbers(Value v, const TypeRow *type, uint32_t max, Attr
 
 static bool read_numbers(const Reader *reader, Value v, bool even, AttrValue *attr) {
     const double *numbers = value_numbers(&v);
-    if (even && v.len % 2) // the last number lacks its y
+    if (even && v.len % 2) // the last number is an x without a y
         v.len--;
     if (!value_is_numeric(v))
         return false;
@@ -387,7 +387,7 @@ static void lint_colour(const Reader *reader, const SchemaRow *row, Value v) {
                     " is brighter than white (1;1;1); divide components up to 255: (r;g;b)/255");
 }
 
-// Returns false if the value is malformed.
+// Reads the value v of an attribute of a drawing node into `attr`. Returns false if the value is malformed.
 static bool read_drawing_attr(const Reader *reader, const SchemaRow *row, Value v, AttrValue *attr) {
     const TypeRow *type = &schema_types[row->type];
     switch (type->shape) {
@@ -496,7 +496,7 @@ void schema_store(const AttrValue *attr, void *record) {
     case SHAPE_WORD:
         *(int *)field = attr->as.word;
         break;
-    default: // not a shape of a drawing's record
+    default: // no record of a drawing node has a field of this shape
         break;
     }
 }

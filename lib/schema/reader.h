@@ -19,31 +19,32 @@ typedef struct SchemaSink {
     void (*report)(void *sink, DiagLevel level, const char *code, const Origin *origin, Str node, Str key, Str text);
 } SchemaSink;
 
-// The fields of a row that the fast path of the reader needs.
+// What the fast path of reader_fill needs to know about a row of schema_rows.
 typedef struct SchemaSlot {
     const Symbol *name;
-    double low; // limits of a number
-    double high;
+    double low;  // minimum of a number
+    double high; // maximum of a number
     uint16_t field;
-    uint8_t plain; // AttrShape; SHAPE_OTHER: not for the fast path (an alias, or a row without a field)
+    uint8_t plain; // AttrShape of the values; SHAPE_OTHER: an alias or a row without a field, not for the fast path
 } SchemaSlot;
 
 // The rows of table.h, with their names interned in the symbol table of a session.
 typedef struct Schema {
     SymbolTable *symbols;
     SchemaSink sink;
-    uint64_t report_count;         // number of mistakes reported so far
-    const Node *current_node;      // node that was read or updated last, named when a limit is exceeded; NULL: none
+    uint64_t report_count; // number of mistakes reported so far
+    // Node that was read or updated last. When a limit is exceeded, the report gives its position. NULL: none.
+    const Node *current_node;
     const FileAccess *file_access; // access to the files that nodes name; NULL: unrestricted
-    bool lint;                     // also report values that are unlikely to be intended
+    bool lint;                     // true: also report values that are unlikely to be intended
     const Symbol *kinds[KIND_COUNT];
     SchemaSlot slots[ROW_COUNT];
-    double words[WORD_COUNT];            // for each word: the number that represents it as a symbol
-    uint16_t first_row[KIND_COUNT + 1];  // by kind: its first row
-    int first_in_window;                 // first kind that can be in a window
-    uint8_t by_name[512];                // hash table by node name: 1 + first kind in windows with this name; 0: empty
-    uint8_t next_of_name[KIND_COUNT];    // by kind: 1 + next kind with the same name; 0: none
-    bool has_vector_default[KIND_COUNT]; // by kind: true if a vector has a default that is not 0
+    double words[WORD_COUNT];           // for each word: the number that represents it as a symbol
+    uint16_t first_row[KIND_COUNT + 1]; // by kind: number of its first row in schema_rows
+    int first_in_window;                // this kind and all later ones can be in windows
+    uint8_t by_name[512]; // hash table by node name: 1 + first kind in windows that has this name; 0: empty slot
+    uint8_t next_of_name[KIND_COUNT];    // by kind: 1 + next kind in windows that has the same name; 0: none
+    bool has_vector_default[KIND_COUNT]; // by kind: true if a vector attribute has a default that is not 0
 } Schema;
 
 void schema_init(Schema *schema, SymbolTable *symbols, SchemaSink sink);
@@ -64,10 +65,10 @@ NodeKind schema_kind_in(const Schema *schema, const Node *node, PlaceKind childr
 // The node being read, with its context.
 typedef struct Reader {
     Schema *schema;
-    Arena *arena; // owns strings and vectors
+    Arena *arena; // memory for strings and vectors that are read
     const Node *node;
     NodeKind kind;
-    uint32_t dimensions; // number of elements of a vector
+    uint32_t dimensions; // number of elements of a vector attribute
 } Reader;
 
 // Reports the warning "!kind id=…: text", once for each code and key.
@@ -77,7 +78,7 @@ void reader_report_attr(const Reader *reader, const char *code, AttrName name, S
 // Like reader_report, but at a given origin.
 void reader_report_at(const Reader *reader, const char *code, Origin place, Str key, Str text);
 // Adds "; did you mean …?" if a kind that is accepted at `place` has a name similar to `kind`. PLACE_TOP also accepts
-// every kind that can be in a window.
+// every kind that can be in a window. `before` and `after` enclose the suggested name.
 void schema_add_nearest_kind(Text *out, Str kind, PlaceKind place, const char *before, const char *after);
 
 // Stores the defaults of a kind in its record. Vectors become NULL.
@@ -101,8 +102,8 @@ typedef struct AttrValue {
     } as;
 } AttrValue;
 
-// Appends the attributes to an array with space for all of them; *count is its length. Returns false if a required
-// attribute is malformed.
+// Appends the node's attributes to `attrs`, which has space for all of them, and adds their number to *count. Returns
+// false if a required attribute has numbers that are not finite or outside the limits.
 bool reader_list(const Reader *reader, AttrValue *attrs, uint32_t *count);
 // Stores an attribute in the record of its kind. Does nothing if its row names no field.
 void schema_store(const AttrValue *attr, void *record);

@@ -24,9 +24,9 @@ typedef struct BodyAttrs {
 // A force applier or barrier. Bounds that are not set are NaN.
 typedef struct ForceAttrs {
     PhysForce force;
-    double fixed; // value of the attribute `fixed`, which replaces both bounds
-    Value from;   // ids of particles
-    Value to;
+    double fixed; // value of the attribute `fixed`, which replaces both bounds; NaN: not set
+    Value from;   // id of the first particle of a distance force
+    Value to;     // id of the second particle of a distance force
 } ForceAttrs;
 
 // !counter
@@ -35,8 +35,8 @@ typedef struct CounterAttrs {
     Value initial;
     Value rate;
     Value time;
-    Value minimum; // null: no limit; the same for `maximum`
-    Value maximum;
+    Value minimum; // lower limit of the value; null: none
+    Value maximum; // upper limit of the value; null: none
     Value reset;
 } CounterAttrs;
 

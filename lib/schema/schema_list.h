@@ -4,7 +4,7 @@
 // TYPE(ID, SHAPE, low, high, required, "expected value in words"): how an attribute is read (AttrShape of table.h).
 //     In systems, numbers outside the limits are clamped. In drawings they are malformed, and a node is omitted if such
 //     a number is in a required attribute.
-// NAME(ID, "attribute"): the names of attributes, each once.
+// NAME(ID, "attribute"): the name of an attribute, listed once even if several kinds of nodes have such an attribute.
 // NODE(ID, "kind", PLACE, CHILDREN, "help"), followed by its attributes. PLACE is where the node is allowed, CHILDREN
 //     which nodes are allowed in it (PlaceKind).
 // FORCE(ID, "kind", "help", "formula"): a NODE for the force with the same ID in force_list.h. The formula has the same

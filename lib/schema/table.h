@@ -56,23 +56,23 @@ typedef enum PlaceKind {
 // How the value of an attribute is checked and stored.
 typedef enum AttrShape {
     SHAPE_VALUE,   // Value
-    SHAPE_NUMBERS, // Value of one or more numbers
+    SHAPE_NUMBERS, // Value that consists of one or more numbers
     SHAPE_NUMBER,  // double, clamped to the limits of its type
     SHAPE_INTEGER, // double, rounded down
     SHAPE_TIME,    // double; NaN is allowed
     SHAPE_VECTOR,  // PhysVector with one element per dimension of the system; a single number is repeated
     SHAPE_NORMAL,  // PhysVector of length 1; NULL if its direction is undefined
-    SHAPE_FINITE,  // double, finite; malformed outside the limits of its type
+    SHAPE_FINITE,  // finite double; a value outside the limits of the attribute's type is an error
     SHAPE_PAIR,    // double[2]; a single number is repeated
     SHAPE_TRIPLE,  // double[3]; a single number is repeated
     SHAPE_QUAD,    // double[4]; a single number is repeated
-    SHAPE_LIST,    // doubles; the type's limits are the minimum and maximum count
+    SHAPE_LIST,    // array of doubles; the limits of the type are the minimum and maximum number of elements
     SHAPE_SEED,    // double: seed hash of the value, divided by 2^48
-    SHAPE_POINTS,  // doubles x, y, x, y…; a last x without y is dropped
+    SHAPE_POINTS,  // array of doubles x, y, x, y…; a last x without y is dropped
     SHAPE_COLOR,   // double[4]
     SHAPE_FLAG,    // bool
     SHAPE_TEXT,    // const char *
-    SHAPE_WEIGHT,  // double; a number or a word
+    SHAPE_WEIGHT,  // double; scripts give a number or a word
     SHAPE_WORD,    // int
     SHAPE_OTHER,   // no attribute has this shape; see SchemaSlot
 } AttrShape;
@@ -123,9 +123,9 @@ typedef struct TypeRow {
 
 typedef struct AttrDefault {
     double value;
-    const char *text; // description; "" if there is none
-    bool inherited;   // true: the default is the value of the enclosing node; `value` is the outermost value
-    const char *string;
+    const char *text;   // description for help; "": none
+    bool inherited;     // true: the default is the value of the enclosing node; `value` applies if no such node sets it
+    const char *string; // default of a text attribute; NULL: ""
 } AttrDefault;
 
 enum { FIELD_NOWHERE = UINT16_MAX };
@@ -135,10 +135,10 @@ typedef struct SchemaRow {
     uint8_t type;   // AttrType
     uint16_t name;  // AttrName
     uint16_t alias; // AttrName of the attribute that this row is an alias for; ATTR_NONE: not an alias
-    uint16_t field; // offset in the record of its kind, or FIELD_NOWHERE
+    uint16_t field; // offset of the field in the record of its kind, or FIELD_NOWHERE
     AttrDefault default_value;
-    const char *unit; // "": none, or named in `help`
-    const char *help; // "": the name is self-explanatory
+    const char *unit; // unit in words; "": none, or named in `help`
+    const char *help; // description; "": the name of the attribute is self-explanatory
 } SchemaRow;
 
 typedef struct WordRow {
@@ -155,11 +155,11 @@ extern const WordRow schema_words[WORD_COUNT];
 
 // Returns the row of an attribute, or NULL if the kind has no such attribute.
 const SchemaRow *schema_row(NodeKind kind, AttrName name);
-// Returns the force of a kind, or PHYS_FORCE_KINDS if the kind is not a force.
+// Returns the force that nodes of a kind describe, or PHYS_FORCE_KINDS if the kind is not a force.
 PhysForceKind schema_force(NodeKind kind);
 // Returns the formula of a force, with line breaks; "" for other nodes.
 const char *schema_formula(NodeKind kind);
-// Returns the kind of a force's node.
+// Returns the kind of the nodes that describe a force.
 NodeKind schema_kind_of_force(PhysForceKind force);
 // Returns true if a node of this kind is allowed as a child of a node that accepts `children`.
 bool schema_can_contain(NodeKind kind, PlaceKind children);
