@@ -26,7 +26,7 @@ static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
         fputs(diagnostic->rendered, stderr);
 }
 
-// Returns the text with LF line endings and without a byte-order mark. Modifies the buffer.
+// Returns the text with LF line endings and without a byte-order mark. The result is in the buffer, which is modified.
 static Str normalise_text(ByteBuffer *text) {
     static const char mark[] = "\xef\xbb\xbf";
     size_t skipped = strncmp(text->data, mark, strlen(mark)) == 0 ? strlen(mark) : 0;
@@ -70,8 +70,9 @@ static void format_script(Formatting *formatting, const char *name) {
     SCOPED_BYTE_BUFFER out = {0};
     if (!script_read(&text, name, SCRIPT_MAX_BYTES) || !format_text(formatting, name, &text, &out)) {
         formatting->failed++;
+        // Writes the script unchanged: an editor may replace its text with the output, which must not lose the script.
         if (script_is_stdin(name) && !formatting->only_checks)
-            write_stdout(&text); // unchanged, because an editor can replace the script with the output
+            write_stdout(&text);
         return;
     }
     bool changed = text.length != out.length || memcmp(text.data, out.data, out.length) != 0;

@@ -35,7 +35,7 @@ typedef struct Writer {
     uint32_t level;               // level of the current statement
     uint32_t indents[MAX_LEVELS]; // indents[L]: indent of level L in the original text
     uint32_t depth;               // number of open brackets
-    Anchor anchors[MAX_LEVELS];   // [0]: of the statement; [D]: of the open bracket at depth D
+    Anchor anchors[MAX_LEVELS];   // anchors[0]: of the statement; anchors[D]: of the bracket at depth D
 } Writer;
 
 static Line *current_line(Writer *writer) {
@@ -48,7 +48,7 @@ static void end_line(Writer *writer) {
     current_line(writer)->end = writer->text.length;
     Str code = {writer->text.data + current_line(writer)->start, writer->text.length - current_line(writer)->start};
     for (size_t i = code.len; i > 0; i--) {
-        if (code.bytes[i - 1] == '\n') { // newline in a string: the width is that of the last line
+        if (code.bytes[i - 1] == '\n') { // a string contains a newline: measure only the part after it
             code = (Str){code.bytes + i, code.len - i};
             break;
         }
@@ -68,8 +68,8 @@ static void begin_line(Writer *writer, uint32_t indent) {
     byte_buffer_format(&writer->text, "%*s", (int)indent, "");
 }
 
-// Returns the level of a comment on its own line. Of the levels from that of the previous to that of the next
-// statement, it is the deepest whose original indent does not exceed that of the comment.
+// Returns the level of a comment on its own line. The level lies between those of the previous and the next statement.
+// It is the deepest of these levels whose original indent does not exceed the original indent of the comment.
 static uint32_t comment_level(Writer *writer, size_t at) {
     const Words *words = writer->words;
     const Word *comment = &words->items[at];
@@ -165,8 +165,8 @@ static void add_word(Writer *writer, size_t at) {
     byte_buffer_add(&writer->text, word->text.bytes, word->text.len);
 }
 
-// Returns the column for the comments after code on consecutive lines. Keeps the original column if all comments have
-// the same column and the code ends before it.
+// Returns the common column for the comments after code on consecutive lines, the first of which is line `at`. Keeps
+// the original column if all these comments have the same column and the code of each line ends before it.
 static uint32_t comment_column(const Writer *writer, size_t at) {
     uint32_t max_width = 0, column = word_column(writer->words, writer->lines[at].comment);
     for (size_t i = at; i < writer->line_count && writer->lines[i].comment; i++) {
@@ -211,7 +211,8 @@ bool layout_text(PetriSession *session, Str text, ByteBuffer *out) {
     return read;
 }
 
-// Adds the compiled code of a script. Removes the first two columns, which include line numbers.
+// Appends the compiled code of a script to `code`. Leaves out the first two columns of each row, because they contain
+// line numbers, which formatting can change.
 static bool read_code(PetriSession *session, const char *name, Str text, ByteBuffer *code) {
     SCOPED_BYTE_BUFFER dump = {0};
     if (petri_load_text(session, name, text.bytes, text.len) != PETRI_OK ||

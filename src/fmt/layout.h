@@ -9,8 +9,8 @@
 #include "cli/byte_buffer.h"
 #include "petri.h"
 
-// Adds the formatted script. Returns false if the script has an invalid token, or if out of memory. `text` must have LF
-// line endings and no byte-order mark.
+// Appends the formatted script to `out`. Returns false if the script has an invalid token, or if out of memory. `text`
+// must have LF line endings and no byte-order mark.
 bool layout_text(PetriSession *session, Str text, ByteBuffer *out);
 // Returns true if both scripts have the same tokens and the same compiled code. `name` is the file name in messages.
 bool layout_same(PetriSession *session, const char *name, Str before, Str after);

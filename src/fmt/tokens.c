@@ -6,20 +6,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_DEPTH = 2100 }; // nested brackets; the language allows fewer
+enum { MAX_DEPTH = 2100 }; // maximum depth of nested brackets; the language allows fewer
 
-// State of the function that receives the tokens.
+// State of add_token, which receives the tokens one by one.
 typedef struct Reader {
     Words *words;
-    size_t end;     // end of the previous token
+    size_t end;     // offset of the end of the previous token
     size_t last;    // 1 + index of the last word that is not a comment; 0: none
-    uint32_t level; // block level
-    bool begins;    // the next word starts a statement
+    uint32_t level; // level of the current block
+    bool begins;    // true if the next word starts a statement
     uint32_t depth; // number of open brackets
     // Both arrays are indexed by depth. Index 0 is for the statement, outside all brackets.
-    size_t segments[MAX_DEPTH]; // current segment
-    bool functions[MAX_DEPTH];  // the bracket holds the parameters of an inline function
-    bool binds;                 // the statement binds names, so its `=` are not those of attributes
+    size_t segments[MAX_DEPTH]; // index of the current segment at each depth
+    bool functions[MAX_DEPTH];  // true if the bracket holds the parameters of an inline function
+    bool binds;                 // true if the statement binds names, so that its `=` do not set attributes
 } Reader;
 
 uint32_t word_column(const Words *words, const Word *word) {
@@ -88,7 +88,8 @@ static bool opens_function(const Word *before) {
 }
 
 // Updates the current segment (see Segment) with a word. A statement, an opening bracket, a comma, and a keyword or
-// operator that binds more weakly than + and - start a new segment. A closing bracket returns to the enclosing one.
+// operator that binds more weakly than + and - start a new segment. A closing bracket returns to
+// the segment that contains the opening bracket.
 static void split_segment(Reader *reader, Word *word, const Word *before) {
     if (word->begins) {
         reader->depth = 0;

@@ -22,20 +22,20 @@ typedef struct Word {
     Str text;
     PetriTokenKind kind;
     Role role;
-    uint32_t breaks;      // number of line ends before it
-    uint32_t level;       // level of its block
-    uint32_t indent;      // if it starts a line: original indent, where a tab counts as eight; else 0
-    uint32_t segment;     // if ROLE_SUM: index of its segment
-    bool begins;          // starts a statement or a line of bindings
-    bool joined;          // a backslash joins its line to the previous one
-    bool ends_parameters; // closes the parameters of an inline function
+    uint32_t breaks;      // number of line ends between the previous word and this one
+    uint32_t level;       // level of the block that contains the word
+    uint32_t indent;      // original indent of a word that starts a line (a tab counts as eight); else 0
+    uint32_t segment;     // for a ROLE_SUM: index in Words.segments
+    bool begins;          // true if the word starts a statement or a line of bindings
+    bool joined;          // true if a backslash joins the word's line to the previous line
+    bool ends_parameters; // true if the word closes the parameters of an inline function
 } Word;
 
 // A part of an expression, delimited by brackets, commas and operators of lower precedence than + and -.
 typedef struct Segment {
-    bool unspaced; // is in brackets or in an attribute
-    bool ranges;   // contains a range
-    bool mixed;    // contains operators of higher precedence than + and -
+    bool unspaced; // true if the segment is in brackets or in an attribute
+    bool ranges;   // true if the segment contains a range
+    bool mixed;    // true if the segment contains operators of higher precedence than + and -
 } Segment;
 
 typedef struct Words {

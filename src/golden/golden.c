@@ -1,4 +1,4 @@
-// golden.c: goldens: reading and updating; see golden.h.
+// golden.c: reads and updates goldens; see golden.h.
 #include "golden/golden.h"
 
 #include "base/file.h"
@@ -47,7 +47,7 @@ static bool split_options(Golden *golden, const char *line, size_t length, ByteB
     return quote == '\0';
 }
 
-// Reads a remark such as `# tolerance 1e-9`. Unknown remarks are comments.
+// Reads a remark such as `# tolerance 1e-9`. Ignores all other remarks, which are comments.
 static bool read_remark(Golden *golden, const char *line, size_t length, ByteBuffer *error_text) {
     char copy[128];
     size_t kept = length < sizeof copy - 1 ? length : sizeof copy - 1;
@@ -76,8 +76,8 @@ static bool read_remark(Golden *golden, const char *line, size_t length, ByteBuf
     return false;
 }
 
-// Returns the option of `petri run` that a word means. Returns NULL if there is none; `petri run` then reports the
-// word.
+// Returns the option of `petri run` that `word` names, such as `--frames`. Returns NULL if there is no such
+// option; `petri run` then reports the error.
 static const OptionSpec *find_option(const char *word, size_t length) {
     for (const OptionSpec *spec = OPTIONS; spec->name; spec++) {
         bool same = word[1] == '-' ? strlen(spec->name) == length - 2 && memcmp(spec->name, word + 2, length - 2) == 0

@@ -17,12 +17,12 @@
 
 typedef struct Golden {
     ByteBuffer text;    // the whole file
-    size_t body;        // offset of the recorded output
+    size_t body;        // offset of the recorded output in `text`
     uint32_t body_line; // line number of the recorded output, from 1
     TextList options;   // words after `# run`
-    double tolerance;   // relative; 0: exact
+    double tolerance;   // relative tolerance for numbers; 0: numbers must be equal
     int64_t horizon;    // last frame that is compared if there is a tolerance
-    int64_t strict;     // last frame that is compared with the tolerance
+    int64_t strict;     // last frame that is compared with `tolerance`; later frames get a larger tolerance
 } Golden;
 
 // Reads a golden. On failure, returns false and adds the reason to error_text.
@@ -55,8 +55,9 @@ bool line_same(Str expected, Str got, double tolerance, LineDifference *differen
 
 // Scripts that must be rejected: NAME.err beside NAME.fl (rejection.c).
 
-// Returns true if a run was rejected with an error in the line that the .err file `path` names: `line N`, or `line *`
-// for any line. `status` is the status from waitpid. On failure, adds the reason to error_text.
+// Returns true if petri rejected the script `name` with an error in the line that the .err file at `path` contains:
+// `line N`, or `line *` for any line. `status` is the status from waitpid, and `errors` is the standard error of the
+// run. On failure, adds the reason to error_text.
 bool rejection_check(const char *path, const char *name, int status, const ByteBuffer *errors, ByteBuffer *error_text);
 
 // Reports: one line per result, and a file for CI systems (report.c).

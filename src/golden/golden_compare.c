@@ -104,8 +104,9 @@ typedef struct Comparison {
     ByteBuffer *error_text;
 } Comparison;
 
-// Adds a description of a difference. `expected` or `got` is NULL if that output has no such line. If
-// `expected` is NULL, reports the line number `line`. Always returns false.
+// Adds a description of a difference to the error text. `expected` is a line of the golden; if it is NULL, the golden
+// has no such line and the difference is reported at line number `line`. `got` is the line of the current output, or
+// NULL if there is none. Always returns false.
 static bool report_difference(const Comparison *comparison, const Line *expected, const Line *got, uint32_t line,
                               LineDifference where) {
     ByteBuffer *error_text = comparison->error_text;
@@ -135,8 +136,8 @@ static bool compare_in_order(const Comparison *comparison, const LineList *expec
     return true;
 }
 
-// Finds a line that agrees with `wanted` and marks it as matched. The search starts after the previous match,
-// because both outputs usually have their lines in the same order.
+// Finds a line in `set` that agrees with `wanted`, and marks it as matched. The search starts at *next, the line after
+// the previous match, because both outputs usually have their lines in the same order.
 static bool claim_match(const Comparison *comparison, const Line *wanted, LineList *set, size_t *next) {
     for (size_t i = 0; i < set->count; i++) {
         Line *line = &set->items[(*next + i) % set->count];

@@ -10,7 +10,8 @@
 
 enum { ANY_LINE = -1, NO_LINE = 0 };
 
-// Returns the line number in the .err file, or NO_LINE after adding an error.
+// Returns the line number in the .err file, or ANY_LINE for `line *`. On failure, adds the reason to error_text and
+// returns NO_LINE.
 static long read_line_number(const char *path, ByteBuffer *error_text) {
     SCOPED_BYTE_BUFFER text = {0};
     long line = NO_LINE;
@@ -29,8 +30,8 @@ static long read_line_number(const char *path, ByteBuffer *error_text) {
     return line;
 }
 
-// Returns the line number of the next `NAME:LINE:` in the errors and moves *at after it. Returns NO_LINE if there is
-// none.
+// Finds the next `NAME:LINE:` at or after *at, in the error messages of a run. Returns LINE and moves *at to the colon
+// after it. Returns NO_LINE if there is none.
 static long next_reported_line(const char **at, const char *name) {
     size_t length = strlen(name);
     for (const char *found = strstr(*at, name); found; found = strstr(found + 1, name)) {

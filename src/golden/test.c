@@ -19,9 +19,9 @@ enum { MAX_CPUS = 256 };
 typedef struct Case {
     Result result;
     char *script;      // path of the script
-    char *name;        // its file name
+    char *name;        // file name of the script, without folders
     char *recorded;    // path of the golden or .err file
-    bool is_rejection; // `recorded` is an .err file
+    bool is_rejection; // true if `recorded` is an .err file
     Golden golden;     // valid while the script runs
     Subprocess child;
     bool done;
@@ -36,8 +36,7 @@ typedef struct Suite {
     Output output;
 } Suite;
 
-// Returns the path of the file beside a script NAME.fl that is called NAME plus `ending`. Returns NULL if there is
-// none. The caller frees it.
+// For a script NAME.fl, returns the path NAME plus `ending` if that file exists, else NULL. The caller frees the path.
 static char *file_beside(const char *script, const char *ending) {
     size_t length = strlen(script);
     if (length > 3 && strcmp(script + length - 3, ".fl") == 0)
@@ -66,7 +65,8 @@ static void add_case(Suite *suite, const Script *script) {
     };
 }
 
-// Unless `value` is NULL, adds an option that overrides the same option in the golden. `petri run` checks its value.
+// If `value` is not NULL, adds --NAME=VALUE, which overrides the same option in the golden. `petri run` rejects
+// invalid values.
 static void add_override(char **argv, int *argc, ByteBuffer *text, const char *name, const char *value) {
     if (value) {
         byte_buffer_format(text, "--%s=%s", name, value);
@@ -83,8 +83,8 @@ static void start_child(Suite *suite, Case *item) {
     int argc = 0;
     argv[argc++] = "petri";
     argv[argc++] = "run";
-    // Scripts already run in parallel. Results never depend on the number of threads, and a golden can set another
-    // number.
+    // One thread for each script, because the scripts already run in parallel. A golden can set another number of
+    // threads. Results never depend on it.
     argv[argc++] = "--threads=1";
     if (item->is_rejection)
         argv[argc++] = "--frames=1";

@@ -1,6 +1,7 @@
 // main.c: the program petri-hdf5, which writes HDF5 files for petri (cli/hdf5.h).
 //
-// Usage: `petri-hdf5 trajectory|table FILE [NUMBERS]`, with a socket as standard input. NUMBERS: `after` of hdf5_start.
+// Usage: `petri-hdf5 trajectory|table FILE [NUMBERS]`, with a socket as standard input. NUMBERS is the argument
+// `after` of hdf5_start.
 #include "cli/cli.h"
 #include "cli/hdf5.h"
 #include "hdf5/spool.h"
@@ -35,7 +36,7 @@ static bool receive_block(char **block, Hdf5Head *head) {
     return read_stream(*block, head->bytes);
 }
 
-// Sends a byte to petri. MSG_NOSIGNAL, because petri may have exited.
+// Sends a byte to petri. MSG_NOSIGNAL prevents SIGPIPE if petri has already exited.
 static void acknowledge(void) {
     send(STDIN_FILENO, "!", 1, MSG_NOSIGNAL);
 }

@@ -95,7 +95,7 @@ bool spool_open(Spool *spool, const char *path, bool begins) {
     if (spool->size >= LINE && !spool->complete && memcmp(line, KINDS[0], LINE) != 0)
         return report_error(spool, "the existing file was not written by petri");
     spool->at = LINE;
-    spool->has_frames = spool->size > LINE + sizeof(Entry); // more than one HDF5_NEW_RUN
+    spool->has_frames = spool->size > LINE + sizeof(Entry); // a spool without frames has one empty block, HDF5_NEW_RUN
     return !begins && read ? true : reset_spool(spool, begins);
 }
 

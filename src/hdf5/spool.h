@@ -32,7 +32,7 @@ bool spool_next(Spool *spool, int64_t after, Hdf5Head *head, char **block);
 bool spool_add(Spool *spool, const Hdf5Head *head, const char *block);
 // Writes the spool and its folder entry to disk. Returns false after a message.
 bool spool_save(Spool *spool, int folder);
-// Closes the spool. Removes its file if `done` (the HDF5 file has everything) or if it contains no frames.
+// Closes the spool. Removes its file if it contains no frames, or if `done` is true because the HDF5 file has them all.
 void spool_close(Spool *spool, bool done);
 
 #endif

@@ -198,7 +198,8 @@ void store_grow(Store *store, StoreColumn *column, const hsize_t sizes[STORE_RAN
         store_check(store, H5Dset_extent(column->set, column->sizes));
 }
 
-// Reads the first elements of a row into `out`. If `out` is NULL, writes them from `in` instead.
+// Reads the first elements of a row into `out`. If `out` is NULL, writes the first elements from `in` to the row.
+// `sizes` is the number of these elements in each dimension.
 static void move_row(Store *store, const StoreColumn *column, hsize_t row, const hsize_t sizes[STORE_RANKS], void *out,
                      const void *in) {
     hsize_t start[STORE_RANKS] = {row}, count[STORE_RANKS] = {1};
@@ -221,7 +222,7 @@ void store_read_row(Store *store, const StoreColumn *column, hsize_t row, const 
 // row would be split into too many chunks.
 static void recreate_column(Store *store, StoreColumn *column, const hsize_t sizes[STORE_RANKS]) {
     StoreColumn old = *column;
-    store_check(store, H5Ldelete(old.parent, old.name, H5P_DEFAULT)); // the data set exists until it is closed
+    store_check(store, H5Ldelete(old.parent, old.name, H5P_DEFAULT)); // old.set stays readable until it is closed
     *column = store_column(store, old.parent, old.name, old.type, old.rank, sizes, old.fill);
     store_grow(store, column, old.sizes);
     hsize_t numbers = old.rank > 2 ? old.sizes[1] * old.sizes[2] : old.sizes[1];
@@ -283,7 +284,7 @@ hid_t store_open(Store *store, hid_t parent, const char *name) {
 }
 
 // Reads `count` strings of fixed length from a data set, or from an attribute if `set` is negative. Sets *bytes to the
-// size of each string with its NUL. Closes the type.
+// size of each string with its NUL. Closes `type`.
 static char *read_fixed(Store *store, hid_t type, size_t count, hid_t attribute, hid_t set, size_t *bytes) {
     *bytes = H5Tget_size(type) + 1;
     hid_t memory = store_text_type(*bytes - 1);

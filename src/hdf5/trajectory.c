@@ -1,8 +1,8 @@
 // trajectory.c: see trajectory.h.
 //
 // Each system is an HDF5 group with its own list of frame numbers (steps), because a system can be absent from frames.
-// Its number of particles can change. All rows therefore have the length of the longest row, and unused elements at
-// the end of a row have the id -1.
+// The number of particles in a system can change from frame to frame. All rows therefore have the length of the longest
+// row, and unused elements at the end of a row have the id -1.
 #include "hdf5/trajectory.h"
 
 #include "cli/hdf5.h"
@@ -186,8 +186,8 @@ void trajectory_file_begin_run(TrajectoryFile *file) {
     file->run_texts = 0;
 }
 
-// Reads the new id strings of a frame. Each run numbers its strings from 0, so the numbers are mapped to ids in the
-// file.
+// Reads the new id strings of a frame. Each run numbers its strings from 0. Therefore adds entries to file->numbers,
+// which maps these numbers to the ids that the file stores.
 static void read_id_texts(TrajectoryFile *file, const char *text, uint64_t count) {
     file->numbers = memory_realloc(file->numbers, (file->run_texts + count + 1) * sizeof *file->numbers);
     for (uint64_t i = 0; i < count; i++, text += strlen(text) + 1)
@@ -225,7 +225,7 @@ static bool read_group(TrajectoryFile *file, Group *group, int64_t after, int64_
         if (step > after)
             break;
         file->last = step > file->last ? step : file->last;
-        memset(ids, 0xff, one[1] * sizeof *ids); // -1
+        memset(ids, 0xff, one[1] * sizeof *ids); // fills with NO_ID, -1
         if (one[1] > 0)
             store_read_row(store, &group->columns[ID], group->frames, one, ids);
         for (hsize_t i = 0; i < one[1]; i++) {

@@ -9,9 +9,9 @@
 typedef struct LinkSession {
     Linked linked;
     Frames frames;
-    size_t next_change;       // index of the first change of a later frame
+    size_t next_change;       // index in linked.changes of the first change that was not made yet
     TextList requested_files; // files that the script tried to read
-    PetriPainter *painter;    // has rendered earlier frames on which later pictures depend; NULL: none
+    PetriPainter *painter;    // has the earlier pictures on which later ones depend; NULL: not needed yet
 } LinkSession;
 
 // Opens a session, loads the script and computes the frames up to the frame of the link, with the changes of parameters

@@ -155,7 +155,7 @@ static bool is_printable(const char *name) {
     return good;
 }
 
-// Orders changes by frame. Changes of the same frame keep their order, because they are elements of one array.
+// Orders changes by frame, and changes of the same frame by their index in the link. For qsort.
 static int by_frame(const void *a, const void *b) {
     const LinkedChange *first = a, *second = b;
     if (first->frame != second->frame)

@@ -10,7 +10,7 @@
 
 typedef struct LinkedChange {
     int64_t frame; // frame after which the change is made; -1: before the first frame
-    size_t number; // index in the link
+    size_t number; // index of the change in the link
     char *name;
     char *value; // in the syntax of scripts
 } LinkedChange;
@@ -20,8 +20,8 @@ typedef struct Linked {
     char *name;
     LinkedChange *changes; // ordered by frame
     size_t change_count;
-    int64_t frame; // -1: no frame was computed
-    char *hash;    // SHA-256 of the state in hexadecimal; NULL: not in the link
+    int64_t frame; // frame to which the script runs; -1: no frame was computed
+    char *hash;    // SHA-256 of the state in that frame, in hexadecimal; NULL: not in the link
 } Linked;
 
 // Returns true if petri was built with the libraries for links. Otherwise returns false after a message.

@@ -181,7 +181,7 @@ static const struct {
 static const struct {
     const char *method;
     RequestHandler *answer;
-    const char *capability; // capability with the value true; NULL: see capabilities()
+    const char *capability; // capability that is announced as true; NULL: capabilities() adds it
 } requests[] = {
     {"textDocument/completion", answer_completion, NULL},
     {"textDocument/hover", answer_hover, "hoverProvider"},
@@ -311,7 +311,7 @@ static bool handle_message(Server *server, const Json *message) {
 }
 
 static void check_changed_documents(Server *server) {
-    for (int pass = 0; pass < 2; pass++) // the first checks of all documents, then full checks of heavy ones
+    for (int pass = 0; pass < 2; pass++) // first pass: first checks of all documents; second: full checks of heavy ones
         for (size_t i = 0; i < server->document_count && !rpc_has_input(&server->input); i++)
             if (server->documents[i]->unchecked)
                 diagnostics_publish(server, server->documents[i]);

@@ -121,8 +121,8 @@ static const PetriBinding *function_of(const Document *document, const PetriBind
     return parameter->kind == PETRI_NAME_PARAMETER ? found : NULL;
 }
 
-// Adds the named arguments with this name in one call, `f(NAME=…)` or `@f NAME=…`. `token` is the function's name in
-// the call, which is not in the file of the function.
+// Adds the arguments called `text` in one call, `f(NAME=…)` or `@f NAME=…`. `token` is the name of the function in the
+// call. The call is in another file than the function.
 static void add_arguments(Uses *uses, const Workspace *workspace, size_t file, size_t token, Str text) {
     const Document *document = workspace->documents[file];
     bool template = token > 0 && document_is(document, token - 1, "@");
@@ -250,8 +250,8 @@ static bool is_name(Server *server, const char *text) {
     return good;
 }
 
-// Returns an array with one element for each name in all files, in order: the bindings of the name. Sets *count. The
-// caller frees the array with free.
+// Returns an array with the bindings of every name in all files, in the order of the names. Sets *count to the number
+// of names. The caller frees the array with free.
 static BindingSet *all_bindings(const Workspace *workspace, size_t *count) {
     *count = 0;
     for (size_t file = 0; file < workspace->count; file++)

@@ -1,7 +1,7 @@
 // publish.c: sending the diagnostics of documents to the editor.
 //
 // A check may also report diagnostics of included files. Each document stores the diagnostics of its last check,
-// grouped by file. For each file, the editor receives what all documents together store for it.
+// grouped by file. For each file, the editor receives the diagnostics that all documents together store for that file.
 #include "lsp/server.h"
 
 #include <stdlib.h>
@@ -16,7 +16,7 @@ static Json *diagnostic_json(const Server *server, const Document *document, con
     json_put_text(json_put_text(json, "source", "petri"), "message", text.data);
     if (diagnostic->code) {
         json_put_text(json, "code", diagnostic->code);
-        if (strcmp(diagnostic->code, "unused-name") == 0) { // the tag 1, because editors grey out the name
+        if (strcmp(diagnostic->code, "unused-name") == 0) { // tag 1 (unnecessary): editors grey out the name
             Json *tags = json_object_new_array();
             json_object_array_add(tags, json_object_new_int(1));
             json_put(json, "tags", tags);
@@ -104,7 +104,7 @@ static void publish_changes(Server *server, const Json *now, Json *before) {
     json_object_put(before);
 }
 
-// Collects diagnostics in server->found and in the document.
+// Checks a document and stores its diagnostics in server->found and in the document.
 static PetriStatus check_document(Server *server, Document *document, PetriSession *session) {
     document->diagnostics = NULL;
     document->diagnostic_count = 0;

@@ -40,7 +40,8 @@ bool server_open_session(Server *server);
 
 // Diagnostics (publish.c).
 // Checks a document and sends the diagnostics to the editor. The first check has a small work limit. If the script
-// exceeds it, the document stays unchecked and the next call makes a full check, which the next message interrupts.
+// exceeds it, the document stays unchecked and the next call makes a full check. The next message from the editor
+// interrupts it.
 void diagnostics_publish(Server *server, Document *document);
 // Stores a diagnostic of the current check. For PetriOptions.on_diagnostic.
 void diagnostics_collect(void *server, const PetriDiagnostic *diagnostic);
@@ -61,7 +62,7 @@ typedef Json *RequestHandler(const RequestContext *request, const char **problem
 RequestHandler answer_completion, answer_hover, answer_signature, answer_definition, answer_references,
     answer_highlight, answer_prepare_rename, answer_rename, answer_symbols, answer_folding, answer_tokens, answer_hints,
     answer_colours, answer_presentations, answer_actions, answer_format;
-// Returns the names of the classes and modifiers of semantic tokens. The capabilities contain them.
+// Returns the names of the classes and modifiers of semantic tokens, as announced in the server's capabilities.
 Json *tokens_legend(void);
 
 // Information about a word (hover.c).

@@ -120,7 +120,7 @@ static bool run_on_large_stack(Job *job) {
                        pthread_create(&thread, &attributes, run_job, job) == 0;
         pthread_attr_destroy(&attributes);
         if (started) {
-            sigset_t all; // blocked in this thread, so that the new thread receives signals
+            sigset_t all; // all signals, blocked in this thread so that the new thread receives them
             sigfillset(&all);
             pthread_sigmask(SIG_BLOCK, &all, NULL);
             return pthread_join(thread, NULL) == 0;
