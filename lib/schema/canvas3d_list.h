@@ -95,7 +95,7 @@ TRANSFORM3D_ROWS(TRANSFORM3D)
 NODE(MATERIAL, "material", SCENE3D, SCENE3D, "material of the surfaces inside")
 MATERIAL_ROWS(MATERIAL)
 
-NODE(LIGHT, "light", SCENE3D, NOTHING, "a light: ambient, or point (position), directional (direction), spot (position and direction) or line (start and end)")
+NODE(LIGHT, "light", SCENE3D, NOTHING, "a light; its attributes determine whether it is an ambient, point, directional, spot or line light")
 ATTR(LIGHT, COLOR, TRIPLE, NOWHERE, NONE, "", "colour of the light; it can be brighter than white, or negative")
 ATTR(LIGHT, POSITION, TRIPLE, NOWHERE, NONE, "", "position of a point or spot light")
 ATTR(LIGHT, DIRECTION, TRIPLE, NOWHERE, NONE, "", "direction in which the light shines")

@@ -23,7 +23,7 @@
     ATTR(kind, VERTEX, TEXT, NOWHERE, NONE, "", "GLSL source that replaces the default vertex shader") \
     ATTR(kind, FRAGMENT, TEXT, NOWHERE, NONE, "", "GLSL source that replaces the default fragment shader")
 #define BLUR_ROWS(kind) \
-    ATTR(kind, RADIUS, AMOUNTS, NOWHERE, IS(0), "pixels", "radius along x and y, in whole pixels") \
+    ATTR(kind, RADIUS, AMOUNTS, NOWHERE, IS(0), "pixels", "radius of the blur along x and y, in whole pixels") \
     ATTR(kind, SIGMA, AMOUNTS, NOWHERE, IS(0.3), "radii", "standard deviation of the blur")
 #define ADJUST_ROWS(kind, usual) \
     ATTR(kind, EXPOSURE, AMOUNT, NOWHERE, IS(usual), "stops", "1 doubles the brightness") \
@@ -46,7 +46,7 @@ PROGRAM_ROWS(OFFSCREEN)
 
 NODE(RECORD, "record", PICTURE, PICTURES, "write the pictures inside to a file when rendering or viewing")
 PROGRAM_ROWS(RECORD)
-ATTR(RECORD, FILENAME, TEXT, NOWHERE, NONE, "", "an image file, which is written once per name, or a video file; with null, nothing is written")
+ATTR(RECORD, FILENAME, TEXT, NOWHERE, NONE, "", "an image file, which is written only once for each name, or a video file; with null, nothing is written")
 ATTR(RECORD, QUALITY, FINITE_INTEGER, NOWHERE, IS(75), "", "JPEG quality, at most 100")
 ATTR(RECORD, KEEP_ALPHA, FLAG, NOWHERE, IS(false), "", "also write alpha; colours stay premultiplied")
 ATTR(RECORD, CODEC, TEXT, NOWHERE, DESCRIBED(0, "h264"), "", "codec of videos")
@@ -68,7 +68,7 @@ ATTR(PICTURE_IMAGE, ID, TEXT, NOWHERE, NONE, "", "name by which !reference and i
 ATTR(PICTURE_IMAGE, HIDDEN, FLAG, NOWHERE, IS(false), "", "create the picture, but do not pass it to the enclosing node")
 
 NODE(REFERENCE, "reference", PICTURE, NOTHING, "show the picture of another node")
-ATTR(REFERENCE, ID, TEXT, NOWHERE, NONE, "", "id of the other node")
+ATTR(REFERENCE, ID, TEXT, NOWHERE, NONE, "", "id of the node whose picture is shown")
 
 NODE(SHADER, "shader", PICTURE, PICTURES, "run a GLSL shader for each pixel")
 PROGRAM_ROWS(SHADER)
@@ -116,19 +116,19 @@ ATTR(FEEDBACK, TRANSLATE, AMOUNTS, NOWHERE, IS(0), "pixels", "movement of the pr
 ATTR(FEEDBACK, SCALE, AMOUNTS, NOWHERE, IS(1), "", "scale of the previous picture")
 ATTR(FEEDBACK, ROTATE, AMOUNT, NOWHERE, IS(0), "turns", "rotation of the previous picture, clockwise")
 
-NODE(PICTURE_TRANSFORM, "transform", PICTURE, PICTURES, "move, scale and rotate pictures about their centre, in the order written")
+NODE(PICTURE_TRANSFORM, "transform", PICTURE, PICTURES, "move, scale and rotate pictures about their centre, in the order in which the attributes are written")
 PROGRAM_ROWS(PICTURE_TRANSFORM)
 ATTR(PICTURE_TRANSFORM, SCALE, AMOUNTS, NOWHERE, IS(1), "", "scale factors along x and y")
 ATTR(PICTURE_TRANSFORM, ROTATE, AMOUNT, NOWHERE, IS(0), "turns", "rotation, counter-clockwise")
 ATTR(PICTURE_TRANSFORM, TRANSLATE, AMOUNTS, NOWHERE, IS(0), "pixels", "displacement, y up")
-ATTR(PICTURE_TRANSFORM, KEYSTONE, AMOUNTS, NOWHERE, IS(0), "", "perspective distortion")
+ATTR(PICTURE_TRANSFORM, KEYSTONE, AMOUNTS, NOWHERE, IS(0), "", "perspective distortion along x and y")
 
 NODE(VIGNETTE, "vignette", PICTURE, PICTURES, "fade towards the edges")
 PROGRAM_ROWS(VIGNETTE)
 ATTR(VIGNETTE, INSET, AMOUNT, NOWHERE, IS(0.25), "widths", "distance from the edge over which the picture fades")
 ATTR(VIGNETTE, FADE, FADE, NOWHERE, DESCRIBED(FADE_LINEAR, ":linear"), "", "shape of the fade")
 
-NODE(NOISE, "noise", PICTURE, PICTURES, "animated noise")
+NODE(NOISE, "noise", PICTURE, PICTURES, "noise; to animate it, make z depend on beat")
 PROGRAM_ROWS(NOISE)
 ATTR(NOISE, SEED, SEED, NOWHERE, DESCRIBED((double)(int64_t)RANDOM_HASH_START / 281474976710656.0, "null"), "", "each seed gives different noise")
 ATTR(NOISE, COMPONENTS, FINITE_INTEGER, NOWHERE, IS(1), "", "number of channels filled with noise")

@@ -346,7 +346,7 @@ ATTR(ANCHOR, RADIUS, FROM_ZERO, TO_BODY(numbers.radius), IS(0), "", "if 0, there
 ATTR(ANCHOR, MASS, FROM_ZERO, TO_BODY(numbers.mass), IS(1), "", "if 0, !gravity ignores the anchor")
 ATTR(ANCHOR, CHARGE, NUMBER, TO_BODY(numbers.charge), IS(0), "", "electric charge, which !electrostatic and !field use")
 
-NODE(GROUP, "group", PHYSICS, PHYSICS, "a group; its forces act only inside it, and its particles do not interact with sibling groups")
+NODE(GROUP, "group", PHYSICS, PHYSICS, "a group; except for !distance, its forces act only inside it, and none act between sibling groups")
 
 FORCE(CONSTANT, "constant", "the same force or acceleration for all particles",
     "F = (force + acceleration · m) · strength")
@@ -646,7 +646,7 @@ ATTR(FILTER_BLEND, COEFFICIENTS, QUAD, NOWHERE, NONE, "", "k1;k2;k3;k4: the resu
 ATTR(FILTER_BLEND, RATIO, FINITE, NOWHERE, NONE, "", "fraction of the first filter; ignored if coefficients is set")
 ATTR(FILTER_BLEND, MODE, COMPOSITE, NOWHERE, DESCRIBED(COMPOSITE_OVER, ":over"), "", "how the second filter is combined with the first; ignored if coefficients or ratio is set")
 
-NODE(DASH, "dash", EFFECT, EFFECT, "dash lines drawn after it")
+NODE(DASH, "dash", EFFECT, EFFECT, "lines of nodes drawn after it become dashed")
 ATTR(DASH, INTERVALS, LIST, NOWHERE, NONE, "", "lengths dash;gap;dash;gap…; there must be as many gaps as dashes")
 ATTR(DASH, OFFSET, FINITE, NOWHERE, IS(0), "", "position in the intervals at which each line begins")
 
