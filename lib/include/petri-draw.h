@@ -29,9 +29,11 @@ typedef enum PetriAutomatic {
 // Options of a picture. Start with petri_default_picture_options.
 typedef struct PetriPictureOptions {
     size_t size; // sizeof(PetriPictureOptions) of the header that the host was compiled with
-    int width;   // in pixels; the drawing is scaled to fit and centred. Width and height 0 (default): the script's size
+    // Size in pixels. The drawing is scaled to fit and centred. If width and height are 0 (the default), the picture
+    // has the size that the script sets.
+    int width;
     int height;
-    double scale; // pixels per unit of the script's size, if width and height are 0. Default 1
+    double scale; // if width and height are 0: pixels per unit of the script's size. Default 1
     int window;   // number of the window or `!offscreen`; -1 (the default): the first with something to draw
     PetriAutomatic automatic; // default PETRI_AUTO_IF_NEEDED
     // Resolution of effects and 3-D scenes, relative to the picture: greater than 0, at most 1 (the default). Smaller
@@ -78,7 +80,7 @@ PETRI_API PetriStatus petri_picture(PetriSession *session, const PetriPictureOpt
 // Frees a picture and sets the handle to NULL. NULL handles are ignored.
 PETRI_API void petri_picture_free(PetriPicture **picture);
 
-// Gets the size of a picture in pixels.
+// Sets *width and *height to the size of a picture in pixels.
 PETRI_API void petri_picture_size(const PetriPicture *picture, int *width, int *height);
 
 // Returns the title of the picture's window, or "". Valid as long as the picture.
@@ -110,14 +112,14 @@ typedef struct PetriRecord {
     int height;
     const uint32_t *pixels; // rows without gaps, in the format of petri_picture_draw
     bool keep_alpha;        // false: treat the pixels as opaque
-    const char *codec;      // of a video; "": not specified
-    const char *pixfmt;     // of a video; "": not specified
-    double max_seconds;     // maximum duration of a video; NaN: none
+    const char *codec;      // codec of a video; "": not specified
+    const char *pixfmt;     // pixel format of a video; "": not specified
+    double max_seconds;     // maximum duration of a video in seconds; NaN: unlimited
 } PetriRecord;
 
-// Gets a record by number. `picture` must be the picture that the painter rendered last (petri_picture_render). Creates
-// missing folders of the record's file. Returns false past the last record. The record is valid until the painter
-// renders another picture or the picture is freed.
+// Stores the data of record number `index` in *record. `picture` must be the picture that the painter rendered last
+// (petri_picture_render). Creates missing folders of the record's file. Returns false past the last record. The record
+// is valid until the painter renders another picture or the picture is freed.
 PETRI_API bool petri_picture_record(PetriPicture *picture, PetriPainter *painter, size_t index, PetriRecord *record);
 
 // Writes the file of a record that is an image: .png, .jpg, .svg or .pdf. Returns the same statuses as
@@ -201,7 +203,7 @@ enum {
     // Draws an image: x, y, width, height, fit (0: original size, 1: stretched, 2: inside, 3: filling), string with the
     // file name.
     PETRI_DRAW_IMAGE,
-    PETRI_DRAW_CLIP,        // clips to a path: to its outside (0 or 1), even-odd rule (0 or 1), path
+    PETRI_DRAW_CLIP,        // clips to the inside (0) or outside (1) of a path: side, even-odd rule (0 or 1), path
     PETRI_DRAW_SAVE,        // saves the clip
     PETRI_DRAW_RESTORE,     // restores the clip; the list sets matrix and paint again before it uses them
     PETRI_DRAW_LAYER,       // redirects drawing to a transparent layer, until PETRI_DRAW_LAYER_END
@@ -221,8 +223,8 @@ enum {
     PETRI_DRAW_PATTERN,
     // Sets the filter for the drawings up to the next PETRI_DRAW_STROKE_STYLE: filter (`PETRI_FILTER_*`).
     PETRI_DRAW_FILTER,
-    // Paint, a blend of two paints: ratio of the second, or -1 to composite the second over the first; composite mode,
-    // alpha, two paints.
+    // Paint, a blend of two paints: ratio of the second paint (0 to 1), or -1 to composite it over the first with the
+    // composite mode; composite mode, alpha, two paints.
     PETRI_DRAW_BLEND,
     // Paint, noise: frequency x, y, tile width, height, seed, octaves, type (0: fractal, 1: turbulence, 2: improved),
     // alpha.
@@ -251,14 +253,15 @@ enum {
     PETRI_FILTER_ERODE,         // radius x, y, filter
     PETRI_FILTER_COLOUR_MATRIX, // four rows of five numbers, filter
     PETRI_FILTER_PAINT,         // fills the whole area: commands that set a paint, then PETRI_DRAW_STROKE_STYLE
-    // Combines two filters: either a composite mode, or -1 and four coefficients. The two filters follow. The
-    // coefficients are those of the product, the second filter, the first filter, and a constant.
+    // Combines two filters: either a composite mode, or -1 and four coefficients. The two filters follow. With
+    // coefficients a, b, c and d, the result is a*first*second + b*second + c*first + d.
     PETRI_FILTER_BLEND,
     PETRI_FILTER_SOURCE, // the unfiltered drawing
 };
 
-// Gets a picture as a display list. Works without Cairo. For a window, it contains the first canvas. Valid as long as
-// the picture. Sets *numbers to NULL and returns PETRI_OUT_OF_MEMORY if out of memory.
+// Sets *numbers to the display list of a picture, and *count to its length. Works without Cairo. For a window, it
+// contains the first canvas. Valid as long as the picture. Sets *numbers to NULL and returns PETRI_OUT_OF_MEMORY if out
+// of memory.
 PETRI_API PetriStatus petri_picture_display_list(PetriPicture *picture, const double **numbers, size_t *count);
 
 // Returns true if the display list describes the picture completely: it needs no effects, no images of other nodes and

@@ -90,13 +90,14 @@ typedef enum PetriLevel { PETRI_ERROR, PETRI_WARNING, PETRI_NOTE } PetriLevel;
 typedef struct PetriDiagnostic {
     PetriLevel level;
     const char *file; // NULL if the diagnostic has no position
-    uint32_t line;    // from 1; 0 without a position
+    uint32_t line;    // from 1; 0 if the diagnostic has no position
     uint32_t column;  // in characters, from 1
     const char *text;
     const char *code; // short name of the kind, such as "unbound-name"; may be NULL
-    // `FILE:LINE:COLUMN: level: text [code]`, source line, carets and hint, as far as they exist; ends in a newline.
+    // `FILE:LINE:COLUMN: level: text [code]`, then source line, carets and hint. Parts that do not exist are left out.
+    // Ends in a newline.
     const char *rendered;
-    const char *hint;    // advice, such as "did you mean 'cos'?"; "": none
+    const char *hint;    // advice for the user, such as "did you mean 'cos'?"; "": none
     uint32_t end_line;   // line of the first character after the marked range
     uint32_t end_column; // column of that character
 } PetriDiagnostic;
@@ -146,7 +147,7 @@ typedef struct PetriOptions {
     // Follow the wall clock: petri_step waits until the frame is due, and the script's `time` is the time since frame
     // 0. Default false (lockstep): petri_step does not wait, and `time` is the frame number divided by fps.
     bool realtime;
-    double run_time; // the script's `run_time` in seconds; NaN (the default): unlimited
+    double run_time; // value of `run_time` in scripts, in seconds; NaN (the default): unlimited
     bool simplify;   // fold constant expressions at load time; does not affect results. Default true
     bool colour;     // colour PetriDiagnostic.rendered with ANSI escapes. Default false
     bool profile;    // measure the time of each source line, for petri_profile. Default false
@@ -162,8 +163,8 @@ typedef struct PetriOptions {
     int threads;                // number of worker threads; 0 (the default): one per processor. Does not affect results
     PetriNeighbours neighbours; // default PETRI_NEIGHBOURS_AUTO
     // Keep a copy of the state while a frame is computed, so that an aborted frame can be rolled back completely. If
-    // false (the default), each system has either completed or not started an aborted frame, which is enough for a host
-    // that then exits.
+    // false (the default), an aborted frame can be partly done: each system has either completed the frame or not
+    // started it. This is enough for a host that then exits.
     bool rollback_frames;
     // Folders that the script may use: NULL-terminated arrays of names, or NULL for none. A script may read files in
     // and below its own folder, the current directory and `read_folders`. It may write files (`!record`) in and below
@@ -225,8 +226,8 @@ PETRI_API void petri_close(PetriSession **session);
 
 // Defines a name for the scripts that are loaded from now on, like the option `-D` of the command. `definition` is
 // "name=value", where the value is one or more elements separated by `;`: numbers, time codes, `:symbols` or strings.
-// Returns PETRI_INVALID without an equals sign, or if the name is not valid. Loading a script warns about definitions
-// that the script does not use.
+// Returns PETRI_INVALID if `definition` has no equals sign, or if the name is not valid. Loading a script warns about
+// definitions that the script does not use.
 PETRI_API PetriStatus petri_define(PetriSession *session, const char *definition);
 
 // Loads a script from a file. The next frame is frame 0. The state dictionary is kept; petri_reset clears it. `file`
@@ -241,8 +242,8 @@ PETRI_API PetriStatus petri_load_text(PetriSession *session, const char *name, c
 
 // Loads a changed script while frame numbers, time and beat continue. Pipes cannot be reloaded. Tempo and fps change
 // only if their pragma changed. If `file` is NULL, compiles the loaded text again with the current definitions, and
-// does not repeat diagnostics that were already reported. Returns PETRI_INVALID like petri_load, or for NULL if no
-// script is loaded.
+// does not repeat diagnostics that were already reported. Returns PETRI_INVALID for the same reasons as petri_load, and
+// if `file` is NULL but no script is loaded.
 PETRI_API PetriStatus petri_reload(PetriSession *session, const char *file);
 
 // Returns the path of a source file of the loaded script by number, or NULL past the last. Number 0 is the script
@@ -268,13 +269,13 @@ PETRI_API PetriStatus petri_check_text(PetriSession *session, const char *name, 
 // not started the frame.
 PETRI_API PetriStatus petri_step(PetriSession *session);
 
-// Like petri_step, but with a given time (seconds) and beat, from which petri_step continues later. Never waits. If the
-// time is not later than that of the last frame, the systems are not advanced. Also returns PETRI_INVALID if `time` or
-// `beat` is not finite.
+// Like petri_step, but sets the time (in seconds) and the beat of the frame. Later calls of petri_step continue from
+// them. Never waits. If the time is not later than that of the last frame, the systems are not advanced. Also returns
+// PETRI_INVALID if `time` or `beat` is not finite.
 PETRI_API PetriStatus petri_step_at(PetriSession *session, double time, double beat);
 
-// Returns the seconds until the next frame is due in real time, so that a host can do other work instead of waiting in
-// petri_step. Returns 0 if the frame is already due, before the first frame, and in lockstep.
+// In real time, returns the seconds until the next frame is due. A host can use them for other work instead of waiting
+// in petri_step. Returns 0 if the frame is already due, before the first frame, and in lockstep.
 PETRI_API double petri_seconds_until_due(const PetriSession *session);
 
 // If the next frame is already late, discards the delay. That frame then follows the last one as if it were on time.
@@ -338,7 +339,7 @@ enum {
     PETRI_BUTTON_RIGHT = 4, // further buttons: 8, 16, 32, 64, 128
 };
 typedef struct PetriPointer {
-    bool inside;      // true if the pointer is over the window; x and y are ignored otherwise
+    bool inside;      // true if the pointer is over the window; if false, x and y are ignored
     double x;         // 0 at the left edge to 1 at the right edge; values outside are clamped
     double y;         // 0 at the top to 1 at the bottom
     unsigned buttons; // bits of the pressed buttons
@@ -537,8 +538,8 @@ PETRI_API PetriStatus petri_add_function(PetriSession *session, const PetriFunct
 // memory. Valid until the function returns. Freed by the session.
 PETRI_API double *petri_call_alloc_numbers(PetriCall *call, uint32_t count);
 
-// Reports an error in the arguments of a host function as the diagnostic `NAME: text` at the position of the call,
-// once. The result of the call is then null. Copies the text, truncated to 199 bytes.
+// Reports an error in the arguments of a host function. The diagnostic is `NAME: text`, at the position of the call,
+// and is reported only once. The result of the call is then null. Copies the text, truncated to 199 bytes.
 PETRI_API void petri_call_error(PetriCall *call, const char *text);
 
 // A property of all particles of a system. The numbers of particle i start at `data[i * stride]`.
@@ -594,12 +595,12 @@ typedef enum PetriDecomposition {
 // What this rank has communicated for one system so far. A message to all ranks counts once.
 typedef struct PetriRankStats {
     PetriDecomposition decomposition; // in the last frame
-    uint64_t frames;                  // frames with simulation steps
+    uint64_t frames;                  // number of frames with simulation steps
     uint64_t steps;
-    uint64_t step_bytes; // sent during steps
+    uint64_t step_bytes; // bytes that this rank sent during steps
     uint64_t step_messages;
-    uint64_t reductions;  // allreduce operations, each of about 2 log2(rank_count) messages
-    uint64_t frame_bytes; // sent at the end of frames, when all ranks receive all particles
+    uint64_t reductions;  // number of allreduce operations; each needs about 2 log2(rank_count) messages
+    uint64_t frame_bytes; // bytes that this rank sent at the end of frames, when all ranks receive all particles
     uint64_t own;         // sum over all steps of the number of particles that the rank owns
     uint64_t halo;        // sum over all steps of the number of particles received from other regions
 } PetriRankStats;
@@ -634,11 +635,12 @@ typedef struct PetriNodeKind {
     const char *name; // without the `!`
     const char *area; // "physics", "canvas" or "canvas3d"; `group` exists in all three
     const char *help;
-    // Formula of a force, else "". It has one or more lines `F = …`, which may end with `if` and a condition. The
-    // first of them whose condition holds, or that has none, applies. Lines before them define names. A positive F
-    // pushes the particles of a pair apart. The unit of F is mass·length/time², in the units of the script. n: number
+    // Formula of a force, else "". It has one or more lines `F = …`, which may end with `if` and a condition. The first
+    // of these lines applies whose condition holds or that has no condition. Lines before them define names. A positive
+    // F pushes the particles of a pair apart. The unit of F is mass·length/time², in the units of the script. n: number
     // of dimensions; δ: time step; l: distance between the particles of a pair; s: distance from the barrier. r, m, q,
-    // v: radius, mass, charge and velocity of the particle; with index 1 or 2, of that particle of the pair.
+    // v: radius, mass, charge and velocity of the particle; with index 1 or 2, those of the first or second particle of
+    // the pair.
     const char *formula;
 } PetriNodeKind;
 
@@ -679,7 +681,7 @@ PETRI_API PetriStatus petri_print_log(PetriSession *session, PetriWriteCallback 
 
 // Writes a table of the time spent since the script was loaded, longest first. There is a row for each source line that
 // was evaluated, one for the particle systems, and one for `output_seconds`, the time that the host spent on output.
-// Returns PETRI_INVALID without PetriOptions.profile, or if `write` returned false.
+// Returns PETRI_INVALID if PetriOptions.profile is false, or if `write` returned false.
 PETRI_API PetriStatus petri_profile(PetriSession *session, double output_seconds, PetriWriteCallback *write,
                                     void *user_data);
 
@@ -727,8 +729,8 @@ PETRI_API const char *petri_prompt_statement(const PetriSession *session, size_t
 // Result of petri_evaluate.
 typedef struct PetriEvaluation {
     bool is_true;
-    uint32_t length; // of the vector
-    double number;   // NaN unless it is a single number
+    uint32_t length; // number of elements of the value
+    double number;   // the value, if it is a single number, else NaN
     double seconds;  // duration of the evaluation, without compilation
 } PetriEvaluation;
 
@@ -758,7 +760,7 @@ typedef enum PetriTokenKind {
     PETRI_TOKEN_OPERATOR, // also brackets and punctuation
     PETRI_TOKEN_COMMENT,  // without the end of the line; also a `#!` line
     PETRI_TOKEN_INVALID,  // a character that cannot start a token
-    PETRI_TOKEN_NEWLINE,  // end of a statement or of a block's header; empty, like the next two kinds
+    PETRI_TOKEN_NEWLINE,  // end of a statement or of a block's header; this token and the next two have no characters
     PETRI_TOKEN_INDENT,   // start of a block
     PETRI_TOKEN_DEDENT,   // end of a block
 } PetriTokenKind;
@@ -791,21 +793,21 @@ typedef enum PetriNameKind {
 // byte.
 typedef struct PetriBinding {
     PetriNameKind kind;
-    size_t start; // of the name
-    size_t end;
+    size_t start;         // start of the name
+    size_t end;           // end of the name
     size_t binding_start; // for a use: start of the name in its binding; SIZE_MAX: not bound in this text
-    size_t scope_start;   // for a binding: where the name is visible
-    size_t scope_end;
-    size_t value_start; // for a binding: the value, function or file name that is bound
-    size_t value_end;
-    bool is_sole;   // for a binding: the value is bound to this name only
-    uint32_t depth; // for a binding: number of enclosing blocks and functions
+    size_t scope_start;   // for a binding: start of the range in which the name is visible
+    size_t scope_end;     // for a binding: end of that range
+    size_t value_start;   // for a binding: start of the value, function or file name that is bound
+    size_t value_end;     // for a binding: end of the value, function or file name
+    bool is_sole;         // for a binding: true if the value is bound to this name only
+    uint32_t depth;       // for a binding: number of enclosing blocks and functions
 } PetriBinding;
 
 // Receives a use or binding. Must not call the session.
 typedef void PetriBindingCallback(void *user_data, const PetriBinding *name);
 
-// Calls a callback for each use and each binding of a name in a script, for editors. The text must follow the rules of
+// Calls `callback` for each use and each binding of a name in a script, for editors. The text must follow the rules of
 // petri_tokenise. Built-in functions, names of the engine and attributes are not included. Returns PETRI_OK even if the
 // text has syntax errors.
 PETRI_API PetriStatus petri_bindings(PetriSession *session, const char *text, size_t length,
