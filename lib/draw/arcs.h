@@ -3,11 +3,12 @@
 #define PETRI_DRAW_ARCS_H
 
 enum { ARCS_MAX = 10 };
-// Converts a PATH_ARC to Bézier curves and returns their number. Each curve has two control points and an end point;
-// `start` receives the start point of the first curve. A curve spans at most a quarter of the ellipse, or an eighth if
-// the error of a quarter would be visible. `scale` is in pixels per unit.
+// Converts the arc with the PATH_ARC operands `n` to Bézier curves and returns the number of curves. Each curve has two
+// control points and an end point; `start` receives the start point of the first curve. A curve spans at most a quarter
+// of the ellipse, or an eighth if the error of a quarter would be visible. `scale` is in pixels per unit.
 int arcs_of_ellipse(const double n[6], double scale, double start[2], double curves[ARCS_MAX][6]);
-// Converts a PATH_ARC_TO that starts at `from`. Returns the number of curves; 0: draw a straight line to its end.
+// Like arcs_of_ellipse, for an arc that starts at `from` and has the PATH_ARC_TO operands `n`. If the result is 0, the
+// caller must draw a straight line to the end point.
 int arcs_to_point(const double from[2], const double n[7], double curves[ARCS_MAX][6]);
 
 #endif

@@ -4,9 +4,9 @@
 // physics. Three-dimensional systems are drawn in perspective, viewed from the front and slightly from the right and
 // above.
 //
-// The view of a system is chosen in the first frame that has particles. If particles leave the view later, it grows
-// around its centre; it never shrinks. It depends only on the particles of the frames for which auto_frame was called.
-// Axes through the origin and a labelled scale bar provide orientation.
+// The view of a system is chosen in the first frame that has particles. If particles leave the view later, the view
+// grows around its centre; it never shrinks. The view depends only on the particles of the frames for which auto_frame
+// was called. Axes through the origin and a labelled scale bar provide orientation.
 #ifndef PETRI_DRAW_AUTOMATIC_H
 #define PETRI_DRAW_AUTOMATIC_H
 
@@ -17,7 +17,7 @@ typedef struct AutoBody {
     double position[3]; // finite
     double velocity[3];
     double radius;
-    double shade; // charge from -1 to 1, or speed from 0 to 1; see `charged`
+    double shade; // relative charge from -1 to 1 if the system is `charged`, else relative speed from 0 to 1
     bool anchor;
 } AutoBody;
 
@@ -45,7 +45,7 @@ typedef struct AutoLine {
 // The region of space that a panel shows: a cube around its centre.
 typedef struct AutoFrame {
     double middle[3];
-    double half; // half the side of the cube, in the system's units; 0: not chosen yet
+    double half; // half the side of the cube, in the system's units; 0 until the view is chosen
 } AutoFrame;
 
 typedef struct AutoSystem {
@@ -68,10 +68,11 @@ typedef struct AutoPicture {
     uint32_t count;
 } AutoPicture;
 
-// Chooses the view of a system if it has not been chosen yet, else extends it if bodies have left it. If there are no
-// bodies, the view does not change. Temporary data is allocated from the arena.
+// If the view of the system has not been chosen yet, chooses it and stores it in *frame. Otherwise, extends *frame if
+// bodies have left the view. If there are no bodies, *frame does not change. Temporary data is allocated from the
+// arena.
 void auto_frame(Arena *arena, AutoFrame *frame, const AutoSystem *system);
-// Creates the lines of the scale bar for the system's view.
+// Creates the lines of the scale bar for system->frame and stores them in system->scale.
 void auto_scale(Arena *arena, AutoSystem *system);
 
 #endif

@@ -21,10 +21,11 @@ typedef struct CanvasPicture {
     const DrawNode *const *tops; // all windows of the frame
     uint32_t top_count;
     const DrawNode *window; // the window to show; NULL: none
-    const DrawNode *direct; // the only canvas, if it fills the window; NULL: the window must be composited
+    const DrawNode *direct; // the window's only canvas, if it fills the window; NULL: the window must be composited
     bool needs_history;     // true if a window refers to earlier frames
     double beat;
-    const char *names[PICTURE_NAMES]; // names of global values that shaders can use, such as beat and time
+    const char *names[PICTURE_NAMES]; // names of global values that shaders can use, such as beat and time; `numbers`
+                                      // holds the values
     double numbers[PICTURE_NAMES];
     uint32_t name_count;
     uint64_t serial; // unique number of the picture
@@ -35,7 +36,7 @@ typedef struct CanvasPicture {
     bool opaque;      // true for a black background, false for a transparent one
     FileAccess reach; // which files the script is allowed to read and write
     size_t memory;    // limit in bytes, including what the painter caches
-    uint64_t work;    // work limit of a frame (budget.h); drawing has a separate limit, which is computed from it
+    uint64_t work;    // work limit of a frame (budget.h); the separate limit for drawing is computed from it
 } CanvasPicture;
 
 typedef enum CanvasFormat { CANVAS_PNG, CANVAS_SVG, CANVAS_PDF, CANVAS_JPEG } CanvasFormat;
@@ -56,14 +57,14 @@ const Texture *draw_rendered(const PetriPainter *painter, const CanvasPicture *p
 // Returns the scale at which width x height fits into a box without changing its aspect ratio. *left and *top receive
 // the offset that centres it in the box.
 double draw_fit(double width, double height, double box_width, double box_height, double *left, double *top);
-// Draws into premultiplied ARGB32 pixels. Problems are reported to `faults`; if the result is PETRI_INVALID, one of
-// them is an error.
+// Draws the picture into premultiplied ARGB32 pixels. Problems are reported to `faults`. If the result is
+// PETRI_INVALID, at least one of the reports is an error.
 PetriStatus draw_pixels(PetriPainter *painter, const CanvasPicture *picture, uint32_t *pixels, int width, int height,
                         size_t stride, DiagSink *faults);
 // Encodes a file that shows the picture at width x height pixels.
 PetriStatus draw_encode(PetriPainter *painter, const CanvasPicture *picture, CanvasFormat format, int width, int height,
                         Encoded *out, DiagSink *faults);
-// Returns the records of the last rendered picture. *count is 0 if that was not `picture`.
+// Returns the records of `picture`. If another picture was rendered after it, or none, *count is 0.
 const Recorded *draw_records(const PetriPainter *painter, const CanvasPicture *picture, uint32_t *count);
 // Encodes the file of one record.
 PetriStatus draw_encode_record(PetriPainter *painter, const CanvasPicture *picture, const Recorded *record,

@@ -1,6 +1,6 @@
-// display_list.h: a drawing as a list of commands in flat arrays of plain numbers. Nodes are translated and inherited
-// attributes resolved. Any backend that can fill, stroke and clip paths can therefore draw a list; cairo_backend.c uses
-// Cairo.
+// display_list.h: a drawing as a list of commands in flat arrays of plain numbers. The nodes are already translated to
+// commands, and inherited attributes are resolved. Any backend that can fill, stroke and clip paths can therefore draw
+// a list; cairo_backend.c uses Cairo.
 //
 // All references are indices; DISPLAY_NONE is the null reference. display_list_build allocates the list from the arena
 // that it is given. After that, the list does not change. Its strings are borrowed from the nodes.
@@ -16,15 +16,15 @@ typedef struct DisplayMatrix {
     double xx, yx, xy, yy, x0, y0;
 } DisplayMatrix;
 
-// Path elements in `numbers`: the kind, followed by its operands.
+// The kinds of path elements. In `numbers`, each element is stored as its kind, followed by the operands listed here.
 typedef enum PathElement {
     PATH_MOVE,       // x, y
     PATH_LINE,       // x, y
     PATH_QUADRATIC,  // control x, y, end x, y
     PATH_CUBIC,      // two control points and an end
-    PATH_ARC,        // starts a new subpath: centre x, y, radii x, y, start and sweep in turns, clockwise
-    PATH_ARC_JOINED, // like PATH_ARC, but joined to the current point by a line
-    PATH_ARC_TO,     // radii x, y, rotation in turns, large and clockwise (0 or 1), end x, y
+    PATH_ARC,        // centre x, y, radii x, y, start and sweep in turns, clockwise; starts a new subpath
+    PATH_ARC_JOINED, // like PATH_ARC, but a line joins the current point to the start of the arc
+    PATH_ARC_TO,     // radii x, y, rotation in turns, two flags (0 or 1): large arc, clockwise; end x, y
     PATH_CLOSE,
 } PathElement;
 
@@ -32,11 +32,11 @@ typedef enum PathElement {
 typedef struct DisplayRun {
     uint32_t start;
     uint32_t end;
-    uint32_t next; // index of the next run; DISPLAY_NONE: last
+    uint32_t next; // index of the next run; DISPLAY_NONE: this is the last run
 } DisplayRun;
 
-// A path: a linked list of runs. Commands copy this struct, and the original path can then be extended. A copy
-// therefore uses its last run only up to its own `end`.
+// A path: a linked list of runs. Commands copy this struct. The original path can be extended later, and then the last
+// run of the copy can become longer. A copy therefore uses its last run only up to the copy's own `end`.
 typedef struct DisplayPath {
     uint32_t first; // index of the first run; DISPLAY_NONE: empty path
     uint32_t last;
@@ -62,13 +62,15 @@ typedef struct DisplayStop {
 typedef struct DisplaySource {
     DisplaySourceKind kind;
     double color[4];
-    double ends[4];       // end points of a linear gradient; frequencies and tile size of noise
-    DisplayMatrix matrix; // maps the unit circle to the edge of a radial gradient, or a pattern's image pixels to units
-    uint32_t first_stop;  // first stop; for a blend: index of its first source
-    uint32_t stop_count;  // number of stops; for a blend: index of its second source; for noise: octaves
-    double ratio;         // mixing ratio of a blend (NaN: use `mode`); seed of noise
-    int mode;             // composite mode of a blend; type of noise
-    uint32_t image;       // image of a pattern
+    double ends[4]; // for a linear gradient: end points; for noise: frequencies x, y and tile size x, y
+    DisplayMatrix
+        matrix; // for a radial gradient: maps the unit circle to its edge; for a pattern: maps image pixels to units
+    uint32_t first_stop; // for a gradient: index of the first stop; for a blend: index of the first source
+    uint32_t stop_count; // for a gradient: number of stops; for a blend: index of the second source; for noise: number
+                         // of octaves
+    double ratio;        // for a blend: mixing ratio (NaN: use `mode`); for noise: seed
+    int mode;            // for a blend: composite mode; for noise: type
+    uint32_t image;      // for a pattern: index of the image
 } DisplaySource;
 
 typedef enum DisplayFilterKind {
@@ -85,14 +87,14 @@ typedef enum DisplayFilterKind {
 
 typedef struct DisplayFilter {
     DisplayFilterKind kind;
-    double radius[2]; // standard deviation of blur and shadow; reach of dilate and erode
+    double radius[2]; // for blur and shadow: standard deviation; for dilate and erode: reach
     double offset[2];
     double color[4];
     bool only;          // true: draw the shadow without the object
     int mode;           // composite mode of a blend
-    uint32_t paint;     // for FILTER_PAINT
+    uint32_t paint;     // for FILTER_PAINT: index of the paint
     uint32_t numbers;   // index in `numbers` of 20 matrix elements or 4 blend coefficients; DISPLAY_NONE: use `mode`
-    uint32_t inputs[2]; // indices of filters; DISPLAY_NONE: the unfiltered drawing; only blends use the second
+    uint32_t inputs[2]; // indices of filters; DISPLAY_NONE: the unfiltered drawing; only blends use the second input
     Origin place;       // position of its node in the script
 } DisplayFilter;
 
@@ -107,17 +109,17 @@ typedef enum DisplayEffectKind {
 // A path effect, which changes a path before it is filled or stroked.
 typedef struct DisplayEffect {
     DisplayEffectKind kind;
-    uint32_t inner;    // effect that is applied before this one; DISPLAY_NONE: none; not used by sums
+    uint32_t inner;    // index of the effect that is applied before this one; DISPLAY_NONE: none; not used by sums
     uint32_t numbers;  // index in `numbers` of the dashes, of a row-major 3 x 3 matrix, or of the effects of a sum
     uint32_t count;    // number of dashes or of effects in a sum
-    double amounts[2]; // by kind: dash offset; corner radius; segment length and deviation of jitter
+    double amounts[2]; // for dashes: offset; for round corners: radius; for jitter: segment length and deviation
     double seed;
     Origin place;
 } DisplayEffect;
 
 // Paint attributes of a command.
 typedef struct DisplayPaint {
-    double color[4]; // its alpha also applies to sources and images
+    double color[4]; // the alpha of the colour also applies to sources and images
     double stroke_width;
     uint32_t source;
     uint32_t filter;
@@ -165,7 +167,7 @@ typedef enum DisplayCommandKind {
 
 typedef struct DisplayCommand {
     DisplayCommandKind kind;
-    bool fill; // if both `fill` and `stroke` are true, they are painted as one shape
+    bool fill; // if both `fill` and `stroke` are true, the filled and the stroked area are painted as one shape
     bool stroke;
     uint32_t matrix;
     uint32_t paint;
@@ -209,7 +211,7 @@ DisplayMatrix display_matrix_multiply(DisplayMatrix m, DisplayMatrix a);
 // Returns true if the matrix is invertible.
 bool display_matrix_is_invertible(const DisplayMatrix *m);
 
-// The array lengths of one list. The next list is built with arrays of these capacities.
+// The array lengths of the previous list. The arrays of the next list start with these capacities.
 typedef struct DisplayListSizes {
     uint32_t commands;
     uint32_t matrices;
@@ -218,7 +220,8 @@ typedef struct DisplayListSizes {
     uint32_t runs;
 } DisplayListSizes;
 
-// Builds the display list of a canvas, in the arena.
+// Builds the display list of a canvas in the arena. Reads initial capacities from *sizes, then stores the new array
+// lengths there.
 const DisplayList *display_list_build(Arena *arena, const DrawNode *canvas, DisplayListSizes *sizes);
 
 #endif

@@ -29,8 +29,9 @@ void display_list_build_stop_color(const DisplayListBuild *build, const double c
 uint32_t display_list_build_image(DisplayListBuild *build, const DrawNode *node);
 
 // display_list_build.c
-// Multiplies a matrix by the transform attributes of a node, in the order written. If `after`, points are transformed
-// by the old matrix first, else by the attributes first.
+// Multiplies *matrix by the transform attributes of a node, in the order in which they are written. If `after` is true,
+// the product transforms points by the old matrix first and then by the attributes. Otherwise, the attributes come
+// first.
 void display_list_build_transform(DisplayMatrix *matrix, const DrawNode *node, bool after);
 uint32_t display_list_build_paint(DisplayListBuild *build, const GraphicsState *state);
 // Reads the paint and font attributes of a node into the state. Returns false if the node has none.

@@ -54,7 +54,8 @@ typedef struct Canvas {
     bool failed;                    // true after an error was reported
     size_t charged;                 // bytes charged to the painter's budget
     FloatImageMemory *float_images; // all allocated float images
-    FloatImage hdr_target;          // on an HDR canvas: drawn on instead of the pixels of `cr`; else `pixels` is NULL
+    FloatImage
+        hdr_target; // on an HDR canvas: drawn on instead of the pixels of `cr`; on other canvases, its `pixels` is NULL
     // While drawing is redirected offscreen: the previous targets, and the surface that is drawn on.
     cairo_t *outer;
     FloatImage outer_hdr_target;
@@ -76,12 +77,12 @@ void draw_release(Canvas *canvas, size_t bytes);
 // Redirects drawing to a new surface whose top left corner is at x, y of the target. Returns NULL if out of memory.
 cairo_surface_t *draw_push_offscreen(Canvas *canvas, int width, int height, double x, double y);
 void draw_pop_offscreen(Canvas *canvas);
-// Charges work, in nanoseconds, to the picture. If that would exceed the limit, reports `outcome` (what is drawn
-// instead) and returns false.
-extern const char draw_omitted[]; // outcome: everything from here is omitted
+// Charges work, in nanoseconds, to the picture. If that would exceed the limit, reports this and returns false.
+// `outcome` is the end of the message; it tells what is drawn instead.
+extern const char draw_omitted[]; // an `outcome`: everything from here on is left out
 bool draw_charge(Canvas *canvas, const Origin *place, double work, const char *outcome);
-// Does nothing unless `lacking`. Reports that something is drawn without `what`, if the memory limit is the reason. If
-// the machine is out of memory, aborts the drawing instead.
+// If `lacking` is false, does nothing. Otherwise, memory could not be allocated for `what`. If the memory limit is the
+// cause, reports that the drawing lacks `what`. If the machine is out of memory, aborts the drawing.
 void draw_report_degraded(Canvas *canvas, const Origin *place, const char *what, bool lacking);
 // Frees everything that the canvas still holds.
 void draw_close(Canvas *canvas);
@@ -89,7 +90,7 @@ void draw_close(Canvas *canvas);
 // cairo_backend.c
 // Draws a list. The current transform must map the list's units to the target.
 void cairo_draw_list(Canvas *canvas, const DisplayList *list);
-// Draws a command without the paint's filter.
+// Draws a command, but ignores the paint's filter.
 void draw_unfiltered(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint);
 // Returns true if the matrix is invertible. Other matrices must not be passed to Cairo, because they put it into a
 // permanent error state.
@@ -115,8 +116,8 @@ void draw_set_edges(Canvas *canvas, bool antialias, int fill_type);
 void draw_current_path(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint);
 // Returns the command's shape as a mask. The caller destroys it.
 cairo_pattern_t *draw_make_mask(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint);
-// Finds the bounding box of the painted path on the target: left, top, right, bottom. Returns false if it is unbounded
-// or unknown.
+// Stores the bounding box of the painted path, in pixels of the target, in `box`: left, top, right, bottom. Returns
+// false if it is unbounded or unknown.
 bool draw_find_box(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint, double box[4]);
 // Clips to the bounding box of the painted path.
 void draw_clip_to_box(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint);
@@ -126,17 +127,18 @@ bool draw_is_drawable(Canvas *canvas);
 // cost_model.c
 // Charges the cost of drawing the current path. Returns false, after a report, if that exceeds the limit.
 bool draw_charge_path(Canvas *canvas, const DisplayPaint *paint, bool fill, bool stroke);
-// Like draw_charge_path, for `count` filled boxes of width x height units, wherever they are.
+// Like draw_charge_path, for `count` filled boxes of width x height units. Assumes that the boxes are on the target.
 bool draw_charge_box(Canvas *canvas, const DisplayPaint *paint, double width, double height, double count);
 
 // cairo_source.c
 void draw_set_source(Canvas *canvas, const DisplayPaint *paint);
 
 // path_effects.c
-// Returns true if the paint has an effect that changes the path, other than dashes of its strokes.
+// Returns true if the paint has an effect that changes the path. Returns false if it only dashes strokes, because Cairo
+// draws dashes.
 bool draw_has_effect(const Canvas *canvas, const DisplayPaint *paint);
-// Applies the effect to a path, for stroking if `lines`, else for filling, and makes the result the current path.
-// Returns false if out of memory.
+// Applies the effect to a path and makes the result the current path. If `lines` is true, the result is to be stroked,
+// otherwise filled. Returns false if out of memory.
 bool draw_apply_effect(Canvas *canvas, const DisplayPaint *paint, const cairo_path_t *path, bool lines);
 
 // noise.c
@@ -155,8 +157,8 @@ void draw_text(Canvas *canvas, const DisplayCommand *command, const DisplayPaint
 
 // images.c
 void draw_image(Canvas *canvas, const DisplayImage *image, const DisplayPaint *paint);
-// Returns the pixels of an image. The caller destroys them. Returns NULL if there is none. A file that cannot be read
-// is reported.
+// Returns a surface with the pixels of an image; the caller destroys the surface. Returns NULL if the image does not
+// exist. A file that cannot be read is reported.
 cairo_surface_t *draw_find_image(Canvas *canvas, const DisplayImage *image);
 // Like draw_find_image, but does not copy the pixels: sets *texture to the rendered picture of a node, or *file to the
 // cached pixels of a file. The other pointer is set to NULL. Returns false if both are NULL.

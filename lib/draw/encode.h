@@ -16,8 +16,8 @@ typedef struct Encoded {
 // Appends bytes. Returns false, and changes nothing, if out of memory.
 bool encode_add(Encoded *out, const void *bytes, size_t length);
 
-// Appends a PNG or JPEG file. Colours are written premultiplied, so without `alpha` the file shows the picture over
-// black. Returns false if out of memory or if the library fails.
+// Appends a PNG or JPEG file. Colours are not unpremultiplied. If `alpha` is false, alpha is not written, so the file
+// shows the picture over black. Returns false if out of memory or if the library fails.
 bool encode_png_pixels(Encoded *out, const uint32_t *pixels, int width, int height, bool alpha);
 bool encode_jpeg_pixels(Encoded *out, const uint32_t *pixels, int width, int height, int quality);
 

@@ -9,8 +9,8 @@ typedef struct OutlinePoint {
     double y;
 } OutlinePoint;
 
-// An element: PATH_MOVE, PATH_LINE, PATH_CUBIC or PATH_CLOSE. PATH_CUBIC uses three points, the others one. The last of
-// these is the end point.
+// An element: PATH_MOVE, PATH_LINE, PATH_CUBIC or PATH_CLOSE. PATH_CUBIC uses three points, the other kinds one. The
+// last point that is used is the end point of the element.
 typedef struct OutlineElement {
     PathElement kind;
     OutlinePoint points[3];
@@ -22,12 +22,14 @@ typedef struct Outline {
     DISPLAY_ARRAY(OutlineElement) elements;
 } Outline;
 
-// Returns true if the paint has an effect that changes the path, other than dashes of its strokes.
+// Returns true if the paint has an effect that changes the path. Returns false if it only dashes strokes, because the
+// backend draws dashes.
 bool outline_has_effect(const DisplayList *list, const DisplayPaint *paint);
-// Returns true if this effect, or one inside it, dashes lines. Then the paths for filling and for stroking differ.
+// Returns true if this effect, or one inside it, dashes lines. If so, the paths for filling and for stroking differ.
 bool outline_has_dashes(const DisplayList *list, uint32_t effect);
-// Applies an effect and the effects nested in it to an outline, for stroking if `lines`, else for filling. The result
-// is in the outline's arena. With DISPLAY_NONE the outline is returned unchanged.
+// Applies an effect, and the effects nested in it, to the outline `from`. If `lines` is true, the result is to be
+// stroked, otherwise filled. The result is allocated from the arena of `from`. If `effect` is DISPLAY_NONE, returns
+// `from`.
 Outline outline_apply(const DisplayList *list, uint32_t effect, Outline from, bool lines);
 // Adds a path of the list. Arcs are converted to curves.
 void outline_add_path(Outline *out, const DisplayList *list, const DisplayPath *path);

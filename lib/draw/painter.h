@@ -19,12 +19,12 @@ struct PetriPainter {
     PetriCanvasBackend backend; // draws canvases in builds without Cairo; all functions NULL: none
     RenderGraph *render_graph;
     Gl *gl;                 // opened when first needed; NULL: not open
-    const char *gl_problem; // why `gl` cannot be opened; borrowed; NULL: not tried, or open
+    const char *gl_problem; // why `gl` cannot be opened (borrowed); NULL if `gl` is open or has not been needed yet
     bool on_window;         // true if `gl` is the context of the host's window
     uint32_t *window;       // pixel buffer for the window
     size_t window_capacity;
     uint64_t made;  // serial number of the last picture whose render graph was rendered
-    Texture *shown; // rendered picture of the window in this picture; NULL: none
+    Texture *shown; // the window's picture, as rendered in picture `made`; NULL: none
 };
 
 // renderer.c
@@ -44,7 +44,7 @@ void draw_limit(PetriPainter *painter, const CanvasPicture *picture);
 PetriStatus draw_report_limit(DiagSink *faults);
 // Renders the render graph, and downloads the window's picture if it is on the GPU.
 PetriStatus draw_render_pixels(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults);
-// Writes the rows of a picture to pixels of the same size.
+// Copies a texture to ARGB32 pixels of the same size. If `opaque` is true, composites it over black.
 void draw_texture(const Texture *texture, bool opaque, uint32_t *pixels, size_t stride);
 void draw_clear(uint32_t *pixels, int width, int height, size_t stride);
 // Returns an image, resized and flipped according to the node's attributes. Returns NULL, after a report, if it is too

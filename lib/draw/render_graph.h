@@ -14,7 +14,7 @@ typedef struct RenderGraph RenderGraph; // state that is kept from frame to fram
 RenderGraph *render_graph_new(void);
 void render_graph_free(PetriPainter *painter); // frees the graph of a painter
 
-// Drops the state that the next frame would continue.
+// Frees all pictures and other state that the next frame would continue.
 void render_graph_clear(PetriPainter *painter);
 
 // Renders all pictures of a frame. *shown is the picture of the window, or NULL if it has none. The picture and the
@@ -22,10 +22,12 @@ void render_graph_clear(PetriPainter *painter);
 // PETRI_OUT_OF_MEMORY, or PETRI_INVALID after an error.
 PetriStatus render_graph_run(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults, Texture **shown);
 const Recorded *render_graph_records(const RenderGraph *pictures, uint32_t *count);
-// Returns the picture with this id in the current frame, or else in the previous frame; NULL: none. It is borrowed.
+// Returns the picture with this id in the current frame or, if there is none, in the previous frame. Returns NULL if
+// there is none in either. The picture is borrowed.
 Texture *render_graph_find(const RenderGraph *pictures, Str id);
 
-// Computes the size of a node's picture in pixels. *width and *height contain the parent's size and are replaced.
+// Computes the size of a node's picture in pixels. On entry, *width and *height are the size of the parent's picture.
+// They do not change if the node sets no size.
 void render_graph_node_size(const DrawNode *node, int *width, int *height);
 // Returns the canvas whose pixels equal the node's picture. This canvas can be drawn directly at any resolution.
 // Returns NULL if the picture needs effects, compositing or linear light.

@@ -41,7 +41,7 @@ float texture_decode(unsigned byte);
 // Returns a premultiplied byte divided by its alpha.
 unsigned texture_unpremultiply(unsigned byte, unsigned alpha);
 
-// Writes a row as ARGB32 pixels. If `opaque`, the picture is composited over black. If not, linear colours are
+// Writes a row as ARGB32 pixels. If `opaque`, the picture is composited over black. Otherwise, linear colours are
 // unpremultiplied, encoded and premultiplied again.
 void texture_row(const Texture *texture, int y, bool opaque, uint32_t *row);
 
@@ -49,7 +49,8 @@ void texture_row(const Texture *texture, int y, bool opaque, uint32_t *row);
 void texture_linear_row(const Texture *texture, int y, uint32_t *row);
 // Converts a pixel of an image file from sRGB to linear light. Unpremultiplies it before decoding.
 uint32_t texture_linear_pixel(uint32_t pixel);
-// Convert a picture of linear bytes to floats, or to a new linear picture (NULL if out of memory).
+// Convert a picture whose `bytes` hold linear light, instead of sRGB. The first function writes floats to `linear`. The
+// second returns a new linear picture, or NULL if out of memory.
 void texture_copy_linear(const Texture *bytes, float *linear);
 Texture *texture_from_linear_bytes(Budget *budget, const Texture *bytes);
 
