@@ -21,8 +21,8 @@
 
 #include <math.h>
 
-// A growing array whose memory is reused from frame to frame. The memory is an arena of one block, because only
-// lib/base calls malloc.
+// A growing array whose memory is reused from frame to frame. The memory is an arena of one block, because libraries
+// other than lib/base do not call malloc.
 typedef struct Buffer {
     Arena arena;
     void *bytes;
