@@ -30,7 +30,8 @@ static bool should_interrupt(void *user_data) {
     return host_should_interrupt();
 }
 
-// Opens a session. `memory` and `stack` are limits in bytes, `work` is the limit per call; 0 means the default.
+// Opens a session. `memory` and `stack` are limits in bytes, and `work` is the work limit of each call. A value of 0
+// means the default.
 EXPORT(PetriSession *, web_open, double fps, double memory, double work, double stack) {
     PetriOptions options = petri_default_options();
     options.fps = fps > 0 ? fps : options.fps;
@@ -55,7 +56,7 @@ EXPORT(void, web_frame, const PetriSession *session) {
                frame.evaluation_seconds, frame.physics_seconds);
 }
 
-// Collects short strings, because every call of JavaScript is slow.
+// Collects short strings and passes them to the host together, because each call of a JavaScript function is slow.
 typedef struct TextBuffer {
     size_t used;
     char text[1 << 14];
@@ -119,7 +120,7 @@ EXPORT(void, web_systems, PetriSession *session) {
     }
 }
 
-// Passes the entries of the state to the host. `text` is NULL if all elements of a value are numbers.
+// Passes each entry of the state to host_entry. The argument `text` is NULL if all elements of the value are numbers.
 EXPORT(void, web_state, PetriSession *session) {
     PetriValue key, value;
     for (uint32_t at = 0; petri_state_next(session, &at, &key, &value);) {
@@ -150,8 +151,8 @@ EXPORT(PetriStatus, web_prompt, PetriSession *session, const char *text, size_t 
     return petri_prompt(session, text, length, write_text, NULL, &done);
 }
 
-// Evaluates an expression and writes its value as text. Also passes the value as an entry with one number, NaN if the
-// value is not a number.
+// Evaluates an expression and writes its value as text. Also passes the value to host_entry as one number, which is NaN
+// if the value is not a number.
 EXPORT(PetriStatus, web_evaluate, PetriSession *session, const char *text, size_t length) {
     PetriEvaluation result = {.number = __builtin_nan("")};
     PetriStatus status = petri_evaluate(session, text, length, &result, write_text, NULL);
@@ -235,7 +236,7 @@ EXPORT(PetriStatus, web_picture, PetriSession *session, PetriPainter *painter, P
     bool ready = petri_picture_ready(session, &options);
     bool shown = status == PETRI_OK && painter && !petri_picture_is_display_list(picture) &&
                  render_picture(session, painter, picture, ready) == PETRI_OK;
-    if (status == PETRI_OK && !shown) // the part of the picture that needs no screen
+    if (status == PETRI_OK && !shown) // sends the part of the picture that needs no screen
         status = send_display_list(picture, ready);
     if (!followed)
         petri_picture_free(&picture);

@@ -1,7 +1,7 @@
 // host.h: functions that the WebAssembly engine imports from JavaScript. petri.mjs provides them as the import module
 // `petri`.
 //
-// Strings are valid during the call. 64-bit integers are passed as doubles.
+// Strings are valid only during the call. 64-bit integers are passed as doubles.
 #ifndef PETRI_WEB_HOST_H
 #define PETRI_WEB_HOST_H
 

@@ -155,7 +155,7 @@ class Painter {
         return path;
     }
 
-    // Returns the inverse of a path: its inside is the outside of the path.
+    // Returns the inverse of a path, which contains everything outside the path.
     inverse(path) {
         const inverse = new Path2D(path);
         inverse.addPath(this.everywhere());
@@ -231,7 +231,8 @@ class Painter {
         context.restore();
     }
 
-    // Calls `act` to draw on a separate canvas, whose top left corner is at x, y of the current canvas. Returns its context.
+    // Calls `act` to draw on a separate canvas, whose top left corner is at x, y of the current canvas. Returns the context of the
+    // separate canvas.
     apart(width, height, x, y, act) {
         const { context, base, line, filter } = this, apart = this.beside({ width, height }, true);
         Object.assign(this, { context: apart, base: [base[0], base[1] - x, base[2] - y], line: { ...line, composite: 4 }, filter: null });
@@ -273,7 +274,7 @@ class Painter {
         Object.assign(this, { paint: before, alpha, solid, round });
     }
 
-    // Composites another canvas over the context's canvas. `composite` is the number of a mode.
+    // Composites the canvas of `other` over the canvas of `context`, and returns `context`. `composite` is an index in COMPOSITES.
     combine(context, other, composite) {
         if (COMPOSITES[composite])
             this.compositeOver(context, other, COMPOSITES[composite]);
@@ -291,7 +292,7 @@ class Painter {
         this.setMatrix();
         if (!(size * this.scale > 0.1))
             return;
-        const drawn = 100; // font size in pixels, scaled afterwards: some browsers do not draw sizes below 1
+        const drawn = 100; // font size in pixels; the text is then scaled, because some browsers do not draw sizes below 1
         const font = `${SLANTS[slant]} ${Math.min(Math.max(weight, 1), 1000)} ${STRETCHES[width] ?? 'normal'} `
             + `${drawn}px ${families.join(',') || 'sans-serif'}`;
         this.paintPath(fill, stroke, (here, isFill) => {
@@ -378,7 +379,7 @@ class Painter {
         };
     }
 
-    // Returns a copy of the image with this opacity, because patterns have no opacity.
+    // Returns a copy of `image` with the opacity `alpha`, because patterns themselves have no opacity.
     faded(image, alpha) {
         if (alpha >= 1)
             return image;

@@ -32,7 +32,8 @@ export function readFilter(painter) {
     return filter;
 }
 
-// Returns `margin`, the distance in pixels by which a filter extends a shape, and `everywhere`, true if it changes transparent pixels.
+// Returns `margin`, the distance in pixels by which a filter extends a shape, and `everywhere`, which is true if the filter also changes
+// transparent pixels.
 function needsOf(filter, matrix) {
     if (!filter.input)
         return { margin: 0, everywhere: filter.kind === 'paint' };
@@ -89,7 +90,7 @@ function inkOf(context) {
     return right < 0 ? null : { left, right, top, bottom };
 }
 
-// Returns the area of a canvas that the filtered image covers.
+// Returns [x, y, width, height] of the area of a canvas that the filtered image covers: the box `ink`, extended by `edge` on each side.
 function boxOf({ width, height }, ink, edge) {
     const x = Math.max(ink.left - edge, 0), y = Math.max(ink.top - edge, 0);
     return [x, y, Math.min(ink.right + 1 + edge, width) - x, Math.min(ink.bottom + 1 + edge, height) - y];

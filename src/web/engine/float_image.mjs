@@ -126,7 +126,8 @@ export class FloatImage {
     }
 }
 
-// Computes the weighted sum of neighbouring pixels. Pixels beyond the ends of the line are 0.
+// Sets to[i] to to[i + 3] to the weighted sum of the pixels around pixel `at` of the line `from`, which has `count` pixels. Pixels beyond
+// the ends of the line are 0.
 function weigh(weights, from, count, at, to, i) {
     const reach = weights.length - 1;
     for (let k = 0; k < 4; k++)
@@ -150,7 +151,7 @@ function blurOf(sigma) {
         const cells = Math.ceil(count / cell), from = cell > 1 ? new Float32Array(4 * cells) : line;
         for (let i = 0; cell > 1 && i < 4 * count; i++)
             from[4 * Math.floor((i >> 2) / cell) + i % 4] += line[i] / cell;
-        const margin = cell > 1 ? 1 : 0, weighed = new Float32Array(4 * (cells + 2 * margin)); // its first element is cell -margin
+        const margin = cell > 1 ? 1 : 0, weighed = new Float32Array(4 * (cells + 2 * margin)); // the first pixel is that of cell -margin
         for (let i = -margin; i < cells + margin; i++)
             weigh(weights, from, cells, i, weighed, 4 * (i + margin));
         if (cell === 1)

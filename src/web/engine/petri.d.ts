@@ -113,7 +113,7 @@ export interface System {
 export interface Token {
     kind: 'name' | 'keyword' | 'number' | 'string' | 'symbol' | 'node' | 'tag' | 'operator' | 'comment' | 'invalid'
         | 'newline' | 'indent' | 'dedent';
-    /** Offsets in bytes of UTF-8; `end` is the offset after the token. */
+    /** Offsets in bytes of the UTF-8 text; `end` is the offset after the token. */
     start: number;
     end: number;
 }
@@ -192,13 +192,16 @@ export interface Session {
     render(options?: { automatic?: boolean }): Picture | RenderedImage | null;
     /** True if the picture of the last frame depends on earlier pictures (`!feedback`, `!reference`, …). */
     readonly needsHistory: boolean;
-    /** Must be called after every step whose picture is not shown. If later pictures depend on it, renders it and returns true. */
+    /** Must be called after every step whose picture is not shown. If later pictures depend on this one, renders it and returns true. */
     renderIfNeeded(): boolean;
     tokens(text: string): Token[];
     help(): Help[];
     symbol(name: string): number;
     symbolName(number: number): string | null;
-    /** Reports the pointer's position in the picture, from 0 to 1 from the top left. Each bit of `buttons` is a button. */
+    /**
+     * Reports the pointer to the script. `x` and `y` are 0 at the top left of the picture and 1 at the bottom right. Each bit of
+     * `buttons` is a button.
+     */
     pointer(inside: boolean, x?: number, y?: number, buttons?: number): this;
     key(name: string, pressed: boolean): this;
     /** Stores the complete state of the session for `rewind`. */

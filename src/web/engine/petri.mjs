@@ -18,7 +18,8 @@ const STACK = 1536 << 10;
 const MEMORY = 1 << 30;
 const CALL_WORK = 2 ** 28; // one or two seconds
 
-// Thrown when a call fails; `diagnostics` are the messages of that call. what: the task of the call, to follow `cannot`.
+// Thrown when a call fails; `diagnostics` are the messages of that call. `what` is the task of the call, as in `cannot load
+// the script`.
 export class PetriError extends Error {
     constructor(status, diagnostics, what) {
         const first = diagnostics.find(told => told.level === 'error') ?? diagnostics[0];
@@ -154,7 +155,7 @@ export class Session {
         }
     }
 
-    // Like run, for calls that return a status. Throws a PetriError unless it is 'ok'.
+    // Like run, for calls that return a status. Throws a PetriError unless the status is 'ok'.
     check(what, act) {
         const status = STATUS[this.run(act, true)];
         if (status !== 'ok')
@@ -334,7 +335,7 @@ export class Session {
         this.painter = null;
     }
 
-    // Like displayList, but renders content that needs WebGL 2 to an image, where available.
+    // Like displayList, but renders content that needs WebGL 2 to an image, if WebGL 2 is available.
     render({ automatic = false } = {}) {
         this.openPainter();
         this.unsupported.clear();

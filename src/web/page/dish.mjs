@@ -138,7 +138,7 @@ export class Dish {
         await this.showAnswer('step', { count: 1 });
     }
 
-    // Sends one request at a time. While the user drags the slider, only the latest position is requested.
+    // Pauses and goes to a frame. Sends one request at a time: while the user drags the slider, only its latest position is requested.
     async seek(frame) {
         this.running = false;
         const waits = this.wanted !== null;

@@ -165,7 +165,7 @@ export class Editor {
 
 const TYPES = { node: 'class', function: 'function', attribute: 'property' };
 
-// Adds the name of the node to each row of an attribute.
+// Adds a property `node` to the row of each attribute: the name of the node that has the attribute.
 function owned(rows) {
     let node = null;
     return rows.map(row => {

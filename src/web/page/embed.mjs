@@ -43,7 +43,7 @@ class PetriDish extends HTMLElement {
         this.dish = null;
     }
 
-    // Pauses the script while it is out of view.
+    // Starts the element when it first comes into view. Pauses a running script while it is out of view.
     look(inView) {
         if (!this.dish && inView)
             this.begin();

@@ -4,7 +4,7 @@ import { paint, sizeOf } from './paint.mjs';
 
 const REPORT_INTERVAL = 10; // frames between progress messages
 
-// Steps through frames and calls `see` after each.
+// Goes to each frame from `from` to `to` and calls `see`.
 async function each(player, { from, to, shouldInterrupt, tell }, see) {
     for (let frame = from; frame <= to; frame++) {
         if (shouldInterrupt())

@@ -37,7 +37,7 @@ export async function packLink({ text, name, changes = [], frame, hash }) {
     return link;
 }
 
-// With a line break in its name, a link could forge messages.
+// Rejects control characters, because a link with a line break in its file name could forge messages.
 const isFileName = name => typeof name === 'string' && !/[\0-\x1f\x7f]/.test(name);
 
 const isChange = change => Array.isArray(change) && change.length === 3 && Number.isInteger(change[0])

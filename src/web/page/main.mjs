@@ -62,7 +62,7 @@ function look() {
     }, dish.running ? 200 : 0);
 }
 
-// Loads the editor's text unless it is the running script.
+// Loads the editor's text, unless it is already loaded and `always` is false. Returns false if the text cannot be loaded.
 async function ready({ always = false } = {}) {
     const { text } = editor;
     if (!always && dish.loaded === text)

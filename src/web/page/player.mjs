@@ -1,7 +1,7 @@
 // player.mjs: runs a script in the worker, with keyframes for going back, and records parameter changes.
 
-const EVERY = 20; // frames between keyframes
-const MAX_KEYFRAMES = 64; // not counting keyframes after parameter changes
+const EVERY = 20; // frames between keyframes, doubled each time when there are too many
+const MAX_KEYFRAMES = 64; // maximum number of keyframes, not counting those after parameter changes
 const MAX_BYTES = 256 << 20;
 
 export class Player {
@@ -32,7 +32,8 @@ export class Player {
         this.setChanges(changes);
     }
 
-    // Stores the changes, also by frame, because a link may have thousands of changes and a million frames.
+    // Stores the changes as a list and in a map from frames to changes. A link may have thousands of changes and a million frames, so
+    // searching the list after every frame would take too long.
     setChanges(changes) {
         this.changes = changes;
         this.changesAt = new Map();
@@ -81,7 +82,8 @@ export class Player {
     thin() {
         const bytes = this.keyframes.reduce((sum, key) => sum + key.snapshot.bytes, 0);
         const changed = this.keyframes.filter(key => key.changed);
-        // Keyframes after changes save work but are not needed, because stepping from an earlier keyframe repeats the changes.
+        // If there are too many keyframes after changes, treats them like the others. They save work but are not needed, because stepping
+        // from an earlier keyframe repeats the changes.
         if (changed.length > MAX_KEYFRAMES || (changed.length > 0 && bytes > MAX_BYTES))
             changed.forEach(key => { key.changed = false; });
         const usual = this.keyframes.filter(key => !key.changed);

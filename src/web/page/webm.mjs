@@ -1,6 +1,6 @@
 // webm.mjs: writes WebM files: EBML elements, each with an id, a length and content.
 
-const TICKS = 1e6; // nanoseconds per tick of a timestamp, so that timestamps are in milliseconds
+const TICKS = 1e6; // unit of timestamps in nanoseconds: a millisecond
 const encoder = new TextEncoder();
 
 const join = parts => {
@@ -29,7 +29,7 @@ function real(value) {
 
 const content = part => typeof part === 'number' ? whole(part) : typeof part === 'string' ? encoder.encode(part) : part;
 
-// Returns an element. Its length always takes eight bytes, which the first byte indicates.
+// Returns an element. The field for its length always has eight bytes, as its first byte (1) indicates.
 function element(id, ...parts) {
     const inside = join(parts.map(content));
     return join([whole(id), Uint8Array.of(1), whole(inside.length, 7), inside]);

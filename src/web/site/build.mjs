@@ -68,7 +68,7 @@ ${body}</main>
 </html>
 `;
 
-// The search index: pages, and sections [page, title, id, text].
+// The search index: pages as [address, title], and sections as [index of the page, title, id, text].
 const index = { pages: [], sections: [] };
 const words = text => text.replaceAll(/<\/?(span|code|a|em|strong)\b[^>]*>/g, '').replaceAll(/<[^>]*>/g, ' ')
     .replaceAll('&lt;', '<').replaceAll('&gt;', '>').replaceAll('&quot;', '"').replaceAll('&amp;', '&').replaceAll(/\s+/g, ' ').trim();

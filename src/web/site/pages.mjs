@@ -1,7 +1,8 @@
 // pages.mjs: the pages of the manual in reading order, with their source files.
 
-// parts: [file, first heading, heading after the part]; without headings, the part extends to the beginning or the end of the file. made:
-// the generator in generated.mjs that adds further content. about: the description in the list of pages.
+// parts: the parts of files that form the page, each as [file, first heading, heading after the part]. Without a first heading, a part
+// starts at the beginning of the file; without a last one, it extends to the end. made: the generator in generated.mjs that adds further
+// content. about: the description in the list of pages.
 export const GROUPS = [
     ['Getting started', [
         { name: 'tutorial', title: 'Tutorial', about: 'From one particle to a dish, in ten steps that you can run on the page',

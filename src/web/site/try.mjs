@@ -2,7 +2,7 @@
 // example is changed.
 import { loadEngine } from '../engine/petri.mjs';
 
-const LIMITS = { work: 2 ** 22, memory: 256 << 20 }; // of a script, low because the page cannot respond during a call
+const LIMITS = { work: 2 ** 22, memory: 256 << 20 }; // limits of a script, which are low because the page cannot respond during a call
 const PAUSE = 250; // ms between the last key press and the evaluation
 let engine = null;
 
