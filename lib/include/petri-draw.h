@@ -107,8 +107,8 @@ PETRI_API PetriStatus petri_picture_render(PetriPicture *picture, PetriPainter *
 // A picture that a `!record` node saves.
 typedef struct PetriRecord {
     const char *file; // file name, including the script's folder
-    bool denied;      // the script may not write there (PetriOptions.write_folders); already reported
-    int width;        // in pixels
+    bool denied; // true if the script may not write the file (PetriOptions.write_folders); this was already reported
+    int width;   // in pixels
     int height;
     const uint32_t *pixels; // rows without gaps, in the format of petri_picture_draw
     bool keep_alpha;        // false: treat the pixels as opaque
@@ -207,7 +207,7 @@ enum {
     PETRI_DRAW_SAVE,        // saves the clip
     PETRI_DRAW_RESTORE,     // restores the clip; the list sets matrix and paint again before it uses them
     PETRI_DRAW_LAYER,       // redirects drawing to a transparent layer, until PETRI_DRAW_LAYER_END
-    PETRI_DRAW_LAYER_END,   // composites the layer: alpha
+    PETRI_DRAW_LAYER_END,   // ends the layer and composites it: alpha
     PETRI_DRAW_UNSUPPORTED, // replaces an element that a display list cannot describe: string with its name
     // The automatic picture: number of systems. For each: dimensions, has charges (0 or 1), centre x, y, z and half the
     // width of the visible box. Number of particles; for each x, y, z, radius, shade (charge from -1 to 1, or speed
@@ -237,10 +237,10 @@ enum {
     PETRI_PATH_LINE,      // x, y
     PETRI_PATH_QUADRATIC, // control point x, y, end x, y
     PETRI_PATH_CUBIC,     // control points x, y, x, y, end x, y
-    PETRI_PATH_ARC,       // starts a new subpath: centre x, y, radii x, y, start, sweep (positive: clockwise)
-    PETRI_PATH_ARC_ON,    // like PETRI_PATH_ARC, but joined to the current point by a line
-    PETRI_PATH_ARC_TO,    // radii x, y, rotation, large (0 or 1), clockwise (0 or 1), end x, y
-    PETRI_PATH_CLOSE,     // none
+    PETRI_PATH_ARC,    // starts a new subpath: centre x, y, radii x, y, start angle, sweep angle (positive: clockwise)
+    PETRI_PATH_ARC_ON, // like PETRI_PATH_ARC, but joined to the current point by a line
+    PETRI_PATH_ARC_TO, // radii x, y, rotation, large (0 or 1), clockwise (0 or 1), end x, y
+    PETRI_PATH_CLOSE,  // no operands
 };
 
 // Filters of a display list: a kind, then its operands. Operands that are filters provide the input. Lengths are in the

@@ -552,7 +552,7 @@ typedef struct PetriColumn {
 // until the next step, load, petri_rewind, petri_restore or petri_reset.
 typedef struct PetriSystem {
     const char *name;    // state prefix in printed form, such as ":cells"; valid as long as the columns
-    uint32_t dimensions; // numbers in each position, velocity and force
+    uint32_t dimensions; // number of elements of each position, velocity and force
     uint32_t particle_count;
     uint32_t force_count; // number of force appliers and barriers
     uint64_t steps;       // simulation steps in the frame
@@ -614,7 +614,7 @@ PETRI_API bool petri_find_particle(PetriSession *session, size_t system, PetriVa
 // A force applier or barrier of a system.
 typedef struct PetriForce {
     const char *kind;       // kind of its node without the `!`, such as "distance"; static
-    double strength;        // without the effect of `ease`
+    double strength;        // strength of the force, without the effect of `ease`
     uint32_t from;          // `!distance` only: number of the first particle that it connects
     uint32_t to;            // `!distance` only: number of the second particle
     const double *position; // `!barrier` only: a point on it; else NULL

@@ -24,7 +24,7 @@ static bool any_true(Value v) {
     return false;
 }
 
-// Returns the stored value if a counter can continue from it, else null.
+// Returns the stored value if a counter can continue from it (finite numbers only), else null.
 static Value usable_or_null(Value stored) {
     bool good = value_is_numeric(stored) && numbers_finite(value_numbers(&stored), stored.len, 1);
     return good ? stored : VALUE_NULL;

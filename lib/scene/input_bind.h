@@ -36,7 +36,7 @@ typedef struct InputBindings {
 
 // Reported input, and the input that the current frame sees.
 typedef struct InputState {
-    InputSwitch keys[INPUT_KEYS]; // by input_key_number
+    InputSwitch keys[INPUT_KEYS]; // indexed by input_key_number
     InputSwitch buttons[INPUT_BUTTONS];
     bool has_reports;   // true after the first report
     bool inside;        // true if the pointer is in the window
@@ -74,7 +74,7 @@ void input_release_all(Input *input);
 // Adds a binding. Copies the state key.
 void input_add_binding(InputBindings *bindings, Value state, int key);
 // Reads the bindings from the windows of a frame's tree. Messages are allocated from `arena`. If memory for the
-// bindings runs out, arena->escape is used.
+// bindings runs out, the call is aborted through arena->escape.
 void input_bind(Input *input, Schema *schema, Value tree, Arena *arena);
 // Changes made by input_write, which are undone if the frame is aborted.
 typedef struct InputChange InputChange;

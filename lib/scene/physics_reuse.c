@@ -24,8 +24,8 @@ __attribute__((noinline)) static bool reuse_body(PhysicsTree *tree, const Node *
     PhysPreserve preserve = {false, false};
     if (!anchor) {
         preserve = mirror_preserve(tree, body);
-        read.numbers.position_from_attribute = read.numbers.velocity_from_attribute =
-            true; // ignored for preserved values
+        // These flags are ignored for values that the engine keeps.
+        read.numbers.position_from_attribute = read.numbers.velocity_from_attribute = true;
     }
     phys_update_particle(tree->engine, body, &read.numbers, preserve);
     if (body < system->node_count)

@@ -112,7 +112,7 @@ static void compact_state(Scene *scene, const SceneFrame *frame) {
         return;
     for (PhysicsSystem *system = scene->systems; system; system = system->next) {
         if (system->mirror.state == MIRROR_OPEN)
-            return; // an update was aborted, so the slots are not valid
+            return; // the update of this system was aborted, so its slots are not valid
         held += system->mirror.slot_count;
     }
     if (count / 2 < held)
@@ -187,7 +187,8 @@ uint64_t scene_update(Scene *scene, Value tree, const SceneFrame *frame) {
 }
 
 bool scene_view(Scene *scene, const State *state, size_t number, SceneView *view) {
-    bool further = scene->viewed && number >= scene->viewed_number; // hosts usually ask for systems in order
+    // Starts from the system that was found last if possible, because hosts usually ask for systems in order.
+    bool further = scene->viewed && number >= scene->viewed_number;
     size_t at = further ? scene->viewed_number : 0;
     for (PhysicsSystem *system = further ? scene->viewed : scene->systems; system; system = system->next) {
         if (system->last_frame != scene->frame_number || !system->engine || !system->dimensions || at++ < number)

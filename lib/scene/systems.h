@@ -24,7 +24,7 @@ typedef struct Link {
 struct PhysicsSystem {
     PhysicsSystem *next;
     StateSlot start;     // slot of the prefix; its value is the time when the run started
-    uint32_t occurrence; // 0, or 1, 2, … for further systems with the same prefix in one frame
+    uint32_t occurrence; // number of earlier systems with the same prefix in a frame; usually 0
     StateSlot run;
     StateSlot iteration;
     StateSlot clock;
@@ -38,7 +38,7 @@ struct PhysicsSystem {
     uint64_t last_frame; // scene->frame_number of the last update
 
     // The last frame's tree, with which the next one is compared.
-    uint32_t dimensions;         // in the last update
+    uint32_t dimensions;         // number of dimensions in the last update; 0: no update yet
     uint64_t generation;         // SceneFrame.generation of the frame that stored `children` and `nodes`
     const Node *const *children; // children of the tree if they have program lifetime, else NULL
     uint32_t child_count;

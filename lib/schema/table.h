@@ -55,7 +55,7 @@ typedef enum PlaceKind {
 
 // How the value of an attribute is checked and stored.
 typedef enum AttrShape {
-    SHAPE_VALUE,   // Value
+    SHAPE_VALUE,   // Value, not restricted
     SHAPE_NUMBERS, // Value that consists of one or more numbers
     SHAPE_NUMBER,  // double, clamped to the limits of its type
     SHAPE_INTEGER, // double, rounded down
@@ -67,13 +67,13 @@ typedef enum AttrShape {
     SHAPE_TRIPLE,  // double[3]; a single number is repeated
     SHAPE_QUAD,    // double[4]; a single number is repeated
     SHAPE_LIST,    // array of doubles; the limits of the type are the minimum and maximum number of elements
-    SHAPE_SEED,    // double: seed hash of the value, divided by 2^48
+    SHAPE_SEED,    // double: hash of the value (value_exact_hash) as a signed integer, divided by 2^48
     SHAPE_POINTS,  // array of doubles x, y, x, y…; a last x without y is dropped
-    SHAPE_COLOR,   // double[4]
+    SHAPE_COLOR,   // double[4]: red, green, blue, alpha
     SHAPE_FLAG,    // bool
     SHAPE_TEXT,    // const char *
     SHAPE_WEIGHT,  // double; scripts give a number or a word
-    SHAPE_WORD,    // int
+    SHAPE_WORD,    // int: WordRow.value of a word
     SHAPE_OTHER,   // no attribute has this shape; see SchemaSlot
 } AttrShape;
 

@@ -11,7 +11,7 @@
 
 typedef struct Checkpoint {
     Clock clock;
-    unsigned char *bytes; // state, systems and input; format in checkpoint.c
+    unsigned char *bytes; // state, systems and input, in the format that checkpoint.c describes
     size_t size;
     size_t capacity;
 } Checkpoint;

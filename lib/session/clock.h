@@ -32,7 +32,7 @@ typedef struct WallClock {
 
 typedef struct Clock {
     bool realtime;
-    int64_t number; // current frame; -1: before the first
+    int64_t number; // number of the current frame; -1: before the first frame
     double time;
     double beat;
     double delta; // beats since the previous frame

@@ -8,7 +8,7 @@
 typedef struct Row {
     double seconds;
     double times;         // number of evaluations
-    const Source *source; // NULL: the row has the label `what`
+    const Source *source; // source file of the line; NULL: the row is not for a line and has the label `what`
     uint32_t line;
     const char *what;
 } Row;

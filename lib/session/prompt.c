@@ -27,8 +27,8 @@ typedef struct Job {
     double seconds;
     DiagSink log; // output of debug()
     TextSink out;
-    bool binds;      // the statement binds names
-    bool adds_nodes; // its value is added to the tree
+    bool binds;      // true if the statement binds names
+    bool adds_nodes; // true if the value of the statement is added to the tree
     // New contents of the prompt and the frame, if the statement is retained:
     PromptList *list;
     Value *values;

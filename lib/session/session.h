@@ -26,7 +26,7 @@ typedef struct Config {
     const Define *defines; // array that is never modified in place, because configurations share it
     uint32_t define_count;
     ClockRates pragma_rates;
-    double resolution; // maximum time step (petri_set_resolution); 0: each system uses its own
+    double resolution; // maximum time step of all systems (petri_set_resolution); 0: each system uses its own
 } Config;
 
 // A name that the host sets (petri_set_global). A new value is copied to the arena that does not hold the current
@@ -68,7 +68,7 @@ struct PetriSnapshot {
 
 struct PetriSession {
     PetriOptions options;
-    Arena arena;      // session lifetime: symbols, definitions
+    Arena arena;      // data that lives as long as the session: symbols, definitions
     Arena text_arena; // strings returned to the host; reset by most functions that return a string
     Arena view_arena; // results of queries about systems; reset by the next query (run_request in systems.c)
     Arena key_arena;  // values received from the host, kept only during a call
@@ -89,7 +89,7 @@ struct PetriSession {
     uint64_t spent;
     Budget budget;             // work and memory of the script
     uint32_t call_depth;       // nesting depth of protected calls
-    bool uninterruptible;      // the current operation must not be interrupted
+    bool uninterruptible;      // true while an operation must not be interrupted
     ArenaOutcome last_outcome; // reason of the most recent abort of a protected call
 
     HostGlobals host_globals;
@@ -99,7 +99,7 @@ struct PetriSession {
     uint64_t config_revision;   // revision of `config`
     uint64_t last_revision;     // highest revision used so far
     uint32_t reported_defines;  // number of definitions already checked for the loaded script
-    bool recompiling;           // the loaded text is being compiled again because definitions changed
+    bool recompiling;           // true while the loaded text is compiled again because definitions changed
     Loader loader;
     Clock clock;
     SessionFrame frame;

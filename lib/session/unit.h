@@ -16,7 +16,7 @@ struct Unit {
     Unit *same_hash; // next module in the same chain of Loader.by_path
     Arena arena;     // memory of the program; call unit_arena to get it
     Arena scratch;   // temporary data of the compiler: syntax tree, expressions
-    Str path;        // canonical; NUL-terminated
+    Str path;        // canonical path of the file, NUL-terminated; without a file: name for messages
     Str folder;      // canonical folder of a script, in which it may read and write files; empty for modules
     Str version;     // identifies the contents: modification time, size, inode; empty: not from a file
     const Source *source;
@@ -25,14 +25,14 @@ struct Unit {
     Parsed *parsed;         // in a parse cache: list of the included files
     Unit *parse_cache;      // counted reference to the script's parse cache, or NULL
     bool empty;             // true if the file contains no statements
-    const Program *program; // NULL: could not be loaded
+    const Program *program; // compiled program; NULL: the unit could not be loaded
     Str error;              // why the unit could not be loaded
     uint32_t references;    // reference count
     Str *included;          // canonical paths of included files; NUL-terminated
     uint32_t included_count;
     DiagSink parse_sink; // diagnostics of the current parse
     DiagSink sink;       // diagnostics of the compilation
-    bool retired;        // incomplete or replaced; freed as soon as no frame can refer to it
+    bool retired;        // true if incomplete or replaced; the unit is freed as soon as no frame can refer to it
 };
 
 // An included file with its syntax tree.
@@ -51,7 +51,7 @@ typedef struct Loader {
     uint64_t generation;          // number of units that frames have used so far (session_use_unit)
     Unit *pending;                // unit being loaded, which is freed if the load is aborted
     Unit *compiling;              // unit that is being compiled; NULL: none
-    bool lint;                    // report likely mistakes, for petri_check
+    bool lint;                    // true: report likely mistakes, for petri_check
     uint64_t static_work;         // work units that constant folding has used in this load
 } Loader;
 
