@@ -1,6 +1,6 @@
 // physics_slots.c: finds particles by their ids and slots, if possible without hashing.
 //
-// The mark of a state slot tells which particle uses the slot, in the tree that was read last. One array, indexed by
+// The mark of a state slot shows which particle uses the slot, in the tree that was read last. One array, indexed by
 // slot, holds the marks of all systems. A mark is 2 * (base + handle) for a position, plus 1 for a velocity. Marks
 // below 2 * base are outdated: they belong to earlier trees.
 #include "base/heap.h"
