@@ -86,7 +86,8 @@ command -v re2c  : re2c
 command -v emcc  : emscripten
 command -v node  : nodejs
 '
-# Without npm, which the page needs: Debian's npm depends on 400 packages. Only the engine is built if npm is missing.
+# The page also needs npm, but WEB_NEEDS leaves it out, because Debian's npm depends on 400 packages. If npm is missing,
+# only the engine is built.
 WEB_TEST_NEEDS="$WEB_NEEDS
 command -v chromium : chromium
 "
@@ -143,7 +144,7 @@ sizes() {
         { printf "%.0f %.0f %.0f about\n", part(204, 327), part(155, 196), part(600, 720) }'
 }
 
-# named NEEDS: the number of packages in the list.
+# named NEEDS: prints the number of packages in the list.
 named() { echo "$1" | sed -n 's/.*: *//p' | wc -w; }
 
 # packages_of N [WORD]: prints "1 WORD package" or "N WORD packages".

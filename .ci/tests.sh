@@ -3,7 +3,8 @@
 # counts NAME LOG: prints the number that meson's summary in LOG gives for NAME.
 counts() { awk -F: -v name="$1" '$1 == name { n = $2 } END { print n + 0 }' "$2"; }
 
-# Shows progress. Tests start in the order of meson's list, so the first unfinished one is the slowest.
+# Shows how many tests are finished, and the name of the first unfinished test in meson's list. Tests start in the order
+# of this list, so that test has been running the longest.
 follow_tests() {
     waiting=$chosen
     counted tests 0 "$(echo "$waiting" | wc -l)" "$(echo "$waiting" | head -n 1)"

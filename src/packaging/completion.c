@@ -228,7 +228,7 @@ void completion_fish(Output *output) {
     }
     for (size_t i = 0; COMMANDS[i]; i++) {
         ByteBuffer condition = {0};
-        if (COMMANDS[i] == &RUN_COMMAND) { // also if the first word is a script
+        if (COMMANDS[i] == &RUN_COMMAND) { // also applies if the first word is a script instead of a command
             byte_buffer_add_text(&condition, "not __fish_seen_subcommand_from");
             for (size_t k = 0; COMMANDS[k]; k++) {
                 byte_buffer_format(&condition, "%s%s", COMMANDS[k] == &RUN_COMMAND ? "" : " ",

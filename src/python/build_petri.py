@@ -1,7 +1,7 @@
 """The cffi definition of petri._petri: the declarations of petri.h and petri-draw.h, and a few C functions.
 
-PETRI_HEADERS is the folder of the headers, PETRI_LIBRARIES has the linker's arguments. Without them, pkg-config finds
-an installed libpetri-draw.
+The environment variable PETRI_HEADERS is the folder of the headers, and PETRI_LIBRARIES contains the linker's
+arguments. Without these variables, pkg-config finds an installed libpetri-draw.
 """
 
 import os

@@ -3,8 +3,8 @@
 #include <string.h>
 
 static PetriSession *volatile active_session; // session that the main thread is stepping; NULL: none
-static volatile sig_atomic_t interrupted;
-static struct sigaction outer; // Python's handler
+static volatile sig_atomic_t interrupted;     // 1 if Ctrl-C was pressed since install_handler
+static struct sigaction outer;                // Python's handler of SIGINT
 
 static void on_interrupt(int number, siginfo_t *info, void *context) {
     interrupted = 1;

@@ -9,8 +9,8 @@
 // `interruptible` must be false in threads other than the main thread.
 PetriStatus petri_python_step(PetriSession *session, size_t count, bool interruptible, const bool *stop);
 
-// Returns the index of the system with a name, or -1 if there is none. The index `number` is tried first. If `name` is
-// NULL, only `number` is tried.
+// Finds the system called `name` and sets *system. Tries the index `number` first, and tries no other index if `name`
+// is NULL. Returns the index of the system, or -1 if there is none.
 int petri_python_system(PetriSession *session, int number, const char *name, PetriSystem *system);
 
 // Memory layout of a column of a system.
@@ -20,10 +20,12 @@ typedef struct PetriPythonView {
     size_t width;      // doubles per particle
     size_t stride;     // doubles from one particle to the next
 } PetriPythonView;
-// Returns false if there is no such system. `which` is the first letter of the attribute: p, v, f, r, m or c.
+// Sets *view to the layout of a column of the system that petri_python_system would find. `which` is the first letter
+// of the attribute: p, v, f, r, m or c. Returns false if there is no such system.
 bool petri_python_view(PetriSession *session, int number, const char *name, char which, PetriPythonView *view);
 
-// Gets the value of a key with `length` numbers. Returns false if the value is not numeric.
+// Sets *value to the value of the state key that consists of the numbers key[0] to key[length - 1]. Returns false if
+// the value is not numeric.
 bool petri_python_state(PetriSession *session, const double *key, uint32_t length, PetriValue *value);
 // Like petri_python_state, for a key that consists of a symbol and a number.
 bool petri_python_pair(PetriSession *session, double symbol, double number, PetriValue *value);

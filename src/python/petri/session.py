@@ -244,7 +244,10 @@ class Session:
 
     def picture(self, width: int = 0, height: int = 0, *, scale: float = 1, window: int = -1,
                 automatic: Optional[bool] = None) -> Picture:
-        """Returns the picture of the last frame: its window, or its particles if it has no window or if `automatic`."""
+        """Returns the picture of the last frame.
+
+        The picture shows the window. If there is no window or `automatic` is True, it shows the particles.
+        """
         options = ffi.new("PetriPictureOptions *")
         lib.petri_python_picture_options(options)
         options.width, options.height, options.scale, options.window = width, height, scale, window

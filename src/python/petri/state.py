@@ -43,7 +43,7 @@ class State(MutableMapping):
             length = value.length
             if plain and length > 1:
                 numbers = tuple(ffi.unpack(value.numbers, length))
-                if min(numbers) > -8e307:  # symbols are below this
+                if min(numbers) > -8e307:  # numbers that represent symbols are below this value
                     return numbers
             result = values.decode(self._session, value)
         if result is None:

@@ -189,7 +189,7 @@ class Systems(Mapping):
         return names
 
     def _clear_arrays(self) -> None:
-        """Frees old columns that are only referenced by this module, unless the user has arrays."""
+        """Forgets the cached arrays. If the user has no arrays either, frees the old columns of the session."""
         for system in self._known.values():
             system._arrays.clear()
         if not self._session._shown:

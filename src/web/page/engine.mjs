@@ -2,8 +2,8 @@
 
 const PATIENCE = 3000; // ms that an interrupted request may take to stop; after that, the engine is terminated
 
-// Creates a worker. A worker must have the same origin as the page. If the script
-// at `url` has another origin, creates a worker of this origin that imports the script.
+// Creates a worker. A worker must have the same origin as the page. If the script at `url` has another origin, creates a worker of the
+// page's origin that imports the script.
 function makeWorker(url) {
     if (url.origin === location.origin)
         return new Worker(url, { type: 'module' });

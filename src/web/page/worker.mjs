@@ -53,7 +53,7 @@ const acts = {
         watches.forget(-1);
         player.automatic = false;
         player.step();
-        // No picture: before frame 2, particles are not at their positions.
+        // The picture in this answer does not show the particles at their positions; pictures do so from frame 2 on.
         return shown({ loaded: true });
     },
     // Replaces the text of the running script. Earlier frames are then no longer available.
