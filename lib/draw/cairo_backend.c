@@ -23,8 +23,8 @@ double draw_scale_of(cairo_t *cr) {
     return sqrt(fabs(m.xx * m.yy - m.xy * m.yx));
 }
 
-// Begins a layer. If too many layers are open, the content of the layer is drawn directly, because layers take memory
-// and time.
+// Begins a layer. If too many layers are open, or if they are too large, draws the content of this layer directly,
+// because layers take memory and time.
 static void begin_layer(Canvas *canvas, Layers *layers, const Origin *place) {
     double x1, y1, x2, y2;
     uint32_t at = layers->depth++;

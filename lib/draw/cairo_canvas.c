@@ -45,8 +45,8 @@ typedef struct Page {
     const CanvasPicture *picture;
     const DrawNode *canvas;  // the canvas to draw; NULL: none
     cairo_surface_t *pixels; // an image that is drawn instead of a canvas; NULL: none
-    FloatImage hdr_target;   // on an HDR canvas: drawn on instead of the surface; else `pixels` is NULL
-    double width;            // size of the content in units; it is scaled to fit the surface
+    FloatImage hdr_target; // on an HDR canvas: drawn on instead of the surface; on other canvases, its `pixels` is NULL
+    double width;          // size of the content in units; it is scaled to fit the surface
     double height;
     bool black; // true for a black background
 } Page;
@@ -150,10 +150,11 @@ PetriStatus draw_canvas(PetriPainter *painter, const CanvasPicture *picture, con
                  .hdr_target = {.width = texture->width, .height = texture->height, .pixels = texture->linear},
                  .width = width,
                  .height = height};
-    cairo_surface_t *surface = texture->bytes ? surface_of(texture->bytes, texture->width, texture->height,
-                                                           (size_t)texture->width * sizeof(uint32_t))
-                                              : cairo_image_surface_create(CAIRO_FORMAT_A8, texture->width,
-                                                                           texture->height); // only tracks the clip
+    // Without `bytes`, the surface only tracks the clip, because the drawing goes to `hdr_target`.
+    cairo_surface_t *surface =
+        texture->bytes
+            ? surface_of(texture->bytes, texture->width, texture->height, (size_t)texture->width * sizeof(uint32_t))
+            : cairo_image_surface_create(CAIRO_FORMAT_A8, texture->width, texture->height);
     PetriStatus result = draw_on(painter, &page, surface, false, texture->width, texture->height, faults);
     cairo_surface_finish(surface);
     cairo_surface_destroy(surface);
@@ -180,7 +181,7 @@ static cairo_surface_t *surface_of_texture(const Texture *texture, bool opaque) 
     return surface;
 }
 
-// Returns a page that shows the picture on a surface of any size. The caller destroys its `pixels`.
+// Returns a page that shows the picture on a surface of any size. The caller destroys the `pixels` of the page.
 static Page page_of(const PetriPainter *painter, const CanvasPicture *picture, bool vector) {
     bool made = picture->window && !picture->direct && painter->shown;
     return (Page){.picture = picture,

@@ -27,8 +27,8 @@ void draw_set_edges(Canvas *canvas, bool antialias, int fill_type) {
 
 // The time to fill a path grows with the number of rows that its edges cross, and faster if edges cross each other. A
 // path of a million points all over the picture would take hours.
-static const double SMOOTH_WORK = 1e6; // limit of path_work for antialiasing; this takes about a second
-static const double MAX_WORK = 1e7;    // limit without antialiasing; this takes a few seconds
+static const double SMOOTH_WORK = 1e6; // maximum path_work with antialiasing; a path at this limit takes about a second
+static const double MAX_WORK = 1e7; // maximum path_work without antialiasing; a path at this limit takes a few seconds
 
 bool draw_is_drawable(Canvas *canvas) {
     if (canvas->path_work > MAX_WORK && !canvas->failed) {
@@ -161,7 +161,7 @@ bool draw_find_box(Canvas *canvas, const DisplayCommand *command, const DisplayP
     cairo_get_matrix(cr, &matrix);
     double wide =
         fmax(fmax(fabs(matrix.xx) + fabs(matrix.xy), fabs(matrix.yx) + fabs(matrix.yy)) * paint->stroke_width, 1);
-    double border = command->stroke ? 2 * wide + 2 : 2; // miters reach two line widths, because the limit is 4
+    double border = command->stroke ? 2 * wide + 2 : 2; // miters reach two line widths, because the miter limit is 4
     cairo_identity_matrix(cr);
     cairo_path_extents(cr, &box[0], &box[1], &box[2], &box[3]);
     cairo_set_matrix(cr, &matrix);
@@ -258,7 +258,7 @@ static cairo_pattern_t *combine_all(Canvas *canvas, cairo_surface_t *below, int 
 // Renders the shape as a mask, and paints the source through it once.
 static void draw_through_mask(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint) {
     cairo_t *cr = canvas->cr;
-    draw_set_source(canvas, paint); // before the mask is created, because this can abort the drawing
+    draw_set_source(canvas, paint); // set before the mask is created, because setting it can abort the drawing
     cairo_save(cr);
     draw_clip_to_box(canvas, command, paint);
     cairo_pattern_t *mask = draw_make_mask(canvas, command, paint);
@@ -292,7 +292,8 @@ void draw_current_path(Canvas *canvas, const DisplayCommand *command, const Disp
         return;
     bool odd = is_unbounded(paint->composite) || paint->composite == COMPOSITE_MODULATE,
          both = command->fill && command->stroke;
-    bool in_segments = command->stroke && canvas->path_work > SMOOTH_WORK; // segments overlap
+    // The segments of a long stroke overlap, which is visible unless the paint is solid.
+    bool in_segments = command->stroke && canvas->path_work > SMOOTH_WORK;
     if (odd || command->path.fill_type > FILL_EVEN_ODD || ((both || in_segments) && !is_solid(paint))) {
         draw_through_mask(canvas, command, paint);
         return;

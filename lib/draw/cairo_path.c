@@ -71,7 +71,7 @@ void draw_ellipse_path(Canvas *canvas, double x, double y, double rx, double ry,
     double begin[2], curves[ARCS_MAX][6];
     int count = arcs_of_ellipse((const double[]){x, y, rx, ry, start, sweep}, draw_scale_of(canvas->cr), begin, curves);
     if (join)
-        line_to(canvas, begin[0], begin[1]); // begins the path if it is empty
+        line_to(canvas, begin[0], begin[1]); // if the path is empty, Cairo begins it at this point
     else
         move_to(canvas, begin[0], begin[1]);
     for (int i = 0; i < count; i++)

@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-// Returns the cost of a pixel in nanoseconds.
+// Returns the time in nanoseconds that painting one pixel takes.
 static double cost_of_pixel(const DisplayPaint *paint) {
     double color = paint->source == DISPLAY_NONE ? 0 : 5;
     if (paint->composite == COMPOSITE_OVER)

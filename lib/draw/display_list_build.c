@@ -17,7 +17,7 @@ typedef struct Level {
     const DrawNode *node;
     uint32_t next;      // index of the next child
     uint32_t matrix_at; // index of the matrix in the list; DISPLAY_NONE: not added yet
-    uint32_t paint_at;  // the same for the paint
+    uint32_t paint_at;  // index of the paint in the list; DISPLAY_NONE: not added yet
     bool saved;         // true if a DISPLAY_SAVE was added, which leave_node must balance
     DisplayMatrix matrix;
     DisplayPath path;
@@ -140,8 +140,8 @@ static bool saves_clip(NodeKind kind) {
     return kind == KIND_CANVAS || kind == KIND_CANVAS_GROUP || kind == KIND_LAYER || kind == KIND_TRANSFORM;
 }
 
-// Saves the clip before it changes, unless this was already done. Clips end with the nearest enclosing canvas, group,
-// layer or transform, so its level records that the clip must be restored.
+// Saves the clip before it changes, unless this was already done. A clip ends with the nearest enclosing canvas, group,
+// layer or transform. The level of that node therefore records that the clip must be restored.
 static void save_clip(Walk *walk) {
     uint32_t at = walk->depth - 1;
     while (at > 0 && !saves_clip((NodeKind)walk->levels[at].node->kind))
@@ -306,7 +306,7 @@ static void add_node(Walk *walk, const DrawNode *node) {
 }
 
 static void reserve_arrays(Arena *arena, DisplayList *list, const DisplayListSizes *sizes) {
-    enum { MAX_COMMANDS = 1 << 16 }; // after a longer list, arrays start small again
+    enum { MAX_COMMANDS = 1 << 16 }; // if the previous list was longer, the arrays start small again
     if (sizes->commands == 0 || sizes->commands > MAX_COMMANDS || sizes->numbers > 16 * MAX_COMMANDS)
         return;
 #define ROOM(array)                                                                                                    \

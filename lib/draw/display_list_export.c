@@ -7,7 +7,7 @@
 #include <math.h>
 
 static const char other_node[] = "the picture of another node";
-enum { MAX_EFFECT_ELEMENTS = 2000000 }; // limit for path elements that effects create in a picture
+enum { MAX_EFFECT_ELEMENTS = 2000000 }; // maximum number of path elements that the effects of a picture may create
 
 typedef struct DisplayListExport {
     const CanvasPicture *picture; // the picture to export; NULL: only one canvas is exported
@@ -164,7 +164,7 @@ static void add_blend(DisplayListExport *numbers, const DisplayFilter *filter) {
     }
 }
 
-// Writes a filter and its inputs. The written kinds are the values of DisplayFilterKind.
+// Writes a filter and its inputs. A kind of filter is written as its value in DisplayFilterKind.
 static void add_filter(DisplayListExport *numbers, uint32_t number) {
     if (number == DISPLAY_NONE) {
         ADD(PETRI_FILTER_SOURCE);
@@ -341,8 +341,8 @@ static void add_system(DisplayListExport *numbers, const AutoSystem *system) {
         ADD(system->scale[i].x1, system->scale[i].y1, system->scale[i].x2, system->scale[i].y2);
 }
 
-// Returns the first canvas in the tree of a node. Effects, and pictures next to the canvas, are reported as
-// unsupported.
+// Returns the first canvas in the tree of a node. Other nodes that produce a picture, such as effects or a second
+// canvas, are reported as unsupported.
 static const DrawNode *find_canvas(DisplayListExport *numbers, const DrawNode *node, int depth) {
     enum { MAX_DEPTH = 100 };
     if (node->kind == KIND_CANVAS || depth > MAX_DEPTH)

@@ -6,7 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-enum { MAX_DEPTH = 100 }; // of nested filters or effects; less than NODE_MAX_HEIGHT, because the stack can be small
+// Maximum depth of nested filters or effects. It is less than NODE_MAX_HEIGHT, because the stack can be small.
+enum { MAX_DEPTH = 100 };
 
 static uint32_t add_numbers(DisplayListBuild *build, uint32_t count, const double *numbers) {
     double *at = DISPLAY_ADD(build->arena, build->list->numbers, count);

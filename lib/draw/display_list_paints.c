@@ -97,7 +97,8 @@ static uint32_t make_noise(DisplayListBuild *build, const DrawNode *node) {
     return add_source(build, source);
 }
 
-// Sources can be nested less deeply than other nodes (NODE_MAX_HEIGHT), because the stack can be small.
+// The depth of nested sources is limited to less than NODE_MAX_HEIGHT, because the function is recursive and the stack
+// can be small.
 uint32_t display_list_build_source(DisplayListBuild *build, const GraphicsState *state, const DrawNode *node) {
     enum { MAX_DEPTH = 100 };
     uint32_t made = DISPLAY_NONE;

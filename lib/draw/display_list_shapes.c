@@ -35,7 +35,8 @@ static void move_to(DisplayListBuild *build, DisplayPath *path, double x, double
     add_element(build, path, PATH_MOVE, 2, (const double[]){x, y});
 }
 
-// If the path is empty, starts it at 0;0. Must be called before a line or curve is added.
+// If the path is empty, starts it at 0;0. Must be called before a line or curve is added, because these start at the
+// current point.
 static void begin_path(DisplayListBuild *build, DisplayPath *path) {
     if (path->first == DISPLAY_NONE)
         move_to(build, path, 0, 0);
@@ -136,7 +137,8 @@ static double turn_at(const double *a, const double *p, const double *b) {
     return lengths > 0 ? maths_acos(fmin(fmax((x1 * x2 + y1 * y2) / lengths, 0), 1)) / TURN : 0;
 }
 
-// Adds the corner at p, from the middle of the line before it to the middle of the line after it.
+// Adds the corner at p, from the middle of the line before p to the middle of the line after p. If the direction
+// changes by more than `curve` turns, the corner stays sharp; otherwise, it becomes a curve.
 static void add_corner(DisplayListBuild *build, DisplayPath *path, const double *before, const double *p,
                        const double *after, double curve) {
     double a[2] = {(before[0] + p[0]) / 2, (before[1] + p[1]) / 2};

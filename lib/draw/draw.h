@@ -77,9 +77,9 @@ void draw_release(Canvas *canvas, size_t bytes);
 // Redirects drawing to a new surface whose top left corner is at x, y of the target. Returns NULL if out of memory.
 cairo_surface_t *draw_push_offscreen(Canvas *canvas, int width, int height, double x, double y);
 void draw_pop_offscreen(Canvas *canvas);
-// Charges work, in nanoseconds, to the picture. If that would exceed the limit, reports this and returns false.
-// `outcome` is the end of the message; it tells what is drawn instead.
-extern const char draw_omitted[]; // an `outcome`: everything from here on is left out
+// Charges work, in nanoseconds, to the picture. If that would exceed the limit, reports this and returns false. The
+// message ends with `outcome`, which describes what is drawn instead.
+extern const char draw_omitted[]; // an `outcome`: the rest of the drawing is left out
 bool draw_charge(Canvas *canvas, const Origin *place, double work, const char *outcome);
 // If `lacking` is false, does nothing. Otherwise, memory could not be allocated for `what`. If the memory limit is the
 // cause, reports that the drawing lacks `what`. If the machine is out of memory, aborts the drawing.
@@ -137,8 +137,8 @@ void draw_set_source(Canvas *canvas, const DisplayPaint *paint);
 // Returns true if the paint has an effect that changes the path. Returns false if it only dashes strokes, because Cairo
 // draws dashes.
 bool draw_has_effect(const Canvas *canvas, const DisplayPaint *paint);
-// Applies the effect to a path and makes the result the current path. If `lines` is true, the result is to be stroked,
-// otherwise filled. Returns false if out of memory.
+// Applies the effect to a path and makes the result the current path. If `lines` is true, the result is for stroking,
+// otherwise for filling. Returns false if out of memory.
 bool draw_apply_effect(Canvas *canvas, const DisplayPaint *paint, const cairo_path_t *path, bool lines);
 
 // noise.c

@@ -11,7 +11,7 @@
 
 struct FloatImageMemory {
     FloatImageMemory *next;
-    FloatImageMemory **link; // the pointer to this block in the list
+    FloatImageMemory **link; // the pointer that refers to this block: `next` of another block or the list's head
     size_t bytes;
     float pixels[];
 };
@@ -88,15 +88,15 @@ void float_image_write(const FloatImage *image, cairo_surface_t *surface) {
     cairo_surface_mark_dirty(surface);
 }
 
-// A one-dimensional filter, which is applied to each row or column of an image.
+// Limits of a LineFilter, a one-dimensional filter that is applied to each row or column of an image.
 enum { MAX_REACH = 24 };
-static const double MAX_EXACT_SIGMA = 8; // standard deviation in pixels; larger ones are approximated with cells
+static const double MAX_EXACT_SIGMA = 8; // maximum standard deviation, in pixels, of a blur without cells
 
 typedef struct LineFilter {
     void (*apply)(const struct LineFilter *filter, float *line, float *other, int count);
-    int reach; // in pixels, or in cells
+    int reach; // radius of the filter, in pixels, or in cells if `cell` is above 1
     bool erode;
-    int cell; // number of pixels that are averaged to a cell
+    int cell; // number of pixels that are averaged to one cell; not used by find_extremes
     float weights[MAX_REACH + 1];
 } LineFilter;
 
@@ -140,8 +140,8 @@ static void convolve_line(const LineFilter *filter, float *line, float *other, i
         convolve_at(filter, other, count, i, line + 4 * (size_t)i);
 }
 
-// Like convolve_line for a long reach: averages cells of several pixels, weighs the cells, and interpolates between
-// their centres.
+// Like convolve_line, for a long reach: averages the pixels of each cell, convolves the cells, and interpolates between
+// the centres of the cells.
 static void convolve_cells(const LineFilter *filter, float *line, float *other, int count) {
     int cell = filter->cell, cells = (count + cell - 1) / cell;
     float *weighed = other + 4 * (size_t)cells + 4; // indexed by cell, from -1
@@ -160,8 +160,8 @@ static void convolve_cells(const LineFilter *filter, float *line, float *other, 
     }
 }
 
-// Replaces each pixel by the maximum or minimum within reach. Computes the extremes of runs of doubling length, then
-// combines two overlapping runs.
+// Replaces each pixel by the maximum or minimum within reach. Computes the extremes of runs of 2, 4, 8 and so on
+// pixels. Then combines two of the longest runs, which overlap and together cover the reach.
 static void find_extremes(const LineFilter *filter, float *line, float *other, int count) {
     int reach = filter->reach, all = count + 2 * reach, run = 1, wanted = 2 * reach + 1;
     memset(other, 0, (size_t)all * 4 * sizeof(float));

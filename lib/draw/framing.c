@@ -36,8 +36,9 @@ static double distance(const double a[3], const double b[3]) {
     return maths_hypot(maths_hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
 }
 
-// Returns the distance from the centre beyond which bodies are ignored, so that a few bodies that fly away do not make
-// the remaining bodies too small to see. It is based on the distance within which nine tenths of the bodies are.
+// Returns the distance from the centre beyond which bodies are ignored. Without this limit, a few bodies that fly away
+// would make the remaining bodies too small to see. The limit is eight times the distance within which nine tenths of
+// the bodies are. `numbers` is scratch space for one number per body.
 static double outlier_distance(const AutoSystem *system, const double middle[3], double *numbers) {
     for (uint32_t i = 0; i < system->body_count; i++)
         numbers[i] = distance(system->bodies[i].position, middle);
@@ -186,7 +187,8 @@ void auto_frame(Arena *arena, AutoFrame *frame, const AutoSystem *system) {
         frame->half *= GROWTH;
 }
 
-// Strokes of characters on a grid 2 wide and 8 high. A point is two digits, x and y; | starts another stroke.
+// Returns the strokes that draw a character on a grid 2 wide and 8 high. Each pair of digits is a point, x and y, of a
+// stroke; | starts another stroke.
 static const char *strokes_of(char c) {
     static const char *const digits[] = {"0020280800",      "061810",       "082824040020", "08282000|0424",
                                          "080424|2820",     "280804242000", "280800202404", "082820",
@@ -226,9 +228,9 @@ static void add_character(AutoSystem *system, char c, double x, double y) {
     }
 }
 
-// Creates a bar whose length is 1, 2 or 5 times a power of ten, with the length above it.
+// Creates a bar whose length is 1, 2 or 5 times a power of ten, with the number above it.
 void auto_scale(Arena *arena, AutoSystem *system) {
-    const double unit = AUTO_PANEL / 2 * (1 - 2 * AUTO_MARGIN) / system->frame.half; // pixels
+    const double unit = AUTO_PANEL / 2 * (1 - 2 * AUTO_MARGIN) / system->frame.half; // panel pixels per unit
     double power = maths_pow(10, floor(maths_log10(MAX_LENGTH / unit))), length = power;
     if (!isfinite(length) || !(length > 0))
         return;

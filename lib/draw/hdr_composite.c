@@ -7,12 +7,12 @@
 
 // A source to composite onto the target, and its coverage.
 typedef struct Stamp {
-    cairo_pattern_t *cover;  // coverage, a group; composite_stamp destroys it
-    cairo_pattern_t *colors; // colours, a group; composite_stamp destroys it; NULL: use `image`, `shade` or `color`
-    const FloatImage *image; // colours, at x, y of the target; NULL: use `shade` or `color`
+    cairo_pattern_t *cover;  // group with the coverage; composite_stamp destroys it
+    cairo_pattern_t *colors; // group with the colours; composite_stamp destroys it; NULL: use another field
+    const FloatImage *image; // if `colors` is NULL: image with the colours, at x, y of the target; NULL: use `shade`
     int x;
     int y;
-    const HdrPaint *shade; // NULL: use `color`
+    const HdrPaint *shade; // if `colors` and `image` are NULL: computes the colours; NULL: use `color`
     float color[4];
     CompositeMode mode;
 } Stamp;
@@ -130,7 +130,7 @@ void hdr_draw_path(Canvas *canvas, const DisplayCommand *command, const DisplayP
     if (paint->source != DISPLAY_NONE && hdr_paint_from_source(canvas, paint->source, alpha, &shade))
         stamp.shade = &shade;
     else
-        draw_set_source(canvas, paint); // before groups are created, because this can abort the drawing
+        draw_set_source(canvas, paint); // set before groups are created, because setting it can abort the drawing
     cairo_save(cr);
     draw_clip_to_box(canvas, command, paint);
     if (paint->source != DISPLAY_NONE && !stamp.shade)

@@ -38,7 +38,7 @@ void draw_images_close(PetriPainter *painter) {
     painter->images = NULL;
 }
 
-// Removes an image from the cache, and the oldest images if there are too many.
+// Removes an image from the cache. If the cache contains too many images, also removes the oldest ones.
 static void evict_image(PetriPainter *painter, const char *path) {
     int count = 0;
     for (CachedImage **at = &painter->images; *at;) {
@@ -111,7 +111,7 @@ static CachedImage *load_image(PetriPainter *painter, const FileAccess *reach, c
     Str bytes;
     const char *problem = NULL;
     bool read = file_read(&painter->arena, reach, path, true, MAX_BYTES, &bytes, NULL, &problem);
-    CachedImage *picture = heap_calloc(1, sizeof *picture); // freed before any longjmp below
+    CachedImage *picture = heap_calloc(1, sizeof *picture); // every path below that calls longjmp frees `picture` first
     if (!picture)
         arena_exhausted(&painter->arena);
     picture->path = heap_strndup(path, strlen(path));
@@ -177,7 +177,7 @@ static bool find_box(const DisplayImage *image, double width, double height, Box
     return box->scale_x != 0 && box->scale_y != 0 && isfinite(box->scale_x) && isfinite(box->scale_y);
 }
 
-// Paints the surface. On an HDR canvas, the surface is NULL, and the shade is painted.
+// Paints `surface`. On an HDR canvas, `surface` is NULL, and `shade` is painted instead.
 static void paint_image(Canvas *canvas, cairo_surface_t *surface, HdrPaint *shade, double width, double height,
                         const Box *box, const double point[2], const DisplayPaint *paint) {
     cairo_t *cr = canvas->cr;
@@ -217,7 +217,7 @@ static void paint_image(Canvas *canvas, cairo_surface_t *surface, HdrPaint *shad
     draw_forget_path(canvas);
 }
 
-// Returns the cached pixels of a file, borrowed. Returns NULL after a report if it cannot be read.
+// Returns the cached pixels of a file, which are borrowed. If the file cannot be read, reports this and returns NULL.
 static cairo_surface_t *find_file(PetriPainter *painter, const CanvasPicture *picture, Str name, NodeKind kind,
                                   const Origin *place, DiagSink *faults) {
     Arena *arena = &painter->arena;

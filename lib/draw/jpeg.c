@@ -48,7 +48,7 @@ static const char *explain_failure(const JpegError *trouble) {
     case JERR_OUT_OF_MEMORY:
         return NULL;
     case JERR_NO_BACKING_STORE:
-        return EXCEEDS_MEMORY; // raised above max_memory_to_use
+        return EXCEEDS_MEMORY; // libjpeg's error if decoding needs more than max_memory_to_use
     default:
         return "damaged, or an unsupported kind of JPEG";
     }

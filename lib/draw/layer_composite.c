@@ -52,8 +52,9 @@ static void store_color(const LayerComposite *mix, Texture *out, size_t at, cons
 Texture *layer_composite(const LayerComposite *mix) {
     const Texture *only = mix->count == 1 ? mix->inputs[0] : NULL;
     bool same = only && only->width == mix->width && only->height == mix->height && mix->alpha == 1;
+    // In these cases, the result equals the only input, because decoding and encoding cancel out.
     if (same && (only->bytes ? mix->srgb || mix->bits > 8 : !mix->srgb && mix->bits > 8))
-        return texture_retain(mix->inputs[0]); // equals the result, because decoding and encoding cancel out
+        return texture_retain(mix->inputs[0]);
     Texture *out = texture_new(mix->budget, mix->width, mix->height, !mix->srgb);
     if (!out || mix->count == 0)
         return out;

@@ -8,12 +8,12 @@ enum { LATTICE = 256, CHANNELS = 4 };
 typedef struct Noise {
     const DisplaySource *source;
     double frequency[2];
-    int tile[2]; // cells after which the first octave repeats; 0: does not repeat
+    int tile[2]; // number of cells after which the first octave repeats; 0: it does not repeat
     uint8_t order[LATTICE];
     double slopes[CHANNELS][LATTICE][2];
 } Noise;
 
-// SVG's random number generator; results range from 1 to 2³¹ - 2.
+// Returns the number after `seed` of SVG's random number generator. Results range from 1 to 2³¹ - 2.
 static int32_t next_number(int32_t seed) {
     enum { MODULUS = 2147483647, FACTOR = 16807, QUOTIENT = 127773, REST = 2836 };
     int32_t result = FACTOR * (seed % QUOTIENT) - REST * (seed / QUOTIENT);
@@ -66,7 +66,7 @@ static void fit_tiles(Noise *noise) {
 
 // The position of a coordinate x or y in the lattice.
 typedef struct LatticePoint {
-    int cell;    // index of its cell
+    int cell;    // index of the cell that contains the coordinate
     int next;    // index of the next cell
     double part; // position within the cell, 0 to 1
     double ease; // `part`, smoothed for interpolation
@@ -100,8 +100,8 @@ static double gradient_noise(const Noise *noise, int channel, const LatticePoint
     return interpolate(y->ease, above, below);
 }
 
-// Improved noise (Perlin, 2002) in the plane z = channel: twelve gradients towards the middles of a cube's edges, and a
-// smoother interpolation.
+// Returns the product of dx, dy and the gradient at a lattice point, for improved noise (Perlin, 2002) in the plane z.
+// There are twelve gradients, which point from the centre of a cube to the middles of its edges.
 static double slope_along(const Noise *noise, int x, int y, int z, double dx, double dy) {
     const uint8_t *order = noise->order;
     int edge = order[(order[(order[x] + y) & (LATTICE - 1)] + z) & (LATTICE - 1)] & 15;

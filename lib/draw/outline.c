@@ -75,11 +75,11 @@ static Flat flatten_subpath(Outline *from, uint32_t *at) {
 typedef struct Walk {
     const Flat *flat;
     uint32_t piece; // the current line, which leads from the point with this index to the next point
-    double before;  // total length of the lines before it
+    double before;  // total length of the lines before `piece`
 } Walk;
 
-// Returns the point at a distance from the start, and the direction there if `direction` is not NULL. Distances must
-// not decrease from call to call.
+// Returns the point at the distance `along` from the start of the subpath. If `direction` is not NULL, it receives the
+// direction there. `along` must not decrease from call to call.
 static OutlinePoint point_along(Walk *walk, double along, OutlinePoint *direction) {
     const OutlinePoint *points = walk->flat->points.at;
     uint32_t last = walk->flat->points.count - 2;
@@ -113,7 +113,8 @@ static void jitter_outline(const DisplayEffect *effect, Outline *from, Outline *
             continue;
         }
         Walk walk = {.flat = &flat};
-        // A closed subpath has no ends, so the first point of the result is half a segment from the start.
+        // A closed subpath has no ends, so the first point of the result is half a segment after the start of the
+        // subpath.
         uint32_t points = (uint32_t)count + (flat.closed ? 0 : 1);
         for (uint32_t i = 0; i < points; i++) {
             OutlinePoint direction,
@@ -173,7 +174,7 @@ static void dash_outline(const DisplayEffect *effect, const double *intervals, O
     }
 }
 
-// Rounds the corner at p between two straight lines: adds a line towards p, and from its end a curve around the corner.
+// Rounds the corner at p between two straight lines: adds a line that ends before p, and a curve around the corner.
 static void round_corner(Outline *out, OutlinePoint before, OutlinePoint p, OutlinePoint after, double radius) {
     double in = distance(before, p), away = distance(p, after);
     OutlinePoint a = between(p, before, in > 0 ? fmin(radius / in, 0.5) : 0);
@@ -301,7 +302,8 @@ static void add_curves(Outline *out, double curves[][6], int count) {
             PATH_CUBIC, {{curves[i][0], curves[i][1]}, {curves[i][2], curves[i][3]}, {curves[i][4], curves[i][5]}}};
 }
 
-// Adds an element of a display list. `here` is the current point, `first` the start of the subpath.
+// Adds an element of a display list. *here is the current point and *first the start of the current subpath; both are
+// updated.
 static void add_path_element(Outline *out, PathElement kind, const double *n, OutlinePoint *here, OutlinePoint *first) {
     double start[2], curves[ARCS_MAX][6];
     OutlinePoint point = {n[0], n[1]};

@@ -27,9 +27,9 @@ typedef struct Outline {
 bool outline_has_effect(const DisplayList *list, const DisplayPaint *paint);
 // Returns true if this effect, or one inside it, dashes lines. If so, the paths for filling and for stroking differ.
 bool outline_has_dashes(const DisplayList *list, uint32_t effect);
-// Applies an effect, and the effects nested in it, to the outline `from`. If `lines` is true, the result is to be
-// stroked, otherwise filled. The result is allocated from the arena of `from`. If `effect` is DISPLAY_NONE, returns
-// `from`.
+// Applies an effect, and the effects nested in it, to the outline `from`. If `lines` is true, the result is for
+// stroking, otherwise for filling. The result is allocated from the arena of `from`. If `effect` is DISPLAY_NONE,
+// returns `from`.
 Outline outline_apply(const DisplayList *list, uint32_t effect, Outline from, bool lines);
 // Adds a path of the list. Arcs are converted to curves.
 void outline_add_path(Outline *out, const DisplayList *list, const DisplayPath *path);

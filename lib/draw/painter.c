@@ -76,7 +76,8 @@ static void save_protected(void *context) {
     }
     Replacement file;
     bool begun = file_access_replace(saving->reach, saving->file, &file);
-    bool refused = !begun && saving->reach && errno == EXDEV; // this was reported when the picture was created
+    // A refusal was already reported when the picture was created.
+    bool refused = !begun && saving->reach && errno == EXDEV;
     const char *problem =
         begun ? file_finish(&file, (Str){(const char *)saving->bytes.bytes, saving->bytes.length}) : strerror(errno);
     if (refused) {

@@ -68,7 +68,7 @@ static bool has_word(Str text, Str word) {
     return false;
 }
 
-// Returns true if the node has a shader program that mentions `last`, its picture in the previous frame.
+// Returns true if the node has a shader program that mentions `last`, the node's picture in the previous frame.
 static bool names_last(const Schema *schema, const Node *node) {
     Value v = attr_value(schema, node, ROW_SHADER_FRAGMENT);
     for (uint32_t i = 0; v.kind == VALUE_MIXED && i < v.len; i++)
@@ -185,8 +185,8 @@ static bool choose_pixels(Request *request) {
     return true;
 }
 
-// Maximum number of frames to wait until each system has been simulated. The wait is limited because a system whose
-// clock stands still is never simulated.
+// Maximum number of frames for which petri_picture_ready waits until each system has been simulated. The wait is
+// limited because a system whose clock stands still is never simulated.
 enum { MAX_START_FRAMES = 2 };
 
 bool petri_picture_ready(PetriSession *session, const PetriPictureOptions *options) {
@@ -234,7 +234,7 @@ bool petri_needs_history(PetriSession *session) {
     return any_needs_history(&access);
 }
 
-// Fills the picture. Returns false, with the reason in `problem`, if there is nothing to draw.
+// Fills request->picture. If there is nothing to draw, stores the reason in request->problem and returns false.
 static bool make_picture(Request *request) {
     const DrawAccess *access = &request->shown;
     PetriPicture *picture = request->picture;

@@ -13,9 +13,9 @@
 
 enum { MAX_DEPTH = 100, DEFAULT_SIZE = 512 };
 
-// State of a node, kept until the next frame. There, a node with the same parent, kind, tags and id continues it;
-// images must also have the same file. Each state is continued at most once. If several states match a node, the node
-// continues the first one that is left.
+// State of a node, kept until the next frame. In that frame, a node with the same parent, kind, tags and id continues
+// the state; images must also have the same file. Each state is continued at most once. If several states match a node,
+// the node continues the first one that is left.
 typedef struct GraphNode GraphNode;
 struct GraphNode {
     uint8_t kind;
@@ -134,7 +134,7 @@ static Str text_of(Arena *arena, const DrawNode *node, AttrName name) {
     return attr ? str_copy(arena, attr->as.text) : (Str){0};
 }
 
-// Returns the state that this node continues: one of the children of `past`; NULL: none.
+// Returns the child of `past` that the state `made` continues, and marks it as matched. Returns NULL if there is none.
 static const GraphNode *find_past(const GraphNode *past, const GraphNode *made) {
     for (uint32_t i = 0; past && i < past->count; i++) {
         GraphNode *other = &past->children[i];
@@ -209,7 +209,7 @@ static Texture *composite_on_cpu(Walk *walk, const DrawNode *node, Texture *cons
     return texture ? texture : report_no_memory(walk, node, width, height);
 }
 
-// Makes the context of the GPU current and returns it. Returns NULL, after a report, if there is no GPU.
+// Makes the context of the GPU current and returns it. If there is no GPU, reports this and returns NULL.
 static Gl *open_gpu(Walk *walk) {
     PetriPainter *painter = walk->painter;
     const char *problem = painter->gl_problem;
@@ -409,8 +409,9 @@ static Texture *find_reference(Walk *walk, Str id) {
     return found ? texture_retain(found) : NULL;
 }
 
-// Renders the picture of a node, whose parent is width x height pixels, and fills the node's state `made`, which owns
-// the picture. Returns NULL if there is none.
+// Renders the picture of a node and fills `made`, the state of the node, which owns the picture. `parent` is the state
+// of the node's parent in the previous frame; width x height is the size of the parent's picture. Returns NULL if the
+// node has no picture.
 static Texture *make_node(Walk *walk, const DrawNode *node, GraphNode *made, const GraphNode *parent, int width,
                           int height) {
     Arena *arena = &walk->frame->arena;
@@ -467,7 +468,8 @@ static void make_windows(void *context) {
     }
 }
 
-// Frees the older of the two stored frames. Makes the GPU context current first, because images can only be freed then.
+// Frees the older of the two stored frames. Makes the GPU context current first, because images can only be freed in
+// the current context.
 static void clear_old_frame(Walk *walk) {
     const char *problem;
     if (walk->painter->gl)

@@ -75,7 +75,8 @@ double draw_fit(double width, double height, double box_width, double box_height
 
 void draw_limit(PetriPainter *painter, const CanvasPicture *picture) {
     painter->budget.memory_limit = picture->memory;
-    budget_begin(&painter->budget, picture->work / 4 * 3, NULL); // a separate limit, not charged to the frame
+    // Drawing has a separate work limit. Its work is not charged to the frame.
+    budget_begin(&painter->budget, picture->work / 4 * 3, NULL);
 }
 
 static void report_limit(void *faults) {
@@ -105,7 +106,7 @@ static PetriStatus make_pictures(PetriPainter *painter, const CanvasPicture *pic
 PetriStatus draw_render(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults) {
     if (picture->window && (picture->needs_history || !picture->direct))
         return make_pictures(painter, picture, faults);
-    if (painter->made > 0) { // this frame is not rendered, so the next one has nothing to continue
+    if (painter->made > 0) { // this frame does not use the render graph, so the next frame has nothing to continue
         render_graph_clear(painter);
         painter->made = 0;
         painter->shown = NULL;

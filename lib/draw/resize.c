@@ -7,8 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-// Computes the weights with which old pixels contribute to the new pixel `at`. The filter is a triangle whose radius is
-// one old or one new pixel, whichever is larger.
+// Computes the weights with which the old pixels *first to *first + *count - 1 contribute to the new pixel `at`. The
+// filter is a triangle whose radius is one old or one new pixel, whichever is larger.
 static void compute_weights(int old, int new, int at, int *first, int *count, float *weights) {
     double scale = (double)old / new, reach = fmax(scale, 1), middle = (at + 0.5) * scale, sum = 0;
     int low = (int)fmax(floor(middle - reach), 0), high = (int)fmin(ceil(middle + reach), old);
@@ -38,7 +38,7 @@ static void resize_lines(const float *in, float *out, int lines, int old, int ne
                     sum[k] += weights[i] * in[4 * from + k];
             }
             size_t to = down ? (size_t)at * (size_t)lines + (size_t)line : (size_t)line * (size_t) new + (size_t)at;
-            for (size_t k = 0; k < 4; k++) // rounds the result of each direction, not only the final result
+            for (size_t k = 0; k < 4; k++) // rounds after each direction, not only at the end
                 out[4 * to + k] = rintf(sum[k]);
         }
     }
@@ -68,7 +68,7 @@ Texture *resize_pixels(Budget *budget, const uint32_t *pixels, int width, int he
                        int new_width, int new_height, int flip) {
     size_t max_pixels =
         (size_t)(width > new_width ? width : new_width) * (size_t)(height > new_height ? height : new_height);
-    size_t bytes = 2 * max_pixels * 4 * sizeof(float); // temporary
+    size_t bytes = 2 * max_pixels * 4 * sizeof(float); // size of the two temporary arrays together
     if (!budget_reserve(budget, bytes))
         return NULL;
     float *one = heap_alloc(bytes / 2), *other = heap_alloc(bytes / 2);

@@ -7,13 +7,14 @@
 
 #include <math.h>
 
-// Copies up to three components of a vector; missing ones become 0.
+// Copies the first three components of a vector; missing components become 0.
 static void take_three(double out[3], const double *v, uint32_t n) {
     for (uint32_t k = 0; k < 3; k++)
         out[k] = v && k < n ? v[k] : 0;
 }
 
-// Copies the particles with finite positions. `numbers` maps particles to bodies; UINT32_MAX: not copied.
+// Copies the particles that have finite positions to system->bodies. numbers[i] receives the index of the body for
+// particle i, or UINT32_MAX if the particle is not copied.
 static void copy_bodies(Arena *arena, const SceneView *view, AutoSystem *system, uint32_t *numbers) {
     PhysColumns columns = phys_columns(view->engine);
     double most = 0;

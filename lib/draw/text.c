@@ -11,8 +11,8 @@
 enum { MAX_TEXT_LENGTH = 10000 };         // bytes
 static const double MAX_FONT_SIZE = 4000; // pixels
 
-// Creates the fonts on first use, not earlier, because Pango then loads the list of fonts in a background thread. A
-// process that exits during this would free data that the thread still reads.
+// Creates the fonts on first use, not earlier, because Pango then starts a background thread that loads the list of
+// fonts. A process that exits while the thread runs would free data that the thread still reads.
 TextContext *draw_text_context(PetriPainter *painter) {
     TextContext *text_context = painter->text_context;
     if (text_context)
@@ -81,9 +81,10 @@ static const char *find_substitute(const char *name) {
     return NULL;
 }
 
-// Returns what to request from Pango for a list of family names. Finds the first name that is installed or has an
-// installed substitute. If it has a substitute, returns that, else the list, from which Pango chooses. If no name is
-// found, returns the list, and reports this unless the list is the default.
+// Returns the family to request from Pango for a list of family names. Finds the first name that is installed or has an
+// installed substitute. If this name has an installed substitute, returns the substitute; otherwise, returns the whole
+// list, from which Pango chooses. If no name is found, returns the list, and reports this unless the list is the
+// default.
 static const char *find_family(Canvas *canvas, const char *list) {
     char name[128];
     for (const char *at = list;;) {
@@ -133,8 +134,8 @@ static void set_font(Canvas *canvas, const DisplayText *text) {
     TextContext *text_context = canvas->painter->text_context;
     if (text_context->family && same_font(&text_context->font, text))
         return;
-    const char *family =
-        find_family(canvas, text->family); // before Pango objects are allocated, because this can abort the drawing
+    // Finds the family before Pango objects are allocated, because the report can abort the drawing.
+    const char *family = find_family(canvas, text->family);
     PangoFontDescription *font = pango_font_description_new();
     pango_font_description_set_family(font, family);
     pango_font_description_set_absolute_size(font, text->size * PANGO_SCALE);
@@ -157,7 +158,8 @@ static bool has_drawable_size(Canvas *canvas, double size) {
     return pixels > 0.1 && size > 0.001 && pixels <= MAX_FONT_SIZE && size <= MAX_FONT_SIZE;
 }
 
-// Moves the point, which is the centre of the text or the start of its baseline, to the top left corner of the layout.
+// Converts `point` to the top left corner of the layout. On entry, it is the centre of the text if `center` is true,
+// else the start of the baseline.
 static void position_layout(PangoLayout *layout, bool center, double point[2]) {
     PangoRectangle ink;
     double baseline = pango_layout_get_baseline(layout) / (double)PANGO_SCALE;
@@ -179,8 +181,8 @@ void draw_text(Canvas *canvas, const DisplayCommand *command, const DisplayPaint
                            MAX_TEXT_LENGTH);
         return;
     }
-    if (!draw_charge_box(canvas, paint, text->size, text->size / 3,
-                         (double)text->text.len)) // per byte, a third of a square
+    // The estimated area per byte of text is a third of the square of the font size.
+    if (!draw_charge_box(canvas, paint, text->size, text->size / 3, (double)text->text.len))
         return;
     TextContext *text_context = draw_text_context(canvas->painter);
     if (!text_context)

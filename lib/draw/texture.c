@@ -83,10 +83,11 @@ void texture_free(Texture *texture) {
     heap_free(texture);
 }
 
-// Linear values of the 256 sRGB bytes, and of the sRGB values halfway between successive bytes.
+// `decoded` holds the linear values of the 256 sRGB bytes. `thresholds` holds the linear values that lie halfway, in
+// sRGB, between each byte and the next.
 static float decoded[256], thresholds[256];
-// Indexed by the upper 16 bits of a float: the number of thresholds that do not exceed the float if its lower bits are
-// zero. After this lookup, one or two comparisons find the number for the exact float.
+// below[h] is the number of thresholds that do not exceed the float whose upper 16 bits are h and whose lower bits are
+// zero. Starting from below[h], one or two comparisons find the number for any float with these upper bits.
 enum { ONE = 0x3f80 }; // upper half of 1.0
 static uint8_t below[ONE + 1];
 

@@ -24,13 +24,13 @@ uint64_t petri_painter_readback_count(const PetriPainter *painter) {
 // The content of a window.
 typedef struct Presentation {
     PetriPainter *painter;
-    PetriPicture *picture; // NULL: black
+    PetriPicture *picture; // the picture to show; NULL: the window becomes black
     const PetriLabel *labels;
     size_t count;
     double scale;
     int width;
     int height;
-    const Texture *texture; // the picture's texture on the GPU; NULL: show the pixels in `painter->window`
+    const Texture *texture; // the rendered picture on the GPU; NULL: show the pixels in `painter->window`
     bool done;
 } Presentation;
 
