@@ -97,8 +97,8 @@ static bool strings_same(const char *a, size_t a_length, const char *b, size_t b
 
 // Differences between the numbers of two lines.
 typedef struct Spread {
-    double distance;             // largest difference of two numbers
-    double size;                 // largest absolute number, at least 1
+    double distance;             // largest difference between corresponding numbers
+    double size;                 // largest absolute value of a number in either line, at least 1
     LineDifference max_position; // position of the largest difference
 } Spread;
 

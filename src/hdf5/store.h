@@ -37,7 +37,8 @@ typedef struct StoreColumn {
     hsize_t chunk[STORE_RANKS]; // chunk sizes in the file
 } StoreColumn;
 
-// Starts writing a file. If `continues` is true and the file exists, starts with its contents and sets store->existing.
+// Starts writing the file `path`. If `continues` is true and the file exists, the new file starts with the contents of
+// the existing file, and store->existing is set.
 // Returns false after a message.
 bool store_begin(Store *store, const char *path, bool continues);
 // Gives the file its name if `keep` is true, else removes it. Returns false after a message if an error has occurred.
@@ -59,14 +60,14 @@ StoreColumn store_column(Store *store, hid_t parent, const char *name, hid_t typ
                          const hsize_t sizes[STORE_RANKS], const void *fill);
 // Opens a column that store_column created. `parent` must stay open until store_end.
 StoreColumn store_open_column(Store *store, hid_t parent, const char *name, hid_t type, int rank, const void *fill);
-// Reduces a column to these sizes.
+// Reduces a column to `sizes`.
 void store_truncate(Store *store, StoreColumn *column, const hsize_t sizes[STORE_RANKS]);
-// Reads the first elements of a row; `sizes` is their number in each dimension.
+// Reads the first elements of a row into `numbers`. `sizes` is the number of elements to read in each dimension.
 void store_read_row(Store *store, const StoreColumn *column, hsize_t row, const hsize_t sizes[STORE_RANKS],
                     void *numbers);
-// Extends a column to at least these sizes.
+// Extends a column to at least `sizes`.
 void store_grow(Store *store, StoreColumn *column, const hsize_t sizes[STORE_RANKS]);
-// Writes the first elements of a row and extends the column if necessary.
+// Writes `numbers` to the first elements of a row and extends the column if necessary.
 void store_write_row(Store *store, StoreColumn *column, hsize_t row, const hsize_t sizes[STORE_RANKS],
                      const void *numbers);
 // Returns a string type for up to `length` bytes.

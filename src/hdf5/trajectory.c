@@ -204,7 +204,7 @@ void trajectory_file_add(TrajectoryFile *file, char *bytes) {
 }
 
 // Opens an existing group and counts its frames up to `after` and the particles in them. Lowers *min_id to the smallest
-// id. Returns false if no frame is left.
+// id in these frames. Returns false if no frame is left.
 static bool read_group(TrajectoryFile *file, Group *group, int64_t after, int64_t *min_id) {
     Store *store = file->store;
     group->system_name = store_read_text(store, group->group, "system");

@@ -127,7 +127,7 @@ void diagnostics_publish(Server *server, Document *document) {
     bool complete = status != PETRI_INTERRUPTED && (status != PETRI_LIMIT_EXCEEDED || full);
     DocumentDiagnostic *dropped = complete ? last.diagnostics : document->diagnostics;
     document_free_diagnostics(dropped, complete ? last.diagnostic_count : document->diagnostic_count);
-    if (!complete) { // the last diagnostics stay
+    if (!complete) { // keeps the diagnostics of the last complete check
         document->diagnostics = last.diagnostics;
         document->diagnostic_count = last.diagnostic_count;
         document->exceeded = true;

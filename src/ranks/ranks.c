@@ -30,14 +30,14 @@ typedef struct Ranks {
     size_t pending_capacity;
     double *numbers; // buffer for received or broadcast numbers
     size_t numbers_capacity;
-    bool same_node; // all ranks are on one machine and can share memory
+    bool same_node; // true if all ranks are on one machine and can share memory
     double *shared; // memory that all ranks share; NULL: none yet
     size_t shared_capacity;
     int max_spins; // number of polls before a waiting rank yields its processor
 } Ranks;
 
-static Ranks ranks;                             // one per process, like MPI
-static volatile sig_atomic_t waiting_cancelled; // set by a signal handler: no longer wait for other ranks
+static Ranks ranks;                             // the only instance, because MPI also has one state per process
+static volatile sig_atomic_t waiting_cancelled; // set to true by a signal handler to stop waiting for other ranks
 
 static void pack_blocks(double *to, const double *numbers, size_t count, size_t block_length, size_t stride) {
     for (size_t k = 0; k < count; k++)
@@ -161,8 +161,8 @@ static void *map_memory(const char *name, int flags, size_t bytes) {
     return memory == MAP_FAILED ? NULL : memory;
 }
 
-// Maps memory that rank 0 creates. Its name is removed as soon as all ranks have mapped it, so that nothing is left
-// behind. Returns NULL on all ranks if one fails.
+// Maps memory that rank 0 creates. The name of the memory is removed as soon as all ranks have mapped it, so that
+// nothing is left behind. Returns NULL on all ranks if one fails.
 static double *map_shared(size_t bytes) {
     static int count;
     char name[64];

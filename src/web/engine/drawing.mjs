@@ -98,7 +98,7 @@ class Painter {
         this.base = [scale, (width - scale * numbers[0]) / 2, (height - scale * numbers[1]) / 2];
         this.matrix = [1, 0, 0, 1, 0, 0];
         this.paint = '#000';
-        this.alpha = 1; // opacity of the paint, for images
+        this.alpha = 1; // opacity of the paint, which also applies to images
         this.solid = true;
         this.line = { width: 1, join: 0, cap: 0, composite: 4, offset: 0, dashes: [] };
         this.filter = null;

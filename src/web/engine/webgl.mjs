@@ -11,6 +11,7 @@ const WITH_OBJECTS = {
     bindVertexArray: [0], compileShader: [0], framebufferRenderbuffer: [3], framebufferTexture2D: [3], linkProgram: [0],
     uniformBlockBinding: [0], useProgram: [0],
 };
+// Functions whose arguments are passed on unchanged.
 const PLAIN = ['activeTexture', 'blendEquation', 'blendFunc', 'checkFramebufferStatus', 'clear', 'clearColor',
     'cullFace', 'disable', 'drawArrays', 'drawElementsInstanced', 'enable', 'enableVertexAttribArray', 'getError',
     'renderbufferStorageMultisample', 'texParameteri', 'texStorage2D', 'vertexAttribDivisor', 'viewport'];

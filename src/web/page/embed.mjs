@@ -6,7 +6,7 @@ import { Dish, errorText, unsupportedText } from './dish.mjs';
 import style from './embed.css';
 import { packLink } from './link.mjs';
 
-// Fetched and compiled once for all elements of a page.
+// The engine, which is fetched and compiled once for all elements of a page.
 let compiled = null;
 const engine = () => (compiled ??= loadEngine(new URL('petri/engine.wasm', import.meta.url)).then(({ module }) => module));
 

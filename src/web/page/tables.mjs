@@ -64,7 +64,7 @@ export class Watches {
         }
     }
 
-    // Recomputes earlier frames to record their values. Stops after REFILL ms.
+    // Recomputes the frames from 0 on to record the values of all expressions in them. Stops after REFILL ms.
     refill(player, shouldInterrupt) {
         const at = player.frame, end = performance.now() + REFILL;
         for (let frame = 0; frame <= player.lastFrame && performance.now() < end && !shouldInterrupt(); frame++)
