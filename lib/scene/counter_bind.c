@@ -47,7 +47,8 @@ void counter_update(Scene *scene, const Node *node, const SceneFrame *frame) {
     Value key = attrs.state, time = attrs.time, rate = attrs.rate, initial = attrs.initial;
     Value low = attrs.minimum, high = attrs.maximum, reset = attrs.reset;
     if (key.len == 0 || !state_key_valid(key)) {
-        reader_report(&reader, "invalid-system", "", STR("no usable state key; the counter is skipped"));
+        reader_report(&reader, "invalid-system", "",
+                      STR("attribute 'state' must be numbers, symbols or strings, such as :x; the counter is skipped"));
         return;
     }
     Value time_key = scene_key(frame->arena, key, VALUE_NULL, scene->key_time);

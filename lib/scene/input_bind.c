@@ -103,12 +103,15 @@ static int named_key(const SymbolTable *symbols, Value name) {
 
 static void report_key(const Reader *reader, Value name) {
     Text out = text_new(reader->arena);
-    text_add_c(&out, name.len ? "no such key: " : "no key name");
-    if (name.len > 8)
-        text_add_format(&out, "%u elements", name.len);
-    else if (name.len)
+    if (name.len > 1) {
+        text_add_c(&out, "attribute 'name' must be the name of one key");
+    } else if (name.len) {
+        text_add_c(&out, "no key has the name ");
         format_value(&out, reader->schema->symbols, name);
-    text_add_c(&out, "; skipped");
+    } else {
+        text_add_c(&out, "attribute 'name' is missing or null");
+    }
+    text_add_c(&out, "; the node is skipped");
     reader_report(reader, "invalid-input-node", "name", text_str(&out));
 }
 
@@ -126,7 +129,8 @@ static void bind_node(InputBindings *bindings, const Reader *reader) {
     bool names_key = reader->kind == KIND_KEY;
     int key = names_key ? named_key(reader->schema->symbols, attrs.name) : INPUT_KEY_NONE;
     if (attrs.state.len == 0 || !state_key_valid(attrs.state))
-        reader_report(reader, "invalid-input-node", "state", STR("no usable state key; skipped"));
+        reader_report(reader, "invalid-input-node", "state",
+                      STR("attribute 'state' must be numbers, symbols or strings, such as :x; the node is skipped"));
     else if (names_key && key == INPUT_KEY_NONE)
         report_key(reader, attrs.name);
     else

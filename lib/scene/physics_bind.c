@@ -117,9 +117,9 @@ static bool read_settings(const Reader *reader, const SceneFrame *frame, SystemA
         settings->run = 0;
     const char *reason = NULL;
     if (settings->state.len == 0)
-        reason = "no state prefix; the system is skipped";
+        reason = "attribute 'state' is missing or null; the system is skipped";
     else if (!state_key_valid(settings->state))
-        reason = "state is not a valid key; the system is skipped";
+        reason = "attribute 'state' must be numbers, symbols or strings, such as :x; the system is skipped";
     else if (!(settings->dimensions >= 1))
         reason = "dimensions must be at least 1; the system is skipped";
     else if (settings->dimensions > 1e9)
@@ -152,7 +152,8 @@ static bool fits_in_memory(const Reader *reader, const SystemAttrs *settings) {
     if (bytes <= (double)(UINT64_C(1) << 30))
         return true;
     reader_report(reader, "invalid-system", "",
-                  STR("too many dimensions for this number of nodes (limit 1 GiB); the system is skipped"));
+                  STR("the vectors of the system would take more than 1 GiB; use fewer dimensions or nodes; the system "
+                      "is skipped"));
     return false;
 }
 
@@ -171,9 +172,10 @@ static double simulate_system(PhysicsTree *tree, const Reader *reader, const Sys
     *steps = result.steps;
     if (result.status == PHYS_NO_MEMORY)
         reader_report(reader, "physics-memory", "",
-                      STR("out of memory for the system's particles; nothing is simulated"));
+                      STR("out of memory for the particles; the system is not simulated"));
     else if (result.status == PHYS_DROPPED_TIME)
-        reader_report(reader, "step-limit", "", STR("more than 1000000 steps in one frame; rest skipped"));
+        reader_report(reader, "step-limit", "",
+                      STR("the frame needs more than 1000000 steps; the rest are skipped; use a larger 'resolution'"));
     else if (result.status == PHYS_STOPPED)
         tree->scene->stopped = budget_check(tree->scene->budget);
     tree->out_of_memory |= result.status == PHYS_NO_MEMORY;
@@ -265,7 +267,8 @@ uint64_t physics_update(Scene *scene, const Node *node, const SceneFrame *frame)
         return 0;
     }
     if (system->occurrence == 1)
-        reader_report(&reader, "duplicate-prefix", "", STR("another system has the same state prefix"));
+        reader_report(&reader, "duplicate-prefix", "",
+                      STR("another !physics has the same attribute 'state'; give each system its own"));
     system->last_frame = scene->frame_number;
     return system->steps = update_system(scene, system, &reader, &settings, frame);
 }

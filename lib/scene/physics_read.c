@@ -36,7 +36,8 @@ static void check_reserved(PhysicsTree *tree, const Reader *reader, Value id) {
     const Symbol *const reserved[] = {scene->key_last, scene->key_clock, scene->key_run, scene->key_iteration};
     for (size_t i = 0; i < sizeof reserved / sizeof reserved[0]; i++)
         if (id.len == 1 && id.kind == VALUE_NUMBERS && id.as.number == reserved[i]->number) {
-            reader_report(reader, "reserved-id", "", STR("reserved id: the system stores its own value under it"));
+            reader_report(reader, "reserved-id", "",
+                          STR("the system itself stores a value under this id; use another id"));
             tree->keys_collide = true;
         }
 }
@@ -77,11 +78,13 @@ static bool add_body(PhysicsTree *tree, const Node *node, Value id, bool anchor)
     if (slot == STATE_NO_SLOT) {
         if (!id.len || !state_key_valid(id)) // otherwise out of memory, which the state reports
             reader_report(&reader, "missing-id", "",
-                          id.len ? STR("this id cannot be a state key; ignored") : STR("no id; ignored"));
+                          id.len ? STR("attribute 'id' must be numbers, symbols or strings; the node is ignored")
+                                 : STR("attribute 'id' is missing or null; the node is ignored"));
         return false;
     }
     if (physics_find_slot(tree, slot) != PHYSICS_NO_BODY) {
-        reader_report(&reader, "duplicate-id", "", STR("a particle with this id already exists; ignored"));
+        reader_report(&reader, "duplicate-id", "",
+                      STR("an earlier particle or anchor has the same id; this one is ignored"));
         return false;
     }
     check_reserved(tree, &reader, id);
@@ -195,7 +198,7 @@ static bool bind_ends(PhysicsTree *tree, const Reader *reader, const ForceAttrs 
     Text text = text_new(reader->arena);
     text_add_format(&text, "%s=", first ? "to" : "from");
     format_value(&text, reader->schema->symbols, first ? read->to : read->from);
-    text_add_c(&text, ": no such particle; the force is ignored");
+    text_add_c(&text, ": no particle or anchor has this id; the force is ignored");
     reader_report_attr(reader, "unknown-particle", first ? ATTR_TO : ATTR_FROM, text_str(&text));
     return false;
 }
@@ -239,7 +242,7 @@ static bool read_force(PhysicsTree *tree, const Reader *reader, uint32_t randoms
         return bind_ends(tree, reader, &read, force);
     if (row.stage == STAGE_BARRIER && !force->vector2) {
         reader_report_attr(reader, "bad-normal", ATTR_NORMAL,
-                           STR("normal is missing, 0 or not finite; the barrier is ignored"));
+                           STR("attribute 'normal' is missing, 0 or not finite; the barrier is ignored"));
         return false;
     }
     return true;
@@ -247,7 +250,7 @@ static bool read_force(PhysicsTree *tree, const Reader *reader, uint32_t randoms
 
 static void report_unknown_kind(const Reader *reader) {
     Text out = text_new(reader->arena);
-    text_add_c(&out, "no such node inside !physics; ignored");
+    text_add_c(&out, "unknown inside !physics; the node is ignored");
     schema_add_nearest_kind(&out, reader->node->kind->name, PLACE_PHYSICS, "!", "");
     reader_report(reader, "unknown-node", "", text_str(&out));
 }

@@ -90,9 +90,9 @@ for diagnostic in "4:13: warning: !path: '!elipse' is not supported; ignored; di
     "5:34: warning: !ellipse: unknown attribute 'radus'; did you mean 'radius'?" \
     "6:9: warning: !canvas: '!fil' is not supported; ignored; did you mean '!fill'?" \
     "8:1: warning: '!pysics' does nothing" \
-    "9:1: warning: !physics: no state prefix" \
-    "12:5: warning: !particle: no id; ignored" \
-    "13:5: warning: !partcle id=1: no such node inside !physics; ignored; did you mean !particle?" \
+    "9:1: warning: !physics: attribute 'state' is missing or null" \
+    "12:5: warning: !particle: attribute 'id' is missing or null; the node is ignored" \
+    "13:5: warning: !partcle id=1: unknown inside !physics; the node is ignored; did you mean !particle?" \
     "15:24: warning: !particle id=0: unknown attribute 'poistion'; did you mean 'position'?" \
     "16:23: warning: !particle id=:far: unknown attribute 'positoin'; did you mean 'position'?" \
     "17:16: warning: !collision: strength should be one number, not 'much'" \

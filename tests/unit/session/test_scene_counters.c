@@ -141,11 +141,12 @@ static void test_two_counters_of_one_key(void **state) {
 static void test_invalid_counters_are_reported(void **state) {
     Player *player = *state;
     static const ScriptRow rows[] = {
-        {"!counter\n", "warning !counter: no usable state key; the counter is skipped [invalid-system]\n"},
-        {"!counter state=0/0\n",
-         "warning !counter state=nan: no usable state key; the counter is skipped [invalid-system]\n"},
-        {"!counter state=!a\n",
-         "warning !counter state=(!a): no usable state key; the counter is skipped [invalid-system]\n"},
+        {"!counter\n", "warning !counter: attribute 'state' must be numbers, symbols or strings, such as :x; the "
+                       "counter is skipped [invalid-system]\n"},
+        {"!counter state=0/0\n", "warning !counter state=nan: attribute 'state' must be numbers, symbols or strings, "
+                                 "such as :x; the counter is skipped [invalid-system]\n"},
+        {"!counter state=!a\n", "warning !counter state=(!a): attribute 'state' must be numbers, symbols or strings, "
+                                "such as :x; the counter is skipped [invalid-system]\n"},
         {"!counter state=:c rat=2\n",
          "warning !counter state=:c: unknown attribute 'rat'; did you mean 'rate'? [unknown-attribute]\n"},
         {"!counter state=:c zzzzz=2\n", "warning !counter state=:c: unknown attribute 'zzzzz' [unknown-attribute]\n"},

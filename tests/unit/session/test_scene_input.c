@@ -137,14 +137,17 @@ static void test_invalid_nodes_are_reported(void **state) {
         const char *script;
         const char *reported;
     } rows[] = {
-        {"!window\n    !pointer\n", "warning !pointer: no usable state key; skipped [invalid-input-node]\n"},
+        {"!window\n    !pointer\n", "warning !pointer: attribute 'state' must be numbers, symbols or strings, such as "
+                                    ":x; the node is skipped [invalid-input-node]\n"},
         {"!window\n    !pointer state=(!a)\n",
-         "warning !pointer state=(!a): no usable state key; skipped [invalid-input-node]\n"},
-        {"!window\n    !key state=:k\n", "warning !key state=:k: no key name; skipped [invalid-input-node]\n"},
+         "warning !pointer state=(!a): attribute 'state' must be numbers, symbols or strings, such as :x; the node is "
+         "skipped [invalid-input-node]\n"},
+        {"!window\n    !key state=:k\n",
+         "warning !key state=:k: attribute 'name' is missing or null; the node is skipped [invalid-input-node]\n"},
         {"!window\n    !key name=:spcae state=:k\n",
-         "warning !key state=:k: no such key: :spcae; skipped [invalid-input-node]\n"},
+         "warning !key state=:k: no key has the name :spcae; the node is skipped [invalid-input-node]\n"},
         {"!window\n    !key name=5 state=:k\n",
-         "warning !key state=:k: no such key: 5; skipped [invalid-input-node]\n"},
+         "warning !key state=:k: no key has the name 5; the node is skipped [invalid-input-node]\n"},
         {"!window\n    !key name=:a state=:k nmae=:b\n",
          "warning !key state=:k: unknown attribute 'nmae'; did you mean 'name'? [unknown-attribute]\n"},
     };

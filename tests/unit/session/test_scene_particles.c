@@ -192,7 +192,8 @@ static void test_several_systems(void **state) {
         player,
         "!physics state=:z dimensions=1\n    !particle id=1\n!physics state=:z dimensions=1\n    !particle id=2\n", 3);
     assert_text("diagnostics", player_diagnostics(player),
-                "warning !physics state=:z: another system has the same state prefix [duplicate-prefix]\n");
+                "warning !physics state=:z: another !physics has the same attribute 'state'; give each system its own "
+                "[duplicate-prefix]\n");
     assert_non_null(strstr(player_state(player), "$(:z;:iteration) = 5\n")); // both systems count in each frame
 }
 
