@@ -13,10 +13,12 @@ struct DrawNode {
     uint8_t kind; // NodeKind
     uint32_t attr_count;
     uint32_t child_count;
-    const AttrValue *attrs; // in the order written, which is also the order of transforms
+    const AttrValue *attrs; // in the order in which they are written; transforms are applied in this order
     const DrawNode *const *children;
-    Str tags;      // tags of a picture node, each followed by a space; they identify the node in the next frame
-    Origin origin; // position of the shader program, else of the node; the script can be unloaded before it is reported
+    Str tags; // tags of a picture node, each followed by a space, which identify the node from frame to frame
+    // Position of the shader program if there is one, else of the node. The script can be unloaded before a problem
+    // with the node is reported.
+    Origin origin;
 };
 
 // Returns the attribute; NULL if it is not set.
@@ -27,7 +29,7 @@ static inline const AttrValue *draw_attr(const DrawNode *node, AttrName name) {
     return NULL;
 }
 
-// Returns a number attribute, or its default.
+// Returns the value of a number attribute, or the default if the attribute is not set.
 static inline double draw_number(const DrawNode *node, AttrName name) {
     const AttrValue *attr = draw_attr(node, name);
     return attr ? attr->as.numbers[0] : schema_row((NodeKind)node->kind, name)->default_value.value;
@@ -43,7 +45,7 @@ static inline int draw_word(const DrawNode *node, AttrName name) {
     return attr ? attr->as.word : (int)schema_row((NodeKind)node->kind, name)->default_value.value;
 }
 
-// Reads two numbers. Returns false, and sets both to 0, if the attribute is not set.
+// Reads the two numbers of an attribute into `pair`. If the attribute is not set, sets both to 0 and returns false.
 static inline bool draw_pair(const DrawNode *node, AttrName name, double pair[2]) {
     const AttrValue *attr = draw_attr(node, name);
     pair[0] = attr ? attr->as.numbers[0] : 0;

@@ -21,9 +21,9 @@ static void report_misplaced(const Reader *reader, const Node *child, bool known
                      node_origin(child, NULL), name, text_str(&out));
 }
 
-// Returns false, after a report, if the node must be left out because the script is not allowed to read its file. A
-// forbidden write is reported too, because the position in the script is known here. It returns true; the write fails
-// later.
+// Reports a node whose file the script is not allowed to access. Returns false if the file would be read; the node must
+// then be left out. If the file would be written, returns true, because the write fails later. It is reported here
+// because the position in the script is known here.
 static bool can_use_file(const Reader *reader, const DrawNode *node) {
     const FileAccess *reach = reader->schema->file_access;
     const AttrValue *name = reach && schema_row(reader->kind, ATTR_FILENAME) ? draw_attr(node, ATTR_FILENAME) : NULL;
@@ -95,13 +95,14 @@ static Str join_tags(Arena *arena, const Node *node) {
 
 enum { NODE_WORK = 8, STOPS_A_UNIT = 16 };
 
-// Returns NULL if the node is left out. The recursion is limited by NODE_MAX_HEIGHT.
+// Translates a node and its children. Returns NULL if the node is left out. The recursion is limited by
+// NODE_MAX_HEIGHT.
 static const DrawNode *read_node(Schema *schema, Arena *arena, const Node *node, NodeKind kind) {
     Reader reader = {schema, arena, node, kind, 1};
     schema->current_node = node;
     uint64_t count = node_child_count(node);
     arena_charge(arena, NODE_WORK + node->attr_count + count / 4);
-    if (kind == KIND_GRADIENT) // drawing libraries insert stops one by one into a sorted list
+    if (kind == KIND_GRADIENT) // drawing libraries insert each stop into a sorted list, which takes quadratic time
         arena_charge(arena, count * count / STOPS_A_UNIT);
     DrawNode *out = arena_alloc(arena, sizeof *out);
     AttrValue *attrs = arena_alloc_array(arena, node->attr_count, sizeof *attrs);

@@ -8,8 +8,8 @@
 // set to the element after the window. Returns NULL if there are no more windows.
 const Node *canvas_next_window(const Schema *schema, Value tree, uint32_t *at);
 // Maximum number of nodes that canvas_window_has_picture checks. A short script can build a huge tree, because a node
-// can occur in it many times. Larger windows are assumed to have a picture; reading them then exceeds the work or
-// memory limit.
+// can occur in it many times. A window with more nodes is assumed to have a picture. Reading such a window exceeds the
+// work or memory limit.
 enum { CANVAS_MAX_CHECKED = 1 << 22 };
 // Returns true if the window contains a `!canvas` or another node that creates a picture.
 bool canvas_window_has_picture(const Schema *schema, const Node *window);

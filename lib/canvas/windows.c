@@ -11,7 +11,8 @@ const Node *canvas_next_window(const Schema *schema, Value tree, uint32_t *at) {
     return NULL;
 }
 
-// Returns true for nodes that create a picture without input, or refer to one. Effect nodes need an input picture.
+// Returns true for nodes that create a picture without an input picture, or refer to a picture. Effect nodes need an
+// input picture.
 static bool is_source(NodeKind kind) {
     return kind == KIND_CANVAS || kind == KIND_CANVAS3D || kind == KIND_PICTURE_IMAGE || kind == KIND_REFERENCE ||
            kind == KIND_NOISE || kind == KIND_SHADER;

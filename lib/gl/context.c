@@ -8,8 +8,8 @@
 #include <string.h>
 
 // The contexts of a process are not independent. With Mesa 22.3, a thread that draws also reads internal data of other
-// contexts. It crashes if another thread is drawing in them. Therefore this lock lets only one thread at a time use
-// OpenGL.
+// contexts, and crashes if another thread is drawing in one of them. Therefore this lock lets only one thread at a time
+// use OpenGL.
 static pthread_mutex_t one_thread = PTHREAD_MUTEX_INITIALIZER;
 
 // Returns Mesa's surfaceless platform if it is available, else the default display.
@@ -46,14 +46,16 @@ static bool find_current(Gl *gl, const char **problem) {
     return !epoxy_is_desktop_gl() && epoxy_gl_version() >= 30;
 }
 
-// libepoxy aborts the process if one of these libraries is missing. They stay loaded, so that libepoxy finds them.
+// libepoxy aborts the process if one of these libraries is missing. The libraries stay loaded, so that libepoxy finds
+// them.
 static bool are_installed(const char **problem) {
     *problem = "EGL or OpenGL ES is not installed (Debian: libegl1, libgles2)";
     return dlopen("libEGL.so.1", RTLD_LAZY) && dlopen("libGLESv2.so.2", RTLD_LAZY);
 }
 
 static bool open_context(Gl *gl, bool (*find_context)(Gl *gl, const char **problem), const char **problem) {
-    // If a driver is missing, Mesa prints long messages to standard error; *problem is enough.
+    // If a driver is missing, Mesa prints long messages to standard error. They are suppressed, because *problem
+    // describes the problem.
     if (!getenv("EGL_LOG_LEVEL"))
         setenv("EGL_LOG_LEVEL", "fatal", 0);
     pthread_mutex_lock(&one_thread);
@@ -79,7 +81,7 @@ void gl_context_close(Gl *gl) {
 
 bool gl_context_has(const Gl *gl, const char *extension) {
     (void)gl;
-    bool drawn = strcmp(extension, "GL_EXT_color_buffer_float") == 0; // part of OpenGL ES 3.2
+    bool drawn = strcmp(extension, "GL_EXT_color_buffer_float") == 0; // the extension is part of OpenGL ES 3.2
     return (drawn && epoxy_gl_version() >= 32) || epoxy_has_gl_extension(extension);
 }
 
@@ -91,11 +93,11 @@ bool gl_context_is(const Gl *gl, const char *renderer) {
 
 // Works around a use-after-free in Mesa's llvmpipe (Mesa 22.3: lp_fence_signalled and lp_fence_signal in lp_fence.c).
 // llvmpipe checks without a lock whether its threads have signalled a fence, and frees the fence when the next one is
-// created. If the last thread is still using the freed fence, it waits forever or corrupts memory. As a workaround,
-// each fence is given a GLsync, because llvmpipe frees no fence to which a GLsync refers. Threads signal fences in
-// order, so after waiting for the newest fence, all older ones can be deleted. The newest fence is deleted with its
-// context. llvmpipe splits a draw of more than 36 MB of triangles. No GLsync refers to the fences between its parts,
-// but they are not freed soon either.
+// created. If the last of these threads is still using the freed fence, it waits forever or corrupts memory. As a
+// workaround, each fence is given a GLsync, because llvmpipe frees no fence to which a GLsync refers. Threads signal
+// fences in order, so after waiting for the newest fence, all older ones can be deleted. The newest fence is deleted
+// with its context. llvmpipe splits a draw of more than 36 MB of triangles. No GLsync refers to the fences between the
+// parts of such a draw, but llvmpipe does not free these fences soon either.
 static void delete_fences(Gl *gl) {
     for (int i = 0; i + 1 < gl->fence_count; i++)
         glDeleteSync(gl->fences[i]);

@@ -11,9 +11,9 @@ typedef struct Sorted {
     double depth;
     uint32_t segments;
     uint32_t instance;
-    uint32_t rank; // rank of its model and textures (Ranks)
-    bool last;     // transparent, in a group with depth_sort and depth_test: drawn last
-    bool disc;     // can be drawn as a disc
+    uint32_t rank; // rank of the instance's model and textures (Ranks)
+    bool last; // true if the instance is transparent, in a group with depth_sort and depth_test; it is then drawn last
+    bool disc; // true if the instance can be drawn as a disc
 } Sorted;
 
 // Orders opaque instances by rank, then from near to far. Transparent instances follow: from far to near and, at equal
@@ -47,7 +47,7 @@ static void row_of(const Matrix *a, int row, double out[4]) {
         out[column] = a->m[4 * column + row];
 }
 
-// Returns false only if no part of the box is visible. Can return true for an invisible box.
+// Returns false only if no part of the box is visible. Can also return true if no part is visible.
 static bool is_seen(const Matrix *clip, const SceneBox *box) {
     double w[4], row[4], plane[4], min, max;
     row_of(clip, 3, w);
@@ -62,10 +62,11 @@ static bool is_seen(const Matrix *clip, const SceneBox *box) {
     return true;
 }
 
-// Ranks number the pairs of model and textures in a group, in the order of their first use. The upper half of an entry
-// of `ranks` is the index + 1 of the group in which its lower half, the rank, is valid.
+// Ranks number the pairs of model and textures in a group, in the order in which the group first uses them. The lower
+// half of an entry of `ranks` is the rank of a pair. It is valid only in one group; the upper half is the index of this
+// group plus 1.
 typedef struct Ranks {
-    uint64_t *ranks; // by pair
+    uint64_t *ranks; // indexed by pair: index of the model times number of textures, plus index of the textures
     uint32_t count;  // number of ranks in the current group
 } Ranks;
 
@@ -93,7 +94,8 @@ static bool can_extend(const SceneDraw *draw, const SceneDraw *wanted, bool spli
 
 static void add_draws(const Scene *scene, DrawOrder *order, uint32_t number, const Sorted *sorted, uint32_t count,
                       bool deep) {
-    enum { MAX_SPLIT = 2000 }; // with this many draws or more, one draw combines different `segments`
+    // If there are this many draws or more, one draw combines instances with different `segments`.
+    enum { MAX_SPLIT = 2000 };
     const SceneGroup *group = scene->groups[number];
     for (uint32_t i = 0; i < count; i++) {
         const SceneInstance *instance = &group->instances[sorted[i].instance];
@@ -119,8 +121,8 @@ static void add_draws(const Scene *scene, DrawOrder *order, uint32_t number, con
     }
 }
 
-// Returns the length in pixels of an edge of length 1 in model coordinates, at the nearest point of the model. `scale`
-// is Sight.scale.
+// Returns the length in pixels that an edge of length 1 in model coordinates has at the nearest point of the model.
+// `scale` is Sight.scale.
 static double pixels_of(const Matrix *placed, double depth, bool perspective, double scale) {
     double max = 0;
     for (int column = 0; column < 3; column++)
@@ -135,8 +137,8 @@ static bool is_ball(const Scene *scene, const SceneInstance *instance) {
     return model->kind == KIND_SPHERE && !model->flat && model->snap == 0.5 && instance->material->textures == 0;
 }
 
-// Returns the number of segments to draw. For a sphere, halves the model's number as long as no point moves by more
-// than a twentieth of a pixel. The limit is lower for shiny surfaces.
+// Returns the number of segments to draw. For a sphere, halves the number of the model as long as no point moves by
+// more than a twentieth of a pixel. For shiny surfaces, points may move even less.
 static uint32_t segments_of(const Scene *scene, const SceneInstance *instance, double pixels) {
     double roughness = instance->material->surface.roughness, max = 0.05 * roughness * roughness;
     bool ball = is_ball(scene, instance);
@@ -159,10 +161,10 @@ typedef struct Sight {
     const Matrix *view;
     const Matrix *projection;
     Matrix both;
-    double scale; // length in pixels of an edge of length 1 in the scene, at a distance of 1
+    double scale; // length in pixels that an edge of length 1 in the scene has at a distance of 1
 } Sight;
 
-// Fills `depth`, `segments` and `disc`. Returns false if the instance is not visible.
+// Fills `depth`, `segments` and `disc` of *sorted. Returns false if the instance is not visible.
 static bool measure_instance(const Scene *scene, const SceneGroup *group, const Sight *sight, const SceneBox *box,
                              Sorted *sorted) {
     const SceneInstance *instance = &group->instances[sorted->instance];
@@ -182,9 +184,10 @@ static bool measure_instance(const Scene *scene, const SceneGroup *group, const 
     return true;
 }
 
-// Decides which spheres of a group are drawn as discs. If this or an earlier group writes depth, only MANY or more
-// spheres become discs. Fewer remain triangles, which, unlike discs, are depth-tested for each sample of a pixel.
-// Returns true if this or an earlier group writes depth (`deep`: an earlier group does).
+// Decides which spheres of a group are drawn as discs. If this or an earlier group writes depth, spheres become discs
+// only if there are MANY or more of them. A smaller number remain triangles, which, unlike discs, are depth-tested for
+// each sample of a pixel. `deep` is true if an earlier group writes depth. Returns true if this or an earlier group
+// does.
 static bool choose_discs(const Scene *scene, const SceneGroup *group, Sorted *sorted, uint32_t count, bool deep) {
     enum { MANY = 50 };
     uint32_t discs = 0;

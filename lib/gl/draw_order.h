@@ -19,12 +19,12 @@ typedef struct SceneDraw {
     uint32_t model;
     uint32_t textures;
     bool transparent; // drawn after opaque instances, from back to front
-    bool translucent; // implies `transparent`, but writes depth
-    bool disc;        // spheres drawn as discs (sphere_impostor.h)
-    bool deep;        // for discs: earlier draws have written depth
-    uint32_t first;   // index in the `instances` of the order
+    bool translucent; // implies `transparent`; unlike other transparent instances, these write depth
+    bool disc;        // true if the instances are spheres that are drawn as discs (sphere_impostor.h)
+    bool deep;        // for discs: true if this group or an earlier one writes depth
+    uint32_t first;   // index of the first instance in DrawOrder.instances
     uint32_t count;
-    uint32_t segments; // number of segments to draw; fewer than the model's if that looks the same
+    uint32_t segments; // number of segments to draw; fewer than the model has if the difference is not visible
 } SceneDraw;
 
 typedef struct DrawOrder {
@@ -37,7 +37,8 @@ typedef struct DrawOrder {
     bool cut; // true if instances were left out because there are too many triangles
 } DrawOrder;
 
-// Determines the draws of all groups for a picture of this width in pixels. `boxes` has an entry for each model.
+// Determines the draws of all groups for a picture that is `width` pixels wide. boxes[i] is the bounding box of model
+// i.
 DrawOrder draw_order(const Scene *scene, const Eye *eye, const Matrix *view, const Matrix *projection, int width,
                      const SceneBox *boxes);
 

@@ -1,6 +1,6 @@
 // effect.c: runs effects; see effect.h. The source of an effect is a file in shaders/. The file begins with the
-// declarations that all passes share. The passes follow. Each is a line with its size (split_passes) and a function
-// `main`.
+// declarations that all passes share. The passes follow. Each pass is a line with the size of its target (split_passes)
+// and a function `main`.
 #include "gl/effect.h"
 
 #include "gl/input_composite.h"
@@ -16,7 +16,7 @@ enum { MAX_PASSES = 8 };
 typedef struct Effect {
     const char *text;
     GlEdge edge;
-    bool merges; // several inputs are composited in an additional first pass
+    bool merges; // true if several inputs are composited in an additional first pass
 } Effect;
 
 static Effect find_effect(NodeKind kind) {
@@ -50,7 +50,7 @@ static Effect find_effect(NodeKind kind) {
 
 // One pass of an effect.
 typedef struct Pass {
-    Str text; // source of main
+    Str text; // source of the function `main`
     bool reduced;
 } Pass;
 
@@ -81,8 +81,8 @@ void gl_report(DiagSink *faults, const DrawNode *node, const char *code, Str pro
                                 .code = code});
 }
 
-// Returns nanoseconds per pixel, measured with llvmpipe on two processors. A GPU is faster, but the limit must not
-// depend on the machine.
+// Returns the cost of an effect in nanoseconds per pixel, as measured with llvmpipe on two processors. A GPU is faster,
+// but the work limit must not depend on the machine.
 static double pixel_cost(const DrawNode *node, double detail) {
     const AttrValue *radius = draw_attr(node, ATTR_RADIUS);
     if (draw_attr(node, ATTR_FRAGMENT) || draw_attr(node, ATTR_VERTEX))
@@ -118,7 +118,8 @@ int gl_downsample(const DrawNode *node) {
 bool gl_run_passes(Gl *gl, const GlEffect *effect, const GlPass *passes, uint32_t count, GlImage *out) {
     GlImage first = {0}, last = effect->last;
     int reduction = gl_downsample(effect->node);
-    // A script's own program may leave pixels out, and the image may be one that was used before.
+    // A script's own program may leave out pixels. The target is then cleared first, because it can contain an earlier
+    // picture.
     bool good = true, clears = draw_attr(effect->node, ATTR_FRAGMENT) || draw_attr(effect->node, ATTR_VERTEX);
     for (uint32_t i = 0; i < count && good; i++) {
         int down = passes[i].reduced ? reduction : 1;
@@ -147,7 +148,8 @@ bool gl_run_passes(Gl *gl, const GlEffect *effect, const GlPass *passes, uint32_
     return good;
 }
 
-// Adds the functions `source` and `source_at`. They read the composited inputs if `merged`, else the first input.
+// Adds the functions `source` and `source_at`. If `merged` is true, these functions read the composite of all inputs,
+// otherwise the first input.
 static void add_source(Text *text, const GlEffect *effect, bool merged, bool reduced) {
     const char *name = merged ? "first" : "texture0";
     bool same = merged || (effect->count > 0 && gl_fits(effect, effect->inputs[0])), near = same && !reduced;
@@ -162,7 +164,8 @@ static void add_source(Text *text, const GlEffect *effect, bool merged, bool red
         text_add_c(text, "vec4 source_at(ivec2 d) { return source(coord + vec2(d) / size); }\n");
 }
 
-// Returns the program of a pass. Returns 0 if it does not compile, after a report, or if the composite mode is unknown.
+// Returns the program of a pass. If the program does not compile, reports this and returns 0. If the composite mode is
+// unknown, only returns 0.
 static unsigned build_pass(Gl *gl, Arena *arena, const GlEffect *effect, const Effect *kind, Str common, Pass pass,
                            DiagSink *faults) {
     Text text = text_new(arena);
@@ -194,7 +197,8 @@ GlImage gl_effect(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults
     GlPass programs[MAX_PASSES + 1];
     uint32_t count = split_passes(kind.text, &common, passes), first = 0;
     if (effect->count == 0 && node != KIND_NOISE)
-        kind = find_effect(KIND_WINDOW), count = split_passes(kind.text, &common, passes); // a transparent picture
+        kind = find_effect(KIND_WINDOW),
+        count = split_passes(kind.text, &common, passes); // results in a transparent picture
     if (kind.merges && effect->count > 1)
         programs[first++] = (GlPass){build_pass(gl, arena, effect, &kind, common, merging, faults), false};
     for (uint32_t i = 0; i < count; i++)

@@ -1,9 +1,9 @@
 // gl.h: OpenGL ES 3 in a separate context or in a window's context: pictures on the GPU, and shader programs.
 //
-// A Gl belongs to one painter. Between gl_enter and gl_leave, its context is current in the calling thread, which may
-// call the other functions. Until gl_leave, gl_enter blocks in every other thread, even for another Gl. Files that need
-// more of OpenGL include <epoxy/gl.h> and call it directly. Machines without a GPU use Mesa's llvmpipe. Shaders are
-// also valid in WebGL 2.
+// A Gl belongs to one painter. After gl_enter, the context of the Gl is current in the calling thread, which may then
+// call the other functions. Until this thread calls gl_leave, gl_enter blocks in all other threads, even for another
+// Gl. Files that need more of OpenGL include <epoxy/gl.h> and call it directly. Machines without a GPU use Mesa's
+// llvmpipe. Shaders are also valid in WebGL 2.
 #ifndef PETRI_GL_GL_H
 #define PETRI_GL_GL_H
 
@@ -14,7 +14,8 @@
 
 typedef struct Gl Gl;
 
-// Returns NULL if OpenGL ES 3 is not available (*problem is the reason) or if out of memory (*problem is NULL).
+// Opens a separate context. If OpenGL ES 3 is not available, sets *problem to the reason and returns NULL. If out of
+// memory, sets *problem to NULL and returns NULL.
 Gl *gl_open(const char **problem);
 // Like gl_open, but adopts the context that is current in this thread. The host owns the context, and must make it
 // current whenever the Gl is used.
@@ -49,7 +50,7 @@ void gl_image_free(Gl *gl, GlImage image);
 // Upload pixels, top row first. gl_upload_bytes takes ARGB32 in sRGB, gl_upload_linear r, g, b, a in linear light.
 void gl_upload_bytes(Gl *gl, GlImage image, const uint32_t *pixels);
 void gl_upload_linear(Gl *gl, GlImage image, const float *pixels);
-// Download pixels in the same two forms. Return false on an OpenGL error.
+// Download pixels in the same two forms as the functions above. Return false on an OpenGL error.
 bool gl_read_bytes(Gl *gl, GlImage image, uint32_t *pixels);
 bool gl_read_linear(Gl *gl, GlImage image, float *pixels);
 uint64_t gl_readback_count(const Gl *gl); // number of downloads so far
@@ -60,18 +61,19 @@ void gl_target(Gl *gl, GlImage image);
 // An error of a shader program.
 typedef struct GlShaderError {
     Str text;       // the compiler's message
-    bool in_vertex; // true: in the vertex shader; false: in the fragment shader or in linking
+    bool in_vertex; // true if the error is in the vertex shader, false if it is in the fragment shader or in linking
 } GlShaderError;
 
 // Returns the program linked from two shaders. Programs are cached by their source, including those that do not
-// compile. Returns 0, with the error in the arena, if the program does not compile. Shader sources must begin with the
-// version line.
+// compile. If the program does not compile or link, stores the error in *fault and returns 0; the text of the error is
+// in the arena. Shader sources must begin with the version line.
 unsigned gl_program(Gl *gl, Arena *arena, Str vertex, Str fragment, GlShaderError *fault);
-extern const char gl_header[]; // version and precision lines; scripts write ${HEADER} for them
+// The version and precision lines of a shader. Scripts write ${HEADER} instead of these lines.
+extern const char gl_header[];
 // Vertex shader for a triangle strip that covers the target. Its output `vec2 coord` is 0;0 at the bottom left and 1;1
 // at the top right.
 extern const char gl_quad[];
-// Draws over the whole target with a program whose vertex shader is gl_quad or has the same inputs.
+// Draws over the whole target with a program. Its vertex shader must be gl_quad or have the same inputs as gl_quad.
 void gl_draw_quad(Gl *gl, unsigned program);
 
 // The following functions draw on the window of an adopted context. Boxes are in pixels from the window's bottom left.
@@ -79,10 +81,10 @@ void gl_draw_quad(Gl *gl, unsigned program);
 typedef struct GlBox {
     double x, y, width, height;
 } GlBox;
-// Draws a picture into a box of a window of width x height pixels. The window around the box becomes black. Colours are
-// encoded with a table: thresholds[b] is the smallest linear value that is encoded as a byte larger than b. If
-// `opaque`, the picture is composited over black. Otherwise colours are unpremultiplied, encoded and premultiplied
-// again.
+// Draws a picture into a box of a window of width x height pixels. The part of the window outside the box becomes
+// black. Colours are encoded with a table: thresholds[b] is the smallest linear value that is encoded as a byte larger
+// than b. If `opaque`, the picture is composited over black. Otherwise colours are unpremultiplied, encoded and
+// premultiplied again.
 bool gl_present_image(Gl *gl, Arena *arena, GlImage image, const GlBox *box, int width, int height,
                       const float thresholds[256], bool opaque);
 // Draws premultiplied ARGB32 pixels, top row first; x, y is the bottom left corner. If `over`, composites them over the

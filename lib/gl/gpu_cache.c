@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-enum { MAX_IDLE_SCENES = 30 }; // models are freed after this number of scenes that do not use them
+enum { MAX_IDLE_SCENES = 30 }; // a model is freed after more than this number of scenes that do not use it
 
 struct CachedModel {
     CachedModel *next;
@@ -14,7 +14,7 @@ struct CachedModel {
     SceneShape shape;
     uint64_t used;
     size_t charged;
-    bool refused; // true if the budget had no memory for the mesh
+    bool refused; // true if the mesh would have exceeded the memory or work limit
 };
 
 static GpuCache *new_cache(void) {
@@ -156,7 +156,7 @@ static void make_shape(GpuCache *store, CachedModel *model_entry, const Scene *s
         arena_exhausted(scene->arena);
     model_entry->refused = model_entry->refused || end != ARENA_OK;
     if (end == ARENA_WORK_LIMIT) {
-        store->budget->work = store->budget->work_limit; // it was set to a value above the limit
+        store->budget->work = store->budget->work_limit; // it is work_limit + 1 after the limit was exceeded
         scene_report(scene, "drawing-limit", model_entry->model.node,
                      "drawing exceeded the work limit (--work): the model is left out");
     }
@@ -170,7 +170,7 @@ const SceneShape *gpu_cache_shape(GpuCache *store, const Scene *scene, const Sce
             if (model_entry->shape.array || is_tried ||
                 (model_entry->model.kind != KIND_MODEL && !model_entry->refused))
                 return &model_entry->shape;
-            break; // create it again, so that its problem is reported in each scene
+            break; // creates the model again, so that the problem is reported in each scene
         }
     CachedModel *model_entry = heap_calloc(1, sizeof *model_entry);
     if (!model_entry)
@@ -197,12 +197,13 @@ void gpu_cache_bind_instances(const GpuCache *store, const SceneShape *shape, ui
     }
 }
 
-// Returns the largest number of samples, at most `wanted`, that the GPU supports for this format; 0 if that is below 2.
+// Returns the largest number of samples, from 2 to `wanted`, that the GPU supports for this format. Returns 0 if there
+// is none.
 static int samples_for(int wanted, GLenum format) {
     GLint count = 0, list[16] = {0};
     glGetInternalformativ(GL_RENDERBUFFER, format, GL_NUM_SAMPLE_COUNTS, 1, &count);
     glGetInternalformativ(GL_RENDERBUFFER, format, GL_SAMPLES, count < 16 ? count : 16, list);
-    for (int i = 0; i < count && i < 16; i++) // in descending order
+    for (int i = 0; i < count && i < 16; i++) // OpenGL lists the numbers in descending order
         if (list[i] <= wanted && list[i] >= 2)
             return list[i];
     return 0;

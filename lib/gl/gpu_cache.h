@@ -6,7 +6,7 @@
 #include "gl/internal.h"
 
 typedef struct SceneShape {
-    GLuint array; // vertex array with the corners in attributes 0 to 2; 0: nothing to draw
+    GLuint array; // vertex array whose attributes 0 to 2 describe the corners; 0: nothing to draw
     GLuint corners;
     GLuint indices;
     GLsizei index_count;
@@ -16,14 +16,14 @@ typedef struct SceneShape {
 // A depth buffer and, with multisampling, a colour buffer.
 typedef struct SceneTarget {
     GLuint framebuffer;
-    GLuint color; // 0: not multisampled; draws directly to the picture
+    GLuint color; // multisampled colour buffer; 0: no multisampling, the colours are drawn directly to the picture
     GLuint depth;
     int width;
     int height;
     int samples;
     GlFormat format;
-    bool extra;    // for a picture that is rendered while another one is being rendered
-    uint64_t used; // GpuCache.now when it was last used
+    bool extra;    // true if the target is for a picture that is rendered while another picture is being rendered
+    uint64_t used; // value of GpuCache.now when the target was last used
     size_t charged;
 } SceneTarget;
 
@@ -32,22 +32,24 @@ enum { SCENE_TARGETS = 8 };
 typedef struct CachedModel CachedModel;
 
 struct GpuCache {
-    Budget *budget; // that of Gl; charged for the meshes
+    Budget *budget; // the budget of the Gl; charged for the meshes
     CachedModel *models;
     uint64_t now; // number of scenes drawn so far
     SceneTarget targets[SCENE_TARGETS];
     GLuint instances;     // buffer of SceneRecords
     GLuint light_block;   // uniform buffer
-    GLuint light_texture; // for groups with more lights than fit into the buffer
+    GLuint light_texture; // texture of the lights of a group, if these do not fit into light_block
 };
 
 // Returns the cache, which the first call creates. Returns NULL if out of memory.
 GpuCache *gpu_cache(Gl *gl);
-// Returns the triangles of a model. They are created when first needed, and kept as long as scenes use them.
+// Returns the triangles of a model. The triangles are created when they are first needed, and kept as long as scenes
+// use them.
 const SceneShape *gpu_cache_shape(GpuCache *store, const Scene *scene, const SceneModel *model);
 // Returns a target with these properties, from the cache or new. Returns NULL if out of memory.
 SceneTarget *gpu_cache_target(Gl *gl, int width, int height, int samples, GlFormat format, bool extra);
-// Binds the shape, with instance attributes that start at record `first` of the instance buffer.
+// Binds the vertex array of the shape. The attributes of its instances are read from the instance buffer, starting at
+// record `first`.
 void gpu_cache_bind_instances(const GpuCache *store, const SceneShape *shape, uint32_t first);
 
 // The vertex shader's attributes of an instance.

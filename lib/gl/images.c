@@ -38,8 +38,8 @@ static void drop_oldest(Gl *gl) {
     memmove(gl->spare, gl->spare + 1, (size_t)--gl->spare_count * sizeof *gl->spare);
 }
 
-// Frees spare images, oldest first, until their total size fits into the budget's remaining memory. They are not
-// charged to the budget.
+// Frees spare images, oldest first, until their total size fits into the budget's remaining memory. Spare images are
+// not charged to the budget.
 static void free_spare(Gl *gl) {
     size_t spare = 0;
     for (int i = 0; i < gl->spare_count; i++)

@@ -10,7 +10,7 @@ GlEdge gl_edge(const DrawNode *node, GlEdge default_edge) {
     return repeat && (repeat->as.numbers[0] != 0 || repeat->as.numbers[1] != 0) ? GL_EDGE_REPEAT : default_edge;
 }
 
-// OpenGL ES has no border colours, so the four texels are interpolated in the shader.
+// OpenGL ES has no border colours. Therefore the shader itself reads four texels and interpolates between them.
 static const char border_sampling[] =
     "vec4 texel(sampler2D t, ivec2 p) {\n"
     "    ivec2 s = textureSize(t, 0);\n"
@@ -60,7 +60,7 @@ static void add_sampling(Text *out, const DrawNode *node, GlEdge edge) {
                                             : smooth_sampling);
 }
 
-// Adds an expression that reads one input at `uv`, or at this pixel.
+// Adds an expression that reads input i: at this pixel if `here` is true, else at `uv`.
 static void add_input(Text *out, const GlEffect *effect, uint32_t i, bool here) {
     if (here && gl_fits(effect, effect->inputs[i]))
         text_add_format(out, "texelFetch(texture%u, here(), 0)", i);

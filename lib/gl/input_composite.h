@@ -7,7 +7,8 @@
 
 typedef enum GlEdge { GL_EDGE_BORDER, GL_EDGE_REPEAT, GL_EDGE_CLAMP } GlEdge;
 
-// Returns how a node's pictures are read beyond their edges; `default_edge` is the default of the effect.
+// Returns how the input pictures of a node are read beyond their edges. `default_edge` applies if the node does not set
+// this.
 GlEdge gl_edge(const DrawNode *node, GlEdge default_edge);
 
 // Adds the following declarations to a shader. Returns false if the node's composite mode is unknown and there are
@@ -18,8 +19,8 @@ GlEdge gl_edge(const DrawNode *node, GlEdge default_edge);
 //   edge mode
 // - ivec2 here(), the position of this pixel
 // - vec4 merged(vec2 uv), the composite of all inputs
-// - vec4 merged_here(), only for full-size passes: like merged(coord), but reads inputs of the node's size without
-//   interpolation
+// - vec4 merged_here(), only for full-size passes: like merged(coord), but does not interpolate inputs that have the
+//   size of the node
 bool gl_add_input_composite(Text *out, const GlEffect *effect, GlEdge edge);
 // Returns true if the picture has the size of the node.
 static inline bool gl_fits(const GlEffect *effect, GlImage image) {

@@ -11,7 +11,7 @@
 #endif
 
 typedef struct GlProgram GlProgram;
-typedef struct GpuCache GpuCache; // state of scenes, gpu_cache.h
+typedef struct GpuCache GpuCache; // GPU resources of scenes, defined in gpu_cache.h
 
 enum { GL_SPARE_IMAGES = 32, GL_MAX_FENCES = 16 };
 
@@ -32,12 +32,12 @@ struct Gl {
     uint64_t readback_count;
     bool retains_fences; // true if fences must be retained; see delete_fences in context.c
     int fence_count;
-    GLsync fences[GL_MAX_FENCES]; // of recent drawing, oldest first
-    Budget *budget;               // NULL: not charged
+    GLsync fences[GL_MAX_FENCES]; // fences after recent drawing, oldest first
+    Budget *budget;               // charged for images and scenes; NULL: nothing is charged
     GlImage spare[GL_SPARE_IMAGES];
     int spare_count;
     GlProgram *programs;
-    GpuCache *cache; // created by the first scene
+    GpuCache *cache; // NULL until the first scene is drawn
 };
 
 // context.c or context_web.c: the platform part of gl_open, gl_adopt and gl_close. These files also define gl_enter and
@@ -46,7 +46,7 @@ bool gl_context_open(Gl *gl, const char **problem);
 bool gl_context_adopt(Gl *gl, const char **problem);
 void gl_context_close(Gl *gl);
 bool gl_context_has(const Gl *gl, const char *extension);
-// Returns true if the name of the renderer contains this string.
+// Returns true if the name of OpenGL's renderer contains the string `renderer`.
 bool gl_context_is(const Gl *gl, const char *renderer);
 // Must be called after drawing, before the target changes or the context is released. In context.c, it creates a fence.
 void gl_after_draw(Gl *gl);

@@ -58,7 +58,7 @@ static bool attach_shader(GLuint program, GLenum kind, const char *text, char **
     if (!good && (*problem = heap_calloc((size_t)length + 1, 1)))
         glGetShaderInfoLog(shader, length, NULL, *problem);
     glAttachShader(program, shader);
-    glDeleteShader(shader); // takes effect when the program is deleted
+    glDeleteShader(shader); // OpenGL keeps the shader until the program is deleted
     return good;
 }
 
@@ -89,7 +89,7 @@ static GlProgram *find_program(Gl *gl, Str vertex, Str fragment) {
 }
 
 unsigned gl_program(Gl *gl, Arena *arena, Str vertex, Str fragment, GlShaderError *fault) {
-    enum { MAX_PROGRAMS = 200 }; // limited because a script can create a new shader in each frame
+    enum { MAX_PROGRAMS = 200 }; // the cache is limited because a script can create a new shader in each frame
     GlProgram *program = find_program(gl, vertex, fragment);
     if (!program) {
         int count = 0;

@@ -23,16 +23,16 @@ typedef enum LightKind {
 typedef struct SceneLight {
     float color[3];
     float kind;
-    float position[3]; // for a line light: its start
-    float radius;      // for a spot light: cosine of the outer half angle
+    float position[3]; // for a line light: position of its start
+    float radius;      // for a ball or line light: radius; for a spot light: cosine of the outer half angle
     float direction[3];
-    float length; // of a line light; for a spot light: cosine of the inner half angle
+    float length; // for a line light: length; for a spot light: cosine of the inner half angle
     float falloff[4];
 } SceneLight;
 
 // The properties that determine the triangles of a model.
 typedef struct SceneModel {
-    uint64_t source; // of a `!model`: hash of the file's name and version, or of its vectors; else 0
+    uint64_t source; // for a `!model`: hash of the file's name and version, or of its lists; for other kinds: 0
     double snap;
     uint32_t segments;
     uint8_t kind; // NodeKind
@@ -41,7 +41,7 @@ typedef struct SceneModel {
     bool flat;
     bool invert;
     bool disc;            // for a sphere: drawn as a disc that faces the camera (sphere_impostor.h)
-    const DrawNode *node; // one of the nodes with this model
+    const DrawNode *node; // one of the nodes that have this model
 } SceneModel;
 
 // Texture maps of a surface, and how they are sampled.
@@ -119,7 +119,7 @@ typedef struct Scene {
     uint32_t instance_count;
     uint32_t light_count;
     uint32_t shown; // index of the camera that renders the node's picture
-    double width;   // width of the node in pixels
+    double width;   // width of the `!canvas3d` in pixels
     double detail;  // pixels per unit; if below 1, edges are not multisampled
     int bits;       // bits per channel of the window
 } Scene;
@@ -127,21 +127,24 @@ typedef struct Scene {
 // Reads a `!canvas3d` of width x height pixels, into the arena.
 Scene *scene_read(Arena *arena, const DrawNode *node, int width, int height, int bits, const FileAccess *reach,
                   DiagSink *faults);
-// Returns the view of a camera, with near, far and other values clamped to their limits.
+// Returns the parameters of a camera's view. Replaces missing values by defaults, and clamps `near` and `far` to their
+// limits.
 Eye scene_eye(const Scene *scene, const SceneCamera *camera);
 // Creates the triangles of a model in the arena. Returns false, after a report, if that is not possible.
 struct Mesh;
 bool scene_mesh(const Scene *scene, const SceneModel *model, Arena *arena, struct Mesh *mesh);
-// Returns a hash of the data that the triangles of a `!model` are created from; never 0.
+// Returns a hash of the data from which the triangles of a `!model` are created. The hash is never 0.
 uint64_t scene_model_hash(const Scene *scene, const DrawNode *node);
 bool scene_same_model(const SceneModel *a, const SceneModel *b);
-// Copies the lights of a group and its parents, at most `max`, and returns their number.
+// Copies the lights of a group and its parents to `lights`, and returns the number of copied lights, which is at most
+// `max`.
 uint32_t scene_lights(const SceneGroup *group, SceneLight *lights, uint32_t max);
 
 // Reports a problem of a node.
 void scene_report(const Scene *scene, const char *code, const DrawNode *node, const char *problem);
 
-// The source of texture maps: `find` returns the current picture with this id; texture 0: none.
+// The source of texture maps. `find` returns the current picture with this id. If there is none, the `texture` of the
+// result is 0.
 typedef struct ScenePictures {
     void *user_data;
     GlImage (*find)(void *user_data, Str id);

@@ -20,17 +20,17 @@ typedef struct Drawing {
     Matrix projection;
     DrawOrder order;
     SceneTarget *target;         // buffers of the picture
-    GlImage backs;               // result of draw_backs for the current group; texture 0: none
+    GlImage backs;               // result of draw_backs for the current group; its `texture` is 0 if there is none
     bool many;                   // true if the group's lights are in a texture, false if in a uniform block
     double ambient[3];           // sum of the group's ambient lights
-    GLint ends[LIGHT_KINDS - 1]; // for each kind but ambient: index after its last light in sort_lights
+    GLint ends[LIGHT_KINDS - 1]; // index after the last light of each kind except ambient (sort_lights)
 } Drawing;
 
 static void make_record(const SceneInstance *instance, SceneRecord *record) {
     double cofactors[9];
     matrix_cofactors(&instance->matrix, cofactors);
-    // Scales the cofactors so that they do not overflow as floats. The shader normalises the normals that they
-    // transform.
+    // Scales the cofactors so that they do not overflow when they are converted to floats. The scale does not matter,
+    // because the shader normalises the transformed normals.
     double max = 1e-300;
     for (int k = 0; k < 9; k++)
         max = fmax(max, fabs(cofactors[k]));
@@ -40,7 +40,7 @@ static void make_record(const SceneInstance *instance, SceneRecord *record) {
         record->matrix[k] = (float)instance->matrix.m[k];
 }
 
-// The record of a disc holds parameters of the sphere instead of cofactors.
+// Fills the record of a disc. Instead of cofactors, it holds parameters of the sphere.
 static void make_disc_record(const Drawing *drawing, const SceneInstance *instance, SceneRecord *record) {
     SphereImpostor disc;
     sphere_impostor(&drawing->eye, &drawing->view, &instance->matrix, &disc);
@@ -120,7 +120,8 @@ static void send_light_texture(const Drawing *drawing, const SceneLight *lights,
     glActiveTexture(GL_TEXTURE0);
 }
 
-// Sums the ambient lights and sorts the other lights by kind. Returns the number of other lights.
+// Stores the sum of the ambient lights in `drawing`. Sorts the remaining lights by kind into `sorted`, and returns the
+// number of these.
 static uint32_t sort_lights(Drawing *drawing, const SceneLight *all, uint32_t count, SceneLight *sorted) {
     uint32_t made = 0;
     memset(drawing->ambient, 0, sizeof drawing->ambient);
@@ -154,7 +155,7 @@ static void send_lights(Drawing *drawing, const SceneGroup *group) {
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, drawing->store->light_block);
 }
 
-// Features of a shader variant. DEEP: discs write depth. BACK: renders `backs`.
+// Features of a shader variant. DEEP: discs write depth. BACK: renders the picture `backs` (draw_backs).
 enum { TEXTURED = 1, DISC = 2, DEEP = 4, BACK = 8, TRANSLUCENT = 16 };
 
 static void add_variant(Text *text, unsigned variant) {
@@ -277,9 +278,9 @@ static void draw_shape(const Drawing *drawing, const SceneDraw *draw, GLuint pro
     glDrawElementsInstanced(GL_TRIANGLES, shape->index_count, GL_UNSIGNED_INT, NULL, (GLsizei)draw->count);
 }
 
-// Renders the back faces of translucent bodies to `backs` (spec 5.6): the light that enters through a face, and the
-// face's distance. Processes the draws from `first`, the first translucent one, to the end of the group. Returns false
-// on failure.
+// Renders the back faces of translucent bodies to drawing->backs (spec 5.6). A pixel holds the light that enters
+// through the face, and the distance of the face. Processes the draws from `first`, the first translucent draw, to the
+// end of the group. Returns false on failure.
 static bool draw_backs(Drawing *drawing, uint32_t first) {
     const DrawOrder *order = &drawing->order;
     GlFormat format = drawing->gl->floats ? GL_FORMAT_RGBA32F : GL_FORMAT_RGBA16F;
@@ -400,7 +401,7 @@ GlImage gl_scene(Gl *gl, const Scene *scene, const SceneCamera *camera, const Sc
     for (uint32_t i = 0; i < scene->model_count && !gl_is_refused(gl); i++)
         boxes[i] = gpu_cache_shape(drawing.store, scene, &scene->models[i])->box;
     if (gl_is_refused(gl))
-        return none; // make_view reports it
+        return none; // make_view reports the refusal
     drawing.order = draw_order(scene, &drawing.eye, &drawing.view, &drawing.projection, width, boxes);
     if (drawing.order.cut)
         scene_report(scene, "too-many-triangles", scene->node,

@@ -1,6 +1,6 @@
 // scene_file.c: reads triangles from files and lists (spec canvas3d.md 8); see scene_mesh.h.
 //
-// Sizes in a file are never trusted, but checked against the length of the file.
+// Sizes that are stored in a file are never trusted, but checked against the length of the file.
 #include "base/hash_index.h"
 #include "base/number.h"
 #include "gl/scene_matrix.h"
@@ -32,7 +32,7 @@ bool mesh_from_lists(Arena *arena, const double *vertices, uint32_t vertex_numbe
         const double *a = vertices + 3 * (size_t)mesh->indices[i], *b = vertices + 3 * (size_t)mesh->indices[i + 1],
                      *c = vertices + 3 * (size_t)mesh->indices[i + 2];
         double one[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, two[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-        vector_cross(one, two, one); // its length is twice the area, so large triangles weigh more
+        vector_cross(one, two, one); // the length of the product is twice the area, so large triangles weigh more
         for (uint32_t k = 0; k < 9; k++)
             normals[mesh->indices[i + k / 3]][k % 3] += one[k % 3];
     }
@@ -125,7 +125,7 @@ static float *add_floats(Arena *arena, Floats *list, uint32_t size) {
 }
 
 typedef struct Corner {
-    uint32_t parts[3]; // numbers of position, texture coordinates and normal, from 1; 0: none
+    uint32_t parts[3]; // position, texture coordinates and normal, each numbered from 1 in its list; 0: none
 } Corner;
 
 typedef struct Obj {
@@ -146,7 +146,7 @@ static bool fail_parse(Obj *obj, const char *problem) {
 static const char corner_form[] = "a corner of a face is written 1, 1/2, 1//3 or 1/2/3";
 static const char too_large[] = "there are more than 12 million corners";
 
-// Reads "a", "a/b", "a//c" or "a/b/c". Negative numbers count from the end.
+// Reads "a", "a/b", "a//c" or "a/b/c". Negative numbers count from the end of the list so far.
 static bool read_corner(Obj *obj, Str word, Corner *out) {
     size_t at = 0;
     *out = (Corner){{0}};

@@ -1,5 +1,5 @@
 // scene_hull.c: the convex hull of points (spec canvas3d.md 8.2). Points are added one by one. The faces that are
-// visible from the new point are removed. New faces connect the edges of this hole to the point.
+// visible from the new point are removed. New faces connect the edges of the resulting hole to the point.
 #include "gl/scene_matrix.h"
 #include "gl/scene_mesh.h"
 
@@ -18,7 +18,7 @@ typedef struct Hull {
     Face *faces;
     uint32_t count;
     uint32_t capacity;
-    double thick; // points nearer to a plane than this are treated as points of the plane
+    double thick; // a point whose distance from a plane is at most this is treated as a point of the plane
 } Hull;
 
 static double plane_distance(const Face *face, const double point[3]) {
@@ -90,7 +90,7 @@ static bool has_edge(const Hull *hull, uint32_t count, uint32_t a, uint32_t b) {
 }
 
 static void add_point(Hull *hull, uint32_t point) {
-    uint32_t seen = 0; // number of visible faces, which are moved to the front
+    uint32_t seen = 0; // number of faces that are visible from the point; they are moved to the front of the list
     arena_charge(hull->arena, 1 + hull->count / 4);
     for (uint32_t i = 0; i < hull->count; i++)
         if (plane_distance(&hull->faces[i], hull->points[point]) > hull->thick) {
@@ -98,7 +98,7 @@ static void add_point(Hull *hull, uint32_t point) {
             hull->faces[i] = hull->faces[seen];
             hull->faces[seen++] = face;
         }
-    arena_charge(hull->arena, (uint64_t)seen * seen); // has_edge compares each edge with those of all visible faces
+    arena_charge(hull->arena, (uint64_t)seen * seen); // has_edge compares each edge with the edges of all visible faces
     for (uint32_t i = 0; i < seen; i++)
         for (int k = 0; k < 3; k++) {
             uint32_t a = hull->faces[i].corners[k], b = hull->faces[i].corners[(k + 1) % 3];

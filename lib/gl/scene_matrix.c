@@ -80,10 +80,10 @@ static Matrix scaling(const double v[3]) {
     return out;
 }
 
-// Returns a rotation about an axis: 0 x, 1 y, 2 z.
+// Returns a rotation about an axis: 0 is x, 1 is y, and 2 is z.
 static Matrix rotation_about(int axis, double turns) {
     Matrix out = matrix_identity;
-    double part = turns - floor(turns); // so that quarter turns are exact
+    double part = turns - floor(turns); // without whole turns, so that quarter turns are recognised and exact
     double cosine = part == 0.25 || part == 0.75 ? 0 : maths_cos(TURN * part);
     double sine = part == 0.5 ? 0 : maths_sin(TURN * part);
     int a = (axis + 1) % 3, b = (axis + 2) % 3;
@@ -154,7 +154,8 @@ Matrix matrix_transformed(Matrix a, const DrawNode *node) {
     return a;
 }
 
-// Places a model along the line from start to end. Returns false if that is not possible.
+// Multiplies *a by the transform that places a model along the line from the attribute `start` to `end`. If that is not
+// possible, returns false.
 static bool place_along(Matrix *a, const DrawNode *node, const double end[3]) {
     const AttrValue *attr = draw_attr(node, ATTR_START);
     double zero[3] = {0}, axis[3], middle[3], radius = draw_number(node, ATTR_RADIUS);
@@ -166,7 +167,8 @@ static bool place_along(Matrix *a, const DrawNode *node, const double end[3]) {
     double length = sqrt(vector_dot(axis, axis));
     if (!(radius > 0) || !vector_normalise(axis))
         return false;
-    // The shortest rotation from z to the axis: a half turn if they are opposite, else computed as a quaternion.
+    // The shortest rotation from z to the axis: a half turn if the axis points to -z, else a rotation that is computed
+    // as a quaternion.
     Matrix turn = axis[2] < -0.9999999999 ? rotation_about(1, 0.5) : matrix_identity;
     if (axis[2] >= -0.9999999999) {
         double q[4] = {1 + axis[2], -axis[1], axis[0], 0}, size = sqrt(2 * q[0]);

@@ -14,13 +14,14 @@ extern const Matrix matrix_identity;
 Matrix matrix_product(const Matrix *a, const Matrix *b); // a · b, which applies b first
 bool matrix_is_finite(const Matrix *a);
 void matrix_point(const Matrix *a, const double p[3], double out[3]);
-// Computes the cofactors of the upper 3 x 3, column-major. They transform normals and directions.
+// Computes the matrix of cofactors of the upper left 3 x 3 elements, column-major. It transforms normals and
+// directions.
 void matrix_cofactors(const Matrix *a, double out[9]);
-void matrix_direction(const Matrix *a, const double d[3], double out[3]); // the result has length 1, or is 0;0;0
+void matrix_direction(const Matrix *a, const double d[3], double out[3]); // `out` has length 1, or is 0;0;0
 
-// Returns a times the node's transform attributes, in the order written.
+// Returns `a` multiplied by the node's transform attributes, in the order in which they are written.
 Matrix matrix_transformed(Matrix a, const DrawNode *node);
-// Returns a times the transform that places a model by its attributes.
+// Returns `a` multiplied by the transform that the position, size and other attributes of a model describe.
 Matrix matrix_placed(Matrix a, const DrawNode *node);
 // The parameters of a camera's view and projection (spec 3.2, 3.3).
 typedef struct Eye {
@@ -30,7 +31,7 @@ typedef struct Eye {
     const GraphicsState3D *state;
     double near;
     double far;
-    double width; // width of the view if orthographic
+    double width; // width of the view, if the projection is orthographic
     double aspect;
 } Eye;
 Matrix matrix_view(const Eye *eye);

@@ -30,7 +30,8 @@ static void add_triangle(Mesh *mesh, uint32_t a, uint32_t b, uint32_t c) {
 }
 
 Mesh mesh_box(Arena *arena, bool repeat) {
-    // For each face, the corners at texture coordinates (0, 0), (1, 0) and (0, 1), in units of half an edge.
+    // For each face, the positions, in units of half an edge, of the corners with texture coordinates (0, 0), (1, 0)
+    // and (0, 1).
     static const int corners[6][3][3] = {
         {{1, -1, 1}, {1, -1, -1}, {1, 1, 1}},  {{-1, -1, -1}, {-1, -1, 1}, {-1, 1, -1}},
         {{-1, 1, 1}, {1, 1, 1}, {-1, 1, -1}},  {{-1, -1, -1}, {1, -1, -1}, {-1, -1, 1}},
@@ -111,7 +112,7 @@ Mesh mesh_disc(Arena *arena, uint32_t segments) {
     return mesh;
 }
 
-// Adds a vertex of the rim. `slope` is the slope of its normal: 0 for a cylinder, 1 for a cone.
+// Adds a vertex of the rim. `slope` is the slope of the vertex's normal: 0 for a cylinder, 1 for a cone.
 static uint32_t add_rim(Mesh *mesh, double turns, double z, double slope, double v) {
     double cosine = maths_cos(TURN * turns), sine = maths_sin(TURN * turns), part = slope != 0 ? 0.7071067811865476 : 1;
     return add_vertex(mesh, (double[3]){cosine, sine, z}, (double[3]){part * cosine, part * sine, part * slope}, turns,

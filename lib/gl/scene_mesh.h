@@ -24,7 +24,7 @@ struct Mesh {
 
 enum { MESH_MAX_SEGMENTS = 1024, MESH_MAX_CORNERS = 12 << 20 };
 
-Mesh mesh_box(Arena *arena, bool repeat);            // `repeat`: each face shows the whole texture
+Mesh mesh_box(Arena *arena, bool repeat);            // if `repeat` is true, each face shows the whole texture
 Mesh mesh_sphere(Arena *arena, uint32_t segments);   // `segments` is rounded up to a multiple of 4
 Mesh mesh_disc(Arena *arena, uint32_t segments);     // radius 1, facing z; `segments` is rounded up to a multiple of 4
 Mesh mesh_cylinder(Arena *arena, uint32_t segments); // `segments` below 2 is treated as 2
@@ -46,10 +46,11 @@ typedef struct MeshError {
     uint32_t line; // line of the file; 0: unknown
 } MeshError;
 
-// Reads an OBJ file, or a text or binary STL file. On failure, sets *fault and returns false.
+// Reads a mesh from the bytes of an OBJ file, or of a text or binary STL file. On failure, sets *fault and returns
+// false.
 bool mesh_from_file(Arena *arena, Str bytes, Mesh *mesh, MeshError *fault);
-// Returns the faces of the convex hull of `count` points, which are three numbers each in `vertices`. A face is three
-// indices of points. *numbers is the total number of these indices. Returns NULL if all points lie in a plane.
+// Returns the faces of the convex hull of `count` points. Each point is three numbers in `vertices`, and each face is
+// three indices of points. *numbers receives the number of all indices. Returns NULL if all points lie in a plane.
 enum { MESH_MAX_HULL = 2000 }; // maximum number of points
 const double *mesh_hull(Arena *arena, const double *vertices, uint32_t count, uint32_t *numbers);
 // Creates a mesh from lists: vertices and faces of three numbers each, and optional texture coordinates of two numbers

@@ -98,7 +98,7 @@ static void make_material(Scene *scene, InheritedState *place) {
     place->material = material;
 }
 
-// Applies a node's attributes to the inherited state.
+// Changes the inherited state by the attributes of a node.
 static void read_state(Scene *scene, InheritedState *place, const DrawNode *node) {
     double roughness = place->look.roughness, given = 1;
     bool any = false;
@@ -245,7 +245,7 @@ static void read_camera(Scene *scene, const InheritedState *place, const DrawNod
     }
 }
 
-// Returns the index of a node's model. Returns UINT32_MAX, after a report, if there are too many.
+// Returns the index of a node's model in the scene. If there are too many models, reports this and returns UINT32_MAX.
 static uint32_t number_model(Scene *scene, const DrawNode *node) {
     NodeKind kind = (NodeKind)node->kind;
     SceneModel model = {.kind = node->kind,

@@ -14,7 +14,7 @@ static void corner_at(const Mesh *mesh, uint32_t index, double out[3]) {
         out[k] = mesh->vertices[mesh->indices[index]].position[k];
 }
 
-// Computes the unit normal of a triangle; 0;0;0 if it has no area.
+// Computes the unit normal of a triangle, or 0;0;0 if the triangle has no area.
 static void triangle_normal(const Mesh *mesh, uint32_t triangle, double normal[3]) {
     double a[3], b[3], c[3];
     corner_at(mesh, 3 * triangle, a);
@@ -61,7 +61,7 @@ static int compare_spots(const void *a, const void *b) {
     return one->vertex < two->vertex ? -1 : one->vertex > two->vertex;
 }
 
-// Returns, for each vertex, the first vertex at the same position.
+// Returns an array that contains, for each vertex, the index of the first vertex at the same position.
 static uint32_t *join_positions(Arena *arena, const Mesh *mesh) {
     Spot *spots = arena_alloc_array(arena, mesh->vertex_count, sizeof *spots);
     uint32_t *joined = arena_alloc_array(arena, mesh->vertex_count, sizeof *joined), first = 0;
@@ -80,7 +80,7 @@ static uint32_t *join_positions(Arena *arena, const Mesh *mesh) {
 }
 
 // An edge of a triangle, from the corner with the index `corner` to the triangle's next corner. `low` and `high` are
-// the vertices at its ends (join_positions), the lower index first.
+// the lower and the higher of the two vertices at the ends, as numbered by join_positions.
 typedef struct Edge {
     uint32_t low;
     uint32_t high;
@@ -112,8 +112,8 @@ static void unite_corners(uint32_t *parents, uint32_t a, uint32_t b) {
     parents[a > b ? a : b] = a > b ? b : a;
 }
 
-// Unites corners of two triangles at both ends of their common edge. The edge starts at corner a of one triangle and
-// corner b of the other.
+// At both ends of an edge that two triangles share, unites the corners of the two triangles. The edge starts at corner
+// a of one triangle and at corner b of the other triangle.
 static void unite_across(uint32_t *parents, const uint32_t *points, uint32_t a, uint32_t b) {
     uint32_t a_end = next_corner(a), b_end = next_corner(b);
     bool same = points[a] == points[b]; // both triangles have the edge in the same direction
@@ -121,8 +121,8 @@ static void unite_across(uint32_t *parents, const uint32_t *points, uint32_t a, 
     unite_corners(parents, a_end, same ? b_end : b);
 }
 
-// Unites corners that will share a normal. Returns the parents of all corners (union-find): united corners have the
-// same root.
+// Unites corners that will share a normal. Returns the union-find array, which contains the parent of each corner.
+// United corners have the same root.
 static uint32_t *find_roots(Arena *arena, const Mesh *mesh, const uint32_t *points, const double (*normals)[3],
                             double turns) {
     uint32_t count = mesh->index_count;
@@ -135,7 +135,7 @@ static uint32_t *find_roots(Arena *arena, const Mesh *mesh, const uint32_t *poin
         edges[i] = (Edge){a < b ? a : b, a < b ? b : a, i};
     }
     qsort(edges, count, sizeof *edges, compare_edges);
-    for (uint32_t i = 0; i < count; i++) // if several triangles share an edge, each is compared with the previous one
+    for (uint32_t i = 0; i < count; i++) // each triangle at an edge is compared with the previous triangle at this edge
         if (i > 0 && edges[i].low == edges[i - 1].low && edges[i].high == edges[i - 1].high &&
             vector_dot(normals[edges[i].corner / 3], normals[edges[i - 1].corner / 3]) >= min_cosine - 1e-9)
             unite_across(parents, points, edges[i - 1].corner, edges[i].corner);
@@ -209,8 +209,8 @@ static void remap_sphere(MeshVertex *vertex) {
     vertex->uv[1] = (float)(maths_atan2(z, sqrt(x * x + y * y)) / (TURN / 2) + 0.5);
 }
 
-// Mends the seam where u wraps from 1 to 0. If a triangle crosses it, its corners with a small u are replaced by copies
-// with u + 1.
+// Mends the seam where u wraps from 1 to 0. If a triangle crosses the seam, replaces those of its corners that have a
+// small u by copies with u + 1.
 static void mend_seam(Arena *arena, Mesh *mesh) {
     MeshVertex *vertices = arena_alloc_array(arena, (size_t)mesh->vertex_count + mesh->index_count, sizeof *vertices);
     memcpy(vertices, mesh->vertices, mesh->vertex_count * sizeof *vertices);

@@ -5,8 +5,8 @@
 #include "gl/internal.h"
 #include "gl/shader_errors.h"
 
-// Replaces ${HEADER} or a line `#version 330` by gl_header. #line directives keep the line numbers of compiler messages
-// right. Returns false if the text contains other templates.
+// Replaces ${HEADER} or a line `#version 330` by gl_header. Adds #line directives, so that compiler messages contain
+// the line numbers of the original text. Returns false if the text contains other templates.
 static bool expand_template(Text *out, Str text) {
     static const Str header = {"${HEADER}", 9}, version = {"#version 330", 12};
     size_t line_number = 1, i = 0;
@@ -32,7 +32,7 @@ static bool expand_template(Text *out, Str text) {
     return true;
 }
 
-// Returns true if a pass is listed in `downsample_passes`.
+// Returns true if the attribute `downsample_passes` contains the pass.
 static bool is_reduced(const DrawNode *node, uint32_t pass) {
     const AttrValue *list = draw_attr(node, ATTR_DOWNSAMPLE_PASSES);
     for (uint32_t i = 0; list && i < list->count; i++)

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-enum { GL_MAX_PASSES = 64 }; // of a shader
+enum { GL_MAX_PASSES = 64 }; // maximum number of passes of a shader
 
 // Runs the shaders in the attributes `fragment` and `vertex`.
 GlImage gl_shader(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults);
@@ -14,9 +14,9 @@ GlImage gl_shader(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults
 // effect.c
 typedef struct GlPass {
     unsigned program;
-    bool reduced; // renders to a target that is `downsample` times smaller
+    bool reduced; // true if the pass renders to a target that is smaller by the factor `downsample` in each direction
 } GlPass;
-// Runs the passes in order. Returns false if the GPU is out of memory.
+// Runs the passes in order and stores the result of the last pass in *out. Returns false if the GPU is out of memory.
 bool gl_run_passes(Gl *gl, const GlEffect *effect, const GlPass *passes, uint32_t count, GlImage *out);
 int gl_downsample(const DrawNode *node);
 void gl_report(DiagSink *faults, const DrawNode *node, const char *code, Str problem);

@@ -26,8 +26,8 @@ static bool skip_char(Str *text, char c) {
     return true;
 }
 
-// Drivers write `0:5(22): error: …`, `ERROR: 0:5: …` or `0(5) : error …`. Only the first line is used, because later
-// errors usually result from the first.
+// Parses the compiler's output. Drivers write `0:5(22): error: …`, `ERROR: 0:5: …` or `0(5) : error …`. Uses only the
+// first line, because later errors usually result from the first.
 static CompilerMessage read_message(Str problem) {
     const char *end = memchr(problem.bytes, '\n', problem.len);
     Str all = str_trim((Str){problem.bytes, end ? (size_t)(end - problem.bytes) : problem.len}), rest = all;
@@ -77,8 +77,8 @@ static Str find_quoted(Str text) {
     return (Str){0};
 }
 
-// Returns the span of the error in a shader whose text starts at `start` in the script. It is the word that the message
-// quotes. If the reported line does not contain this word, it is the whole line.
+// Returns the span of the error in a shader whose text starts at `start` in the script. The span is the word that the
+// message quotes. If the reported line does not contain this word, the span is the whole line.
 static Span span_of(Str source, uint32_t start, const CompilerMessage *message) {
     size_t at = start;
     for (uint32_t line = 1; line < message->line && at < source.len; at++)

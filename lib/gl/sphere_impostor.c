@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-// Returns true if a matrix only rotates and scales uniformly. *scale is the factor.
+// Returns true if a matrix only rotates and scales uniformly. *scale receives the factor of the scaling.
 static bool is_similarity(const Matrix *a, double *scale) {
     double squares[3], product[3];
     for (int k = 0; k < 3; k++)

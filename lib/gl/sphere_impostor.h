@@ -2,9 +2,9 @@
 //
 // The outline of a sphere, as seen from the camera, is a circle. The sphere is drawn as a disc that fills this circle.
 // For each point of the disc, the fragment shader intersects the camera's ray with the sphere. This gives the position
-// and normal. A disc of 64 corners has 62 triangles. A sphere of 64 segments has 2048, and most of them are smaller
-// than the blocks of pixels that GPUs shade. If earlier draws have written depth, the shader also writes the sphere's
-// depth, once for all samples of a pixel.
+// and normal of the sphere's surface at this point. A disc of 64 corners has 62 triangles. A sphere of 64 segments has
+// 2048, and most of them are smaller than the blocks of pixels that GPUs shade. If earlier draws have written depth,
+// the shader also writes the sphere's depth, once for all samples of a pixel.
 #ifndef PETRI_GL_SPHERE_IMPOSTOR_H
 #define PETRI_GL_SPHERE_IMPOSTOR_H
 
@@ -14,11 +14,11 @@ typedef struct SphereImpostor {
     Matrix place; // transform of a disc of radius 1 facing z; the third column has length 1 and points to the camera
     double middle[3];
     double radius; // radius of the sphere
-    double near;   // radius / distance from the camera; 0 without perspective
+    double near;   // radius divided by the distance from the camera to the centre; 0 without perspective
 } SphereImpostor;
 
-// Computes the disc of a unit sphere with this transform. Returns false if the transformed sphere is an ellipsoid or
-// mirrored, is clipped by the near or far plane, or almost touches the camera.
+// Computes the disc for a sphere of radius 1 that is transformed by `place`. Returns false if the transformed sphere is
+// an ellipsoid or mirrored, is clipped by the near or far plane, or almost touches the camera.
 bool sphere_impostor(const Eye *eye, const Matrix *view, const Matrix *place, SphereImpostor *disc);
 
 #endif

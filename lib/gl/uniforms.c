@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The value of a uniform. `list` can point to `own`.
+// The value of a uniform. `list` points to the numbers, which can be stored elsewhere or in `own`.
 typedef struct Numbers {
     const double *list;
     uint32_t count;
@@ -51,7 +51,8 @@ static bool invert_3x3(double m[9]) {
 static const double unit_matrix[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 static const double TURN = 6.283185307179586;
 
-// Computes the inverse of the matrix of `!transform` (spec pictures.md 7.7); zeros if it is not invertible.
+// Computes the inverse of the matrix of `!transform` (spec pictures.md 7.7). If the matrix is not invertible, sets all
+// elements to 0.
 static void find_matrix(const GlEffect *effect, double m[9]) {
     memcpy(m, unit_matrix, sizeof unit_matrix);
     for (uint32_t i = 0; i < effect->node->attr_count; i++) {
@@ -77,7 +78,8 @@ static void find_matrix(const GlEffect *effect, double m[9]) {
         memset(m, 0, 9 * sizeof *m);
 }
 
-// Sets *out to an attribute of the node or its default. Returns false if the node has no such attribute.
+// Sets *out to the value of a node's attribute, or to the default if the attribute is not set. Returns false if the
+// node has no such attribute.
 static bool find_attribute(const DrawNode *node, const char *name, Numbers *out) {
     if (strcmp(name, "other") == 0)
         name = "default"; // `default` is a keyword of GLSL
@@ -93,7 +95,7 @@ static bool find_attribute(const DrawNode *node, const char *name, Numbers *out)
         AttrShape shape = row ? schema_types[row->type].shape : SHAPE_OTHER;
         if (!row)
             continue;
-        if (!attr && shape == SHAPE_LIST) // color_matrix
+        if (!attr && shape == SHAPE_LIST) // color_matrix, whose default is the unit matrix
             set_list(out, unit_matrix, 9);
         else if (shape == SHAPE_WORD || shape == SHAPE_FLAG)
             set_scalar(out, !attr ? row->default_value.value : shape == SHAPE_WORD ? attr->as.word : attr->as.flag);
@@ -137,7 +139,7 @@ static bool find_builtin(const GlState *state, const char *name, Numbers *out) {
     return true;
 }
 
-// Blur radii are in units, but shaders need pixels.
+// Converts blur radii from units to pixels, which the shaders need.
 static void scale_lengths(const GlEffect *effect, const char *name, Numbers *out) {
     NodeKind kind = (NodeKind)effect->node->kind;
     bool blurs = kind == KIND_BLUR || kind == KIND_BLOOM || kind == KIND_EDGES || kind == KIND_CHROMAKEY;
@@ -156,13 +158,15 @@ static void find_numbers(const GlState *state, const char *name, Numbers *out) {
         scale_lengths(effect, name, out);
     } else {
         set_scalar(out, 0);
-        for (uint32_t i = effect->frame->name_count; i-- > 0;) // if names are equal, the first takes precedence
+        // Runs backwards, so that the first of equal names takes precedence.
+        for (uint32_t i = effect->frame->name_count; i-- > 0;)
             if (strcmp(effect->frame->names[i], name) == 0)
                 set_scalar(out, effect->frame->numbers[i]);
     }
 }
 
-// Returns the number of components of a type; 0: not supported. *is_integer is true if values are rounded down.
+// Returns the number of components of a type, or 0 if the type is not supported. Sets *is_integer to true if values
+// must be rounded down to integers.
 static uint32_t size_of(GLenum type, bool *is_integer) {
     static const struct {
         GLenum type;

@@ -7,12 +7,12 @@
 // The state of a pass that is about to run.
 typedef struct GlState {
     const GlEffect *effect;
-    GlImage first; // result of pass 0; texture 0 during pass 0
-    GlImage last;  // result of the previous pass, or of the previous frame in pass 0
+    GlImage first; // result of pass 0; during pass 0, its `texture` is 0
+    GlImage last;  // result of the previous pass; during pass 0, the result of the previous frame
     GlImage target;
     int pass;
     int passes;
-    int downsample; // of this pass
+    int downsample; // factor by which the target of this pass is smaller; 1 if it is not reduced
 } GlState;
 
 void gl_set_uniforms(const Gl *gl, unsigned program, const GlState *state);

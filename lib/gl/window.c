@@ -4,7 +4,7 @@
 
 static const uint32_t ONE = 1;
 
-// Creates the texture of the encoding table on the first call.
+// On the first call, creates gl->curve, the texture of the encoding table.
 static void init_curve(Gl *gl, const float thresholds[256]) {
     if (gl->curve)
         return;
