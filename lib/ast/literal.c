@@ -70,12 +70,12 @@ static const char *hex_escape(Text *out, Str body, size_t *at, int digits) {
     for (int i = 0; i < digits; i++) {
         int digit = *at < body.len ? str_hex_digit(body.bytes[*at]) : -1;
         if (digit < 0)
-            return "a \\x, \\u or \\U escape needs exactly 2, 4 or 8 hexadecimal digits";
+            return "'\\x' needs exactly 2 hexadecimal digits, '\\u' needs 4 and '\\U' needs 8";
         code_point = code_point << 4 | (uint32_t)digit;
         ++*at;
     }
     if (code_point > 0x10ffff || (code_point >= 0xd800 && code_point <= 0xdfff))
-        return "the escape is not a valid Unicode code point";
+        return "this escape is not a valid Unicode code point";
     text_add_code_point(out, code_point);
     return NULL;
 }
@@ -101,7 +101,7 @@ static const char *parse_escape(Text *out, Str body, size_t *at) {
     else if (c == 'x' || c == 'u' || c == 'U')
         return hex_escape(out, body, at, c == 'x' ? 2 : c == 'u' ? 4 : 8);
     else if (c == 'N' && *at < body.len && body.bytes[*at] == '{')
-        return "\\N{…} escapes are not supported: use \\u or \\U";
+        return "'\\N{…}' is not supported: use '\\u' or '\\U'";
     else
         text_add_format(out, "\\%c", c); // before any other character the backslash is kept
     return NULL;

@@ -235,7 +235,8 @@ const void *file_cache_get(BuiltinContext *context, const char *function, FilePa
     bool nameable = text.len <= MAX_NAME_LENGTH && context->directory.len <= MAX_NAME_LENGTH &&
                     (text.len == 0 || !memchr(text.bytes, 0, text.len));
     if (!cache || !nameable) {
-        report_unreadable(context, function, text, cache ? "not a file name" : "files are not available here");
+        report_unreadable(context, function, text,
+                          cache ? "this cannot be a file name" : "files are not available here");
         return NULL;
     }
     // A failed allocation in the cache's arena must be handled like one in the call's arena.

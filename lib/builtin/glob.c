@@ -307,7 +307,8 @@ static Value glob_value(Glob *glob) {
 Value builtin_glob(BuiltinContext *context, const Value *args, uint32_t count) {
     Str pattern = value_text(context->arena, context->symbols, args[0]);
     if (pattern.len == 0 || pattern.bytes[0] == '/')
-        return builtin_error(context, "glob", "the pattern is %s", pattern.len ? "absolute" : "empty");
+        return builtin_error(context, "glob", "%s",
+                             pattern.len ? "the pattern must not start with '/'" : "the pattern is empty");
     if (!context->files || pattern.len >= PATH_MAX || memchr(pattern.bytes, 0, pattern.len))
         return VALUE_NULL;
     Glob glob = {.arena = context->arena, .file_access = context->file_access};
@@ -318,7 +319,7 @@ Value builtin_glob(BuiltinContext *context, const Value *args, uint32_t count) {
     else
         glob_found(&glob, start);
     if (glob.limit_exceeded)
-        return builtin_error(context, "glob", "too many directories or matches");
+        return builtin_error(context, "glob", "the pattern matches too many files or searches too many directories");
     Value paths = glob.found_count ? glob_value(&glob) : VALUE_NULL;
     if (glob.denied)
         builtin_error(context, "glob", "%s",

@@ -217,7 +217,7 @@ Value builtin_octnoise(BuiltinContext *context, const Value *args, uint32_t coun
     if (outcome == GRID_TOO_LONG)
         return builtin_too_long(context, "octnoise");
     if (octaves > MAX_OCTAVES)
-        return builtin_error(context, "octnoise", "more than 1024 octaves");
+        return builtin_error(context, "octnoise", "too many octaves: the limit is 1024");
     double single, *result = grid.len == 1 ? &single : arena_alloc_array(context->arena, grid.len, sizeof *result);
     sum_octaves(context, &grid, value_seed_hash(context->arena, args[0]), (uint32_t)octaves, args[2].as.number, result);
     return value_numbers_view(result, grid.len);

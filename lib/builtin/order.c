@@ -64,7 +64,7 @@ static Value find_extreme(BuiltinContext *context, const char *name, const Value
     } else {
         best = extreme_item(args[0].as.items, args[0].len, sign);
         if (best == NO_POSITION)
-            return builtin_error(context, name, "elements cannot be ordered");
+            return builtin_error(context, name, "the elements must be all numbers or all strings");
     }
     return position ? value_number(best) : value_element(context->arena, args[0], best);
 }
@@ -152,7 +152,7 @@ Value builtin_sort(BuiltinContext *context, const Value *args, uint32_t count) {
         return value_numbers_view(builtin_sort_numbers(arena, numbers, v.len), v.len);
     }
     if (!all_texts(v))
-        return builtin_error(context, "sort", "elements cannot be ordered");
+        return builtin_error(context, "sort", "the elements must be all numbers or all strings");
     Str *texts = arena_alloc_array(arena, v.len, sizeof *texts);
     for (uint32_t i = 0; i < v.len; i++)
         texts[i] = v.as.items[i].as.string->text;

@@ -16,5 +16,5 @@ Value builtin_sample(BuiltinContext *context, const Value *args, uint32_t count)
 }
 
 Value builtin_measure_text(BuiltinContext *context, const Value *args, uint32_t count) {
-    return builtin_error(context, "measure_text", "text is measured only where it is drawn");
+    return builtin_error(context, "measure_text", "not supported: text is measured only when it is drawn");
 }

@@ -21,7 +21,7 @@ static uint32_t shuffle_partner(Value source, uint32_t i, uint32_t len) {
 Value builtin_shuffle(BuiltinContext *context, const Value *args, uint32_t count) {
     Value source = args[0], xs = args[1];
     if (source.kind != VALUE_STREAM || source.stream == STREAM_NORMAL)
-        return builtin_error(context, "shuffle", "the source must be a uniform or beta stream");
+        return builtin_error(context, "shuffle", "the source must be a stream from 'uniform' or 'beta'");
     if (xs.len <= 1)
         return xs.len ? xs : VALUE_NULL;
     if (xs.kind == VALUE_NUMBERS) {

@@ -14,7 +14,7 @@ Value builtin_chr(BuiltinContext *context, const Value *args, uint32_t count) {
         double code_point = floor(x[i]);
         // Surrogates are not characters and cannot be encoded in UTF-8 (E7).
         if (!(code_point >= 0 && code_point <= 0x10ffff) || (code_point >= 0xd800 && code_point <= 0xdfff))
-            return builtin_error(context, "chr", "not a code point");
+            return builtin_error(context, "chr", "the argument is not a Unicode code point");
         text_add_code_point(&text, (uint32_t)code_point);
     }
     return value_string(context->arena, text_str(&text));
@@ -84,7 +84,7 @@ Value builtin_split(BuiltinContext *context, const Value *args, uint32_t count) 
     arena_charge(context->arena, text.len / 8);
     size_t pieces = count_pieces(text, separator);
     if (pieces == 0)
-        return builtin_error(context, "split", "nothing between separators");
+        return builtin_error(context, "split", "the text contains only separators");
     if (pieces > VALUE_MAX_LEN)
         return builtin_too_long(context, "split");
     return split_text(context->arena, text, separator, (uint32_t)pieces);

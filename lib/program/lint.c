@@ -25,7 +25,7 @@ void lint_bind(Compiler *compiler, const Binding *binding) {
     Str name = binding->name->name;
     if (lint_enabled(compiler) && is_builtin(compiler, name))
         compile_report(compiler, binding->span, DIAG_NOTE, "shadowed-builtin",
-                       str_format(compiler->arena, "'%.*s' shadows the built-in of that name", STR_ARGS(name)),
+                       str_format(compiler->arena, "this '%.*s' hides the built-in of the same name", STR_ARGS(name)),
                        (Str){0});
 }
 
@@ -135,7 +135,7 @@ void lint_branches(Compiler *compiler, const Expr *expr) {
     for (uint32_t i = 0; i + 2 < expr->count; i += 2)
         if (expr->children[i]->kind == EXPR_CONST && value_true(expr->children[i]->as.value)) {
             add_warning(compiler, expr->children[i]->origin.span, "unreachable",
-                        STR("always true: the following branches are unreachable"));
+                        STR("this condition is always true, so the branches after it are never reached"));
             return;
         }
 }
@@ -157,7 +157,8 @@ static bool has_text(Value v) {
 void lint_arith(Compiler *compiler, const Ast *ast, const Expr *expr) {
     for (uint32_t i = 0; lint_enabled(compiler) && i < expr->count; i++)
         if (expr->children[i]->kind == EXPR_CONST && has_text(expr->children[i]->as.value)) {
-            add_warning_with_hint(compiler, ast->span, "string-arithmetic", STR("arithmetic on a string is null"),
+            add_warning_with_hint(compiler, ast->span, "string-arithmetic",
+                                  STR("the result of arithmetic on a string is null"),
                                   STR("join strings and values with semicolons: 'x=';x"));
             return;
         }
@@ -184,7 +185,7 @@ void lint_pragma(Compiler *compiler, const Ast *pragma) {
         if (str_equal(name, known[i]))
             return;
         if (str_edit_distance(name, known[i]) < 3)
-            hint = str_format(compiler->arena, "did you mean %s?", known[i].bytes);
+            hint = str_format(compiler->arena, "did you mean '%s'?", known[i].bytes);
     }
     if (lint_enabled(compiler))
         compile_report(compiler, pragma->span, DIAG_WARNING, "unknown-pragma",

@@ -384,7 +384,7 @@ static void lint_colour(const Reader *reader, const SchemaRow *row, Value v) {
     }
     if (max >= 2)
         report_lint(reader, "colour-range", row, v,
-                    " is brighter than white (1;1;1); divide components up to 255: (r;g;b)/255");
+                    " is brighter than white (1;1;1); if components go up to 255, divide them: (r;g;b)/255");
 }
 
 // Reads the value v of an attribute of a drawing node into `attr`. Returns false if the value is malformed.

@@ -22,8 +22,8 @@ static double pragma_number(PetriSession *session, const Pragma *pragma, bool po
     Diag diag = {.level = DIAG_WARNING,
                  .source = pragma->source,
                  .span = pragma->span,
-                 .text = positive ? STR("this pragma's value must be a number above 0; ignored")
-                                  : STR("this pragma's value must be a number; ignored"),
+                 .text = positive ? STR("the value of this pragma must be a number above 0; the pragma is ignored")
+                                  : STR("the value of this pragma must be a number; the pragma is ignored"),
                  .code = "bad-pragma"};
     session_report(session, &diag);
     return default_value;

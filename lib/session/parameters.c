@@ -97,7 +97,7 @@ static bool check_numbers(const Check *check, const Parameter *parameter) {
     Str wrong = format_text(arena, &check->session->symbols, value_element(arena, v, at));
     bool is_truth = str_equal(wrong, STR("'true'")) || str_equal(wrong, STR("'false'"));
     report_definition(check, DIAG_ERROR, "bad-definition", origin_of(parameter),
-                      str_format(arena, "%.*s is not a number, and '%.*s' takes numbers: its default is %.*s",
+                      str_format(arena, "%.*s is not a number; '%.*s' takes numbers, such as its default %.*s",
                                  STR_ARGS(wrong), STR_ARGS(parameter->name->name), STR_ARGS(parameter->default_text)),
                       is_truth ? STR("write 1 for true and 0 for false") : (Str){0});
     return false;
@@ -161,8 +161,8 @@ static Str with_parameters(Arena *arena, const Program *program, Str before) {
     text_add(&text, before);
     for (uint32_t i = 0; i < count; i++) {
         text_add_c(&text, i > 0       ? (i + 1 < count ? ", " : " and ")
-                          : count > 1 ? "; its parameters are "
-                                      : "; its parameter is ");
+                          : count > 1 ? "; the parameters of the script are "
+                                      : "; the parameter of the script is ");
         text_add(&text, program->parameters[i].name->name);
     }
     return text_str(&text);
@@ -204,7 +204,7 @@ static void check_unused(const Check *check) {
             report_unused(check);
             return;
         }
-        reason = "modules do not see definitions";
+        reason = "it is a parameter of a module, and definitions do not apply to modules";
         at = origin_of(parameter);
     }
     report_definition(check, DIAG_WARNING, "unused-definition", at,

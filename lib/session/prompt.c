@@ -357,7 +357,7 @@ static bool is_expression(PetriSession *session, const Unit *unit) {
     session_report(session, &(Diag){.level = DIAG_ERROR,
                                     .source = unit->source,
                                     .span = {0, (uint32_t)unit->source->text.len},
-                                    .text = STR("must be a single expression"),
+                                    .text = STR("the input must be a single expression"),
                                     .code = "syntax"});
     return false;
 }

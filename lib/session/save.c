@@ -277,9 +277,10 @@ static void read_state_file(PetriSession *session, Incoming *incoming, void *con
         arena_exhausted(arena);
     incoming->valid = !reason;
     if (restore.omitted && !reason)
-        session_report_text(
-            session, DIAG_WARNING, "state-file",
-            str_format(&session->text_arena, "values in '%s' are not finite: %u ignored", file, restore.omitted));
+        session_report_text(session, DIAG_WARNING, "state-file",
+                            str_format(&session->text_arena,
+                                       "'%s' contains values that are not finite; number of ignored values: %u", file,
+                                       restore.omitted));
     if (reason)
         report_state_error(session, "cannot load the state from", file, reason);
     else

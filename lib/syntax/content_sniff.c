@@ -88,8 +88,9 @@ void content_sniff_report(const Source *source, DiagSink *diags) {
         return;
     Diag first = diags->items[0];
     Str what = diag_text(&first);
-    first.text = str_format(diags->arena, "not a Flitter script? %u of %s%u lines are invalid; first: %.*s", tally.bad,
-                            diags->dropped ? "the first " : "", tally.lines, STR_ARGS(what));
+    first.text =
+        str_format(diags->arena, "is this a Flitter script? %u of %s%u lines are invalid; the first error: %.*s",
+                   tally.bad, diags->dropped ? "the first " : "", tally.lines, STR_ARGS(what));
     first.hint = (Str){0};
     first.code = "not-a-script";
     replace_diagnostics(diags, &first);

@@ -139,12 +139,14 @@ static void report_character(ParseContext *context, Span span) {
         report_error(context, span, "syntax", STR("unterminated string"),
                      STR("close the string on its line, or use ''' or \"\"\" for several lines"));
     else if (c == '\\')
-        report_error(context, span, "syntax", STR("a backslash outside a string must end its line"), (Str){0});
+        report_error(context, span, "syntax",
+                     STR("a backslash outside a string must be the last character of its line"), (Str){0});
     else if (c == 0xfeff)
         report_error(context, span, "syntax", STR("a byte-order mark (U+FEFF) is allowed only at the start of a file"),
                      (Str){0});
     else if (c < 0x20 || c == 0x7f)
-        report_error(context, span, "syntax", str_format(context->arena, "control character U+%04X", (unsigned)c),
+        report_error(context, span, "syntax",
+                     str_format(context->arena, "unexpected control character U+%04X", (unsigned)c),
                      STR("is this a text file?"));
     else if (c == ':' || c == '!' || c == '#')
         report_token(context, span, str_format(context->arena, "'%c' must be directly followed by a name", (int)c),

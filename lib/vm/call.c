@@ -96,9 +96,8 @@ static Value call_closure(Vm *vm, Closure *closure, const Arguments *args, const
 
 static Value call_item(Vm *vm, Item item, const Arguments *args, const Origin *at) {
     if (item.type != ITEM_FUNCTION) {
-        static const char *const texts[] = {
-            "not callable: a number", "not callable: a string",
-            "not callable: a node; attributes are written without parentheses: !name a=1"};
+        static const char *const texts[] = {"a number cannot be called", "a string cannot be called",
+                                            "a node cannot be called; write attributes without parentheses: !name a=1"};
         vm_fault_text(vm, at, "not-callable", str_from(texts[item.type]));
         return VALUE_NULL;
     }

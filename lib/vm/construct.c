@@ -48,12 +48,13 @@ Value vm_append(Vm *vm, const Instr *instr, Value parent, Value children) {
     bool too_high = false;
     Value result = value_append(vm->arena, parent, &list, &too_high);
     if (too_high)
-        vm_fault(vm, instr->at, "too-deep", "node tree too deep: the limit is 12000 levels; not appended");
+        vm_fault(vm, instr->at, "too-deep", "node tree too deep: the limit is 12000 levels; the node is not appended");
     return result;
 }
 
 static void attributes_too_deep(Vm *vm, const Origin *at) {
-    vm_fault(vm, at, "too-deep", "nodes in attributes too deep: the limit is 12000 levels; not set");
+    vm_fault(vm, at, "too-deep",
+             "nodes in attributes nested too deeply: the limit is 12000 levels; the attribute is not set");
 }
 
 Value vm_decorate(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr) {
@@ -100,7 +101,7 @@ static void set_attributes(Vm *vm, const int32_t *list, const Value *slots, cons
 
 static void set_children(Vm *vm, const Instr *instr, Node *node, const NodeList *list) {
     if (list->height >= NODE_MAX_HEIGHT) {
-        vm_fault(vm, instr->at, "too-deep", "node tree too deep: the limit is 12000 levels; not appended");
+        vm_fault(vm, instr->at, "too-deep", "node tree too deep: the limit is 12000 levels; the node is not appended");
         return;
     }
     if (list->count == 0)

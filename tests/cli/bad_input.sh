@@ -43,7 +43,7 @@ check "a file with NUL bytes is reported as binary" has err "'nul.fl' is a binar
 printf 'root:x:0:0:root:/root:/bin/bash\ndaemon:x:1:1:/bin/sh\n# end: x\nmail:x:8:8::/\n' >passwd
 petri run passwd
 check "a text that is not a script is one error" one_error
-check "a text that is not a script is reported as such" has err "passwd:1:5: error: not a Flitter script? 4 of 4"
+check "a text that is not a script is reported as such" has err "passwd:1:5: error: is this a Flitter script? 4 of 4"
 petri check passwd
 check "check reports a text that is not a script once" count_is err "error: " 1
 cp passwd passwd.fl

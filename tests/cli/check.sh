@@ -17,16 +17,16 @@ petri check lints.fl
 check "warnings alone do not fail a check" status_is 0
 check "a check writes nothing to stdout" empty out
 check "check suggests the nearest name for an unknown pragma" has err "lints.fl:1:1: warning: unknown pragma 'temp'"
-check "the nearest name to temp is tempo" has err "did you mean tempo?"
+check "the nearest name to temp is tempo" has err "did you mean 'tempo'?"
 check "check reports an unused let" has err "lints.fl:2:9: warning: unused let 'b'"
 check "check does not report a used let" lacks err "unused let 'a'"
-check "check reports a name that shadows a built-in" has err "lints.fl:3:5: note: 'sin' shadows the built-in"
+check "check reports a name that shadows a built-in" has err "lints.fl:3:5: note: this 'sin' hides the built-in"
 check "check reports unused parameters" count_is err "unused parameter" 2
 check "check reports a missing argument" has err "lints.fl:6:6: warning: missing argument 'y'"
 check "check reports too many arguments" has err "too many arguments: 4; the function takes 3"
 check "check reports an unknown named argument" has err "no parameter 'q'"
 check "check counts the arguments of built-ins" has err "too many arguments: 2 given to cos(x)"
-check "check reports an else that is never reached" has err "lints.fl:7:4: warning: always true"
+check "check reports an else that is never reached" has err "lints.fl:7:4: warning: this condition is always true"
 check "check suggests the nearest name for an unbound name" has err "did you mean 'cos'?"
 check "the summary counts errors and warnings" last_line_is err "petri: 1 file checked: 0 errors, 10 warnings"
 petri check --werror lints.fl

@@ -31,7 +31,7 @@ for file in ../away/secret.txt link.txt folder/secret.txt /etc/passwd sub/../../
     printf '!n a=read("%s")\n' "$file" >home/read.fl
     petri run home/read.fl --frames 1 --print tree
     check "a script does not read $file" grep -qx '!n' out
-    check "the warning has a position and the reason: $file" grep -q 'read.fl:1:6: warning: .*scripts may not read there' err
+    check "the warning has a position and the reason: $file" grep -q 'read.fl:1:6: warning: .*scripts are not allowed to read there' err
     folder=$(sed -n "s/.*allow it with '--allow-read \([^']*\)'.*/\1/p" err | sed 's:/proc/.*:/proc:')
     petri run home/read.fl --frames 1 --print tree --allow-read "$folder"
     check "the folder in the hint allows reading: --allow-read $folder" grep -q '^!n a=' out
@@ -46,12 +46,12 @@ cd far || exit 1
 printf '!n a=glob("../*.txt") b=glob("folder/*") c=csv("../cwd/here.txt",0)\n' >../home/glob.fl
 petri run ../home/glob.fl --frames 2 --print tree
 check "glob and csv are limited to the allowed folders" grep -qx '!n' out
-check "each denied read is reported once" [ "$(grep -c 'scripts may not read there' err)" -eq 3 ]
+check "each denied read is reported once" [ "$(grep -c 'scripts are not allowed to read there' err)" -eq 3 ]
 printf 'import y from "../cwd/here.fl"\n%%include "../cwd/here.fl"\n!n a=y\n' >../home/import.fl
 echo 'let y=4' >../here.fl
 petri run ../home/import.fl --frames 1 --print tree
 check "import and include are limited to the allowed folders" grep -qx '!n' out
-check "each denied import is reported" [ "$(grep -c 'scripts may not read there' err)" -eq 2 ]
+check "each denied import is reported" [ "$(grep -c 'scripts are not allowed to read there' err)" -eq 2 ]
 petri run ../home/import.fl --frames 1 --print tree --allow-read ..
 check "--allow-read allows import and include" grep -qx '!n a=4' out
 printf '!n a=read("mine.txt") b=glob("*")\n%%include "glob.fl"\n' >../home/none.fl
@@ -61,7 +61,7 @@ check "--no-files is reported for each read" [ "$(grep -c 'file access is disabl
 petri run ../home/none.fl --allow-read /no/such/folder
 check "--allow-read rejects a missing folder" status_is 2
 petri check ../home/glob.fl
-check "check reports denied reads" [ "$(grep -c 'scripts may not read there' err)" -eq 3 ]
+check "check reports denied reads" [ "$(grep -c 'scripts are not allowed to read there' err)" -eq 3 ]
 if command -v strace >/dev/null && strace -qq -o trace true 2>/dev/null; then
     # file_without_openat2 FILE: reads FILE as on a system without openat2.
     file_without_openat2() {

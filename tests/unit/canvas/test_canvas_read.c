@@ -114,8 +114,8 @@ static void test_lint_reports_byte_colours(void **state) {
     (void)state;
     Fixture f;
     begin(&f);
-    static const char reported[] = "!paint color=0;255;0 is brighter than white (1;1;1); divide components up to "
-                                   "255: (r;g;b)/255 [colour-range]\n";
+    static const char reported[] = "!paint color=0;255;0 is brighter than white (1;1;1); if components go up to 255, "
+                                   "divide them: (r;g;b)/255 [colour-range]\n";
     for (int lint = 0; lint <= 1; lint++) {
         f.schema.lint = lint;
         assert_non_null(read_one(&f, "paint", "color", NUMBERS(&f, 0, 255, 0)));

@@ -76,7 +76,7 @@ static void test_only_allowed_folders_are_read(void **state) {
     player_step(&desk->player, 1);
     assert_text("outside", player_tree(&desk->player), "!x\n");
     check_reported(desk, "cannot import");
-    check_reported(desk, "scripts may not read there; allow it with '--allow-read ");
+    check_reported(desk, "scripts are not allowed to read there; to allow it, use '--allow-read ");
     petri_config_apply(desk->player.session, before);
     player_step(&desk->player, 1);
     assert_text("inside again", player_tree(&desk->player), "!x v=1 t='text'\n");

@@ -75,12 +75,12 @@ static void test_print(void **state) {
                            "!counter state=:c;'k' initial=1;2 rate=1\n!counter state=\"it's\" rate=0 initial=:a\n!a\n"},
         {PETRI_PRINT_STATE, "@1 time=0.25 beat=0.25\n" STATE},
         {PETRI_PRINT_LOG, "@1 time=0.25 beat=0.25\n> 1\n> 'x'\n"},
-        {PETRI_PRINT_ERROR, "@1 time=0.25 beat=0.25\n? not callable: a string (t.fl:8)\n"},
+        {PETRI_PRINT_ERROR, "@1 time=0.25 beat=0.25\n? a string cannot be called (t.fl:8)\n"},
         {PETRI_PRINT_LOG | PETRI_PRINT_ERROR,
-         "@1 time=0.25 beat=0.25\n> 1\n> 'x'\n? not callable: a string (t.fl:8)\n"},
+         "@1 time=0.25 beat=0.25\n> 1\n> 'x'\n? a string cannot be called (t.fl:8)\n"},
         {PETRI_PRINT_HASH, "@1 time=0.25 beat=0.25\n" STATE_HASH},
         {PETRI_PRINT_HASH | PETRI_PRINT_STATE | PETRI_PRINT_ERROR,
-         "@1 time=0.25 beat=0.25\n" STATE "? not callable: a string (t.fl:8)\n" STATE_HASH},
+         "@1 time=0.25 beat=0.25\n" STATE "? a string cannot be called (t.fl:8)\n" STATE_HASH},
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         player_print(player, rows[i].sections);
@@ -237,7 +237,7 @@ static void test_diagnostics_are_reported_once_per_load(void **state) {
     Player *player = *state;
     static const char script[] = "!a v='s'(1);nothing\n!physics state=:s dimensions=1 colour=1\n";
     static const char wanted[] = "warning t.fl:1:13 unbound name 'nothing' is null [unbound-name]\n"
-                                 "warning t.fl:1:6 not callable: a string [not-callable]\n"
+                                 "warning t.fl:1:6 a string cannot be called [not-callable]\n"
                                  "warning !physics state=:s: unknown attribute 'colour' [unknown-attribute]\n";
     player_run(player, script, 5);
     assert_text("first load", player_diagnostics(player), wanted);

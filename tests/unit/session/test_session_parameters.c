@@ -104,7 +104,7 @@ static void test_values(void **state) {
     } rows[] = {
         {"X=1", "!a v=3;2\n",
          "warning unused definition 'X': t.fl does not read it; "
-         "its parameter is N [unread-definition]\n"},
+         "the parameter of the script is N [unread-definition]\n"},
         {"N=4", "!a v=4;2\n", ""},
         {"N=0", "!a v=3;2\n",
          "warning t.fl:1:5 N=0 has no effect: 0 is false, so `or` uses the default 3 "
@@ -196,11 +196,11 @@ static void test_invalid_definitions_are_rejected(void **state) {
         const char *definition, *fallback, *reported;
     } rows[] = {
         {"N=12x", "3",
-         "error t.fl:1:5 '12x' is not a number, and 'N' takes numbers: its default is 3 [bad-definition]\n"},
-        {"N=", "3", "error t.fl:1:5 '' is not a number, and 'N' takes numbers: its default is 3 [bad-definition]\n"},
+         "error t.fl:1:5 '12x' is not a number; 'N' takes numbers, such as its default 3 [bad-definition]\n"},
+        {"N=", "3", "error t.fl:1:5 '' is not a number; 'N' takes numbers, such as its default 3 [bad-definition]\n"},
         {"N=1;b", "(1;2)",
-         "error t.fl:1:5 'b' is not a number, and 'N' takes numbers: its default is (1;2) [bad-definition]\n"},
-        {"N=:a", "3", "error t.fl:1:5 :a is not a number, and 'N' takes numbers: its default is 3 [bad-definition]\n"},
+         "error t.fl:1:5 'b' is not a number; 'N' takes numbers, such as its default (1;2) [bad-definition]\n"},
+        {"N=:a", "3", "error t.fl:1:5 :a is not a number; 'N' takes numbers, such as its default 3 [bad-definition]\n"},
         {"N=12x", "'text'", ""},
         {"N=12x", ":ring", ""},
         {"N=12x", "beat", ""},
@@ -253,8 +253,8 @@ static void test_set_parameter(void **state) {
     uint64_t number = petri_config_revision(player->session);
     assert_int_equal(petri_set_parameter(player->session, "N", "x"), PETRI_INVALID);
     assert_text("wrong", player_diagnostics(player),
-                "error t.fl:1:5 'x' is not a number, and 'N' takes numbers: its default "
-                "is 3 [bad-definition]\n");
+                "error t.fl:1:5 'x' is not a number; 'N' takes numbers, such as its default "
+                "3 [bad-definition]\n");
     assert_int_equal(petri_set_parameter(player->session, "M", "1"), PETRI_INVALID);
     assert_int_equal(petri_set_parameter(player->session, "", "1"), PETRI_INVALID);
     assert_true(number <= petri_config_revision(player->session));
@@ -297,7 +297,9 @@ static void test_modules_do_not_see_definitions(void **state) {
     assert_int_equal(petri_define(player->session, "SIZE=4"), PETRI_OK);
     assert_int_equal(petri_load(player->session, folder_file(&folder, "main.fl")), PETRI_OK);
     const char *reported = player_diagnostics(player);
-    assert_non_null(strstr(reported, "m.fl:2:5 unused definition 'SIZE': modules do not see definitions"));
+    assert_non_null(strstr(
+        reported,
+        "m.fl:2:5 unused definition 'SIZE': it is a parameter of a module, and definitions do not apply to modules"));
     assert_null(strstr(reported, "PART"));
     assert_text("files", list(player),
                 "PART 8 (7) 8/7 -inf..inf|0 'in a part' 1:5 defined\n"

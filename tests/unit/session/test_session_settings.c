@@ -29,10 +29,11 @@ static void test_pragmas(void **state) {
 static void test_pragma_warnings(void **state) {
     Player *player = *state;
     player_run(player, "%pragma fps 0\n%pragma tempo 'x'\n%pragma quantum !a\n%pragma other 'y'\n!a\n", 2);
-    assert_text("diagnostics", player_diagnostics(player),
-                "warning t.fl:1:1 this pragma's value must be a number above 0; ignored [bad-pragma]\n"
-                "warning t.fl:2:1 this pragma's value must be a number above 0; ignored [bad-pragma]\n"
-                "warning t.fl:3:1 this pragma's value must be a number; ignored [bad-pragma]\n");
+    assert_text(
+        "diagnostics", player_diagnostics(player),
+        "warning t.fl:1:1 the value of this pragma must be a number above 0; the pragma is ignored [bad-pragma]\n"
+        "warning t.fl:2:1 the value of this pragma must be a number above 0; the pragma is ignored [bad-pragma]\n"
+        "warning t.fl:3:1 the value of this pragma must be a number; the pragma is ignored [bad-pragma]\n");
 }
 
 // Definitions as specified in L16.3.

@@ -52,9 +52,9 @@ static void test_invalid_state_files_are_rejected(void **state) {
         {"frame 9\n$(:\xa0\xa0) = 1\n", PETRI_INVALID, "", damaged},
         // Values that are not finite are ignored, and their particles start from their attributes.
         {"frame 9\n$(:n) = inf\n$(:n;:time) = 0\n", PETRI_OK, "$:n = 0\n",
-         "warning values in 's.state' are not finite: 1 ignored [state-file]\n"},
+         "warning 's.state' contains values that are not finite; number of ignored values: 1 [state-file]\n"},
         {"frame 9\n$(:n) = 1\n$(:n;:time) = nan\n$(:s;:clock) = -inf\n$(:x) = 1;nan\n", PETRI_OK, "$:n = 1\n",
-         "warning values in 's.state' are not finite: 3 ignored [state-file]\n"},
+         "warning 's.state' contains values that are not finite; number of ignored values: 3 [state-file]\n"},
         // Frame numbers beyond the range of int, and beyond 2^53.
         {"frame 2147483647\n", PETRI_OK, "$(:n;:time) = 35791394.13333333\n", ""},
         {"frame 4503599627370496\n", PETRI_OK, "$(:n;:time) = 75059993789508.28\n", ""},

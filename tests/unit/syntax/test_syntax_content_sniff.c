@@ -46,7 +46,7 @@ static void test_binary_file_gives_one_error(void **state) {
 static void test_other_text_gives_one_error(void **state) {
     World *world = *state;
     Str table = STR("root:x:0\nbin:y:1\n\nmail:z:2\n");
-    const char *sum = "1: not a Flitter script? 3 of 3 lines are invalid; first: "
+    const char *sum = "1: is this a Flitter script? 3 of 3 lines are invalid; the first error: "
                       "unexpected symbol :x\n";
     assert_text("a table", reports_of(world, "passwd", "/etc/passwd", table), sum);
     assert_text("a stream", reports_of(world, "<stdin>", "<stdin>", table), sum);

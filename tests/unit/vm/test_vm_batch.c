@@ -122,8 +122,8 @@ static void test_errors_keep_their_order(void **state) {
                "        !r c=(0..(1e9 if i%30==29 else 1))[0]\n",
                1);
     assert_text("faults", text_c(&runner->reported),
-                "5:14 octnoise: more than 1024 octaves [bad-call]\n"
-                "4:14 octnoise: more than 1024 octaves [bad-call]\n"
+                "5:14 octnoise: too many octaves: the limit is 1024 [bad-call]\n"
+                "4:14 octnoise: too many octaves: the limit is 1024 [bad-call]\n"
                 "7:15 range too long: the limit is 134217728 elements [too-long]\n");
     assert_true(runner->vm.batched_iterations > 0 && runner->vm.batched_iterations < 450);
 }

@@ -123,9 +123,9 @@ static void test_diagnostics(void **state) {
         {"!a\n    !b v=foo+bar\n", "2:10 unbound name 'foo' is null [unbound-name]\n"
                                    "2:14 unbound name 'bar' is null [unbound-name]\n"},
         {"let x=x\n", "1:7 unbound name 'x' is null [unbound-name]\n"},
-        {"!a v=(sin;'s';1;!n)(0)\n", "1:6 not callable: a string [not-callable]\n"
-                                     "1:6 not callable: a number [not-callable]\n"
-                                     "1:6 not callable: a node; attributes are written without "
+        {"!a v=(sin;'s';1;!n)(0)\n", "1:6 a string cannot be called [not-callable]\n"
+                                     "1:6 a number cannot be called [not-callable]\n"
+                                     "1:6 a node cannot be called; write attributes without "
                                      "parentheses: !name a=1 [not-callable]\n"},
         {"!a v=1(2);null(3)\n", ""},
         {"!a v='a'+1;[]\n", NULL},
