@@ -2,7 +2,7 @@
 void main() {
 #ifdef DISC
     // Computes where the ray through this point of the disc meets the sphere. The radius of the disc is sqrt(1 - near²)
-    // times that of the sphere.
+    // times the radius of the sphere.
     float near = towards.w, depth = sqrt(max(1.0 - dot(across, across) / (1.0 - near * near), 0.0));
     N = (across + towards.xyz * (depth + near)) / (1.0 + near * depth);
     world = ball.xyz + ball.w * N;

@@ -1,7 +1,7 @@
 // scene_light.glsl: lighting of a surface point (spec canvas3d.md 5.3, 5.4).
 #ifdef DISC
-in vec3 across;                // from the centre of the disc, in radii of the sphere
-flat in vec4 ball, towards;    // ball: centre, radius; towards: direction to the camera, radius / distance
+in vec3 across;                // vector from the centre of the disc to this point, in radii of the sphere
+flat in vec4 ball, towards;    // ball: centre and radius; towards: direction to the camera, and radius / distance
 vec3 world;
 #ifdef DEEP
 uniform mat4 view, projection;
@@ -18,7 +18,7 @@ uniform bool orthographic, monochrome;
 uniform float fog_min, fog_max, fog_curve;
 uniform vec3 fog_color, tint;
 uniform vec3 ambient;
-uniform int ends[5]; // index after the last directional light, spot, point, ball and line
+uniform int ends[5]; // for directional, spot, point, ball and line lights: index after the last light of the kind
 
 #ifdef MANY_LIGHTS
 uniform highp sampler2D lights;
@@ -36,8 +36,8 @@ vec3 entering, entering_share;
 #endif
 float alpha2, k, NV, GV;
 
-// Adds the light c from direction L and distance d, scaled by b: the diffuse part if `first`, the specular part if
-// `last`.
+// Adds light of colour c from direction L and distance d, scaled by b. Adds the diffuse part if `first`, and the
+// specular part if `last`.
 void shine(vec3 c, vec4 falloff, vec3 L, float d, float b, bool first, bool last) {
     float NL = clamp(dot(N, L), 0.0, 1.0);
     vec3 I = c * (b * NL / (falloff.x + d * (falloff.y + d * (falloff.z + d * falloff.w))));

@@ -1,9 +1,9 @@
 // scene_through.glsl: light transmitted through translucent bodies (spec canvas3d.md 5.6).
-uniform sampler2D backs; // light that enters through back faces, and their distance
+uniform sampler2D backs; // rgb: light that enters through the back face; a: distance of the back face
 uniform mat4 view, projection;
 
-// Adds the transmitted light, and returns the remaining opacity. The light is sampled around the back point, at points
-// of a spiral with Gaussian density. The sampled area grows with the thickness of the body.
+// Adds the transmitted light, and returns the remaining opacity. The light is sampled around the point of the back face
+// behind this point, along a spiral with Gaussian density. The sampled area grows with the thickness of the body.
 float come_through(float translucency, float away) {
     vec4 sum = texelFetch(backs, ivec2(gl_FragCoord.xy), 0);
     if (sum.a <= away)

@@ -5,7 +5,8 @@ uniform vec4 box; // left, bottom, width, height
 uniform bool opaque;
 out vec4 color;
 float limit(int n) { return texelFetch(curve, ivec2(n, 0), 0).r; }
-// Returns the byte that encodes c. Corrects it with the table, because `pow` is not exact.
+// Returns the byte that encodes c. The byte is computed with `pow`, which is not exact, and then corrected with the
+// table.
 float byte_of(float c) {
     if (!(c > 0.0))
         return 0.0;

@@ -1,5 +1,5 @@
 // transform.glsl (spec pictures.md 7.7)
-uniform mat3 inverse_matrix; // all 0: not invertible
+uniform mat3 inverse_matrix; // all elements are 0 if the matrix is not invertible
 
 //: full
 void main() {
