@@ -38,11 +38,12 @@ static void begin_layer(Canvas *canvas, Layers *layers, const Origin *place) {
     if (at < MAX_LAYERS)
         layers->drawn[at] = false;
     if (many) {
-        draw_report_canvas_at(canvas, place, DIAG_WARNING, "too-many-layers",
-                              "!layer: too many or too large layers; the innermost are drawn directly");
+        draw_report_canvas_at(
+            canvas, place, DIAG_WARNING, "too-many-layers",
+            "!layer: layers are nested too deeply or too large; the innermost are drawn without a layer");
         return;
     }
-    if (!draw_charge(canvas, place, pixels, "drawn without the layer"))
+    if (!draw_charge(canvas, place, pixels, "the content is drawn without the layer"))
         return;
     if (wide)
         layers->below[at] = hdr_begin_layer(canvas);

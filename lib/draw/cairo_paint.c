@@ -33,7 +33,7 @@ static const double MAX_WORK = 1e7; // maximum path_work without antialiasing; a
 bool draw_is_drawable(Canvas *canvas) {
     if (canvas->path_work > MAX_WORK && !canvas->failed) {
         draw_report_canvas(canvas, DIAG_ERROR, "path-limit",
-                           "path is too complex to draw: too many points too far apart");
+                           "the picture cannot be drawn: a path has too many points that are far apart");
         canvas->failed = true;
     }
     return !canvas->failed;
@@ -138,7 +138,7 @@ static void draw_with_effect(Canvas *canvas, const DisplayCommand *command, cons
     }
     cairo_path_destroy(path);
     draw_forget_path(canvas);
-    draw_report_degraded(canvas, &canvas->list->effects.at[paint->effect].place, "its effect", lacking);
+    draw_report_degraded(canvas, &canvas->list->effects.at[paint->effect].place, "the path effect", lacking);
 }
 
 // Fills and strokes the current path with the current source and operator.

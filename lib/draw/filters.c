@@ -23,7 +23,8 @@ static double scale_in(const cairo_matrix_t *m, int axis) {
 
 static void report_blur_limit(Canvas *canvas, const DisplayFilter *filter, const double radius[2]) {
     if (fmax(radius[0], radius[1]) > FLOAT_IMAGE_MAX_SIGMA)
-        draw_report_canvas_at(canvas, &filter->place, DIAG_WARNING, "blur-limit", "!%s: radius limited to %d pixels",
+        draw_report_canvas_at(canvas, &filter->place, DIAG_WARNING, "blur-limit",
+                              "!%s: the radius is limited to %d pixels",
                               filter->kind == FILTER_BLUR ? "blur" : "shadow", FLOAT_IMAGE_MAX_SIGMA);
 }
 
@@ -176,7 +177,7 @@ static bool find_box(Canvas *canvas, const DisplayCommand *command, const Displa
 // Charges the cost of the filter. Returns false, after a report, if it exceeds a limit.
 static bool can_filter(Canvas *canvas, const DisplayFilter *filter, const Box *box, const Needs *needs) {
     double pixels = box->width * box->height, work = pixels <= MAX_PIXELS ? pixels * needs->work : INFINITY;
-    return draw_charge(canvas, &filter->place, work, "drawn without the filter");
+    return draw_charge(canvas, &filter->place, work, "the content is drawn without the filter");
 }
 
 // Draws the command to a new image, without its filter and composite mode, and returns the image.

@@ -71,14 +71,14 @@ static cairo_surface_t *read_png(Str bytes, const char **problem) {
     uint32_t width = bytes.len > 24 ? big_endian(bytes.bytes + 16) : 0;
     uint32_t height = bytes.len > 24 ? big_endian(bytes.bytes + 20) : 0;
     if (width > MAX_SIDE || height > MAX_SIDE || (uint64_t)width * height > MAX_PIXELS) {
-        *problem = "too large";
+        *problem = "the picture is too large";
         return NULL;
     }
     cairo_surface_t *surface = cairo_image_surface_create_from_png_stream(read_bytes, &bytes);
     cairo_status_t status = cairo_surface_status(surface);
     if (status == CAIRO_STATUS_SUCCESS)
         return surface;
-    *problem = status == CAIRO_STATUS_NO_MEMORY ? NULL : "not a PNG file, or damaged";
+    *problem = status == CAIRO_STATUS_NO_MEMORY ? NULL : "the PNG file is damaged or of an unsupported kind";
     cairo_surface_destroy(surface);
     return NULL;
 }
@@ -91,7 +91,7 @@ static cairo_surface_t *decode_image(Str bytes, const Budget *budget, const char
         bool spent = budget->memory > budget->memory_limit;
         return draw_read_jpeg(bytes, spent ? 0 : budget->memory_limit - budget->memory, problem);
     }
-    *problem = "neither PNG nor JPEG";
+    *problem = "it is neither PNG nor JPEG";
     return NULL;
 }
 
@@ -122,7 +122,7 @@ static CachedImage *load_image(PetriPainter *painter, const FileAccess *reach, c
     if (picture->surface && !charge_image(picture)) {
         cairo_surface_destroy(picture->surface);
         picture->surface = NULL;
-        problem = "exceeds the memory limit (--memory)";
+        problem = "it exceeds the memory limit (--memory)";
     }
     picture->problem = problem ? heap_strndup(problem, strlen(problem)) : NULL;
     if (!picture->path || !picture->version || (!picture->surface && !picture->problem)) {

@@ -11,7 +11,7 @@
 
 enum { MAX_SIDE = 16384, MAX_PIXELS = 1 << 26, MAX_SCANS = 100 };
 
-static const char EXCEEDS_MEMORY[] = "exceeds the memory limit (--memory)";
+static const char EXCEEDS_MEMORY[] = "it exceeds the memory limit (--memory)";
 
 typedef struct JpegError {
     struct jpeg_error_mgr manager;
@@ -43,14 +43,14 @@ static void limit_scans(j_common_ptr info) {
 
 static const char *explain_failure(const JpegError *trouble) {
     if (trouble->too_many_scans)
-        return "has more than 100 scans";
+        return "the JPEG file has more than 100 scans";
     switch (trouble->manager.msg_code) {
     case JERR_OUT_OF_MEMORY:
         return NULL;
     case JERR_NO_BACKING_STORE:
         return EXCEEDS_MEMORY; // libjpeg's error if decoding needs more than max_memory_to_use
     default:
-        return "damaged, or an unsupported kind of JPEG";
+        return "the JPEG file is damaged or of an unsupported kind";
     }
 }
 
@@ -86,7 +86,7 @@ cairo_surface_t *draw_read_jpeg(Str bytes, size_t memory, const char **problem) 
         jpeg.out_color_space = JCS_RGB;
         if (jpeg.image_width > MAX_SIDE || jpeg.image_height > MAX_SIDE ||
             (uint64_t)jpeg.image_width * jpeg.image_height > MAX_PIXELS) {
-            *problem = "too large";
+            *problem = "the picture is too large";
         } else if ((uint64_t)jpeg.image_width * jpeg.image_height * sizeof(uint32_t) > memory) {
             *problem = EXCEEDS_MEMORY;
         } else {

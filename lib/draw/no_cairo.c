@@ -16,10 +16,13 @@ PetriStatus petri_painter_use_backend(PetriPainter *painter, const PetriCanvasBa
 }
 
 static void report_missing(void *faults) {
-    diag_report(faults, &(Diag){.level = DIAG_ERROR,
-                                .code = "cannot-draw",
-                                .text = STR("this build of petri cannot draw: built without Cairo, Pango and "
-                                            "libjpeg (Debian: libcairo2-dev libpango1.0-dev libjpeg-dev)")});
+    diag_report(
+        faults,
+        &(Diag){.level = DIAG_ERROR,
+                .code = "cannot-draw",
+                .text = STR(
+                    "this build of petri cannot draw: it lacks Cairo, Pango or "
+                    "libjpeg; install them and build it again (Debian: libcairo2-dev libpango1.0-dev libjpeg-dev)")});
 }
 
 static PetriStatus report_no_cairo(DiagSink *faults) {

@@ -14,7 +14,7 @@ void draw_release(Canvas *canvas, size_t bytes) {
     canvas->charged -= bytes;
 }
 
-const char draw_omitted[] = "the rest is left out";
+const char draw_omitted[] = "parts of the picture are left out";
 
 bool draw_charge(Canvas *canvas, const Origin *place, double work, const char *outcome) {
     static const double UNIT = 10; // nanoseconds per unit (budget.h)
@@ -74,7 +74,7 @@ void draw_report_degraded(Canvas *canvas, const Origin *place, const char *what,
         arena_exhausted(&canvas->painter->arena);
     budget->memory_refused = false;
     draw_report_canvas_at(canvas, place, DIAG_WARNING, "memory-limit",
-                          "drawing exceeded the memory limit (--memory); drawn without %s", what);
+                          "drawing exceeded the memory limit (--memory): the content is drawn without %s", what);
 }
 
 void draw_close(Canvas *canvas) {

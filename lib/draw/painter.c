@@ -93,7 +93,7 @@ static void report_name(void *context) {
     report_file(
         saving->picture, saving->file,
         saving->record
-            ? "the filename of !record must end in .png, .jpg, .svg or .pdf, or for a video in .mp4, .webm or .gif"
+            ? "the filename of !record must end in .png, .jpg, .svg or .pdf, or, for a video, in .mp4, .webm or .gif"
             : "the name of a picture must end in .png, .svg or .pdf");
 }
 

@@ -53,7 +53,7 @@ bool draw_apply_effect(Canvas *canvas, const DisplayPaint *paint, const cairo_pa
     Task task = {canvas, effect->kind == EFFECT_DASH ? effect->inner : paint->effect, path, lines};
     ArenaMark mark = arena_mark(arena);
     draw_forget_path(canvas);
-    if (!draw_charge(canvas, &effect->place, 0, "drawn without the path effect"))
+    if (!draw_charge(canvas, &effect->place, 0, "the path is drawn without the effect"))
         task.effect = DISPLAY_NONE;
     bool done = arena_protect(&arena, 1, apply_protected, &task) == ARENA_OK;
     arena_rewind(arena, mark);

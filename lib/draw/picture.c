@@ -248,7 +248,7 @@ static bool make_picture(Request *request) {
     picture->picture.detail = 1;
     picture->picture.reach = file_access_copy(&picture->arena, access->reach);
     if (options->automatic == PETRI_AUTO_ALWAYS && systems == 0) {
-        request->problem = "no automatic picture: the frame has no !physics";
+        request->problem = "cannot draw an automatic picture: the frame has no !physics";
         return false;
     }
     if (!window && (!automatic || options->window >= 0)) {
@@ -260,7 +260,7 @@ static bool make_picture(Request *request) {
     if (window)
         copy_windows(request, window);
     if (!choose_size(&picture->picture, window, access->schema->slots[ROW_WINDOW_SIZE].name)) {
-        request->problem = "invalid window size";
+        request->problem = "the attribute 'size' of the !window must be two numbers: width;height";
         return false;
     }
     if (automatic) {
@@ -306,7 +306,7 @@ PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *opti
         status = session_report_abort(session, session_protect(session, &picture->arena, make_protected, &request),
                                       "the picture");
     else
-        request.problem = "nothing to draw: no frame yet";
+        request.problem = "nothing to draw: no frame has been computed";
     size_t left = access.budget->memory_limit - access.budget->memory;
     picture->picture.work = access.budget->work_limit;
     picture->picture.memory = left < access.memory_limit ? left : access.memory_limit;

@@ -37,7 +37,7 @@ static bool find_own(Gl *gl, const char **problem) {
 }
 
 static bool find_current(Gl *gl, const char **problem) {
-    *problem = "no EGL context is current";
+    *problem = "the window has no EGL context";
     gl->context = eglGetCurrentContext();
     gl->adopted = true;
     if (gl->context == EGL_NO_CONTEXT)

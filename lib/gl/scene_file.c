@@ -13,7 +13,7 @@
 bool mesh_from_lists(Arena *arena, const double *vertices, uint32_t vertex_numbers, const double *faces,
                      uint32_t face_numbers, const double *uv, uint32_t uv_numbers, Mesh *mesh, const char **problem) {
     uint32_t count = vertex_numbers / 3;
-    *problem = "vertices and faces need three numbers each, and uv two per vertex";
+    *problem = "'vertices' needs three numbers per vertex, 'faces' three per face and 'uv' two per vertex";
     if (vertex_numbers % 3 || face_numbers % 3 || count == 0 || face_numbers == 0 ||
         (uv_numbers && uv_numbers != 2 * count))
         return false;
@@ -21,7 +21,7 @@ bool mesh_from_lists(Arena *arena, const double *vertices, uint32_t vertex_numbe
                    arena_alloc_array(arena, face_numbers, sizeof(uint32_t)), count, face_numbers};
     double(*normals)[3] = arena_alloc_array(arena, count, sizeof *normals);
     memset(normals, 0, count * sizeof *normals);
-    *problem = "faces refers to a vertex that does not exist";
+    *problem = "'faces' refers to a vertex that does not exist";
     for (uint32_t i = 0; i < face_numbers; i++) {
         double number = floor(faces[i]);
         if (!(number >= 0 && number < count))
@@ -204,9 +204,9 @@ static bool read_obj_line(Obj *obj, Str line) {
         int min;
         int size;
         const char *form;
-    } lists[] = {{"v", 3, 3, "v needs three numbers"},
-                 {"vt", 1, 2, "vt needs one or two numbers"},
-                 {"vn", 3, 3, "vn needs three numbers"}};
+    } lists[] = {{"v", 3, 3, "'v' needs three numbers"},
+                 {"vt", 1, 2, "'vt' needs one or two numbers"},
+                 {"vn", 3, 3, "'vn' needs three numbers"}};
     Str word = next_word(&line);
     for (int i = 0; i < 3; i++) {
         if (!str_equal(word, str_from(lists[i].name)))
@@ -239,7 +239,7 @@ static bool read_obj(Arena *arena, Str bytes, Mesh *mesh, MeshError *fault) {
             *fault = (MeshError){obj.problem, line};
             return false;
         }
-    *fault = (MeshError){"no triangles", 0};
+    *fault = (MeshError){"it contains no triangles", 0};
     if (obj.count == 0)
         return false;
     // Creates a vertex for each distinct corner.
@@ -286,7 +286,7 @@ static bool read_stl_text(Arena *arena, Str bytes, Floats *list, MeshError *faul
     for (fault->line = 1; bytes.len > 0; fault->line++) {
         Str line = next_line(&bytes), word = next_word(&line);
         if (str_equal(word, STR("vertex"))) {
-            fault->text = "vertex needs three numbers, and a loop needs three vertices";
+            fault->text = "'vertex' needs three numbers, and a loop needs three vertices";
             if (count == 3 || !read_floats(line, 3, 3, corners + 3 * count))
                 return false;
             count++;
@@ -297,7 +297,7 @@ static bool read_stl_text(Arena *arena, Str bytes, Floats *list, MeshError *faul
             count = 0;
         }
     }
-    fault->text = "the file ends within a loop";
+    fault->text = "the file ends within a loop, before 'endloop'";
     fault->line--;
     return count == 0;
 }
@@ -333,10 +333,10 @@ bool mesh_from_file(Arena *arena, Str bytes, Mesh *mesh, MeshError *fault) {
     bool binary = is_binary_stl(bytes), text = !binary && str_starts_with(bytes, STR("solid"));
     if (!binary && !text)
         return read_obj(arena, bytes, mesh, fault);
-    *fault = (MeshError){"a triangle is out of range, or there are more than 4 million", 0};
+    *fault = (MeshError){"a coordinate is out of range, or there are more than 4 million triangles", 0};
     if (binary ? !read_stl_binary(arena, bytes, &list) : !read_stl_text(arena, bytes, &list, fault))
         return false;
-    *fault = (MeshError){"no triangles", 0};
+    *fault = (MeshError){"it contains no triangles", 0};
     if (list.count == 0)
         return false;
     *mesh = (Mesh){.vertices = arena_alloc_array(arena, list.count, sizeof(MeshVertex)),

@@ -55,7 +55,7 @@ static bool read_triangles(const Scene *scene, const DrawNode *node, Arena *aren
         return false;
     const double *corners = faces ? faces->as.list : NULL;
     uint32_t count = faces ? faces->count : 0;
-    const char *problem = "vertices without faces must be at most 2000, and not all in one plane";
+    const char *problem = "a model without faces can have at most 2000 vertices, which must not all lie in one plane";
     if (!faces && vertices->count % 3 == 0 && vertices->count <= 3 * MESH_MAX_HULL)
         corners = mesh_hull(arena, vertices->as.list, vertices->count / 3, &count);
     if (corners && mesh_from_lists(arena, vertices->as.list, vertices->count, corners, count, uv ? uv->as.list : NULL,

@@ -261,7 +261,7 @@ static uint32_t number_model(Scene *scene, const DrawNode *node) {
     } else {
         double segments = draw_number(node, ATTR_SEGMENTS);
         if (segments > MESH_MAX_SEGMENTS)
-            scene_report(scene, "too-many-segments", node, "segments limited to 1024");
+            scene_report(scene, "too-many-segments", node, "the number of segments is limited to 1024");
         model.segments = (uint32_t)clamp(segments, kind == KIND_SPHERE ? 4 : 2, MESH_MAX_SEGMENTS);
     }
     for (uint32_t i = scene->model_count; i-- > 0;)

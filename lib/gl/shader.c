@@ -54,7 +54,7 @@ GlImage gl_shader(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults
     else
         text_add_c(&texts[1], "void main() { color = merged(coord) * alpha; }\n");
     if (!good) {
-        gl_report(faults, node, "bad-shader", STR("only the template ${HEADER} is supported"));
+        gl_report(faults, node, "bad-shader", STR("no template is supported except '${HEADER}'"));
         return (GlImage){0};
     }
     unsigned program = gl_program(gl, arena, text_str(&texts[0]), text_str(&texts[1]), &fault);

@@ -115,7 +115,7 @@ static Str format_message(Arena *arena, const DrawNode *node, const CompilerMess
     if (message->line == 0)
         return str_format(arena, "!%s: %.*s", kind, STR_ARGS(message->text));
     if (file.len == 0)
-        return str_format(arena, "!%s: line %u of its shader: %.*s", kind, message->line, STR_ARGS(message->text));
+        return str_format(arena, "!%s: line %u of the shader: %.*s", kind, message->line, STR_ARGS(message->text));
     return str_format(arena, "!%s: %.*s:%u: %.*s", kind, STR_ARGS(file), message->line, STR_ARGS(message->text));
 }
 

@@ -56,7 +56,7 @@ else
     petri render disc.fl -o scaled.png --frames 9 --scale 2
     check "--scale multiplies the size" cmp -s disc.png scaled.png
 
-    # Loaded libraries: OpenGL only for effects and 3-D; no drawing libraries for `petri run`.
+    # OpenGL is loaded only for effects and 3-D. `petri run` loads no drawing libraries.
     cat >glowing.fl <<'END'
 !window size=8;8
     !bloom radius=2
@@ -133,7 +133,8 @@ END
     petri render record.fl -o last.png --frames 4
     check "!record to an unknown kind of file is an error" one_error
 
-    # frames before the systems have stored positions: red if the state has none
+    # Frames are not saved before the systems have stored positions. Such a frame would be red, because its script finds no
+    # position in the state.
     cat >early.fl <<'END'
 !physics state=:w dimensions=2
     !particle id=1 position=20;20 velocity=1;0
@@ -210,7 +211,8 @@ open(sys.argv[4], "wb").write(
     + b"\xff\xd9")
 END
     }
-    # Images on the GPU are used again; what a script's own shader leaves out must not show their earlier pixels.
+    # Images on the GPU are reused. Pixels that a script's own shader does not write must be transparent, and must not show
+    # what the image contained before.
     cat >discard.fl <<'END'
 !window size=100;80
     if frame < 2
@@ -237,7 +239,8 @@ END
         petri render heavy.fl -o heavy.png --frames 1 --work 1000000
         petri render heavy.fl -o heavy.png --frames 1 --work "$(sed -n 's/.*--work \([0-9]*\) would allow it.*/\1/p' err)"
         check "the message names a sufficient limit" empty err
-        # Apexes that go outwards see all side faces of the hull before.
+        # These hulls take much work. Each apex is farther out than the previous one, so it sees all side faces of the hull
+        # that was built so far.
         cat >hull.fl <<'END'
 let n=650
 let base=(cos(i/n);sin(i/n);0.001*cos(2*i/n)) for i in ..n
@@ -260,10 +263,10 @@ END
         check "a JPEG file with 100 scans is read" [ "$status" = 0 ] && empty err
         scans 64 64 100 scans.jpg
         petri render scans.fl -o scans.png --frames 1
-        check "a JPEG file with too many scans is reported" has err "cannot read 'scans.jpg': has more than 100 scans"
+        check "a JPEG file with too many scans is reported" has err "cannot read 'scans.jpg': the JPEG file has more than 100 scans"
         scans 8192 8192 2 scans.jpg # 256 MiB of pixels and 128 MiB of coefficients
         petri render scans.fl -o scans.png --frames 1 --memory 300M
-        check "the decoder's memory is limited" has err "cannot read 'scans.jpg': exceeds the memory limit (--memory)"
+        check "the decoder's memory is limited" has err "cannot read 'scans.jpg': it exceeds the memory limit (--memory)"
     fi
     # invalid and non-finite attributes are reported once and their elements are omitted
     cat >wrong.fl <<'END'
@@ -297,7 +300,7 @@ END
         "!text: point should be" "!paint: color should be grey" "!paint: stroke_width should be number, 0 or more" \
         "!paint: stroke_join should be :miter, :round or :bevel, not :rond" "!paint: composite should be a word such as :over" \
         "unknown attribute 'colour'; did you mean 'color'?" "'!elipse' is not supported; ignored; did you mean '!ellipse'?" \
-        "'!stop' has no effect here" "cannot read 'absent.png': No such file" "cannot read 'disc.fl': neither PNG nor JPEG" \
+        "'!stop' has no effect here" "cannot read 'absent.png': No such file" "cannot read 'disc.fl': it is neither PNG nor JPEG" \
         "font 'No Such Font' is not installed"; do
         check "reported once: $text" count_is err "$text" 1
     done
@@ -345,7 +348,7 @@ END
     check "10,000 nested clips do not change the picture" cmp -s nest.png blue.png
     sed 's/!group/!layer size=1000/; /!path/d; /!ellipse/d; /!clip/d' nest.fl >layers.fl
     petri render layers.fl -o layers.png --frames 1
-    check "the innermost of 10,000 nested layers are drawn without layers" count_is err "too many or too large layers" 1
+    check "the innermost of 10,000 nested layers are drawn without layers" count_is err "layers are nested too deeply or too large" 1
     check "10,000 nested layers do not change the picture" cmp -s layers.png blue.png
 
     # videos
@@ -518,7 +521,7 @@ END
         '!image filename="disc.png" size=100'; do
         printf '!window size=100\n    !canvas id=:c\n        for i in ..1000\n            %s\n' "$many" >many.fl
         petri render many.fl -o many.png --work 500k --scale 5
-        check "drawing is charged as work: $many" has err "drawing exceeded the work limit (--work): the rest is left"
+        check "drawing is charged as work: $many" has err "drawing exceeded the work limit (--work): parts of the picture are left"
         petri render many.fl -o many.png
         check "cheap drawing is below the limit: $many" [ ! -s err ]
     done

@@ -536,18 +536,18 @@ static void test_memory_limit_omits_only_expensive_parts(void **state) {
     } cases[] = {
         {"        !group\n            !blur radius=9\n            !rect point=1000;0 size=1000;3000 fill=true "
          "color=1;0;0\n",
-         "5 [memory-limit] drawing exceeded the memory limit (--memory); drawn without a "
+         "5 [memory-limit] drawing exceeded the memory limit (--memory): the content is drawn without a "
          "filter\n",
          255},
         {"        !group\n            !layer size=3000;3000 alpha=0.5\n                !layer size=3000;3000\n"
          "                    !rect point=1000;0 size=1000;3000 fill=true color=1;0;0\n",
-         "6 [memory-limit] drawing exceeded the memory limit (--memory); drawn without the "
+         "6 [memory-limit] drawing exceeded the memory limit (--memory): the content is drawn without the "
          "layer\n",
          127},
         {"        !blend ratio=0.5\n            !paint color=1;0;0\n            !paint color=0;1;0\n"
          "        !rect point=1000;0 size=1000;3000 fill=true color=1;0;0\n        !color color=0\n"
          "    !canvas size=9000;9000\n        !rect size=9000 fill=true\n    !canvas size=3000\n",
-         "4 [memory-limit] drawing exceeded the memory limit (--memory); drawn without a "
+         "4 [memory-limit] drawing exceeded the memory limit (--memory): the content is drawn without a "
          "filter\n"
          "9 [memory-limit] !canvas: a picture of 9000 x 9000 pixels exceeds the memory limit "
          "(--memory); it is left out\n",
@@ -626,10 +626,10 @@ static void test_bad_input_is_reported_once(void **state) {
          "", false},
         {"        !group\n            !blur radius=1e9\n            !rect point=25;0 size=10;60 fill=true "
          "color=1;0;0\n",
-         "5 [blur-limit] !blur: radius limited to 256 pixels\n", false},
+         "5 [blur-limit] !blur: the radius is limited to 256 pixels\n", false},
         {"        !group\n            !shadow radius=1e300 offset=1e300 color=0\n"
          "                !dilate radius=1e300\n            !rect point=25;0 size=10;60 fill=true color=1;0;0\n",
-         "5 [drawing-limit] drawing exceeded the work limit (--work): drawn without the "
+         "5 [drawing-limit] drawing exceeded the work limit (--work): the content is drawn without the "
          "filter\n",
          true},
         {"        !group\n            !jitter length=1e-300 deviation=1e300\n            !line points=1;1;9;9 "

@@ -31,14 +31,15 @@ static const Row rows[] = {
      "        for i in ..3\n            !model filename='hole.obj' color=1 position=i\n"
      "        !model filename='cut.stl' color=1\n        !model filename='empty.stl' color=1\n",
      "6 [cannot-read] !model: hole.obj:4: a face refers to a vertex that does not exist\n"
-     "7 [cannot-read] !model: cut.stl:5: vertex needs three numbers, and a loop needs three vertices\n"
-     "8 [cannot-read] !model: cannot read 'empty.stl': no triangles\n"},
+     "7 [cannot-read] !model: cut.stl:5: 'vertex' needs three numbers, and a loop needs three vertices\n"
+     "8 [cannot-read] !model: cannot read 'empty.stl': it contains no triangles\n"},
     {"models with bad numbers",
      "        !model vertices=0;0;0;1;0;0;0;1;0 faces=0;1;3 color=1\n        !model vertices=0;0;0 color=1\n"
      "        !model vertices=1;2 faces=0;1;2 color=1\n",
-     "5 [bad-model] !model: faces refers to a vertex that does not exist\n"
-     "6 [bad-model] !model: vertices without faces must be at most 2000, and not all in one plane\n"
-     "7 [bad-model] !model: vertices and faces need three numbers each, and uv two per vertex\n"},
+     "5 [bad-model] !model: 'faces' refers to a vertex that does not exist\n"
+     "6 [bad-model] !model: a model without faces can have at most 2000 vertices, which must not all lie in one plane\n"
+     "7 [bad-model] !model: 'vertices' needs three numbers per vertex, 'faces' three per face and 'uv' two per "
+     "vertex\n"},
     {"missing textures", "        !box position=-1.5;0;0 color=0;1;0 color_id=:none emissive_id=''\n", ""},
     {"textures that refer to each other",
      "        !camera id=:a secondary=true size=32;32\n        !camera id=:b secondary=true size=32;32\n"
@@ -76,7 +77,7 @@ static const Row rows[] = {
      "fog_curve=-1 width=0 orthographic=true samples=1e9\n",
      ""},
     {"too many segments", "        !sphere segments=5000 position=1.5;0;0 size=0.1 color=1\n",
-     "5 [too-many-segments] !sphere: segments limited to 1024\n"},
+     "5 [too-many-segments] !sphere: the number of segments is limited to 1024\n"},
     {"damaged images",
      "        !box position=1.5;0;0 color=1 color_id=:hurt\n    !image id=:hurt filename='damaged.png' hidden=true\n"
      "    !image filename='none.png' hidden=true\n",

@@ -161,7 +161,7 @@ static void test_shader_errors_are_at_their_lines(void **state) {
                      "0.0, 1.0); }\n\"\"\"\n",
                 1, 124, 0, 0);
     check_reported("templates", SIZE "    !shader fragment=\"${HEADER} ${more}\"\n    !vignette inset=0\n        " RED,
-                   "2 [bad-shader] !shader: only the template ${HEADER} is supported\n", 255, 0, 0);
+                   "2 [bad-shader] !shader: no template is supported except '${HEADER}'\n", 255, 0, 0);
     // The message comes from the driver. If the shader is written in the script, the line is a line of the script.
     static const struct {
         const char *row;
@@ -181,7 +181,7 @@ static void test_shader_errors_are_at_their_lines(void **state) {
         {"vertex shader", "    !shader vertex=\"\"\"${HEADER}\nvoid main() { gl_Position = wrong; }\"\"\"\n",
          "5:29 [bad-shader] !shader: "},
         {"shader is computed", "    !shader fragment=concat('${HEADER}';\"\"\"\n\"\"\";'void main() { wrong(); }')\n",
-         "4:13 [bad-shader] !shader: line 2 of its shader: "},
+         "4:13 [bad-shader] !shader: line 2 of the shader: "},
         {"shader is read from a file", "    !shader fragment=read('bad.glsl')\n",
          "4:13 [bad-shader] !shader: bad.glsl:3: "},
     };

@@ -323,7 +323,7 @@ static void test_images_come_from_host(void **state) {
     petri_picture_report(player->session, picture);
     const char *reported = player_diagnostics(player);
     if (status != PETRI_UNSUPPORTED) {
-        assert_non_null(strstr(reported, "cannot read 'images/./a.png': neither PNG nor JPEG"));
+        assert_non_null(strstr(reported, "cannot read 'images/./a.png': it is neither PNG nor JPEG"));
         assert_non_null(strstr(reported, "cannot read '/etc/passwd': No such file"));
     }
     petri_painter_close(&painter);

@@ -210,14 +210,14 @@ static void test_obj(void **state) {
         uint32_t line;
         const char *problem;
     } bad[] = {
-        {"", 0, "no triangles"},
-        {"v 0 0 0\n", 0, "no triangles"},
-        {"# a\n\nv 0 0\n", 3, "v needs three numbers"},
-        {"v 0 0 x\n", 1, "v needs three numbers"},
-        {"v nan 0 0\nf 1 1 1\n", 1, "v needs three numbers"},
-        {"v 1e300 0 0\nf 1 1 1\n", 1, "v needs three numbers"},
-        {"v 0 0 0\nvt\nf 1 1 1\n", 2, "vt needs one or two numbers"},
-        {"v 0 0 0\r\nvn 1\r\nf 1 1 1\n", 2, "vn needs three numbers"},
+        {"", 0, "it contains no triangles"},
+        {"v 0 0 0\n", 0, "it contains no triangles"},
+        {"# a\n\nv 0 0\n", 3, "'v' needs three numbers"},
+        {"v 0 0 x\n", 1, "'v' needs three numbers"},
+        {"v nan 0 0\nf 1 1 1\n", 1, "'v' needs three numbers"},
+        {"v 1e300 0 0\nf 1 1 1\n", 1, "'v' needs three numbers"},
+        {"v 0 0 0\nvt\nf 1 1 1\n", 2, "'vt' needs one or two numbers"},
+        {"v 0 0 0\r\nvn 1\r\nf 1 1 1\n", 2, "'vn' needs three numbers"},
         {"f 1 2 3\n", 1, "a vertex that does not exist"},
         {"v 0 0 0\nf 1 1\n", 2, "at least three corners"},
         {"v 0 0 0\nf 1 1 2\n", 2, "a vertex that does not exist"},
@@ -228,7 +228,7 @@ static void test_obj(void **state) {
         {"v 0 0 0\nf 1 1 99999999999999999999\n", 2, "a vertex that does not exist"},
         {"v 0 0 0\nf 1 1 1/1/1/1\n", 2, "coordinates (vt) that do not exist"},
         {"v 0 0 0\nf a b c\n", 2, "a corner of a face is written"},
-        {"\x89PNG\r\n\x1a\n", 0, "no triangles"},
+        {"\x89PNG\r\n\x1a\n", 0, "it contains no triangles"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
         check_bad(*state, bad[i].text, bad[i].line, bad[i].problem);
@@ -242,10 +242,10 @@ static void test_stl(void **state) {
                           &mesh));
     assert_int_equal(mesh.index_count, 3);
     assert_true(has_vertex(&mesh, (const float[]){1, 0, 0, 0, 0, 1, 0, 0}));
-    check_bad(*state, "solid x\nendsolid x\n", 0, "no triangles");
+    check_bad(*state, "solid x\nendsolid x\n", 0, "it contains no triangles");
     check_bad(*state, "solid x\nvertex 0 0 0\nendloop\n", 3, "a loop needs three vertices");
     check_bad(*state, "solid x\nvertex 0 0 0\n", 2, "ends within a loop");
-    check_bad(*state, "solid\n\nvertex 0 0 inf\nendloop\n", 3, "vertex needs three numbers");
+    check_bad(*state, "solid\n\nvertex 0 0 inf\nendloop\n", 3, "'vertex' needs three numbers");
     char binary[84 + 50] = "binary";
     binary[80] = 1;
     float corners[9] = {0, 0, 0, 0, 2, 0, 0, 0, 2};
