@@ -1,7 +1,7 @@
 // allocations.h: the number of heap allocations by libpetri.
 //
 // The bench is linked with --wrap for malloc and similar functions, so every call by libpetri is counted. Allocations
-// by the C library, including those for new threads, are not.
+// by the C library, including those for new threads, are not counted.
 #ifndef TESTS_BENCH_ALLOCATIONS_H
 #define TESTS_BENCH_ALLOCATIONS_H
 

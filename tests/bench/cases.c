@@ -11,7 +11,8 @@
     { "gravity " #n, "gravity_n" #n ".fl", "gravity", n, 1, 60, PER_PAIR, LIMIT_PAIRS_3D, NULL, 0, 0 }
 #define SCRIPT(n)                                                                                                      \
     { "script " #n, "script_n" #n ".fl", "script", n, 1, 60, PER_PARTICLE, LIMIT_NONE, NULL, 0, 0 }
-// At 5 frames per second, a frame of 0.06 s of simulated time has ten steps of the scripts' resolution, 0.006.
+// Rows "x10" run at 5 frames per second. A frame is then 0.06 s of simulated time, which is ten steps of the scripts'
+// resolution, 0.006.
 #define DISCS(n, side, steps)                                                                                          \
     {"soft discs " #n, "soft2d_n" #n ".fl", "discs", n, 1, 60, PER_STEP, LIMIT_DISCS, "soft2d", side, steps}, {        \
         "soft discs " #n " x10", "soft2d_n" #n ".fl", "discs", n, 10, 5, PER_STEP, LIMIT_DISCS, "soft2d", side, steps  \

@@ -6,7 +6,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// What the nanoseconds of a row refer to: an unordered pair per step, a particle per step, or a particle per frame.
+// Unit to which the nanoseconds in a row refer: one unordered pair and step, one particle and step, or one particle and
+// frame.
 typedef enum Unit { PER_PAIR, PER_STEP, PER_PARTICLE } Unit;
 
 // The limit kernel (limit.h) with the same inner loop as the script.
@@ -22,16 +23,16 @@ typedef struct Case {
     Unit unit;
     Limit limit;
     const char *peer; // LAMMPS input file (tests/bench/peers) for the same system; NULL: none
-    int side;         // discs or spheres along an edge
+    int side;         // number of discs or spheres along an edge
     int peer_steps;   // number of steps that LAMMPS computes in about a second
 } Case;
 
 extern const Case cases[];
 extern const size_t case_count;
 
-// Returns the index of the row with this name, or case_count.
+// Returns the index of the row with this name, or case_count if there is none.
 size_t case_find(const char *name);
-// Returns the index of the previous row with the same family and steps per frame, or case_count.
+// Returns the index of the previous row with the same family and steps per frame, or case_count if there is none.
 size_t case_before(size_t index);
 
 #endif

@@ -1,8 +1,9 @@
 // limit_soft.c: the limit kernel for soft discs and spheres with neighbour lists; see limit.h.
 //
 // n = side² discs (side³ spheres) of diameter 1 and mass 1 in a box with reflecting walls: the workloads "soft discs",
-// at area fraction 0.84, and "soft spheres", at volume fraction 0.60. Arrays are sorted by cell; id[] is the number of
-// a particle, which determines the order of summation. test_limit.c compares the bits with those of lib/physics.
+// at area fraction 0.84, and "soft spheres", at volume fraction 0.60. Arrays are sorted by cell. id[] holds the
+// original numbers of the particles; forces are summed in ascending order of these numbers. test_limit.c compares the
+// bits with those of lib/physics.
 #include "limit.h"
 
 #if defined(__x86_64__)
@@ -151,7 +152,8 @@ INLINE void box_sort(Box *b, int dim) {
     b->id = b->spare_id, b->spare_id = old;
 }
 
-/* Stores the particles within reach of i in `raw`, unordered. Returns their number. */
+/* Stores in `raw` the indices of the particles within distance 1 + skin of particle i, which is in cell c. They are in
+   no particular order. Returns their number. */
 INLINE int box_near(const Box *b, int dim, int c, int i, int *raw) {
     __m512i lanes = _mm512_set_epi64(7, 6, 5, 4, 3, 2, 1, 0);
     double reach = 1 + b->skin;
@@ -183,8 +185,8 @@ INLINE int box_near(const Box *b, int dim, int c, int i, int *raw) {
     return count;
 }
 
-/* Builds the neighbour lists, for contact distance + skin, in ascending order of id, interleaved for eight particles.
- */
+/* Sorts the particles by cell and builds their neighbour lists. A list contains the particles within contact distance +
+   skin, in ascending order of id. The lists of eight particles are interleaved: entry k of list m is at k * 8 + m. */
 INLINE void box_lists(Box *b, int dim) {
     box_sort(b, dim);
     int n = b->n, count[8], found[8][MAX_NEIGHBOURS(3)], raw[MAX_NEIGHBOURS(3) + 8];
@@ -249,7 +251,8 @@ INLINE double box_move(Box *b, int dim) {
     return _mm512_reduce_max_pd(far);
 }
 
-/* Loads positions and radii of eight particles: eight loads and a transposition. */
+/* Loads coordinate m of the particles j[0] to j[7] to out[m], and their radii to out[dim]. Uses eight loads and a
+   transposition. */
 INLINE void box_quads(const Box *b, int dim, const int *j, __m512d *out) {
 #define QUAD(m) _mm256_load_pd(b->quad + 4 * (size_t)j[m])
     __m512d a = _mm512_insertf64x4(_mm512_castpd256_pd512(QUAD(0)), QUAD(4), 1); /* x0 y0 z0 r0 x4 y4 z4 r4 */
@@ -280,7 +283,7 @@ INLINE void box_forces(Box *b, int dim) {
                 d2 = m ? _mm512_add_pd(d2, _mm512_mul_pd(d[m], d[m])) : _mm512_mul_pd(d[m], d[m]);
             }
             __m512d R = _mm512_add_pd(ri, other[dim]);
-            /* First a slightly too wide test without a square root, then the exact condition. */
+            /* The first test needs no square root and is slightly too wide. The second test, below, is exact. */
             __mmask8 touch =
                 _mm512_cmp_pd_mask(d2, _mm512_mul_pd(_mm512_mul_pd(R, R), _mm512_set1_pd(1 + 0x1p-48)), _CMP_LT_OQ);
             if (!touch)

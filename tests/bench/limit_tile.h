@@ -43,7 +43,8 @@ INLINE void NAME(transpose)(V *r) {
 #endif
 }
 
-// Computes the terms f[] of WIDTH pairs. d[]: difference of positions; R: sum of radii; c: strength times both charges.
+// Computes the force terms f[] of WIDTH pairs. d[]: differences of their positions; R: sums of their radii; c: the
+// strength times both charges.
 INLINE void NAME(terms)(V *d, V R, V c, int dim, V *f) {
     V square = F(mul)(d[0], d[0]);
     for (int m = 1; m < dim; m++)
@@ -76,7 +77,8 @@ INLINE void NAME(tile)(const Cloud *c, int dim, int t, int s, const V *here, V *
     }
 }
 
-// Omits the tiles on the diagonal, which are a fraction WIDTH / n of all tiles.
+// Computes the forces of all tiles except those on the diagonal. The omitted tiles are a fraction WIDTH / n of all
+// tiles.
 INLINE void NAME(all)(const Cloud *c, int dim) {
     for (int t = 0; t < c->n; t += WIDTH) {
         V here[3], sum[3];

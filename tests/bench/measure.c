@@ -43,8 +43,8 @@ bool measure_clean(const Sample *round) {
     return round->cpu_share >= 0.97;
 }
 
-// Returns the median over rounds of the member at this offset. Disturbed rounds are included only if all rounds are
-// disturbed.
+// Returns the median of one member of the `count` samples in `rounds`. `member` is the offset of this member. Disturbed
+// rounds are included only if all rounds are disturbed.
 static double median_of(const Sample *rounds, int count, size_t member) {
     double values[ROUNDS_MAX];
     int clean = 0, kept = 0;
@@ -124,7 +124,7 @@ static double limit_once(const Case *c) {
 
 typedef struct Rounds {
     Worker workers[VARIANTS];
-    bool present[VARIANTS]; // variants: one thread, plan->threads, the other build
+    bool present[VARIANTS]; // [0]: one thread, [1]: plan->threads threads, [2]: the other build
     Sample samples[VARIANTS][ROUNDS_MAX];
     double starts[ROUNDS_MAX * STARTS_MAX];
     int start_count;

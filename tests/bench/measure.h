@@ -11,12 +11,12 @@ typedef struct Plan {
     int rounds;
     double budget;   // minimum seconds for which a variant runs in each round
     int warm_steps;  // number of steps before the measurement
-    int starts;      // number of times that the command is started per round
-    double patience; // seconds after which no further rounds are started
+    int starts;      // number of times per round that the start of the command is timed
+    double patience; // seconds after which no further round of a script is started
     int threads;     // number of threads of the second variant; the first has one thread
     uint32_t max_particles;
     bool tiny;           // true: minimal run that only tests the benchmark itself
-    const char *only;    // first words of the requested rows; NULL: all rows
+    const char *only;    // first words of the names of the requested rows; NULL: all rows
     const char *self;    // path of this executable
     const char *scripts; // folder of scripts
     const char *petri;   // path of the petri executable

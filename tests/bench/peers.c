@@ -11,7 +11,8 @@ enum { STYLES = 2 };
 
 static const char *const styles[STYLES] = {"harmonic", "hooke"};
 
-// Million particle-steps per second on two ranks, from tests/bench/PEERS.md, section 2 (newer LAMMPS, another machine).
+// Rates of LAMMPS on two ranks in million particle-steps per second, from tests/bench/PEERS.md, section 2. They were
+// measured with a newer LAMMPS on another machine.
 static const struct {
     const char *peer;
     int side;

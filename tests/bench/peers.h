@@ -5,7 +5,7 @@
 #include "measure.h"
 #include "table.h"
 
-// Ratios petri / LAMMPS of particle-steps per second, for the targets. NaN: not measured.
+// For the table of targets: particle-steps per second of petri, divided by those of LAMMPS. NaN: not measured.
 typedef struct PeerRatios {
     double discs_1e5[2]; // [0]: frames of one step, [1]: frames of ten steps
     double discs_1e6[2];

@@ -3,13 +3,14 @@
 # usage: ranks.sh PATH-OF-PETRI [ROUNDS [SIDE]]
 #   ROUNDS: rounds of the timing (default: 3); SIDE: discs along an edge (default: 1000)
 #
-# 1. Timing: two ranks with one thread and one rank with two threads take turns. Figures are medians over the rounds, of
-#    frames after the first three.
-# 2. Communication of soft discs: three sizes on four ranks, and one size on up to 16 ranks (more than processors).
-# 3. A model of both. A step on R ranks takes N c / R, 2 log2 R latencies per reduction, a latency per message, and the
-#    bytes of the halo over the bandwidth. A frame also takes the work that each rank does for all N, and 36 N bytes.
-#    LATENCY (microseconds) and BANDWIDTH (GB/s) describe the networks (default: two). STEP_NS and FRAME_NS are the
-#    nanoseconds per particle; they are measured if not given.
+# 1. Timing: two ranks with one thread and one rank with two threads take turns. Figures are medians over the rounds. The
+#    first three frames of a run are not included.
+# 2. Communication of soft discs: three sizes on four ranks, and one size on up to 16 ranks (more ranks than processors).
+# 3. A model of both, for N particles on R ranks. A step takes N c / R for computing, where c is STEP_NS. For communication,
+#    it takes 2 log2 R latencies per reduction, one latency per message, and the time to send the bytes of the halo. A
+#    frame also takes N f for work that each rank does for all particles, where f is FRAME_NS, and the time to send 36 N
+#    bytes. STEP_NS and FRAME_NS are nanoseconds per particle; they are measured if not given. LATENCY (microseconds) and
+#    BANDWIDTH (GB/s) are lists with one number for each modelled network (default: two networks).
 set -eu
 petri=$1 rounds=${2:-3} side=${3:-1000}
 workloads=$(cd "$(dirname "$0")" && pwd)/workloads
@@ -24,7 +25,7 @@ discs() { # SIDE
     echo "$work/soft$1.fl"
 }
 
-# milliseconds COMMAND...: prints the milliseconds per frame without output.
+# milliseconds COMMAND...: prints the milliseconds per frame, without the time for writing output.
 milliseconds() {
     "$@" --stats 2>&1 | awk '/^  (evaluation|physics) /{ sum += $2 } END { print sum }'
 }
@@ -33,7 +34,8 @@ median() {
     sort -n | awk '{ v[NR] = $1 } END { print (v[int((NR + 1) / 2)] + v[int(NR / 2) + 1]) / 2 }'
 }
 
-# steady FRAMES COMMAND...: prints the milliseconds per frame of FRAMES frames after the first three, which are slower.
+# steady FRAMES COMMAND...: prints the mean milliseconds per frame of FRAMES frames. They follow the first three frames,
+# which are slower and not included.
 steady() {
     frames=$1
     shift
@@ -95,14 +97,15 @@ fi
 echo
 awk -v c="$STEP_NS" -v f="${FRAME_NS:-0}" -v own="$own" -v bytes="$bytes" -v messages="$messages" -v reductions="$reductions" \
     -v latency="${LATENCY:-2 25}" -v bandwidth="${BANDWIDTH:-10 1}" '
-    # Nanoseconds of a step on `ranks` ranks.
+    # Returns the nanoseconds of a step on `ranks` ranks, including a share of the work per frame.
     function step(n, ranks, steps, us, gb,   log2) {
         if (ranks == 1) return n * c + n * f / steps
         log2 = log(ranks) / log(2)
         return n * c / ranks + (messages + 2 * reductions * log2) * us * 1000 + sent * sqrt(n / ranks) / gb \
             + (n * f + 36 * n / gb + 2 * log2 * us * 1000) / steps
     }
-    # The largest number of ranks up to which each doubling speeds a step up by 1.4, and the total speed-up.
+    # Doubles the number of ranks as long as each doubling makes a step at least 1.4 times as fast. Returns this number
+    # and the speed-up over one rank.
     function gain(n, steps, us, gb,   ranks) {
         for (ranks = 1; ranks < 65536 && step(n, 2 * ranks, steps, us, gb) * 1.4 <= step(n, ranks, steps, us, gb); )
             ranks *= 2

@@ -35,8 +35,8 @@ static double unit_seconds(const Case *c, const Figures *f) {
     return f->physics / f->steps / (c->unit == PER_PAIR ? pairs : c->n);
 }
 
-// Returns the time for which growth is reported: the frame's if most of the work is in the script, else that of the
-// physics.
+// Returns the time whose growth with the number of particles is reported. This is the time of the whole frame if most
+// of the work is in the script, otherwise the time of the physics.
 static double growing(const Case *c, const Figures *f) {
     return c->unit == PER_PARTICLE ? f->frame : f->physics;
 }
@@ -182,8 +182,8 @@ static double on_threads(double threads, double one) {
     return isnan(threads) ? one : threads;
 }
 
-// Returns the least-squares slope of log time over log n for this row and the smaller rows of its family. Returns NaN
-// if a row was not measured.
+// Returns the exponent with which time grows with n, from the row `last` and the smaller rows of its family. It is the
+// least-squares slope of log time over log n. Returns NaN if one of these rows was not measured.
 static double growth_of(const Results *results, size_t last) {
     double count = 0, x = 0, y = 0, xx = 0, xy = 0;
     for (size_t i = last; i != case_count; i = case_before(i)) {
@@ -195,7 +195,8 @@ static double growth_of(const Results *results, size_t last) {
     return (count * xy - x * y) / (count * xx - x * x);
 }
 
-// A frame of one step takes B + S seconds, and a frame of ten steps takes B + 10 S seconds. Returns B.
+// Returns B, the part of a frame's time that does not depend on the number of steps. A frame of one step takes B + S
+// seconds (row `index`), and a frame of ten steps takes B + 10 S seconds (the next row).
 static double beyond_step(const Results *results, size_t index) {
     const Figures *one = &results->figures[index], *ten = one + 1;
     if (!ten->done)

@@ -86,7 +86,8 @@ if /usr/bin/python3 -I -c 'import zlib' 2>/dev/null; then
     check "a name with a line break is refused" one_message "not a petri link"
     petri open "$(pack "{\"v\": 1, \"t\": \"!a\\n\", \"c\": [$(repeat 10000 '[0,"N","1"],')[0,\"N\",\"1\"]]}")"
     check "a link with too many changes is refused" one_message "more than 10000 changes"
-    # With a search through all changes after each frame, these would be 10^10 steps.
+    # A search through all 10000 changes after each of the 1000000 frames would take 10^10 steps, and so exceed the
+    # timeout.
     timeout 60 "$petri" open "$(pack "{\"v\": 1, \"t\": \"let N=N or 1\\n!a\\n\", \"f\": 1000000, \"h\": \"\", \"c\": [
         $(repeat 9999 '[0,"N","1"],')[0,\"N\",\"1\"]]}")" >out 2>err
     check "a link with many changes and frames ends" has err "frame 1000000: state differs from the link"

@@ -83,7 +83,8 @@ for found in lines headers symbols; do
             is_component[component] = may[component, component] = 1
             for (i = 2; i <= NF; i++) {
                 may[component, $i] = 1
-                # An included header may include whatever its component may include.
+                # A component may read further headers indirectly: a header that it includes may itself include whatever
+                # the component of that header may include.
                 if (found == "headers")
                     for (low in is_component)
                         if (($i, low) in may)

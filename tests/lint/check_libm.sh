@@ -8,8 +8,9 @@ inexact='acos asin atan atan2 cos sin tan sincos acosh asinh atanh cosh sinh tan
 pow cbrt hypot erf erfc lgamma tgamma'
 faults=0
 
-# Each source must have an object file, except those that this build leaves out: a library's no_*.c, which replaces its other
-# files in builds without an optional dependency, or those other files; and sources of the web page.
+# Each source must have an object file, with two exceptions. Sources of the web page have none. A library with an optional
+# dependency has a file no_*.c, which replaces all its other files in builds without that dependency. So each build leaves
+# out either no_*.c or the other files.
 for source in "$1"/lib/*/*.c; do
     name=${source#"$1"/}
     folder=${name%/*} file=${name##*/}

@@ -1,6 +1,6 @@
 // fail_nth.c: preloaded library that lets allocations of the program fail: the N-th one (FAIL_AT=N), or all from the
-// N-th on (FAIL_FROM=N). Their number is written to the file COUNT_FILE at exit. With FAIL_TELL, the return address of
-// each failed allocation is printed to stderr, for addr2line.
+// N-th on (FAIL_FROM=N). At exit, the number of the program's allocations is written to COUNT_FILE. With FAIL_TELL, the
+// return address of each failed allocation is printed to stderr, for addr2line.
 //
 // Allocations by other libraries never fail, because some libraries (such as GLib, which Pango uses) then abort the
 // process. Calls from the program are recognised by their return addresses.

@@ -37,7 +37,7 @@ typedef struct World {
     char *text; // printed state; NULL: not printed since the last step
     size_t len;
     Reported reported[WORLD_MAX_REPORTED];
-    int reported_count; // including diagnostics that exceed WORLD_MAX_REPORTED
+    int reported_count; // number of diagnostics; those beyond WORLD_MAX_REPORTED are counted but not stored
 } World;
 
 static inline void world_on_diagnostic(void *user_data, const PetriDiagnostic *diagnostic) {

@@ -147,8 +147,8 @@ typedef struct ScriptRow {
     const char *wanted;
 } ScriptRow;
 
-// Runs each script for `frames` frames, once with and once without the simplifier. Checks each time that the tree of
-// the last frame is the row's.
+// Runs each script for `frames` frames, once with and once without the simplifier. Both times, the tree of the last
+// frame must equal the `wanted` tree of the row.
 static inline void check_trees(Player *player, const ScriptRow *rows, size_t count, int frames) {
     for (int simplify = 1; simplify >= 0; simplify--) {
         PetriOptions options = player_options(player);
