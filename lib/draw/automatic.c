@@ -21,7 +21,7 @@ static const double EYE = 4; // distance of the camera from the centre, in units
 typedef struct Panel {
     Canvas *canvas;
     const AutoSystem *system;
-    double x; // centre
+    double x; // centre of the panel, in the picture's units
     double y;
     double side;  // half the side of the view, in the picture's units
     double scale; // units of the picture per unit of the system
@@ -209,7 +209,7 @@ static void draw_grid(const Panel *panel, const AutoBarrier *barrier) {
     double away = 0, foot[3], u[3], v[3];
     for (int k = 0; k < 3; k++)
         away += (frame->middle[k] - barrier->position[k]) * n[k];
-    if (!(fabs(away) < 1.6 * frame->half)) // outside the view
+    if (!(fabs(away) < 1.6 * frame->half)) // the wall is outside the view
         return;
     for (int k = 0; k < 3; k++)
         foot[k] = frame->middle[k] - away * n[k];

@@ -24,8 +24,8 @@ typedef struct CanvasPicture {
     const DrawNode *direct; // the window's only canvas, if it fills the window; NULL: the window must be composited
     bool needs_history;     // true if a window refers to earlier frames
     double beat;
-    const char *names[PICTURE_NAMES]; // names of global values that shaders can use, such as beat and time; `numbers`
-                                      // holds the values
+    // Names of global values that shaders can use, such as beat and time. `numbers` holds the values.
+    const char *names[PICTURE_NAMES];
     double numbers[PICTURE_NAMES];
     uint32_t name_count;
     uint64_t serial; // unique number of the picture

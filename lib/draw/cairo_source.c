@@ -98,7 +98,8 @@ void draw_set_source(Canvas *canvas, const DisplayPaint *paint) {
     cairo_pattern_t *pattern =
         paint->source == DISPLAY_NONE
             ? make_color(paint->color, 1)
-            : make_pattern(canvas, paint->source, fmin(fmax(paint->color[3], 0), 1)); // alpha also applies to sources
+            : make_pattern(canvas, paint->source,
+                           fmin(fmax(paint->color[3], 0), 1)); // the colour's alpha also applies to sources
     cairo_set_source(canvas->cr, pattern);
     cairo_pattern_destroy(pattern);
 }

@@ -63,11 +63,10 @@ typedef struct DisplaySource {
     DisplaySourceKind kind;
     double color[4];
     double ends[4]; // for a linear gradient: end points; for noise: frequencies x, y and tile size x, y
-    DisplayMatrix
-        matrix; // for a radial gradient: maps the unit circle to its edge; for a pattern: maps image pixels to units
+    // For a radial gradient: maps the unit circle to its edge. For a pattern: maps image pixels to units.
+    DisplayMatrix matrix;
     uint32_t first_stop; // for a gradient: index of the first stop; for a blend: index of the first source
-    uint32_t stop_count; // for a gradient: number of stops; for a blend: index of the second source; for noise: number
-                         // of octaves
+    uint32_t stop_count; // for a gradient: number of stops; for a blend: index of the second source; for noise: octaves
     double ratio;        // for a blend: mixing ratio (NaN: use `mode`); for noise: seed
     int mode;            // for a blend: composite mode; for noise: type
     uint32_t image;      // for a pattern: index of the image

@@ -15,8 +15,8 @@ typedef struct DisplayListExport {
     Arena *arena;
     DISPLAY_ARRAY(double) out;
     const DisplayList *list;
-    uint32_t matrix; // index of the matrix written last; DISPLAY_NONE: none
-    uint32_t paint;
+    uint32_t matrix;          // index of the matrix written last; DISPLAY_NONE: none
+    uint32_t paint;           // index of the paint written last; DISPLAY_NONE: none
     uint32_t effect_elements; // path elements created by effects so far
 } DisplayListExport;
 
@@ -245,7 +245,7 @@ static void add_outline(DisplayListExport *numbers, const Outline *outline) {
     numbers->out.at[count_at] = numbers->out.count - count_at - 1;
 }
 
-// Adds the result of a path effect. If the paths for filling and stroking differ, they become two commands.
+// Adds the path that results from a path effect. If the paths for filling and stroking differ, adds two commands.
 static void add_path_with_effect(DisplayListExport *numbers, const DisplayCommand *command, const DisplayPaint *paint) {
     const DisplayList *list = numbers->list;
     const DisplayMatrix *m = &list->matrices.at[command->matrix];

@@ -54,8 +54,8 @@ typedef struct Canvas {
     bool failed;                    // true after an error was reported
     size_t charged;                 // bytes charged to the painter's budget
     FloatImageMemory *float_images; // all allocated float images
-    FloatImage
-        hdr_target; // on an HDR canvas: drawn on instead of the pixels of `cr`; on other canvases, its `pixels` is NULL
+    // On an HDR canvas: drawn on instead of the pixels of `cr`. On other canvases, the image's `pixels` is NULL.
+    FloatImage hdr_target;
     // While drawing is redirected offscreen: the previous targets, and the surface that is drawn on.
     cairo_t *outer;
     FloatImage outer_hdr_target;

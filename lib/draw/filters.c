@@ -112,8 +112,8 @@ static FloatImage apply_filter(const FilterContext *context, uint32_t number) {
 
 // The requirements of a filter.
 typedef struct Needs {
-    double margin;   // pixels by which the image must extend beyond the visible area
-    double work;     // nanoseconds per pixel
+    double margin;   // number of pixels by which the image must extend beyond the visible area
+    double work;     // time in nanoseconds per pixel of the image
     bool everywhere; // true if the filter changes transparent pixels
 } Needs;
 
@@ -142,8 +142,8 @@ typedef struct Box {
     double height;
 } Box;
 
-// Finds the area of the target that the image must cover, from the shape's bounding box, if known, and the clip.
-// Returns false if nothing is visible.
+// Computes the area of the target that the image must cover, from the clip and, if it is known, the bounding box of the
+// shape. Returns false if nothing is visible.
 static bool find_box(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint, const Needs *needs,
                      Box *box) {
     cairo_t *cr = canvas->cr;
@@ -162,8 +162,8 @@ static bool find_box(Canvas *canvas, const DisplayCommand *command, const Displa
     for (int k = 0; k < 2; k++) {
         double low = known ? fmax(seen[k], figure[k]) : seen[k];
         double high = known ? fmin(seen[2 + k], figure[2 + k]) : seen[2 + k];
-        // The filter changes pixels at most `margin` beyond the shape. If these are all outside the clip, nothing is
-        // visible.
+        // The filter changes pixels at most `margin` beyond the shape. If these pixels are all outside the clip,
+        // nothing is visible.
         if (known && (figure[k] - margin >= seen[2 + k] || figure[2 + k] + margin <= seen[k]))
             return false;
         low = known ? fmax(seen[k] - margin, figure[k] - margin) : low - margin;
@@ -174,7 +174,7 @@ static bool find_box(Canvas *canvas, const DisplayCommand *command, const Displa
     return box->width >= 1 && box->height >= 1;
 }
 
-// Charges the cost of the filter. Returns false, after a report, if it exceeds a limit.
+// Charges the cost of the filter. If the cost exceeds a limit, reports this and returns false.
 static bool can_filter(Canvas *canvas, const DisplayFilter *filter, const Box *box, const Needs *needs) {
     double pixels = box->width * box->height, work = pixels <= MAX_PIXELS ? pixels * needs->work : INFINITY;
     return draw_charge(canvas, &filter->place, work, "the content is drawn without the filter");

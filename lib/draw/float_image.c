@@ -144,7 +144,7 @@ static void convolve_line(const LineFilter *filter, float *line, float *other, i
 // the centres of the cells.
 static void convolve_cells(const LineFilter *filter, float *line, float *other, int count) {
     int cell = filter->cell, cells = (count + cell - 1) / cell;
-    float *weighed = other + 4 * (size_t)cells + 4; // indexed by cell, from -1
+    float *weighed = other + 4 * (size_t)cells + 4; // convolved cells; the first index is -1
     memset(other, 0, (size_t)cells * 4 * sizeof(float));
     for (int i = 0; i < count; i++)
         for (int k = 0; k < 4; k++)

@@ -4,8 +4,8 @@
 
 #include <math.h>
 
-static const double AHEAD = 2; // seconds of motion for which the first view leaves space
-static const double GROWTH = 1.6;
+static const double AHEAD = 2;    // seconds of motion for which the first view leaves space
+static const double GROWTH = 1.6; // factor by which a view grows in one step
 
 // Returns the number that would be at index `place` if the numbers were sorted. Reorders the numbers.
 static double select_number(double *numbers, uint32_t count, uint32_t place) {
@@ -89,7 +89,7 @@ typedef struct Extents {
     Bounds discs;
     Bounds positions;
     Bounds ways;
-    double largest; // largest radius
+    double largest; // largest radius of a body
 } Extents;
 
 static Extents find_extents(const AutoSystem *system, const double middle[3], double reach) {

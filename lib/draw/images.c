@@ -83,7 +83,8 @@ static cairo_surface_t *read_png(Str bytes, const char **problem) {
     return NULL;
 }
 
-// Returns NULL and the reason in *problem if the image cannot be decoded. If out of memory, *problem is NULL.
+// If the image cannot be decoded, sets *problem to the reason and returns NULL. If out of memory, *problem becomes
+// NULL.
 static cairo_surface_t *decode_image(Str bytes, const Budget *budget, const char **problem) {
     if (str_starts_with(bytes, STR("\x89PNG\r\n\x1a\n")))
         return read_png(bytes, problem);
@@ -152,12 +153,12 @@ typedef struct Box {
     double y;
     double scale_x;
     double scale_y;
-    bool cut; // true: clip to width x height at the `point` of the image
+    bool cut; // true if the image is clipped to width x height units at its `point`
     double width;
     double height;
 } Box;
 
-// Returns false if nothing would be visible.
+// Computes the placement of an image of width x height pixels. Returns false if nothing would be visible.
 static bool find_box(const DisplayImage *image, double width, double height, Box *box) {
     const double *size = image->size;
     *box = (Box){.x = image->point[0], .y = image->point[1], .scale_x = 1, .scale_y = 1};
