@@ -81,7 +81,7 @@ static double down(const Pass *pass) {
     return number(pass, "downsample", 2);
 }
 
-// 6.2 to 6.4
+// Sections 6.2 to 6.4.
 static void adjust(const Pass *pass, double exposure, double c[3]) {
     double k = number(pass, "contrast", 1);
     for (int i = 0; i < 3; i++)
@@ -123,7 +123,7 @@ static void product(const double m[9], bool columns, const double x[3], double o
     }
 }
 
-// 7.1
+// Section 7.1.
 static void agx(double c[3], bool punchy) {
     static const double inset[9] = {0.842479062253094,  0.0423282422610123, 0.0423756549057051,
                                     0.0784335999999992, 0.878468636469772,  0.0784336,
@@ -178,7 +178,7 @@ static Px adjust_pass(const Pass *pass, double u, double v) {
     return scaled((Px){{c[0] * m.c[3], c[1] * m.c[3], c[2] * m.c[3], m.c[3]}}, alpha(pass));
 }
 
-// 7.2
+// Section 7.2.
 static Px blur_along(const Pass *pass, double u, double v) {
     return gauss(pass, pass->t, 0, 0, 1, u, v);
 }
@@ -208,7 +208,7 @@ static Px bloom_end(const Pass *pass, double u, double v) {
     return scaled(t, alpha(pass));
 }
 
-// 7.4
+// Section 7.4.
 static Px edges_along(const Pass *pass, double u, double v) {
     return gauss(pass, pass->t, 0, 0, down(pass), u, v);
 }
@@ -222,7 +222,7 @@ static Px edges_end(const Pass *pass, double u, double v) {
     return scaled(out, alpha(pass));
 }
 
-// 7.5
+// Section 7.5.
 static Px key_mask(const Pass *pass, double u, double v) {
     Px t = model_sample(pass->t, &pass->edges, u, v);
     double hsv[3], hue = number(pass, "hue", 1.0 / 3), half = number(pass, "range", 0.1) / 2;
@@ -238,7 +238,7 @@ static Px key_end(const Pass *pass, double u, double v) {
     return scaled(t, alpha(pass));
 }
 
-// 7.6
+// Section 7.6.
 static Px feedback_pass(const Pass *pass, double u, double v) {
     const Work *work = pass->work;
     double tau = work->past ? work->beats / number(pass, "timebase", 1) : 0, mixer = number(pass, "mixer", 0);
@@ -275,7 +275,7 @@ static Px transform_pass(const Pass *pass, double u, double v) {
     return scaled(merge_pass(pass, p[0] / p[2] / pass->w + 0.5, p[1] / p[2] / pass->h + 0.5), alpha(pass));
 }
 
-// 7.8, 6.5
+// Sections 7.8 and 6.5.
 static double fade(const Pass *pass, double x) {
     double inset = number(pass, "inset", 0.25);
     x = clamp(x < inset ? x / inset : x > 1 - inset ? (1 - x) / inset : 1, 0, 1);
@@ -290,7 +290,7 @@ static Px vignette_pass(const Pass *pass, double u, double v) {
     return scaled(merge_pass(pass, u, v), share * alpha(pass));
 }
 
-// 7.11
+// Section 7.11.
 static Px kaleid_pass(const Pass *pass, double u, double v) {
     double px = (u - 0.5) * pass->w, py = (v - 0.5) * pass->h, rotation = number(pass, "rotation", 0);
     double segments = number(pass, "segments", 6), t = (atan2(py, px) / TURN + 0.5 - rotation) * segments;
@@ -302,7 +302,7 @@ static Px kaleid_pass(const Pass *pass, double u, double v) {
     return scaled(merge_pass(pass, r * cos(angle) / pass->w + 0.5, r * sin(angle) / pass->h + 0.5), alpha(pass));
 }
 
-// 7.10
+// Section 7.10.
 static void add_bright(const Pass *pass, Px t, const double by[3], double sum[3]) {
     double x = clamp(model_lum(t.c) - number(pass, "threshold", 1), 0, 1), w = x * x * (3 - 2 * x);
     for (int k = 0; k < 3; k++)

@@ -24,9 +24,9 @@ static void check_pixel(const Drawn *drawn, int x, int y, const double c[3], con
 // Section 4: the blend modes of W3C's Compositing and Blending 1. Colours are not premultiplied.
 typedef struct Blending {
     const char *word;
-    double (*of)(double s, double d); // blend function B(Cb, Cs); NULL: the mode is given by the factors
-    double fs[3];                     // factor of s is a + b·dₐ; `fd`: factor of d is a + b·sₐ
-    double fd[3];
+    double (*of)(double s, double d); // blend function of source s and destination d; NULL: `fs` and `fd` are used
+    double fs[3];                     // the factor of s is fs[0] + fs[1]·dₐ, where dₐ is the alpha of d
+    double fd[3];                     // the factor of d is fd[0] + fd[1]·sₐ, where sₐ is the alpha of s
 } Blending;
 
 static double multiply(double s, double d) {
@@ -109,11 +109,11 @@ static void test_blend_modes_match_model(void **state) {
             whole[k] = out[k];
             half[k] = cover * out[k] + (1 - cover) * below[k] * below[3];
             if (*canvas) {
-                // In linear light, one byte level of dark colours is a larger step after encoding.
                 whole[k] = model_enc(out[k]);
                 half[k] = model_enc(half[k]);
             }
         }
+        // Bytes in linear light are compared before encoding, which enlarges the rounding errors of dark colours.
         bool bytes = strcmp(canvas, "linear=true") == 0;
         if (!bytes) {
             check_pixel(&drawn, 20, 20, whole, how->word);
@@ -256,7 +256,7 @@ static void test_blur(void **state) {
             for (int x = 0; x < 60; x++) {
                 double at = x + 0.5, part = sigmas[i] * sqrt(2);
                 double light = (erf((at - 20) / part) - erf((at - 40) / part)) / 2;
-                // Pixels are averages over an area, which matters for a small blur. So sums over pixels are compared.
+                // If the blur is small, the expected value is a sum over pixels, because each is an average.
                 if (sigmas[i] < 2) {
                     double sum = 0, all = 0;
                     for (int k = -10; k <= 10; k++) {
@@ -272,7 +272,7 @@ static void test_blur(void **state) {
         }
 }
 
-// Shadows are blurred, offset, and drawn below the shape. Boxes grow and shrink.
+// Shadows are blurred, offset, and drawn below the shape. Dilated boxes grow, and eroded boxes shrink.
 static void test_shadow_offset_dilate_erode(void **state) {
     (void)state;
     Drawn drawn;
@@ -393,7 +393,7 @@ static void test_noise(void **state) {
         {"frequency=0.1", {0.1, 0.1}, 8, 0, {0, 0}, false},
         {"frequency=0.05;0.2 octaves=3 seed=7", {0.05, 0.2}, 3, 7, {0, 0}, false},
         {"frequency=0.07 octaves=4 seed=-3 type=:turbulence", {0.07, 0.07}, 4, -3, {0, 0}, true},
-        // 20 units contain 2.6 waves; the nearest integer by ratio is 3. 30 units contain 3.9, which gives 4.
+        // A tile has a whole number of noise cells. 2.6 (20 · 0.13) and 3.9 cells become 3 and 4, the closest by ratio.
         {"frequency=0.13 octaves=2 seed=2 size=20;30", {3 / 20.0, 4 / 30.0}, 2, 2, {3, 4}, false},
     };
     for (size_t i = 0; i < COUNT_OF(cases); i++) {
@@ -443,7 +443,7 @@ static void test_arc_to(void **state) {
                  "            !arc_to point=40;30 radius=15;30 large=%s ccw=%s\n            !fill color=1\n",
                  large ? "true" : "false", ccw ? "true" : "false");
         draw_script(&drawn, "", inside);
-        // Clockwise from left to right, an arc passes over the top. The centre of the smaller arc is below it.
+        // A clockwise arc from left to right is above its chord. The centre of the smaller arc is below the chord.
         double half = sqrt(1 - 100.0 / 225) * 30, middle = 30 + (large == ccw ? half : -half) * 1;
         for (int p = 0; p < 3600; p++) {
             double x = p % 60 + 0.5, y = p / 60 + 0.5;
@@ -484,7 +484,7 @@ static void test_path_effects(void **state) {
     draw_script(&drawn, "",
                 "        !path_matrix scale=2;1 rotate=0.25 translate=50;5\n            !dash intervals=6;4 offset=2\n"
                 "        !line points=0;20;20;20 stroke=true stroke_width=4 color=1\n");
-    for (int y = 0; y < 60; y++) { // along x: dashes 0 to 4, 8 to 14, 18 to 20, then scaled by two and moved down
+    for (int y = 0; y < 60; y++) { // dashes on the line: 0 to 4, 8 to 14, 18 to 20; the matrix doubles and turns them
         double x = (y + 0.5 - 5) / 2;
         bool on = x > 0 && x < 20 && (x < 4 || (x > 8 && x < 14) || x > 18);
         assert_int_equal(is_on(&drawn, 30, y), on);

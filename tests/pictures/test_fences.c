@@ -1,4 +1,4 @@
-// test_fence_is_not_freed_while_signalled.c: checks that Mesa's llvmpipe does not free a fence while one of its threads
+// test_fences.c: checks that Mesa's llvmpipe does not free a fence while one of its threads
 // signals it (lib/gl/context.c explains the problem). To provoke the problem, the test slows Mesa's threads down while
 // they signal, and slightly slows down the drawing thread. Mesa calls the functions that are defined here instead of
 // those of the C library.
@@ -33,7 +33,7 @@ SEEN void free(void *memory) {
     for (int i = 0; at && i < THREADS; i++) {
         uintptr_t condition = atomic_load(&signalled[i]);
         if (at <= condition && condition < at + malloc_usable_size(memory))
-            stop(); // stops before the thread would hang
+            stop(); // exits now, because the signalling thread would hang later
     }
     __libc_free(memory);
 }

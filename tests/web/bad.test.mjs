@@ -99,7 +99,7 @@ test('without shared memory, stop ends the engine, and another one starts', opti
         assert.match(await text(page), /fib/);
         await page.evaluate(() => delete document.body.dataset.checked);
         await typed(page, SQUARE);
-        await page.waitForFunction(() => document.body.dataset.checked === '0'); // of the new engine, which has reported nothing yet
+        await page.waitForFunction(() => document.body.dataset.checked === '0'); // set by the new engine, which has reported nothing yet
         await said(page, /^Stopped/);
         await page.click('#run');
         await page.waitForFunction(() => document.getElementById('picture').width === 64);

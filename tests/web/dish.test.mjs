@@ -70,7 +70,8 @@ test('a slow script falls behind and does not catch up', async t => {
 
 test('pausing and resuming while a frame is computed does not run twice', async t => {
     const world = await running(t), { dish } = world;
-    const heldTicks = async () => { // requests of two ticks; the second comes before the first is answered
+    // Returns the number of requests that two ticks cause. The second tick comes before a request of the first is answered.
+    const heldTicks = async () => {
         world.holds = true;
         world.asked.length = 0;
         await tick(world, 4 * TICK);

@@ -44,7 +44,7 @@ test('particles are saved as by petri run --trajectory', beside, () => opened(''
         assert.equal(name, 'dish.csv');
         assert.equal(readFileSync(path, 'utf8'), readFileSync(way, 'utf8'));
         rmSync(scratch, { recursive: true });
-        await atFrame(page, 2); // the frame before the export
+        await atFrame(page, 2); // the frame that was shown before the export
     },
 }));
 
@@ -144,7 +144,7 @@ test('scripts, modules and images can be opened and dropped', options, () => ope
                 data.items.add(new File([text], name));
             document.dispatchEvent(new DragEvent('drop', { dataTransfer: data, cancelable: true }));
         }, files(50).slice(0, 1));
-        await wide(50); // the open script with another module
+        await wide(50); // the open script runs again, with the dropped module
         assert.deepEqual(await at(), [255, 0, 0, 255]);
         assert.match(await page.textContent('.cm-content'), /^import WIDE/);
     },

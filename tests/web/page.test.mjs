@@ -17,7 +17,7 @@ test('the page is small', options, () => {
 });
 
 // Takes the best of a few attempts, because the machine may be busy. On a slow machine, the limit is six times the duration of a fixed
-// computation in the same page: it took 340 to 400 ms where the dish took 1.7 to 2.0 s, 2.3 s in version 0.2.
+// computation in the same page. On one machine, this computation took 340 to 400 ms, and the dish 1.7 to 2.0 s (in version 0.2: 2.3 s).
 test('a linked dish is visible within 1.5 seconds, with nothing cached', options, async () => {
     const { packLink } = await import('../../src/web/page/link.mjs');
     const link = await packLink({ text: DISH, name: 'dish.fl', frame: 3 });

@@ -1,5 +1,6 @@
-// pictures.test.mjs: browsers show the pictures of `petri render`: each byte is within 2 of one in the neighbouring pixels, in both
-// directions, except at corners of edges, whose coverage differs. Skipped without npm's modules, the browser or a petri that can draw.
+// pictures.test.mjs: browsers show the pictures of `petri render`. Each byte of one picture must lie in the range of the same and the
+// neighbouring pixels of the other picture, widened by 2, and vice versa. A few pixels may differ, because the coverage of corners of edges
+// differs. Skipped without npm's modules, the browser or a petri that can draw.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { cpSync, existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
@@ -49,7 +50,7 @@ async function install() {
     const { loadEngine } = await import('/petri/petri.mjs'), { drawPicture, pictureSize } = await import('/petri/drawing.mjs');
     const engine = await loadEngine('/petri/engine.wasm');
     const bytesOf = text => Uint8Array.from(atob(text), c => c.charCodeAt(0));
-    // Returns the number of pixels that match no neighbouring pixel of the other image.
+    // Returns the number of pixels of `a` that are outside the range of the same and the neighbouring pixels of `b`.
     const outside = (a, b, width, height) => {
         let count = 0;
         for (let y = 0; y < height; y++)

@@ -2,7 +2,7 @@
 #include "base/cpu.h"
 #include "expression.h"
 
-// B1
+// Section B1.
 static void test_maths_matches_specification(void **state) {
     static const char *const lines[] = {
         "sin(0.1);cos(0.1);sin(-0.3) => 0.5877852522924731;0.8090169943749475;-0.9510565162951536",
@@ -20,7 +20,7 @@ static void test_maths_matches_specification(void **state) {
     CHECK_ALL(*state, lines);
 }
 
-// B2
+// Section B2.
 static void test_plane_geometry_matches_specification(void **state) {
     static const char *const lines[] = {
         "polar(0.125;0.25) => 0.7071067811865475;0.7071067811865475;-0;1",
@@ -42,7 +42,7 @@ static void test_plane_geometry_matches_specification(void **state) {
     CHECK_ALL(*state, lines);
 }
 
-// B3
+// Section B3.
 static void test_vector_functions_match_specification(void **state) {
     static const char *const lines[] = {
         "min(3;1;2);max(3;1;2);minindex(3;1;2);maxindex(3;1;2) => 1;3;1;0",
@@ -80,7 +80,7 @@ static void test_vector_functions_match_specification(void **state) {
     CHECK_ALL(*state, lines);
 }
 
-// B5
+// Section B5.
 static void test_quaternions_match_specification(void **state) {
     static const char *const lines[] = {
         "quaternion(1;0;0,0.25) => 0.7071067811865475;0.7071067811865475;0;0",
@@ -96,7 +96,7 @@ static void test_quaternions_match_specification(void **state) {
     CHECK_ALL(*state, lines);
 }
 
-// B6
+// Section B6.
 static void test_matrices_match_specification(void **state) {
     static const char *const lines[] = {
         "inverse(2;0;1;0;3;0;1;0;1) => 1;0;-1;0;0.3333333333333333;0;-1;0;2",
@@ -112,7 +112,7 @@ static void test_matrices_match_specification(void **state) {
     CHECK_ALL(*state, lines);
 }
 
-// B7
+// Section B7.
 static void test_waves_match_specification(void **state) {
     static const char *const lines[] = {
         ("sine(0;0.25;0.5);bounce(0.5;1.25);sharkfin(0.25;0.5;0.75);square(0.25;0.5);triangle(0.25;0.5);sawtooth(-0.25)"
@@ -126,7 +126,7 @@ static void test_waves_match_specification(void **state) {
     CHECK_ALL(*state, lines);
 }
 
-// B8
+// Section B8.
 static void test_easings_match_specification(void **state) {
     static const char *const lines[] = {
         ("linear(-1;0.5;2;nan);quad(0.25;0.75);cubic(0.25;0.75);snap(0.25;0.75) => "
@@ -135,7 +135,7 @@ static void test_easings_match_specification(void **state) {
     CHECK_ALL(*state, lines);
 }
 
-// B9
+// Section B9.
 static void test_random_streams_match_specification(void **state) {
     static const char *const lines[] = {
         "uniform()[..4] => 0.11377270426292592;0.12216453115897499;0.16838215125240424;0.0731532577968758",
@@ -158,7 +158,7 @@ static void test_random_streams_match_specification(void **state) {
     CHECK_ALL(*state, lines);
 }
 
-// B10
+// Section B10.
 static void test_noise_matches_specification(void **state) {
     static const char *const lines[] = {
         ("noise(:seed,0.5);noise(:seed,0.5,0.25);noise(:seed,0.5,0.25,0.75);noise(:seed,0.5,0.25,0.75,0.1) => "
@@ -185,7 +185,7 @@ static void test_noise_matches_specification(void **state) {
     CHECK_ALL(*state, lines);
 }
 
-// B11
+// Section B11.
 static void test_colours_match_specification(void **state) {
     static const char *const lines[] = {
         ("hsl(0.3;0.5;0.7);hsl(1.3;0.5;0.2) => "
@@ -205,7 +205,7 @@ static void test_colours_match_specification(void **state) {
     CHECK_ALL(*state, lines);
 }
 
-// B12
+// Section B12.
 static void test_text_functions_match_specification(void **state) {
     static const char *const lines[] = {
         "ord(\"héllo\") => 104;233;108;108;111",

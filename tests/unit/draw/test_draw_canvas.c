@@ -118,7 +118,8 @@ static void test_blend_modes_match_formulas(void **state) {
     }
 }
 
-// Like test_blend_modes_match_formulas, for strokes. Other code restricts these modes to the area of a stroke.
+// Like test_blend_modes_match_formulas, but for strokes. The code that restricts these modes to the drawn area is not
+// the same as for fills.
 static void test_stroke_modes(void **state) {
     static const char *const modes[] = {"in", "out", "dest_in", "dest_atop", "modulate"};
     Player *player = *state;
@@ -206,7 +207,8 @@ static void test_paint_gives_expected_pixel(void **state) {
     }
 }
 
-// Positions of glyphs (8.1). DejaVu Sans, which the tests require, is measured by its symmetry.
+// Position of a text (section 8.1): the drawn pixels are centred on the point. Their exact extent is checked only if
+// Liberation Sans is installed. Otherwise the text has another font, such as DejaVu Sans, which the tests require.
 static void test_text_ink_is_at_point(void **state) {
     enum { WIDTH = 1280, HEIGHT = 720 };
     static uint32_t pixels[WIDTH * HEIGHT];

@@ -232,9 +232,9 @@ static void test_ready_once_particles_can_be_shown(void **state) {
     } rows[] = {
         {"", {true, true, true}},
         {"!physics state=:a dimensions=1\n    !particle id=1\n", {false, false, true}},
-        // skipped, so it has no particles
+        // The time stands still, so the system is never simulated and its particles are not stored.
         {"!physics state=:a dimensions=1 time=0\n    !particle id=1\n", {false, false, true}},
-        // is skipped and has no particles
+        // A system without `state` is skipped, so there are no particles to wait for.
         {"!physics dimensions=1\n    !particle id=1\n", {true, true, true}},
         {"!counter state=:a\n", {true, true, true}},
     };
@@ -391,9 +391,8 @@ static void test_display_list_has_whole_canvas(void **state) {
                3);
     PetriPicture *picture = make_picture(player, petri_default_picture_options(), PETRI_OK);
     assert_int_equal(petri_picture_display_list(picture, &n, &count), PETRI_OK);
-    static const double body[] = {1, 3, 4, 0, 2,
-                                  1, 0, 0, 0}; // numbers of items: count, position, radius, shade, anchor; no links, no
-                                               // barriers
+    // One particle with its position (three numbers), radius, shade and anchor; then the numbers of links and barriers.
+    static const double body[] = {1, 3, 4, 0, 2, 1, 0, 0, 0};
     assert_true(n[2] == PETRI_DRAW_PARTICLES && n[3] == 1 && n[4] == 2 && n[5] == 1);
     assert_true(n[19] > 3); // number of lines in the scale bar
     assert_int_equal(count, 20 + 4 * (size_t)n[19]);

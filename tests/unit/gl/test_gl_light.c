@@ -164,8 +164,8 @@ static void add_light(Point *at, const Light *light) {
     }
 }
 
-// Adds the light that enters through the back of the wall (canvas3d.md 5.6), where it is uniform. Also changes the
-// opacity.
+// Adds to `at` the light that enters through the back of the wall (canvas3d.md 5.6). All points of the back receive the
+// same light. Also reduces *opacity.
 static void come_through(Point *at, const Case *c, double *opacity) {
     const Light *light = &c->lights[0];
     double T = pow(0.5, 1 / c->translucency), towards[3], zero[3] = {0};
@@ -377,7 +377,8 @@ static const Case cases[] = {
      .lights = {{POINT, {3, 3, 3}, .position = {0.5, 0.5, 2}, .falloff = SQUARE}}},
 };
 
-// Walls lit from behind. In an orthographic view, the thickness is the same at each point.
+// Walls that are lit from behind. The view is orthographic, so that the wall has the same thickness along each line of
+// sight.
 static const Case through[] = {
     {.name = "translucency",
      .color = {0.9, 0.6, 0.3},

@@ -3,9 +3,9 @@
 //
 // usage: find_hard NAME SECONDS LOW HIGH [BITS]: x is a random double with an exponent in [LOW, HIGH)
 //
-// Lefèvre's method: for the 2 REACH + 1 doubles around x, the function is linear to within 2^-28 ulp. Euclid's
-// algorithm finds each i for which a + b i is close to an integer. Each hit is printed with its distance from the
-// midpoint, in bits below the last place.
+// Lefèvre's method: for the 2 REACH + 1 doubles around x, the function is linear to within 2^-28 ulp. So the phase of
+// double number i (see phase()) is about p + slope i. Euclid's algorithm finds each i for which this is close to an
+// integer. Each hit is printed with the distance of its result from the midpoint, as a power of two in ulps.
 #include "model.h"
 
 #include <stdlib.h>
@@ -32,7 +32,8 @@ static int64_t first_in(int64_t a, int64_t m, int64_t l, int64_t r) {
 
 static mpfr_t at[3], line, best;
 
-// Returns f(x) in half ulps, modulo 1, as a multiple of 2^-62.
+// Computes f = f(x, y). Returns f / ulp + 1/2, modulo 1, as a multiple of 2^-62. The result is 0 if f is the midpoint
+// between two doubles. `unit`: the ulp is 2^unit; 0: the ulp of f.
 static int64_t phase(const Subject *subject, double x, double y, mpfr_t f, mpfr_exp_t unit) {
     model_value(subject, f, x, y);
     if (unit == 0)
@@ -82,7 +83,7 @@ int main(int count, char **words) {
             mpfr_mul_2si(line, line, 62, MPFR_RNDN);
             int64_t slope = (mpfr_get_sj(line, MPFR_RNDN) % MODULUS + MODULUS) % MODULUS;
             searched += 2 * REACH;
-            // p + slope i is within the window around 0 if slope i is in [-p - window, -p + window]
+            // The phase p + slope i is within `window` of 0 if slope i is in [-p - window, -p + window].
             for (int64_t i = 0; i <= 2 * REACH;) {
                 Long now = ((Long)p + (Long)slope * i) % MODULUS;
                 int64_t l = (int64_t)((2 * (Long)MODULUS - now - window) % MODULUS), h = (l + 2 * window) % MODULUS;

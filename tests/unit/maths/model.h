@@ -13,8 +13,8 @@ typedef int (*ModelTwo)(mpfr_t, const mpfr_t, const mpfr_t, mpfr_rnd_t);
 typedef double (*One)(double);
 typedef double (*Two)(double, double);
 
-// A function with its variants. The first half of the members is set if it has one parameter, the second half if it has
-// two.
+// A function with its variants. Functions with one parameter have model1 to exact1, and those with two parameters have
+// model2 to exact2. The other members are NULL.
 typedef struct Subject {
     const char *name;
     ModelOne model1;
@@ -75,7 +75,8 @@ static inline bool same_number(double a, double b) {
     return (isnan(a) && isnan(b)) || bits_from(a) == bits_from(b);
 }
 
-// Checks all variants and the accurate path for one argument. Prints and counts wrong results.
+// Compares all variants with the model for the arguments x and y. If `exact_too` is true, also compares the accurate
+// path. Prints wrong results and returns their number.
 static inline int wrong_cases(const Subject *subject, double x, double y, bool exact_too) {
     double wanted = model(subject, x, y), found[3] = {0};
     if (subject->model1) {

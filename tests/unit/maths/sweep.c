@@ -12,9 +12,9 @@
 
 typedef struct Range {
     const char *name;
-    bool exponents; // true: |x| = 2^e with e in [low, high); false: x in [low, high)
+    bool exponents; // true: the exponent of x is in [low, high); false: x is in [low, high)
     double low, high;
-    double y_low, y_high; // range of the second argument, like low and high; Y_BY_X: other ways
+    double y_low, y_high; // range of the second argument, with the same meaning as low and high
 } Range;
 
 static const Range ranges[] = {
@@ -54,7 +54,7 @@ static uint64_t sweep_function(const Subject *subject, const Watched *watched, u
     uint64_t seed = 1, wrong = 0;
     watch_start();
     for (uint64_t i = 0; i < count; i++) {
-        // Half of the arguments come from the first range.
+        // Every second argument comes from the first range, the others from all ranges in turn.
         const Range *range = mine[i % 2 ? 0 : i / 2 % kinds];
         double x = random_argument(&seed, range->exponents, range->low, range->high);
         double y = random_argument(&seed, range->exponents, range->y_low, range->y_high);

@@ -1,5 +1,6 @@
-// watch.h: records the decisions of the scalar functions' fast paths. It uses variants of the functions that are
-// compiled from watched.c, without and with FMA.
+// watch.h: records the decisions of the scalar functions' fast paths. A decision is a test of a fast path's result,
+// high + low, whose error is at most `error`: is the result accurate enough to be rounded correctly? The functions are
+// two variants that are compiled from watched.c, without and with FMA.
 #ifndef PETRI_TESTS_MATHS_WATCH_H
 #define PETRI_TESTS_MATHS_WATCH_H
 
@@ -9,8 +10,8 @@
 typedef struct Watch {
     double high, low, error;
     bool asked;
-    uint64_t cases, undecided;
-    double worst; // largest error relative to its bound
+    uint64_t cases, undecided; // number of calls, and of calls in which the fast path did not suffice
+    double worst;              // largest error of a fast path, divided by the bound `error`
 } Watch;
 
 static Watch watch_state[2];
@@ -53,8 +54,8 @@ static inline void watch_start(void) {
     watch_hook0 = watch_hook1 = watch_decision;
 }
 
-// Returns the error of the last decision relative to its bound. exp and pow multiply by their scale 2^k after the
-// decision, so f(x, y) is divided by it first.
+// Returns the actual error of high + low in the last decision, divided by the bound `error`. exp and pow multiply their
+// result by a scale 2^k after the decision, so f(x, y) is divided by that scale first.
 static inline double watch_error_ratio(const Subject *subject, const Watch *watch, double x, double y) {
     mpfr_t scale, f, sum;
     mpfr_inits2(200, scale, f, sum, (mpfr_ptr)0);
@@ -73,7 +74,8 @@ static inline double watch_error_ratio(const Subject *subject, const Watch *watc
     return share;
 }
 
-// Calls both variants. If `measure` is set and the result is a normal number, measures their error.
+// Calls both variants and counts the calls. If `measure` is true and the result is a normal number, also updates the
+// largest error.
 static inline void watch_next(const Subject *subject, const Watched *watched, double x, double y, bool measure) {
     for (int i = 0; i < 2; i++) {
         Watch *watch = &watch_state[i];

@@ -68,7 +68,8 @@ static inline double to_the_power(double x, double power) {
     return power == 1 ? x : power == 2 ? x * x : maths_pow(x, power);
 }
 
-// 4.1: computes K, and whether `from` receives + u K and `to` the opposite, or the other way round.
+// 4.1: computes the coefficient K of a pair at distance l. u is the unit vector from `from` to `to`. If *plus is true,
+// `from` receives + u K and `to` receives - u K; otherwise the signs are opposite. Returns false if no force acts.
 static inline bool coefficient(const ModelForce *f, const ModelParticle *from, const ModelParticle *to, double l,
                                double *K, bool *plus) {
     double strength = f->strength, r1 = from->radius, r2 = to->radius;
@@ -127,7 +128,8 @@ static inline void reference_pair(const Model *model, const ModelForce *f, Model
     }
 }
 
-// One pass: particles i of the group G, and j > i of T.
+// One pass: applies the pair forces that group A declares between each particle i of group G and each later particle j
+// of T. T contains the particles of G, followed by those of its enclosing groups up to A.
 static inline void reference_pass(Model *model, uint32_t G, uint32_t A) {
     ModelParticle *T[MODEL_MAX];
     uint32_t size = 0, own = 0;

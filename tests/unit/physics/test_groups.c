@@ -3,8 +3,8 @@
 
 enum { BODIES = 6 };
 
-// Number of particles by group: the top 1 (index 0), A 2, A.B 1, C 2. Their handles are in another order. A force
-// between all pairs shows which bodies act on which.
+// Describes six bodies: one in the top group (index 0), two in A, one in A.B and two in C. Their handles are in another
+// order than the groups. A force between all pairs then shows which bodies act on which.
 static PhysSystem *family(void) {
     static const uint32_t groups[BODIES] = {3, 1, 2, 0, 1, 3};
     PhysSystem *system = phys_new();
@@ -21,7 +21,7 @@ static PhysSystem *family(void) {
     return system;
 }
 
-// Checks which bodies act on body i if `group` declares gravity. They are the set bits of row i.
+// Checks which bodies act on each body i if `group` declares gravity: bit j of wanted[i] is set if body j does.
 static void check_sight(uint32_t group, const unsigned char wanted[BODIES]) {
     PhysSystem *system = family();
     PhysForce gravity = force_of(PHYS_GRAVITY);

@@ -37,7 +37,7 @@ static void test_warm_frame(void **state) {
     (void)state;
     PhysSystem *system = phys_new();
     describe_and_run(system, 300);
-    describe_and_run(system, 300); // grows the row buffer, which holds two descriptions at once
+    describe_and_run(system, 300); // the row buffer grows, because it now holds two descriptions
     int before = allocations;
     for (int frame = 0; frame < 5; frame++)
         assert_int_equal(describe_and_run(system, 300).status, PHYS_OK);

@@ -188,7 +188,7 @@ static void test_kept_forces(void **state) {
                .threads = 4, .keep_forces = true, .cpu = cpu_detected.level, .neighbours = PHYS_NEIGHBOURS_ALWAYS});
 }
 
-// Enough particles for several chunks per thread, with and without stored forces.
+// Enough particles for several chunks per thread. One of two equal systems stores the forces; the other does not.
 static void test_chunks(void **state) {
     (void)state;
     enum { MANY = 40000, ROW = 200, STEPS = 4 };

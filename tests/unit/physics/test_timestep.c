@@ -29,7 +29,7 @@ static void test_lockstep(void **state) {
     check_steps((PhysTime){.last = 5, .now = 6, .clock = 3, .resolution = 0.25, .lockstep = true}, PHYS_OK, 4, 4);
 }
 
-// A remainder due to rounding does not cause another step.
+// If rounding leaves a tiny remainder of a frame's time, no further step is taken for it.
 static void test_crumbs(void **state) {
     (void)state;
     check_steps(time_until(1, 0.1), PHYS_OK, 10, 1);

@@ -3,7 +3,9 @@
 
 typedef struct ParameterRow {
     const char *script;
-    const char *parameters; // `name=default`, `:value` if it is constant, ` min..max|step`, ` -- comment`
+    // Each parameter is written as `name=default`, then `:value` if the default is constant, then ` min..max|step` and
+    // ` -- comment` if they exist.
+    const char *parameters;
 } ParameterRow;
 
 static const char *parameters_of(Desk *desk, const char *script) {

@@ -70,8 +70,8 @@ static bool has_entry(const Stage *stage, const char *key) {
     return get_entry(stage, key).len > 0;
 }
 
-// Runs frames of `first`, `second` and `third`. `second` has this memory budget and may be aborted; 0 skips it. Returns
-// false if it was aborted.
+// Updates a new scene twice with `first`, then with `second` and `third`. The update with `second` has a memory budget
+// of `limit` bytes, so it may be aborted; if `limit` is 0, it is left out. Returns true if it was completed.
 static bool run_frames(Stage *stage, World *world, Value first, Value second, Value third, size_t limit) {
     *stage = (Stage){.world = world, .state = state_new(NULL)};
     schema_init(&stage->schema, &world->symbols, (SchemaSink){NULL, ignore_report});
@@ -91,12 +91,9 @@ static void free_stage(Stage *stage) {
     state_free(stage->state);
 }
 
-enum {
-    MAX_BUDGET = 1000,
-    BY = 8,
-    PLACES = 4
-}; // budgets in bytes, their increment, and the minimum number of
-   // different abort points
+// The tests try the budgets 1, 1 + BY, 1 + 2 BY and so on below MAX_BUDGET, in bytes. They must abort the update at
+// PLACES or more different points.
+enum { MAX_BUDGET = 1000, BY = 8, PLACES = 4 };
 
 // If a tree is incomplete, particles of the last complete tree are removed from the state by the next complete tree.
 static void test_vanished(void **state) {

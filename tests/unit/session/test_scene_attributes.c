@@ -164,7 +164,7 @@ static void test_dimensions_and_run_are_floored(void **state) {
                 "$(:s;1) = 0.1;0.1\n$(:s;1;:velocity) = 1;1\n");
 }
 
-// Positions of the first particle, at rest at 0, after one step of length 1.
+// Each row has the position of the first particle after one step of length 1. The particle starts at rest at 0.
 static void test_default_values(void **state) {
     Player *player = *state;
     static const struct {

@@ -219,7 +219,8 @@ static void test_systems_keep_state_in_any_order(void **state) {
 // ones.
 static void test_update_order(void **state) {
     Player *player = *state;
-    // The counter of :s writes the key of the system's clock. If `$:s` is not a single number, the clock becomes t.
+    // The system and the counter of :s write the same key, `$:s`. If its value is not a single number, the system sets
+    // it to t, the time of the system.
     static const StateRow rows[] = {
         {"!counter state=:s initial=42 rate=0\n!physics state=:s dimensions=1\n", 1, "$:s = 42\n$(:s;:time) = 0\n"},
         {"!physics state=:s dimensions=1\n!counter state=:s initial=42 rate=0\n", 1, "$:s = 0\n$(:s;:time) = 0\n"},

@@ -87,7 +87,7 @@ static void test_similar_frames_allocate_nothing(void **state) {
             player_reopen(player, &options);
             player_run(player, rows[i].script, 5);
             look_up_everything(player->session);
-            look_up_everything(player->session); // twice, because a global name alternates between two buffers
+            look_up_everything(player->session); // again, because a global name alternates between two buffers
             size_t before = allocations;
             assert_true(before > 0); // otherwise, calls are not counted
             for (int frame = 0; frame < 20; frame++) {

@@ -118,12 +118,12 @@ static const char *const SCRIPT =
     "        !shadow radius=2\n            !text text='text' point=20;30\n"
     "            !image filename='missing.jpg' point=0;0\n";
 
-// Calls functions of all parts of the interface. Returns true if no allocation failed.
+// Data of run_lifetime, which calls functions of all parts of the interface.
 typedef struct Life {
     Folder *folder;
     bool simplify;
-    Notebook written;
-    bool short_of;
+    Notebook written; // output of the calls
+    bool short_of;    // true if an allocation failed
 } Life;
 
 static bool write_note(void *context, const char *text, size_t length) {

@@ -51,7 +51,7 @@ static void test_import(void **state) {
     folder_write(&desk->folder, "m.fl", "%pragma fps 3\nlet a=1 b=2\nfunc twice(x)\n    x*k\nlet k=2 a=10\n!ignored\n");
     check_run(desk, "import a;b from 'm.fl'\n!x v=a;b f=fps\n",
               "!x v=10;2 f=60\n"); // the last binding is exported, and pragmas of modules are ignored
-    // the module binds k only after it has defined twice
+    // In the module, k is bound after the definition of the function `twice`, which therefore does not see k.
     check_run(desk, "let k=5\nimport twice from 'm.fl'\n!x v=twice(2)\n", "!x\n");
     check_run(desk, "for n in 'm';'none'\n    import a from n;'.fl'\n    !x v=a\n", "!x v=10\n!x\n");
     check_reported(desk, "cannot import");

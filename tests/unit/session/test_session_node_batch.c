@@ -66,7 +66,8 @@ static void test_batched_nodes_match_single_nodes(void **state) {
         }
 }
 
-// Returns the sum of a node's numbers, read with petri_tree_*.
+// Adds to *kinds the number of particles in the tree with the root `node`, and to *sum their ids. Reads the tree with
+// petri_tree_*.
 static void count_nodes(const PetriNode *node, int *kinds, double *sum) {
     PetriValue v = petri_tree_get(node, "id");
     *kinds += strcmp(petri_tree_kind(node), "particle") == 0;

@@ -27,7 +27,7 @@ typedef struct World {
     const char *file; // NULL: the script is `text`
     const char *text;
     int frames;
-    bool silent;    // do not hash the states, because hashes of large systems are slow
+    bool silent;    // true: states are not hashed, because hashes of large systems are slow
     double *common; // memory shared by the ranks
 } World;
 
@@ -160,7 +160,7 @@ static void *run_rank(void *context) {
     return NULL;
 }
 
-static PetriRankStats regions; // statistics of the last run, summed over its ranks
+static PetriRankStats regions; // statistics of the last call of run_world, summed over its ranks
 
 // Runs the script on `count` ranks. Returns the results of the first rank, and the number of messages in *sent.
 static Notebook run_world(const char *file, const char *text, int count, int frames, uint64_t *sent) {
@@ -242,8 +242,9 @@ static void test_scripts_match_single_process(void **state) {
     assert_true(message_count > 1000);
 }
 
-// Many blocks, of which the last is not full; one or several forces; particles without a source; triangles of pairs,
-// and rectangles with either side longer.
+// The systems have many blocks of particles, the last of which is not full. They have one or several forces, and
+// particles whose mass or charge is 0. The ranks compute triangles of pairs, and rectangles whose longer side is either
+// one.
 static void test_ranks_match_single_rank(void **state) {
     (void)state;
     static const char *const forces[] = {

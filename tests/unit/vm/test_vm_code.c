@@ -94,7 +94,8 @@ static void test_elements(void **state) {
     check_trees(*state, rows, COUNT_OF(rows), 3);
 }
 
-// The n-th execution of a lookup in a frame first tries the slot that it found in the previous frame.
+// In each frame, the n-th execution of a lookup first tries the slot that the n-th execution found in the previous
+// frame.
 static void test_lookups(void **state) {
     static const ScriptRow rows[] = {
         {"!a v=($(:k;(i+frame)%3) for i in ..3) w=$(:k;frame-1);$(frame+1);$:k;$'s';$('s';frame);$(nan+frame)\n"

@@ -21,7 +21,8 @@ static void test_closure_depth(void **state) {
     assert_text("again", runner_tree(runner), "!a v=499\n");
 }
 
-// Each closure is a new object, so only the total depth limits these calls.
+// The recursion limit of a function does not apply here, because each call is of a new closure. Only the total depth of
+// calls is limited.
 static void test_call_depth(void **state) {
     Runner *runner = *state;
     // A stack that is large enough for 8192 calls, even with the larger stack frames of sanitizers.
