@@ -22,8 +22,8 @@ static void report_misplaced(const Reader *reader, const Node *child, bool known
 }
 
 // Reports a node whose file the script is not allowed to access. Returns false if the file would be read; the node must
-// then be left out. If the file would be written, returns true, because the write fails later. It is reported here
-// because the position in the script is known here.
+// then be left out. If the file would be written, returns true, because the write fails later; the problem is already
+// reported here, where the position in the script is known.
 static bool can_use_file(const Reader *reader, const DrawNode *node) {
     const FileAccess *reach = reader->schema->file_access;
     const AttrValue *name = reach && schema_row(reader->kind, ATTR_FILENAME) ? draw_attr(node, ATTR_FILENAME) : NULL;

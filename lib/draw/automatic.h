@@ -42,7 +42,7 @@ typedef struct AutoLine {
     double x1, y1, x2, y2;
 } AutoLine;
 
-// The region of space that a panel shows: a cube around its centre.
+// The region of space that a panel shows: a cube around the point `middle`.
 typedef struct AutoFrame {
     double middle[3];
     double half; // half the side of the cube, in the system's units; 0 until the view is chosen

@@ -30,7 +30,7 @@ typedef struct CanvasPicture {
     uint32_t name_count;
     uint64_t serial; // unique number of the picture
     const AutoPicture *automatic;
-    double width; // in the script's units
+    double width; // size in the script's units
     double height;
     double detail;    // pixels per unit of pictures in the render graph
     bool opaque;      // true for a black background, false for a transparent one
@@ -44,7 +44,7 @@ typedef enum CanvasFormat { CANVAS_PNG, CANVAS_SVG, CANVAS_PDF, CANVAS_JPEG } Ca
 // A `!record` node and the picture that is written to its file.
 typedef struct Recorded {
     const DrawNode *node;
-    const DrawNode *direct; // the only canvas, if it fills the picture; NULL: the picture must be composited
+    const DrawNode *direct; // the record's only canvas, if it fills the picture; NULL: the picture must be composited
     Texture *texture;       // an sRGB picture
 } Recorded;
 
@@ -55,7 +55,7 @@ PetriStatus draw_render(PetriPainter *painter, const CanvasPicture *picture, Dia
 // directly.
 const Texture *draw_rendered(const PetriPainter *painter, const CanvasPicture *picture);
 // Returns the scale at which width x height fits into a box without changing its aspect ratio. *left and *top receive
-// the offset that centres it in the box.
+// the offset that centres the scaled area in the box.
 double draw_fit(double width, double height, double box_width, double box_height, double *left, double *top);
 // Draws the picture into premultiplied ARGB32 pixels. Problems are reported to `faults`. If the result is
 // PETRI_INVALID, at least one of the reports is an error.

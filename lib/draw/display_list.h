@@ -3,7 +3,7 @@
 // a list; cairo_backend.c uses Cairo.
 //
 // All references are indices; DISPLAY_NONE is the null reference. display_list_build allocates the list from the arena
-// that it is given. After that, the list does not change. Its strings are borrowed from the nodes.
+// that it is given. After that, the list does not change. The strings of the list are borrowed from the nodes.
 #ifndef PETRI_DRAW_DISPLAY_LIST_H
 #define PETRI_DRAW_DISPLAY_LIST_H
 
@@ -16,7 +16,8 @@ typedef struct DisplayMatrix {
     double xx, yx, xy, yy, x0, y0;
 } DisplayMatrix;
 
-// The kinds of path elements. In `numbers`, each element is stored as its kind, followed by the operands listed here.
+// The kinds of path elements. In DisplayList.numbers, each element is stored as its kind, followed by the operands
+// listed here.
 typedef enum PathElement {
     PATH_MOVE,       // x, y
     PATH_LINE,       // x, y
@@ -28,7 +29,7 @@ typedef enum PathElement {
     PATH_CLOSE,
 } PathElement;
 
-// A range of consecutive path elements in `numbers`.
+// A range of consecutive path elements in DisplayList.numbers.
 typedef struct DisplayRun {
     uint32_t start;
     uint32_t end;
@@ -89,12 +90,12 @@ typedef struct DisplayFilter {
     double radius[2]; // for blur and shadow: standard deviation; for dilate and erode: reach
     double offset[2];
     double color[4];
-    bool only;          // true: draw the shadow without the object
-    int mode;           // composite mode of a blend
-    uint32_t paint;     // for FILTER_PAINT: index of the paint
-    uint32_t numbers;   // index in `numbers` of 20 matrix elements or 4 blend coefficients; DISPLAY_NONE: use `mode`
+    bool only;        // true: draw the shadow without the object
+    int mode;         // for a blend: composite mode
+    uint32_t paint;   // for FILTER_PAINT: index of the paint
+    uint32_t numbers; // index in DisplayList.numbers of 20 matrix elements or 4 coefficients; DISPLAY_NONE: use `mode`
     uint32_t inputs[2]; // indices of filters; DISPLAY_NONE: the unfiltered drawing; only blends use the second input
-    Origin place;       // position of its node in the script
+    Origin place;       // position of the filter's node in the script
 } DisplayFilter;
 
 typedef enum DisplayEffectKind {
@@ -109,7 +110,7 @@ typedef enum DisplayEffectKind {
 typedef struct DisplayEffect {
     DisplayEffectKind kind;
     uint32_t inner;    // index of the effect that is applied before this one; DISPLAY_NONE: none; not used by sums
-    uint32_t numbers;  // index in `numbers` of the dashes, of a row-major 3 x 3 matrix, or of the effects of a sum
+    uint32_t numbers;  // index in DisplayList.numbers of the dashes, of a row-major 3 x 3 matrix, or of a sum's effects
     uint32_t count;    // number of dashes or of effects in a sum
     double amounts[2]; // for dashes: offset; for round corners: radius; for jitter: segment length and deviation
     double seed;
@@ -148,7 +149,7 @@ typedef struct DisplayImage {
     double point[2];
     double size[2];
     DisplayFit fit;
-    NodeKind kind; // kind of its node, for messages
+    NodeKind kind; // kind of the image's node, for messages
     Origin place;
 } DisplayImage;
 

@@ -117,7 +117,7 @@ void draw_current_path(Canvas *canvas, const DisplayCommand *command, const Disp
 // Returns the command's shape as a mask. The caller destroys it.
 cairo_pattern_t *draw_make_mask(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint);
 // Stores the bounding box of the painted path, in pixels of the target, in `box`: left, top, right, bottom. Returns
-// false if it is unbounded or unknown.
+// false if the box is unbounded or unknown.
 bool draw_find_box(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint, double box[4]);
 // Clips to the bounding box of the painted path.
 void draw_clip_to_box(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint);
@@ -125,7 +125,7 @@ void draw_clip_to_box(Canvas *canvas, const DisplayCommand *command, const Displ
 bool draw_is_drawable(Canvas *canvas);
 
 // cost_model.c
-// Charges the cost of drawing the current path. Returns false, after a report, if that exceeds the limit.
+// Charges the cost of drawing the current path. If that exceeds the limit, reports this and returns false.
 bool draw_charge_path(Canvas *canvas, const DisplayPaint *paint, bool fill, bool stroke);
 // Like draw_charge_path, for `count` filled boxes of width x height units. Assumes that the boxes are on the target.
 bool draw_charge_box(Canvas *canvas, const DisplayPaint *paint, double width, double height, double count);

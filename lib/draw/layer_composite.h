@@ -17,8 +17,8 @@ typedef struct LayerComposite {
     Budget *budget;
 } LayerComposite;
 
-// Returns a new picture, or another reference to the only input if the result would equal it. Returns NULL if out of
-// memory.
+// Returns a new picture, or another reference to the only input if the result would equal that input. Returns NULL if
+// out of memory.
 Texture *layer_composite(const LayerComposite *mix);
 
 #endif

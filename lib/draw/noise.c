@@ -128,7 +128,7 @@ static void noise_at(const Noise *noise, double x, double y, double out[CHANNELS
     double sums[CHANNELS] = {0, 0, 0, 0}, ratio = 1;
     for (uint32_t octave = 0; octave < noise->source->stop_count && isfinite(ratio); octave++, ratio *= 2) {
         double at_x = x * noise->frequency[0] * ratio, at_y = y * noise->frequency[1] * ratio;
-        if (!(fabs(at_x) < 1e15) || !(fabs(at_y) < 1e15)) // doubles this large have no fraction bits left
+        if (!(fabs(at_x) < 1e15) || !(fabs(at_y) < 1e15)) // doubles this large have hardly any fraction bits left
             break;
         LatticePoint place_x = lattice_point_of(at_x, noise->tile[0] * ratio),
                      place_y = lattice_point_of(at_y, noise->tile[1] * ratio);

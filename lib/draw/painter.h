@@ -5,7 +5,7 @@
 #include "draw/display_list.h"
 #include "draw/render_graph.h"
 
-enum { DRAW_MAX_SIDE = 16384, DRAW_MAX_PIXELS = 1 << 26 }; // limits of an image
+enum { DRAW_MAX_SIDE = 16384, DRAW_MAX_PIXELS = 1 << 26 }; // maximum side and area of an image, in pixels
 
 typedef struct TextContext TextContext; // defined in text.c
 typedef struct CachedImage CachedImage; // an image file; defined in images.c
@@ -14,7 +14,7 @@ struct PetriPainter {
     Arena arena;   // reset for each picture
     Budget budget; // memory and work limits of drawing
     TextContext *text_context;
-    DisplayListSizes sizes; // array lengths of the last list
+    DisplayListSizes sizes; // array lengths of the last display list
     CachedImage *images;
     PetriCanvasBackend backend; // draws canvases in builds without Cairo; all functions NULL: none
     RenderGraph *render_graph;
@@ -47,8 +47,8 @@ PetriStatus draw_render_pixels(PetriPainter *painter, const CanvasPicture *pictu
 // Copies a texture to ARGB32 pixels of the same size. If `opaque` is true, composites it over black.
 void draw_texture(const Texture *texture, bool opaque, uint32_t *pixels, size_t stride);
 void draw_clear(uint32_t *pixels, int width, int height, size_t stride);
-// Returns an image, resized and flipped according to the node's attributes. Returns NULL, after a report, if it is too
-// large.
+// Returns an image, resized and flipped according to the node's attributes. If that is too large, reports this and
+// returns NULL.
 Texture *draw_sized_image(PetriPainter *painter, const DrawNode *node, const uint32_t *pixels, int width, int height,
                           size_t stride, bool alpha, DiagSink *faults);
 
@@ -65,8 +65,8 @@ void draw_tools_close(PetriPainter *painter);
 // picture. Returns PETRI_OK, PETRI_INVALID after an error was reported, or PETRI_OUT_OF_MEMORY.
 PetriStatus draw_canvas(PetriPainter *painter, const CanvasPicture *picture, const DrawNode *node, int width,
                         int height, Texture *texture, DiagSink *faults);
-// Loads the image file of an image node in the render graph. The caller frees the picture. Returns NULL if no file is
-// named, or, after a report, if it cannot be loaded.
+// Loads the image file of an image node in the render graph. The caller frees the picture. If no file is named, returns
+// NULL. If the file cannot be loaded, reports this and returns NULL.
 Texture *draw_picture_image(PetriPainter *painter, const CanvasPicture *picture, const DrawNode *node,
                             DiagSink *faults);
 

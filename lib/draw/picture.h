@@ -8,7 +8,7 @@ struct PetriPicture {
     Arena arena; // holds all other data
     CanvasPicture picture;
     AutoPicture automatic;
-    int width; // in pixels
+    int width; // size in pixels
     int height;
     int64_t frame;
     const char *title;

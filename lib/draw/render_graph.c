@@ -23,8 +23,8 @@ struct GraphNode {
     Str tags;
     Str id;
     Str file;
-    Texture *picture;    // NULL: none
-    GraphNode *children; // one per child of the node
+    Texture *picture;    // the node's picture; NULL: none
+    GraphNode *children; // the state of each child of the node
     uint32_t count;
 };
 
@@ -55,11 +55,11 @@ typedef struct Walk {
     const CanvasPicture *picture;
     DiagSink *faults;
     Frame *frame;
-    const Frame *before;
-    int bits;    // bits per channel of the window
-    int depth;   // nesting depth of the node
-    bool gpu;    // true if the context of the GPU is current in this thread
-    double beat; // beat of the previous frame
+    const Frame *before; // the previous frame
+    int bits;            // bits per channel of the window
+    int depth;           // nesting depth of the node that is being rendered
+    bool gpu;            // true if the context of the GPU is current in this thread
+    double beat;         // beat of the previous frame
     Texture *shown;
 } Walk;
 
@@ -318,7 +318,7 @@ static void alloc_children(Walk *walk, GraphNode *made, uint32_t count) {
     made->count = count;
 }
 
-// Renders the view of a camera. Returns NULL, after a report, if that is not possible.
+// Renders the view of a camera. If that is not possible, reports this and returns NULL.
 static Texture *make_view(Walk *walk, const Scene *scene, const SceneCamera *camera) {
     Gl *gl = walk->painter->gl;
     if (!is_good_size(walk, (NodeKind)camera->node->kind, camera->node->origin, camera->width, camera->height))
@@ -394,7 +394,7 @@ static Texture *make_effect_node(Walk *walk, const DrawNode *node, GraphNode *ma
     Texture **inputs = arena_alloc_array(&walk->frame->arena, node->child_count, sizeof *inputs);
     uint32_t count = make_inputs(walk, node, made, past, width, height, inputs);
     if (node->kind == KIND_OFFSCREEN && node != walk->picture->window && made->id.len == 0)
-        return NULL; // no node can refer to it
+        return NULL; // no node can refer to this picture
     Texture *texture = needs_gpu(node, inputs, count) ? run_effect(walk, node, past, inputs, count, width, height)
                                                       : composite_on_cpu(walk, node, inputs, count, width, height);
     const AttrValue *file = node->kind == KIND_RECORD ? draw_attr(node, ATTR_FILENAME) : NULL;

@@ -17,9 +17,9 @@ void render_graph_free(PetriPainter *painter); // frees the graph of a painter
 // Frees all pictures and other state that the next frame would continue.
 void render_graph_clear(PetriPainter *painter);
 
-// Renders all pictures of a frame. *shown is the picture of the window, or NULL if it has none. The picture and the
-// records are valid until the next call. Pictures that cannot be rendered are reported and left out. Returns PETRI_OK,
-// PETRI_OUT_OF_MEMORY, or PETRI_INVALID after an error.
+// Renders all pictures of a frame. *shown receives the picture of the window, or NULL if the window has none. The
+// picture and the records are valid until the next call. Pictures that cannot be rendered are reported and left out.
+// Returns PETRI_OK, PETRI_OUT_OF_MEMORY, or PETRI_INVALID after an error.
 PetriStatus render_graph_run(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults, Texture **shown);
 const Recorded *render_graph_records(const RenderGraph *pictures, uint32_t *count);
 // Returns the picture with this id in the current frame or, if there is none, in the previous frame. Returns NULL if
@@ -35,7 +35,7 @@ const DrawNode *render_graph_direct_canvas(const DrawNode *node, int width, int 
 // Returns true if rendering the picture with fewer pixels changes only its sharpness: no node of the tree has a custom
 // shader or a pattern measured in pixels.
 bool render_graph_scalable(const DrawNode *node);
-// Converts a width or height from units to pixels. `detail`: pixels per unit. Returns at least 1.
+// Converts a width or height from units to pixels. `detail` is the number of pixels per unit. The result is at least 1.
 int render_graph_pixels(int side, double detail);
 // Returns true if the node only composites its children, without a custom shader or an effect.
 bool render_graph_is_plain(const DrawNode *node);

@@ -23,8 +23,8 @@ static void compute_weights(int old, int new, int at, int *first, int *count, fl
         weights[i] /= (float)sum;
 }
 
-// Resizes lines of `old` pixels to lines of `new` pixels in another array. The lines are columns if `down`, else rows.
-// A pixel is four floats.
+// Resizes lines of `old` pixels to lines of `new` pixels in another array. If `down` is true, the lines are columns,
+// otherwise rows. A pixel is four floats.
 static void resize_lines(const float *in, float *out, int lines, int old, int new, bool down, float *weights) {
     for (int at = 0; at < new; at++) {
         int first, count;

@@ -39,8 +39,8 @@ static void copy_bodies(Arena *arena, const SceneView *view, AutoSystem *system,
         system->bodies[i].shade /= most;
 }
 
-// Shades bodies by speed; used if no body is charged. The middle colour means the speed at which a body crosses the
-// view in two seconds.
+// Shades bodies by speed, which is done if no body is charged. The middle colour means the speed at which a body
+// crosses the view in two seconds.
 static void shade_by_speed(AutoSystem *system) {
     for (uint32_t i = 0; i < system->body_count; i++) {
         const double *v = system->bodies[i].velocity;

@@ -8,8 +8,8 @@
 #include <string.h>
 #include <strings.h>
 
-enum { MAX_TEXT_LENGTH = 10000 };         // bytes
-static const double MAX_FONT_SIZE = 4000; // pixels
+enum { MAX_TEXT_LENGTH = 10000 };         // maximum length of a text in bytes
+static const double MAX_FONT_SIZE = 4000; // maximum font size in pixels
 
 // Creates the fonts on first use, not earlier, because Pango then starts a background thread that loads the list of
 // fonts. A process that exits while the thread runs would free data that the thread still reads.

@@ -88,7 +88,7 @@ void texture_free(Texture *texture) {
 static float decoded[256], thresholds[256];
 // below[h] is the number of thresholds that do not exceed the float whose upper 16 bits are h and whose lower bits are
 // zero. Starting from below[h], one or two comparisons find the number for any float with these upper bits.
-enum { ONE = 0x3f80 }; // upper half of 1.0
+enum { ONE = 0x3f80 }; // upper 16 bits of the float 1.0
 static uint8_t below[ONE + 1];
 
 static float float_of(uint32_t bits) {

@@ -14,7 +14,7 @@ typedef struct Texture {
     float *linear;   // linear light: r, g, b, a, rows from the top
     GlImage image;
     Gl *gl;         // context of `image`; NULL: not on the GPU
-    Budget *budget; // charged for its memory
+    Budget *budget; // charged for the memory of the picture
     size_t charged;
 } Texture;
 
@@ -58,7 +58,7 @@ Texture *texture_from_linear_bytes(Budget *budget, const Texture *bytes);
 typedef struct Sampler {
     float border[4];
     bool repeat[2];
-    bool clamped; // repeats the edge pixels; `border` and `repeat` are not used
+    bool clamped; // true: the edge pixels continue beyond the edges, and `border` and `repeat` are not used
     bool nearest;
 } Sampler;
 // Computes the colour at u, v. u runs from 0 to 1 from left to right, v from top to bottom.

@@ -18,7 +18,7 @@ typedef struct GlEffect {
     const GlImage *inputs;
     uint32_t count;
     GlImage last; // the node's picture in the previous frame; its `texture` is 0 if there is none
-    int width;    // in pixels
+    int width;    // size of the result in pixels
     int height;
     double detail; // pixels per unit of the node's attributes
     GlFormat format;

@@ -43,8 +43,8 @@ typedef struct GlImage {
 // with fewer bits.
 GlFormat gl_format(const Gl *gl, int bits);
 int gl_max_size(const Gl *gl); // maximum width and height of a picture
-// Returns an image with undefined content. Freed images are reused for images of the same size and format. The texture
-// is 0 if the GPU is out of memory.
+// Returns an image with undefined content. Freed images are reused for images of the same size and format. The
+// `texture` of the result is 0 if the GPU is out of memory.
 GlImage gl_image_new(Gl *gl, int width, int height, GlFormat format);
 void gl_image_free(Gl *gl, GlImage image);
 // Upload pixels, top row first. gl_upload_bytes takes ARGB32 in sRGB, gl_upload_linear r, g, b, a in linear light.
@@ -87,8 +87,8 @@ typedef struct GlBox {
 // premultiplied again.
 bool gl_present_image(Gl *gl, Arena *arena, GlImage image, const GlBox *box, int width, int height,
                       const float thresholds[256], bool opaque);
-// Draws premultiplied ARGB32 pixels, top row first; x, y is the bottom left corner. If `over`, composites them over the
-// window's content; otherwise replaces it.
+// Draws premultiplied ARGB32 pixels, top row first; x, y is the bottom left corner. If `over`, composites the pixels
+// over the window's content; otherwise, they replace it.
 bool gl_present_pixels(Gl *gl, Arena *arena, const uint32_t *pixels, int x, int y, int width, int height, bool over);
 
 #endif

@@ -37,7 +37,7 @@ struct GpuCache {
     uint64_t now; // number of scenes drawn so far
     SceneTarget targets[SCENE_TARGETS];
     GLuint instances;     // buffer of SceneRecords
-    GLuint light_block;   // uniform buffer
+    GLuint light_block;   // uniform buffer with the lights of a group
     GLuint light_texture; // texture of the lights of a group, if these do not fit into light_block
 };
 
