@@ -22,7 +22,7 @@ static void report_misplaced(const Reader *reader, const Node *child, bool known
 }
 
 // Reports a node whose file the script is not allowed to access. Returns false if the file would be read; the node must
-// then be left out. If the file would be written, returns true, because the write fails later; the problem is already
+// then be left out. If the file would be written, returns true, because the write fails later. This problem is already
 // reported here, where the position in the script is known.
 static bool can_use_file(const Reader *reader, const DrawNode *node) {
     const FileAccess *reach = reader->schema->file_access;

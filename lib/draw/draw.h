@@ -160,8 +160,8 @@ void draw_image(Canvas *canvas, const DisplayImage *image, const DisplayPaint *p
 // Returns a surface with the pixels of an image; the caller destroys the surface. Returns NULL if the image does not
 // exist. A file that cannot be read is reported.
 cairo_surface_t *draw_find_image(Canvas *canvas, const DisplayImage *image);
-// Like draw_find_image, but does not copy the pixels: sets *texture to the rendered picture of a node, or *file to the
-// cached pixels of a file. The other pointer is set to NULL. Returns false if both are NULL.
+// Like draw_find_image, but does not copy the pixels. Sets *texture to the rendered picture of a node, or *file to the
+// cached pixels of a file. The pointer that does not apply is set to NULL. Returns false if both are NULL.
 bool draw_find_pixels(Canvas *canvas, const DisplayImage *image, const Texture **texture, cairo_surface_t **file);
 void draw_images_close(PetriPainter *painter);
 // Decodes a JPEG file. Pixels and decoder together take at most `memory` bytes. After a failure, returns NULL and sets

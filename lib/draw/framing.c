@@ -83,8 +83,8 @@ static double extent(const Bounds *bounds, const double middle[3], int axes) {
     return extent;
 }
 
-// Bounds of the bodies that are not ignored: of their discs, of their positions, and of their ways (the lines along
-// which they move in the next AHEAD seconds).
+// Bounds of the bodies that are not ignored: of the discs, the positions, and the ways of the bodies. The way of a body
+// is the line along which it moves in the next AHEAD seconds.
 typedef struct Extents {
     Bounds discs;
     Bounds positions;

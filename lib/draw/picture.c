@@ -77,8 +77,8 @@ static bool names_last(const Schema *schema, const Node *node) {
     return false;
 }
 
-// Returns true if a node in a canvas shows the picture of another node, or if *left, the number of nodes that may still
-// be searched, is used up.
+// Returns true if a node in a canvas shows the picture of another node. Also returns true if *left, the number of nodes
+// that may still be searched, reaches 0.
 static bool shows_others(const Schema *schema, const Node *node, int depth, uint32_t *left) {
     enum { MAX_DEPTH = 1000 };
     if (*left == 0 || ((node->kind == schema->kinds[KIND_IMAGE] || node->kind == schema->kinds[KIND_PATTERN]) &&

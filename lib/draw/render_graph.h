@@ -32,8 +32,8 @@ void render_graph_node_size(const DrawNode *node, int *width, int *height);
 // Returns the canvas whose pixels equal the node's picture. This canvas can be drawn directly at any resolution.
 // Returns NULL if the picture needs effects, compositing or linear light.
 const DrawNode *render_graph_direct_canvas(const DrawNode *node, int width, int height);
-// Returns true if rendering the picture with fewer pixels changes only its sharpness: no node of the tree has a custom
-// shader or a pattern measured in pixels.
+// Returns true if fewer pixels would change only the sharpness of the picture. This is the case if no node of the tree
+// has a custom shader or a pattern measured in pixels.
 bool render_graph_scalable(const DrawNode *node);
 // Converts a width or height from units to pixels. `detail` is the number of pixels per unit. The result is at least 1.
 int render_graph_pixels(int side, double detail);

@@ -167,7 +167,7 @@ static bool place_along(Matrix *a, const DrawNode *node, const double end[3]) {
     double length = sqrt(vector_dot(axis, axis));
     if (!(radius > 0) || !vector_normalise(axis))
         return false;
-    // The shortest rotation from z to the axis: a half turn if the axis points to -z, else a rotation that is computed
+    // The shortest rotation from z to the axis. It is a half turn if the axis points to -z; otherwise, it is computed
     // as a quaternion.
     Matrix turn = axis[2] < -0.9999999999 ? rotation_about(1, 0.5) : matrix_identity;
     if (axis[2] >= -0.9999999999) {
