@@ -23,8 +23,8 @@ prepare() {
     resumed*) cp old.state target/s ;;
     esac
 }
-# sweep NAME FILE OLD GOOD COMMAND...: runs COMMAND with each failure. GOOD is a command that succeeds if the file is
-# the new one.
+# sweep NAME FILE OLD GOOD COMMAND...: runs COMMAND, which replaces FILE, with each failure. OLD is a copy of FILE from
+# before the run. The command `GOOD FILE` succeeds if FILE is complete and new.
 sweep() {
     what=$1 file=$2 old=$3 good=$4
     shift 4

@@ -23,7 +23,9 @@ good_golden() { head -n 1 "$1" | grep -q '^# run' && [ "$(grep -c '^@' "$1")" -e
 good_png() { tail -c 8 "$1" | grep -q IEND; }
 good_film() { grep -q moov "$1"; }
 
-# kill_often NAME FILE OLD GOOD COMMAND...: kills COMMAND at moments spread over its duration (PETRI_KILLS / 5 times).
+# kill_often NAME FILE OLD GOOD COMMAND...: starts COMMAND, which replaces FILE, PETRI_KILLS / 5 times. Kills it at
+# moments that are spread over its duration. Before each run, FILE is a copy of OLD. The command `GOOD FILE` succeeds if
+# FILE is complete and new.
 kill_often() {
     what=$1 file=$2 old=$3 good=$4
     shift 4

@@ -132,8 +132,8 @@ static void test_random(void **state) {
     world_close(&world);
 }
 
-// A second `!random` has a different seed. If a group contains a `!random`, those in enclosing groups that precede the
-// group are counted as well.
+// The seed of a `!random` depends on the number of `!random` nodes before it. Those in its group and those in enclosing
+// groups are counted, but not those in other groups.
 static void test_random_seeds(void **state) {
     (void)state;
     World world;

@@ -135,7 +135,8 @@ static inline const char *world_find(World *world, const char *key) {
     return NULL;
 }
 
-// Reads the numbers in a string such as "1;-2.5". Returns their count.
+// Reads the numbers at the start of a string such as "1;-2.5". Returns their count. Sets *end to the text after them,
+// unless `end` is NULL.
 static inline int read_numbers(const char *text, double *numbers, const char **end) {
     int count = 0;
     char *next = (char *)text;

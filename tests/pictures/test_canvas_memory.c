@@ -44,7 +44,8 @@ static const char script[] = "!window size=40;40\n"
                              "            !blur radius=1\n"
                              "            !rect size=20;20 fill=true color=3\n";
 
-// Draws once with a new painter. Returns true on success.
+// Draws once with a new painter, while allocation number `fail_at` fails, and also all later ones if `all` is true.
+// Returns the status of drawing. heap.count is then the number of allocations.
 static PetriStatus draw_failing(PetriPicture *picture, uint32_t *pixels, long fail_at, bool all) {
     heap_fail(fail_at, all);
     PetriPainter *painter = petri_painter_open();

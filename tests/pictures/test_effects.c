@@ -43,7 +43,7 @@ typedef struct Case {
     const char *kind;
     const char *attrs;
     int inputs;
-    int frames; // number of frames; 0: one
+    int frames; // number of frames to draw; 0: one frame
 } Case;
 
 static void write_script(const Case *of, char *out, size_t size) {

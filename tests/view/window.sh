@@ -136,7 +136,7 @@ check "q closes it" ended 0
 check "nothing is written to standard error" [ ! -s err ]
 check "nothing is printed" [ ! -s out ]
 
-# Pictures that need OpenGL, while SDL has another OpenGL context in the same thread.
+# A picture that needs OpenGL is drawn, although SDL has another OpenGL context in the same thread.
 cat >ball.fl <<'END'
 !window size=200;200 title='ball'
     !bloom radius=4

@@ -1,7 +1,7 @@
 #!/bin/sh
-# run.sh FOLDER [--current]: tests the output of `./dev web` in FOLDER, in Node.js and Chromium. --current, for `./dev
-# test`: only the engine, which takes two seconds, and only if it is up to date, because building it takes half a
-# minute.
+# run.sh FOLDER [--current]: tests the output of `./dev web` in FOLDER, in Node.js and Chromium. With --current, as in
+# `./dev test`, tests only the engine, which takes two seconds. That test is skipped if the engine is not up to date,
+# because building it takes half a minute.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)

@@ -419,8 +419,8 @@ static void test_is_display_list_without_effects(void **state) {
     assert_false(petri_picture_is_display_list(NULL));
 }
 
-// A backend that fills the left half of a picture, or all of it if it is taller than wide. The green level depends on
-// the number of commands.
+// A host's backend that fills the left half of each picture. The green level is `count`, the length of the display
+// list. Returns false if the list contains only the size of the picture.
 static bool fill_black(void *host, const double *numbers, size_t count, int width, int height, uint32_t *pixels) {
     ++*(int *)host;
     assert_int_equal(numbers[0], width);

@@ -73,6 +73,7 @@ static uint32_t count_discs(Stage *stage) {
     return count;
 }
 
+// Each case changes the stage. The comment at the start of a case gives the reason for the expected result.
 static void test_which_spheres_become_discs(void **state) {
     (void)state;
     Stage stage;
@@ -82,7 +83,7 @@ static void test_which_spheres_become_discs(void **state) {
     set_stage(&stage); // opaque balls must write depth
     stage.instances[1].material = &stage.opaque;
     assert_int_equal(count_discs(&stage), 0);
-    set_stage(&stage); // many discs need the depth test
+    set_stage(&stage); // if there are many discs, the depth test is used for them
     stage.group.instance_count = stage.scene.instance_count = MAX_INSTANCES;
     stage.instances[1].material = &stage.opaque;
     assert_int_equal(count_discs(&stage), MAX_INSTANCES - 1);

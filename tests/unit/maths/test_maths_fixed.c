@@ -99,7 +99,7 @@ static void test_arithmetic_is_within_error(void **state) {
     }
 }
 
-// Random numbers, ties, subnormal results, results below them, and results that overflow.
+// Random numbers, ties, subnormal results, results that are too small to be subnormal, and results that overflow.
 static void test_rounding_matches_mpfr(void **state) {
     (void)state;
     uint64_t seed = 2;

@@ -79,7 +79,7 @@ static void count_chunk_slowly(void *context, int chunk, int chunks) {
     nanosleep(&(struct timespec){.tv_nsec = 2000000}, NULL);
 }
 
-// After the first such job, helpers are not used for a while.
+// After the first job in which a helper was slow, helpers are not used for a while.
 static void test_slow_threads(void **state) {
     (void)state;
     enum { MAX_TRIES = 1000000, SLOW_JOBS = 400, MAX_HELPED = 40 };

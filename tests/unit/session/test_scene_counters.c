@@ -1,5 +1,5 @@
-// test_scene_counters.c: tests `!counter` (spec counters.md): value₀ = clamp(initial), then clamp((time − last)·rate +
-// value).
+// test_scene_counters.c: tests `!counter` (spec counters.md). The first value is clamp(initial). In each later frame,
+// the new value is clamp((time − last)·rate + value).
 #include "player.h"
 
 // Returns the state lines of `:c` after `frames` frames at 10 fps, without the `:time` line.

@@ -33,7 +33,8 @@ typedef struct Stage {
 
 typedef PetriStatus Act(Stage *stage);
 
-// The next frames are also compared, to check that the session continues as usual.
+// Writes the current frame to `book`. Frames after an act are also written and compared, to check that the session
+// continues as usual.
 static void write_frame(Stage *stage, Notebook *book) {
     char line[100];
     PetriFrame frame = petri_frame(stage->player.session);

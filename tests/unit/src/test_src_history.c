@@ -140,7 +140,8 @@ static void lose_systems(Player *player) {
     assert_false(petri_system(player->session, 0, &system));
 }
 
-// If only a frame's state exists, the rest of the frame is recomputed with the settings of its epoch.
+// If only the state of a frame exists, history_recompute computes the rest of the frame again, with the configuration
+// of the epoch (history.h) to which the frame belongs.
 static void test_recompute_restores_whole_frame(void **state) {
     Player *player = *state;
     PetriSystem system;

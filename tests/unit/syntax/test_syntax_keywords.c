@@ -1,8 +1,8 @@
 // test_syntax_keywords.c: no word is reserved; tests the keyword table in language.md L2.12.
 //
-// A row contains a program with a placeholder `~`, and the words that are keywords in this position. The test replaces
-// the placeholder by each of the fifteen words. A word is a name if the syntax tree is the same as with an ordinary
-// name.
+// A row contains a program with a placeholder `~`, and the words that are keywords in this position. K1 to K11 are rows
+// of the table in language.md. The test replaces the placeholder by each of the fifteen words. A word is a name if the
+// syntax tree is the same as with an ordinary name.
 #include "parsing.h"
 
 static const char *const words[] = {"let",  "stable", "func",  "import", "from", "for", "in", "if",
@@ -132,7 +132,7 @@ static void test_keywords_after_operands(void **state) {
         {"f(x+y ~=1)\n", K7},
         {"f((x) ~=1)\n", K7},
         {"let x=1 ~=2\n", K7},
-        {"!a #t ~=1\n", NONE}, // K8
+        {"!a #t ~=1\n", NONE}, // this row and the next two: K8
         {"!a x=1 #t ~=1\n", NONE},
         {"f(!a #t ~=1)\n", NONE},
         // Directly after a name that starts an argument, `else` is a name.
