@@ -13,7 +13,7 @@
 typedef struct Cloud {
     int n;               // a multiple of 8
     double *p[3], *f[3]; // positions and forces
-    double *q, *r;       // charge (or mass), radius
+    double *q, *r;       // charges (or masses), and radii
 } Cloud;
 
 #define WIDTH 4

@@ -50,7 +50,7 @@ if [ "$(id -u)" -eq 0 ] && mkdir small && mount -t tmpfs -o size=256k tmpfs smal
     umount small
 fi
 
-# However the run ends, a trajectory keeps its complete frames.
+# whole_frames: succeeds if the trajectory w.csv consists of complete frames. However a run ends, this must be the case.
 whole_frames() { [ $(($(wc -l <w.csv) % 300)) -eq 1 ] && [ "$(tail -n 1 w.csv | tr -cd , | wc -c)" -eq 11 ]; }
 number=129
 for signal in HUP INT TERM; do

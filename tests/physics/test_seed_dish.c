@@ -60,7 +60,8 @@ static double fastest(const Cells *cells) {
     return max;
 }
 
-// Computes the sum of all overlaps, and the sum of charge products over touching pairs of cells.
+// Sets *overlap to the sum of the overlaps of all pairs of cells, and *products to the sum of the charge products of
+// all touching pairs.
 static void contacts(const Cells *cells, double *overlap, double *products) {
     *overlap = *products = 0;
     for (int i = 0; i < CELLS; i++)

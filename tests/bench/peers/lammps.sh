@@ -41,7 +41,7 @@ if [ "$style" = harmonic ] && ! lmp -h | tr -s ' \t' '\n' | grep -qx harmonic/cu
     }' >soft.table
 fi
 
-# mpirun is only needed for several processes. They may run as root, and there may be more than processors.
+# mpirun is needed only for several processes. Its options permit root, and more processes than processors.
 run=lmp
 [ "$5" -eq 1 ] || run="mpirun --oversubscribe -np $5 lmp"
 export OMP_NUM_THREADS=1 OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1

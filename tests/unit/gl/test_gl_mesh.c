@@ -31,8 +31,8 @@ static double volume(const Mesh *mesh, uint32_t triangle) {
            a[2] * ((double)b[0] * c[1] - (double)b[1] * c[0]);
 }
 
-// Checks a closed body around the origin: all triangles face outwards (`sign` 1), and all normals have length 1 and
-// point outwards. Returns six times the volume.
+// Checks a closed body around the origin: all normals have length 1. If `sign` is 1, all triangles face outwards and
+// all normals point outwards; if it is -1, inwards. Returns six times the volume.
 static double check_body(const Mesh *mesh, double sign) {
     double sum = 0;
     assert_int_equal(mesh->index_count % 3, 0);

@@ -8,7 +8,7 @@ static const char many_form[] = "%sfunc all()\n    for i in ..150\n        %s\n!
 static const char few_form[] = "%sfunc all()\n    for k in ..30\n        for i in k*5..k*5+5\n            %s\n"
                                "!all v=all()\n    all()\n";
 
-// The body of a loop, and whether it has to be executed iteration by iteration.
+// The body of a loop. `one_by_one`: true if the loop cannot be batched, so that its iterations are executed one by one.
 typedef struct Body {
     const char *text;
     bool one_by_one;
