@@ -32,7 +32,7 @@ static double volume(const Mesh *mesh, uint32_t triangle) {
 }
 
 // Checks a closed body around the origin: all normals have length 1. If `sign` is 1, all triangles face outwards and
-// all normals point outwards; if it is -1, inwards. Returns six times the volume.
+// all normals point outwards; if it is -1, inwards. Returns the signed volume.
 static double check_body(const Mesh *mesh, double sign) {
     double sum = 0;
     assert_int_equal(mesh->index_count % 3, 0);
