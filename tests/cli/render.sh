@@ -179,7 +179,7 @@ END
     head -c 700 "$here/../pictures/images/small.jpg" >half.jpg
     printf '!window size=40;40\n    !canvas\n        !image filename="half.jpg" size=40\n' >half.fl
     petri render half.fl -o half.png --frames 3
-    check "a damaged JPEG file is reported once" count_is err "cannot read 'half.jpg': damaged" 1
+    check "a damaged JPEG file is reported once" count_is err "cannot read 'half.jpg': the JPEG file is damaged" 1
     # A grey progressive JPEG of WIDTH x HEIGHT whose AC coefficients, all 0, are coded COUNT times.
     scans() {
         /usr/bin/python3 -I - "$@" <<'END'
@@ -316,7 +316,7 @@ END
     rm -f points.png
     petri render points.fl -o points.png --frames 1
     check "a million points all over the picture are rejected" one_error
-    check "the message gives the reason" has err "path is too complex"
+    check "the message gives the reason" has err "a path has too many points"
     check "a rejected picture writes no file" [ ! -e points.png ]
     printf '!window size=1000;1000\n    !canvas\n        !line points=(..2000000)/2000 stroke=true color=0;1;0\n' >points.fl
     petri render points.fl -o points.png --frames 1

@@ -148,7 +148,7 @@ expect "the first line of a long table is still visible" '^:many: 400 particles'
 type_keys C-l '.state' Enter
 expect "a long state is cut to the screen" '^-- 7[0-9][0-9] more lines; .\.state all. shows all lines'
 type_keys C-l '.particles 7' Enter
-expect ".particles 7 notes how many rows were omitted" '^-- 393 more; '
+expect ".particles 7 notes how many rows were omitted" '^-- 393 more particles; '
 expect ".particles 7 prints the seventh row" '^6 '
 refuse ".particles 7 prints no eighth row" '^7 '
 type_keys C-l '.resolution 1/1000000' Enter
@@ -258,7 +258,7 @@ expect ".quit quits" '^left with 0$'
 start --color never cells.fl
 t resize-window -x 50 -y 50
 type_keys '.help .step' Enter '.help random' Enter
-expect "help is wrapped at the terminal's width" '^    pair: r radius, m mass, q charge, v velocity;$'
+expect "help is wrapped at the terminal's width" '^    (r radius, m mass, q charge, v velocity of a$'
 type_keys '.quit' Enter
 expect ".quit quits in a narrow terminal" '^left with 0$'
 

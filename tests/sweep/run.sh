@@ -182,7 +182,7 @@ check "a finished sweep removes its journal" [ ! -e killed.csv.part ]
 kill_at 5
 sweep dish.fl -D DROPS=10..30\|5 --seeds 12 --frames 501 --every 250 --metric "$far" -o killed.csv
 check "a journal of another sweep is rejected" status_is 2
-check "the message about a journal of another sweep says what to do" has err 'remove it to start over'
+check "the message about a journal of another sweep says what to do" has err 'to start over, remove that file'
 rm killed.csv.part
 kill_at 3 -TERM
 check "SIGTERM ends the sweep" status_is 143
@@ -304,7 +304,7 @@ refused "NetCDF is rejected" 'ends in .csv or .h5' sum.fl -D A=1..3 --metric a=A
 refused "an empty value is rejected" 'empty value' sum.fl -D 'A=1;;2' --metric a=A
 refused "a metric named like a column is rejected" 'already has a column with this name' sum.fl -D A=1 --metric A=1
 refused "a metric that is not an expression is rejected" "cannot evaluate the expression of '--metric': '1+'" sum.fl --metric 'a=1+'
-refused "a condition with an unbound name is rejected" "option '--where' expects" sum.fl -D A=1 --where 'X > 1' --metric a=A
+refused "a condition with an unbound name is rejected" "cannot evaluate the condition of '--where'" sum.fl -D A=1 --where 'X > 1' --metric a=A
 check "the diagnostic shows the condition as written" has err '    X > 1'
 refused "a condition that is never true is rejected" "no runs: 'A > 5' is never true" sum.fl -D A=1 --where 'A > 5' --metric a=A
 refused "an unknown kind of sample is rejected" 'latin:COUNT' sum.fl -D A=1..2 --sample grid --metric a=A
